@@ -1,0 +1,1 @@
+"""The explorer's page: `panel serve app` finds main.py here."""
