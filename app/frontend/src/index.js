@@ -1,0 +1,3 @@
+import { colours } from "./colours.js";
+import * as THREE from "three";
+export default { c: colours, t: THREE.Scene };

