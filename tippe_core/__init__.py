@@ -1,0 +1,42 @@
+"""Tippe tops and other tops with round pegs, after C. G. Gray and B. G. Nickel, Am. J. Phys. 68, 821 (2000).
+
+Lengths in R, masses in M, accelerations in g. The names below are the public ones.
+"""
+
+from .constants import Constants, State
+from .curve import (
+    SteadyPrecessions,
+    f,
+    f1_squared,
+    f2_squared,
+    f3_squared,
+    omega2,
+    omega3,
+    pole_constants,
+    steady_precessions,
+    turning_points,
+)
+from .errors import NoMotionError, TopError
+from .forces import friction_force, normal_force
+from .top import Scales, Top
+
+__all__ = [
+    "Constants",
+    "NoMotionError",
+    "Scales",
+    "State",
+    "SteadyPrecessions",
+    "Top",
+    "TopError",
+    "f",
+    "f1_squared",
+    "f2_squared",
+    "f3_squared",
+    "friction_force",
+    "normal_force",
+    "omega2",
+    "omega3",
+    "pole_constants",
+    "steady_precessions",
+    "turning_points",
+]

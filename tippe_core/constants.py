@@ -1,0 +1,151 @@
+"""The three constants of the motion without slipping, given or from an initial state."""
+
+from collections import namedtuple
+from dataclasses import dataclass, fields
+from decimal import Context, Decimal, localcontext
+
+import numpy as np
+
+from .errors import TopError, finite
+
+# The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic
+# in cos(theta), so where it matters it is evaluated with 45 digits; the standard library has all that this needs.
+EXACT = Context(prec=45, Emin=-999999, Emax=999999)
+ExactTop = namedtuple("ExactTop", "a I1 I3")
+
+
+def exact_top(top):
+    return ExactTop(Decimal(top.a), Decimal(top.I1), Decimal(top.I3))
+
+
+# f1^2, f2^2, f3^2 of (35), (34), (32), with c = cos(theta) and s2 = sin(theta)^2: floats, arrays or Decimals alike.
+
+
+def f1_2(c, top):
+    """(35)  f1^2 = I1 + 1 + a^2 - 2 a c"""
+    return top.I1 + 1 + top.a * top.a - 2 * top.a * c
+
+
+def f2_2(c, s2, top):
+    """(34)  f2^2 = I1 + (I1/I3) s^2 + (c - a)^2"""
+    return top.I1 + top.I1 / top.I3 * s2 + (c - top.a) ** 2
+
+
+def f3_2(c, s2, top):
+    """(32)  f3^2 = I3 + s^2 + (I3/I1)(c - a)^2"""
+    return top.I3 + s2 + top.I3 / top.I1 * (c - top.a) ** 2
+
+
+@dataclass(frozen=True, eq=False)
+class Constants:
+    """K_J (30), K_R (31) and the energy E (6), in units of R, M and g: numbers, or arrays that broadcast together.
+
+    Raises TopError where one is not finite.
+    """
+
+    K_J: float
+    K_R: float
+    E: float
+
+    def __post_init__(self):
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if np.ndim(value) == 0:
+                value = finite(field.name, value)
+            else:
+                value = np.array(value, dtype=float)
+                value.flags.writeable = False
+                if not np.all(np.isfinite(value)):
+                    raise TopError(field.name, value[~np.isfinite(value)].flat[0], "a finite number")
+            object.__setattr__(self, field.name, value)
+
+    def __eq__(self, other):
+        if not isinstance(other, Constants):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, n), getattr(other, n)) for n in ("K_J", "K_R", "E"))
+
+    def __hash__(self):
+        return hash(tuple(np.asarray(getattr(self, n)).tobytes() for n in ("K_J", "K_R", "E")))
+
+    def two_E_prime(self, top):
+        """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33). Correctly rounded for scalars."""
+        if any(np.ndim(x) for x in (self.K_J, self.K_R, self.E)):
+            return 2 * self.E - self.K_R**2 + top.I1 / top.I3 * self.K_J**2
+        return float(Exact.of(self, top).e)
+
+    @classmethod
+    def from_state(cls, top, theta, theta_dot, omega2, omega3):
+        """The constants of the rolling motion through a state, by (30), (31) and (6).
+
+        theta in rad, in [0, pi]; theta_dot, omega2 (about 2') and omega3 (about 3) in (g/R)^1/2.
+        """
+        exact = Exact.of_state(State(theta, theta_dot, omega2, omega3), top)
+        with localcontext(EXACT):
+            E = (exact.e + exact.K_R**2 - Decimal(top.I1) / Decimal(top.I3) * exact.K_J**2) / 2
+        return cls(float(exact.K_J), float(exact.K_R), float(E))
+
+
+@dataclass(frozen=True)
+class State:
+    """An instant of the motion: theta (rad), theta_dot, omega2 (about 2'), omega3 (about 3), the angles phi and psi,
+    G's place x, y in space and its horizontal velocity vx, vy in the axes x, y that turn with phi.
+
+    What is left None is unsaid: each plane has its own natural choice (rolling: the contact point starts at the
+    origin, and the velocity is the one of rolling). Raises TopError where a value is not finite or theta not in [0, pi].
+    """
+
+    theta: float
+    theta_dot: float
+    omega2: float
+    omega3: float
+    phi: float = 0.0
+    psi: float = 0.0
+    x: float | None = None
+    y: float | None = None
+    vx: float | None = None
+    vy: float | None = None
+
+    def __post_init__(self):
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if value is not None:
+                object.__setattr__(self, field.name, finite(field.name, value))
+        if not 0 <= self.theta <= np.pi:
+            raise TopError("theta", self.theta, "0 <= theta <= pi (rad)")
+        if self.omega2 and self.theta in (0.0, np.pi):
+            raise TopError("omega2", self.omega2, "0 on the vertical axis, where 2' has no direction",
+                           "Give the whole horizontal angular velocity as theta_dot.")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Exact:
+    """K_J, K_R and e = 2E' with the digits of EXACT."""
+
+    K_J: Decimal
+    K_R: Decimal
+    e: Decimal
+
+    @classmethod
+    def of(cls, constants, top):
+        with localcontext(EXACT):
+            K_J, K_R, E = Decimal(constants.K_J), Decimal(constants.K_R), Decimal(constants.E)
+            return cls(K_J, K_R, 2 * E - K_R**2 + Decimal(top.I1) / Decimal(top.I3) * K_J**2)
+
+    @classmethod
+    def of_state(cls, state, top):
+        """By (30), (31) and (33)."""
+        v, m = versines(state.theta)
+        with localcontext(EXACT):
+            t = exact_top(top)
+            v = Decimal(float(v)) if v <= m else 2 - Decimal(float(m))
+            c, s2 = 1 - v, v * (2 - v)
+            w1, w2, w3 = Decimal(state.theta_dot), Decimal(state.omega2), Decimal(state.omega3)
+            K_J = s2.sqrt() * w2 + t.I3 / t.I1 * (c - t.a) * w3
+            K_R = f3_2(c, s2, t).sqrt() * w3
+            return cls(K_J, K_R, 2 * t.a * v + f2_2(c, s2, t) * w2**2 + f1_2(c, t) * w1**2)
+
+
+def versines(theta):
+    """(1 - cos theta, 1 + cos theta), each to full relative precision, also next to its zero. pi is the inverted pole."""
+    v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
+    return v, np.where(np.asarray(theta) == np.pi, 0.0, m)

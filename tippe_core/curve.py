@@ -1,0 +1,344 @@
+"""theta_dot^2 = f(theta), equation (36): the curve, its zeros, its wells, and the steady precessions at their bottom.
+
+With c = cos(theta), s = sin(theta), B the bracket of (36) and 2E' = e,
+
+    f1^2 f = e - U,     U = 2a(1 - c) + f2^2 w2^2,     w2 = B/s,     B = K_J - (I3/I1)(c - a) K_R/f3 .
+
+B loses all its figures where it vanishes at a pole, which is what happens on every trajectory that comes near one. So
+it is taken apart there: at theta = 0, with v = 1 - c, B = d + v C, where d = K_J - K_J(P) and C has no cancellation.
+The inverted pole is the same with a -> -a, v -> 1 + c and the sign of K_R turned.
+"""
+
+from collections import namedtuple
+from decimal import Decimal, localcontext
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .constants import EXACT, Exact, exact_top, f1_2, f2_2, f3_2, versines
+from .errors import NoMotionError
+
+SteadyPrecessions = namedtuple("SteadyPrecessions", "theta stable")
+Well = namedtuple("Well", "inner outer")  # cos(theta) at the turning points, Decimals
+Station = namedtuple("Station", "c gap bottom")  # cos(theta), e - U there, and whether U is least there
+
+
+# ---- the functions of theta ----
+
+
+def f1_squared(theta, top):
+    """f1^2 = I1 + 1 + a^2 - 2 a cos(theta), (35). theta in rad, any shape."""
+    return f1_2(np.cos(theta), top)
+
+
+def f2_squared(theta, top):
+    """f2^2 = I1 + (I1/I3) sin(theta)^2 + (cos(theta) - a)^2, (34). theta in rad, any shape."""
+    return f2_2(np.cos(theta), np.sin(theta) ** 2, top)
+
+
+def f3_squared(theta, top):
+    """f3^2 = I3 + sin(theta)^2 + (I3/I1)(cos(theta) - a)^2, (32). theta in rad, any shape."""
+    return f3_2(np.cos(theta), np.sin(theta) ** 2, top)
+
+
+def omega3(theta, top, constants):
+    """omega_3 = K_R/f3, (31), in (g/R)^1/2. theta in rad; theta and the constants broadcast."""
+    return constants.K_R / np.sqrt(f3_squared(theta, top))
+
+
+def omega2(theta, top, constants):
+    """omega_2' = [K_J - (I3/I1)(c - a) K_R/f3]/s, (30), in (g/R)^1/2. theta in rad; theta and the constants broadcast.
+
+    At a pole it is infinite unless the bracket vanishes there (K_J at P), and then 0.
+    """
+    v, m = versines(theta)
+    return omega2_at(v, m, top, constants.K_R, pole_gaps(top, constants.K_J, constants.K_R))
+
+
+def f(theta, top, constants):
+    """theta_dot^2 = f(theta), (36), in g/R; negative where no motion is. theta in rad; theta and the constants broadcast."""
+    v, m = versines(theta)
+    w2 = omega2_at(v, m, top, constants.K_R, pole_gaps(top, constants.K_J, constants.K_R))
+    c = 1 - v
+    return (constants.two_E_prime(top) - 2 * top.a * v - f2_2(c, v * m, top) * w2**2) / f1_2(c, top)
+
+
+def pole_constants(top, K_R):
+    """(K_J at P, K_J at the inverted pole): where the bracket of (36) vanishes at theta = 0 and at theta = pi.
+
+    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others.
+    """
+    return tuple(
+        top.I3 / top.I1 * (c - top.a) * K_R / np.sqrt(f3_2(c, 0, top)) for c in (1, -1))  # fmt: skip
+
+
+def pole_gaps(top, K_J, K_R):
+    """d = K_J - K_J(P), and the same at the inverted pole, without the rounding of K_J(P) (where K_R is a number)."""
+    if np.ndim(K_R):
+        return tuple(K_J - K for K in pole_constants(top, K_R))
+    gaps = []
+    with localcontext(EXACT):
+        t = exact_top(top)
+        for c in (1, -1):
+            K = exact_bracket_term(Decimal(c), Decimal(0), t, Decimal(float(K_R)))
+            gaps.append((K_J - float(K)) - float(K - Decimal(float(K))))
+    return tuple(gaps)
+
+
+def near_pole(v, m, top, K_R, gaps):
+    """d, x and C of B = d + x C, where x is the smaller of v = 1 - c and m = 1 + c."""
+    north = v <= m
+    x, far = np.minimum(v, m), np.maximum(v, m)
+    sign = np.where(north, 1.0, -1.0)
+    a, K, d = sign * top.a, sign * K_R, np.where(north, *gaps)
+    p, q = 1 - a, 1 - x - a
+    f3_pole, f3 = np.sqrt(top.I3 + top.I3 / top.I1 * p**2), np.sqrt(top.I3 + x * far + top.I3 / top.I1 * q**2)
+    # p/f3_pole - q/f3, divided by x: as it stands where p and q differ in sign, else with the difference multiplied out
+    with np.errstate(divide="ignore", invalid="ignore"):
+        C = np.where(
+            p * q > 0,
+            (p**2 * far + top.I3 * (2 * p - x)) / (f3_pole * f3 * (p * f3 + q * f3_pole)),
+            (p / f3_pole - q / f3) / x)  # fmt: skip
+    return d, x, top.I3 / top.I1 * K * C
+
+
+def omega2_at(v, m, top, K_R, gaps):
+    """omega_2' = B/s from v = 1 - c and m = 1 + c."""
+    d, x, C = near_pole(v, m, top, K_R, gaps)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(d == 0, 0.0, d / np.sqrt(v * m)) + np.sqrt(x / (2 - x)) * C
+
+
+def bracket_slope(c, s2, top, K_R):
+    """-dB/dc = (I3/I1) K_R (I3 + 1 - a c)/f3^3"""
+    return top.I3 / top.I1 * K_R * (top.I3 + 1 - top.a * c) / f3_2(c, s2, top) ** 1.5
+
+
+# ---- the same with the digits of EXACT, for zeros that floats cannot place ----
+
+
+def exact_bracket_term(c, s2, t, K_R):
+    """(I3/I1)(c - a) K_R/f3"""
+    return t.I3 / t.I1 * (c - t.a) * K_R / f3_2(c, s2, t).sqrt()
+
+
+class ExactCurve:
+    """U, D = s^2 (e - U) and N = s^4 dU/dc as functions of c = cos(theta), Decimals."""
+
+    def __init__(self, top, exact):
+        self.top, self.exact = exact_top(top), exact
+
+    def U(self, c):
+        t, s2 = self.top, 1 - c * c
+        if s2 == 0:  # finite only where the bracket vanishes too, and then it is the height alone
+            return 2 * t.a * (1 - c) if self.pole_gap(c) == 0 else Decimal("Infinity")
+        B = self.exact.K_J - exact_bracket_term(c, s2, t, self.exact.K_R)
+        return 2 * t.a * (1 - c) + f2_2(c, s2, t) * B * B / s2
+
+    def gap(self, c):
+        """e - U and its slope, for where U is finite; at a pole the slope is left out."""
+        s2 = 1 - c * c
+        return self.exact.e - self.U(c), -self.N(c) / (s2 * s2) if s2 else None
+
+    def pole_gap(self, pole):
+        return self.exact.K_J - exact_bracket_term(pole, Decimal(0), self.top, self.exact.K_R)
+
+    def D(self, c):
+        """D and dD/dc."""
+        t, s2, e = self.top, 1 - c * c, self.exact.e
+        f3_sq = f3_2(c, s2, t)
+        f3 = f3_sq.sqrt()
+        B = self.exact.K_J - t.I3 / t.I1 * (c - t.a) * self.exact.K_R / f3
+        dB = -t.I3 / t.I1 * self.exact.K_R * (t.I3 + 1 - t.a * c) / (f3_sq * f3)
+        f2_sq, rest = f2_2(c, s2, t), e - 2 * t.a * (1 - c)
+        df2_sq = 2 * ((c - t.a) - t.I1 / t.I3 * c)
+        return s2 * rest - f2_sq * B * B, 2 * t.a * s2 - 2 * c * rest - B * (df2_sq * B + 2 * f2_sq * dB)
+
+    def N(self, c):
+        t, s2 = self.top, 1 - c * c
+        f3_sq = f3_2(c, s2, t)
+        f3 = f3_sq.sqrt()
+        B = self.exact.K_J - t.I3 / t.I1 * (c - t.a) * self.exact.K_R / f3
+        dB = -t.I3 / t.I1 * self.exact.K_R * (t.I3 + 1 - t.a * c) / (f3_sq * f3)
+        return well_slope(c, s2, B, dB, t)
+
+
+def well_slope(c, s2, B, dB, top):
+    """N = s^4 dU/dc = -2a s^4 + 2[(c - a)(1 - a c) + I1 c] B^2 + 2 f2^2 s^2 B dB/dc; zero at a steady precession."""
+    a = top.a
+    return -2 * a * s2 * s2 + 2 * B * (((c - a) * (1 - a * c) + top.I1 * c) * B + f2_2(c, s2, top) * s2 * dB)
+
+
+def solve(function, low, high, guess=None):
+    """The zero of function(c) -> (value, slope or None) between low and high (Decimals), where it changes sign.
+
+    Newton's step, or the secant's, kept inside the bracket; bisection, in the distance to a pole on a logarithmic
+    scale, where a step leaves it. Ends when a step moves cos(theta), 1 - c and 1 + c by less than 1e-22 of themselves.
+    """
+    f_low = function(low)[0]
+    if f_low == 0 or function(high)[0] == 0:
+        return low if f_low == 0 else high
+    c, previous = guess if guess and low < guess < high else bisect(low, high), None
+    for _ in range(400):
+        value, slope = function(c)
+        if value == 0:
+            return c
+        if (value > 0) == (f_low > 0):
+            low = c
+        else:
+            high = c
+        if slope is None and previous is not None and previous[1] != value:
+            slope = (value - previous[1]) / (c - previous[0])
+        previous = (c, value)
+        following = c - value / slope if slope else bisect(low, high)
+        small = min(1 - c, 1 + c) * Decimal("1e-22")
+        if slope and abs(following - c) <= small:
+            return min(max(following, low), high)
+        if not low < following < high:
+            following = bisect(low, high)
+        if high - low <= small:
+            return c
+        c = following
+    return c
+
+
+def bisect(low, high):
+    for near, far, sign in ((1 - high, 1 - low, 1), (1 + low, 1 + high, -1)):
+        if near < far / 16 and near < Decimal("0.1"):
+            x = (near * far).sqrt() if near > 0 else far * Decimal("1e-4")
+            return sign * (1 - x)
+    return (low + high) / 2
+
+
+# ---- steady precessions, wells, turning points ----
+
+_GRID = np.linspace(0, np.pi, 513)
+_GRID_V, _GRID_M = versines(_GRID)
+
+
+def extrema(top, exact):
+    """cos(theta) of all zeros of N in (0, pi), from theta = 0 on: where U is least or largest. List of Decimals."""
+    K_J, K_R = float(exact.K_J), float(exact.K_R)
+    v, m, c, s2 = _GRID_V, _GRID_M, 1 - _GRID_V, _GRID_V * _GRID_M
+    with localcontext(EXACT):
+        curve = ExactCurve(top, exact)
+        gaps = tuple(float(curve.pole_gap(Decimal(pole))) for pole in (1, -1))
+    d, x, C = near_pole(v, m, top, K_R, gaps)
+
+    def N(c):
+        s2 = 1 - c * c
+        B = K_J - top.I3 / top.I1 * (c - top.a) * K_R / f3_2(c, s2, top) ** 0.5
+        return well_slope(c, s2, B, -bracket_slope(c, s2, top, K_R), top)
+
+    values = well_slope(c, s2, d + x * C, -bracket_slope(c, s2, top, K_R), top)
+    brackets = sign_changes(c, values, N)
+    zeros = []
+    with localcontext(EXACT):
+        for left, right in brackets:
+            guess = Decimal(brentq(N, right, left, xtol=1e-15)) if N(left) * N(right) < 0 else None
+            zeros.append(solve(lambda c: (curve.N(c), None), Decimal(float(right)), Decimal(float(left)), guess))
+    return [c for c in zeros if abs(c) < 1]
+
+
+def sign_changes(c, values, function):
+    """Pairs of abscissae between which function changes sign: grid cells, and cells into which it only dips."""
+    found = [(i, (c[i], c[i + 1])) for i in np.flatnonzero(values[:-1] * values[1:] < 0)]
+    found += [(i, (c[i - 1], c[i + 1])) for i in np.flatnonzero(values[1:-1] == 0) + 1]
+    y, size = values, np.abs(values)
+    turn = (y[:-2] * y[2:] > 0) & (y[:-2] * y[1:-1] > 0) & (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:])
+    for i in np.flatnonzero(turn) + 1:
+        low, high = c[i + 1], c[i - 1]
+        for _ in range(60):  # golden section towards zero
+            c1, c2 = high - 0.6180339887498949 * (high - low), low + 0.6180339887498949 * (high - low)
+            y1, y2 = function(c1), function(c2)
+            if min(y1 * y[i], y2 * y[i]) < 0:
+                dip = c1 if y1 * y[i] < 0 else c2
+                found += [(i, (c[i - 1], dip)), (i + 0.5, (dip, c[i + 1]))]
+                break
+            low, high = (c1, high) if abs(y2) < abs(y1) else (low, c2)
+    return [pair for _, pair in sorted(found)]
+
+
+def steady_precessions(top, K_J, K_R):
+    """The steady precessions f = f' = 0 at K_J and K_R (numbers): SteadyPrecessions(theta, stable), arrays by theta.
+
+    theta in rad in (0, pi), and 0 or pi itself where K_J is exactly the pole's; stable (f'' < 0) means that U is least.
+    """
+    with localcontext(EXACT):
+        stations = find_stations(top, Exact(Decimal(float(K_J)), Decimal(float(K_R)), Decimal(0)))
+        stations = [s for s in stations if s.gap.is_finite()]
+        return SteadyPrecessions(np.array([angle(s.c) for s in stations]), np.array([s.bottom for s in stations], bool))
+
+
+def angle(c):
+    """theta of an exact cos(theta)."""
+    return 2 * np.arctan2(float(1 - c) ** 0.5, float(1 + c) ** 0.5)
+
+
+def find_stations(top, exact):
+    """The poles and the extrema between them: U is monotone from each to the next."""
+    with localcontext(EXACT):
+        curve = ExactCurve(top, exact)
+        places = [Decimal(1), *extrema(top, exact), Decimal(-1)]
+        U = [curve.U(c) for c in places]
+        infinite = Decimal("Infinity")
+        bottoms = [here < left and here < right or (here == left == right)
+                   for left, here, right in zip([infinite, *U], U, [*U[1:], infinite])]  # fmt: skip
+        return [Station(c, exact.e - u, b) for c, u, b in zip(places, U, bottoms)]
+
+
+def wells(top, exact):
+    """The allowed intervals of cos(theta), from theta = 0 on: list of Well.
+
+    An energy that differs from that of the bottom of a well by no more than its own rounding is the one of the steady precession.
+    """
+    with localcontext(EXACT):
+        curve = ExactCurve(top, exact)
+        stations = find_stations(top, exact)
+        size = max(abs(exact.e), exact.K_R**2, exact.K_J**2)
+        rounding = size * Decimal(2) ** -50
+        found, inner = [], None
+        for i, here in enumerate(stations):
+            if here.bottom and abs(here.gap) <= rounding:
+                found.append(Well(here.c, here.c))
+                continue
+            if i and (stations[i - 1].gap > 0) != (here.gap > 0) and not at_bottom(stations[i - 1], rounding):
+                zero = turning_point(curve, here, stations[i - 1])
+                if here.gap > 0:
+                    inner = zero
+                else:
+                    found.append(Well(inner, zero))
+            elif i == 0 and here.gap > 0:
+                inner = here.c
+            elif here.gap > 0 and at_bottom(stations[i - 1], rounding):
+                inner = stations[i - 1].c
+        if stations[-1].gap > 0:
+            found.append(Well(inner, stations[-1].c))
+    if not found:
+        least = float(exact.e - max(s.gap for s in stations))
+        with localcontext(EXACT):
+            t = exact_top(top)
+            shift = float(exact.K_R**2 - t.I1 / t.I3 * exact.K_J**2)
+            E, E_least = (float(exact.e) + shift) / 2, (least + shift) / 2
+        raise NoMotionError("E", E, f"E >= {E_least:.10g} for this top, K_J = {float(exact.K_J):.10g} and K_R = {float(exact.K_R):.10g}",
+                            "Below it is no motion, at it the steady precession of least energy.")  # fmt: skip
+    return found
+
+
+def at_bottom(station, rounding):
+    return station.bottom and abs(station.gap) <= rounding
+
+
+def turning_point(curve, one, other):
+    """The zero of e - U between two stations at which it differs in sign."""
+    low, high = sorted((one.c, other.c))
+    finite = one.gap.is_finite() and other.gap.is_finite()
+    return solve(curve.gap if finite else curve.D, low, high)
+
+
+def turning_points(top, constants):
+    """The allowed intervals f >= 0: (k, 2) array of theta (rad), a row each, from theta = 0 on.
+
+    The constants are numbers. Steady precession: both ends equal. Raises NoMotionError below the lowest well.
+    """
+    return np.array([[angle(w.inner), angle(w.outer)] for w in wells(top, Exact.of(constants, top))])

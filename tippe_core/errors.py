@@ -1,0 +1,30 @@
+"""What is said when a value cannot be used: its name, the value, the allowed range, what to do."""
+
+import math
+
+
+class TopError(ValueError):
+    """A quantity outside the range in which it means anything.
+
+    Attributes name, value, allowed and remedy hold the parts of the sentence; str() is the sentence.
+    """
+
+    def __init__(self, name, value, allowed, remedy=""):
+        self.name, self.value, self.allowed, self.remedy = name, value, allowed, remedy
+        shown = f"{value:.10g}" if isinstance(value, float) else repr(value)
+        super().__init__(f"{name} = {shown} is not possible: allowed is {allowed}." + (f" {remedy}" if remedy else ""))
+
+
+class NoMotionError(TopError):
+    """The energy is below the bottom of every well of f: no such motion exists."""
+
+
+def finite(name, value):
+    """value as a float, or a TopError that names it."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if isinstance(value, bool) or not math.isfinite(number):
+        raise TopError(name, value, "a finite number")
+    return number

@@ -1,0 +1,95 @@
+"""The top as the paper's equations see it: three numbers, and the scales that turn them into a real one."""
+
+from dataclasses import dataclass
+
+from .errors import TopError, finite
+
+
+@dataclass(frozen=True)
+class Top:
+    """A symmetric top with a round peg (Gray and Nickel, Sec. II and Fig. 2), in units of R and M.
+
+    a   distance of the centre of mass G from the sphere's centre O, below O on axis 3 when theta = 0:
+        a > 0 tippe top, a < 0 ordinary top, a = 0 uniform ball. a < 1: G lies above the contact point.
+    I1  moment of inertia at G about any axis perpendicular to axis 3, in MR^2
+    I3  moment of inertia at G about axis 3, in MR^2; I3 <= 2 I1 for any body
+
+    Raises TopError for anything else.
+    """
+
+    a: float
+    I1: float
+    I3: float
+
+    def __post_init__(self):
+        for name in ("a", "I1", "I3"):
+            object.__setattr__(self, name, finite(name, getattr(self, name)))
+        if self.a >= 1:
+            raise TopError("a", self.a, "a < 1 (in units of R)", "The centre of mass must lie above the contact point.")
+        for name in ("I1", "I3"):
+            if getattr(self, name) <= 0:
+                raise TopError(name, getattr(self, name), f"{name} > 0 (in MR^2)")
+        if self.I3 > 2 * self.I1:
+            raise TopError(
+                "I3", self.I3, f"0 < I3 <= 2 I1 = {2 * self.I1:g}",
+                f"No body has more: lower I3 or raise I1 to {self.I3 / 2:g} or above.")  # fmt: skip
+
+    @classmethod
+    def paper(cls):
+        """The commercial wooden top of appendix A: a = 0.070, I1 = 0.399, I3 = 0.408."""
+        return cls(a=0.070, I1=0.399, I3=0.408)
+
+
+@dataclass(frozen=True)
+class Scales:
+    """The size of a real top: R in m, M in kg, g in m/s^2. Its properties are the SI value of one unit of Sec. VI."""
+
+    R: float
+    M: float
+    g: float = 9.81
+
+    def __post_init__(self):
+        for name in ("R", "M", "g"):
+            object.__setattr__(self, name, finite(name, getattr(self, name)))
+            if getattr(self, name) <= 0:
+                raise TopError(name, getattr(self, name), f"{name} > 0 (SI units)")
+
+    @classmethod
+    def paper(cls):
+        """The top of appendix A: R = 1.6 cm, M = 11.5 g."""
+        return cls(R=0.016, M=0.0115)
+
+    @property
+    def time(self):
+        """(R/g)^1/2 in s."""
+        return (self.R / self.g) ** 0.5
+
+    @property
+    def angular_velocity(self):
+        """(g/R)^1/2 in rad/s."""
+        return (self.g / self.R) ** 0.5
+
+    @property
+    def velocity(self):
+        """(gR)^1/2 in m/s."""
+        return (self.g * self.R) ** 0.5
+
+    @property
+    def force(self):
+        """Mg in N."""
+        return self.M * self.g
+
+    @property
+    def energy(self):
+        """MgR in J."""
+        return self.M * self.g * self.R
+
+    @property
+    def inertia(self):
+        """MR^2 in kg m^2."""
+        return self.M * self.R**2
+
+    @property
+    def angular_momentum(self):
+        """M (gR^3)^1/2 in kg m^2/s."""
+        return self.M * (self.g * self.R**3) ** 0.5
