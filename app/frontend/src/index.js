@@ -1,3 +1,4 @@
-import { colours } from "./colours.js";
-import * as THREE from "three";
-export default { c: colours, t: THREE.Scene };
+import { renderTop3D } from "./top3d.js";
+
+// Panel looks a component up by its Python class's name.
+export default { Top3D: { render: renderTop3D } };

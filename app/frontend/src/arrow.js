@@ -1,0 +1,54 @@
+// An arrow that stays in sight inside the body: where something hides it, it shows through, paler.
+import * as THREE from "three";
+
+const up = new THREE.Vector3(0, 0, 1);
+const direction = new THREE.Vector3();
+
+export class Arrow extends THREE.Group {
+  constructor(colour, { radius = 0.035, through = 0.55 } = {}) {
+    super();
+    this.radius = radius;
+    const shaft = new THREE.CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+    const head = new THREE.ConeGeometry(1, 1, 20).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+    // Both passes count as transparent, so that they come after the table and the body and in this order.
+    this.passes = [
+      new THREE.MeshBasicMaterial({
+        transparent: true, opacity: through, depthFunc: THREE.GreaterDepth, depthWrite: false,
+      }),
+      new THREE.MeshLambertMaterial({ transparent: true }),
+    ];
+    this.parts = this.passes.map((material, pass) => {
+      const part = { shaft: new THREE.Mesh(shaft, material), head: new THREE.Mesh(head, material) };
+      for (const mesh of Object.values(part)) {
+        mesh.renderOrder = 2 + pass;
+        this.add(mesh);
+      }
+      return part;
+    });
+    this.colour = colour;
+  }
+
+  set colour(colour) {
+    for (const material of this.passes) material.color.set(colour);
+    // A little light of its own keeps the colour the legend's on the shaded side.
+    this.passes[1].emissive.set(colour).multiplyScalar(0.45);
+  }
+
+  // From origin along (x, y, z), in the scene's units; tip receives where it ends.
+  point(origin, x, y, z, tip) {
+    direction.set(x, y, z);
+    tip.copy(origin).add(direction);
+    const length = direction.length();
+    this.drawable = length > 1e-3;
+    if (!this.drawable) return;
+    this.position.copy(origin);
+    this.quaternion.setFromUnitVectors(up, direction.divideScalar(length));
+    const head = Math.min(6.5 * this.radius, 0.5 * length);
+    const width = (head / 6.5) * 2.6;
+    for (const part of this.parts) {
+      part.shaft.scale.set(this.radius, this.radius, length - head);
+      part.head.position.z = length - head;
+      part.head.scale.set(width, width, head);
+    }
+  }
+}

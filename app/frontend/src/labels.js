@@ -1,0 +1,40 @@
+// Text that stands at a point in space: HTML over the canvas, so it stays sharp at any zoom.
+import { Vector3 } from "three";
+
+const projected = new Vector3();
+
+export class Labels {
+  constructor(stage) {
+    this.stage = stage;
+    this.layer = document.createElement("div");
+    this.layer.className = "labels";
+    this.layer.setAttribute("aria-hidden", "true");
+    stage.holder.append(this.layer);
+    this.all = [];
+  }
+
+  // shift: where the text stands from its point, in px.
+  add(html, className = "") {
+    const element = document.createElement("span");
+    element.className = className;
+    element.innerHTML = html;
+    this.layer.append(element);
+    const label = { element, at: new Vector3(), shift: [0, 0], visible: true };
+    this.all.push(label);
+    return label;
+  }
+
+  place() {
+    const { camera, width, height } = this.stage;
+    camera.updateMatrixWorld();
+    for (const { element, at, shift, visible } of this.all) {
+      projected.copy(at).project(camera);
+      const shown = visible && Math.abs(projected.z) < 1;
+      element.style.display = shown ? "" : "none";
+      if (!shown) continue;
+      const x = ((projected.x + 1) / 2) * width + shift[0];
+      const y = ((1 - projected.y) / 2) * height + shift[1];
+      element.style.transform = `translate(-50%, -50%) translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    }
+  }
+}

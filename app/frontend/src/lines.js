@@ -1,0 +1,52 @@
+// Lines several pixels wide whose points may change: the buffers grow when they must and are kept otherwise.
+import { InstancedInterleavedBuffer, InterleavedBufferAttribute } from "three";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
+
+export class WideLine extends LineSegments2 {
+  constructor(style) {
+    super(new LineSegmentsGeometry(), new LineMaterial(style));
+    this.frustumCulled = false;
+    this.reserve(1);
+    this.segments = 0;
+  }
+
+  reserve(segments) {
+    if (this.buffer && this.buffer.count >= segments) return;
+    const old = this.geometry;
+    this.geometry = new LineSegmentsGeometry(); // a buffer's size is fixed once it has been drawn
+    this.buffer = new InstancedInterleavedBuffer(new Float32Array(6 * segments), 6, 1);
+    this.geometry.setAttribute("instanceStart", new InterleavedBufferAttribute(this.buffer, 3, 0));
+    this.geometry.setAttribute("instanceEnd", new InterleavedBufferAttribute(this.buffer, 3, 3));
+    old.dispose();
+  }
+
+  set segments(count) {
+    this.geometry.instanceCount = count;
+    this.visible = count > 0;
+  }
+
+  // n points joined one to the next; point(i, put) calls put(x, y, z).
+  setPath(n, point) {
+    this.setSegments(Math.max(n - 1, 0), (i, put) => {
+      point(i, put);
+      point(i + 1, put);
+    });
+  }
+
+  // n separate segments; ends(i, put) calls put twice.
+  setSegments(n, ends) {
+    this.reserve(n);
+    const array = this.buffer.array;
+    let at = 0;
+    const put = (x, y, z) => {
+      array[at++] = x;
+      array[at++] = y;
+      array[at++] = z;
+    };
+    for (let i = 0; i < n; i++) ends(i, put);
+    this.buffer.needsUpdate = true;
+    this.segments = n;
+  }
+}

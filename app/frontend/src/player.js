@@ -1,0 +1,81 @@
+// Where in the trajectory we are. Playing moves t by the wall clock; everything else lands on an exact frame.
+import { Frames } from "./frames.js";
+
+const LONGEST_STEP_MS = 250; // after a pause of the whole page go on from where it stopped
+
+export class Player {
+  // changed(): t or playing moved; landed(): a person or Python put the cursor somewhere, it is to be told to Python.
+  constructor({ changed, landed, playingChanged }) {
+    Object.assign(this, { changed, landed, playingChanged });
+    this.frames = new Frames();
+    this.t = 0;
+    this.playing = false;
+  }
+
+  get place() {
+    return this.frames.count ? this.frames.place(this.t) : 0;
+  }
+
+  get index() {
+    return Math.floor(this.place);
+  }
+
+  // New motion, same moment: a playing top goes on without a jump back to the start.
+  setFrames(bytes) {
+    this.frames = new Frames(bytes);
+    if (this.playing) this.t = this.wrap(this.t);
+    else this.t = this.frames.count ? this.frames.time(this.frames.nearest(this.t)) : 0;
+    this.changed();
+  }
+
+  wrap(t) {
+    const { start, end } = this.frames;
+    if (!(end > start)) return start;
+    return t <= end && t >= start ? t : start + ((((t - start) % (end - start)) + (end - start)) % (end - start));
+  }
+
+  // unitsPerMs: how much of the trajectory passes in a millisecond of the wall clock. Tells whether it began anew.
+  advance(now, unitsPerMs) {
+    const step = this.before === undefined ? 0 : Math.min(now - this.before, LONGEST_STEP_MS);
+    this.before = now;
+    const t = this.t + step * unitsPerMs;
+    this.t = this.wrap(t);
+    return this.t < t;
+  }
+
+  setPlaying(playing) {
+    if (playing === this.playing) return;
+    this.playing = playing;
+    this.before = undefined;
+    if (!playing) this.land(this.frames.nearest(this.t));
+    this.playingChanged();
+    this.changed();
+  }
+
+  // A frame by its number; a playing top pauses there.
+  show(index) {
+    if (!this.frames.count) return;
+    this.land(Math.min(Math.max(index, 0), this.frames.count - 1));
+    this.setPlaying(false);
+    this.changed();
+  }
+
+  step(by) {
+    const count = this.frames.count;
+    if (count) this.show((this.frames.nearest(this.t) + by + count) % count);
+  }
+
+  // A time from outside; a playing top goes on from there.
+  seek(t) {
+    if (!this.frames.count) return;
+    if (this.playing) this.t = this.wrap(t);
+    else this.land(this.frames.nearest(t));
+    this.changed();
+  }
+
+  land(index) {
+    if (!this.frames.count) return;
+    this.t = this.frames.time(index);
+    this.landed();
+  }
+}

@@ -1,0 +1,147 @@
+// A canvas with a camera that a person can turn: builds, resizes, draws when asked, and lets go of everything.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+const SLOW_MS = 24; // a picture that takes longer than this to come out is drawn at half the screen's rate
+const CAPPED_MS = 30;
+const MAX_PIXEL_RATIO = 2;
+
+export class Stage {
+  // tick(now) runs before each drawn frame and says whether another one is to follow; fit(aspect) runs after a new size.
+  constructor(holder, { label, fov, tick = () => false, fit = () => {} }) {
+    this.holder = holder;
+    this.tick = tick;
+    this.fit = fit;
+    this.inView = true;
+    this.cost = 0;
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(fov, 1, 0.1, 150);
+    this.camera.up.set(0, 0, 1); // physics: z is up
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "low-power" });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MAX_PIXEL_RATIO));
+
+    const canvas = this.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", label);
+    canvas.title = "Drag to turn. Click, then use the wheel to zoom.";
+    holder.append(canvas);
+
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enablePan = false;
+    canvas.style.touchAction = "pan-y"; // a finger moving up or down scrolls the page, as it does everywhere else
+    this.controls.addEventListener("change", () => this.invalidate());
+    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
+    // The wheel scrolls the page until a person has clicked the picture.
+    holder.addEventListener(
+      "wheel",
+      (event) => {
+        if (holder.getRootNode().activeElement !== canvas) event.stopPropagation();
+      },
+      { capture: true, passive: true },
+    );
+
+    canvas.addEventListener("webglcontextlost", () => {
+      if (this.disposed) return;
+      this.lost = true;
+      this.note("The browser took this picture's graphics memory away. It comes back by itself, or reload the page.");
+    });
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.lost = false;
+      this.note("");
+      this.invalidate();
+    });
+
+    this.resizing = new ResizeObserver(() => this.resize());
+    this.resizing.observe(holder);
+    this.seeing = new IntersectionObserver(([entry]) => {
+      this.inView = entry.isIntersecting;
+      this.invalidate();
+    });
+    this.seeing.observe(holder);
+  }
+
+  note(sentence) {
+    this.noteElement?.remove();
+    if (!sentence) return;
+    this.noteElement = document.createElement("p");
+    this.noteElement.className = "note";
+    this.noteElement.setAttribute("role", "alert");
+    this.noteElement.textContent = sentence;
+    this.holder.append(this.noteElement);
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.holder;
+    if (!width || !height) return;
+    this.width = width;
+    this.height = height;
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.fit(this.camera.aspect);
+    this.camera.updateProjectionMatrix();
+    this.draw(); // now, not at the next frame: a new size empties the canvas
+  }
+
+  invalidate() {
+    if (!this.disposed) this.request ||= requestAnimationFrame(this.frame);
+  }
+
+  frame = (now) => {
+    this.request = 0;
+    if (this.disposed || !this.holder.isConnected) return;
+    if (this.drawnAt && now > this.drawnAt) {
+      if (!this.costed) {
+        // The first frame after a drawn one comes late by what the drawing took.
+        this.cost += 0.1 * (Math.min(now - this.drawnAt, 250) - this.cost);
+        this.costed = true;
+      }
+      if (this.cost > SLOW_MS && now - this.drawnAt < CAPPED_MS) return this.invalidate();
+    }
+    const more = this.tick(now);
+    if (this.inView) {
+      this.draw();
+      this.drawnAt = more ? now : 0;
+      this.costed = false;
+    }
+    if (more) this.invalidate();
+  };
+
+  draw() {
+    if (this.disposed || this.lost || !this.width) return;
+    this.beforeDraw?.();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  dispose() {
+    if (this.disposed) return;
+    this.disposed = true;
+    cancelAnimationFrame(this.request);
+    this.resizing.disconnect();
+    this.seeing.disconnect();
+    this.controls.dispose();
+    this.scene.traverse((object) => {
+      object.geometry?.dispose();
+      for (const material of [object.material ?? []].flat()) {
+        material.map?.dispose();
+        material.dispose();
+      }
+      object.shadow?.dispose?.();
+    });
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+}
+
+// A browser without WebGL gets a sentence instead of a picture.
+export function tryStage(holder, options) {
+  try {
+    return new Stage(holder, options);
+  } catch {
+    const note = document.createElement("p");
+    note.className = "note";
+    note.textContent = "This picture needs WebGL, which this browser does not offer: turn on hardware acceleration, or try another.";
+    holder.append(note);
+    return null;
+  }
+}

@@ -1,0 +1,375 @@
+// The top on its table. Every pose, path and arrow is a number that Python sent: there is no physics here.
+import * as THREE from "three";
+import { Arrow } from "./arrow.js";
+import { Bar } from "./bar.js";
+import { Body } from "./body.js";
+import { colours } from "./colours.js";
+import { coalesce, float32, niceBelow } from "./data.js";
+import { emptyPose } from "./frames.js";
+import { Labels } from "./labels.js";
+import { WideLine } from "./lines.js";
+import { Player } from "./player.js";
+import { tryStage } from "./stage.js";
+import { frameIn } from "./style.js";
+
+const SKY = 0xeef1f5;
+const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
+const FOLLOW_MS = 350; // the camera follows the top's drift, not each of its small turns
+const TELL_MS = 80; // how often a scrub is told to Python
+const LONGEST = { force: 2, omega: 2.5, momentum: 1.9 }; // the longest arrow of a motion is at most this long, in R
+const verdicts = [
+  ["rolls", colours.normal],
+  ["would slip here", colours.friction],
+  ["would lift off here", colours.omega],
+];
+
+export function renderTop3D({ model, el, view }) {
+  view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
+  const { root, picture } = frameIn(el);
+  const stage = tryStage(picture, { label: "The top, rolling on a table", fov: 30, tick, fit });
+  if (!stage) return;
+  const { scene, camera, controls, renderer } = stage;
+
+  // The table, the light, and the shadow that stands where the top is
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = THREE.PCFShadowMap;
+  scene.background = new THREE.Color(SKY);
+  scene.fog = new THREE.Fog(SKY, 14, 34);
+  const table = new THREE.Mesh(new THREE.PlaneGeometry(80, 80), new THREE.MeshLambertMaterial({ map: gridTexture(80) }));
+  table.receiveShadow = true;
+  scene.add(table);
+  scene.add(new THREE.HemisphereLight(0xffffff, 0xb9a88f, 1.7));
+  const sun = new THREE.DirectionalLight(0xfff4e2, 2.1);
+  sun.castShadow = true;
+  sun.shadow.mapSize.set(1024, 1024);
+  sun.shadow.radius = 5;
+  sun.shadow.bias = -0.0015;
+  sun.shadow.normalBias = 0.02;
+  Object.assign(sun.shadow.camera, { left: -4, right: 4, top: 4, bottom: -4, near: 1, far: 20 });
+  scene.add(sun, sun.target);
+  const underneath = new THREE.Mesh(new THREE.PlaneGeometry(1.5, 1.5), blobMaterial());
+  underneath.renderOrder = -1;
+  scene.add(underneath);
+
+  const body = new Body();
+  scene.add(body);
+
+  // Paths: the whole one faintly, what has passed boldly
+  const path = (color, linewidth, opacity, depthTest = true) =>
+    new WideLine({ color, linewidth, opacity, transparent: true, depthWrite: false, depthTest });
+  const track = { whole: path(colours.theta, 2, 0.22), passed: path(colours.theta, 3.5, 0.9) };
+  const comPath = { whole: path(0x1d2733, 1.5, 0.25, false), passed: path(0x1d2733, 2, 0.8, false) };
+  for (const line of [...Object.values(track), ...Object.values(comPath)]) scene.add(line);
+  comPath.whole.renderOrder = comPath.passed.renderOrder = 2;
+
+  // Arrows, the friction cone, and the marks of C and G
+  const arrows = {
+    force: new Arrow(colours.normal, { radius: 0.045, through: 0.85 }),
+    omega: new Arrow(colours.omega),
+    momentum: new Arrow(colours.momentum, { radius: 0.055 }),
+  };
+  for (const arrow of Object.values(arrows)) scene.add(arrow);
+  const cone = frictionCone();
+  scene.add(cone);
+  const centre = new THREE.Mesh(
+    new THREE.SphereGeometry(0.045, 16, 12),
+    new THREE.MeshBasicMaterial({ color: 0x1d2733, depthTest: false, transparent: true }),
+  );
+  centre.renderOrder = 4;
+  scene.add(centre);
+  const labels = new Labels(stage);
+  const tips = {
+    force: labels.add("F", "vector"),
+    omega: labels.add("ω", "vector"),
+    momentum: labels.add("L", "vector"),
+    centre: labels.add("G", "vector"),
+  };
+  tips.force.element.style.color = colours.normal;
+  tips.omega.element.style.color = "#a8538a"; // the palette's pink, darkened to be read on a light ground
+  tips.momentum.element.style.color = "#9a6a00";
+
+  const verdict = addText(picture, "verdict");
+  verdict.setAttribute("role", "status");
+  const scalesText = addText(picture, "scales");
+
+  const player = new Player({
+    changed: () => stage.invalidate(),
+    landed: tellTime,
+    playingChanged: () => (model.playing = player.playing),
+  });
+  const bar = new Bar(root, model, player, () => {
+    firstView();
+    stage.invalidate();
+  });
+
+  const pose = emptyPose();
+  const seen = new THREE.Vector3(); // the point that the camera looks at
+  const place = new THREE.Vector3();
+  const forceTip = new THREE.Vector3();
+  let scales = {};
+  let restarted = true;
+  let lastFrame;
+  let drawn; // what the last drawn picture showed
+
+  function tick(now) {
+    if (player.playing && player.frames.count > 1) {
+      // model.seconds of the real top pass in one unit of t; speed 1 shows them at their own pace.
+      const unitsPerMs = (model.speed / (1000 * model.seconds));
+      restarted = player.advance(now, unitsPerMs) || restarted;
+    }
+    pose_();
+    follow(now);
+    return player.playing && player.frames.count > 1;
+  }
+
+  // The picture of the moment player.t
+  function pose_() {
+    const { frames, place: at } = player;
+    const some = frames.count > 0;
+    body.visible = underneath.visible = some;
+    centre.visible = some && model.show_com_path;
+    if (some) {
+      frames.read(at, pose);
+      place.set(pose.contact.x, pose.contact.y, 1);
+      body.position.copy(place);
+      body.quaternion.copy(pose.quaternion);
+      underneath.position.set(place.x, place.y, ABOVE_TABLE / 2);
+      centre.position.copy(pose.com);
+      sun.target.position.copy(place);
+      sun.position.set(place.x - 3.2, place.y - 3.4, 8.2);
+      table.position.set(Math.round(place.x / 5) * 5, Math.round(place.y / 5) * 5, 0); // the grid repeats each 5 R
+      arrows.force.colour = verdicts[pose.regime] ? [colours.normal, colours.friction, colours.omega][pose.regime] : colours.normal;
+    }
+    point("force", pose.contact, pose.force, some && model.show_force);
+    point("omega", pose.com, pose.omega, some && model.show_omega);
+    point("momentum", pose.com, pose.momentum, some && model.show_momentum);
+    tips.centre.visible = centre.visible;
+    tips.centre.at.copy(pose.com);
+    tips.centre.shift = [-14, 6];
+
+    // As high as the arrow reaches: its tip is then inside the rim where the top can roll.
+    const height = pose.force.z * scales.force;
+    cone.visible = some && model.show_cone && height > 1e-3 && model.mu_s > 0;
+    cone.position.copy(pose.contact);
+    cone.scale.set(height * model.mu_s, height * model.mu_s, height);
+
+    const passed = Math.ceil(at);
+    show(track, model.show_track, passed, frames.count);
+    show(comPath, model.show_com_path, passed, frames.count);
+
+    const [word, colour] = some ? verdicts[pose.regime] : ["no motion to show", "#7a8694"];
+    if (verdict.textContent !== word) {
+      verdict.textContent = word;
+      verdict.style.setProperty("--verdict", colour);
+    }
+    bar.update(model.seconds);
+    const { t, playing } = player;
+    if (!drawn || drawn.t !== t || drawn.playing !== playing) {
+      drawn = { t, playing };
+      window.dispatchEvent(new CustomEvent("tippe:clock", { detail: { t, index: player.index, playing } }));
+    }
+  }
+
+  function point(name, from, vector, shown) {
+    const arrow = arrows[name], tip = tips[name], scale = scales[name] ?? 1;
+    arrow.point(from, vector.x * scale, vector.y * scale, vector.z * scale, tip.at);
+    arrow.visible = tip.visible = shown && arrow.drawable;
+    tip.shift = name === "omega" ? [16, -4] : [-15, -6];
+  }
+
+  function show(line, shown, passed, count) {
+    line.whole.segments = shown ? count - 1 : 0;
+    line.passed.segments = shown ? passed : 0;
+  }
+
+  // The camera moves along with the top, keeping the direction a person chose.
+  function follow(now) {
+    const ms = lastFrame === undefined ? 0 : now - lastFrame;
+    lastFrame = player.playing ? now : undefined;
+    if (!model.follow && !restarted) return;
+    const share = restarted || !player.playing ? 1 : 1 - Math.exp(-ms / FOLLOW_MS);
+    restarted = false;
+    if (!model.follow && camera.position.lengthSq()) return;
+    moveView((place.x - seen.x) * share, (place.y - seen.y) * share);
+  }
+
+  function moveView(dx, dy) {
+    seen.x += dx;
+    seen.y += dy;
+    camera.position.x += dx;
+    camera.position.y += dy;
+    controls.target.copy(seen);
+    camera.lookAt(seen);
+  }
+
+  // Far enough for the whole top with its stem and the arrows, whatever the shape of the window.
+  function distance() {
+    const half = Math.atan(Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) * Math.min(1, camera.aspect));
+    return 1.06 * (body.reach ?? 2) / Math.sin(half);
+  }
+
+  function firstView() {
+    seen.set(place.x, place.y, 1.15);
+    const far = distance(), azimuth = -1.12, height = 0.3;
+    camera.position.set(
+      seen.x + far * Math.cos(height) * Math.cos(azimuth),
+      seen.y + far * Math.cos(height) * Math.sin(azimuth),
+      seen.z + far * Math.sin(height),
+    );
+    controls.target.copy(seen);
+    controls.minDistance = 1.6;
+    controls.maxDistance = 22;
+    controls.maxPolarAngle = Math.PI / 2 - 0.02; // never from below the table
+    controls.update();
+  }
+
+  let aspect;
+  function fit(now) {
+    if (aspect === undefined) firstView();
+    else {
+      // A person's own zoom is kept: only what the new shape takes away is given back.
+      const was = Math.min(1, aspect), is = Math.min(1, now);
+      if (was !== is) camera.position.sub(seen).multiplyScalar(was / is).add(seen);
+    }
+    aspect = now;
+  }
+
+  stage.beforeDraw = () => labels.place();
+
+  // Python's side
+  let told;
+  function tellTime() {
+    clearTimeout(told);
+    told = setTimeout(() => {
+      if (model.time !== player.t) model.time = player.t;
+    }, TELL_MS);
+  }
+
+  function newFrames() {
+    const first = !player.frames.count;
+    player.setFrames(model.frames);
+    const { frames } = player;
+    const most = frames.scales;
+    for (const name of Object.keys(LONGEST)) scales[name] = niceBelow(LONGEST[name] / (most[name] || 1));
+    scalesText.innerHTML =
+      `1 <i>R</i> of arrow: ${tidy(1 / scales.force)} <i>Mg</i> (<i>F</i>), ` +
+      `${tidy(1 / scales.omega)} (<i>g</i>/<i>R</i>)<sup>½</sup> (<i>ω</i>), ` +
+      `${tidy(1 / scales.momentum)} <i>MR</i>²(<i>g</i>/<i>R</i>)<sup>½</sup> (<i>L</i>)<br>grid: <i>R</i>`;
+    for (const line of Object.values(track)) line.setPath(frames.count, (i, put) => frames.contact(i, put, ABOVE_TABLE));
+    for (const line of Object.values(comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
+    if (first && frames.count) {
+      player.seek(model.time);
+      pose_();
+      firstView();
+    } else if (!player.playing) restarted = true;
+  }
+
+  function newProfile() {
+    body.setProfile(float32(model.profile));
+    stage.invalidate();
+  }
+
+  const onFrames = coalesce(newFrames); // several in one frame of the screen: only the last is read
+  model.on("frames", onFrames);
+  model.on("profile", newProfile);
+  model.on("time", () => {
+    // What comes back is what was just told: to be passed over, or a scrub would jump back.
+    if (Math.abs(model.time - player.t) > 1e-9 * Math.max(1, Math.abs(player.t))) player.seek(model.time);
+  });
+  model.on("playing", () => player.setPlaying(model.playing));
+  for (const name of ["mu_s", "seconds", "show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow"]) {
+    model.on(name, () => stage.invalidate());
+  }
+  const onSeek = (event) => player.seek(event.detail.t);
+  window.addEventListener("tippe:seek", onSeek);
+
+  newProfile();
+  newFrames();
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  player.playing = model.playing && !still;
+  if (model.playing !== player.playing) model.playing = player.playing;
+
+  // What is drawn, for tests and for the curious
+  const report = {
+    get t() { return player.t; },
+    get index() { return player.index; },
+    get count() { return player.frames.count; },
+    get playing() { return player.playing; },
+    get position() { return body.position.toArray(); },
+    get quaternion() { return body.quaternion.toArray(); },
+    get verdict() { return verdict.textContent; },
+    get pictures() { return renderer.info.render.frame; },
+  };
+  (window.__tippe ??= {}).top3d = report;
+
+  const dispose = () => {
+    onFrames.cancel();
+    clearTimeout(told);
+    window.removeEventListener("tippe:seek", onSeek);
+    if (window.__tippe.top3d === report) delete window.__tippe.top3d;
+    stage.dispose();
+  };
+  view.tippe = { dispose };
+  model.on("remove", dispose);
+}
+
+function addText(picture, className) {
+  const text = document.createElement("div");
+  text.className = className;
+  picture.append(text);
+  return text;
+}
+
+function tidy(number) {
+  return String(Number(number.toPrecision(3)));
+}
+
+// A square of five by five R: a fine line each R, a stronger one each 5 R.
+function gridTexture(size) {
+  const canvas = document.createElement("canvas");
+  const side = (canvas.width = canvas.height = 1024);
+  const pen = canvas.getContext("2d");
+  pen.fillStyle = "#f6f4f0";
+  pen.fillRect(0, 0, side, side);
+  for (let i = 0; i <= 5; i++) {
+    const strong = i % 5 === 0, at = (i * side) / 5, width = strong ? 9 : 4;
+    pen.fillStyle = strong ? "#c3c9d1" : "#dcdfe3";
+    pen.fillRect(at - width / 2, 0, width, side);
+    pen.fillRect(0, at - width / 2, side, width);
+  }
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+  texture.repeat.set(size / 5, size / 5);
+  texture.anisotropy = 8;
+  return texture;
+}
+
+// The soft dark spot where a round thing meets a table: the shadow map alone leaves the contact floating.
+function blobMaterial() {
+  const canvas = document.createElement("canvas");
+  const side = (canvas.width = canvas.height = 128);
+  const pen = canvas.getContext("2d");
+  const fade = pen.createRadialGradient(side / 2, side / 2, 0, side / 2, side / 2, side / 2);
+  fade.addColorStop(0, "rgba(40, 34, 26, 0.6)");
+  fade.addColorStop(0.35, "rgba(40, 34, 26, 0.25)");
+  fade.addColorStop(1, "rgba(40, 34, 26, 0)");
+  pen.fillStyle = fade;
+  pen.fillRect(0, 0, side, side);
+  return new THREE.MeshBasicMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthWrite: false });
+}
+
+// Of height 1 and radius 1, standing on its tip: scaled to the cone of the moment.
+function frictionCone() {
+  const group = new THREE.Group();
+  const see = { color: colours.friction, transparent: true, depthTest: false, depthWrite: false };
+  const side = new THREE.Mesh(
+    new THREE.ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5),
+    new THREE.MeshBasicMaterial({ ...see, opacity: 0.16, side: THREE.DoubleSide }),
+  );
+  const rim = new WideLine({ ...see, linewidth: 2, opacity: 0.8 });
+  rim.setPath(65, (i, put) => put(Math.cos((i * Math.PI) / 32), Math.sin((i * Math.PI) / 32), 1));
+  group.add(side, rim);
+  for (const part of group.children) part.renderOrder = 2;
+  return group;
+}

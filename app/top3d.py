@@ -1,0 +1,60 @@
+"""The top in three dimensions: the browser plays poses that were computed here, with no traffic while it plays."""
+
+from pathlib import Path
+
+import numpy as np
+import param
+from panel.custom import JSComponent
+
+REGIMES = ("rolls", "would slip here", "would lift off here")
+"""What the codes 0, 1, 2 in the last column of the frames mean."""
+
+
+def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
+    """Put a trajectory into the bytes that `Top3D.frames` takes.
+
+    All vectors in the space axes x, y, z (z up); units R, M, g.
+
+    Parameters
+    ----------
+    t : (n,) times, growing
+    quaternion : (n, 4) x, y, z, w, body to space
+    contact : (n, 2) the point of contact
+    com : (n, 3) G
+    force : (n, 3) the table's force on the top, in Mg
+    omega : (n, 3) angular velocity
+    momentum : (n, 3) angular momentum about G
+    regime : (n,) codes: 0 rolls, 1 would slip here, 2 would lift off here
+    """
+    return np.column_stack((t, quaternion, contact, com, force, omega, momentum, regime)).astype("<f4").tobytes()
+
+
+class Top3D(JSComponent):
+    """The top on its table, with its tracks and arrows, and the bar that plays it.
+
+    While it plays, and when it is moved by hand, it dispatches `tippe:clock` on the browser's window with
+    `{t, index, playing}`; it moves to the time of a `tippe:seek` with `{t}`.
+    """
+
+    _bundle = Path(__file__).parent / "static" / "tippe.js"
+
+    frames = param.Bytes(default=b"", doc="The motion, from `pack_frames`; empty where there is none.")
+    profile = param.Bytes(
+        default=b"", doc="The body's outline: float32 rows (radius, height above O along axis 3), in R."
+    )
+    mu_s = param.Number(default=0.5, bounds=(0, None), doc="Coefficient of static friction: the cone's tangent.")
+    seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
+    time = param.Number(
+        default=0.0, doc="The cursor. The browser writes it when a person moves it, not while it plays."
+    )
+    playing = param.Boolean(
+        default=True, doc="Whether it plays. Where a person prefers reduced motion it starts paused."
+    )
+    speed = param.Number(default=1 / 16, bounds=(0, None), doc="1 is the real top's own speed.")
+    show_track = param.Boolean(default=True, doc="The path of the point of contact on the table.")
+    show_com_path = param.Boolean(default=True, doc="G and its path.")
+    show_force = param.Boolean(default=True, doc="The table's force on the top.")
+    show_cone = param.Boolean(default=True, doc="The friction cone at the contact.")
+    show_omega = param.Boolean(default=True, doc="The angular velocity.")
+    show_momentum = param.Boolean(default=True, doc="The angular momentum about G.")
+    follow = param.Boolean(default=True, doc="Whether the camera goes along with the top.")
