@@ -18,16 +18,20 @@ from .curve import (
 )
 from .errors import NoMotionError, TopError
 from .forces import friction_force, normal_force
+from .rolling import Rolling, roll
 from .top import Scales, Top
+from .trajectory import Trajectory
 
 __all__ = [
     "Constants",
     "NoMotionError",
+    "Rolling",
     "Scales",
     "State",
     "SteadyPrecessions",
     "Top",
     "TopError",
+    "Trajectory",
     "f",
     "f1_squared",
     "f2_squared",
@@ -37,6 +41,7 @@ __all__ = [
     "omega2",
     "omega3",
     "pole_constants",
+    "roll",
     "steady_precessions",
     "turning_points",
 ]

@@ -332,8 +332,8 @@ def at_bottom(station, rounding):
 def turning_point(curve, one, other):
     """The zero of e - U between two stations at which it differs in sign."""
     low, high = sorted((one.c, other.c))
-    finite = one.gap.is_finite() and other.gap.is_finite()
-    return solve(curve.gap if finite else curve.D, low, high)
+    through_pole = any(abs(end.c) == 1 and end.gap.is_finite() for end in (one, other))  # there D is 0 whatever e is
+    return solve(curve.gap if through_pole else curve.D, low, high)
 
 
 def turning_points(top, constants):

@@ -1,0 +1,416 @@
+"""Motion on the rough plane: exact, for any length of time, by Fourier series of one nutation.
+
+With c = cos(theta), c_dot^2 = s^2 f is analytic between its zeros c1 (inner) and c2 (outer). On c = (c1 + c2)/2 +
+(c1 - c2)/2 cos(kappa) it becomes kappa_dot^2 = Q, where s^2 f = (c1 - c)(c - c2) Q, so dt = h dkappa with h = Q^-1/2
+smooth and periodic. Q is the divided difference of s^2 f over c1, c2 and c. Written out by the product rule of divided
+differences, nothing cancels however near c1 and c2 are to each other: a steady precession is no special case.
+
+Integrals over kappa by the midpoint rule converge geometrically, and so do the Fourier coefficients in the phase
+tau = 2 pi t/T, for which kappa need not be inverted: the coefficient of sin(k tau) in kappa - tau is
+2/(pi k) times the integral of cos(k tau(kappa)) from 0 to pi (Bessel's solution of Kepler's equation).
+
+Near a pole phi and psi turn by nearly pi at once, and at the pole they mean nothing. With v = 1 - c, m = 1 + c,
+
+    q_x + i q_y = sin(theta/2) exp i(phi - psi)/2 = (v1^1/2 cos(kappa/2) +- i v2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_-
+    q_w + i q_z = cos(theta/2) exp i(phi + psi)/2 = (m1^1/2 cos(kappa/2) +- i m2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_+
+
+(the sign that of d, see curve.py) take all of that turn into the first factor, exactly, because f1 = f2 at the poles; the
+rates of sigma_- and sigma_+ are smooth for every trajectory, also through a pole. So is the velocity of the contact point.
+"""
+
+from decimal import Decimal, localcontext
+from functools import cached_property
+
+import numpy as np
+from scipy.fft import dct, dst
+
+from .constants import EXACT, Exact, State, f1_2, f2_2, f3_2, versines
+from .curve import ExactCurve, Well, near_pole, omega2_at, pole_constants, wells
+from .errors import TopError
+from .forces import contact_force
+from .trajectory import Trajectory, checked_times
+
+_NODES_MOST = 2**18  # enough for energies that differ from the one of a merging by the last digit of a float
+
+
+def roll(top, constants, times, start="inner", well=0):
+    """The motion without slipping at the given times: Trajectory. Exact to rounding for times of any length.
+
+    constants: K_J, K_R and E, numbers; or None where start is a State.
+    times: (n,) in (R/g)^1/2, in any order; the motion starts at times[0].
+    start: "inner" or "outer" turning point, or a State. phi = psi = 0 and the contact point at the origin at times[0]
+    unless the State says otherwise. well: the row of turning_points in which to move, where there are several.
+    Raises TopError (NoMotionError where the energy is below every well).
+    """
+    return Rolling(top, constants, start, well)(times)
+
+
+class Rolling:
+    """The motion without slipping as a function of time since its start: arguments as in roll().
+
+    period (of the nutation, in (R/g)^1/2), phi_advance and psi_advance (rad in a period);
+    theta(times) alone, or called with times for the whole Trajectory.
+    """
+
+    def __init__(self, top, constants, start="inner", well=0):
+        self.top = top
+        with localcontext(EXACT):
+            if isinstance(start, State):
+                exact, (inner, outer), here = _from_state(top, constants, start)
+            else:
+                exact, (inner, outer) = _from_constants(top, constants, start, well)
+                here = inner if start == "inner" else outer
+            curve = ExactCurve(top, exact)
+            self.gaps = tuple(float(curve.pole_gap(Decimal(pole))) for pole in (1, -1))
+            self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
+            self.width = float(inner - outer)
+            here = 2 * np.arctan2(float(inner - here) ** 0.5, float(here - outer) ** 0.5) if inner > outer else 0.0
+            self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
+        self.start = start if isinstance(start, State) else State(0.0, 0.0, 0.0, 0.0)
+        self._start_kappa = -here if isinstance(start, State) and start.theta_dot < 0 else here
+
+    # ---- one nutation, on nodes in kappa ----
+
+    def _h(self, v, m):
+        """dt/dkappa = Q^-1/2 at v = 1 - c, m = 1 + c."""
+        top, c, c1, c2 = self.top, 1 - v, 1 - self.v1, 1 - self.v2
+        gamma, a = top.I3 / top.I1, top.a
+        # second divided differences over (c1, c2, c), first ones over (c1, c2) and (c2, c), of y = f3,
+        y1, y2, y = (np.sqrt(f3_2(*place, top)) for place in ((c1, self.v1 * self.m1), (c2, self.v2 * self.m2), (c, v * m)))
+        y_12 = ((gamma - 1) * (c1 + c2) - 2 * gamma * a) / (y1 + y2)
+        y_2c = ((gamma - 1) * (c2 + c) - 2 * gamma * a) / (y2 + y)
+        y_12c = (gamma - 1 - y_12 * y_2c) / (y1 + y)
+        # of 1/f3,
+        r_12, r_2c = -y_12 / (y1 * y2), -y_2c / (y2 * y)
+        r_12c = -(y_12c / y1 + r_12 * y_2c) / y
+        # of B = K_J - (I3/I1) K_R (c - a)/f3,
+        k = -gamma * self.K_R
+        B_12, B_2c, B_12c = k * ((c1 - a) * r_12 + 1 / y2), k * ((c2 - a) * r_2c + 1 / y), k * ((c1 - a) * r_12c + r_2c)
+        B1, B2, B = self._bracket(self.v1, self.m1), self._bracket(self.v2, self.m2), self._bracket(v, m)
+        # of f2^2 B^2, and of s^2 (2E' - 2a(1 - c))
+        F1, F_12, F_12c = f2_2(c1, self.v1 * self.m1, top), (1 - 1 / gamma) * (c1 + c2) - 2 * a, 1 - 1 / gamma
+        kinetic = F1 * (B1 * B_12c + B_12 * B_2c + B_12c * B) + F_12 * B_2c * (B2 + B) + F_12c * B * B
+        potential = -(self.e - 2 * a) - 2 * a * (c1 + c2 + c)
+        Q = (kinetic - potential) / f1_2(c, top)
+        if self.width == 0 and not np.all(Q > 0):
+            return np.ones_like(Q)  # at rest on an unstable steady precession: any rate of kappa will do
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return 1 / np.sqrt(Q)
+
+    def _bracket(self, v, m):
+        d, x, C = near_pole(v, m, self.top, self.K_R, self.gaps)
+        return d + x * C
+
+    def _nodes(self, n):
+        """n midpoints of kappa in (0, pi): (cos(kappa/2), sin(kappa/2)), v, m, h."""
+        half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
+        ch, sh = np.cos(half), np.sin(half)
+        v, m = self.v1 + self.width * sh**2, self.m2 + self.width * ch**2
+        return ch, sh, v, m, self._h(v, m)
+
+    def _resolved(self, n, *rates):
+        """Whether n midpoints resolve even periodic functions of kappa; and their cosine coefficients."""
+        coefficients = dct(np.array(rates), type=2, axis=1) / n
+        size = np.abs(coefficients)
+        tail, noise = size[:, n // 2 :].max(axis=1), size[:, 7 * n // 8 :].max(axis=1)
+        scale = np.maximum(size.max(axis=1), size[0].max())
+        flat = (noise > tail / 8) & (tail < 1e-11 * scale)
+        return bool(np.all((tail < 1e-15 * scale) | flat)), coefficients
+
+    @cached_property
+    def _time(self):
+        """Nodes enough for h, period, and tau at the nodes."""
+        n = 32
+        while True:
+            nodes = self._nodes(n)
+            if np.all(np.isfinite(nodes[-1])):
+                good, (h,) = self._resolved(n, nodes[-1])
+                if good:
+                    return n, nodes, h[0] * np.pi, _phase(h)
+            n *= 2
+            if n > _NODES_MOST:
+                raise TopError("E", (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2,
+                               "an energy off that of an unstable steady precession",
+                               "There the nutation takes for ever; change E in its last digits.")  # fmt: skip
+
+    @property
+    def period(self):
+        """Period of the nutation in (R/g)^1/2."""
+        return self._time[2]
+
+    @cached_property
+    def _kappa(self):
+        """Sine coefficients in tau of kappa - tau."""
+        n = self._time[0]
+        while True:
+            (h,) = dct(self._nodes(n)[-1][None], type=2, axis=1) / n
+            tau = _phase(h)
+
+            def coefficients(count, n=n, tau=tau):
+                k = np.arange(1, count + 1)
+                return (2 / (n * k) * np.cos(np.outer(k, tau)).sum(axis=1))[None]
+
+            series = _converged(coefficients, _most(n, tau))
+            if series is not None or n >= _NODES_MOST:
+                return series[0]
+            n *= 2
+
+    @cached_property
+    def _orientation(self):
+        """Mean rates in tau and sine coefficients of sigma_- and sigma_+, and the Fourier coefficients of the contact's velocity."""
+        n = self._time[0]
+        while True:
+            ch, sh, v, m, h = self._nodes(n)
+            rates = self._sigma_rates(v, m, h)
+            good, (h_k, minus, plus) = self._resolved(n, h, *rates)
+            tau = _phase(h_k)
+            mean = np.array([minus[0] / 2, plus[0] / 2])  # over kappa, and so over tau
+            turn = _integral(minus) + _integral(plus) - mean.sum() * tau
+            # velocity of the contact point, (w2 c - w3 s, -w1) in the turning axes, less the mean turn
+            A = self._pole_factor(ch, sh, 0) * self._pole_factor(ch, sh, 1)
+            w1, w2, w3 = self._omega(ch, sh, v, m, h)
+            s = np.sqrt(v * m)
+            direction = np.where(s > 0, A / np.where(s > 0, s, 1), 1)
+            velocity = direction * np.exp(1j * turn) * (w2 * (1 - v) - w3 * s - 1j * w1) * h * 2 / (h_k[0] * n)
+
+            def coefficients(count, n=n, tau=tau, rates=rates, velocity=velocity):
+                k = np.arange(1, count + 1)
+                wave = np.exp(-1j * np.outer(k, tau))
+                sigma = 2 / n * (wave.real @ rates.T).T / k
+                return np.array([*sigma, (wave @ velocity).real, (wave.conj() @ velocity).real])
+
+            series = _converged(coefficients, _most(n, tau)) if good else None
+            if series is not None or n >= _NODES_MOST:
+                return mean, *series, velocity.sum().real
+            n *= 2
+
+    def _sigma_rates(self, v, m, h):
+        """d sigma_-/dkappa and d sigma_+/dkappa: half of phi_dot (1 + c) - w3 and of phi_dot (1 - c) + w3, less the pole's."""
+        w3 = self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
+        (north, south), rates = self.gaps, []
+        for x, x1, x2, d, sign in ((v, self.v1, self.v2, north, -1), (m, self.m1, self.m2, south, 1)):
+            B = self._bracket(v, m)
+            near = v <= m if sign < 0 else m <= v
+            _, _, C = near_pole(v, m, self.top, self.K_R, self.gaps)
+            with np.errstate(invalid="ignore", divide="ignore"):
+                slope = np.where(near, C, (B - d) / x)
+                peak = np.where(x > 0, (h * d - np.copysign(np.sqrt(x1 * x2), d)) / np.where(x > 0, x, 1), 0)
+            rates.append((peak + h * (slope + sign * w3)) / 2)
+        return np.array(rates)
+
+    def _pole_factor(self, ch, sh, pole):
+        x1, x2 = ((self.v1, self.v2), (self.m1, self.m2))[pole]
+        return x1**0.5 * ch + 1j * np.copysign(x2**0.5, self.gaps[pole]) * sh
+
+    def _omega(self, ch, sh, v, m, h):
+        """omega about 1', 2', 3."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            w1 = np.where(self.width > 0, self.width * sh * ch / (h * np.sqrt(v * m)), 0.0)
+        at_pole = (v == 0) | (m == 0)
+        if np.any(at_pole):  # theta_dot turns its sign there; the limit from after the pole
+            w1 = np.where(at_pole, self.width**0.5 / (h * 2**0.5), w1)
+        w2 = omega2_at(v, m, self.top, self.K_R, self.gaps)
+        return w1, w2, self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
+
+    # ---- at any time ----
+
+    def _clock(self, times):
+        """Whole periods (n,) and phase tau (n,) in [-pi, pi] at the times."""
+        t = checked_times(times)
+        T = self.period
+        # remainders of floats are exact: the phase is as smooth in t after 10,000 periods as in the first
+        passed = t - t[0]
+        rest = np.remainder(passed, T)
+        turns = np.round((passed - rest) / T)
+        tau = rest * (2 * np.pi / T) + self._start_tau
+        over = np.round(tau / (2 * np.pi))
+        return turns + over, tau - 2 * np.pi * over
+
+    @cached_property
+    def _start_tau(self):
+        n, nodes, period, tau = self._time
+        kappa = abs(self._start_kappa)
+        if kappa in (0.0, np.pi):
+            return self._start_kappa
+        k = np.arange(1, n)
+        h = dct(nodes[-1], type=2) / n
+        return np.copysign((h[0] / 2 * kappa + (h[1:] / k) @ np.sin(k * kappa)) * 2 / h[0], self._start_kappa)
+
+    def theta(self, times):
+        """theta (n,) in rad at the times (n,)."""
+        _, tau = self._clock(times)
+        half = (tau + _evaluate(tau, self._kappa[None])[0]) / 2
+        return 2 * np.arctan2(*(np.sqrt(x) for x in self._versines(np.cos(half), np.sin(half))))
+
+    def _versines(self, ch, sh):
+        return self.v1 + self.width * sh**2, self.m2 + self.width * ch**2
+
+    @cached_property
+    def phi_advance(self):
+        """Advance of phi in a period, rad."""
+        return 2 * np.pi * self._orientation[0].sum() + np.pi * sum(np.copysign(1, d) for d in self.gaps)
+
+    @cached_property
+    def psi_advance(self):
+        """Advance of psi in a period, rad."""
+        north, south = (np.copysign(1, d) for d in self.gaps)
+        return 2 * np.pi * (self._orientation[0] @ (-1, 1)) + np.pi * (south - north)
+
+    def _motion(self, turns, tau):
+        """All that depends on the phase alone: half-angle, sigma_-, sigma_+ and the contact point from tau = 0 of period 0."""
+        mean, minus, plus, forward, backward, constant = self._orientation
+        rate = mean.sum()
+        k = np.arange(1, len(minus) + 1)
+        resonant = -round(rate)
+        x = rate + resonant  # the one term of the velocity that may hardly turn, taken by itself
+        amplitude = constant if resonant == 0 else 0.0
+        denominators = []
+        for sign, p in ((1, forward), (-1, backward)):
+            turning = sign * k + rate
+            hit = sign * k == resonant
+            amplitude = p[hit][0] if hit.any() else amplitude
+            denominators.append(np.where(hit, 0, p / np.where(hit, 1, turning)))
+        ahead, back = denominators
+        still = 0.0 if resonant == 0 else constant / rate
+        sines = np.zeros((4, max(len(k), len(self._kappa))))
+        sines[0, : len(self._kappa)] = self._kappa
+        sines[1:, : len(k)] = minus, plus, ahead - back
+        kappa, minus_t, plus_t, Y_re = _evaluate(tau, sines)
+        Y_im = _evaluate(tau, (ahead + back)[None], cosine=True)[0]
+        scale = self.period / (2 * np.pi)
+        Y, Y0 = Y_re - 1j * (Y_im + still), -1j * ((ahead + back).sum() + still)
+        whole = np.exp(2j * np.pi * np.remainder(turns * x, 1))
+        along = whole * tau * np.exp(0.5j * x * tau) * np.sinc(x * tau / (2 * np.pi)) + 2 * np.pi * turns * np.exp(
+            1j * np.pi * x * turns) * np.sinc(x * turns)  # fmt: skip
+        contact = scale * (whole * np.exp(1j * rate * tau) * Y - Y0 + amplitude * along)
+        sigma = [2 * np.pi * turns * mu + mu * tau + series for mu, series in zip(mean, (minus_t, plus_t), strict=True)]
+        return (tau + kappa) / 2, *sigma, contact
+
+    def __call__(self, times):
+        """The Trajectory at the times (n,)."""
+        top, start, t = self.top, self.start, checked_times(times)
+        turns, tau = self._clock(t)
+        first = self._state(np.array([0.0]), np.array([self._start_tau]))
+        now = self._state(turns, tau)
+        d_phi, d_psi = start.phi - first["phi"][0], start.psi - first["psi"][0]
+        x, y = start.x, start.y
+        lean = 1j * first["s_exp_phi"][0] * np.exp(1j * d_phi) * top.a  # from the contact point to G
+        origin = complex(0 if x is None else x - lean.real, 0 if y is None else y - lean.imag)
+        contact = (now["contact"] - first["contact"][0]) * np.exp(1j * d_phi) + origin
+        v, m = now["v"], now["m"]
+        w = np.array(now["omega"])
+        G = contact + 1j * now["s_exp_phi"] * np.exp(1j * d_phi) * top.a
+        xy, zw = now["xy"] * np.exp(0.5j * (d_phi - d_psi)), now["zw"] * np.exp(0.5j * (d_phi + d_psi))
+        force = contact_force(v, m, top, self.K_R, w[0], w[0] ** 2, w[1], w[2])
+        return Trajectory(
+            top=top, t=t, theta=now["theta"], phi=now["phi"] + d_phi, psi=now["psi"] + d_psi,
+            quaternion=np.stack([xy.real, xy.imag, zw.imag, zw.real], axis=1),
+            contact=np.stack([contact.real, contact.imag], axis=1),
+            com=np.stack([G.real, G.imag, 1 - top.a + top.a * v], axis=1),
+            omega=w.T.copy(), slip=np.zeros((len(t), 2)), force=np.stack(force, axis=1),
+            regime=np.full(len(t), "roll"))  # fmt: skip
+
+    def _state(self, turns, tau):
+        half, minus, plus, contact = self._motion(turns, tau)
+        ch, sh = np.cos(half), np.sin(half)
+        v, m = self._versines(ch, sh)
+        parity = np.where(np.remainder(turns, 2) == 1, -1.0, 1.0)
+        north, south = self._pole_factor(ch, sh, 0), self._pole_factor(ch, sh, 1)
+        # at the pole itself phi is the one just after it
+        angles = [np.where(z == 0, np.copysign(np.pi / 2, d), np.angle(z)) + np.pi * turns * np.copysign(1, d)
+                  for z, d in zip((north, south), self.gaps, strict=True)]  # fmt: skip
+        minus_exp, plus_exp = np.exp(1j * minus), np.exp(1j * plus)
+        return {
+            "theta": 2 * np.arctan2(np.sqrt(v), np.sqrt(m)), "v": v, "m": m,
+            "phi": plus + minus + angles[0] + angles[1], "psi": plus - minus + angles[1] - angles[0],
+            "xy": parity * north * minus_exp * 0.5**0.5, "zw": parity * south * plus_exp * 0.5**0.5,
+            "s_exp_phi": north * south * minus_exp * plus_exp, "contact": contact,
+            "omega": self._omega(ch, sh, v, m, self._h(v, m))}  # fmt: skip
+
+
+def _from_constants(top, constants, start, well):
+    if start not in ("inner", "outer"):
+        raise TopError("start", start, '"inner", "outer" or a State')
+    exact = Exact.of(constants, top)
+    found = wells(top, exact)
+    if isinstance(well, bool) or well not in range(len(found)):
+        raise TopError("well", well, f"0 to {len(found) - 1}, a row of turning_points")
+    return exact, found[well]
+
+
+def _from_state(top, constants, state):
+    exact = Exact.of_state(state, top)
+    v, m = (float(x) for x in versines(state.theta))
+    here = 1 - Decimal(v) if v <= m else Decimal(m) - 1
+    rolling = {"vx": state.omega2 * (float(here) - top.a) - state.omega3 * np.sin(state.theta),
+               "vy": -state.theta_dot * (1 - top.a * float(here))}  # fmt: skip
+    for name, value in rolling.items():
+        given = getattr(state, name)
+        if given is not None and abs(given - value) > 1e-9 * max(1, abs(value)):
+            raise TopError(name, given, f"{value:.10g}, G's velocity when the top rolls", "Leave it out for a rolling top.")
+    if constants is not None:
+        own = Exact.of(constants, top)
+        for name in ("K_J", "K_R"):
+            if abs(getattr(own, name) - getattr(exact, name)) > Decimal("1e-9") * max(1, abs(getattr(exact, name))):
+                raise TopError(name, getattr(constants, name), f"{float(getattr(exact, name)):.10g}, that of the State",
+                               "Give None for the constants.")  # fmt: skip
+    if state.theta_dot == 0 and ExactCurve(top, exact).N(here) == 0:
+        return exact, Well(here, here), here
+    inner, outer = min(wells(top, exact), key=lambda w: max(here - w.inner, w.outer - here))
+    return exact, Well(inner, outer), min(max(here, outer), inner)
+
+
+# ---- series ----
+
+
+def _integral(cosines):
+    """At the midpoints, the integral from 0 of the even function with these cosine coefficients."""
+    n = len(cosines)
+    k = np.arange(1, n)
+    sines = np.append(cosines[1:] / k, 0.0)
+    return cosines[0] / 2 * (np.arange(n) + 0.5) * np.pi / n + dst(sines, type=3) / 2
+
+
+def _phase(h):
+    """tau at the midpoints, from the cosine coefficients of h."""
+    return _integral(h) * 2 / h[0]
+
+
+def _most(n, tau):
+    """The harmonics of tau that n midpoints of kappa resolve."""
+    return int(n / (np.diff(tau).max() * n / np.pi))
+
+
+def _converged(coefficients, most):
+    """coefficients(count) (rows, count), with count doubled until all rows have ended; None where that takes over `most`.
+
+    A row has ended where its last quarter is rounding: below 1e-16 of the sum of its sizes, or small and no longer falling.
+    """
+    count = 8
+    while count < most:
+        count = min(2 * count, most)
+        size = np.abs(rows := coefficients(count))
+        scale = np.maximum(1, size.sum(axis=1))
+        last, before = (part.max(axis=1) for part in (size[:, 3 * count // 4 :], size[:, count // 2 : 3 * count // 4]))
+        if np.all((last < 1e-16 * scale) | ((last < 1e-12 * scale) & (last > before / 4))):
+            kept = np.flatnonzero((size > np.maximum(1e-17 * scale, 2 * last)[:, None]).any(axis=0))
+            return rows[:, : kept[-1] + 1 if kept.size else 1]
+    return None
+
+
+def _evaluate(tau, rows, cosine=False):
+    """(rows, n): the sums over k >= 1 of rows[:, k - 1] sin(k tau), or cos(k tau)."""
+    count = rows.shape[1]
+    out = np.empty((len(rows), len(tau)))
+    step = max(1, 2**18 // count)
+    for i in range(0, len(tau), step):
+        z = np.exp(1j * tau[i : i + step])
+        wave = np.empty((count, len(z)), complex)
+        wave[0] = z
+        done = 1
+        while done < count:
+            more = min(done, count - done)
+            np.multiply(wave[:more], wave[done - 1], out=wave[done : done + more])
+            done += more
+        out[:, i : i + step] = rows @ np.ascontiguousarray(wave.real if cosine else wave.imag)
+    return out
