@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { colours } from "./colours.js";
 
-const AROUND = 72;
+const AROUND = 56;
 const CORNER = 0.35; // rad: a sharper bend than this is an edge of the wood, not a curve
 
 // Rows of (radius, height, normal r, normal z, share of the outline's length); a corner has two, one for each side.
@@ -117,7 +117,6 @@ function paint(firstCorner) {
   const texture = new THREE.CanvasTexture(canvas);
   texture.colorSpace = THREE.SRGBColorSpace;
   texture.wrapS = THREE.RepeatWrapping;
-  texture.anisotropy = 4;
   return texture;
 }
 

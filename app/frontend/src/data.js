@@ -7,12 +7,11 @@ export function float32(bytes) {
   return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength >> 2);
 }
 
-// The largest of 1, 2, 5 times a power of ten that is at most x.
-export function niceBelow(x) {
+// The least of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is at least x: a number to put on a scale.
+export function niceAbove(x) {
   if (!(x > 0) || !isFinite(x)) return 1;
   const decade = 10 ** Math.floor(Math.log10(x));
-  const digits = x / decade;
-  return decade * (digits >= 5 ? 5 : digits >= 2 ? 2 : 1);
+  return decade * [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((digits) => digits * decade >= x * (1 - 1e-9));
 }
 
 // Calls run once before the next paint, however often it was asked for in between.

@@ -24,8 +24,8 @@ export class Frames {
     return this.rows[i * WIDTH + T];
   }
 
-  contact(i, put, height) {
-    put(this.rows[i * WIDTH + CONTACT], this.rows[i * WIDTH + CONTACT + 1], height);
+  contact(i) {
+    return [this.rows[i * WIDTH + CONTACT], this.rows[i * WIDTH + CONTACT + 1]];
   }
 
   com(i, put) {

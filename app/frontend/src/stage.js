@@ -2,8 +2,15 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-const SLOW_MS = 24; // a picture that takes longer than this to come out is drawn at half the screen's rate
-const CAPPED_MS = 30;
+// Where WebGL is drawn by the processor, moving pictures leave time for the rest of the page, and get coarser until they
+// do; a picture at rest is always drawn fine.
+const SLOW_MS = 24; // a picture that takes longer than this to come out
+const REST = 1.6; // is followed by the next one after this many times as long
+const COARSER_MS = 34;
+const FINER_MS = 20;
+const STEP = 0.8;
+const COARSEST = 0.5;
+const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
 const MAX_PIXEL_RATIO = 2;
 
 export class Stage {
@@ -13,12 +20,14 @@ export class Stage {
     this.tick = tick;
     this.fit = fit;
     this.inView = true;
-    this.cost = 0;
+    this.cost = 0; // ms until a drawn picture is out, a running mean
+    this.coarse = 1;
+    this.tries = 0;
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(fov, 1, 0.1, 150);
     this.camera.up.set(0, 0, 1); // physics: z is up
     this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "low-power" });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MAX_PIXEL_RATIO));
+    this.setFineness(1);
 
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
@@ -90,22 +99,33 @@ export class Stage {
   frame = (now) => {
     this.request = 0;
     if (this.disposed || !this.holder.isConnected) return;
-    if (this.drawnAt && now > this.drawnAt) {
-      if (!this.costed) {
-        // The first frame after a drawn one comes late by what the drawing took.
-        this.cost += 0.1 * (Math.min(now - this.drawnAt, 250) - this.cost);
-        this.costed = true;
-      }
-      if (this.cost > SLOW_MS && now - this.drawnAt < CAPPED_MS) return this.invalidate();
+    if (this.moving && !this.costed) {
+      // The first frame after a drawn one comes late by what the drawing took.
+      this.cost += 0.15 * (Math.min(now - this.drawnAt, 250) - this.cost);
+      this.costed = true;
+      if (this.cost > COARSER_MS && this.coarse > COARSEST) this.setCoarse(Math.max(this.coarse * STEP, COARSEST));
+      else if (this.cost < FINER_MS && this.coarse < 1 && this.tries++ < MOST_TRIES) this.setCoarse(Math.min(this.coarse / STEP, 1));
     }
-    const more = this.tick(now);
+    if (this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost) return this.invalidate();
+    this.moving = this.tick(now);
     if (this.inView) {
+      this.setFineness(this.moving ? this.coarse : 1);
       this.draw();
-      this.drawnAt = more ? now : 0;
+      this.drawnAt = now;
       this.costed = false;
     }
-    if (more) this.invalidate();
+    if (this.moving) this.invalidate();
   };
+
+  setCoarse(share) {
+    this.coarse = share;
+    this.cost = (COARSER_MS + FINER_MS) / 2; // unknown again
+  }
+
+  setFineness(share) {
+    const ratio = share * Math.min(devicePixelRatio, MAX_PIXEL_RATIO);
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+  }
 
   draw() {
     if (this.disposed || this.lost || !this.width) return;

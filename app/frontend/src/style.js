@@ -4,7 +4,7 @@ export const style = `
 .tippe { display: flex; flex-direction: column; width: 100%; height: 100%; min-height: 300px; box-sizing: border-box;
   font: 13px/1.35 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif; }
 .picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: #eef1f5; }
-.picture canvas { position: absolute; inset: 0; display: block; outline: none; cursor: grab; }
+.picture canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline: none; cursor: grab; }
 .picture canvas:active { cursor: grabbing; }
 .picture canvas:focus-visible { outline: 2px solid #0072B2; outline-offset: -2px; }
 .labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: #1d2733; }

@@ -4,19 +4,23 @@ import { Arrow } from "./arrow.js";
 import { Bar } from "./bar.js";
 import { Body } from "./body.js";
 import { colours } from "./colours.js";
-import { coalesce, float32, niceBelow } from "./data.js";
+import { coalesce, float32, niceAbove } from "./data.js";
 import { emptyPose } from "./frames.js";
 import { Labels } from "./labels.js";
 import { WideLine } from "./lines.js";
 import { Player } from "./player.js";
+import { Ribbon, Thread } from "./ribbon.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "./style.js";
 
 const SKY = 0xeef1f5;
+const WOOD = 0xf6f1e9;
+const TABLE = 26; // the table's radius, in R: by there it has faded into the sky
+const SHADE = 4.5; // half the side of the square that can be in shadow
 const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
 const FOLLOW_MS = 350; // the camera follows the top's drift, not each of its small turns
 const TELL_MS = 80; // how often a scrub is told to Python
-const LONGEST = { force: 2, omega: 2.5, momentum: 1.9 }; // the longest arrow of a motion is at most this long, in R
+const LONGEST = { force: 2, omega: 2.6, momentum: 2 }; // the longest arrow of a motion is at most this long, in R
 const verdicts = [
   ["rolls", colours.normal],
   ["would slip here", colours.friction],
@@ -34,18 +38,21 @@ export function renderTop3D({ model, el, view }) {
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
   scene.background = new THREE.Color(SKY);
-  scene.fog = new THREE.Fog(SKY, 14, 34);
-  const table = new THREE.Mesh(new THREE.PlaneGeometry(80, 80), new THREE.MeshLambertMaterial({ map: gridTexture(80) }));
-  table.receiveShadow = true;
-  scene.add(table);
+  scene.fog = new THREE.Fog(SKY, 9, TABLE - 2);
+  const table = makeTable();
+  const shade = new THREE.Mesh(
+    new THREE.PlaneGeometry(2 * SHADE, 2 * SHADE),
+    new THREE.ShadowMaterial({ color: 0x2a2118, opacity: 0.34, depthWrite: false }),
+  );
+  shade.receiveShadow = true;
+  scene.add(table, shade);
   scene.add(new THREE.HemisphereLight(0xffffff, 0xb9a88f, 1.7));
   const sun = new THREE.DirectionalLight(0xfff4e2, 2.1);
   sun.castShadow = true;
   sun.shadow.mapSize.set(1024, 1024);
-  sun.shadow.radius = 5;
-  sun.shadow.bias = -0.0015;
-  sun.shadow.normalBias = 0.02;
-  Object.assign(sun.shadow.camera, { left: -4, right: 4, top: 4, bottom: -4, near: 1, far: 20 });
+  sun.shadow.radius = 3;
+  sun.shadow.bias = -0.002;
+  Object.assign(sun.shadow.camera, { left: -3.2, right: 3.2, top: 3.2, bottom: -3.2, near: 4, far: 16 });
   scene.add(sun, sun.target);
   const underneath = new THREE.Mesh(new THREE.PlaneGeometry(1.5, 1.5), blobMaterial());
   underneath.renderOrder = -1;
@@ -55,12 +62,15 @@ export function renderTop3D({ model, el, view }) {
   scene.add(body);
 
   // Paths: the whole one faintly, what has passed boldly
-  const path = (color, linewidth, opacity, depthTest = true) =>
-    new WideLine({ color, linewidth, opacity, transparent: true, depthWrite: false, depthTest });
-  const track = { whole: path(colours.theta, 2, 0.22), passed: path(colours.theta, 3.5, 0.9) };
-  const comPath = { whole: path(0x1d2733, 1.5, 0.25, false), passed: path(0x1d2733, 2, 0.8, false) };
+  const track = {
+    whole: new Ribbon(0.028, { color: colours.theta, opacity: 0.25 }),
+    passed: new Ribbon(0.045, { color: colours.theta, opacity: 0.95 }),
+  };
+  const comPath = {
+    whole: new Thread({ color: 0x1d2733, opacity: 0.3 }),
+    passed: new Thread({ color: 0x1d2733, opacity: 0.9 }),
+  };
   for (const line of [...Object.values(track), ...Object.values(comPath)]) scene.add(line);
-  comPath.whole.renderOrder = comPath.passed.renderOrder = 2;
 
   // Arrows, the friction cone, and the marks of C and G
   const arrows = {
@@ -102,7 +112,7 @@ export function renderTop3D({ model, el, view }) {
     stage.invalidate();
   });
 
-  const pose = emptyPose();
+  const moment = emptyPose(); // what Python says of player.t
   const seen = new THREE.Vector3(); // the point that the camera looks at
   const place = new THREE.Vector3();
   const forceTip = new THREE.Vector3();
@@ -114,50 +124,51 @@ export function renderTop3D({ model, el, view }) {
   function tick(now) {
     if (player.playing && player.frames.count > 1) {
       // model.seconds of the real top pass in one unit of t; speed 1 shows them at their own pace.
-      const unitsPerMs = (model.speed / (1000 * model.seconds));
+      const unitsPerMs = model.speed / (1000 * model.seconds);
       restarted = player.advance(now, unitsPerMs) || restarted;
     }
-    pose_();
+    pose();
     follow(now);
     return player.playing && player.frames.count > 1;
   }
 
   // The picture of the moment player.t
-  function pose_() {
+  function pose() {
     const { frames, place: at } = player;
     const some = frames.count > 0;
     body.visible = underneath.visible = some;
     centre.visible = some && model.show_com_path;
     if (some) {
-      frames.read(at, pose);
-      place.set(pose.contact.x, pose.contact.y, 1);
+      frames.read(at, moment);
+      place.set(moment.contact.x, moment.contact.y, 1);
       body.position.copy(place);
-      body.quaternion.copy(pose.quaternion);
+      body.quaternion.copy(moment.quaternion);
       underneath.position.set(place.x, place.y, ABOVE_TABLE / 2);
-      centre.position.copy(pose.com);
+      shade.position.set(place.x + 1.2, place.y + 1.3, ABOVE_TABLE / 3);
+      centre.position.copy(moment.com);
       sun.target.position.copy(place);
       sun.position.set(place.x - 3.2, place.y - 3.4, 8.2);
       table.position.set(Math.round(place.x / 5) * 5, Math.round(place.y / 5) * 5, 0); // the grid repeats each 5 R
-      arrows.force.colour = verdicts[pose.regime] ? [colours.normal, colours.friction, colours.omega][pose.regime] : colours.normal;
+      arrows.force.colour = verdicts[moment.regime][1];
     }
-    point("force", pose.contact, pose.force, some && model.show_force);
-    point("omega", pose.com, pose.omega, some && model.show_omega);
-    point("momentum", pose.com, pose.momentum, some && model.show_momentum);
+    point("force", moment.contact, moment.force, some && model.show_force);
+    point("omega", moment.com, moment.omega, some && model.show_omega);
+    point("momentum", moment.com, moment.momentum, some && model.show_momentum);
     tips.centre.visible = centre.visible;
-    tips.centre.at.copy(pose.com);
+    tips.centre.at.copy(moment.com);
     tips.centre.shift = [-14, 6];
 
     // As high as the arrow reaches: its tip is then inside the rim where the top can roll.
-    const height = pose.force.z * scales.force;
+    const height = moment.force.z * scales.force;
     cone.visible = some && model.show_cone && height > 1e-3 && model.mu_s > 0;
-    cone.position.copy(pose.contact);
+    cone.position.copy(moment.contact);
     cone.scale.set(height * model.mu_s, height * model.mu_s, height);
 
     const passed = Math.ceil(at);
     show(track, model.show_track, passed, frames.count);
     show(comPath, model.show_com_path, passed, frames.count);
 
-    const [word, colour] = some ? verdicts[pose.regime] : ["no motion to show", "#7a8694"];
+    const [word, colour] = some ? verdicts[moment.regime] : ["no motion to show", "#7a8694"];
     if (verdict.textContent !== word) {
       verdict.textContent = word;
       verdict.style.setProperty("--verdict", colour);
@@ -178,19 +189,17 @@ export function renderTop3D({ model, el, view }) {
   }
 
   function show(line, shown, passed, count) {
-    line.whole.segments = shown ? count - 1 : 0;
-    line.passed.segments = shown ? passed : 0;
+    line.whole.points = shown ? count : 0;
+    line.passed.points = shown ? passed + 1 : 0;
   }
 
   // The camera moves along with the top, keeping the direction a person chose.
   function follow(now) {
     const ms = lastFrame === undefined ? 0 : now - lastFrame;
     lastFrame = player.playing ? now : undefined;
-    if (!model.follow && !restarted) return;
     const share = restarted || !player.playing ? 1 : 1 - Math.exp(-ms / FOLLOW_MS);
     restarted = false;
-    if (!model.follow && camera.position.lengthSq()) return;
-    moveView((place.x - seen.x) * share, (place.y - seen.y) * share);
+    if (model.follow) moveView((place.x - seen.x) * share, (place.y - seen.y) * share);
   }
 
   function moveView(dx, dy) {
@@ -241,7 +250,7 @@ export function renderTop3D({ model, el, view }) {
   function tellTime() {
     clearTimeout(told);
     told = setTimeout(() => {
-      if (model.time !== player.t) model.time = player.t;
+      if (!player.playing && model.time !== player.t) model.time = player.t;
     }, TELL_MS);
   }
 
@@ -250,16 +259,16 @@ export function renderTop3D({ model, el, view }) {
     player.setFrames(model.frames);
     const { frames } = player;
     const most = frames.scales;
-    for (const name of Object.keys(LONGEST)) scales[name] = niceBelow(LONGEST[name] / (most[name] || 1));
+    for (const name of Object.keys(LONGEST)) scales[name] = 1 / niceAbove(most[name] / LONGEST[name]);
     scalesText.innerHTML =
       `1 <i>R</i> of arrow: ${tidy(1 / scales.force)} <i>Mg</i> (<i>F</i>), ` +
       `${tidy(1 / scales.omega)} (<i>g</i>/<i>R</i>)<sup>½</sup> (<i>ω</i>), ` +
       `${tidy(1 / scales.momentum)} <i>MR</i>²(<i>g</i>/<i>R</i>)<sup>½</sup> (<i>L</i>)<br>grid: <i>R</i>`;
-    for (const line of Object.values(track)) line.setPath(frames.count, (i, put) => frames.contact(i, put, ABOVE_TABLE));
+    for (const line of Object.values(track)) line.setPath(frames.count, (i) => frames.contact(i), ABOVE_TABLE);
     for (const line of Object.values(comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
     if (first && frames.count) {
       player.seek(model.time);
-      pose_();
+      pose();
       firstView();
     } else if (!player.playing) restarted = true;
   }
@@ -324,25 +333,36 @@ function tidy(number) {
   return String(Number(number.toPrecision(3)));
 }
 
-// A square of five by five R: a fine line each R, a stronger one each 5 R.
-function gridTexture(size) {
-  const canvas = document.createElement("canvas");
-  const side = (canvas.width = canvas.height = 1024);
-  const pen = canvas.getContext("2d");
-  pen.fillStyle = "#f6f4f0";
-  pen.fillRect(0, 0, side, side);
-  for (let i = 0; i <= 5; i++) {
-    const strong = i % 5 === 0, at = (i * side) / 5, width = strong ? 9 : 4;
-    pen.fillStyle = strong ? "#c3c9d1" : "#dcdfe3";
-    pen.fillRect(at - width / 2, 0, width, side);
-    pen.fillRect(0, at - width / 2, side, width);
+// A disc that fades into the sky, under a grid with a line each R and a stronger one each 5 R. Plain colours and lines:
+// a texture, or light worked out for each pixel of it, would cost more than all the rest of the picture.
+function makeTable() {
+  const disc = new THREE.CircleGeometry(TABLE, 48);
+  const colour = new THREE.Color(), rgb = [];
+  for (let i = 0; i < disc.attributes.position.count; i++) rgb.push(...colour.set(i ? SKY : WOOD).toArray());
+  disc.setAttribute("color", new THREE.Float32BufferAttribute(rgb, 3));
+  const table = new THREE.Mesh(
+    disc,
+    // The ground of everything, never seen from below: painted first, and then everything over it.
+    new THREE.MeshBasicMaterial({ vertexColors: true, fog: false, depthTest: false, depthWrite: false }),
+  );
+  table.renderOrder = -3;
+  for (const strong of [false, true]) {
+    const ends = [];
+    for (let at = 1 - TABLE; at < TABLE; at++) {
+      if ((at % 5 === 0) !== strong) continue;
+      const half = Math.sqrt(TABLE ** 2 - at ** 2);
+      ends.push(at, -half, 0, at, half, 0, -half, at, 0, half, at, 0);
+    }
+    const lines = new THREE.BufferGeometry();
+    lines.setAttribute("position", new THREE.Float32BufferAttribute(ends, 3));
+    const grid = new THREE.LineSegments(
+      lines,
+      new THREE.LineBasicMaterial({ color: strong ? 0xa9b0b8 : 0xd6d5d1, depthTest: false, depthWrite: false }),
+    );
+    grid.renderOrder = -2;
+    table.add(grid);
   }
-  const texture = new THREE.CanvasTexture(canvas);
-  texture.colorSpace = THREE.SRGBColorSpace;
-  texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
-  texture.repeat.set(size / 5, size / 5);
-  texture.anisotropy = 8;
-  return texture;
+  return table;
 }
 
 // The soft dark spot where a round thing meets a table: the shadow map alone leaves the contact floating.

@@ -1,0 +1,70 @@
+// A path painted on the table: a flat strip, whose points may change and whose first part can be drawn alone.
+import * as THREE from "three";
+
+export class Ribbon extends THREE.Mesh {
+  constructor(width, material) {
+    super(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide, ...material }));
+    this.halfWidth = width / 2;
+    this.frustumCulled = false;
+    this.capacity = 0;
+  }
+
+  reserve(points) {
+    if (points <= this.capacity) return;
+    this.capacity = points;
+    const index = [];
+    for (let i = 0; i + 1 < points; i++) index.push(2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 1, 2 * i + 3, 2 * i + 2);
+    const old = this.geometry;
+    this.geometry = new THREE.BufferGeometry(); // a buffer's size is fixed once it has been drawn
+    this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6 * points), 3));
+    this.geometry.setIndex(index);
+    old.dispose();
+  }
+
+  // (x, y) pairs; all at one height.
+  setPath(n, xy, height) {
+    this.reserve(n);
+    const { position } = this.geometry.attributes;
+    for (let i = 0; i < n; i++) {
+      const [x0, y0] = xy(Math.max(i - 1, 0)), [x, y] = xy(i), [x1, y1] = xy(Math.min(i + 1, n - 1));
+      const length = Math.hypot(x1 - x0, y1 - y0) || 1;
+      const dx = ((y1 - y0) / length) * this.halfWidth, dy = ((x1 - x0) / length) * this.halfWidth;
+      position.setXYZ(2 * i, x + dx, y - dy, height);
+      position.setXYZ(2 * i + 1, x - dx, y + dy, height);
+    }
+    position.needsUpdate = true;
+    this.points = n;
+  }
+
+  set points(n) {
+    this.geometry.setDrawRange(0, Math.max(6 * (n - 1), 0));
+    this.visible = n > 1;
+  }
+}
+
+// A line one pixel wide, in space.
+export class Thread extends THREE.Line {
+  constructor(material) {
+    super(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, depthWrite: false, ...material }));
+    this.frustumCulled = false;
+    this.capacity = 0;
+  }
+
+  setPath(n, point) {
+    if (n > this.capacity) {
+      this.capacity = n;
+      this.geometry.dispose();
+      this.geometry = new THREE.BufferGeometry();
+      this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * n), 3));
+    }
+    const { position } = this.geometry.attributes;
+    for (let i = 0; i < n; i++) point(i, (x, y, z) => position.setXYZ(i, x, y, z));
+    if (n) position.needsUpdate = true;
+    this.points = n;
+  }
+
+  set points(n) {
+    this.geometry.setDrawRange(0, n);
+    this.visible = n > 1;
+  }
+}
