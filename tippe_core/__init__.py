@@ -19,6 +19,7 @@ from .curve import (
 from .errors import NoMotionError, TopError
 from .forces import friction_force, normal_force
 from .rolling import Rolling, roll
+from .tielines import Tielines, figures, limit_energy, tielines
 from .top import Scales, Top
 from .trajectory import Trajectory
 
@@ -29,6 +30,7 @@ __all__ = [
     "Scales",
     "State",
     "SteadyPrecessions",
+    "Tielines",
     "Top",
     "TopError",
     "Trajectory",
@@ -36,12 +38,15 @@ __all__ = [
     "f1_squared",
     "f2_squared",
     "f3_squared",
+    "figures",
     "friction_force",
+    "limit_energy",
     "normal_force",
     "omega2",
     "omega3",
     "pole_constants",
     "roll",
     "steady_precessions",
+    "tielines",
     "turning_points",
 ]
