@@ -8,8 +8,12 @@ from mpmath import mp, mpf
 mp.dps = 50
 
 
+def _root(function, low, high):
+    return mp.findroot(function, (low, high), solver="anderson", tol=mpf(10) ** -80, verify=False)
+
+
 class Curve:
-    """theta_dot^2 = f(theta) of one top and one (K_J, K_R, E); every number is taken as the exact value of its float."""
+    """theta_dot^2 = f(theta) of one top and one (K_J, K_R, E), each taken as the exact value of its float."""
 
     def __init__(self, top, K_J, K_R, E=0):
         self.a, self.I1, self.I3 = mpf(top.a), mpf(top.I1), mpf(top.I3)
@@ -57,7 +61,7 @@ class Curve:
 
     def _lowest(self, low, high):
         """Minimum of U between two points that bracket one, as a root of U'."""
-        return mp.findroot(lambda x: mp.diff(self.U, x), (low, high), solver="anderson", tol=mpf(10) ** -60, verify=False)
+        return _root(lambda x: mp.diff(self.U, x), low, high)
 
     def steady(self, n=400):
         """Every minimum of U found on the grid, lowest first."""
@@ -76,19 +80,23 @@ class Curve:
         edges = [mpf(0)] if sign[0] else []
         for k in range(len(grid) - 1):
             if sign[k] != sign[k + 1]:
-                edges.append(mp.findroot(self.f, (grid[k], grid[k + 1]), solver="ridder", tol=mpf(10) ** -80, verify=False))
+                edges.append(_root(self.f, grid[k], grid[k + 1]))
         if sign[-1]:
             edges.append(mp.pi)
         return list(zip(edges[::2], edges[1::2], strict=True))
 
     def time(self, inner, outer, theta):
         """Time from the inner turning point out to theta, by quadrature of d theta / f^(1/2)."""
-        mean, half = (inner + outer) / 2, (outer - inner) / 2
+        width = outer - inner
 
-        def rate(kappa):
-            return half * mp.sin(kappa) / mp.sqrt(abs(self.f(mean - half * mp.cos(kappa))))
+        def rate(kappa):  # theta = mean - width/2 cos(kappa), from the nearer end so that a pole stays off
+            near_inner = inner + width * mp.sin(kappa / 2) ** 2
+            near_outer = outer - width * mp.cos(kappa / 2) ** 2
+            place = near_inner if 2 * kappa < mp.pi else near_outer
+            f = abs(self.f(place))
+            return width / 2 * mp.sin(kappa) / mp.sqrt(f) if f else mpf(0)  # a zero of f has no weight in the rule
 
-        end = mp.pi if theta == outer else mp.acos((mean - theta) / half)
+        end = mp.pi if theta == outer else 2 * mp.asin(mp.sqrt((theta - inner) / width))
         return mp.quad(rate, mp.linspace(0, end, 5))
 
     def period(self, inner, outer):

@@ -50,7 +50,7 @@ class Motion:
 
 
 def cross(p, q):
-    return np.stack([p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]])
+    return p[[1, 2, 0]] * q[[2, 0, 1]] - p[[2, 0, 1]] * q[[1, 2, 0]]
 
 
 def dot(p, q):

@@ -46,7 +46,7 @@ def test_integration_halves_its_step_without_change_and_keeps_what_must_be_kept(
 
 
 def test_integration_agrees_with_dop853_in_space_axes():
-    """A second integrator on a second set of unknowns: rotation matrix, angular momentum about G in space, O's place."""
+    """A second integrator on a second set of unknowns: rotation matrix, angular velocity in space, O's place."""
     body = BODIES[0]
     inertia = np.diag([body.I1, body.I1, body.I3])
     up = np.array([0, 0, 1.0])
@@ -83,7 +83,7 @@ def test_high_precision_period_of_the_page():
 
 
 def test_high_precision_period_is_the_rigid_bodys():
-    """Two roads to one number: quadrature of (36), and a body integrated until it is back at its inner turning point."""
+    """Two roads to one number: quadrature of (36), and a body integrated through one nutation."""
     body = BODIES[0]
     curve = Curve(body, 7, 10)
     curve = curve.at(curve.energy_of(mpf(4)))

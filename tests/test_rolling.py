@@ -1,0 +1,344 @@
+"""roll() against the rigid body that knows no constants, and against itself where the motion has a symmetry."""
+
+import numpy as np
+import pytest
+import rigid_body as rb
+from cases import CASES, LOADED, ORDINARY, PAPER, POLES, Case, digits
+from high_precision import Curve, mp, mpf
+
+from tippe_core import Constants, State, omega2, omega3, roll, steady_precessions
+from tippe_core.rolling import Rolling
+
+NUTATIONS = 50
+
+
+def samples(period, nutations=NUTATIONS):
+    return np.linspace(0, nutations * float(period), 6 * nutations + 1)
+
+
+def in_space(trajectory):
+    """Angular velocity and contact force along the space axes."""
+    phi, theta = trajectory.phi, trajectory.theta
+    x, y = np.stack([np.cos(phi), np.sin(phi), 0 * phi]), np.stack([-np.sin(phi), np.cos(phi), 0 * phi])
+    z = np.array([0, 0, 1.0])[:, None]
+    two, three = np.cos(theta) * y + np.sin(theta) * z, np.cos(theta) * z - np.sin(theta) * y
+    w1, w2, w3 = trajectory.omega.T
+    Fx, Fy, Fz = trajectory.force.T
+    return (w1 * x + w2 * two + w3 * three).T, (Fx * x + Fy * y + Fz * z).T
+
+
+def assert_same_motion(trajectory, motion, top):
+    q = motion.quaternion.astype(float)
+    q *= np.sign((q * trajectory.quaternion).sum(axis=1))[:, None]
+    contact = motion.contact.astype(float)
+    np.testing.assert_allclose(trajectory.quaternion, q, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(trajectory.contact, contact, rtol=0, atol=1e-9)
+    axis = rb.rotate(motion.quaternion.T, np.array([0, 0, 1.0])[:, None] * np.ones(len(q))).T
+    centre = np.column_stack([contact, np.ones(len(q))]) - top.a * axis.astype(float)
+    np.testing.assert_allclose(trajectory.com, centre, rtol=0, atol=1e-9 * (1 + abs(top.a)))
+    # the turning axes have no direction at a pole itself
+    off = np.sin(trajectory.theta) > 1e-6
+    omega, force = in_space(trajectory)
+    expected, pushed = motion.omega.astype(float), motion.force.astype(float)
+    np.testing.assert_allclose(omega[off], expected[off], rtol=0, atol=1e-8 * max(1, np.abs(expected).max()))
+    np.testing.assert_allclose(force[off], pushed[off], rtol=0, atol=1e-8 * max(1, np.abs(pushed).max()))
+    np.testing.assert_array_equal(trajectory.slip, 0)
+    assert set(trajectory.regime) == {"roll"}
+
+
+def first_instant(trajectory):
+    """(quaternion, omega along the body's axes) that the rigid body takes over."""
+    psi = trajectory.psi[0]
+    return trajectory.quaternion[0], rb.to_body(psi, *trajectory.omega[0])
+
+
+FROM_OUTSIDE = ["K_J = 7", "K_J < 0", "both < 0", "shallow well", "a hair from P", "next to the inverted pole"]
+STARTS = [(name, "inner") for name in CASES] + [(name, "outer") for name in FROM_OUTSIDE]
+
+
+@pytest.mark.parametrize(("name", "start"), STARTS)
+def test_fifty_nutations(name, start):
+    """From the turning point in fifty digits, where (30) and (31) give the spins."""
+    case = CASES[name]
+    theta = case.interval[start == "outer"]
+    spins = (rb.LONG(digits(omega(theta))) for omega in (case.curve.omega2, case.curve.omega3))
+    q = rb.euler_quaternion(0, rb.LONG(digits(theta)), 0)
+    times = samples(case.period)
+    motion = rb.integrate(rb.Body.of(case.top), q, rb.to_body(0, 0, *spins), times)
+    assert_same_motion(roll(case.top, case.constants, times, start, case.row), motion, case.top)
+
+
+@pytest.mark.parametrize("start", ["inner", "outer"])
+@pytest.mark.parametrize("pole", POLES.values(), ids=POLES.keys())
+def test_fifty_nutations_through_a_pole(pole, start):
+    """The pose at the start is the top's own (at a pole the azimuth is a matter of choice); its constants must be the given ones."""
+    top, K_J, K_R, rise = pole
+    curve = Curve(top, K_J, K_R)
+    lowest = min(curve.U(x) for x in curve.grid())
+    constants = Constants(K_J, K_R, float(curve.energy_of(lowest + rise)))
+    curve = curve.at(constants.E)
+    [(inner, outer)] = curve.turning_points()
+    times = samples(curve.period(inner, outer))
+    trajectory = roll(top, constants, times, start)
+    q, omega = first_instant(trajectory)
+    found = rb.constants(rb.Body.of(top), q, omega)
+    np.testing.assert_allclose([float(x) for x in found], [K_J, K_R, constants.E], rtol=1e-14, atol=1e-14)
+    assert trajectory.theta[0] == pytest.approx(float(outer if start == "outer" else inner), abs=1e-12)
+    assert_same_motion(trajectory, rb.integrate(rb.Body.of(top), q, omega, times), top)
+
+
+@pytest.mark.parametrize("top", [PAPER, ORDINARY, LOADED], ids=["paper", "ordinary", "loaded"])
+@pytest.mark.parametrize("theta_dot", [0.4, -0.4])
+def test_fifty_nutations_from_a_state(top, theta_dot):
+    """In the middle of a nutation, inward and outward, with angles and place of its own."""
+    state = State(0.9, theta_dot, 2.0, 7.0, phi=0.4, psi=-2.0, x=3.0, y=-1.0)
+    constants = Constants.from_state(top, state.theta, state.theta_dot, state.omega2, state.omega3)
+    times = 5 + samples(Rolling(top, constants).period)
+    trajectory = roll(top, None, times, state)
+    q = rb.euler_quaternion(state.phi, state.theta, state.psi)
+    omega = rb.to_body(state.psi, state.theta_dot, state.omega2, state.omega3)
+    # x, y are G's; G lies a below O along 3, and the contact is under O
+    axis = rb.rotate(q, np.array([0, 0, 1.0]))
+    contact = np.array([state.x, state.y]) + top.a * axis[:2]
+    assert_same_motion(trajectory, rb.integrate(rb.Body.of(top), q, omega, times, contact), top)
+    np.testing.assert_allclose(trajectory.com[0, :2], [state.x, state.y], rtol=0, atol=1e-14)
+    np.testing.assert_allclose(trajectory.phi[0], state.phi, atol=1e-14)
+    np.testing.assert_allclose(trajectory.psi[0], state.psi, atol=1e-14)
+
+
+def test_a_state_at_the_pole():
+    """A top that stands upright, spins and is pushed: only its whole horizontal angular velocity means anything."""
+    state = State(0.0, 1.2, 0.0, 8.0, phi=0.3, psi=0.5)
+    times = np.linspace(0, 20, 201)
+    trajectory = roll(PAPER, None, times, state)
+    q = rb.euler_quaternion(0.3, 0.0, 0.5)
+    motion = rb.integrate(rb.Body.of(PAPER), q, rb.to_body(0.5, 1.2, 0.0, 8.0), times)
+    assert_same_motion(trajectory, motion, PAPER)
+
+
+@pytest.mark.parametrize("theta", [0.0, np.pi])
+def test_sleeping_top(theta):
+    """Upright or inverted, spinning without a push: it stays."""
+    trajectory = roll(PAPER, None, np.linspace(0, 50, 101), State(theta, 0.0, 0.0, 9.0))
+    q = rb.euler_quaternion(0, theta, 0)
+    motion = rb.integrate(rb.Body.of(PAPER), q, np.array([0, 0, 9.0]), trajectory.t)
+    assert_same_motion(trajectory, motion, PAPER)
+
+
+@pytest.mark.parametrize(
+    ("top", "K_J", "K_R"), [(PAPER, 7.0, 10.0), (PAPER, -3.0, 10.0), (ORDINARY, 20.0, 40.0), (LOADED, 3.0, -6.0)]
+)
+def test_steady_precession_stays(top, K_J, K_R):
+    """theta is constant, phi and psi turn evenly, the contact point runs on a circle: as the rigid body does from there."""
+    theta, stable = steady_precessions(top, K_J, K_R)
+    theta = theta[stable][0]
+    w2, w3 = (float(g(theta, top, Constants(K_J, K_R, 0.0))) for g in (omega2, omega3))
+    times = np.linspace(0, 30, 301)
+    trajectory = roll(top, None, times, State(theta, 0.0, w2, w3))
+    np.testing.assert_allclose(trajectory.theta, theta, rtol=0, atol=2e-15 * 4)
+    phi_dot = w2 / np.sin(theta)
+    np.testing.assert_allclose(trajectory.phi, phi_dot * times, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(trajectory.psi, (w3 - phi_dot * np.cos(theta)) * times, rtol=1e-13, atol=1e-13)
+    speed = abs(w2 * np.cos(theta) - w3 * np.sin(theta))
+    radius = speed / abs(phi_dot)
+    chord = np.hypot(*trajectory.contact.T)
+    np.testing.assert_allclose(chord, 2 * radius * abs(np.sin(phi_dot * times / 2)), rtol=0, atol=1e-9)
+    motion = rb.integrate(rb.Body.of(top), rb.euler_quaternion(0, theta, 0), rb.to_body(0, 0, w2, w3), times)
+    assert_same_motion(trajectory, motion, top)
+
+
+def test_steady_precession_given_by_its_energy():
+    """Constants of the steady precession itself, rounded to floats: found as such, not refused."""
+    curve = Curve(PAPER, 7, 10)
+    [theta] = curve.steady()
+    E = float(curve.energy_of(curve.U(theta)))
+    trajectory = roll(PAPER, Constants(7.0, 10.0, E), np.linspace(0, 100, 11))
+    np.testing.assert_allclose(trajectory.theta, float(theta), rtol=0, atol=1e-7)
+
+
+def small_rocking_period(top):
+    """physics.md, "Rocking at rest": 2 pi ((I1 + (1 - a)^2)/a)^1/2."""
+    return 2 * np.pi * np.sqrt((top.I1 + (1 - top.a) ** 2) / top.a)
+
+
+def test_small_rocking():
+    """theta goes from the pole out and back in half a rocking."""
+    E = PAPER.a * 1e-8 / 2  # up to theta = 1e-4
+    period = Rolling(PAPER, Constants(0.0, 0.0, E)).period
+    assert 2 * period == pytest.approx(small_rocking_period(PAPER), rel=1e-7)
+
+
+PHASES = ["K_J = 7", "past the equator", "deep well", "merged wells", "ordinary", "a hair from P", "nearly steady"]
+
+
+@pytest.mark.parametrize("name", PHASES)
+def test_period_and_phase_in_fifty_digits(name):
+    """The period, and where the top is at a third of the way out, at once, after 1 and after 400 nutations."""
+    case = CASES[name]
+    inner, outer = case.interval
+    rolling, period = Rolling(case.top, case.constants, well=case.row), case.curve.period(inner, outer)
+    assert rolling.period == pytest.approx(float(period), rel=1e-13)
+    theta = inner + (outer - inner) / 3
+    out = case.curve.time(inner, outer, theta)
+    for turns in (0, 1, 400):
+        t = float(turns * period + out)
+        blur = mp.sqrt(case.curve.f(theta)) * (mpf(t) - turns * period - out)  # of t as a float
+        found = rolling.theta(np.array([0.0, t]))[1]
+        assert found == pytest.approx(float(theta + blur), abs=1e-11)
+
+
+LONG_RUN = {name: CASES[name] for name in ("K_J = 7", "K_R < 0", "past P", "large energy", "shallow well",
+                                           "merged wells", "ordinary", "loaded", "ball", "nearly steady")}  # fmt: skip
+
+
+def differentiate(t, values):
+    """Derivative at the samples of the polynomial through them: barycentric, in long doubles."""
+    t, values = t.astype(rb.LONG), values.astype(rb.LONG)
+    gap = t[:, None] - t[None, :]
+    np.fill_diagonal(gap, 1)
+    scale = (t[-1] - t[0]) / 4
+    weight = 1 / np.prod(gap / scale, axis=1)
+    matrix = weight[None, :] / weight[:, None] / gap
+    np.fill_diagonal(matrix, 0)
+    np.fill_diagonal(matrix, -matrix.sum(axis=1))
+    return matrix @ values
+
+
+def window(start, width, n=48):
+    """Times near Chebyshev's over a window, each an exact float: the derivative must not see their rounding."""
+    grain = 2.0**36
+    return np.round((start + width / 2 * (1 - np.cos(np.pi * np.arange(n) / (n - 1)))) * grain) / grain
+
+
+def constants_from_poses(top, t, quaternion):
+    """Jellett, Routh and energy of each pose, with the angular velocity from the quaternion's derivative."""
+    q, rate = quaternion.astype(rb.LONG).T, differentiate(t, quaternion).T
+    spin = 2 * rb.product(np.stack([-q[0], -q[1], -q[2], q[3]]), rate)
+    inner = slice(8, -8)  # next to the ends a derivative is mostly the rounding of its samples
+    return [x[inner] for x in rb.constants(rb.Body.of(top), q.T, spin[:3].T)], spin[:3].T
+
+
+def test_the_derivative_is_sharp_enough_to_judge():
+    """On the rigid body's own poses, rounded to doubles, the recomputed constants keep to 1e-13."""
+    times = window(3.0, 0.25)
+    q, w = rb.euler_quaternion(0, 0.5, 0), rb.to_body(0, 1.0, 3.0, 8.8)
+    motion = rb.integrate(rb.Body.of(PAPER), q, w, times)
+    expected = rb.constants(rb.Body.of(PAPER), q, w)
+    found, _ = constants_from_poses(PAPER, times, motion.quaternion.astype(float))
+    for value, kept in zip(found, expected, strict=True):
+        assert np.abs(value / kept - 1).max() < 1e-13
+
+
+@pytest.mark.parametrize("nutation", [0, 10_000])
+@pytest.mark.parametrize("case", LONG_RUN.values(), ids=LONG_RUN.keys())
+def test_constants_are_kept(case, nutation):
+    """Recomputed from poses and their time derivative: K_J, K_R and E to 1e-12 over 10,000 nutations."""
+    period = float(case.period)
+    fastest = np.abs(roll(case.top, case.constants, samples(period, 1), well=case.row).omega).max()
+    times = window(nutation * period + 0.1 * period, min(0.6 * period, 6 / fastest))
+    trajectory = roll(case.top, case.constants, np.append(0.0, times), well=case.row)
+    found, _ = constants_from_poses(case.top, times, trajectory.quaternion[1:])
+    expected = (case.K_J, case.K_R, case.constants.E)
+    for name, value, kept in zip(("K_J", "K_R", "E"), found, expected, strict=True):
+        np.testing.assert_allclose(value.astype(float), kept, rtol=1e-12, atol=0, err_msg=name)
+
+
+@pytest.mark.parametrize("nutation", [0, 10_000])
+def test_constants_are_kept_through_the_pole(nutation):
+    top, K_J, K_R, rise = POLES["P"]
+    curve = Curve(top, K_J, K_R)
+    constants = Constants(K_J, K_R, float(curve.energy_of(curve.U(mpf("1e-9")) + rise)))
+    period = Rolling(top, constants).period
+    times = window((nutation - 0.15) * period if nutation else 0.85 * period, 0.3 * period)
+    trajectory = roll(top, constants, np.append(0.0, times))
+    found, _ = constants_from_poses(top, times, trajectory.quaternion[1:])
+    for name, value, kept in zip(("K_J", "K_R", "E"), found, (K_J, K_R, constants.E), strict=True):
+        np.testing.assert_allclose(value.astype(float), kept, rtol=1e-12, atol=0, err_msg=name)
+
+
+@pytest.mark.parametrize("nutation", [0, 10_000])
+def test_contact_point_runs_as_the_pose_rolls(nutation):
+    """d(track)/dt = omega x z, both from derivatives of what is returned; a track far away is rounded in its last digit."""
+    case = CASES["K_J = 7"]
+    period = float(case.period)
+    times = window((nutation + 0.1) * period, 0.6 * period)
+    trajectory = roll(case.top, case.constants, np.append(0.0, times))
+    _, spin = constants_from_poses(case.top, times, trajectory.quaternion[1:])
+    wx, wy, _ = rb.rotate(trajectory.quaternion[1:].T, spin.T)
+    velocity = differentiate(times, trajectory.contact[1:])
+    blur = np.spacing(np.abs(trajectory.contact).max()) * 48 / (times[-1] - times[0])
+    np.testing.assert_allclose(velocity[8:-8].astype(float), np.column_stack([wy, -wx])[8:-8].astype(float),
+                               rtol=0, atol=max(1e-11, 10 * blur))  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES.values(), ids=CASES.keys())
+def test_returned_constants_are_those_of_the_motion(case):
+    """Trajectory's C_J, K_R and E agree with the vectors' of the returned pose and spin: (14), (25), (6)."""
+    trajectory = roll(case.top, case.constants, samples(case.period, 3), well=case.row)
+    omega = np.stack([rb.to_body(psi, *spins) for psi, spins in zip(trajectory.psi, trajectory.omega, strict=True)])
+    jellett, routh, energy = rb.constants(rb.Body.of(case.top), trajectory.quaternion, omega)
+    for found, vectors in ((trajectory.jellett / case.top.I1, jellett), (trajectory.routh, routh),
+                           (trajectory.energy, energy)):  # fmt: skip
+        np.testing.assert_allclose(found, vectors.astype(float), rtol=1e-12, atol=1e-12)
+
+
+def test_equation_26_along_the_motion():
+    """[(I3 - I1)(I3 + 1) - I3 a^2] w3^2 - 2 C_J w_z + I1 w_z^2 = const, Isaeva's form of Routh's constant."""
+    for case in (CASES["K_J = 7"], CASES["ordinary"], CASES["merged wells"], CASES["loaded"]):
+        a, I1, I3 = case.top.a, case.top.I1, case.top.I3
+        trajectory = roll(case.top, case.constants, samples(case.period, 3), well=case.row)
+        _, w2, w3 = trajectory.omega.T
+        w_z = w3 * np.cos(trajectory.theta) + w2 * np.sin(trajectory.theta)
+        value = ((I3 - I1) * (I3 + 1) - I3 * a**2) * w3**2 - 2 * trajectory.jellett * w_z + I1 * w_z**2
+        size = np.abs(2 * trajectory.jellett * w_z).max() + np.abs(I1 * w_z**2).max() + I3 * np.abs(w3**2).max()
+        assert np.ptp(value) < 1e-13 * size * (1 + a * a)
+        assert np.ptp(w3) > 1e-3 * np.abs(w3).max()  # a motion in which the terms do vary
+
+
+def test_angles_make_the_quaternion_and_are_continuous():
+    case = CASES["large energy"]
+    trajectory = roll(case.top, case.constants, np.linspace(0, 5 * float(case.period), 2001))
+    built = np.stack([rb.euler_quaternion(*angles).astype(float)
+                      for angles in zip(trajectory.phi, trajectory.theta, trajectory.psi, strict=True)])  # fmt: skip
+    built *= np.sign((built * trajectory.quaternion).sum(axis=1))[:, None]
+    np.testing.assert_allclose(trajectory.quaternion, built, rtol=0, atol=1e-12)
+    for angle in (trajectory.phi, trajectory.psi):
+        assert np.abs(np.diff(angle)).max() < 0.5
+    assert (np.einsum("ij,ij->i", trajectory.quaternion[1:], trajectory.quaternion[:-1]) > 0).all()
+
+
+def test_many_samples_are_the_same_as_few():
+    """A time's pose does not depend on the other times, on their order, or on where the clock started."""
+    case = CASES["K_J = 7"]
+    times = np.linspace(0, 40, 1001)
+    whole = roll(case.top, case.constants, times)
+    order = np.concatenate([[0], np.random.default_rng(2).permutation(np.arange(1, 1001))])
+    shuffled = roll(case.top, case.constants, times[order])
+    np.testing.assert_allclose(shuffled.quaternion, whole.quaternion[order], rtol=0, atol=1e-14)
+    one = roll(case.top, case.constants, times[[0, 700]])
+    np.testing.assert_allclose(one.contact[1], whole.contact[700], rtol=0, atol=1e-13)
+    later = roll(case.top, case.constants, times + 16)
+    np.testing.assert_allclose(later.quaternion, whole.quaternion, rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(later.t, times + 16)
+    fast = Rolling(case.top, case.constants).theta(times)
+    np.testing.assert_allclose(fast, whole.theta, rtol=0, atol=1e-14)
+
+
+def test_backwards_in_time():
+    """Times before times[0] are the past: the rigid body from there arrives at the start."""
+    case = CASES["K_J = 7"]
+    trajectory = roll(case.top, case.constants, np.array([0.0, -3.0]), "outer")
+    omega = rb.to_body(trajectory.psi[1], *trajectory.omega[1])
+    motion = rb.integrate(rb.Body.of(case.top), trajectory.quaternion[1], omega, [-3.0, 0.0], trajectory.contact[1])
+    q = motion.quaternion[-1].astype(float)
+    np.testing.assert_allclose(q * np.sign(q @ trajectory.quaternion[0]), trajectory.quaternion[0], rtol=0, atol=1e-11)
+    np.testing.assert_allclose(motion.contact[-1].astype(float), 0, rtol=0, atol=1e-11)
+
+
+def test_case_periods_are_what_they_say():
+    """The cases stay the hard ones they are meant to be."""
+    assert CASES["a hair from P"].interval[0] < 1e-9
+    assert CASES["past the equator"].interval[1] > mp.pi / 2
+    assert len(CASES["shallow well"].curve.turning_points()) == 2
+    assert len(CASES["just merged"].curve.turning_points()) == 1
+    assert isinstance(CASES["ball"], Case)
