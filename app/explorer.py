@@ -1,0 +1,306 @@
+"""The view-model: what a person set -> one frozen Scene. The one file of the app that computes; it draws nothing.
+
+Angles in rad; lengths in R, masses in M, accelerations in g, so times in (R/g)^1/2, forces in Mg, energies in MgR.
+"""
+
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from types import MappingProxyType
+
+import numpy as np
+import param
+
+from tippe_core import (
+    Constants,
+    Rolling,
+    Scales,
+    Top,
+    TopError,
+    f,
+    figures,
+    friction_force,
+    normal_force,
+    omega2,
+    omega3,
+    pole_constants,
+    turning_points,
+)
+from tippe_core.curve import f1_squared, f2_squared
+
+ROLLS, SLIPS, LIFTS = 0, 1, 2
+WORDS = ("rolls", "would slip here", "would lift off here")
+
+NUTATIONS = 20
+FRAMES_A_NUTATION = 64
+MOST_FRAMES = 2400
+# The picture between two frames is a turn about one axis, so a frame must not turn the top far.
+MOST_TURN = 0.3
+
+LEAST_TIELINES = 48
+MESH_COLUMNS = 48
+HOVER_COLUMNS = 96
+
+# A limit that is never reached still needs a place on the energy slider: this share of the energy above the last one.
+UNLIMITED = 0.25
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Plane:
+    """What Figs. 5 and 6 show of one top at one K_R and mu_s: all tielines, whatever motion is selected.
+
+    K_J (n,) ascending; lift and slip are the two limits' tippe_core tielines over it (F_z >= 0 alone, and with
+    F_h <= mu_s F_z as well). theta, height (n, m): Fig. 5's mesh of f1^2 theta_dot^2 on the tielines of `surface`, a row
+    from its own inner to its own outer turning point. hover_theta (k,), hover_K_J (j,): where hover_E and hover_ratio
+    (j, k) are given: on each tieline of the slip limit its own motion, beyond its ends the motion of least
+    energy that gets there.
+    """
+
+    K_J: np.ndarray
+    lift: object
+    slip: object
+    surface: object
+    theta: np.ndarray
+    height: np.ndarray
+    K_J_range: tuple
+    theta_range: tuple
+    pole: float
+    pole_height: float
+    hover_theta: np.ndarray
+    hover_K_J: np.ndarray
+    hover_E: np.ndarray
+    hover_ratio: np.ndarray
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Marks:
+    """The energies that the energy control is marked with, E; inf where nothing limits, nan where even the steady
+    precession breaks the limit. nodes: the (3,) finite energies at which the control stands at 0, 1 and 2."""
+
+    steady: float
+    slip: float
+    lift: float
+    theta_steady: float
+    nodes: np.ndarray
+
+    def energy(self, share):
+        """0 the steady precession, 1 the limit of friction, 2 that of F_z; straight on beyond 2, and below 0."""
+        slopes = np.diff(self.nodes)
+        if share < 0:
+            return self.nodes[0] + share * (slopes[0] or slopes[1])
+        if share > 2:
+            return self.nodes[2] + (share - 2) * (slopes[1] or slopes[0])
+        return float(np.interp(share, (0, 1, 2), self.nodes))
+
+    def share(self, energy):
+        """The inverse of energy(share)."""
+        start, middle, end = self.nodes
+        if energy < start:
+            return (energy - start) / ((middle - start) or (end - start))
+        if energy > end:
+            return 2 + (energy - end) / ((end - middle) or (end - start))
+        if middle > start and energy <= middle:
+            return (energy - start) / (middle - start)
+        return 1 + (energy - middle) / (end - middle) if end > middle else 1.0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Scene:
+    """All that the views show. Trajectory arrays have one row a frame; vectors are along the axes of space.
+
+    ratio is F_h/F_z; regime one of ROLLS, SLIPS, LIFTS a frame; upright_spin omega_3 at theta = 0. messages: a sentence for each control that was given
+    what cannot be; the rest of the scene is then the last good one. notes: sentences about what is shown.
+    """
+
+    top: Top
+    scales: Scales
+    mu_s: float
+    constants: Constants
+    share: float
+    marks: Marks
+    plane: Plane
+    turning: tuple
+    curve: np.ndarray
+    trajectory: object
+    force: np.ndarray
+    omega: np.ndarray
+    momentum: np.ndarray
+    normal: np.ndarray
+    ratio: np.ndarray
+    regime: np.ndarray
+    K_J: np.ndarray
+    K_R: np.ndarray
+    E: np.ndarray
+    upright_spin: float
+    messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
+    notes: tuple = ()
+
+
+class Explorer(param.Parameterized):
+    """The controls. Several set in one `param.update` make one solve and one `scene` event."""
+
+    K_J = param.Number(7.0, doc="Jellett's constant, in (g/R)^1/2")
+    K_R = param.Number(10.0, doc="Routh's constant, in (MR^2)^1/2 (g/R)^1/2")
+    mu_s = param.Number(0.5, doc="coefficient of static friction")
+    energy = param.Number(0.9, doc="0 the steady precession, 1 the limit of friction, 2 the limit F_z = 0")
+    a = param.Number(0.070, doc="distance of G below the centre O of the sphere, in R")
+    I1 = param.Number(0.399, doc="moment of inertia about an axis through G across the axis of symmetry, in MR^2")
+    I3 = param.Number(0.408, doc="moment of inertia about the axis of symmetry, in MR^2")
+    upper = param.Boolean(True, doc="show the upper hemisphere, like the paper, or all of (0, pi)")
+    limit = param.Selector(default="lift-off", objects=["lift-off", "slip"], doc="which limit Fig. 5 is drawn at")
+    cursor = param.Number(0.0, doc="the time looked at, in (R/g)^1/2; moving it solves nothing")
+    scene = param.ClassSelector(class_=Scene, constant=True, doc="the last solution")
+
+    INPUTS = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3")
+
+    @param.depends(*INPUTS, "upper", "limit", watch=True, on_init=True)
+    def _solve(self):
+        try:
+            scene = solve(
+                Top(self.a, self.I1, self.I3), self.K_J, self.K_R, self.mu_s, self.energy, self.upper, self.limit)  # fmt: skip
+        except TopError as error:
+            if self.scene is None:
+                raise
+            control = {"E": "energy"}.get(error.name, error.name)
+            scene = replace(self.scene, messages=MappingProxyType({control: str(error)}))
+        with param.edit_constant(self):
+            self.scene = scene
+
+
+def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
+    """The Scene of one top and one motion. Raises TopError, whose name is the input at fault."""
+    marks = energy_marks(top, K_J, K_R, mu_s)
+    E = marks.energy(share)
+    if share < 0 or not np.isfinite(share):
+        raise TopError("E", E, f"E >= {marks.steady:.6g} MgR at K_J = {K_J:g} and K_R = {K_R:g}",
+                       "Below the steady precession there is no motion: move the energy up.")  # fmt: skip
+    constants = Constants(K_J, K_R, E)
+    wells = turning_points(top, constants)
+    well = int(np.argmin(np.abs(wells - marks.theta_steady).min(axis=1)))
+    inner, outer = wells[well]
+    rolling = Rolling(top, constants, well=well)
+    trajectory = rolling(frame_times(rolling.period, top, constants))
+
+    F_x, F_y, F_z = trajectory.force.T
+    with np.errstate(divide="ignore"):
+        ratio = np.hypot(F_x, F_y) / np.abs(F_z)
+    nodal, across, axis, towards = axes(trajectory.theta, trajectory.phi)
+    w1, w2, w3 = (component[:, None] for component in trajectory.omega.T)
+    theta = between(inner, outer, MESH_COLUMNS)
+    return Scene(
+        top=top, scales=Scales.paper(), mu_s=mu_s, constants=constants, share=share, marks=marks,
+        plane=plane(top, K_R, mu_s, upper, limit), turning=(float(inner), float(outer)),
+        curve=np.column_stack([theta, height(theta, top, constants)]), trajectory=trajectory,
+        force=F_x[:, None] * nodal + F_y[:, None] * across + F_z[:, None] * (0, 0, 1),
+        omega=w1 * nodal + w2 * towards + w3 * axis,
+        momentum=top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis,
+        normal=F_z, ratio=ratio,
+        regime=np.where(F_z < 0, LIFTS, np.where(ratio > mu_s, SLIPS, ROLLS)),
+        K_J=trajectory.jellett / top.I1, K_R=trajectory.routh, E=trajectory.energy,
+        upright_spin=float(omega3(0.0, top, constants)),
+        notes=tuple(remarks(K_J, mu_s, marks, upper)))  # fmt: skip
+
+
+def energy_marks(top, K_J, K_R, mu_s):
+    lift, slip = figures(top, [K_J], K_R, mu_s)
+    steady, E_slip, E_lift = float(lift.E_steady[0]), float(slip.E[0]), float(lift.E[0])
+    nodes = [steady]
+    for E in (E_slip, E_lift):
+        if np.isnan(E):
+            E = nodes[-1]
+        elif np.isinf(E):
+            E = nodes[-1] + UNLIMITED * (1 + abs(steady))
+        nodes.append(E)
+    if nodes[2] == nodes[0]:
+        nodes[2] += UNLIMITED * (1 + abs(steady))
+    return Marks(
+        steady=steady, slip=E_slip, lift=E_lift, theta_steady=float(lift.theta_steady[0]), nodes=np.array(nodes))  # fmt: skip
+
+
+def frame_times(period, top, constants):
+    """Some nutations in frames of equal length, short enough that the top turns little between two; (n,)."""
+    # (33) bounds the spin: no component is larger than this.
+    fastest = np.sqrt((2 * abs(constants.E) + 4 * abs(top.a)) / min(top.I1, top.I3))
+    step = min(period / FRAMES_A_NUTATION, MOST_TURN / fastest)
+    frames = min(round(NUTATIONS * period / step), MOST_FRAMES)
+    return step * np.arange(frames + 1)
+
+
+def axes(theta, phi):
+    """The axes 1', y, 3 and 2' in space, each (n, 3)."""
+    zero, s, c = np.zeros_like(theta), np.sin(theta)[:, None], np.cos(theta)[:, None]
+    nodal = np.column_stack([np.cos(phi), np.sin(phi), zero])
+    across = np.column_stack([-np.sin(phi), np.cos(phi), zero])
+    up = np.array([0.0, 0.0, 1.0])
+    return nodal, across, c * up - s * across, s * up + c * across
+
+
+def between(inner, outer, columns):
+    """Angles from inner to outer, closer together towards the ends; (..., columns)."""
+    share = (1 - np.cos(np.linspace(0, np.pi, columns))) / 2
+    inner, outer = np.asarray(inner)[..., None], np.asarray(outer)[..., None]
+    return inner + (outer - inner) * share
+
+
+def height(theta, top, constants):
+    """f1^2 theta_dot^2 of (36), and 0 at the ends of the last axis where they are turning points in (0, pi)."""
+    value = f1_squared(theta, top) * f(theta, top, constants)
+    return np.maximum(value, 0)
+
+
+@lru_cache(maxsize=8)
+def plane(top, K_R, mu_s, upper, limit):
+    """The Plane. The same arguments give the same object, so a view can tell by identity that nothing changed."""
+    poles = pole_constants(top, K_R)
+    low, high = (sorted((0.0, poles[0])) if upper else sorted(1.25 * np.array(poles)))
+    if high - low < 1e-9:
+        low, high = -1.0, 1.0
+    step = 2.0 ** np.floor(np.log2((high - low) / LEAST_TIELINES))
+    even = step * np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
+    K_J = np.union1d(even, [pole for pole in poles if low <= pole <= high])
+    lift, slip = figures(top, K_J, K_R, mu_s)
+    surface = lift if limit == "lift-off" else slip
+
+    limited = np.isfinite(surface.E)
+    theta = between(surface.theta_inner, surface.theta_outer, MESH_COLUMNS)
+    rows = Constants(K_J[:, None], K_R, np.where(limited, surface.E, surface.E_steady)[:, None])
+    heights = np.where(limited[:, None], height(theta, top, rows), np.nan)
+
+    theta_end = max(np.pi / 2, np.nanmax(lift.theta_outer, initial=0.0)) * 1.03 if upper else np.pi
+    hover_theta = theta_end * (np.arange(HOVER_COLUMNS) + 0.5) / HOVER_COLUMNS
+    own = np.isin(K_J, even)
+    hover_E, hover_ratio = everywhere(top, hover_theta, K_J[own], K_R, slip.E[own])
+    pole = poles[0]
+    at_pole = np.flatnonzero(K_J == pole)
+    return Plane(
+        K_J=K_J, lift=lift, slip=slip, surface=surface, theta=theta, height=heights,
+        K_J_range=(low, high), theta_range=(0.0, float(theta_end)), pole=float(pole),
+        pole_height=float(heights[at_pole].max(initial=0.0)) if at_pole.size else 0.0,
+        hover_theta=hover_theta, hover_K_J=even, hover_E=hover_E, hover_ratio=hover_ratio)  # fmt: skip
+
+
+def everywhere(top, theta, K_J, K_R, E_limit):
+    """E and F_h/F_z at (K_J, theta), each (len(K_J), len(theta)); F_h/F_z is inf where F_z <= 0."""
+    theta, K_J = theta[None, :], K_J[:, None]
+    w2 = omega2(theta, top, Constants(K_J, K_R, 0.0))
+    # (33) at theta_dot = 0: the least energy that gets to theta.
+    two_E_prime = 2 * top.a * (1 - np.cos(theta)) + f2_squared(theta, top) * w2**2
+    reach = (two_E_prime + K_R**2 - top.I1 / top.I3 * K_J**2) / 2
+    E = np.fmax(reach, np.where(np.isfinite(E_limit), E_limit, np.nan)[:, None])
+    constants = Constants(K_J, K_R, E)
+    F_z = normal_force(theta, top, constants)
+    F_x, F_y = friction_force(theta, top, constants)
+    # At the turning point itself rounding may leave f just below 0, and F_x, which vanishes there, without a value.
+    F_h = np.hypot(np.nan_to_num(F_x), F_y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return E, np.where(F_z > 0, F_h / F_z, np.inf)
+
+
+def remarks(K_J, mu_s, marks, upper):
+    if np.isnan(marks.lift):
+        yield "Even the steady precession would lift off: F_z < 0 at every energy."
+    elif np.isnan(marks.slip):
+        yield f"Even the steady precession would slip at mu_s = {mu_s:g}."
+    elif np.isinf(marks.lift) and np.isinf(marks.slip):
+        yield "Nothing limits this motion: it neither slips nor lifts off at any energy."
+    if upper and K_J < 0:
+        yield "This motion is in the lower hemisphere: show all of (0, π) to see its tieline."

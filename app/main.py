@@ -1,0 +1,122 @@
+"""The page, layout only: `panel serve app` finds it here."""
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+
+from app.controls import Controls
+from app.explorer import Explorer
+from app.pacing import Pacer
+from app.plots import PlaneFigure, TimeFigures, follow_clock
+from app.surface3d import Surface3D
+from app.top3d import Top3D, pack_frames
+
+INK = "#22303c"
+TYPE = """
+:host { font: 13px/1.4 system-ui, sans-serif; color: #22303c } h2 { font-size: 15px; margin: 0; font-weight: 600 }
+i, sub { font-family: Georgia, serif } i { font-size: 1.1em } .key { color: #5b6875 } .key span { white-space: nowrap }
+.axis { text-align: center } .quantity { font-size: 14px; text-align: right } b { font-weight: 600 }
+.swatch { display: inline-block; width: 18px; height: 0; border-top: 3px solid; vertical-align: middle; margin: 0 4px 0 10px }
+"""
+
+
+def words(text, **options):
+    return pn.pane.HTML(text, stylesheets=[TYPE], **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+def swatch(colour, text, style="solid"):
+    return f'<span><span class="swatch" style="border-color: {colour}; border-top-style: {style}"></span>{text}</span>'
+
+
+def card(title, *content, height="max(390px, calc(50vh - 50px))"):
+    return pn.Column(
+        words(f"<h2>{title}</h2>"), *content, sizing_mode="stretch_width", margin=0,
+        styles={"background": "white", "border-radius": "10px", "padding": "10px 14px", "height": height,
+                "box-shadow": "0 1px 3px rgb(34 48 60 / 18%)", "box-sizing": "border-box", "overflow": "hidden"})  # fmt: skip
+
+
+def plane_card(plane):
+    key = "".join((
+        swatch("#8a96a3", "tielines under both limits"), swatch("#D55E00", "verge of slipping"),
+        swatch("#009E73", "<i>F</i><sub>z</sub> = 0"), swatch(INK, "steady precession", "dashed"),
+        swatch("#fbe3d5", "lost to slipping"), swatch("#0072B2", "this motion")))  # fmt: skip
+    return card(
+        "Which motions roll: the (<i>K</i><sub>J</sub>, <i>θ</i>) plane, the paper’s Fig. 6",
+        words(f'<div class="key">{key}</div>'), words("<i>K</i><sub>J</sub>"),
+        pn.pane.Bokeh(plane.figure, sizing_mode="stretch_both", margin=0),
+        words('<div class="axis"><i>θ</i> (rad)</div>'))  # fmt: skip
+
+
+def times_card(times, scales):
+    labels = {
+        "theta": "<i>θ</i><br>rad", "normal": "<i>F</i><sub>z</sub><br><i>Mg</i>",
+        "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
+        "constants": '<span style="color:#56B4E9"><i>K</i><sub>J</sub></span><br>'
+                     '<span style="color:#CC79A7"><i>K</i><sub>R</sub></span><br><span style="color:#8C6D00"><i>E</i></span>'}  # fmt: skip
+    rows = [
+        pn.Row(
+            words(f'<div class="quantity">{labels[name]}</div>', width=46, sizing_mode="fixed", margin=(6, 0, 0, 0)),
+            pn.pane.Bokeh(figure, sizing_mode="stretch_both", margin=0), sizing_mode="stretch_both", margin=0)
+        for name, figure in times.figures.items()]  # fmt: skip
+    return card(
+        "The motion over time; click to look at an instant", *rows,
+        words('<div class="axis"><i>t</i> in (<i>R</i>/<i>g</i>)<sup>½</sup>, '
+              f"{scales.time * 1e3:.1f} ms of the real top</div>"))  # fmt: skip
+
+
+def show_top(top, scene):
+    motion = scene.trajectory
+    top.param.update(
+        mu_s=scene.mu_s, seconds=scene.scales.time,
+        frames=pack_frames(
+            motion.t, motion.quaternion, motion.contact, motion.com, scene.force, scene.omega, scene.momentum, scene.regime))  # fmt: skip
+
+
+def show_surface(surface, scene):
+    pass
+
+
+def section(title):
+    return words(f"<h2>{title}</h2>", margin=(14, 16, 0, 16))
+
+
+def page():
+    explorer = Explorer()
+    plane, times, top, surface = PlaneFigure(), TimeFigures(), Top3D(sizing_mode="stretch_both"), Surface3D(
+        sizing_mode="stretch_both")  # fmt: skip
+
+    def show_hand(scene):
+        controls.show(scene)
+        plane.show_selected(scene)
+
+    def show_rest(scene):
+        plane.show_plane(scene)
+        times.show(scene)
+        show_surface(surface, scene)
+        show_top(top, scene)
+
+    pacer = Pacer(explorer, show_hand, show_rest)
+    controls = Controls(explorer, pacer)
+    for stage in pacer.stages:
+        stage(explorer.scene)
+    follow_clock(pn.state.curdoc, plane, times)
+
+    hemisphere = pmui.RadioButtonGroup.from_param(
+        explorer.param.upper, label="", options={"upper hemisphere": True, "all of (0, π)": False}, size="small")  # fmt: skip
+    limit = pmui.RadioButtonGroup.from_param(
+        explorer.param.limit, label="", options={"Fig. 5 at F_z = 0": "lift-off", "at slipping": "slip"}, size="small")  # fmt: skip
+    sidebar = [
+        section("The motion"), *controls.views("K_J", "K_R", "energy"), section("The table"), *controls.views("mu_s"),
+        section("The top"), *controls.views("a", "I1", "I3"), section("The pictures"), hemisphere, limit, pacer.painted]  # fmt: skip
+    main = pn.Column(
+        card("The top", top), plane_card(plane), card("f₁²θ̇² over the plane: the paper’s Fig. 5", surface),
+        times_card(times, explorer.scene.scales), sizing_mode="stretch_width", margin=0,
+        styles={"display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 480px), 1fr))", "gap": "12px",
+                "padding": "12px"})  # fmt: skip
+    return pmui.Page(
+        title="Tippe top explorer", sidebar=sidebar, main=[main], sidebar_width=320, theme_toggle=False,
+        busy_indicator=None)  # fmt: skip
+
+
+pn.extension()
+page().servable()
