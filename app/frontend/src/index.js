@@ -1,4 +1,5 @@
+import { renderSurface3D } from "./surface3d.js";
 import { renderTop3D } from "./top3d.js";
 
 // Panel looks a component up by its Python class's name.
-export default { Top3D: { render: renderTop3D } };
+export default { Surface3D: { render: renderSurface3D }, Top3D: { render: renderTop3D } };

@@ -40,7 +40,6 @@ export class Stage {
     this.controls.enablePan = false;
     canvas.style.touchAction = "pan-y"; // a finger moving up or down scrolls the page, as it does everywhere else
     this.controls.addEventListener("change", () => this.invalidate());
-    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
     // The wheel scrolls the page until a person has clicked the picture.
     holder.addEventListener(
       "wheel",

@@ -44,6 +44,11 @@ export const style = `
 .readout { position: absolute; left: 0; top: 0; padding: 6px 10px; border-radius: 8px; background: #ffffffee; color: #1d2733;
   box-shadow: 0 1px 6px #0003; pointer-events: none; white-space: nowrap; font-size: 12px; font-variant-numeric: tabular-nums; }
 .readout i { font-family: "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; font-size: 14px; }
+.key { position: absolute; left: 12px; bottom: 10px; display: flex; flex-wrap: wrap; gap: 2px 14px; font-size: 12px; color: #3a4552;
+  pointer-events: none; }
+.key span::before { content: ""; display: inline-block; width: 16px; height: 3px; margin: 0 6px 3px 0; vertical-align: middle;
+  background: var(--swatch); }
+.key sub { font-size: 70%; line-height: 0; }
 @media (max-width: 600px) {
   .bar .shows { margin-left: 0; }
   .scales { display: none; }

@@ -350,8 +350,9 @@ function makeTable() {
     const ends = [];
     for (let at = 1 - TABLE; at < TABLE; at++) {
       if ((at % 5 === 0) !== strong) continue;
-      const half = Math.sqrt(TABLE ** 2 - at ** 2);
-      ends.push(at, -half, 0, at, half, 0, -half, at, 0, half, at, 0);
+      const half = Math.floor(Math.sqrt(TABLE ** 2 - at ** 2) / 2) * 2;
+      // In short pieces: some software renderers drop a line that begins behind the eye.
+      for (let from = -half; from < half; from += 2) ends.push(at, from, 0, at, from + 2, 0, from, at, 0, from + 2, at, 0);
     }
     const lines = new THREE.BufferGeometry();
     lines.setAttribute("position", new THREE.Float32BufferAttribute(ends, 3));

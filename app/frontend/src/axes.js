@@ -1,0 +1,113 @@
+// The box round a surface: floor and back walls with a grid, ticks and names on the edges nearest to the eye.
+import * as THREE from "three";
+
+// About `wanted` round numbers from low to high.
+function roundTicks(low, high, wanted) {
+  const raw = (high - low) / wanted, decade = 10 ** Math.floor(Math.log10(raw));
+  const step = decade * [1, 2, 2.5, 5, 10].find((digits) => digits * decade >= raw * (1 - 1e-9));
+  const ticks = [];
+  for (let i = Math.ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; i++) ticks.push(i * step);
+  return { step, ticks };
+}
+
+// One quantity on a side of the box: from values to places and back. to > from always.
+export class Scale {
+  constructor(from, to, wanted = 5) {
+    Object.assign(this, { from, to, wanted });
+    this.set(0, 1);
+  }
+
+  set(low, high) {
+    if (!(high > low)) [low, high] = [low - 0.5, low + 0.5];
+    if (low === this.low && high === this.high) return false;
+    Object.assign(this, { low, high }, roundTicks(low, high, this.wanted));
+    return true;
+  }
+
+  // From 0 to a round number just above: it jumps seldom while a slider is dragged.
+  setAbove(most) {
+    const { step } = roundTicks(0, most || 1, this.wanted);
+    return this.set(0, step * Math.ceil((most || 1) / step - 1e-6));
+  }
+
+  at = (value) => this.from + ((value - this.low) / (this.high - this.low)) * (this.to - this.from);
+
+  text(value) {
+    const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(this.step * 1.0001)) + (/25/.test(this.step.toPrecision(2)) ? 1 : 0)));
+    return (Math.abs(value) < 1e-9 * this.step ? 0 : value).toFixed(digits).replace("-", "−");
+  }
+}
+
+export class Axes {
+  constructor(stage, labels, { x, y, z }, names) {
+    Object.assign(this, { stage, labels, scales: { x, y, z } });
+    this.lines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ vertexColors: true }));
+    this.lines.frustumCulled = false;
+    stage.scene.add(this.lines);
+    this.ticks = { x: [], y: [], z: [] };
+    this.names = Object.fromEntries(Object.entries(names).map(([axis, html]) => [axis, labels.add(html, "axis")]));
+  }
+
+  // Puts the walls behind and the numbers in front, as seen now.
+  place(force) {
+    const { camera, controls } = this.stage;
+    const eye = camera.position.clone().sub(controls.target);
+    const sides = [Math.sign(eye.x) || 1, Math.sign(eye.y) || -1];
+    const key = sides.join();
+    if (!force && key === this.key) return;
+    this.key = key;
+    const { x, y, z } = this.scales;
+    const [front, back] = [(scale, side) => (side > 0 ? scale.to : scale.from), (scale, side) => (side > 0 ? scale.from : scale.to)];
+    const nearX = front(x, sides[0]), farX = back(x, sides[0]), nearY = front(y, sides[1]), farY = back(y, sides[1]);
+
+    const points = [], colours = [];
+    const line = (grey, ...ends) => {
+      points.push(...ends);
+      for (let i = 0; i < 2; i++) colours.push(grey, grey, grey * 1.04);
+    };
+    const GRID = 0.68, EDGE = 0.3;
+    for (const value of x.ticks) {
+      const at = x.at(value);
+      line(GRID, at, y.from, 0, at, y.to, 0);
+      line(GRID, at, farY, 0, at, farY, z.to);
+    }
+    for (const value of y.ticks) {
+      const at = y.at(value);
+      line(GRID, x.from, at, 0, x.to, at, 0);
+      line(GRID, farX, at, 0, farX, at, z.to);
+    }
+    for (const value of z.ticks) {
+      const at = z.at(value);
+      line(GRID, farX, y.from, at, farX, y.to, at);
+      line(GRID, x.from, farY, at, x.to, farY, at);
+    }
+    line(EDGE, x.from, nearY, 0, x.to, nearY, 0);
+    line(EDGE, nearX, y.from, 0, nearX, y.to, 0);
+    // Of the two upright edges at the sides of the picture the left one carries the numbers.
+    const right = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion);
+    const upright = right.x * nearX + right.y * farY < right.x * farX + right.y * nearY ? [nearX, farY] : [farX, nearY];
+    line(EDGE, ...upright, 0, ...upright, z.to);
+    this.lines.geometry.dispose();
+    this.lines.geometry = new THREE.BufferGeometry();
+    this.lines.geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+    this.lines.geometry.setAttribute("color", new THREE.Float32BufferAttribute(colours, 3));
+
+    const out = (value, by) => value + Math.sign(value) * by;
+    this.write("x", (at) => [at, out(nearY, 0.1), 0], [(x.from + x.to) / 2, out(nearY, 0.36), 0]);
+    this.write("y", (at) => [out(nearX, 0.1), at, 0], [out(nearX, 0.36), (y.from + y.to) / 2, 0]);
+    this.write("z", (at) => [out(upright[0], 0.07), out(upright[1], 0.07), at], [...upright, z.to]);
+    this.names.z.shift = [6, -20];
+  }
+
+  write(axis, where, nameAt) {
+    const scale = this.scales[axis], pool = this.ticks[axis];
+    while (pool.length < scale.ticks.length) pool.push(this.labels.add("", "tick"));
+    pool.forEach((label, i) => {
+      label.visible = i < scale.ticks.length && !(axis === "z" && i === 0); // its 0 would stand on another's number
+      if (!label.visible) return;
+      label.element.textContent = scale.text(scale.ticks[i]);
+      label.at.set(...where(scale.at(scale.ticks[i])));
+    });
+    this.names[axis].at.set(...nameAt);
+  }
+}

@@ -1,0 +1,34 @@
+"""The paper's Fig. 5, f1^2 theta_dot^2 over the (K_J, theta) plane, as a surface to turn, zoom and read values off."""
+
+from pathlib import Path
+
+import numpy as np
+import param
+from panel.custom import JSComponent
+
+
+def pack(values):
+    """The float32 bytes, row by row, that the array parameters of this module take."""
+    return np.asarray(values, "<f4").tobytes()
+
+
+class Surface3D(JSComponent):
+    """One row of the surface is one tieline, from its inner to its own outer turning point; a row with nan is a gap.
+
+    All bytes are float32, from `pack`. n rows, m points a row.
+    """
+
+    _bundle = Path(__file__).parent / "static" / "tippe.js"
+
+    K_J = param.Bytes(default=b"", doc="(n,) ascending")
+    theta = param.Bytes(default=b"", doc="(n, m) in rad")
+    heights = param.Bytes(default=b"", doc="(n, m) f1^2 theta_dot^2, 0 at both ends")
+    energy = param.Bytes(default=b"", doc="(n,) E")
+    verge = param.Bytes(default=b"", doc="(k, 2) theta, K_J: where the limit is reached, on the floor")
+    steady = param.Bytes(default=b"", doc="(k, 2) theta, K_J: the steady precessions, on the floor")
+    P = param.Bytes(default=b"", doc="(3,) theta, K_J, height of the point P; empty where it is not shown")
+    selected = param.Bytes(default=b"", doc="(3,) K_J, inner and outer theta of the motion on display")
+    selected_curve = param.Bytes(default=b"", doc="(m, 2) theta, height of the motion on display")
+    theta_max = param.Number(default=np.pi / 2, doc="Where the theta axis ends.")
+    limit = param.Selector(default="lift-off", objects=["lift-off", "slip"], doc="Which limit `verge` is of.")
+    picked = param.List(default=[], doc="[K_J, theta] of the point that was clicked; the browser writes it.")
