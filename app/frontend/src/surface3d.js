@@ -260,7 +260,7 @@ export function renderSurface3D({ model, el, view }) {
 
   let aspect;
   function fit(now) {
-    const WIDEST = 1.3, look = new THREE.Vector3(0.05, 0, 0.4);
+    const WIDEST = 1.55, look = new THREE.Vector3(0.05, 0, 0.4);
     if (aspect === undefined) {
       camera.position.set(2.2, -4.5, 2.7);
       controls.target.copy(look);

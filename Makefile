@@ -1,0 +1,35 @@
+# One word a task. serve and test do everything by themselves in a fresh clone; the first run takes about a minute.
+PYTHON ?= python3
+BIN = .venv/bin
+BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
+
+.PHONY: serve test bench image browser
+
+serve: .venv/serve
+	$(BIN)/panel serve app --port 5006 --show
+
+test: .venv/test browser
+	$(BIN)/ruff check .
+	$(BIN)/lint-imports
+	$(BIN)/pytest
+
+bench: .venv/bench browser
+	$(BIN)/python benchmarks/bench.py
+
+image:
+	docker build -t tippe-top-explorer .
+
+# Chromium for the tests: what is there, else Debian's or Ubuntu's where we may install it, else playwright's own.
+browser: .venv/test
+	@command -v chromium >/dev/null \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium; } \
+	|| $(BIN)/playwright install chromium
+
+.venv/serve: $(BUNDLED)
+	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --editable .
+	touch $@
+
+.venv/test .venv/bench: .venv/%: .venv/serve
+	$(BIN)/pip install --quiet --editable '.[$*]'
+	touch $@
