@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 LONG = np.longdouble
-NODES = 26
+NODES = 36
 
 
 @dataclass(frozen=True)
@@ -194,7 +194,7 @@ def _step(body, y, h):
     return values if tail <= 16 * small * np.abs(values).max() else None
 
 
-def integrate(body, quaternion, omega_body, times, contact=(0, 0), turn=1.5):
+def integrate(body, quaternion, omega_body, times, contact=(0, 0), turn=2.5):
     """Roll the body from its state at times[0] through all of `times` (rising).
 
     `turn` is the angle in radians that a step may cover; halving it is the check of the oracle's own error.

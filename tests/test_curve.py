@@ -67,7 +67,7 @@ def test_inner_turning_point_next_to_P(distance):
 @pytest.mark.parametrize("rise", [1e-4, 1e-8, 1e-11])
 @pytest.mark.parametrize("name", ["K_J = 7", "shallow well", "ordinary"])
 def test_narrow_well(name, rise):
-    """Close above the steady precession the interval shrinks like the square root of the energy; both ends keep 1e-12."""
+    """Close above the steady precession the interval is short as the root of the energy; both ends keep 1e-12."""
     base = CASES[name]
     case = Case(base.top, base.K_J, base.K_R, rise, base.well)
     expected = case.curve.turning_points()

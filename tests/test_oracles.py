@@ -36,7 +36,7 @@ def test_integration_halves_its_step_without_change_and_keeps_what_must_be_kept(
     q, w = rb.euler_quaternion(0.3, 0.5, 0.2), rb.to_body(0.2, 1.0, 3.0, 8.8)
     times = np.linspace(0, 20, 101)
     motion = rb.integrate(body, q, w, times)
-    finer = rb.integrate(body, q, w, times, turn=0.75)
+    finer = rb.integrate(body, q, w, times, turn=1.25)
     for name in ("quaternion", "omega_body", "contact", "force"):
         scale = max(1, np.abs(getattr(motion, name)).max())
         assert np.abs(getattr(motion, name) - getattr(finer, name)).max() < 1e-12 * scale

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from tippe_core import (
     Constants,
+    Rolling,
     Scales,
     State,
     Top,
@@ -18,7 +19,6 @@ from tippe_core import (
     roll,
     turning_points,
 )
-from tippe_core.rolling import Rolling
 
 
 def numbers(low, high):

@@ -6,8 +6,7 @@ import rigid_body as rb
 from cases import CASES, LOADED, ORDINARY, PAPER, POLES, Case, digits
 from high_precision import Curve, mp, mpf
 
-from tippe_core import Constants, State, omega2, omega3, roll, steady_precessions
-from tippe_core.rolling import Rolling
+from tippe_core import Constants, Rolling, State, omega2, omega3, roll, steady_precessions
 
 NUTATIONS = 50
 
@@ -71,7 +70,7 @@ def test_fifty_nutations(name, start):
 @pytest.mark.parametrize("start", ["inner", "outer"])
 @pytest.mark.parametrize("pole", POLES.values(), ids=POLES.keys())
 def test_fifty_nutations_through_a_pole(pole, start):
-    """The pose at the start is the top's own (at a pole the azimuth is a matter of choice); its constants must be the given ones."""
+    """The start is roll()'s own (at a pole the azimuth is a matter of choice), with the constants asked for."""
     top, K_J, K_R, rise = pole
     curve = Curve(top, K_J, K_R)
     lowest = min(curve.U(x) for x in curve.grid())
@@ -129,7 +128,7 @@ def test_sleeping_top(theta):
     ("top", "K_J", "K_R"), [(PAPER, 7.0, 10.0), (PAPER, -3.0, 10.0), (ORDINARY, 20.0, 40.0), (LOADED, 3.0, -6.0)]
 )
 def test_steady_precession_stays(top, K_J, K_R):
-    """theta is constant, phi and psi turn evenly, the contact point runs on a circle: as the rigid body does from there."""
+    """theta is constant, phi and psi turn evenly, the contact point runs on a circle; so does the rigid body."""
     theta, stable = steady_precessions(top, K_J, K_R)
     theta = theta[stable][0]
     w2, w3 = (float(g(theta, top, Constants(K_J, K_R, 0.0))) for g in (omega2, omega3))
@@ -258,7 +257,7 @@ def test_constants_are_kept_through_the_pole(nutation):
 
 @pytest.mark.parametrize("nutation", [0, 10_000])
 def test_contact_point_runs_as_the_pose_rolls(nutation):
-    """d(track)/dt = omega x z, both from derivatives of what is returned; a track far away is rounded in its last digit."""
+    """d(track)/dt = omega x z, both from derivatives of what is returned; far away a track has fewer digits."""
     case = CASES["K_J = 7"]
     period = float(case.period)
     times = window((nutation + 0.1) * period, 0.6 * period)

@@ -1,6 +1,7 @@
 """Limit energies and tielines against bisection over the trajectories of a rigid body (limits.py)."""
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -142,5 +143,5 @@ def test_mirrored_tops_have_mirrored_tielines(mu_s):
 def test_more_friction_allows_more():
     K_J = np.linspace(0, 8, 17)
     energies = [limit_energy(PAPER, K_J, 10.0, mu_s) for mu_s in (0.3, 0.5, 1.0, 10.0, None)]
-    for less, more in zip(energies[:-1], energies[1:], strict=True):
+    for less, more in pairwise(energies):
         assert (less <= more + 1e-12).all()
