@@ -38,18 +38,21 @@ class Control:
     def __init__(self, name, value, request):
         self.name, self._request, self._shown, self._follow = name, request, number(value), False
         start, end, step = RANGES[name]
+        marked = name == "energy"
         self.slider = pmui.FloatSlider(
             value=value, start=start, end=end, step=step, label="", show_value=False, size="small", tooltips=False,
-            marks=ENERGY_MARKS if name == "energy" else False, sizing_mode="stretch_width", margin=(0, 4),
-            name=name)  # fmt: skip
-        self.entry = pmui.TextInput(value=number(value), size="small", width=104, margin=0, name=name)
+            marks=ENERGY_MARKS if marked else False, sizing_mode="stretch_width", margin=(-4, 10, 14 if marked else -4, 10),
+            tags=[name], sx={"& .MuiSlider-markLabel": {"fontSize": 12, "top": 22}})  # fmt: skip
+        self.entry = pmui.TextInput(
+            value=number(value), label="", size="small", width=92, margin=0, tags=[name],
+            sx={"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}})  # fmt: skip
         self.words = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=0)
         title = pn.pane.HTML(
-            f'<div class="name">{SYMBOLS[name]}&ensp;{NAMES[name]}</div>', stylesheets=[STYLE], margin=(8, 0, 0, 0),
+            f'<div class="name">{SYMBOLS[name]}&ensp;{NAMES[name]}</div>', stylesheets=[STYLE], margin=(4, 0, 0, 0),
             sizing_mode="stretch_width")  # fmt: skip
         self.view = pn.Column(
             pn.Row(title, self.entry, sizing_mode="stretch_width", margin=0), self.slider, self.words,
-            sizing_mode="stretch_width", margin=(0, 12, 6, 16))  # fmt: skip
+            sizing_mode="stretch_width", margin=(0, 14, 8, 16))  # fmt: skip
         self._silent = False
         self.slider.param.watch(self._slid, "value")
         self.entry.param.watch(self._typed, "value")

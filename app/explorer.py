@@ -63,6 +63,7 @@ class Plane:
     height: np.ndarray
     K_J_range: tuple
     theta_range: tuple
+    limit: str
     pole: float
     pole_height: float
     hover_theta: np.ndarray
@@ -107,7 +108,8 @@ class Marks:
 class Scene:
     """All that the views show. Trajectory arrays have one row a frame; vectors are along the axes of space.
 
-    ratio is F_h/F_z; regime one of ROLLS, SLIPS, LIFTS a frame; upright_spin omega_3 at theta = 0. messages: a sentence for each control that was given
+    ratio is F_h/F_z; regime one of ROLLS, SLIPS, LIFTS a frame; upright_spin omega_3 at theta = 0; profile (k, 2) the radius
+    of the body drawn and its height above O along axis 3. messages: a sentence for each control that was given
     what cannot be; the rest of the scene is then the last good one. notes: sentences about what is shown.
     """
 
@@ -131,6 +133,7 @@ class Scene:
     K_R: np.ndarray
     E: np.ndarray
     upright_spin: float
+    profile: np.ndarray
     messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
     notes: tuple = ()
 
@@ -196,7 +199,7 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
         normal=F_z, ratio=ratio,
         regime=np.where(F_z < 0, LIFTS, np.where(ratio > mu_s, SLIPS, ROLLS)),
         K_J=trajectory.jellett / top.I1, K_R=trajectory.routh, E=trajectory.energy,
-        upright_spin=float(omega3(0.0, top, constants)),
+        upright_spin=float(omega3(0.0, top, constants)), profile=outline(top),
         notes=tuple(remarks(K_J, mu_s, marks, upper)))  # fmt: skip
 
 
@@ -232,6 +235,28 @@ def axes(theta, phi):
     across = np.column_stack([-np.sin(phi), np.cos(phi), zero])
     up = np.array([0.0, 0.0, 1.0])
     return nodal, across, c * up - s * across, s * up + c * across
+
+
+def outline(top):
+    """The body that is drawn, as (radius, height above O along axis 3), (k, 2). For the paper's top its appendix A.
+
+    a, I1 and I3 do not fix a shape. Only the sphere that rolls is certain, so any other tippe top is drawn as
+    a whole ball, and a top with G above O as a disc on a round peg.
+    """
+    if top == Top.paper():
+        cut, radius, length = 0.82 / 1.6, 0.32 / 1.6, 1.92 / 1.6
+        angle = np.linspace(0, np.pi - np.arccos(cut), 40)
+        ball = np.column_stack([np.sin(angle), -np.cos(angle)])
+        end = cut + length
+        return np.vstack([ball, [[radius, cut], [radius, end - 0.05], [radius - 0.05, end], [0, end]]])
+    angle = np.linspace(0, np.pi, 60)
+    ball = np.column_stack([np.sin(angle), -np.cos(angle)])
+    if top.a >= -0.3:
+        return ball
+    disc = -top.a + np.array([-0.15, -0.15, 0.15, 0.15])
+    wide = max(1.2, 1.5 * top.I3**0.5)
+    return np.vstack([ball[:50], [[0.2, disc[0]], [wide, disc[1]], [wide, disc[2]], [0.15, disc[3]], [0.15, disc[3] + 0.6],
+                                  [0, disc[3] + 0.6]]])  # fmt: skip
 
 
 def between(inner, outer, columns):
@@ -273,7 +298,7 @@ def plane(top, K_R, mu_s, upper, limit):
     at_pole = np.flatnonzero(K_J == pole)
     return Plane(
         K_J=K_J, lift=lift, slip=slip, surface=surface, theta=theta, height=heights,
-        K_J_range=(low, high), theta_range=(0.0, float(theta_end)), pole=float(pole),
+        K_J_range=(low, high), theta_range=(0.0, float(theta_end)), limit=limit, pole=float(pole),
         pole_height=float(heights[at_pole].max(initial=0.0)) if at_pole.size else 0.0,
         hover_theta=hover_theta, hover_K_J=even, hover_E=hover_E, hover_ratio=hover_ratio)  # fmt: skip
 

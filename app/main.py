@@ -8,7 +8,7 @@ from app.controls import Controls
 from app.explorer import Explorer
 from app.pacing import Pacer
 from app.plots import PlaneFigure, TimeFigures, follow_clock
-from app.surface3d import Surface3D
+from app.surface3d import Surface3D, pack
 from app.top3d import Top3D, pack_frames
 
 INK = "#22303c"
@@ -66,14 +66,26 @@ def times_card(times, scales):
 
 def show_top(top, scene):
     motion = scene.trajectory
+    if top.tags == [id(motion)]:
+        top.mu_s = scene.mu_s
+        return
+    top.tags = [id(motion)]
     top.param.update(
-        mu_s=scene.mu_s, seconds=scene.scales.time,
+        mu_s=scene.mu_s, profile=pack(scene.profile), seconds=scene.scales.time,
         frames=pack_frames(
             motion.t, motion.quaternion, motion.contact, motion.com, scene.force, scene.omega, scene.momentum, scene.regime))  # fmt: skip
 
 
 def show_surface(surface, scene):
-    pass
+    plane, motion = scene.plane, scene.constants
+    if surface.tags != [id(plane)]:
+        surface.tags = [id(plane)]
+        surface.param.update(
+            K_J=pack(plane.K_J), theta=pack(plane.theta), heights=pack(plane.height), energy=pack(plane.surface.E),
+            verge=pack(np.column_stack([plane.surface.theta_verge, plane.K_J])),
+            steady=pack(np.column_stack([plane.lift.theta_steady, plane.K_J])),
+            P=pack([0, plane.pole, plane.pole_height]), theta_max=plane.theta_range[1], limit=plane.limit)  # fmt: skip
+    surface.param.update(selected=pack([motion.K_J, *scene.turning]), selected_curve=pack(scene.curve))
 
 
 def section(title):
@@ -97,6 +109,8 @@ def page():
 
     pacer = Pacer(explorer, show_hand, show_rest)
     controls = Controls(explorer, pacer)
+    surface.param.watch(lambda event: event.new and controls.pick(event.new[0]), "picked")
+    plane.figure.on_event("tap", lambda event: controls.pick(event.y))
     for stage in pacer.stages:
         stage(explorer.scene)
     follow_clock(pn.state.curdoc, plane, times)

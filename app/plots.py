@@ -95,7 +95,7 @@ class PlaneFigure:
         fig.add_layout(Span(location=np.pi / 2, dimension="height", line_color=FAINT, line_dash=[2, 4]))
         fig.scatter("theta", "K_J", source=self.pole, size=8, color=INK)
         fig.text(
-            "theta", "K_J", text={"value": "P"}, source=self.pole, x_offset=8, y_offset=-4, text_font_style="italic",
+            "theta", "K_J", text={"value": "P"}, source=self.pole, x_offset=10, text_baseline="middle", text_font_style="italic",
             text_font_size="15px", text_color=INK)  # fmt: skip
 
         everywhere = fig.image(

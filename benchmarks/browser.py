@@ -1,0 +1,177 @@
+"""How fast the page follows the hand: from slider input to paint, against a bare Bokeh server app in the same run.
+
+    python benchmarks/browser.py [--chromium PATH]
+
+The bare app redraws one line of 400 points when a Bokeh slider moves. In both a real mouse drags the slider, RATE
+moves a second, while the top plays. An input counts as painted in the first frame that shows its value or a later
+one's: of the figure under the hand (the selected tieline of Fig. 6), and of the whole page (that, the plots over time,
+the top in 3-D and Fig. 5). Results of runs are kept below.
+"""
+
+import argparse
+import datetime
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.request
+from importlib.metadata import version
+from pathlib import Path
+from socket import socket
+
+import numpy as np
+from playwright.sync_api import sync_playwright
+
+MOVES, RATE, ROUNDS = 120, 30, 3
+
+BARE = """
+import numpy as np
+from bokeh.io import curdoc
+from bokeh.layouts import column
+from bokeh.models import ColumnDataSource, Slider
+from bokeh.plotting import figure
+x = np.linspace(0, 10, 400)
+source = ColumnDataSource({"x": x, "y": np.sin(x), "value": np.zeros(400)})
+fig = figure(width=520, height=390, y_range=(-1, 1), name="plane")
+fig.line("x", "y", source=source)
+slider = Slider(start=0, end=8.4, step=0.01, value=7, width=300)
+slider.on_change("value", lambda attr, old, new: source.update(
+    data={"x": x, "y": np.sin(x + new), "value": np.full(400, new)}))
+curdoc().add_root(column(slider, fig))
+"""
+
+# Leaves in window.bench the inputs [time, value] and for each part of the page the paints [time, value it showed].
+WATCH = """
+(ours) => {
+  const bench = window.bench = {inputs: [], figure: [], page: []}
+  const models = [...Bokeh.documents[0]._all_models.values()]
+  const hand = models.find((m) => m.type.includes("Slider") && m.value == 7)
+  const view = (name) => Bokeh.index.find_one(models.find((m) => m.name == name && m.renderers))
+  const plane = view("plane")
+  hand.properties.value.change.connect(() =>
+    bench.inputs.push([window.event?.timeStamp ?? performance.now(), hand.value]))
+  const painted = (part, value) => {
+    const channel = new MessageChannel()
+    channel.port2.onmessage = () => bench[part].push([performance.now(), value])
+    channel.port1.postMessage(0)
+  }
+  const under = plane.model.renderers.map((r) => r.data_source).find((s) => ours ? s.data.inner : s.data.value)
+  const shown = () => ours ? under.data.K_J[0] : under.data.value[0]
+  plane.repainted.connect(() => painted("figure", shown()))
+  if (!ours) return plane.repainted.connect(() => painted("page", shown()))
+  // The page is as old as its oldest part. The two in 3-D have no value to read: theirs is that of the plots over
+  // time, sent in the same message, from the first picture drawn after it on.
+  const motion = view("constants").model.renderers[0].data_source
+  const {top3d, surface3d} = window.__tippe
+  let waiting
+  view("constants").repainted.connect(() => {
+    const value = Number(motion.data.K_J[0].toFixed(9))
+    if (waiting?.value !== value) waiting = {value, top: top3d.pictures, surface: surface3d.pictures}
+  })
+  const look = () => {
+    requestAnimationFrame(look)
+    if (waiting && top3d.pictures > waiting.top && surface3d.pictures > waiting.surface) {
+      painted("page", waiting.value)
+      waiting.top = Infinity
+    }
+  }
+  look()
+}
+"""
+
+FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
+         "--disable-component-update", "--disable-sync"]  # fmt: skip
+
+
+def serve(command, path):
+    with socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    server = subprocess.Popen(
+        [*command, "--port", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+    url = f"http://localhost:{port}/{path}"
+    for _ in range(200):
+        try:
+            urllib.request.urlopen(url, timeout=5)
+            return server, url
+        except OSError:
+            time.sleep(0.1)
+    raise RuntimeError(f"{command} does not answer on {url}")
+
+
+def drag(page, handle):
+    """Pulls the handle to and fro at RATE; returns once the page is at rest."""
+    box = page.locator(handle).first.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    start = time.perf_counter()
+    for i in range(1, MOVES + 1):
+        time.sleep(max(0, start + i / RATE - time.perf_counter()))
+        page.mouse.move(x - 70 * np.sin(2 * np.pi * i / MOVES) ** 2 - i % 2, y)
+    page.mouse.up()
+    last = page.evaluate("bench.inputs.at(-1)[1]")
+    page.wait_for_function(
+        "last => ['figure', 'page'].every(part => Math.abs(bench[part].at(-1)?.[1] - last) < 1e-6)", arg=last)  # fmt: skip
+
+
+def delays(page):
+    """Milliseconds from each input to the first paint of its value or a later one's: (figure, page)."""
+    bench = page.evaluate("bench")
+    times, values = np.array(bench["inputs"]).T
+    found = []
+    for part in ("figure", "page"):
+        paints = np.array(bench[part])
+        # The newest input whose value a paint shows, of those made before it.
+        newest = [max((i for i in range(len(times)) if times[i] <= t and abs(values[i] - v) < 1e-6), default=-1)
+                  for t, v in paints]  # fmt: skip
+        newest = np.array(newest)
+        found.append([paints[newest >= i, 0].min() - times[i] for i in range(len(times)) if (newest >= i).any()])
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--chromium", default=os.environ.get("CHROMIUM"), help="default: playwright's own")
+    options = parser.parse_args()
+    root = Path(__file__).resolve().parents[1]
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        bare = Path(folder, "bare.py")
+        bare.write_text(BARE)
+        apps = {
+            "bare": (serve([sys.executable, "-m", "bokeh", "serve", str(bare)], "bare"), ".noUi-handle"),
+            "ours": (serve([sys.executable, "-m", "panel", "serve", str(root / "app")], "app"), ".MuiSlider-thumb")}  # fmt: skip
+        browser = playwright.chromium.launch(executable_path=options.chromium, args=FLAGS)
+        results = {name: ([], []) for name in apps}
+        try:
+            for _ in range(ROUNDS):  # in turn, so that both see the same machine
+                for name, ((_, url), handle) in apps.items():
+                    page = browser.new_page(viewport={"width": 1400, "height": 900})
+                    page.goto(url)
+                    page.wait_for_function(
+                        "ours => ours ? window.__tippe?.surface3d && __tippe.top3d?.pictures > 5 : Bokeh?.documents[0]?.is_idle",
+                        arg=name == "ours")  # fmt: skip
+                    page.locator(handle).first.wait_for()
+                    page.evaluate(WATCH, name == "ours")
+                    drag(page, handle)
+                    for kept, new in zip(results[name], delays(page), strict=True):
+                        kept.extend(new)
+                    page.close()
+        finally:
+            browser_version = browser.version
+            browser.close()
+            for (server, _), _ in apps.values():
+                server.terminate()
+    print(f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
+          f"panel {version('panel')}, bokeh {version('bokeh')}, Chromium {browser_version}")  # fmt: skip
+    base = np.percentile(results["bare"][0], 95)
+    for name, parts in results.items():
+        for part, delay in zip(("figure", "page"), parts, strict=True):
+            p50, p95 = np.percentile(delay, (50, 95))
+            print(f"{name:5} {part:7} n = {len(delay):4}  p50 {p50:6.0f} ms  p95 {p95:6.0f} ms  {p95 / base:5.2f} times bare")
+
+
+if __name__ == "__main__":
+    main()
