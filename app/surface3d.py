@@ -1,10 +1,9 @@
 """The paper's Fig. 5, f1^2 theta_dot^2 over the (K_J, theta) plane, as a surface to turn, zoom and read values off."""
 
-from pathlib import Path
-
 import numpy as np
 import param
-from panel.custom import JSComponent
+
+from app.bundle import Bundled
 
 
 def pack(values):
@@ -12,13 +11,11 @@ def pack(values):
     return np.asarray(values, "<f4").tobytes()
 
 
-class Surface3D(JSComponent):
+class Surface3D(Bundled):
     """One row of the surface is one tieline, from its inner to its own outer turning point; a row with nan is a gap.
 
     All bytes are float32, from `pack`. n rows, m points a row.
     """
-
-    _bundle = Path(__file__).parent / "static" / "tippe.js"
 
     K_J = param.Bytes(default=b"", doc="(n,) ascending")
     theta = param.Bytes(default=b"", doc="(n, m) in rad")

@@ -1,10 +1,9 @@
 """The top in three dimensions: the browser plays poses that were computed here, with no traffic while it plays."""
 
-from pathlib import Path
-
 import numpy as np
 import param
-from panel.custom import JSComponent
+
+from app.bundle import Bundled
 
 REGIMES = ("rolls", "would slip here", "would lift off here")
 """What the codes 0, 1, 2 in the last column of the frames mean."""
@@ -29,14 +28,12 @@ def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
     return np.column_stack((t, quaternion, contact, com, force, omega, momentum, regime)).astype("<f4").tobytes()
 
 
-class Top3D(JSComponent):
+class Top3D(Bundled):
     """The top on its table, with its tracks and arrows, and the bar that plays it.
 
     While it plays, and when it is moved by hand, it dispatches `tippe:clock` on the browser's window with
     `{t, index, playing}`; it moves to the time of a `tippe:seek` with `{t}`.
     """
-
-    _bundle = Path(__file__).parent / "static" / "tippe.js"
 
     frames = param.Bytes(default=b"", doc="The motion, from `pack_frames`; empty where there is none.")
     profile = param.Bytes(
