@@ -9,8 +9,8 @@ import numpy as np
 from .errors import TopError, finite
 
 # The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic
-# in cos(theta), so where it matters it is evaluated with 45 digits; the standard library has all that this needs.
-EXACT = Context(prec=45, Emin=-999999, Emax=999999)
+# in cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34); the standard library has all that this needs.
+EXACT = Context(prec=60, Emin=-999999, Emax=999999)
 ExactTop = namedtuple("ExactTop", "a I1 I3")
 
 
@@ -128,8 +128,8 @@ class Exact:
     @classmethod
     def of(cls, constants, top):
         with localcontext(EXACT):
-            K_J, K_R, E = Decimal(constants.K_J), Decimal(constants.K_R), Decimal(constants.E)
-            return cls(K_J, K_R, 2 * E - K_R**2 + Decimal(top.I1) / Decimal(top.I3) * K_J**2)
+            K_J, K_R, E = (Decimal(x) for x in (constants.K_J, constants.K_R, constants.E))
+            return cls(*map(nonzero, (K_J, K_R)), 2 * E - K_R**2 + Decimal(top.I1) / Decimal(top.I3) * K_J**2)
 
     @classmethod
     def of_state(cls, state, top):
@@ -142,7 +142,12 @@ class Exact:
             w1, w2, w3 = Decimal(state.theta_dot), Decimal(state.omega2), Decimal(state.omega3)
             K_J = s2.sqrt() * w2 + t.I3 / t.I1 * (c - t.a) * w3
             K_R = f3_2(c, s2, t).sqrt() * w3
-            return cls(K_J, K_R, 2 * t.a * v + f2_2(c, s2, t) * w2**2 + f1_2(c, t) * w1**2)
+            return cls(*map(nonzero, (K_J, K_R)), 2 * t.a * v + f2_2(c, s2, t) * w2**2 + f1_2(c, t) * w1**2)
+
+
+def nonzero(K):
+    """K, or 0 where its square would vanish among floats."""
+    return K if abs(K) > Decimal("1e-140") else Decimal(0)
 
 
 def versines(theta):

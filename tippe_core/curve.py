@@ -10,6 +10,7 @@ The inverted pole is the same with a -> -a, v -> 1 + c and the sign of K_R turne
 """
 
 from collections import namedtuple
+from dataclasses import replace
 from decimal import Decimal, localcontext
 
 import numpy as np
@@ -81,8 +82,14 @@ def pole_gaps(top, K_J, K_R):
         t = exact_top(top)
         for c in (1, -1):
             K = exact_bracket_term(Decimal(c), Decimal(0), t, Decimal(float(K_R)))
-            gaps.append((K_J - float(K)) - float(K - Decimal(float(K))))
+            d = (K_J - float(K)) - float(K - Decimal(float(K)))
+            gaps.append(np.where(at_pole(d, K_J), 0.0, d))
     return tuple(gaps)
+
+
+def at_pole(d, K_J):
+    """Whether K_J is the pole's own to the last digit: its float cannot be nearer to it."""
+    return np.abs(d) <= 0.51 * np.spacing(np.abs(K_J))
 
 
 def near_pole(v, m, top, K_R, gaps):
@@ -126,12 +133,19 @@ class ExactCurve:
     """U, D = s^2 (e - U) and N = s^4 dU/dc as functions of c = cos(theta), Decimals."""
 
     def __init__(self, top, exact):
-        self.top, self.exact = exact_top(top), exact
+        self.top = exact_top(top)
+        for c in (1, -1):
+            K_J = exact_bracket_term(Decimal(c), Decimal(0), self.top, exact.K_R)
+            if at_pole(float(exact.K_J - K_J), float(exact.K_J)):
+                exact = replace(exact, K_J=K_J)
+        self.exact = exact
+        self.gaps = tuple(
+            exact.K_J - exact_bracket_term(Decimal(c), Decimal(0), self.top, exact.K_R) for c in (1, -1))  # fmt: skip
 
     def U(self, c):
         t, s2 = self.top, 1 - c * c
         if s2 == 0:  # finite only where the bracket vanishes too, and then it is the height alone
-            return 2 * t.a * (1 - c) if self.pole_gap(c) == 0 else Decimal("Infinity")
+            return 2 * t.a * (1 - c) if self.gaps[c < 0] == 0 else Decimal("Infinity")
         B = self.exact.K_J - exact_bracket_term(c, s2, t, self.exact.K_R)
         return 2 * t.a * (1 - c) + f2_2(c, s2, t) * B * B / s2
 
@@ -139,9 +153,6 @@ class ExactCurve:
         """e - U and its slope, for where U is finite; at a pole the slope is left out."""
         s2 = 1 - c * c
         return self.exact.e - self.U(c), -self.N(c) / (s2 * s2) if s2 else None
-
-    def pole_gap(self, pole):
-        return self.exact.K_J - exact_bracket_term(pole, Decimal(0), self.top, self.exact.K_R)
 
     def D(self, c):
         """D and dD/dc."""
@@ -222,8 +233,7 @@ def extrema(top, exact):
     v, m, c, s2 = _GRID_V, _GRID_M, 1 - _GRID_V, _GRID_V * _GRID_M
     with localcontext(EXACT):
         curve = ExactCurve(top, exact)
-        gaps = tuple(float(curve.pole_gap(Decimal(pole))) for pole in (1, -1))
-    d, x, C = near_pole(v, m, top, K_R, gaps)
+    d, x, C = near_pole(v, m, top, K_R, tuple(map(float, curve.gaps)))
 
     def N(c):
         s2 = 1 - c * c

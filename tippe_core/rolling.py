@@ -24,8 +24,8 @@ from functools import cached_property
 import numpy as np
 from scipy.fft import dct, dst
 
-from .constants import EXACT, Exact, State, f1_2, f2_2, f3_2, versines
-from .curve import ExactCurve, Well, near_pole, omega2_at, pole_constants, wells
+from .constants import EXACT, Constants, Exact, State, f1_2, f2_2, f3_2, versines
+from .curve import ExactCurve, Well, near_pole, omega2_at, wells
 from .errors import TopError
 from .forces import contact_force
 from .trajectory import Trajectory, checked_times
@@ -61,7 +61,8 @@ class Rolling:
                 exact, (inner, outer) = _from_constants(top, constants, start, well)
                 here = inner if start == "inner" else outer
             curve = ExactCurve(top, exact)
-            self.gaps = tuple(float(curve.pole_gap(Decimal(pole))) for pole in (1, -1))
+            self._exact = curve, inner, outer
+            self.gaps = tuple(map(float, curve.gaps))
             self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
             self.width = float(inner - outer)
             here = 2 * np.arctan2(float(inner - here) ** 0.5, float(here - outer) ** 0.5) if inner > outer else 0.0
@@ -97,6 +98,13 @@ class Rolling:
         with np.errstate(invalid="ignore", divide="ignore"):
             return 1 / np.sqrt(Q)
 
+    def _h_exact(self, sh):
+        """dt/dkappa with the digits of EXACT."""
+        curve, inner, outer = self._exact
+        with localcontext(EXACT):
+            c = [inner - (inner - outer) * Decimal(x) for x in (sh**2).tolist()]
+            return np.array([float(((inner - x) * (x - outer) * f1_2(x, curve.top) / curve.D(x)[0]).sqrt()) for x in c])
+
     def _bracket(self, v, m):
         d, x, C = near_pole(v, m, self.top, self.K_R, self.gaps)
         return d + x * C
@@ -105,8 +113,9 @@ class Rolling:
         """n midpoints of kappa in (0, pi): (cos(kappa/2), sin(kappa/2)), v, m, h."""
         half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
         ch, sh = np.cos(half), np.sin(half)
-        v, m = self.v1 + self.width * sh**2, self.m2 + self.width * ch**2
-        return ch, sh, v, m, self._h(v, m)
+        v, m = self._versines(ch, sh)
+        # many nodes are needed where Q nearly vanishes, next to a merging of wells: there its terms cancel after all
+        return ch, sh, v, m, self._h(v, m) if n <= 64 or n > 4096 else self._h_exact(sh)
 
     def _resolved(self, n, *rates):
         """Whether n midpoints resolve even periodic functions of kappa; and their cosine coefficients."""
@@ -283,7 +292,9 @@ class Rolling:
         along = whole * tau * np.exp(0.5j * x * tau) * np.sinc(x * tau / (2 * np.pi)) + 2 * np.pi * turns * np.exp(
             1j * np.pi * x * turns) * np.sinc(x * turns)  # fmt: skip
         contact = scale * (whole * np.exp(1j * rate * tau) * Y - Y0 + amplitude * along)
-        sigma = [2 * np.pi * turns * mu + mu * tau + series for mu, series in zip(mean, (minus_t, plus_t), strict=True)]
+        # whole turns apart: rounded with them, the angles of late periods would not be smooth in time
+        sigma = [(2 * np.pi * np.fmod(turns * mu, 1), mu * tau + series, 2 * np.pi * np.trunc(turns * mu))
+                 for mu, series in zip(mean, (minus_t, plus_t), strict=True)]  # fmt: skip
         return (tau + kappa) / 2, *sigma, contact
 
     def __call__(self, times):
@@ -319,7 +330,8 @@ class Rolling:
         # at the pole itself phi is the one just after it
         angles = [np.where(z == 0, np.copysign(np.pi / 2, d), np.angle(z)) + np.pi * turns * np.copysign(1, d)
                   for z, d in zip((north, south), self.gaps, strict=True)]  # fmt: skip
-        minus_exp, plus_exp = np.exp(1j * minus), np.exp(1j * plus)
+        minus_exp, plus_exp = (np.exp(1j * whole) * np.exp(1j * part) for whole, part, _ in (minus, plus))
+        minus, plus = sum(minus), sum(plus)
         return {
             "theta": 2 * np.arctan2(np.sqrt(v), np.sqrt(m)), "v": v, "m": m,
             "phi": plus + minus + angles[0] + angles[1], "psi": plus - minus + angles[1] - angles[0],
@@ -331,6 +343,8 @@ class Rolling:
 def _from_constants(top, constants, start, well):
     if start not in ("inner", "outer"):
         raise TopError("start", start, '"inner", "outer" or a State')
+    if not isinstance(constants, Constants):
+        raise TopError("constants", constants, "Constants(K_J, K_R, E)", "Only a State can stand in for them.")
     exact = Exact.of(constants, top)
     found = wells(top, exact)
     if isinstance(well, bool) or well not in range(len(found)):
