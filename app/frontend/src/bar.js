@@ -10,19 +10,19 @@ const icons = {
 };
 const speeds = [1, 2, 4, 8, 16, 32, 64];
 
-// What can be shown or hidden: the parameter's name, what the chip says, its colour.
+// What can be shown or hidden: the parameter's name, what the chip says, its colour, and at length.
 export const shows = [
-  ["show_track", "track", colours.theta],
-  ["show_com_path", "path of <i>G</i>", "#1d2733"],
-  ["show_force", "force <i>F</i>", colours.normal],
-  ["show_cone", "friction cone", colours.friction],
-  ["show_omega", "<i>ω</i>", colours.omega],
-  ["show_momentum", "<i>L</i>", colours.momentum],
-  ["follow", "follow", "#7a8694"],
+  ["show_track", "track", colours.theta, "The path of the point of contact"],
+  ["show_com_path", "<i>G</i>", "#1d2733", "The centre of mass and its path"],
+  ["show_force", "<i>F</i>", colours.normal, "The table's force on the top, at the contact"],
+  ["show_cone", "cone", colours.friction, "The friction cone: where the force leaves it, the top would slip"],
+  ["show_omega", "<i>ω</i>", colours.omega, "The angular velocity"],
+  ["show_momentum", "<i>L</i>", colours.momentum, "The angular momentum about G"],
+  ["follow", "follow", "#7a8694", "Move the camera along with the top"],
 ];
 
 export class Bar {
-  constructor(root, model, player, resetView) {
+  constructor(root, picture, model, player, resetView) {
     this.player = player;
     const bar = document.createElement("div");
     bar.className = "bar";
@@ -35,14 +35,16 @@ export class Bar {
         .map((n) => `<option value="${1 / n}">${n === 1 ? "real speed" : `1/${n} speed`}</option>`)
         .join("")}</select>
       <button class="view" title="Back to the first view" aria-label="Back to the first view">${icons.view}</button>
-      <span class="time"></span>
       <span class="shows">${shows
-        .map(([name, text, colour]) =>
-          `<label style="--swatch: ${colour}"><input type="checkbox" name="${name}"><span class="swatch"></span><span>${text}</span></label>`)
+        .map(([name, text, colour, title]) =>
+          `<label title="${title}" style="--swatch: ${colour}"><input type="checkbox" name="${name}" aria-label="${title}"><span class="swatch"></span><span>${text}</span></label>`)
         .join("")}</span>`;
     root.append(bar);
     const find = (selector) => bar.querySelector(selector);
-    [this.play, this.scrub, this.speed, this.time] = [".play", ".scrub", ".speed", ".time"].map(find);
+    [this.play, this.scrub, this.speed] = [".play", ".scrub", ".speed"].map(find);
+    this.time = document.createElement("div");
+    this.time.className = "time";
+    picture.append(this.time);
 
     find(".back").onclick = () => player.step(-1);
     find(".forward").onclick = () => player.step(1);

@@ -9,7 +9,7 @@ const REST = 1.6; // is followed by the next one after this many times as long
 const COARSER_MS = 34;
 const FINER_MS = 20;
 const STEP = 0.8;
-const COARSEST = 0.5;
+const COARSEST = 0.6;
 const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
 const MAX_PIXEL_RATIO = 2;
 

@@ -20,8 +20,8 @@ export const style = `
 .verdict { position: absolute; left: 12px; top: 12px; display: flex; align-items: center; gap: 7px; padding: 5px 12px 5px 9px;
   border-radius: 999px; font-weight: 600; background: #ffffffd9; color: #1d2733; box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .verdict::before { content: ""; width: 10px; height: 10px; border-radius: 50%; background: var(--verdict); }
-.scales { position: absolute; right: 12px; top: 12px; text-align: right; font-size: 11px; color: #4a5563; pointer-events: none; }
-.bar { flex: none; display: flex; flex-wrap: wrap; align-items: center; gap: 6px 10px; padding: 8px 2px 0; }
+.scales { position: absolute; right: 12px; top: 12px; text-align: right; line-height: 1.5; font-size: 11px; color: #4a5563; pointer-events: none; }
+.bar { flex: none; display: flex; flex-wrap: wrap; align-items: center; gap: 6px 8px; padding: 8px 2px 0; }
 .bar button, .bar select { font: inherit; color: inherit; background: transparent; border: 1px solid var(--line); border-radius: 8px;
   height: 34px; min-width: 34px; padding: 0 6px; cursor: pointer; display: inline-flex; align-items: center; justify-content: center; }
 .bar select option { color: #1d2733; background: #fff; }
@@ -31,10 +31,11 @@ export const style = `
 .bar :is(button, select, input):focus-visible { outline: 2px solid #0072B2; outline-offset: 2px; }
 .bar svg { width: 18px; height: 18px; fill: currentColor; display: block; }
 .bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: #0072B2; height: 34px; margin: 0; cursor: pointer; }
-.bar .time { font-variant-numeric: tabular-nums; white-space: nowrap; min-width: 15.5em; }
-.bar .time sup { font-size: 75%; line-height: 0; }
-.bar .shows { display: flex; flex-wrap: wrap; gap: 6px; margin-left: auto; }
-.bar .shows label { display: inline-flex; align-items: center; gap: 6px; padding: 0 10px; height: 28px; border-radius: 999px;
+.time { position: absolute; left: 12px; bottom: 10px; padding: 4px 11px; border-radius: 999px; background: #ffffffd9; color: #1d2733;
+  font-variant-numeric: tabular-nums; white-space: nowrap; box-shadow: 0 1px 3px #0002; pointer-events: none; }
+.time sup, .scales sup { font-size: 75%; line-height: 0; }
+.bar .shows { display: flex; flex-wrap: wrap; gap: 5px; }
+.bar .shows label { display: inline-flex; align-items: center; gap: 5px; padding: 0 8px; height: 26px; border-radius: 999px; font-size: 12px;
   border: 1px solid var(--line); cursor: pointer; white-space: nowrap; user-select: none; }
 .bar .shows label:not(:has(input:checked)) { opacity: 0.6; border-style: dashed; }
 .bar .shows input { position: absolute; opacity: 0; width: 1px; height: 1px; }
@@ -50,7 +51,6 @@ export const style = `
   background: var(--swatch); }
 .key sub { font-size: 70%; line-height: 0; }
 @media (max-width: 600px) {
-  .bar .shows { margin-left: 0; }
   .scales { display: none; }
 }
 `;

@@ -9,13 +9,12 @@ import { tryStage } from "./stage.js";
 import { frameIn } from "./style.js";
 
 const GROUND = 0xf7f8fa;
+const INK = 0x1d2733;
 const CURVES = 26; // about so many of the rows have their curve and their tieline drawn
 const CLICK_PX = 4; // a press that moves less than this is a click, not a turn
-const SELECTED = 0xd81b60;
 
-// Viridis (CC0, by S. van der Walt and N. Smith), eleven of its colours with straight lines between.
-const viridis = ["440154", "482475", "414487", "355f8d", "2a788e", "21918c", "22a884", "44bf70", "7ad151", "bddf26", "fde725"]
-  .map((hex) => new THREE.Color(`#${hex}`));
+// Pale to dark in even steps of OKLCH's lightness, from yellow to brown: no hue of a line is among them.
+const ramp = ["#f8f2dd", "#eed8a8", "#e5bb76", "#da9f4a", "#cc8325", "#b8690f", "#9f5414", "#81421e", "#623422"].map((hex) => new THREE.Color(hex));
 
 const data = ["K_J", "theta", "heights", "energy", "verge", "steady", "P", "selected", "selected_curve", "theta_max", "limit"];
 const QUANTITY = "<i>f</i><sub>1</sub><sup>2</sup> <i>θ̇</i><sup>2</sup>";
@@ -58,31 +57,31 @@ export function renderSurface3D({ model, el, view }) {
   mesh.frustumCulled = false;
   const wide = (color, linewidth) => new WideLine({ color, linewidth, clippingPlanes });
   // What lies on the floor under the surface shows through it, paler.
-  const through = (color, linewidth) =>
+  const through = (color, linewidth, opacity = 0.35) =>
     new WideLine({
-      color, linewidth, clippingPlanes, transparent: true, opacity: 0.3, depthFunc: THREE.GreaterDepth, depthWrite: false,
+      color, linewidth, clippingPlanes, transparent: true, opacity, depthFunc: THREE.GreaterDepth, depthWrite: false,
     });
-  const curves = new WideLine({ color: 0x10202c, linewidth: 1, transparent: true, opacity: 0.55, clippingPlanes });
+  const curves = new WideLine({ color: INK, linewidth: 1, transparent: true, opacity: 0.6, clippingPlanes });
   const floor = {
-    tielines: [wide(0x6b7a88, 1.2), through(0x10202c, 1.2)],
+    tielines: [wide(0x6b7a88, 1.2), through(INK, 1.2)],
     verge: [wide(colours.normal, 2.6), through(colours.normal, 2.6)],
-    steady: [wide(colours.theta, 2.6), through(colours.theta, 2.6)],
-    selected: [wide(SELECTED, 4), through(SELECTED, 4)],
+    steady: [wide(INK, 2.2), through(INK, 2.2)],
+    selected: [wide(colours.theta, 4.5), through(colours.theta, 4.5, 0.6)],
   };
-  const selectedCurve = wide(SELECTED, 4);
-  const lines = Object.values(floor).flat();
-  for (const [, hidden] of Object.values(floor)) hidden.renderOrder = 1;
+  const selectedCurves = [wide(colours.theta, 4.5), through(colours.theta, 4.5, 0.6)];
+  const pairs = [...Object.values(floor), selectedCurves];
+  for (const [, hidden] of pairs) hidden.renderOrder = 1;
   const dot = (colour, radius) => {
     const sphere = new THREE.Mesh(new THREE.SphereGeometry(radius, 16, 12), new THREE.MeshBasicMaterial({ color: colour }));
     sphere.visible = false;
     scene.add(sphere);
     return sphere;
   };
-  const pole = dot(0x1d2733, 0.028);
+  const pole = dot(INK, 0.028);
   const poleLabel = labels.add("<i>P</i>", "point");
   poleLabel.shift = [12, -12];
-  const marker = dot(SELECTED, 0.022);
-  scene.add(mesh, curves, selectedCurve, ...lines);
+  const marker = dot(colours.theta, 0.024);
+  scene.add(mesh, curves, ...pairs.flat());
 
   const readout = document.createElement("div");
   readout.className = "readout";
@@ -131,8 +130,8 @@ export function renderSurface3D({ model, el, view }) {
       for (let j = 0; j < columns; j++, at++) {
         position.setXYZ(at, there ? x.at(theta[at]) : 0, b, there ? z.at(height[at]) : 0);
         // Over the root of the height, so that the low part, most of the surface, has shades too.
-        const place = Math.min(Math.sqrt(Math.max(there ? height[at] / z.high : 0, 0)) * 10, 9.999), k = Math.floor(place);
-        shade.lerpColors(viridis[k], viridis[k + 1], place - k);
+        const place = Math.min(Math.sqrt(Math.max(there ? height[at] / z.high : 0, 0)) * (ramp.length - 1), ramp.length - 1.001), k = Math.floor(place);
+        shade.lerpColors(ramp[k], ramp[k + 1], place - k);
         color.setXYZ(at, shade.r, shade.g, shade.b);
       }
     }
@@ -183,7 +182,7 @@ export function renderSurface3D({ model, el, view }) {
     for (const line of floor.verge) line.material.color.set(limit.colour);
     key.innerHTML =
       `<span style="--swatch: ${limit.colour}">${limit.text}</span>` +
-      `<span style="--swatch: ${colours.theta}">steady precession</span><span style="--swatch: #d81b60">this motion</span>`;
+      `<span style="--swatch: #1d2733">steady precession</span><span style="--swatch: ${colours.theta}">this motion</span>`;
 
     const [chosen, inner, outer] = float32(model.selected), curve = float32(model.selected_curve);
     const inBox = Number.isFinite(chosen) && chosen >= y.low && chosen <= y.high;
@@ -192,7 +191,9 @@ export function renderSurface3D({ model, el, view }) {
         for (const end of [inner, outer]) put(x.at(end), y.at(chosen), 0.004);
       });
     }
-    selectedCurve.setPath(inBox ? curve.length >> 1 : 0, (i, put) => put(x.at(curve[2 * i]), y.at(chosen), z.at(curve[2 * i + 1])));
+    for (const line of selectedCurves) {
+      line.setPath(inBox ? curve.length >> 1 : 0, (i, put) => put(x.at(curve[2 * i]), y.at(chosen), z.at(curve[2 * i + 1])));
+    }
 
     const [poleTheta, poleK, poleHeight] = float32(model.P);
     pole.visible = poleLabel.visible = Number.isFinite(poleHeight) && poleK >= y.low && poleK <= y.high;

@@ -20,7 +20,7 @@ const SHADE = 4.5; // half the side of the square that can be in shadow
 const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
 const FOLLOW_MS = 350; // the camera follows the top's drift, not each of its small turns
 const TELL_MS = 80; // how often a scrub is told to Python
-const LONGEST = { force: 2, omega: 2.6, momentum: 2 }; // the longest arrow of a motion is at most this long, in R
+const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
 const verdicts = [
   ["rolls", colours.normal],
   ["would slip here", colours.friction],
@@ -107,7 +107,7 @@ export function renderTop3D({ model, el, view }) {
     landed: tellTime,
     playingChanged: () => (model.playing = player.playing),
   });
-  const bar = new Bar(root, model, player, () => {
+  const bar = new Bar(root, picture, model, player, () => {
     firstView();
     stage.invalidate();
   });
@@ -214,11 +214,11 @@ export function renderTop3D({ model, el, view }) {
   // Far enough for the whole top with its stem and the arrows, whatever the shape of the window.
   function distance() {
     const half = Math.atan(Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)) * Math.min(1, camera.aspect));
-    return 1.06 * (body.reach ?? 2) / Math.sin(half);
+    return (body.reach ?? 2) / Math.sin(half);
   }
 
   function firstView() {
-    seen.set(place.x, place.y, 1.15);
+    seen.set(place.x, place.y, 1.25);
     const far = distance(), azimuth = -1.12, height = 0.3;
     camera.position.set(
       seen.x + far * Math.cos(height) * Math.cos(azimuth),
@@ -260,10 +260,10 @@ export function renderTop3D({ model, el, view }) {
     const { frames } = player;
     const most = frames.scales;
     for (const name of Object.keys(LONGEST)) scales[name] = 1 / niceAbove(most[name] / LONGEST[name]);
+    const perR = (name) => tidy(1 / scales[name]);
     scalesText.innerHTML =
-      `1 <i>R</i> of arrow: ${tidy(1 / scales.force)} <i>Mg</i> (<i>F</i>), ` +
-      `${tidy(1 / scales.omega)} (<i>g</i>/<i>R</i>)<sup>½</sup> (<i>ω</i>), ` +
-      `${tidy(1 / scales.momentum)} <i>MR</i>²(<i>g</i>/<i>R</i>)<sup>½</sup> (<i>L</i>)<br>grid: <i>R</i>`;
+      `<i>R</i> of arrow:<br><i>F</i> ${perR("force")} <i>Mg</i><br><i>ω</i> ${perR("omega")} (<i>g</i>/<i>R</i>)<sup>½</sup><br>` +
+      `<i>L</i> ${perR("momentum")} <i>MR</i>²(<i>g</i>/<i>R</i>)<sup>½</sup>`;
     for (const line of Object.values(track)) line.setPath(frames.count, (i) => frames.contact(i), ABOVE_TABLE);
     for (const line of Object.values(comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
     if (first && frames.count) {
