@@ -24,6 +24,8 @@ export class Ribbon extends THREE.Mesh {
   // (x, y) pairs; all at one height.
   setPath(n, xy, height) {
     this.reserve(n);
+    this.points = n;
+    if (!n) return;
     const { position } = this.geometry.attributes;
     for (let i = 0; i < n; i++) {
       const [x0, y0] = xy(Math.max(i - 1, 0)), [x, y] = xy(i), [x1, y1] = xy(Math.min(i + 1, n - 1));
@@ -33,7 +35,6 @@ export class Ribbon extends THREE.Mesh {
       position.setXYZ(2 * i + 1, x - dx, y + dy, height);
     }
     position.needsUpdate = true;
-    this.points = n;
   }
 
   set points(n) {
@@ -57,10 +58,11 @@ export class Thread extends THREE.Line {
       this.geometry = new THREE.BufferGeometry();
       this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * n), 3));
     }
+    this.points = n;
+    if (!n) return;
     const { position } = this.geometry.attributes;
     for (let i = 0; i < n; i++) point(i, (x, y, z) => position.setXYZ(i, x, y, z));
-    if (n) position.needsUpdate = true;
-    this.points = n;
+    position.needsUpdate = true;
   }
 
   set points(n) {
