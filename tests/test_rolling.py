@@ -115,6 +115,21 @@ def test_a_state_at_the_pole():
     assert_same_motion(trajectory, motion, PAPER)
 
 
+@pytest.mark.parametrize("distance", [1e-3, 1e-7, 1e-11])
+@pytest.mark.parametrize("theta_dot", [0.3, -0.3])
+@pytest.mark.parametrize("pole", [0.0, np.pi])
+def test_a_state_next_to_a_pole(pole, theta_dot, distance):
+    """The azimuth there depends on the last digits of the distance from the pole."""
+    state = State(abs(pole - distance), theta_dot, -1.4, 6.0, x=0.0, y=0.0)
+    times = np.linspace(0, 10, 101)
+    trajectory = roll(LOADED, None, times, state)
+    q = rb.euler_quaternion(0, state.theta, 0)
+    contact = LOADED.a * rb.rotate(q, np.array([0, 0, 1.0]))[:2]
+    motion = rb.integrate(rb.Body.of(LOADED), q, rb.to_body(0, theta_dot, -1.4, 6.0), times, contact)
+    np.testing.assert_allclose(trajectory.omega[0], [theta_dot, -1.4, 6.0], rtol=0, atol=1e-9)
+    assert_same_motion(trajectory, motion, LOADED)
+
+
 @pytest.mark.parametrize("theta", [0.0, np.pi])
 def test_sleeping_top(theta):
     """Upright or inverted, spinning without a push: it stays."""
