@@ -67,10 +67,14 @@ def f(theta, top, constants):
 def pole_constants(top, K_R):
     """(K_J at P, K_J at the inverted pole): where the bracket of (36) vanishes at theta = 0 and at theta = pi.
 
-    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others.
+    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others. For a number
+    K_R the floats nearest to them, which everything here takes for the poles' own.
     """
-    return tuple(
-        top.I3 / top.I1 * (c - top.a) * K_R / np.sqrt(f3_2(c, 0, top)) for c in (1, -1))  # fmt: skip
+    if np.ndim(K_R):
+        return tuple(top.I3 / top.I1 * (c - top.a) * K_R / np.sqrt(f3_2(c, 0, top)) for c in (1, -1))
+    with localcontext(EXACT):
+        t, K_R = exact_top(top), Decimal(float(K_R))
+        return tuple(float(exact_bracket_term(Decimal(c), Decimal(0), t, K_R)) for c in (1, -1))
 
 
 def pole_gaps(top, K_J, K_R):
@@ -95,18 +99,23 @@ def at_pole(d, K_J):
 def near_pole(v, m, top, K_R, gaps):
     """d, x and C of B = d + x C, where x is the smaller of v = 1 - c and m = 1 + c."""
     north = v <= m
-    x, far = np.minimum(v, m), np.maximum(v, m)
-    sign = np.where(north, 1.0, -1.0)
-    a, K, d = sign * top.a, sign * K_R, np.where(north, *gaps)
-    p, q = 1 - a, 1 - x - a
-    f3_pole, f3 = np.sqrt(top.I3 + top.I3 / top.I1 * p**2), np.sqrt(top.I3 + x * far + top.I3 / top.I1 * q**2)
-    # p/f3_pole - q/f3, divided by x: as it stands where p and q differ in sign, else with the difference multiplied out
+    sign, x = np.where(north, 1.0, -1.0), np.minimum(v, m)
+    return np.where(north, *gaps), x, pole_slope(x, sign * top.a, sign * K_R, top)
+
+
+def pole_slope(x, a, K_R, top):
+    """C at x = 1 - c next to the upright pole; next to the inverted one with x = 1 + c and the signs of a and K_R turned."""
+    gamma = top.I3 / top.I1
+    p = 1 - a
+    q, far = p - x, 2 - x
+    f3_pole, f3 = np.sqrt(top.I3 + gamma * p * p), np.sqrt(top.I3 + x * far + gamma * q * q)
+    # p/f3_pole - q/f3, divided by x, with the difference multiplied out; as it stands where p and q differ in sign
     with np.errstate(divide="ignore", invalid="ignore"):
-        C = np.where(
-            p * q > 0,
-            (p**2 * far + top.I3 * (2 * p - x)) / (f3_pole * f3 * (p * f3 + q * f3_pole)),
-            (p / f3_pole - q / f3) / x)  # fmt: skip
-    return d, x, top.I3 / top.I1 * K * C
+        C = (p * p * far + top.I3 * (p + q)) / (f3_pole * f3 * (p * f3 + q * f3_pole))
+        opposite = p * q <= 0
+        if np.any(opposite):
+            C = np.where(opposite, (p / f3_pole - q / f3) / x, C)
+    return gamma * K_R * C
 
 
 def omega2_at(v, m, top, K_R, gaps):
@@ -133,14 +142,18 @@ class ExactCurve:
     """U, D = s^2 (e - U) and N = s^4 dU/dc as functions of c = cos(theta), Decimals."""
 
     def __init__(self, top, exact):
-        self.top = exact_top(top)
-        for c in (1, -1):
-            K_J = exact_bracket_term(Decimal(c), Decimal(0), self.top, exact.K_R)
-            if at_pole(float(exact.K_J - K_J), float(exact.K_J)):
-                exact = replace(exact, K_J=K_J)
-        self.exact = exact
-        self.gaps = tuple(
-            exact.K_J - exact_bracket_term(Decimal(c), Decimal(0), self.top, exact.K_R) for c in (1, -1))  # fmt: skip
+        self.top_, self.top = top, exact_top(top)  # in floats, and exact
+        with localcontext(EXACT):
+            poles = [exact_bracket_term(Decimal(c), Decimal(0), self.top, exact.K_R) for c in (1, -1)]
+            for K_J in poles:
+                if at_pole(float(exact.K_J - K_J), float(exact.K_J)):
+                    exact = replace(exact, K_J=K_J)
+            self.exact, self.gaps = exact, tuple(exact.K_J - K_J for K_J in poles)
+
+    @classmethod
+    def of(cls, top, K_J, K_R):
+        """With no energy."""
+        return cls(top, Exact(Decimal(float(K_J)), Decimal(float(K_R)), Decimal(0)))
 
     def U(self, c):
         t, s2 = self.top, 1 - c * c
@@ -227,12 +240,10 @@ _GRID = np.linspace(0, np.pi, 513)
 _GRID_V, _GRID_M = versines(_GRID)
 
 
-def extrema(top, exact):
+def extrema(curve):
     """cos(theta) of all zeros of N in (0, pi), from theta = 0 on: where U is least or largest. List of Decimals."""
-    K_J, K_R = float(exact.K_J), float(exact.K_R)
+    top, K_J, K_R = curve.top_, float(curve.exact.K_J), float(curve.exact.K_R)
     v, m, c, s2 = _GRID_V, _GRID_M, 1 - _GRID_V, _GRID_V * _GRID_M
-    with localcontext(EXACT):
-        curve = ExactCurve(top, exact)
     d, x, C = near_pole(v, m, top, K_R, tuple(map(float, curve.gaps)))
 
     def N(c):
@@ -275,7 +286,7 @@ def steady_precessions(top, K_J, K_R):
     theta in rad in (0, pi), and 0 or pi itself where K_J is exactly the pole's; stable (f'' < 0) means that U is least.
     """
     with localcontext(EXACT):
-        stations = find_stations(top, Exact(Decimal(float(K_J)), Decimal(float(K_R)), Decimal(0)))
+        stations = find_stations(ExactCurve.of(top, K_J, K_R))
         stations = [s for s in stations if s.gap.is_finite()]
         return SteadyPrecessions(np.array([angle(s.c) for s in stations]), np.array([s.bottom for s in stations], bool))
 
@@ -285,11 +296,11 @@ def angle(c):
     return 2 * np.arctan2(float(1 - c) ** 0.5, float(1 + c) ** 0.5)
 
 
-def find_stations(top, exact):
+def find_stations(curve):
     """The poles and the extrema between them: U is monotone from each to the next."""
     with localcontext(EXACT):
-        curve = ExactCurve(top, exact)
-        places = [Decimal(1), *extrema(top, exact), Decimal(-1)]
+        exact = curve.exact
+        places = [Decimal(1), *extrema(curve), Decimal(-1)]
         U = [curve.U(c) for c in places]
         infinite = Decimal("Infinity")
         bottoms = [here < left and here < right or (here == left == right)
@@ -297,14 +308,13 @@ def find_stations(top, exact):
         return [Station(c, exact.e - u, b) for c, u, b in zip(places, U, bottoms)]
 
 
-def wells(top, exact):
+def wells(curve):
     """The allowed intervals of cos(theta), from theta = 0 on: list of Well.
 
     An energy that differs from that of the bottom of a well by no more than its own rounding is the one of the steady precession.
     """
     with localcontext(EXACT):
-        curve = ExactCurve(top, exact)
-        stations = find_stations(top, exact)
+        exact, stations = curve.exact, find_stations(curve)
         size = max(abs(exact.e), exact.K_R**2, exact.K_J**2)
         rounding = size * Decimal(2) ** -50
         found, inner = [], None
@@ -327,7 +337,7 @@ def wells(top, exact):
     if not found:
         least = float(exact.e - max(s.gap for s in stations))
         with localcontext(EXACT):
-            t = exact_top(top)
+            t = curve.top
             shift = float(exact.K_R**2 - t.I1 / t.I3 * exact.K_J**2)
             E, E_least = (float(exact.e) + shift) / 2, (least + shift) / 2
         raise NoMotionError("E", E, f"E >= {E_least:.10g} for this top, K_J = {float(exact.K_J):.10g} and K_R = {float(exact.K_R):.10g}",
@@ -351,4 +361,4 @@ def turning_points(top, constants):
 
     The constants are numbers. Steady precession: both ends equal. Raises NoMotionError below the lowest well.
     """
-    return np.array([[angle(w.inner), angle(w.outer)] for w in wells(top, Exact.of(constants, top))])
+    return np.array([[angle(w.inner), angle(w.outer)] for w in wells(ExactCurve(top, Exact.of(constants, top)))])

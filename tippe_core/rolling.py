@@ -56,12 +56,11 @@ class Rolling:
         self.top = top
         with localcontext(EXACT):
             if isinstance(start, State):
-                exact, (inner, outer), here = _from_state(top, constants, start)
+                curve, (inner, outer), here = _from_state(top, constants, start)
             else:
-                exact, (inner, outer) = _from_constants(top, constants, start, well)
+                curve, (inner, outer) = _from_constants(top, constants, start, well)
                 here = inner if start == "inner" else outer
-            curve = ExactCurve(top, exact)
-            self._exact = curve, inner, outer
+            exact, self._exact = curve.exact, (curve, inner, outer)
             self.gaps = tuple(map(float, curve.gaps))
             self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
             self.width = float(inner - outer)
@@ -87,7 +86,7 @@ class Rolling:
         # of B = K_J - (I3/I1) K_R (c - a)/f3,
         k = -gamma * self.K_R
         B_12, B_2c, B_12c = k * ((c1 - a) * r_12 + 1 / y2), k * ((c2 - a) * r_2c + 1 / y), k * ((c1 - a) * r_12c + r_2c)
-        B1, B2, B = self._bracket(self.v1, self.m1), self._bracket(self.v2, self.m2), self._bracket(v, m)
+        (B1, B2), B = self._bracket_ends, self._bracket(v, m)
         # of f2^2 B^2, and of s^2 (2E' - 2a(1 - c))
         F1, F_12, F_12c = f2_2(c1, self.v1 * self.m1, top), (1 - 1 / gamma) * (c1 + c2) - 2 * a, 1 - 1 / gamma
         kinetic = F1 * (B1 * B_12c + B_12 * B_2c + B_12c * B) + F_12 * B_2c * (B2 + B) + F_12c * B * B
@@ -108,6 +107,10 @@ class Rolling:
     def _bracket(self, v, m):
         d, x, C = near_pole(v, m, self.top, self.K_R, self.gaps)
         return d + x * C
+
+    @cached_property
+    def _bracket_ends(self):
+        return self._bracket(np.array([self.v1, self.v2]), np.array([self.m1, self.m2]))
 
     def _nodes(self, n):
         """n midpoints of kappa in (0, pi): (cos(kappa/2), sin(kappa/2)), v, m, h."""
@@ -150,10 +153,8 @@ class Rolling:
     @cached_property
     def _kappa(self):
         """Sine coefficients in tau of kappa - tau."""
-        n = self._time[0]
+        n, _, _, tau = self._time
         while True:
-            (h,) = dct(self._nodes(n)[-1][None], type=2, axis=1) / n
-            tau = _phase(h)
 
             def coefficients(count, n=n, tau=tau):
                 k = np.arange(1, count + 1)
@@ -163,6 +164,7 @@ class Rolling:
             if series is not None or n >= _NODES_MOST:
                 return series[0]
             n *= 2
+            tau = _phase(dct(self._nodes(n)[-1], type=2) / n)
 
     @cached_property
     def _orientation(self):
@@ -288,12 +290,12 @@ class Rolling:
         Y_im = _evaluate(tau, (ahead + back)[None], cosine=True)[0]
         scale = self.period / (2 * np.pi)
         Y, Y0 = Y_re - 1j * (Y_im + still), -1j * ((ahead + back).sum() + still)
-        whole = np.exp(2j * np.pi * np.remainder(turns * x, 1))
+        whole = np.exp(2j * np.pi * _part_turn(turns, x))
         along = whole * tau * np.exp(0.5j * x * tau) * np.sinc(x * tau / (2 * np.pi)) + 2 * np.pi * turns * np.exp(
             1j * np.pi * x * turns) * np.sinc(x * turns)  # fmt: skip
         contact = scale * (whole * np.exp(1j * rate * tau) * Y - Y0 + amplitude * along)
         # whole turns apart: rounded with them, the angles of late periods would not be smooth in time
-        sigma = [(2 * np.pi * np.fmod(turns * mu, 1), mu * tau + series, 2 * np.pi * np.trunc(turns * mu))
+        sigma = [(2 * np.pi * _part_turn(turns, mu), mu * tau + series, 2 * np.pi * np.trunc(turns * mu))
                  for mu, series in zip(mean, (minus_t, plus_t), strict=True)]  # fmt: skip
         return (tau + kappa) / 2, *sigma, contact
 
@@ -345,11 +347,11 @@ def _from_constants(top, constants, start, well):
         raise TopError("start", start, '"inner", "outer" or a State')
     if not isinstance(constants, Constants):
         raise TopError("constants", constants, "Constants(K_J, K_R, E)", "Only a State can stand in for them.")
-    exact = Exact.of(constants, top)
-    found = wells(top, exact)
+    curve = ExactCurve(top, Exact.of(constants, top))
+    found = wells(curve)
     if isinstance(well, bool) or well not in range(len(found)):
         raise TopError("well", well, f"0 to {len(found) - 1}, a row of turning_points")
-    return exact, found[well]
+    return curve, found[well]
 
 
 def _from_state(top, constants, state):
@@ -368,13 +370,21 @@ def _from_state(top, constants, state):
             if abs(getattr(own, name) - getattr(exact, name)) > Decimal("1e-9") * max(1, abs(getattr(exact, name))):
                 raise TopError(name, getattr(constants, name), f"{float(getattr(exact, name)):.10g}, that of the State",
                                "Give None for the constants.")  # fmt: skip
-    if state.theta_dot == 0 and ExactCurve(top, exact).N(here) == 0:
-        return exact, Well(here, here), here
-    inner, outer = min(wells(top, exact), key=lambda w: max(here - w.inner, w.outer - here))
-    return exact, Well(inner, outer), min(max(here, outer), inner)
+    curve = ExactCurve(top, exact)
+    if state.theta_dot == 0 and curve.N(here) == 0:
+        return curve, Well(here, here), here
+    inner, outer = min(wells(curve), key=lambda w: max(here - w.inner, w.outer - here))
+    return curve, Well(inner, outer), min(max(here, outer), inner)
 
 
 # ---- series ----
+
+
+def _part_turn(turns, rate):
+    """turns * rate less its whole part, to the digits of rate: the product with its leading 24 bits is exact."""
+    leading = float(np.float32(rate))
+    whole = turns * leading
+    return np.fmod(whole, 1) + turns * (rate - leading) - (np.trunc(turns * rate) - np.trunc(whole))
 
 
 def _integral(cosines):
@@ -418,9 +428,9 @@ def _evaluate(tau, rows, cosine=False):
     out = np.empty((len(rows), len(tau)))
     step = max(1, 2**18 // count)
     for i in range(0, len(tau), step):
-        z = np.exp(1j * tau[i : i + step])
-        wave = np.empty((count, len(z)), complex)
-        wave[0] = z
+        phase = tau[i : i + step]
+        wave = np.empty((count, len(phase)), complex)
+        wave[0].real, wave[0].imag = np.cos(phase), np.sin(phase)
         done = 1
         while done < count:
             more = min(done, count - done)

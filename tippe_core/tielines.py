@@ -15,12 +15,11 @@ K_J at once, then refined: a least value inside by parabolas, one where the viol
 
 from collections import namedtuple
 from dataclasses import dataclass
-from decimal import Decimal
 
 import numpy as np
 
-from .constants import Constants, Exact, f1_2, f2_2, f3_2, versines
-from .curve import bracket_slope, find_stations, near_pole, omega2_at, pole_gaps, turning_points, well_slope
+from .constants import Constants, f1_2, f2_2, f3_2, versines
+from .curve import ExactCurve, angle, bracket_slope, find_stations, pole_gaps, pole_slope, turning_points, well_slope
 from .errors import TopError, finite
 
 Rows = namedtuple("Rows", "height G s f2 Zc Zl Zq Yc Yl Yq z1 y1 x1")
@@ -70,7 +69,7 @@ def figures(top, K_J, K_R, mu_s):
 
 # ---- the grid: every coefficient that depends on theta alone ----
 
-_X = (np.arange(512) + 0.5) / 512
+_X = (np.arange(256) + 0.5) / 256
 GRID = np.pi * (_X - 0.9 * np.sin(2 * np.pi * _X) / (2 * np.pi))  # closer at the poles, where U is steep
 
 
@@ -107,33 +106,33 @@ def _at_rest(rows, K_J):
 
 
 def _lift(rows, z):
-    """The least excess, from z = F_z at none on, at which F_z < 0; inf where none is."""
+    """The excess, counted from where F_z = z, at which F_z falls to 0: negative where it is below already; inf if never."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        x = z * np.where(rows.z1 < 0, -1 / rows.z1, np.inf)
-    return np.maximum(x, 0, out=x)
+        return z * np.where(rows.z1 < 0, -1 / rows.z1, np.inf)
 
 
 def _slip(rows, z, y, x, mu):
-    """The least excess, from F_z = z, F_y = y and F_x^2 = x on, at which F_h > mu F_z; inf where none is."""
+    """The same for F_h rising to mu F_z, counted from where F_z = z, F_y = y and F_x^2 = x."""
     C = mu * z
     B = C * (-2 * mu * rows.z1)
     B += (2 * rows.y1) * y
     B += rows.x1
-    broken = C < 0
+    over = C < 0
     C *= -C
     C += y * y
     C += x
+    over |= C > 1e-24
     root = B * B
     root -= (4 * (rows.y1**2 - (mu * rows.z1) ** 2)) * C
     with np.errstate(divide="ignore", invalid="ignore"):
         np.sqrt(root, out=root)
         root += B
-        broken |= C > 1e-24
         C *= -2
         C /= root
-        # no zero ahead: a negative discriminant, or both zeros behind
-        C[~(root > 0)] = np.inf
-    C[broken] = 0
+    # no zero ahead: a negative discriminant, or both zeros behind
+    np.copyto(C, np.inf, where=~(root > 0))
+    np.copyto(C, np.minimum(C, 0) if over.any() else C, where=over)
+    C[over & ~(root > 0)] = -np.inf
     return C
 
 
@@ -149,37 +148,55 @@ def _tielines(top, K_J, K_R, limits):
     for mu in limits:
         if mu is not None and finite("mu_s", mu) < 0:
             raise TopError("mu_s", float(mu), "mu_s >= 0")
+    if not K_J.size:
+        empty = np.empty(shape)
+        return [Tielines(*[empty] * 5, np.empty(shape, "U9"), empty, empty) for _ in limits]
     well = _Wells(top, K_J, K_R)
-    lift, results = _lift(well.rows, well.z), []
-    for mu in limits:
-        first = well.base + (lift if mu is None else np.minimum(lift, _slip(well.rows, well.z, well.y, well.x, mu)))
-        e, verge, slips = well.least(first, mu)
-        broken = well.broken(mu)
-        e = np.where(broken, np.nan, e)
-        inner, outer = well.ends(e)
-        by = np.where(broken, "no motion", np.where(np.isinf(e), "nothing", np.where(slips, "slip", "lift-off")))
-        verge = np.where(np.isfinite(e), verge, np.nan)
-        parts = [K_J, well.energy(e), inner, outer, verge, by, well.theta_p, well.energy(well.U_p)]
+    e, verge, slips, broken = (np.reshape(part, (len(limits), -1)) for part in well.limits(limits))
+    for which, i in zip(*np.nonzero(well.narrow(e)), strict=True):
+        e[which, i], verge[which, i], slips[which, i] = _closer(well, i, limits[which])
+    inner, outer = well.ends(e)
+    results = []
+    for i in range(len(limits)):
+        by = np.where(broken[i], "no motion", np.where(np.isinf(e[i]), "nothing", np.where(slips[i], "slip", "lift-off")))
+        place = np.where(np.isfinite(e[i]), verge[i], np.nan)
+        parts = [K_J, well.energy(e[i]), inner[i], outer[i], place, by, well.theta_p, well.energy(well.U_p)]
         results.append(Tielines(*(np.reshape(part, shape) for part in parts)))
     return results
+
+
+def _closer(well, i, mu):
+    """2E', theta and whether it slips, for a tieline too short for the grid: on ever closer grids about theta_p."""
+    theta, grid = well.theta_p[i], well.grid
+    for _ in range(8):
+        j = np.searchsorted(grid, theta)
+        low, high = (grid[j - 4] if j >= 4 else 0.0), (grid[j + 3] if j + 3 < len(grid) else np.pi)
+        grid = low + (high - low) * (np.arange(len(GRID)) + 0.5) / len(GRID)
+        part = _Wells(well.top, well.K_J[i : i + 1], well.K_R, grid, well.theta_p[i : i + 1])
+        e, verge, slips, _ = part.limits([mu])
+        if not part.narrow(e[None])[0, 0]:
+            break
+    return e[0], verge[0], slips[0]
 
 
 class _Wells:
     """The wells of the steady precessions of least energy at one K_R, one for each K_J (k,), on the grid (k, n)."""
 
-    def __init__(self, top, K_J, K_R):
-        self.top, self.K_J, self.K_R = top, K_J, K_R
+    def __init__(self, top, K_J, K_R, grid=GRID, theta_p=None):
+        self.top, self.K_J, self.K_R, self.grid = top, K_J, K_R, grid
         self.gaps = pole_gaps(top, K_J, K_R)
-        self.rows = _rows(GRID, top, K_R)
+        self.rows = _rows(grid, top, K_R)
         U, self.z, self.y = _at_rest(self.rows, K_J[:, None])
         self.lowest = U.argmin(axis=1)
-        self.theta_p, self.U_p = self._steady()
+        self.theta_p = self._steady(U) if theta_p is None else theta_p
+        self.at_p = _at_rest(_rows(np.clip(self.theta_p, 1e-9, np.pi - 1e-9), top, K_R), K_J)
+        self.U_p = self.at_p[0]
         rising = U[:, 1:] > U[:, :-1]
         several = np.flatnonzero((rising[:, :-1] > rising[:, 1:]).any(axis=1))
         self.barriers = {i: self._barriers(i) for i in several}
         self.base, self.x = U, 0.0
         if self.barriers:
-            self.base = self._base(U, GRID)
+            self.base = self._base(U, grid)
             over = self.base - U
             self.z, self.y, self.x = self.z + self.rows.z1 * over, self.y + self.rows.y1 * over, self.rows.x1 * over
 
@@ -187,19 +204,30 @@ class _Wells:
         """E from 2E'."""
         return (e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
 
-    def _steady(self):
-        """theta_p and U there: the zero of N next to the lowest point of the grid."""
-        top, K_R, j = self.top, self.K_R, self.lowest
-        low, high = GRID[np.maximum(j - 1, 0)], GRID[np.minimum(j + 1, len(GRID) - 1)]
-        theta = _zero(lambda t: self._slope(t), low, high)
-        edge = (j < 2) | (j > len(GRID) - 3) | ~np.isfinite(theta)
-        for i in np.flatnonzero(edge):
-            found = [x for x in find_stations(top, Exact(*(Decimal(float(x)) for x in (self.K_J[i], K_R, 0)))) if x.bottom]
-            best = max(found, key=lambda x: x.gap)
-            theta[i] = 2 * np.arctan2(float(1 - best.c) ** 0.5, float(1 + best.c) ** 0.5)
-        v, m = versines(theta)
-        w2 = omega2_at(v, m, top, K_R, self.gaps)
-        return theta, 2 * top.a * v + f2_2(1 - v, v * m, top) * w2**2
+    def _steady(self, U):
+        """theta_p: the zero of N next to the lowest point of the grid."""
+        top, k, n = self.top, np.arange(len(self.K_J)), len(GRID)
+        j = np.clip(self.lowest, 1, n - 2)
+        theta, _ = _vertex(np.array([GRID[j + i] for i in (-1, 0, 1)]), np.array([U[k, j + i] for i in (-1, 0, 1)]))
+        h = 1e-6
+        for _ in range(3):
+            N = self._slope(np.array([theta - h, theta + h]))
+            with np.errstate(invalid="ignore", divide="ignore"):
+                step = h * (N[0] + N[1]) / (N[1] - N[0])
+            theta = theta - step
+            if not np.any(np.abs(step) > 1e-7):
+                break
+        edge = (self.lowest < 4) | (self.lowest > n - 5)
+        astray = ~(np.abs(step) < 1e-9) | ~(np.abs(theta - GRID[j]) <= GRID[j + 1] - GRID[j - 1])
+        for gap, pole, a, K in zip(self.gaps, (0, np.pi), (top.a, -top.a), (self.K_R, -self.K_R), strict=True):
+            # upright at K_J(P): U = 2 a v + f2^2 C^2 v/2 there
+            still = 2 * a + (top.I1 + (1 - a) ** 2) * pole_slope(0.0, a, K, top) ** 2 / 2 > 0
+            at = still & (gap == 0) & (np.abs(GRID[self.lowest] - pole) < 0.01)
+            theta[at], edge[at], astray[at] = pole, False, False
+        for i in np.flatnonzero(edge | astray):
+            found = [x for x in find_stations(ExactCurve.of(top, self.K_J[i], self.K_R)) if x.bottom]
+            theta[i] = angle(max(found, key=lambda x: x.gap).c)
+        return theta
 
     def _slope(self, theta):
         c, s2 = np.cos(theta), np.sin(theta) ** 2
@@ -208,102 +236,157 @@ class _Wells:
 
     def _barriers(self, i):
         """(theta, U) of the largest U that separate the wells of one K_J."""
-        stations = find_stations(self.top, Exact(*(Decimal(float(x)) for x in (self.K_J[i], self.K_R, 0))))
+        stations = find_stations(ExactCurve.of(self.top, self.K_J[i], self.K_R))
         tops = [x for x in stations if not x.bottom and x.gap.is_finite()]
-        return [(2 * np.arctan2(float(1 - x.c) ** 0.5, float(1 + x.c) ** 0.5), -float(x.gap)) for x in tops]
+        return [(angle(x.c), -float(x.gap)) for x in tops]
 
-    def _base(self, U, theta):
-        """The least energy with which each theta is reached: the largest U between it and theta_p."""
-        base = U.copy()
-        theta = np.broadcast_to(theta, U.shape)
+    def _base(self, U, theta, k=None):
+        """The least energy with which each theta is reached: the largest U between it and theta_p.
+
+        U (k, n) on the grid, or U and theta (..., i) for the K_J of the indices k (i,).
+        """
+        base, theta = U.copy(), np.broadcast_to(theta, U.shape)
         for i, tops in self.barriers.items():
+            at = (i,) if k is None else (..., k == i)
             for place, height in tops:
-                beyond = (theta[..., i, :] - place) * (self.theta_p[i] - place) < 0
-                base[..., i, :] = np.where(beyond, np.maximum(base[..., i, :], height), base[..., i, :])
+                beyond = (theta[at] - place) * (self.theta_p[i] - place) < 0
+                base[at] = np.where(beyond, np.maximum(base[at], height), base[at])
         return base
 
-    def broken(self, mu):
-        """Whether the steady precession itself breaks the limit."""
-        rows = _rows(np.clip(self.theta_p, 1e-9, np.pi - 1e-9), self.top, self.K_R)
-        v, m = versines(self.theta_p)
-        w = omega2_at(v, m, self.top, self.K_R, self.gaps)
-        z, y = rows.Zc + rows.Zl * w + rows.Zq * w * w, rows.Yc + rows.Yl * w + rows.Yq * w * w
-        return z < 0 if mu is None else (z < 0) | (np.abs(y) > mu * z + 1e-12)
-
-    def _first(self, theta, mu):
-        """Base, the first energy from it on that breaks the limit, and how far the limit is at the base, for theta (j, k)."""
+    def _forces(self, theta, k):
+        """Rows, base, and F_z, F_y and F_x^2 there, at theta (..., i) for the K_J of the indices k (i,)."""
         rows = _rows(theta, self.top, self.K_R)
-        U, z, y = _at_rest(rows, self.K_J)
+        U, z, y = _at_rest(rows, self.K_J[k])
         base, x = U, 0.0
         if self.barriers:
-            base = self._base(U[..., None], theta[..., None])[..., 0]
+            base = self._base(U, theta, k)
             over = base - U
             z, y, x = z + rows.z1 * over, y + rows.y1 * over, rows.x1 * over
-        excess = lift = _lift(rows, z)
-        if mu is None:
-            return base, base + lift, z, False
-        slip = _slip(rows, z, y, x, mu)
-        excess = np.minimum(lift, slip)
-        return base, base + excess, mu * z - np.sqrt(y * y + x), slip < lift * (1 - 1e-9)
+        return rows, base, z, y, x
 
-    def least(self, first, mu):
-        """2E' of the limit, the theta where it is reached, and whether it is slipping: the least of `first` over theta."""
-        k, n = np.arange(len(self.K_J)), len(GRID)
-        j = first.argmin(axis=1)
-        left, right = GRID[np.maximum(j - 1, 0)], GRID[np.minimum(j + 1, n - 1)]
-        broken = first == self.base
-        # where the violation meets the turning points between two points of the grid, that is a corner
-        here, before, after = broken[k, j], broken[k, np.maximum(j - 1, 0)], broken[k, np.minimum(j + 1, n - 1)]
-        on_left = np.where(here, ~before, before) & (before != here)
-        on_right = np.where(here, ~after, after) & (after != here) & ~on_left
-        corner = on_left | on_right
-        middle = GRID[j]
-        with np.errstate(invalid="ignore", divide="ignore"):
-            edge = _zero(lambda t: self._first(t, mu)[2], np.where(on_left, left, middle), np.where(on_right, right, middle))
-            edge = np.where(corner & np.isfinite(edge), edge, middle)
-            # the allowed side of a corner: from it inwards
-            left = np.where(corner & (np.where(on_left, before, here)), edge, left)
-            right = np.where(corner & (np.where(on_right, after, here)), edge, right)
-            theta = _least(lambda t: self._first(t, mu)[1], left, right)
-            candidates = np.array([theta, edge, middle])
-            base, e, _, slips = self._first(candidates, mu)
-        e[1] = np.where(corner, base[1], e[1])
-        best = np.nanargmin(np.where(np.isnan(e), np.inf, e), axis=0)
-        slips = np.broadcast_to(slips, e.shape)[best, k]
-        if mu is not None:
-            slips = slips | (corner & (best == 1) & (self._normal(edge, base[1]) > 1e-9))
-        return e[best, k], candidates[best, k], slips
+    def narrow(self, e):
+        """Where a trajectory of energy e (limits, k) has fewer than six points of the grid."""
+        inside = np.array([np.count_nonzero(self.base <= part[:, None], axis=1) for part in e])
+        return np.isfinite(e) & (inside < 6)
 
-    def _normal(self, theta, e):
-        """F_z at theta on the trajectory of energy e."""
-        rows = _rows(theta, self.top, self.K_R)
-        U, z, _ = _at_rest(rows, self.K_J)
-        return z + rows.z1 * (e - U)
+    def limits(self, limits):
+        """2E' of each limit, the theta where it is reached, whether by slipping, and whether at rest already: (limits, k)."""
+        count, n = len(self.K_J), len(self.grid)
+        lift = _lift(self.rows, self.z)
+        j, stencil = [], []
+        for mu in limits:
+            excess = lift if mu is None else np.minimum(lift, _slip(self.rows, self.z, self.y, self.x, mu))
+            first = np.maximum(excess, 0)
+            first += self.base
+            least = np.clip(first.argmin(axis=1), 1, n - 2)
+            j.append(least)
+            stencil.append(excess[np.arange(count), [least - 1, least, least + 1]])
+        k, j = np.tile(np.arange(count), len(limits)), np.concatenate(j)
+        mu = np.repeat([np.inf if mu is None else mu for mu in limits], count)
+        excess = np.concatenate(stencil, axis=1)
+        at = np.array([j - 1, j, j + 1])
+        theta = self.grid[at]
+        base, margin = self.base[k, at], _margin(self.z[k, at], self.y[k, at], self.x[k, at] if self.barriers else 0.0, mu)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            over = excess < 0
+            e_corner, corner, normal = self._corner(theta, over, margin, k, mu)
+            e_inside, inside, slipping = self._inside(theta, base + excess, over, np.isfinite(e_corner), corner, k, mu)
+        at_corner = e_corner < e_inside
+        e, verge = np.where(at_corner, (e_corner, corner), (e_inside, inside))
+        missed = ~np.isfinite(e) & np.isfinite(base[1] + np.maximum(excess[1], 0))
+        e, verge = np.where(missed, base[1] + np.maximum(excess[1], 0), e), np.where(missed, theta[1], verge)
+        U, z, y = (np.tile(part, len(limits)) for part in self.at_p)
+        friction = np.isfinite(mu)
+        broken = (z < 0) | (friction & (np.abs(y) > np.where(friction, mu, 0) * z + 1e-12))
+        slips = friction & np.where(at_corner, normal > 1e-9, slipping)
+        return np.where(broken, np.nan, e), verge, slips, broken
+
+    def _corner(self, theta, over, margin, k, mu):
+        """Where between three points of the grid the limit is reached at the turning point itself: energy, theta, F_z.
+
+        over (3, i): whether the limit is broken there at once, margin (3, i) how far it is; inf where there is no corner.
+        """
+        left = over[0] != over[1]
+        i = np.flatnonzero(left | (over[1] != over[2]))
+        e, zero, normal = np.full(len(k), np.inf), theta[1].copy(), np.zeros(len(k))
+        if not i.size:
+            return e, zero, normal
+        low, high = np.where(left, theta[:2], theta[1:])[:, i]
+        # inverse quadratic interpolation on the last three points, kept in the bracket
+        xs, fs = [*theta[:, i]], [*margin[:, i]]
+        for _ in range(10):
+            (x0, x1, x2), (f0, f1, f2) = xs, fs
+            d0, d1, d2 = f0 - f1, f1 - f2, f0 - f2
+            x = np.clip(x2 + f2 * (f1 / d0 * ((x1 - x2) / d1 - (x0 - x2) / d2) - (x1 - x2) / d1), low, high)
+            x = np.where(np.isfinite(x), x, x2)
+            _, base, z, y, square = self._forces(x, k[i])
+            xs, fs = [x1, x2, x], [f1, f2, _margin(z, y, square, mu[i])]
+            if np.abs(x - x2).max() < 1e-7:
+                break
+        e[i], zero[i], normal[i] = base, x, z
+        return e, zero, normal
+
+    def _inside(self, theta, first, over, has_corner, corner, k, mu):
+        """Where the energy that breaks the limit is least between the three points: energy, theta, whether it slips there."""
+        middle, _ = _vertex(theta, first)
+        # beyond a corner the limit is broken at once: the least inside lies on the allowed side
+        before, after = has_corner & (corner < theta[1]), has_corner & (corner > theta[1])
+        low = np.where((before & over[0]) | (after & over[1]), corner, theta[0])
+        high = np.where((after & over[2]) | (before & over[1]), corner, theta[2])
+        middle = np.where(np.isfinite(middle), middle, theta[1])
+        h = (theta[2] - theta[0]) / 200
+        i = np.flatnonzero((low < high) & np.isfinite(first[1]))
+        e, place, slipping = np.full(len(k), np.inf), theta[1].copy(), np.zeros(len(k), bool)
+        for _ in range(6):
+            if not i.size:
+                break
+            centre = np.clip(middle[i], low[i] + h[i], high[i] - h[i])
+            points = np.array([centre - h[i], centre, centre + h[i]])
+            values, slips = self._first(points, k[i], mu[i])
+            slipping[i] = slips[1]
+            vertex, least = _vertex(points, values)
+            good = np.abs(vertex - centre) <= 2 * h[i]
+            lowest = values.argmin(axis=0), np.arange(len(i))
+            e[i] = np.where(good, least, values[lowest])
+            place[i] = np.where(good, vertex, points[lowest])
+            pinned = ~good & ((place[i] <= low[i] + 2 * h[i]) | (place[i] >= high[i] - 2 * h[i]))
+            middle[i] = np.where(np.isfinite(vertex) & (np.abs(vertex - centre) < 50 * h[i]), vertex, points[lowest])
+            i = i[~good & ~pinned]
+        inside = (place > low) & (place < high)
+        return np.where(inside, e, np.inf), place, slipping
+
+    def _first(self, theta, k, mu):
+        """The first energy that breaks the limit, for theta (j, i), and whether it is by slipping."""
+        rows, base, z, y, x = self._forces(theta, k)
+        lift, friction = _lift(rows, z), np.isfinite(mu)
+        slip = np.where(friction, _slip(rows, z, y, x, np.where(friction, mu, 0)), np.inf)
+        return base + np.minimum(lift, slip), slip < lift
 
     def ends(self, e):
-        """theta at the turning points of the trajectories of energy e in these wells."""
-        n, k = len(GRID), np.arange(len(e))
-        inside = self.base <= e[:, None]
-        some = inside.any(axis=1)
-        first, last = inside.argmax(axis=1), n - 1 - inside[:, ::-1].argmax(axis=1)
-        ends = []
-        for j, step in ((first, -1), (last, 1)):
-            j = np.where(some, j, self.lowest)
-            beyond = np.clip(j + step, 0, n - 1)
-            with np.errstate(invalid="ignore", divide="ignore"):
-                share = (e - self.base[k, j]) / (self.base[k, beyond] - self.base[k, j])
-                share = np.where((share >= 0) & (share <= 1), share, 0)
-                guess = GRID[j] + share * (GRID[beyond] - GRID[j])
-                curvature = np.abs(self.base[k, self.lowest] - self.U_p) / (GRID[self.lowest] - self.theta_p) ** 2
-                near = np.sqrt(np.maximum(e - self.U_p, 0) / curvature)
-                guess = np.where(some, guess, self.theta_p + step * np.where(np.isfinite(near), near, 0))
-            ends.append(guess)
+        """theta at the turning points of the trajectories of energies e (limits, k) in these wells: (2, limits, k)."""
+        n, k, theta = len(self.grid), np.arange(e.shape[1]), []
+        curvature = self.base[k, self.lowest] - self.U_p
+        wide = np.abs(self.grid[self.lowest] - self.theta_p) / np.sqrt(np.maximum(curvature, 0))
+        for energy in e:
+            inside = self.base <= energy[:, None]
+            some, first, last = inside.any(axis=1), inside.argmax(axis=1), n - 1 - inside[:, ::-1].argmax(axis=1)
+            for j, step in ((first, -1), (last, 1)):
+                beyond = np.clip(j + step, 0, n - 1)
+                with np.errstate(invalid="ignore", divide="ignore"):
+                    share = (energy - self.base[k, j]) / (self.base[k, beyond] - self.base[k, j])
+                    guess = self.grid[j] + np.where((share >= 0) & (share <= 1), share, 0) * (self.grid[beyond] - self.grid[j])
+                    near = wide * np.sqrt(np.maximum(energy - self.U_p, 0))
+                    few = ~some | (last - first < 4)
+                    guess = np.where(few & np.isfinite(near), self.theta_p + step * near, guess)
+                theta.append(guess)
+        theta = np.array(theta).reshape(len(e), 2, -1).swapaxes(0, 1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            theta = self._turning(np.array(ends), e)
+            theta = self._turning(theta, e)
         theta[:, np.isinf(e)] = np.array([[0.0], [np.pi]])
-        for i in self.barriers:
-            if np.isfinite(e[i]):
-                theta[:, i] = self._exact_ends(i, e[i])
+        doubtful = ~(theta[0] <= self.theta_p + 1e-9) | ~(theta[1] >= self.theta_p - 1e-9)
+        doubtful[:, list(self.barriers)] = True
+        for which, i in zip(*np.nonzero(doubtful & np.isfinite(e)), strict=True):
+            theta[:, which, i] = self._exact_ends(i, e[which, i])
         return theta
 
     def _turning(self, theta, e):
@@ -312,51 +395,41 @@ class _Wells:
         v, m = versines(theta)
         north = theta < np.pi / 2
         x, a, K = np.where(north, v, m), np.where(north, top.a, -top.a), np.where(north, self.K_R, -self.K_R)
-        delta, gamma = top.I1 / top.I3, top.I3 / top.I1
-        for _ in range(6):
-            v, m = np.where(north, x, 2 - x), np.where(north, 2 - x, x)
-            d, near, C = near_pole(v, m, top, self.K_R, self.gaps)
-            B, c, s2 = d + near * C, 1 - x, x * (2 - x)
-            f2, f3 = top.I1 + delta * s2 + (c - a) ** 2, np.sqrt(top.I3 + s2 + gamma * (c - a) ** 2)
-            rest = e - 2 * top.a * v
-            dB, df2 = -gamma * K * (top.I3 + 1 - a * c) / f3**3, 2 * ((c - a) - delta * c)
+        delta, gamma, d = top.I1 / top.I3, top.I3 / top.I1, np.where(north, *self.gaps)
+        lift = np.where(north, e, e - 4 * top.a)  # e less 2a(1 - c) at the pole
+        for _ in range(12):
+            c, s2 = 1 - x, x * (2 - x)
+            p = c - a
+            B, f2, f3_2 = d + x * pole_slope(x, a, K, top), top.I1 + delta * s2 + p * p, top.I3 + s2 + gamma * p * p
+            rest = lift - 2 * a * x
+            dB, df2 = -gamma * K * (top.I3 + 1 - a * c) / (f3_2 * np.sqrt(f3_2)), 2 * (p - delta * c)
             D = s2 * rest - f2 * B * B
             slope = 2 * a * s2 - 2 * c * rest - B * (df2 * B + 2 * f2 * dB)  # dD/dc
-            x = np.clip(x + D / slope, 0, 2)
+            x, before = np.clip(x + D / slope, 0, 2), x
+            if not np.any(np.abs(x - before) > 1e-7 * x):  # Newton's steps: the error left is the square of that
+                break
         half = np.arctan2(np.sqrt(x), np.sqrt(2 - x))
         return np.where(north, 2 * half, np.pi - 2 * half)
 
     def _exact_ends(self, i, e):
-        """As turning_points has them, where several wells make the grid's choice of zeros doubtful."""
-        E = float(self.energy(e)[i])
-        pairs = turning_points(self.top, Constants(self.K_J[i], self.K_R, E))
+        """As turning_points has them, where the grid leaves doubt."""
+        E = (e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J[i] ** 2) / 2
+        pairs = turning_points(self.top, Constants(self.K_J[i], self.K_R, max(E, self.energy(self.U_p)[i])))
         return min(pairs, key=lambda p: max(p[0] - self.theta_p[i], self.theta_p[i] - p[1]))
 
 
-def _zero(function, low, high):
-    """Zeros of function(theta (k,)) between low and high (k,): secant steps kept in the bracket. nan without a change of sign."""
-    f_low, f_high = function(low), function(high)
-    changes = f_low * f_high <= 0
-    x0, x1, f0, f1 = low, high, f_low, f_high
-    for _ in range(5):
-        with np.errstate(invalid="ignore", divide="ignore"):
-            x = x1 - f1 * (x1 - x0) / (f1 - f0)
-        x = np.where(np.isfinite(x), np.clip(x, low, high), x1)
-        x0, f0, x1, f1 = x1, f1, x, function(x)
-    return np.where(changes, x1, np.nan)
+def _margin(z, y, x, mu):
+    """mu F_z - F_h, or F_z where mu is infinite."""
+    friction = np.isfinite(mu)
+    return np.where(friction, np.where(friction, mu, 0) * z - np.sqrt(y * y + x), z)
 
 
-def _least(function, left, right):
-    """Where function((3, k)) is least between left and right (k,), by parabolas on ever closer points."""
-    centre, h = (left + right) / 2, (right - left) / 2
-    for shrink in (0.05, 0.01, 0.0):
-        low, high = np.maximum(centre - h, left), np.minimum(centre + h, right)
-        y0, y1, y2 = function(np.array([low, (low + high) / 2, high]))
-        half = (high - low) / 2
-        step = half * (y0 - y2) / (2 * (y0 - 2 * y1 + y2))
-        lowest = np.array([low, (low + high) / 2, high])[np.argmin([y0, y1, y2], axis=0), np.arange(len(y0))]
-        vertex = (low + high) / 2 + step
-        inside = (vertex >= low) & (vertex <= high) & (y0 - 2 * y1 + y2 > 0)
-        centre = np.where(inside, vertex, lowest)
-        h = h * shrink
-    return centre
+def _vertex(x, y):
+    """Abscissa and value of the parabola through three points, (3, k) each: nan, inf or a maximum where it has no least."""
+    left, right = x[1] - x[0], x[2] - x[1]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        slope_left, slope_right = (y[1] - y[0]) / left, (y[2] - y[1]) / right
+        curve = (slope_right - slope_left) / (left + right)
+        slope = slope_left + left * curve
+        step = np.where(curve > 0, -slope / (2 * curve), np.nan)
+        return x[1] + step, y[1] + step * slope / 2
