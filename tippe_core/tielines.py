@@ -107,8 +107,7 @@ def _at_rest(rows, K_J):
 
 def _lift(rows, z):
     """The excess, counted from where F_z = z, at which F_z falls to 0: negative where it is below already; inf if never."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return z * np.where(rows.z1 < 0, -1 / rows.z1, np.inf)
+    return z * np.where(rows.z1 < 0, -1 / rows.z1, np.inf)
 
 
 def _slip(rows, z, y, x, mu):
@@ -124,11 +123,10 @@ def _slip(rows, z, y, x, mu):
     over |= C > 1e-24
     root = B * B
     root -= (4 * (rows.y1**2 - (mu * rows.z1) ** 2)) * C
-    with np.errstate(divide="ignore", invalid="ignore"):
-        np.sqrt(root, out=root)
-        root += B
-        C *= -2
-        C /= root
+    np.sqrt(root, out=root)
+    root += B
+    C *= -2
+    C /= root
     # no zero ahead: a negative discriminant, or both zeros behind
     np.copyto(C, np.inf, where=~(root > 0))
     np.copyto(C, np.minimum(C, 0) if over.any() else C, where=over)
@@ -151,18 +149,21 @@ def _tielines(top, K_J, K_R, limits):
     if not K_J.size:
         empty = np.empty(shape)
         return [Tielines(*[empty] * 5, np.empty(shape, "U9"), empty, empty) for _ in limits]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return [Tielines(*(np.reshape(part, shape) for part in parts)) for parts in _solved(top, K_J, K_R, limits)]
+
+
+def _solved(top, K_J, K_R, limits):
+    """The columns of Tielines for each of the limits."""
     well = _Wells(top, K_J, K_R)
     e, verge, slips, broken = (np.reshape(part, (len(limits), -1)) for part in well.limits(limits))
     for which, i in zip(*np.nonzero(well.narrow(e)), strict=True):
         e[which, i], verge[which, i], slips[which, i] = _closer(well, i, limits[which])
     inner, outer = well.ends(e)
-    results = []
     for i in range(len(limits)):
         by = np.where(broken[i], "no motion", np.where(np.isinf(e[i]), "nothing", np.where(slips[i], "slip", "lift-off")))
         place = np.where(np.isfinite(e[i]), verge[i], np.nan)
-        parts = [K_J, well.energy(e[i]), inner[i], outer[i], place, by, well.theta_p, well.energy(well.U_p)]
-        results.append(Tielines(*(np.reshape(part, shape) for part in parts)))
-    return results
+        yield K_J, well.energy(e[i]), inner[i], outer[i], place, by, well.theta_p, well.energy(well.U_p)
 
 
 def _closer(well, i, mu):
@@ -189,7 +190,7 @@ class _Wells:
         U, self.z, self.y = _at_rest(self.rows, K_J[:, None])
         self.lowest = U.argmin(axis=1)
         self.theta_p = self._steady(U) if theta_p is None else theta_p
-        self.at_p = _at_rest(_rows(np.clip(self.theta_p, 1e-9, np.pi - 1e-9), top, K_R), K_J)
+        self.at_p = _at_rest(_rows(_clip(self.theta_p, 1e-9, np.pi - 1e-9), top, K_R), K_J)
         self.U_p = self.at_p[0]
         rising = U[:, 1:] > U[:, :-1]
         several = np.flatnonzero((rising[:, :-1] > rising[:, 1:]).any(axis=1))
@@ -207,13 +208,12 @@ class _Wells:
     def _steady(self, U):
         """theta_p: the zero of N next to the lowest point of the grid."""
         top, k, n = self.top, np.arange(len(self.K_J)), len(GRID)
-        j = np.clip(self.lowest, 1, n - 2)
+        j = _clip(self.lowest, 1, n - 2)
         theta, _ = _vertex(np.array([GRID[j + i] for i in (-1, 0, 1)]), np.array([U[k, j + i] for i in (-1, 0, 1)]))
         h = 1e-6
         for _ in range(3):
             N = self._slope(np.array([theta - h, theta + h]))
-            with np.errstate(invalid="ignore", divide="ignore"):
-                step = h * (N[0] + N[1]) / (N[1] - N[0])
+            step = h * (N[0] + N[1]) / (N[1] - N[0])
             theta = theta - step
             if not np.any(np.abs(step) > 1e-7):
                 break
@@ -264,10 +264,15 @@ class _Wells:
             z, y, x = z + rows.z1 * over, y + rows.y1 * over, rows.x1 * over
         return rows, base, z, y, x
 
+    def _span(self, e):
+        """First and last point of the grid on the trajectories of energies e (k,); the first after the last where none is."""
+        inside = self.base <= e[:, None]
+        first, last = inside.argmax(axis=1), len(self.grid) - 1 - inside[:, ::-1].argmax(axis=1)
+        return first, np.where(inside[np.arange(len(e)), first], last, -1)
+
     def narrow(self, e):
         """Where a trajectory of energy e (limits, k) has fewer than six points of the grid."""
-        inside = np.array([np.count_nonzero(self.base <= part[:, None], axis=1) for part in e])
-        return np.isfinite(e) & (inside < 6)
+        return np.isfinite(e) & [last - first < 5 for first, last in map(self._span, e)]
 
     def limits(self, limits):
         """2E' of each limit, the theta where it is reached, whether by slipping, and whether at rest already: (limits, k)."""
@@ -278,7 +283,7 @@ class _Wells:
             excess = lift if mu is None else np.minimum(lift, _slip(self.rows, self.z, self.y, self.x, mu))
             first = np.maximum(excess, 0)
             first += self.base
-            least = np.clip(first.argmin(axis=1), 1, n - 2)
+            least = _clip(first.argmin(axis=1), 1, n - 2)
             j.append(least)
             stencil.append(excess[np.arange(count), [least - 1, least, least + 1]])
         k, j = np.tile(np.arange(count), len(limits)), np.concatenate(j)
@@ -287,10 +292,9 @@ class _Wells:
         at = np.array([j - 1, j, j + 1])
         theta = self.grid[at]
         base, margin = self.base[k, at], _margin(self.z[k, at], self.y[k, at], self.x[k, at] if self.barriers else 0.0, mu)
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            over = excess < 0
-            e_corner, corner, normal = self._corner(theta, over, margin, k, mu)
-            e_inside, inside, slipping = self._inside(theta, base + excess, over, np.isfinite(e_corner), corner, k, mu)
+        over = excess < 0
+        e_corner, corner, normal = self._corner(theta, over, margin, k, mu)
+        e_inside, inside, slipping = self._inside(theta, base + excess, over, np.isfinite(e_corner), corner, k, mu)
         at_corner = e_corner < e_inside
         e, verge = np.where(at_corner, (e_corner, corner), (e_inside, inside))
         missed = ~np.isfinite(e) & np.isfinite(base[1] + np.maximum(excess[1], 0))
@@ -317,7 +321,7 @@ class _Wells:
         for _ in range(10):
             (x0, x1, x2), (f0, f1, f2) = xs, fs
             d0, d1, d2 = f0 - f1, f1 - f2, f0 - f2
-            x = np.clip(x2 + f2 * (f1 / d0 * ((x1 - x2) / d1 - (x0 - x2) / d2) - (x1 - x2) / d1), low, high)
+            x = _clip(x2 + f2 * (f1 / d0 * ((x1 - x2) / d1 - (x0 - x2) / d2) - (x1 - x2) / d1), low, high)
             x = np.where(np.isfinite(x), x, x2)
             _, base, z, y, square = self._forces(x, k[i])
             xs, fs = [x1, x2, x], [f1, f2, _margin(z, y, square, mu[i])]
@@ -340,7 +344,7 @@ class _Wells:
         for _ in range(6):
             if not i.size:
                 break
-            centre = np.clip(middle[i], low[i] + h[i], high[i] - h[i])
+            centre = _clip(middle[i], low[i] + h[i], high[i] - h[i])
             points = np.array([centre - h[i], centre, centre + h[i]])
             values, slips = self._first(points, k[i], mu[i])
             slipping[i] = slips[1]
@@ -368,20 +372,17 @@ class _Wells:
         curvature = self.base[k, self.lowest] - self.U_p
         wide = np.abs(self.grid[self.lowest] - self.theta_p) / np.sqrt(np.maximum(curvature, 0))
         for energy in e:
-            inside = self.base <= energy[:, None]
-            some, first, last = inside.any(axis=1), inside.argmax(axis=1), n - 1 - inside[:, ::-1].argmax(axis=1)
+            first, last = self._span(energy)
             for j, step in ((first, -1), (last, 1)):
-                beyond = np.clip(j + step, 0, n - 1)
-                with np.errstate(invalid="ignore", divide="ignore"):
-                    share = (energy - self.base[k, j]) / (self.base[k, beyond] - self.base[k, j])
-                    guess = self.grid[j] + np.where((share >= 0) & (share <= 1), share, 0) * (self.grid[beyond] - self.grid[j])
-                    near = wide * np.sqrt(np.maximum(energy - self.U_p, 0))
-                    few = ~some | (last - first < 4)
-                    guess = np.where(few & np.isfinite(near), self.theta_p + step * near, guess)
+                beyond = _clip(j + step, 0, n - 1)
+                share = (energy - self.base[k, j]) / (self.base[k, beyond] - self.base[k, j])
+                guess = self.grid[j] + np.where((share >= 0) & (share <= 1), share, 0) * (self.grid[beyond] - self.grid[j])
+                near = wide * np.sqrt(np.maximum(energy - self.U_p, 0))
+                few = last - first < 4
+                guess = np.where(few & np.isfinite(near), self.theta_p + step * near, guess)
                 theta.append(guess)
         theta = np.array(theta).reshape(len(e), 2, -1).swapaxes(0, 1)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            theta = self._turning(theta, e)
+        theta = self._turning(theta, e)
         theta[:, np.isinf(e)] = np.array([[0.0], [np.pi]])
         doubtful = ~(theta[0] <= self.theta_p + 1e-9) | ~(theta[1] >= self.theta_p - 1e-9)
         doubtful[:, list(self.barriers)] = True
@@ -405,7 +406,7 @@ class _Wells:
             dB, df2 = -gamma * K * (top.I3 + 1 - a * c) / (f3_2 * np.sqrt(f3_2)), 2 * (p - delta * c)
             D = s2 * rest - f2 * B * B
             slope = 2 * a * s2 - 2 * c * rest - B * (df2 * B + 2 * f2 * dB)  # dD/dc
-            x, before = np.clip(x + D / slope, 0, 2), x
+            x, before = _clip(x + D / slope, 0, 2), x
             if not np.any(np.abs(x - before) > 1e-7 * x):  # Newton's steps: the error left is the square of that
                 break
         half = np.arctan2(np.sqrt(x), np.sqrt(2 - x))
@@ -418,6 +419,10 @@ class _Wells:
         return min(pairs, key=lambda p: max(p[0] - self.theta_p[i], self.theta_p[i] - p[1]))
 
 
+def _clip(x, low, high):
+    return np.minimum(np.maximum(x, low), high)  # np.clip takes ten times as long on arrays this short
+
+
 def _margin(z, y, x, mu):
     """mu F_z - F_h, or F_z where mu is infinite."""
     friction = np.isfinite(mu)
@@ -427,9 +432,8 @@ def _margin(z, y, x, mu):
 def _vertex(x, y):
     """Abscissa and value of the parabola through three points, (3, k) each: nan, inf or a maximum where it has no least."""
     left, right = x[1] - x[0], x[2] - x[1]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        slope_left, slope_right = (y[1] - y[0]) / left, (y[2] - y[1]) / right
-        curve = (slope_right - slope_left) / (left + right)
-        slope = slope_left + left * curve
-        step = np.where(curve > 0, -slope / (2 * curve), np.nan)
-        return x[1] + step, y[1] + step * slope / 2
+    slope_left, slope_right = (y[1] - y[0]) / left, (y[2] - y[1]) / right
+    curve = (slope_right - slope_left) / (left + right)
+    slope = slope_left + left * curve
+    step = np.where(curve > 0, -slope / (2 * curve), np.nan)
+    return x[1] + step, y[1] + step * slope / 2
