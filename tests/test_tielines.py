@@ -41,6 +41,31 @@ LIMITS = {
     "two wells, slip": (TWO_WELLS, 3.9525, 14.85, 0.9),
     "ordinary": (ORDINARY, 20.0, 40.0, None),
     "ordinary, slip": (ORDINARY, 20.0, 40.0, 0.8),
+    # these have their verge, or an end of the well, within a grid's step of a pole
+    "lift-off next to a pole": (
+        Top(0.2507964841198581, 8.459442556129655, 3.265320952429272),
+        0.10515756631197892,
+        -0.42690268321592306,
+        None,
+    ),
+    "slip next to a pole": (
+        Top(-0.07319541080627334, 5.073009515875978, 6.222492263260422),
+        -2.743961145174088,
+        -5.757661254306643,
+        1.5,
+    ),
+    "well next to a pole": (
+        Top(0.5508642735488226, 3.32336138337635, 0.49956981979648274),
+        -0.11828259514286751,
+        -1.2764891583731544,
+        0.2,
+    ),
+    "slip inside a wide well": (
+        Top(-0.18127617572412857, 1.9847303370096325, 2.404373526467092),
+        5.6861285773389705,
+        -10.432830947523819,
+        1.5,
+    ),
     "even the steady precession slips": (PAPER, 1.0, 10.0, 0.01),
     "ball": (BALL, 2.0, 5.0, None),
     "ball, slip": (BALL, 2.0, 5.0, 0.1),
