@@ -7,6 +7,7 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.explorer import Explorer
+from app.pacing import at_once
 
 STYLE = """
 :host { font: 13px/1.35 system-ui, sans-serif; color: #22303c; }
@@ -43,6 +44,7 @@ class Control:
             value=value, start=start, end=end, step=step, label="", show_value=False, size="small", tooltips=False,
             marks=ENERGY_MARKS if marked else False, sizing_mode="stretch_width", margin=(-4, 10, 14 if marked else -4, 10),
             tags=[name], sx={"& .MuiSlider-markLabel": {"fontSize": 12, "top": 22}})  # fmt: skip
+        at_once(self.slider, "value", "value_throttled")
         self.entry = pmui.TextInput(
             value=number(value), label="", size="small", width=92, margin=0, tags=[name],
             sx={"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}})  # fmt: skip

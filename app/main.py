@@ -111,8 +111,8 @@ def page():
     controls = Controls(explorer, pacer)
     surface.param.watch(lambda event: event.new and controls.pick(event.new[0]), "picked")
     plane.figure.on_event("tap", lambda event: controls.pick(event.y))
-    for stage in pacer.stages:
-        stage(explorer.scene)
+    show_hand(explorer.scene)
+    show_rest(explorer.scene)
     follow_clock(pn.state.curdoc, plane, times)
 
     hemisphere = pmui.RadioButtonGroup.from_param(

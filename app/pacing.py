@@ -2,13 +2,19 @@
 
 import time
 
+import panel as pn
 import param
 from panel.custom import JSComponent
 
-# While a person drags, the whole page follows this often at least; in between only the first stage does.
-WHOLE_PAGE_EVERY = 0.25
+# Two, so that one is on its way while the browser paints the other.
+HANDS_IN_FLIGHT = 2
 # A hidden tab paints nothing and so never answers.
 ANSWER_WITHIN = 2.0
+
+
+def at_once(component, *properties):
+    """Lets these properties of a Panel component arrive without Panel's wait of 50 ms, and without its busy signal."""
+    component._priority_changes = component._busy__ignore = list(properties)
 
 
 class Painted(JSComponent):
@@ -27,44 +33,47 @@ class Painted(JSComponent):
 class Pacer:
     """Between the controls and an Explorer, and between its scenes and the views.
 
-    stages: functions of a scene, the first the cheap picture of what the hand moves, the others the rest of the page.
+    hand and rest: functions of a scene; hand draws what the hand moves and is cheap, rest draws all else. The newest
+    request is solved and drawn by `hand` while at most HANDS_IN_FLIGHT of those before are unpainted; `rest` follows once
+    the browser has time for it, and leaves out scenes that have been overtaken.
     """
 
-    def __init__(self, explorer, *stages):
-        self.explorer, self.stages = explorer, stages
+    def __init__(self, explorer, hand, rest):
+        self.explorer, self._hand, self._rest = explorer, hand, rest
         self.painted = Painted(width=0, height=0, margin=0)
-        self._wanted, self._to_show = {}, []
-        self._sent_at = self._whole_at = None
-        explorer.param.watch(self._show, "scene")
+        at_once(self.painted, "painted")
+        self._wanted, self._rest_is_due = {}, False
+        self._hands, self._rests = [], []  # (number, when sent) of what the browser has yet to paint
+        explorer.param.watch(self._on_scene, "scene")
         self.painted.param.watch(self._on_painted, "painted")
 
     def request(self, **inputs):
         """Asks for these inputs of the Explorer; a later request for the same input replaces one still waiting."""
         self._wanted.update(inputs)
-        if self._sent_at is None or time.monotonic() - self._sent_at > ANSWER_WITHIN:
-            self._solve()
+        self._advance()
 
-    def _solve(self):
-        inputs, self._wanted = self._wanted, {}
-        self.explorer.param.update(**inputs)
+    def _advance(self):
+        late = time.monotonic() - ANSWER_WITHIN
+        self._hands = [sent for sent in self._hands if sent[1] > late]
+        self._rests = [sent for sent in self._rests if sent[1] > late]
+        if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
+            inputs, self._wanted = self._wanted, {}
+            self.explorer.param.update(**inputs)
 
-    def _show(self, event):
-        self._to_show = list(self.stages)
-        self._next_stage()
+    def _on_scene(self, event):
+        self._send(self._hand, self._hands)
+        self._rest_is_due = True
 
-    def _next_stage(self):
-        self._to_show.pop(0)(self.explorer.scene)
-        self._sent_at = time.monotonic()
-        if not self._to_show:
-            self._whole_at = self._sent_at
-        self.painted.sent += 1
+    def _send(self, draw, in_flight):
+        with pn.io.hold():  # one message, in order, so that the answer comes after the pictures
+            draw(self.explorer.scene)
+            self.painted.sent += 1
+        in_flight.append((self.painted.sent, time.monotonic()))
 
     def _on_painted(self, event):
-        if event.new != self.painted.sent:
-            return
-        self._sent_at = None
-        overdue = self._whole_at is None or time.monotonic() - self._whole_at > WHOLE_PAGE_EVERY
-        if self._to_show and (overdue or not self._wanted):
-            self._next_stage()
-        elif self._wanted:
-            self._solve()
+        self._hands = [sent for sent in self._hands if sent[0] > event.new]
+        self._rests = [sent for sent in self._rests if sent[0] > event.new]
+        self._advance()
+        if self._rest_is_due and not self._rests:
+            self._rest_is_due = False
+            self._send(self._rest, self._rests)

@@ -94,7 +94,7 @@ def serve(command, path):
     url = f"http://localhost:{port}/{path}"
     for _ in range(200):
         try:
-            urllib.request.urlopen(url, timeout=5)
+            urllib.request.urlopen(url, timeout=60)
             return server, url
         except OSError:
             time.sleep(0.1)
@@ -151,7 +151,7 @@ def main():
                     page = browser.new_page(viewport={"width": 1400, "height": 900})
                     page.goto(url)
                     page.wait_for_function(
-                        "ours => ours ? window.__tippe?.surface3d && __tippe.top3d?.pictures > 5 : Bokeh?.documents[0]?.is_idle",
+                        "ours => ours ? window.__tippe?.surface3d && __tippe.top3d?.pictures > 5 : window.Bokeh?.documents.length",
                         arg=name == "ours")  # fmt: skip
                     page.locator(handle).first.wait_for()
                     page.evaluate(WATCH, name == "ours")

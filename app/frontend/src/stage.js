@@ -13,6 +13,25 @@ const COARSEST = 0.6;
 const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
 const MAX_PIXEL_RATIO = 2;
 
+// There, while a person holds a control of the page, what the control moves comes first: pictures in 3-D are then
+// spaced out, one stage at a time, and do without what takes long: fine pixels, a new shadow, long wide lines.
+const HAND_REST_MS = 90;
+const HAND_COARSE = 0.5;
+const LONG_LINE = 300; // segments
+const KEY_MS = 300; // a key pressed counts as a hand for this long
+const hand = { until: 0 };
+let slow = false; // whether pictures are drawn by the processor, as measured by any stage
+let anyDrawnAt = 0;
+const isCanvas = (target) => target.localName === "canvas";
+window.addEventListener("pointerdown", (event) => {
+  if (event.composedPath().some(isCanvas)) return; // turning a picture
+  hand.until = Infinity;
+}, { capture: true });
+for (const end of ["pointerup", "pointercancel", "blur"]) {
+  window.addEventListener(end, () => { hand.until = 0; }, { capture: true });
+}
+window.addEventListener("keydown", () => { hand.until = Math.max(hand.until, performance.now() + KEY_MS); }, { capture: true });
+
 export class Stage {
   // tick(now) runs before each drawn frame and says whether another one is to follow; fit(aspect) runs after a new size.
   constructor(holder, { label, fov, tick = () => false, fit = () => {} }) {
@@ -92,6 +111,11 @@ export class Stage {
   }
 
   invalidate() {
+    this.asked = true;
+    this.again();
+  }
+
+  again() {
     if (!this.disposed) this.request ||= requestAnimationFrame(this.frame);
   }
 
@@ -105,15 +129,22 @@ export class Stage {
       if (this.cost > COARSER_MS && this.coarse > COARSEST) this.setCoarse(Math.max(this.coarse * STEP, COARSEST));
       else if (this.cost < FINER_MS && this.coarse < 1 && this.tries++ < MOST_TRIES) this.setCoarse(Math.min(this.coarse / STEP, 1));
     }
-    if (this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost) return this.invalidate();
+    if (this.costed) slow = this.cost > SLOW_MS;
+    const held = slow && now < hand.until;
+    const tooSoon = now - anyDrawnAt < HAND_REST_MS || now - this.drawnAt < 2 * HAND_REST_MS;
+    if (held && (tooSoon || !this.asked)) return this.again();
+    if (this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost) return this.again();
+    this.asked = false;
     this.moving = this.tick(now);
     if (this.inView) {
-      this.setFineness(this.moving ? this.coarse : 1);
+      this.setFineness(held ? HAND_COARSE : this.moving ? this.coarse : 1);
+      this.setSimple(held);
       this.draw();
-      this.drawnAt = now;
+      this.drawnAt = anyDrawnAt = now;
       this.costed = false;
     }
     if (this.moving) this.invalidate();
+    if (held) this.again(); // once more, and fine, when the hand lets go
   };
 
   setCoarse(share) {
@@ -124,6 +155,15 @@ export class Stage {
   setFineness(share) {
     const ratio = share * Math.min(devicePixelRatio, MAX_PIXEL_RATIO);
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+  }
+
+  setSimple(simple) {
+    if (simple === this.simple) return;
+    this.simple = simple;
+    this.renderer.shadowMap.autoUpdate = !simple;
+    this.scene.traverse((object) => {
+      if (object.isLineSegments2 && object.geometry.instanceCount > LONG_LINE) object.layers.set(simple ? 1 : 0);
+    });
   }
 
   draw() {
