@@ -55,7 +55,7 @@ def times_card(times, scales):
                      '<span style="color:#CC79A7"><i>K</i><sub>R</sub></span><br><span style="color:#8C6D00"><i>E</i></span>'}  # fmt: skip
     rows = [
         pn.Row(
-            words(f'<div class="quantity">{labels[name]}</div>', width=46, sizing_mode="fixed", margin=(6, 0, 0, 0)),
+            words(f'<div class="quantity">{labels[name]}</div>', width=46, sizing_mode="stretch_height", margin=(6, 0, 0, 0)),
             pn.pane.Bokeh(figure, sizing_mode="stretch_both", margin=0), sizing_mode="stretch_both", margin=0)
         for name, figure in times.figures.items()]  # fmt: skip
     return card(
@@ -132,5 +132,5 @@ def page():
         busy_indicator=None)  # fmt: skip
 
 
-pn.extension()
+pn.extension(respect_explicit_sizing=True)
 page().servable()

@@ -1,0 +1,187 @@
+"""The whole page in Chromium: it loads from this machine alone, shows tippe_core's numbers, and plays without the server."""
+
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from pathlib import Path
+
+import numpy as np
+import pytest
+from playwright.sync_api import sync_playwright
+
+from app.explorer import solve
+from tippe_core import Top
+
+ROOT = Path(__file__).parent.parent
+FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
+         "--disable-component-update", "--disable-sync"]  # fmt: skip
+PATIENCE = 20_000  # ms: software drawing on a busy machine
+
+# A number array of a source, as the page holds it: by the name of its figure, the renderer and the column.
+COLUMN = """
+([figure, renderer, column]) => {
+  const models = [...Bokeh.documents[0]._all_models.values()]
+  const found = models.find((m) => m.name == figure && m.renderers)
+  return Array.from(found.renderers[renderer].data_source.data[column])
+}
+"""
+K_J_FIELD, I3_FIELD = 0, 6  # places in the sidebar
+
+
+@pytest.fixture(scope="module")
+def server():
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        port = probe.getsockname()[1]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "panel", "serve", "app", "--port", str(port), "--address", "localhost"], cwd=ROOT)  # fmt: skip
+    url = f"http://localhost:{port}/app"
+    deadline = time.monotonic() + 60
+    while True:
+        try:
+            urllib.request.urlopen(url, timeout=60).close()
+            break
+        except OSError:
+            if process.poll() is not None or time.monotonic() > deadline:
+                process.terminate()
+                pytest.fail(f"panel serve app did not answer on {url}")
+            time.sleep(0.1)
+    yield url
+    process.terminate()
+    process.wait()
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+        yield browser
+        browser.close()
+
+
+class Visit:
+    """A page that is open, and what it asked for, said and sent."""
+
+    def __init__(self, page, url):
+        self.page, self.requests, self.errors, self.sent = page, [], [], []
+        page.set_default_timeout(PATIENCE)
+        page.on("request", lambda request: self.requests.append(request.url))
+        page.on("console", lambda message: message.type == "error" and self.errors.append(message.text))
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("websocket", lambda socket: [
+            socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")])  # fmt: skip
+        page.goto(url)
+        page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && __tippe.top3d?.pictures > 2")
+        page.wait_for_function("Bokeh.documents[0].is_idle")
+
+    def column(self, *place):
+        return np.array(self.page.evaluate(COLUMN, place))
+
+    def until_column(self, figure, renderer, column, first):
+        """Waits until a column of a source begins with this number."""
+        self.page.wait_for_function(
+            f"([place, first]) => Math.abs(({COLUMN})(place)[0] - first) < 1e-9", arg=[[figure, renderer, column], first])  # fmt: skip
+
+    def pause(self):
+        self.page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
+            .filter((m) => m.properties?.playing).forEach((m) => { m.playing = false })""")
+        self.page.wait_for_function("!__tippe.top3d.playing")
+
+
+@pytest.fixture(params=[(1400, 900)], ids=["1400x900"])
+def visit(request, server, chromium):
+    width, height = request.param
+    page = chromium.new_page(viewport={"width": width, "height": height})
+    visit = Visit(page, server)
+    yield visit
+    page.close()
+    assert not visit.errors
+
+
+def test_the_page_loads_from_this_machine_alone(visit, server):
+    assert [url for url in visit.requests if not url.startswith((server.rsplit("/", 1)[0], "data:", "blob:"))] == []
+    assert visit.page.title() == "Tippe top explorer"
+
+
+def test_something_moves_at_once(visit):
+    start = visit.page.evaluate("__tippe.top3d.t")
+    visit.page.wait_for_function("t => __tippe.top3d.t != t", arg=start)
+
+
+def test_after_a_slider_moved_the_data_on_display_are_tippe_cores(visit):
+    thumb = visit.page.locator(".MuiSlider-root input[type=range]").nth(K_J_FIELD)
+    thumb.focus()
+    for _ in range(30):
+        thumb.press("ArrowLeft")
+    field = visit.page.locator("input[type=text]").nth(K_J_FIELD)
+    visit.page.wait_for_function("field => field.value == '6.7'", arg=field.element_handle())
+    scene = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
+    visit.until_column("constants", 0, "K_J", scene.K_J[0])
+    motion, every = scene.trajectory, 2
+    # The slider's own sum of steps differs from 6.7 in the last digits.
+    for figure, values in {"theta": motion.theta, "normal": scene.normal, "ratio": scene.ratio}.items():
+        assert visit.column(figure, 0, figure) == pytest.approx(values[::every], abs=1e-11)
+    plane = {"K_J": scene.plane.K_J, "slip_in": scene.plane.slip.theta_inner, "verge": scene.plane.slip.theta_verge}
+    for column, values in plane.items():
+        assert np.array_equal(visit.column("plane", 0, column), values)
+    visit.page.wait_for_function("n => __tippe.top3d.count == n", arg=len(motion.t))
+
+
+def test_the_top_stands_as_the_trajectory_says(visit):
+    visit.pause()
+    motion = solve(Top.paper(), 7.0, 10.0, 0.5, 0.9).trajectory
+    for index in (0, 100, 777):
+        visit.page.evaluate(
+            "t => window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t}}))", float(motion.t[index]))  # fmt: skip
+        visit.page.wait_for_function("i => __tippe.top3d.index == i", arg=index)
+        visit.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        drawn = np.array(visit.page.evaluate("__tippe.top3d.quaternion"))
+        assert abs(drawn @ motion.quaternion[index]) == pytest.approx(1, abs=1e-6)
+
+
+def test_the_lines_over_time_go_with_the_clock_of_the_top(visit):
+    visit.pause()
+    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 3}}))")
+    visit.page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
+        .filter((m) => m.type == "Span" && m.level == "overlay").every((m) => Math.abs(m.location - __tippe.top3d.t) < 1e-9
+            && Math.abs(m.location - 3) < 0.02)""")
+
+
+def test_playing_sends_nothing(visit):
+    visit.page.wait_for_function("__tippe.top3d.playing")
+    for _ in range(10):  # a page that has just loaded still tells the server its size
+        visit.sent.clear()
+        pictures = visit.page.evaluate("__tippe.top3d.pictures")
+        visit.page.wait_for_function("n => __tippe.top3d.pictures > n + 15", arg=pictures)
+        if not visit.sent:
+            return
+    assert not visit.sent
+
+
+def test_a_bad_value_is_said_beside_its_control(visit):
+    before = visit.column("theta", 0, "theta")
+    field = visit.page.locator("input[type=text]").nth(I3_FIELD)
+    field.fill("0.9")
+    field.press("Enter")
+    alert = visit.page.locator("[role=alert]")
+    alert.wait_for()
+    assert "I3" in alert.inner_text() and "0.9" in alert.inner_text()
+    assert np.array_equal(visit.column("theta", 0, "theta"), before)
+    field.fill("not this")
+    field.press("Enter")
+    visit.page.get_by_text("not a number").wait_for()
+    field.fill("0.4")
+    field.press("Enter")
+    alert.wait_for(state="detached")
+    expected = solve(Top(0.07, 0.399, 0.4), 7.0, 10.0, 0.5, 0.9)
+    visit.until_column("theta", 0, "theta", expected.trajectory.theta[0])
+
+
+@pytest.mark.parametrize("visit", [(390, 844)], ids=["390x844"], indirect=True)
+def test_nothing_is_wider_than_a_phone(visit):
+    visit.page.wait_for_function("document.documentElement.scrollWidth <= innerWidth")
+    box = visit.page.locator("canvas").first.bounding_box()
+    assert 0 <= box["x"] and box["x"] + box["width"] <= 390

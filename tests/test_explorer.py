@@ -1,0 +1,166 @@
+"""The view-model without a browser: one solve and one event a change, and a Scene whose numbers are tippe_core's."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import app.explorer
+from app.explorer import LIFTS, ROLLS, SLIPS, Explorer
+from tippe_core import Constants, Top, limit_energy, roll, tielines, turning_points
+
+# Tielines of the paper's top at K_R = 10: K_J, 2E' (F_z), inner, outer, 2E' (mu_s = 0.5), inner, outer, verge.
+TABLE = np.array([
+    [0, 4.03286, 1.3085, 1.6943, 2.88682, 1.3383, 1.6637, 1.6478],
+    [1, 3.99619, 1.1960, 1.5787, 2.99743, 1.2210, 1.5519, 1.5323],
+    [2, 4.06714, 1.0797, 1.4646, 3.12279, 1.1023, 1.4393, 1.4181],
+    [3, 4.26842, 0.9578, 1.3508, 3.26472, 0.9804, 1.3242, 1.3035],
+    [4, 4.65286, 0.8274, 1.2365, 3.42535, 0.8529, 1.2043, 1.1870],
+    [5, 5.33490, 0.6844, 1.1207, 3.60713, 0.7165, 1.0764, 1.0664],
+    [6, 6.58010, 0.5220, 1.0040, 3.82036, 0.5654, 0.9350, 0.9350],
+    [7, 9.08885, 0.3294, 0.8907, 4.30872, 0.3839, 0.7754, 0.7754],
+    [8, 14.86605, 0.0945, 0.7991, 5.78017, 0.1328, 0.5837, 0.5837]])  # fmt: skip
+
+
+@pytest.fixture
+def explorer():
+    return Explorer()
+
+
+def watch(explorer):
+    scenes = []
+    explorer.param.watch(lambda event: scenes.append(event.new), "scene")
+    return scenes
+
+
+def test_fig_6_of_the_first_visit_is_the_papers_table(explorer):
+    plane = explorer.scene.plane
+    rows = np.searchsorted(plane.K_J, TABLE[:, 0])
+    assert np.array_equal(plane.K_J[rows], TABLE[:, 0])
+    shown = np.column_stack([
+        plane.lift.theta_inner, plane.lift.theta_outer, plane.slip.theta_inner, plane.slip.theta_outer,
+        plane.slip.theta_verge])[rows]  # fmt: skip
+    assert shown == pytest.approx(TABLE[:, [2, 3, 5, 6, 7]], abs=5e-5)
+    for tie, column in ((plane.lift, 1), (plane.slip, 4)):
+        two_E_prime = Constants(plane.K_J, 10.0, tie.E).two_E_prime(Top.paper())
+        assert two_E_prime[rows] == pytest.approx(TABLE[:, column], abs=5e-6)
+
+
+def test_fig_5_ends_at_the_papers_point_P(explorer):
+    plane = explorer.scene.plane
+    assert plane.pole == pytest.approx(8.36508, abs=5e-6)
+    assert plane.pole_height == pytest.approx(18.574, abs=5e-4)
+    assert plane.K_J[-1] == plane.pole
+    assert np.all(plane.height[:-1, [0, -1]] < 1e-9 * plane.height.max())
+
+
+def test_several_inputs_make_one_solve_and_one_event(explorer, monkeypatch):
+    solves, scenes = [], watch(explorer)
+    solve = app.explorer.solve
+    monkeypatch.setattr(app.explorer, "solve", lambda *inputs: solves.append(inputs) or solve(*inputs))
+    explorer.param.update(K_J=5.0, K_R=9.0, mu_s=0.4, energy=0.5)
+    assert len(solves) == len(scenes) == 1
+    assert scenes[0] is explorer.scene
+    assert (explorer.scene.constants.K_J, explorer.scene.constants.K_R, explorer.scene.mu_s) == (5.0, 9.0, 0.4)
+
+
+def test_the_cursor_solves_nothing(explorer):
+    scene, scenes = explorer.scene, watch(explorer)
+    explorer.cursor = 1.0
+    assert explorer.scene is scene and not scenes
+
+
+def test_the_scene_cannot_be_set_or_changed_from_outside(explorer):
+    with pytest.raises(TypeError):
+        explorer.scene = dataclasses.replace(explorer.scene)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        explorer.scene.mu_s = 1.0
+
+
+def test_what_did_not_change_is_the_same_object(explorer):
+    plane = explorer.scene.plane
+    explorer.K_J = 6.0
+    assert explorer.scene.plane is plane
+    explorer.mu_s = 0.3
+    assert explorer.scene.plane is not plane
+
+
+@pytest.mark.parametrize("inputs", [{}, {"K_J": 3.0, "K_R": 6.0}, {"K_J": 12.0}, {"upper": False, "K_J": -5.0},
+                                    {"a": -1.5, "I1": 3.0, "I3": 0.5, "K_J": 0.5}])  # fmt: skip
+def test_the_numbers_are_tippe_cores(explorer, inputs):
+    explorer.param.update(**inputs)
+    scene = explorer.scene
+    assert not scene.messages
+    slip = limit_energy(scene.top, explorer.K_J, explorer.K_R, explorer.mu_s)
+    steady = tielines(scene.top, [explorer.K_J], explorer.K_R).E_steady[0]
+    if np.isfinite(slip):
+        assert scene.constants.E == pytest.approx(steady + explorer.energy * (slip - steady), rel=1e-12)
+    wells = turning_points(scene.top, scene.constants)
+    well = int(np.flatnonzero((wells == scene.turning).all(axis=1))[0])
+    expected = roll(scene.top, scene.constants, scene.trajectory.t, well=well)
+    assert np.array_equal(scene.trajectory.quaternion, expected.quaternion)
+    assert np.array_equal(scene.trajectory.theta, expected.theta)
+
+
+def test_vectors_along_the_axes_of_space(explorer):
+    """Checked by the motion itself: the velocity of G is omega x r, and Newton's law gives the force."""
+    scene = explorer.scene
+    motion = scene.trajectory
+    step = motion.t[1] - motion.t[0]
+    r = motion.com - np.column_stack([motion.contact, np.zeros(len(motion.t))])
+    velocity = np.cross(scene.omega, r)
+    middle = (motion.com[2:] - motion.com[:-2]) / (2 * step)
+    assert velocity[1:-1] == pytest.approx(middle, abs=50 * step**2)
+    acceleration = (velocity[2:] - velocity[:-2]) / (2 * step)
+    assert acceleration + np.array([0, 0, 1]) == pytest.approx(scene.force[1:-1], abs=500 * step**2)
+    torque = np.cross(-r, scene.force)[1:-1]
+    assert (scene.momentum[2:] - scene.momentum[:-2]) / (2 * step) == pytest.approx(torque, abs=500 * step**2)
+
+
+def test_the_energy_goes_from_rolling_through_slipping_to_lifting_off(explorer):
+    seen = []
+    for share in (0.0, 0.5, 0.999, 1.01, 1.99, 2.01):
+        explorer.energy = share
+        seen.append(explorer.scene.regime.max())
+    assert seen == [ROLLS, ROLLS, ROLLS, SLIPS, SLIPS, LIFTS]
+    assert explorer.scene.normal.min() < 0
+
+
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0, 1.7, 2.0, 2.2])
+def test_share_and_energy_are_each_others_inverse(explorer, share):
+    marks = explorer.scene.marks
+    assert marks.share(marks.energy(share)) == pytest.approx(share, abs=1e-12)
+
+
+@pytest.mark.parametrize("name, value, says", [
+    ("I3", 0.9, "2 I1"), ("I1", -0.1, "I1"), ("a", 1.2, "a"), ("energy", -0.2, "E >= "), ("mu_s", -0.1, "mu_s"),
+    ("K_J", float("nan"), "K_J")])  # fmt: skip
+def test_what_cannot_be_is_said_beside_its_control_and_the_picture_stays(explorer, name, value, says):
+    good, before = explorer.scene, getattr(explorer, name)
+    setattr(explorer, name, value)
+    assert list(explorer.scene.messages) == [name]
+    assert says in explorer.scene.messages[name]
+    for part in dataclasses.fields(good):
+        if part.name != "messages":
+            assert getattr(explorer.scene, part.name) is getattr(good, part.name)
+    setattr(explorer, name, before)
+    assert not explorer.scene.messages
+
+
+def test_a_uniform_ball_is_limited_by_nothing(explorer):
+    explorer.param.update(a=0.0, I1=0.4, I3=0.4)
+    assert not explorer.scene.messages
+    assert any("Nothing limits" in note for note in explorer.scene.notes)
+
+
+def test_hover_knows_the_whole_plane(explorer):
+    """On a tieline its own energy; at its end, where the top turns, the same from both sides."""
+    plane = explorer.scene.plane
+    assert np.isfinite(plane.hover_E).all()
+    assert plane.hover_E.shape == plane.hover_ratio.shape == (len(plane.hover_K_J), len(plane.hover_theta))
+    for j, K_J in enumerate(plane.hover_K_J):
+        row = int(np.flatnonzero(plane.K_J == K_J)[0])
+        inside = (plane.hover_theta > plane.slip.theta_inner[row]) & (plane.hover_theta < plane.slip.theta_outer[row])
+        assert plane.hover_E[j, inside] == pytest.approx(plane.slip.E[row], rel=1e-12)
+        assert np.all(plane.hover_ratio[j, inside] <= 0.5 + 1e-9)
+        assert np.all(plane.hover_E[j, ~inside] > plane.slip.E[row])
