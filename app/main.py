@@ -97,21 +97,18 @@ def page():
     plane, times, top, surface = PlaneFigure(), TimeFigures(), Top3D(sizing_mode="stretch_both"), Surface3D(
         sizing_mode="stretch_both")  # fmt: skip
 
-    def show_hand(scene):
-        controls.show(scene)
-        plane.show_selected(scene)
-
     def show_rest(scene):
+        controls.show(scene)
         plane.show_plane(scene)
         times.show(scene)
         show_surface(surface, scene)
         show_top(top, scene)
 
-    pacer = Pacer(explorer, show_hand, show_rest)
+    pacer = Pacer(explorer, plane.show_selected, show_rest)
     controls = Controls(explorer, pacer)
     surface.param.watch(lambda event: event.new and controls.pick(event.new[0]), "picked")
     plane.figure.on_event("tap", lambda event: controls.pick(event.y))
-    show_hand(explorer.scene)
+    plane.show_selected(explorer.scene)
     show_rest(explorer.scene)
     follow_clock(pn.state.curdoc, plane, times)
 

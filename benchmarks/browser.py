@@ -2,10 +2,15 @@
 
     python benchmarks/browser.py [--chromium PATH]
 
-The bare app redraws one line of 400 points when a Bokeh slider moves. In both a real mouse drags the slider, RATE
-moves a second, while the top plays. An input counts as painted in the first frame that shows its value or a later
-one's: of the figure under the hand (the selected tieline of Fig. 6), and of the whole page (that, the plots over time,
-the top in 3-D and Fig. 5). Results of runs are kept below.
+The bare app redraws one line of 400 points when a Bokeh slider moves. Both get the same input from Chromium itself, while
+the top plays:
+
+    steps  STEPS arrow keys on the slider, the next one when the page shows the last
+    drag   the mouse pulls the slider to and fro, RATE moves a second
+
+An input counts as painted in the first frame that shows its value or a later one's: of the figure under the hand (the
+selected tieline of Fig. 6), and of the whole page (that, the plots over time, the top in 3-D and Fig. 5). Results of
+runs are kept below.
 """
 
 import argparse
@@ -24,7 +29,7 @@ from socket import socket
 import numpy as np
 from playwright.sync_api import sync_playwright
 
-MOVES, RATE, ROUNDS = 120, 30, 3
+STEPS, MOVES, RATE, ROUNDS = 60, 90, 30, 3
 
 BARE = """
 import numpy as np
@@ -66,13 +71,14 @@ WATCH = """
   const motion = view("constants").model.renderers[0].data_source
   const {top3d, surface3d} = window.__tippe
   let waiting
-  view("constants").repainted.connect(() => {
+  motion.properties.data.change.connect(() => {
     const value = Number(motion.data.K_J[0].toFixed(9))
     if (waiting?.value !== value) waiting = {value, top: top3d.pictures, surface: surface3d.pictures}
   })
+  view("constants").repainted.connect(() => { if (waiting) waiting.plots = true })
   const look = () => {
     requestAnimationFrame(look)
-    if (waiting && top3d.pictures > waiting.top && surface3d.pictures > waiting.surface) {
+    if (waiting?.plots && top3d.pictures > waiting.top && surface3d.pictures > waiting.surface) {
       painted("page", waiting.value)
       waiting.top = Infinity
     }
@@ -101,8 +107,19 @@ def serve(command, path):
     raise RuntimeError(f"{command} does not answer on {url}")
 
 
+SHOWN = """
+() => ["figure", "page"].every((part) => Math.abs(bench[part].at(-1)?.[1] - bench.inputs.at(-1)?.[1]) < 1e-6)
+"""
+
+
+def step(page, handle):
+    page.locator(handle).first.focus()
+    for i in range(STEPS):
+        page.keyboard.press("ArrowLeft" if i < STEPS / 2 else "ArrowRight")
+        page.wait_for_function(SHOWN)
+
+
 def drag(page, handle):
-    """Pulls the handle to and fro at RATE; returns once the page is at rest."""
     box = page.locator(handle).first.bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
@@ -112,9 +129,7 @@ def drag(page, handle):
         time.sleep(max(0, start + i / RATE - time.perf_counter()))
         page.mouse.move(x - 70 * np.sin(2 * np.pi * i / MOVES) ** 2 - i % 2, y)
     page.mouse.up()
-    last = page.evaluate("bench.inputs.at(-1)[1]")
-    page.wait_for_function(
-        "last => ['figure', 'page'].every(part => Math.abs(bench[part].at(-1)?.[1] - last) < 1e-6)", arg=last)  # fmt: skip
+    page.wait_for_function(SHOWN)
 
 
 def delays(page):
@@ -141,36 +156,40 @@ def main():
         bare = Path(folder, "bare.py")
         bare.write_text(BARE)
         apps = {
-            "bare": (serve([sys.executable, "-m", "bokeh", "serve", str(bare)], "bare"), ".noUi-handle"),
-            "ours": (serve([sys.executable, "-m", "panel", "serve", str(root / "app")], "app"), ".MuiSlider-thumb")}  # fmt: skip
+            "bare": (serve([sys.executable, "-m", "bokeh", "serve", str(bare)], "bare"), ".noUi-handle", ".noUi-handle"),
+            "ours": (serve([sys.executable, "-m", "panel", "serve", str(root / "app")], "app"), ".MuiSlider-thumb",
+                     ".MuiSlider-thumb input")}  # fmt: skip
         browser = playwright.chromium.launch(executable_path=options.chromium, args=FLAGS)
-        results = {name: ([], []) for name in apps}
+        results = {}
         try:
             for _ in range(ROUNDS):  # in turn, so that both see the same machine
-                for name, ((_, url), handle) in apps.items():
+                for name, ((_, url), handle, focus) in apps.items():
                     page = browser.new_page(viewport={"width": 1400, "height": 900})
                     page.goto(url)
-                    page.wait_for_function(
-                        "ours => ours ? window.__tippe?.surface3d && __tippe.top3d?.pictures > 5 : window.Bokeh?.documents.length",
-                        arg=name == "ours")  # fmt: skip
+                    page.wait_for_function("window.Bokeh?.documents[0]?.is_idle")
                     page.locator(handle).first.wait_for()
+                    if name == "ours":
+                        page.wait_for_function("window.__tippe?.surface3d?.pictures && __tippe.top3d?.pictures > 5")
                     page.evaluate(WATCH, name == "ours")
-                    drag(page, handle)
-                    for kept, new in zip(results[name], delays(page), strict=True):
-                        kept.extend(new)
+                    for way, use in (("steps", lambda: step(page, focus)), ("drag", lambda: drag(page, handle))):  # noqa: B023
+                        page.evaluate("() => { for (const list of Object.values(bench)) list.length = 0 }")
+                        use()
+                        for part, found in zip(("figure", "page"), delays(page), strict=True):
+                            results.setdefault((way, part), {}).setdefault(name, []).extend(found)
                     page.close()
         finally:
             browser_version = browser.version
             browser.close()
-            for (server, _), _ in apps.values():
+            for (server, _), *_ in apps.values():
                 server.terminate()
     print(f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
           f"panel {version('panel')}, bokeh {version('bokeh')}, Chromium {browser_version}")  # fmt: skip
-    base = np.percentile(results["bare"][0], 95)
-    for name, parts in results.items():
-        for part, delay in zip(("figure", "page"), parts, strict=True):
+    for (way, part), found in results.items():
+        base = np.percentile(found["bare"], 95)
+        for name, delay in found.items():
             p50, p95 = np.percentile(delay, (50, 95))
-            print(f"{name:5} {part:7} n = {len(delay):4}  p50 {p50:6.0f} ms  p95 {p95:6.0f} ms  {p95 / base:5.2f} times bare")
+            print(f"{way:5} {part:6} {name}  n = {len(delay):4}  p50 {p50:5.0f} ms  p95 {p95:5.0f} ms  "
+                  f"{p95 / base:5.2f} times bare")  # fmt: skip
 
 
 if __name__ == "__main__":

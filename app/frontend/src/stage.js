@@ -13,24 +13,23 @@ const COARSEST = 0.6;
 const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
 const MAX_PIXEL_RATIO = 2;
 
-// There, while a person holds a control of the page, what the control moves comes first: pictures in 3-D are then
-// spaced out, one stage at a time, and do without what takes long: fine pixels, a new shadow, long wide lines.
-const HAND_REST_MS = 90;
+// There, what a person moves on the page comes first: for a while after each input there is no picture in 3-D, then they
+// come one a frame of the screen, each stage in turn, and without what takes long: fine pixels, a new shadow, long wide lines.
+const QUIET_MS = 110;
+const QUIET_AT_MOST_MS = 350; // when the inputs never pause
+const HELD_MS = 120; // from one picture of a stage to its next
+const HAND_MS = 300; // how long after its last input a hand is taken to have let go
 const HAND_COARSE = 0.5;
 const LONG_LINE = 300; // segments
-const KEY_MS = 300; // a key pressed counts as a hand for this long
-const hand = { until: 0 };
-let slow = false; // whether pictures are drawn by the processor, as measured by any stage
+let slow = false; // whether the processor draws, as any stage measured
 let anyDrawnAt = 0;
+let inputAt = -Infinity;
 const isCanvas = (target) => target.localName === "canvas";
-window.addEventListener("pointerdown", (event) => {
-  if (event.composedPath().some(isCanvas)) return; // turning a picture
-  hand.until = Infinity;
-}, { capture: true });
-for (const end of ["pointerup", "pointercancel", "blur"]) {
-  window.addEventListener(end, () => { hand.until = 0; }, { capture: true });
-}
-window.addEventListener("keydown", () => { hand.until = Math.max(hand.until, performance.now() + KEY_MS); }, { capture: true });
+const onInput = (event) => {
+  const used = event.type === "keydown" || event.buttons > 0;
+  if (used && !event.composedPath().some(isCanvas)) inputAt = performance.now(); // a canvas: turning the picture itself
+};
+for (const type of ["pointerdown", "pointermove", "keydown"]) window.addEventListener(type, onInput, { capture: true });
 
 export class Stage {
   // tick(now) runs before each drawn frame and says whether another one is to follow; fit(aspect) runs after a new size.
@@ -122,18 +121,21 @@ export class Stage {
   frame = (now) => {
     this.request = 0;
     if (this.disposed || !this.holder.isConnected) return;
-    if (this.moving && !this.costed) {
+    if (this.moving && !this.costed && !this.simple) {
       // The first frame after a drawn one comes late by what the drawing took.
       this.cost += 0.15 * (Math.min(now - this.drawnAt, 250) - this.cost);
       this.costed = true;
       if (this.cost > COARSER_MS && this.coarse > COARSEST) this.setCoarse(Math.max(this.coarse * STEP, COARSEST));
       else if (this.cost < FINER_MS && this.coarse < 1 && this.tries++ < MOST_TRIES) this.setCoarse(Math.min(this.coarse / STEP, 1));
     }
-    if (this.costed) slow = this.cost > SLOW_MS;
-    const held = slow && now < hand.until;
-    const tooSoon = now - anyDrawnAt < HAND_REST_MS || now - this.drawnAt < 2 * HAND_REST_MS;
-    if (held && (tooSoon || !this.asked)) return this.again();
-    if (this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost) return this.again();
+    if (this.costed) slow = this.cost > SLOW_MS || this.coarse < 1;
+    const held = slow && now - inputAt < HAND_MS;
+    if (held) {
+      const since = now - this.drawnAt;
+      const quiet = since < HELD_MS || (now - inputAt < QUIET_MS && since < QUIET_AT_MOST_MS);
+      if (quiet || anyDrawnAt === now || !this.asked) return this.again();
+    }
+    if (!held && this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost) return this.again();
     this.asked = false;
     this.moving = this.tick(now);
     if (this.inView) {
