@@ -9,7 +9,8 @@ import numpy as np
 from .errors import TopError, finite
 
 # The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic
-# in cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34); the standard library has all that this needs.
+# in cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34), for which the
+# standard library is enough.
 EXACT = Context(prec=60, Emin=-999999, Emax=999999)
 ExactTop = namedtuple("ExactTop", "a I1 I3")
 
@@ -91,7 +92,8 @@ class State:
     G's place x, y in space and its horizontal velocity vx, vy in the axes x, y that turn with phi.
 
     What is left None is unsaid: each plane has its own natural choice (rolling: the contact point starts at the
-    origin, and the velocity is the one of rolling). Raises TopError where a value is not finite or theta not in [0, pi].
+    origin, and the velocity is the one of rolling). Raises TopError where a value is not finite or theta not in
+    [0, pi].
     """
 
     theta: float
@@ -151,6 +153,6 @@ def nonzero(K):
 
 
 def versines(theta):
-    """(1 - cos theta, 1 + cos theta), each to full relative precision, also next to its zero. pi is the inverted pole."""
+    """(1 - cos theta, 1 + cos theta), each to full relative precision also next to its zero; pi is the inverted pole."""
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
     return v, np.where(np.asarray(theta) == np.pi, 0.0, m)

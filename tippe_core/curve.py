@@ -57,7 +57,10 @@ def omega2(theta, top, constants):
 
 
 def f(theta, top, constants):
-    """theta_dot^2 = f(theta), (36), in g/R; negative where no motion is. theta in rad; theta and the constants broadcast."""
+    """theta_dot^2 = f(theta), (36), in g/R; negative where no motion is.
+
+    theta in rad; theta and the constants broadcast. -inf at a pole that no motion with this K_J reaches.
+    """
     v, m = versines(theta)
     w2 = omega2_at(v, m, top, constants.K_R, pole_gaps(top, constants.K_J, constants.K_R))
     c = 1 - v
@@ -67,8 +70,8 @@ def f(theta, top, constants):
 def pole_constants(top, K_R):
     """(K_J at P, K_J at the inverted pole): where the bracket of (36) vanishes at theta = 0 and at theta = pi.
 
-    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others. For a number
-    K_R the floats nearest to them, which everything here takes for the poles' own.
+    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others. For K_R a
+    number these are the floats nearest to them, which everything here takes for the poles' own.
     """
     if np.ndim(K_R):
         return tuple(top.I3 / top.I1 * (c - top.a) * K_R / np.sqrt(f3_2(c, 0, top)) for c in (1, -1))
@@ -104,7 +107,7 @@ def near_pole(v, m, top, K_R, gaps):
 
 
 def pole_slope(x, a, K_R, top):
-    """C at x = 1 - c next to the upright pole; next to the inverted one with x = 1 + c and the signs of a and K_R turned."""
+    """C at x = 1 - c next to the upright pole; next to the inverted one x = 1 + c, with the signs of a and K_R turned."""
     gamma = top.I3 / top.I1
     p = 1 - a
     q, far = p - x, 2 - x
@@ -141,14 +144,18 @@ def exact_bracket_term(c, s2, t, K_R):
 class ExactCurve:
     """U, D = s^2 (e - U) and N = s^4 dU/dc as functions of c = cos(theta), Decimals."""
 
-    def __init__(self, top, exact):
+    def __init__(self, top, exact, rounded=True):
+        """rounded: K_J, K_R and E were given as floats, and mean what the nearest float can mean."""
         self.top_, self.top = top, exact_top(top)  # in floats, and exact
         with localcontext(EXACT):
             poles = [exact_bracket_term(Decimal(c), Decimal(0), self.top, exact.K_R) for c in (1, -1)]
             for K_J in poles:
-                if at_pole(float(exact.K_J - K_J), float(exact.K_J)):
+                if rounded and at_pole(float(exact.K_J - K_J), float(exact.K_J)):
                     exact = replace(exact, K_J=K_J)
-            self.exact, self.gaps = exact, tuple(exact.K_J - K_J for K_J in poles)
+            # a state's K_J and K_R are exact but for a square root
+            negligible = abs(exact.K_J) * Decimal("1e-55")
+            self.gaps = tuple(exact.K_J - K_J if abs(exact.K_J - K_J) > negligible else Decimal(0) for K_J in poles)
+        self.exact, self.rounded = exact, rounded
 
     @classmethod
     def of(cls, top, K_J, K_R):
@@ -193,34 +200,33 @@ def well_slope(c, s2, B, dB, top):
     return -2 * a * s2 * s2 + 2 * B * (((c - a) * (1 - a * c) + top.I1 * c) * B + f2_2(c, s2, top) * s2 * dB)
 
 
-def solve(function, low, high, guess=None):
-    """The zero of function(c) -> (value, slope or None) between low and high (Decimals), where it changes sign.
+def solve(function, low, high, rises, guess=None):
+    """The zero of function(c) -> (value, slope or None) between low and high (Decimals); rises: from below 0 to above.
 
     Newton's step, or the secant's, kept inside the bracket; bisection, in the distance to a pole on a logarithmic
-    scale, where a step leaves it. Ends when a step moves cos(theta), 1 - c and 1 + c by less than 1e-22 of themselves.
+    scale, where a step leaves it. Ends when a step moves 1 - c or 1 + c by less than 1e-13 of itself, and the steps
+    fall as fast as they do off a double zero.
     """
-    f_low = function(low)[0]
-    if f_low == 0 or function(high)[0] == 0:
-        return low if f_low == 0 else high
-    c, previous = guess if guess and low < guess < high else bisect(low, high), None
+    c, previous, last = guess if guess and low < guess < high else bisect(low, high), None, Decimal(1)
     for _ in range(400):
         value, slope = function(c)
         if value == 0:
             return c
-        if (value > 0) == (f_low > 0):
-            low = c
-        else:
+        if (value > 0) == rises:
             high = c
+        else:
+            low = c
         if slope is None and previous is not None and previous[1] != value:
             slope = (value - previous[1]) / (c - previous[0])
         previous = (c, value)
         following = c - value / slope if slope else bisect(low, high)
-        small = min(1 - c, 1 + c) * Decimal("1e-22")
-        if slope and abs(following - c) <= small:
+        step, small = abs(following - c), min(1 - c, 1 + c) * Decimal("1e-13")
+        if slope and step <= small and (step <= last / 1000 or step <= small / 10**9):
             return min(max(following, low), high)
+        last = step
         if not low < following < high:
             following = bisect(low, high)
-        if high - low <= small:
+        if high - low <= small / 10**9:
             return c
         c = following
     return c
@@ -256,8 +262,10 @@ def extrema(curve):
     zeros = []
     with localcontext(EXACT):
         for left, right in brackets:
-            guess = Decimal(brentq(N, right, left, xtol=1e-15)) if N(left) * N(right) < 0 else None
-            zeros.append(solve(lambda c: (curve.N(c), None), Decimal(float(right)), Decimal(float(left)), guess))
+            low, high = N(right), N(left)
+            guess = Decimal(brentq(N, right, left, xtol=1e-15)) if low * high < 0 else None
+            right, left = Decimal(float(right)), Decimal(float(left))
+            zeros.append(solve(lambda c: (curve.N(c), None), right, left, curve.N(right) < 0, guess))
     return [c for c in zeros if abs(c) < 1]
 
 
@@ -303,57 +311,51 @@ def find_stations(curve):
         places = [Decimal(1), *extrema(curve), Decimal(-1)]
         U = [curve.U(c) for c in places]
         infinite = Decimal("Infinity")
-        bottoms = [here < left and here < right or (here == left == right)
-                   for left, here, right in zip([infinite, *U], U, [*U[1:], infinite])]  # fmt: skip
-        return [Station(c, exact.e - u, b) for c, u, b in zip(places, U, bottoms)]
+        around = zip([infinite, *U], U, [*U[1:], infinite], strict=False)
+        bottoms = [(here < left and here < right) or here == left == right for left, here, right in around]
+        return [Station(c, exact.e - u, b) for c, u, b in zip(places, U, bottoms, strict=True)]
 
 
 def wells(curve):
     """The allowed intervals of cos(theta), from theta = 0 on: list of Well.
 
-    An energy that differs from that of the bottom of a well by no more than its own rounding is the one of the steady precession.
+    An energy given as a float that differs from that of the bottom of a well by no more than its own rounding is the
+    one of the steady precession.
     """
     with localcontext(EXACT):
         exact, stations = curve.exact, find_stations(curve)
         size = max(abs(exact.e), exact.K_R**2, exact.K_J**2)
-        rounding = size * Decimal(2) ** -50
+        rounding = size * Decimal(2) ** -50 if curve.rounded else Decimal(0)
         found, inner = [], None
-        for i, here in enumerate(stations):
+        for before, here in zip([None, *stations], stations, strict=False):
             if here.bottom and abs(here.gap) <= rounding:
                 found.append(Well(here.c, here.c))
-                continue
-            if i and (stations[i - 1].gap > 0) != (here.gap > 0) and not at_bottom(stations[i - 1], rounding):
-                zero = turning_point(curve, here, stations[i - 1])
-                if here.gap > 0:
-                    inner = zero
-                else:
-                    found.append(Well(inner, zero))
-            elif i == 0 and here.gap > 0:
-                inner = here.c
-            elif here.gap > 0 and at_bottom(stations[i - 1], rounding):
-                inner = stations[i - 1].c
-        if stations[-1].gap > 0:
-            found.append(Well(inner, stations[-1].c))
-    if not found:
-        least = float(exact.e - max(s.gap for s in stations))
-        with localcontext(EXACT):
-            t = curve.top
-            shift = float(exact.K_R**2 - t.I1 / t.I3 * exact.K_J**2)
-            E, E_least = (float(exact.e) + shift) / 2, (least + shift) / 2
-        raise NoMotionError("E", E, f"E >= {E_least:.10g} for this top, K_J = {float(exact.K_J):.10g} and K_R = {float(exact.K_R):.10g}",
+            elif here.gap > 0:
+                if before is None or (before.bottom and abs(before.gap) <= rounding):
+                    inner = here.c if before is None else before.c
+                elif before.gap <= 0:
+                    inner = turning_point(curve, here, before)
+                if here is stations[-1]:
+                    found.append(Well(inner, here.c))
+            elif before is not None and before.gap > 0 and not (before.bottom and abs(before.gap) <= rounding):
+                found.append(Well(inner, turning_point(curve, here, before)))
+        if found:
+            return found
+        shift = float(exact.K_R**2 - curve.top.I1 / curve.top.I3 * exact.K_J**2)
+        E, E_least = (float(exact.e) + shift) / 2, (float(exact.e - max(s.gap for s in stations)) + shift) / 2
+        constants = f"K_J = {float(exact.K_J):.10g} and K_R = {float(exact.K_R):.10g}"
+        raise NoMotionError("E", E, f"E >= {E_least:.10g} for this top, {constants}",
                             "Below it is no motion, at it the steady precession of least energy.")  # fmt: skip
-    return found
-
-
-def at_bottom(station, rounding):
-    return station.bottom and abs(station.gap) <= rounding
 
 
 def turning_point(curve, one, other):
     """The zero of e - U between two stations at which it differs in sign."""
-    low, high = sorted((one.c, other.c))
+    low, high = sorted((one, other))  # by cos(theta)
+    for end in (low, high):
+        if end.gap == 0:
+            return end.c
     through_pole = any(abs(end.c) == 1 and end.gap.is_finite() for end in (one, other))  # there D is 0 whatever e is
-    return solve(curve.gap if through_pole else curve.D, low, high)
+    return solve(curve.gap if through_pole else curve.D, low.c, high.c, high.gap > 0)
 
 
 def turning_points(top, constants):

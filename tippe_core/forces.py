@@ -40,6 +40,7 @@ def normal_force(theta, top, constants):
 def friction_force(theta, top, constants):
     """(F_x, F_y) for theta_dot > 0, (38) and (39), in Mg; F_x turns its sign with theta_dot.
 
-    x along 1' (the line of nodes), y along z cross 1'. theta in rad; theta and the constants broadcast. F_x is nan where f < 0.
+    x along 1' (the line of nodes), y along z cross 1'. theta in rad; theta and the constants broadcast. F_x is nan
+    where f < 0.
     """
     return _on_curve(theta, top, constants)[:2]

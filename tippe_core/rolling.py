@@ -5,7 +5,10 @@ With c = cos(theta), c_dot^2 = s^2 f is analytic between its zeros c1 (inner) an
 smooth and periodic. Q is the divided difference of s^2 f over c1, c2 and c. Written out by the product rule of divided
 differences, nothing cancels however near c1 and c2 are to each other: a steady precession is no special case.
 
-Integrals over kappa by the midpoint rule converge geometrically, and so do the Fourier coefficients in the phase
+Where Q nearly vanishes, wells are about to merge or an unstable steady precession is near; then the nodes are crowded
+there by a change of variable from kappa to eta, otherwise the same.
+
+Integrals over eta by the midpoint rule converge geometrically, and so do the Fourier coefficients in the phase
 tau = 2 pi t/T, for which kappa need not be inverted: the coefficient of sin(k tau) in kappa - tau is
 2/(pi k) times the integral of cos(k tau(kappa)) from 0 to pi (Bessel's solution of Kepler's equation).
 
@@ -14,8 +17,9 @@ Near a pole phi and psi turn by nearly pi at once, and at the pole they mean not
     q_x + i q_y = sin(theta/2) exp i(phi - psi)/2 = (v1^1/2 cos(kappa/2) +- i v2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_-
     q_w + i q_z = cos(theta/2) exp i(phi + psi)/2 = (m1^1/2 cos(kappa/2) +- i m2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_+
 
-(the sign that of d, see curve.py) take all of that turn into the first factor, exactly, because f1 = f2 at the poles; the
-rates of sigma_- and sigma_+ are smooth for every trajectory, also through a pole. So is the velocity of the contact point.
+(the sign that of d, see curve.py) take all of that turn into the first factor, exactly, because f1 = f2 at the poles;
+the rates of sigma_- and sigma_+ are smooth for every trajectory, also through a pole. So is the velocity of the contact
+point.
 """
 
 from decimal import Decimal, localcontext
@@ -30,7 +34,7 @@ from .errors import TopError
 from .forces import contact_force
 from .trajectory import Trajectory, checked_times
 
-_NODES_MOST = 2**18  # enough for energies that differ from the one of a merging by the last digit of a float
+_NODES_LEAST, _NODES_MOST = 32, 2**13  # half a second; enough for energies within 1e-9 of that of a merging
 
 
 def roll(top, constants, times, start="inner", well=0):
@@ -64,10 +68,10 @@ class Rolling:
             self.gaps = tuple(map(float, curve.gaps))
             self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
             self.width = float(inner - outer)
-            here = 2 * np.arctan2(float(inner - here) ** 0.5, float(here - outer) ** 0.5) if inner > outer else 0.0
+            self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5  # as sin(kappa/2), cos(kappa/2)
             self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
         self.start = start if isinstance(start, State) else State(0.0, 0.0, 0.0, 0.0)
-        self._start_kappa = -here if isinstance(start, State) and start.theta_dot < 0 else here
+        self._inward = self.start.theta_dot < 0
 
     # ---- one nutation, on nodes in kappa ----
 
@@ -76,7 +80,8 @@ class Rolling:
         top, c, c1, c2 = self.top, 1 - v, 1 - self.v1, 1 - self.v2
         gamma, a = top.I3 / top.I1, top.a
         # second divided differences over (c1, c2, c), first ones over (c1, c2) and (c2, c), of y = f3,
-        y1, y2, y = (np.sqrt(f3_2(*place, top)) for place in ((c1, self.v1 * self.m1), (c2, self.v2 * self.m2), (c, v * m)))
+        places = (c1, self.v1 * self.m1), (c2, self.v2 * self.m2), (c, v * m)
+        y1, y2, y = (np.sqrt(f3_2(*place, top)) for place in places)
         y_12 = ((gamma - 1) * (c1 + c2) - 2 * gamma * a) / (y1 + y2)
         y_2c = ((gamma - 1) * (c2 + c) - 2 * gamma * a) / (y2 + y)
         y_12c = (gamma - 1 - y_12 * y_2c) / (y1 + y)
@@ -112,13 +117,77 @@ class Rolling:
     def _bracket_ends(self):
         return self._bracket(np.array([self.v1, self.v2]), np.array([self.m1, self.m2]))
 
+    @cached_property
+    def _map(self):
+        """y0, eps, alpha, x0 of cos(kappa) = y0 + eps sinh(alpha (cos(eta) - x0)), or None where kappa = eta will do.
+
+        Where Q nearly vanishes in the well or at an end of it, wells are about to merge or a steady precession is
+        unstable nearby. Seen from cos(kappa) = y0 its zeros are then eps away; in eta they are 1/log(1/eps) away.
+        """
+        ch, sh, _, _, h, _ = self._plain
+        if self.width == 0 or h.max() < 3 * h.min():
+            return None
+
+        def Q(y):
+            return 1 / self._h(*self._versines(np.sqrt((1 + y) / 2), np.sqrt((1 - y) / 2))) ** 2
+
+        y = np.concatenate([[1], ch**2 - sh**2, [-1]])
+        values = np.nan_to_num(Q(y))
+        i = int(values.argmin())
+        y0, step = y[i], 0.01
+        if i in (0, len(y) - 1):
+            low, near = np.nan_to_num(Q(np.array([y0, y0 * (1 - 1e-4)])))
+            eps = 1e-4 * low / (near - low)
+        else:
+            for step in (1e-2, 1e-3, 1e-4):
+                left, low, right = np.nan_to_num(Q(np.clip(y0 + step * np.array([-1, 0, 1]), -1, 1)))
+                y0 += step * np.clip((left - right) / (2 * (left - 2 * low + right)), -10, 10)
+            eps = np.sqrt(2 * max(low, 0) / (left - 2 * low + right)) * step
+        if not eps < 0.2:
+            return None
+        eps = max(eps, 1e-12)
+        ends = np.arcsinh((1 - y0) / eps), np.arcsinh((1 + y0) / eps)
+        alpha = sum(ends) / 2
+        return y0, eps, alpha, (ends[1] - ends[0]) / (2 * alpha)
+
     def _nodes(self, n):
-        """n midpoints of kappa in (0, pi): (cos(kappa/2), sin(kappa/2)), v, m, h."""
+        """n midpoints of eta in (0, pi): (cos(kappa/2), sin(kappa/2)), v, m, h, dkappa/deta."""
+        if n == _NODES_LEAST and not self._map:
+            return self._plain
         half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
+        ch, sh, stretch = np.cos(half), np.sin(half), np.ones(n)
+        if self._map:
+            _, eps, alpha, x0 = self._map
+            x, up, down = np.cos(2 * half), ch**2, sh**2
+            ch, sh = (np.sqrt(eps * np.cosh(alpha * (middle - x0)) * np.sinh(alpha * part))
+                      for middle, part in (((x - 1) / 2, up), ((x + 1) / 2, down)))  # fmt: skip
+            stretch = eps * alpha * np.cosh(alpha * (x - x0)) * np.sqrt(up * down) / (sh * ch)
+        # where Q nearly vanishes its terms cancel after all
+        return ch, sh, *self._versines(ch, sh), self._h_exact(sh), stretch
+
+    @cached_property
+    def _plain(self):
+        """The least nodes, with kappa = eta."""
+        half = (np.arange(_NODES_LEAST) + 0.5) * (np.pi / (2 * _NODES_LEAST))
         ch, sh = np.cos(half), np.sin(half)
         v, m = self._versines(ch, sh)
-        # many nodes are needed where Q nearly vanishes, next to a merging of wells: there its terms cancel after all
-        return ch, sh, v, m, self._h(v, m) if n <= 64 or n > 4096 else self._h_exact(sh)
+        return ch, sh, v, m, self._h(v, m), np.ones(_NODES_LEAST)
+
+    def _eta(self, sine, cosine):
+        """What sin(eta/2) and cos(eta/2) are as, where sin(kappa/2) and cos(kappa/2) are as sine and cosine."""
+        if not self._map:
+            return sine, cosine
+        y0, eps, _, _ = self._map
+        whole = sine**2 + cosine**2
+
+        def part(share, end):  # alpha times the distance of cos(eta) to an end, from that of cos(kappa), 2 share
+            p = end / eps
+            q = p - 2 * share / whole / eps
+            if p * q > 0:
+                return np.arcsinh((p - q) * (p + q) / (p * np.hypot(1, q) + q * np.hypot(1, p)))
+            return np.arcsinh(p) - np.arcsinh(q)
+
+        return np.sqrt(part(sine**2, 1 - y0)), np.sqrt(part(cosine**2, 1 + y0))
 
     def _resolved(self, n, *rates):
         """Whether n midpoints resolve even periodic functions of kappa; and their cosine coefficients."""
@@ -131,58 +200,64 @@ class Rolling:
 
     @cached_property
     def _time(self):
-        """Nodes enough for h, period, and tau at the nodes."""
-        n = 32
-        while True:
-            nodes = self._nodes(n)
-            if np.all(np.isfinite(nodes[-1])):
-                good, (h,) = self._resolved(n, nodes[-1])
+        """Number of nodes enough for h, period, tau and dkappa/deta at the nodes, cosine coefficients of dt/deta."""
+        n = _NODES_LEAST
+        while n <= _NODES_MOST:
+            *_, h, stretch = self._nodes(n)
+            if np.all(np.isfinite(h)):
+                good, (h_k,) = self._resolved(n, h * stretch)
                 if good:
-                    return n, nodes, h[0] * np.pi, _phase(h)
+                    return n, h_k[0] * np.pi, _phase(h_k), stretch, h_k
             n *= 2
-            if n > _NODES_MOST:
-                raise TopError("E", (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2,
-                               "an energy off that of an unstable steady precession",
-                               "There the nutation takes for ever; change E in its last digits.")  # fmt: skip
+        raise self._too_near()
+
+    def _too_near(self):
+        E = (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
+        return TopError("E", E, "an energy further from that of an unstable steady precession",
+                       "So near to it the nutation takes almost for ever; change E a little.")  # fmt: skip
 
     @property
     def period(self):
         """Period of the nutation in (R/g)^1/2."""
-        return self._time[2]
+        return self._time[1]
 
     @cached_property
     def _kappa(self):
         """Sine coefficients in tau of kappa - tau."""
-        n, _, _, tau = self._time
+        n, _, tau, stretch, _ = self._time
         while True:
 
-            def coefficients(count, n=n, tau=tau):
+            def coefficients(count, n=n, tau=tau, stretch=stretch):
                 k = np.arange(1, count + 1)
-                return (2 / (n * k) * np.cos(np.outer(k, tau)).sum(axis=1))[None]
+                return (2 / (n * k) * (np.cos(np.outer(k, tau)) @ stretch))[None]
 
             series = _converged(coefficients, _most(n, tau))
-            if series is not None or n >= _NODES_MOST:
+            if series is not None:
                 return series[0]
+            if n >= _NODES_MOST:
+                raise self._too_near()
             n *= 2
-            tau = _phase(dct(self._nodes(n)[-1], type=2) / n)
+            *_, h, stretch = self._nodes(n)
+            tau = _phase(dct(h * stretch, type=2) / n)
 
     @cached_property
     def _orientation(self):
-        """Mean rates in tau and sine coefficients of sigma_- and sigma_+, and the Fourier coefficients of the contact's velocity."""
+        """Mean rates in tau and sine coefficients of sigma_- and sigma_+; Fourier coefficients of the contact's velocity."""
         n = self._time[0]
         while True:
-            ch, sh, v, m, h = self._nodes(n)
-            rates = self._sigma_rates(v, m, h)
-            good, (h_k, minus, plus) = self._resolved(n, h, *rates)
+            ch, sh, v, m, h, stretch = self._nodes(n)
+            rates = self._sigma_rates(v, m, h) * stretch
+            good, (h_k, minus, plus) = self._resolved(n, h * stretch, *rates)
             tau = _phase(h_k)
-            mean = np.array([minus[0] / 2, plus[0] / 2])  # over kappa, and so over tau
+            mean = np.array([minus[0], plus[0]]) / 2  # over eta, and so over tau
             turn = _integral(minus) + _integral(plus) - mean.sum() * tau
             # velocity of the contact point, (w2 c - w3 s, -w1) in the turning axes, less the mean turn
             A = self._pole_factor(ch, sh, 0) * self._pole_factor(ch, sh, 1)
             w1, w2, w3 = self._omega(ch, sh, v, m, h)
             s = np.sqrt(v * m)
             direction = np.where(s > 0, A / np.where(s > 0, s, 1), 1)
-            velocity = direction * np.exp(1j * turn) * (w2 * (1 - v) - w3 * s - 1j * w1) * h * 2 / (h_k[0] * n)
+            velocity = direction * np.exp(1j * turn) * (w2 * (1 - v) - w3 * s - 1j * w1)
+            velocity *= h * stretch * 2 / (h_k[0] * n)
 
             def coefficients(count, n=n, tau=tau, rates=rates, velocity=velocity):
                 k = np.arange(1, count + 1)
@@ -191,12 +266,14 @@ class Rolling:
                 return np.array([*sigma, (wave @ velocity).real, (wave.conj() @ velocity).real])
 
             series = _converged(coefficients, _most(n, tau)) if good else None
-            if series is not None or n >= _NODES_MOST:
+            if series is not None:
                 return mean, *series, velocity.sum().real
+            if n >= _NODES_MOST:
+                raise self._too_near()
             n *= 2
 
     def _sigma_rates(self, v, m, h):
-        """d sigma_-/dkappa and d sigma_+/dkappa: half of phi_dot (1 + c) - w3 and of phi_dot (1 - c) + w3, less the pole's."""
+        """d sigma_-+/dkappa: half of phi_dot (1 + c) - w3 and of phi_dot (1 - c) + w3, less the turn at the pole."""
         w3 = self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
         (north, south), rates = self.gaps, []
         for x, x1, x2, d, sign in ((v, self.v1, self.v2, north, -1), (m, self.m1, self.m2, south, 1)):
@@ -218,40 +295,46 @@ class Rolling:
         with np.errstate(invalid="ignore", divide="ignore"):
             w1 = np.where(self.width > 0, self.width * sh * ch / (h * np.sqrt(v * m)), 0.0)
         at_pole = (v == 0) | (m == 0)
-        if np.any(at_pole):  # theta_dot turns its sign there; the limit from after the pole
-            w1 = np.where(at_pole, self.width**0.5 / (h * 2**0.5), w1)
+        if np.any(at_pole):  # theta_dot turns its sign there: as just after the pole
+            w1 = np.where(at_pole, np.where(v == 0, 1, -1) * self.width**0.5 / (h * 2**0.5), w1)
         w2 = omega2_at(v, m, self.top, self.K_R, self.gaps)
         return w1, w2, self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
 
     # ---- at any time ----
 
     def _clock(self, times):
-        """Whole periods (n,) and phase tau (n,) in [-pi, pi] at the times."""
-        t = checked_times(times)
-        T = self.period
-        # remainders of floats are exact: the phase is as smooth in t after 10,000 periods as in the first
-        passed = t - t[0]
-        rest = np.remainder(passed, T)
-        turns = np.round((passed - rest) / T)
-        tau = rest * (2 * np.pi / T) + self._start_tau
-        over = np.round(tau / (2 * np.pi))
-        return turns + over, tau - 2 * np.pi * over
+        """Whole periods, half periods (0 or 1) and the rest of the phase, -pi/2 to pi/2, at the times: (n,) each."""
+        t, T = checked_times(times), self.period
+        half, rest = self._start_phase
+        # whole periods exactly: the phase is then as smooth in t after 10,000 periods as in the first
+        passed, leading = t - t[0], float(np.float32(T))
+        whole = np.floor(passed / T)
+        angle = ((passed - whole * leading) - whole * (T - leading)) * (2 * np.pi / T)
+        halves = np.round((angle + rest) / np.pi)
+        rest, halves = (angle - halves * np.pi) + rest, half + halves
+        turns = np.floor(halves / 2)
+        return turns + whole, halves - 2 * turns, rest
 
     @cached_property
-    def _start_tau(self):
-        n, nodes, period, tau = self._time
-        kappa = abs(self._start_kappa)
-        if kappa in (0.0, np.pi):
-            return self._start_kappa
-        k = np.arange(1, n)
-        h = dct(nodes[-1], type=2) / n
-        return np.copysign((h[0] / 2 * kappa + (h[1:] / k) @ np.sin(k * kappa)) * 2 / h[0], self._start_kappa)
+    def _start_phase(self):
+        """Half period and the rest of the phase at the start, to full precision next to either turning point."""
+        sine, cosine = self._place
+        if self.width == 0:
+            return 0.0, 0.0
+        half, h = float(sine > cosine), self._time[4]
+        s_eta, c_eta = self._eta(sine, cosine)
+        eta = 2 * (np.arctan2(c_eta, s_eta) if half else np.arctan2(s_eta, c_eta))
+        k = np.arange(1, len(h))
+        sign = (-1.0) ** k if half else 1.0
+        tau = eta + 2 / h[0] * (sign * h[1:] / k) @ np.sin(k * eta)
+        return half, -tau if self._inward != bool(half) else tau
 
     def theta(self, times):
         """theta (n,) in rad at the times (n,)."""
-        _, tau = self._clock(times)
-        half = (tau + _evaluate(tau, self._kappa[None])[0]) / 2
-        return 2 * np.arctan2(*(np.sqrt(x) for x in self._versines(np.cos(half), np.sin(half))))
+        _, half, rest = self._clock(times)
+        ch, sh = _half_angle(half, rest, _evaluate(half, rest, self._kappa[None])[0])
+        v, m = self._versines(ch, sh)
+        return 2 * np.arctan2(np.sqrt(v), np.sqrt(m))
 
     def _versines(self, ch, sh):
         return self.v1 + self.width * sh**2, self.m2 + self.width * ch**2
@@ -267,8 +350,8 @@ class Rolling:
         north, south = (np.copysign(1, d) for d in self.gaps)
         return 2 * np.pi * (self._orientation[0] @ (-1, 1)) + np.pi * (south - north)
 
-    def _motion(self, turns, tau):
-        """All that depends on the phase alone: half-angle, sigma_-, sigma_+ and the contact point from tau = 0 of period 0."""
+    def _motion(self, turns, half, rest):
+        """cos and sin of kappa/2, the parts of sigma_- and sigma_+, and the contact point counted from phase 0."""
         mean, minus, plus, forward, backward, constant = self._orientation
         rate = mean.sum()
         k = np.arange(1, len(minus) + 1)
@@ -286,25 +369,26 @@ class Rolling:
         sines = np.zeros((4, max(len(k), len(self._kappa))))
         sines[0, : len(self._kappa)] = self._kappa
         sines[1:, : len(k)] = minus, plus, ahead - back
-        kappa, minus_t, plus_t, Y_re = _evaluate(tau, sines)
-        Y_im = _evaluate(tau, (ahead + back)[None], cosine=True)[0]
+        tau = np.pi * half + rest
+        kappa, minus_t, plus_t, Y_re = _evaluate(half, rest, sines)
+        Y_im = _evaluate(half, rest, (ahead + back)[None], cosine=True)[0]
         scale = self.period / (2 * np.pi)
         Y, Y0 = Y_re - 1j * (Y_im + still), -1j * ((ahead + back).sum() + still)
-        whole = np.exp(2j * np.pi * _part_turn(turns, x))
-        along = whole * tau * np.exp(0.5j * x * tau) * np.sinc(x * tau / (2 * np.pi)) + 2 * np.pi * turns * np.exp(
-            1j * np.pi * x * turns) * np.sinc(x * turns)  # fmt: skip
+        part = _part_turn(turns, x)
+        whole = np.exp(2j * np.pi * part)
+        periods = 2 * np.exp(1j * np.pi * part) * np.sin(np.pi * part) / x if x else 2 * np.pi * turns
+        along = periods + whole * tau * np.exp(0.5j * x * tau) * np.sinc(x * tau / (2 * np.pi))
         contact = scale * (whole * np.exp(1j * rate * tau) * Y - Y0 + amplitude * along)
         # whole turns apart: rounded with them, the angles of late periods would not be smooth in time
         sigma = [(2 * np.pi * _part_turn(turns, mu), mu * tau + series, 2 * np.pi * np.trunc(turns * mu))
                  for mu, series in zip(mean, (minus_t, plus_t), strict=True)]  # fmt: skip
-        return (tau + kappa) / 2, *sigma, contact
+        return *_half_angle(half, rest, kappa), *sigma, contact
 
     def __call__(self, times):
         """The Trajectory at the times (n,)."""
         top, start, t = self.top, self.start, checked_times(times)
-        turns, tau = self._clock(t)
-        first = self._state(np.array([0.0]), np.array([self._start_tau]))
-        now = self._state(turns, tau)
+        first = self._state(np.zeros(1), *(np.array([x]) for x in self._start_phase))
+        now = self._state(*self._clock(t))
         d_phi, d_psi = start.phi - first["phi"][0], start.psi - first["psi"][0]
         x, y = start.x, start.y
         lean = 1j * first["s_exp_phi"][0] * np.exp(1j * d_phi) * top.a  # from the contact point to G
@@ -323,15 +407,14 @@ class Rolling:
             omega=w.T.copy(), slip=np.zeros((len(t), 2)), force=np.stack(force, axis=1),
             regime=np.full(len(t), "roll"))  # fmt: skip
 
-    def _state(self, turns, tau):
-        half, minus, plus, contact = self._motion(turns, tau)
-        ch, sh = np.cos(half), np.sin(half)
+    def _state(self, turns, half, rest):
+        ch, sh, minus, plus, contact = self._motion(turns, half, rest)
         v, m = self._versines(ch, sh)
         parity = np.where(np.remainder(turns, 2) == 1, -1.0, 1.0)
         north, south = self._pole_factor(ch, sh, 0), self._pole_factor(ch, sh, 1)
-        # at the pole itself phi is the one just after it
-        angles = [np.where(z == 0, np.copysign(np.pi / 2, d), np.angle(z)) + np.pi * turns * np.copysign(1, d)
-                  for z, d in zip((north, south), self.gaps, strict=True)]  # fmt: skip
+        # at a pole itself phi is the one just after it
+        angles = [np.where(z == 0, np.copysign(after, d), np.angle(z)) + np.pi * turns * np.copysign(1, d)
+                  for z, d, after in zip((north, south), self.gaps, (np.pi / 2, np.pi), strict=True)]  # fmt: skip
         minus_exp, plus_exp = (np.exp(1j * whole) * np.exp(1j * part) for whole, part, _ in (minus, plus))
         minus, plus = sum(minus), sum(plus)
         return {
@@ -363,14 +446,15 @@ def _from_state(top, constants, state):
     for name, value in rolling.items():
         given = getattr(state, name)
         if given is not None and abs(given - value) > 1e-9 * max(1, abs(value)):
-            raise TopError(name, given, f"{value:.10g}, G's velocity when the top rolls", "Leave it out for a rolling top.")
+            raise TopError(name, given, f"{value:.10g}, G's velocity when the top rolls",
+                           "Leave it out for a rolling top.")  # fmt: skip
     if constants is not None:
         own = Exact.of(constants, top)
         for name in ("K_J", "K_R"):
             if abs(getattr(own, name) - getattr(exact, name)) > Decimal("1e-9") * max(1, abs(getattr(exact, name))):
                 raise TopError(name, getattr(constants, name), f"{float(getattr(exact, name)):.10g}, that of the State",
                                "Give None for the constants.")  # fmt: skip
-    curve = ExactCurve(top, exact)
+    curve = ExactCurve(top, exact, rounded=False)
     if state.theta_dot == 0 and curve.N(here) == 0:
         return curve, Well(here, here), here
     inner, outer = min(wells(curve), key=lambda w: max(here - w.inner, w.outer - here))
@@ -406,9 +490,9 @@ def _most(n, tau):
 
 
 def _converged(coefficients, most):
-    """coefficients(count) (rows, count), with count doubled until all rows have ended; None where that takes over `most`.
+    """coefficients(count) (rows, count), with count doubled until all rows have ended; None if that takes over `most`.
 
-    A row has ended where its last quarter is rounding: below 1e-16 of the sum of its sizes, or small and no longer falling.
+    A row has ended where its last quarter is rounding: below 1e-16 of the sum of its sizes, or small and not falling.
     """
     count = 8
     while count < most:
@@ -422,15 +506,22 @@ def _converged(coefficients, most):
     return None
 
 
-def _evaluate(tau, rows, cosine=False):
-    """(rows, n): the sums over k >= 1 of rows[:, k - 1] sin(k tau), or cos(k tau)."""
+def _half_angle(half, rest, series):
+    """cos and sin of kappa/2 = (pi half + rest + series)/2."""
+    s = np.sin((rest + series) / 2)  # within pi/4 or so of 0
+    c = np.sqrt(1 - s * s)
+    return np.where(half, -s, c), np.where(half, c, s)
+
+
+def _evaluate(half, rest, rows, cosine=False):
+    """(rows, n): the sums over k >= 1 of rows[:, k - 1] sin(k tau), or cos(k tau), at tau = pi half + rest."""
     count = rows.shape[1]
-    out = np.empty((len(rows), len(tau)))
+    out = np.empty((len(rows), len(rest)))
     step = max(1, 2**18 // count)
-    for i in range(0, len(tau), step):
-        phase = tau[i : i + step]
-        wave = np.empty((count, len(phase)), complex)
-        wave[0].real, wave[0].imag = np.cos(phase), np.sin(phase)
+    for i in range(0, len(rest), step):
+        s, sign = np.sin(rest[i : i + step] / 2), 1 - 2 * half[i : i + step]
+        wave = np.empty((count, len(s)), complex)
+        wave[0].real, wave[0].imag = sign * (1 - 2 * s * s), sign * 2 * s * np.sqrt(1 - s * s)
         done = 1
         while done < count:
             more = min(done, count - done)
