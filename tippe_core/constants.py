@@ -153,6 +153,6 @@ def nonzero(K):
 
 
 def versines(theta):
-    """(1 - cos theta, 1 + cos theta), each to full relative precision also next to its zero; pi is the inverted pole."""
+    """(1 - cos theta, 1 + cos theta), each to full relative precision, at its zero too; pi is the inverted pole."""
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
     return v, np.where(np.asarray(theta) == np.pi, 0.0, m)

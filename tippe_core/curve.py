@@ -107,7 +107,7 @@ def near_pole(v, m, top, K_R, gaps):
 
 
 def pole_slope(x, a, K_R, top):
-    """C at x = 1 - c next to the upright pole; next to the inverted one x = 1 + c, with the signs of a and K_R turned."""
+    """C at x = 1 - c next to the upright pole; at the inverted one x = 1 + c and the signs of a and K_R turned."""
     gamma = top.I3 / top.I1
     p = 1 - a
     q, far = p - x, 2 - x
