@@ -242,7 +242,7 @@ class Rolling:
 
     @cached_property
     def _orientation(self):
-        """Mean rates in tau, sine coefficients of sigma_- and sigma_+, Fourier coefficients of the contact's velocity."""
+        """Mean rates in tau, sine coefficients of sigma_- and sigma_+, Fourier coefficients of the contact velocity."""
         n = self._time[0]
         while True:
             ch, sh, v, m, h, stretch = self._nodes(n)
