@@ -1,4 +1,4 @@
-"""The controls beside the pictures: a slider and a number to type for each input, and the sentence when it cannot be."""
+"""The controls beside the pictures: a slider a number to type, and the sentence when it cannot be."""
 
 import html
 import math
@@ -8,6 +8,7 @@ import panel_material_ui as pmui
 
 from app.explorer import Explorer
 from app.pacing import at_once
+from tippe_core import Top
 
 STYLE = """
 :host { font: 13px/1.35 system-ui, sans-serif; color: #22303c; }
@@ -16,16 +17,34 @@ STYLE = """
 """
 
 SYMBOLS = {
-    "K_J": "<i>K</i><sub>J</sub>", "K_R": "<i>K</i><sub>R</sub>", "mu_s": "<i>μ</i><sub>s</sub>", "energy": "<i>E</i>",
-    "a": "<i>a</i>", "I1": "<i>I</i><sub>1</sub>", "I3": "<i>I</i><sub>3</sub>"}  # fmt: skip
+    "K_J": "<i>K</i><sub>J</sub>",
+    "K_R": "<i>K</i><sub>R</sub>",
+    "mu_s": "<i>μ</i><sub>s</sub>",
+    "energy": "<i>E</i>",
+    "a": "<i>a</i>",
+    "I1": "<i>I</i><sub>1</sub>",
+    "I3": "<i>I</i><sub>3</sub>",
+}
 NAMES = {
-    "K_J": "Jellett’s constant", "K_R": "Routh’s constant", "mu_s": "friction", "energy": "energy",
-    "a": "eccentricity, in <i>R</i>", "I1": "inertia across the axis, in <i>MR</i><sup>2</sup>",
-    "I3": "inertia about the axis, in <i>MR</i><sup>2</sup>"}  # fmt: skip
+    "K_J": "Jellett’s constant",
+    "K_R": "Routh’s constant",
+    "mu_s": "friction",
+    "energy": "energy",
+    "a": "eccentricity, in <i>R</i>",
+    "I1": "inertia across the axis, in <i>MR</i><sup>2</sup>",
+    "I3": "inertia about the axis, in <i>MR</i><sup>2</sup>",
+}
 # start, end and step of each slider; a typed number may lie outside.
 RANGES = {
-    "K_J": (0, 9, 0.01), "K_R": (-20, 20, 0.05), "mu_s": (0, 1.5, 0.005), "energy": (0, 2.2, 0.005),
-    "a": (-2, 0.5, 0.005), "I1": (0.05, 2, 0.001), "I3": (0.05, 2, 0.001)}  # fmt: skip
+    "K_J": (0, 9, 0.01),
+    "K_R": (-20, 20, 0.05),
+    "mu_s": (0, 1.5, 0.005),
+    "energy": (0, 2.2, 0.005),
+    "a": (-2, 0.5, 0.005),
+    "I1": (0.05, 2, 0.001),
+    "I3": (0.05, 2, 0.001),
+}
+PRINTED = ". The paper prints about 20; its equation (31) gives this."
 ENERGY_MARKS = [{"value": 0, "label": "steady"}, {"value": 1, "label": "slips"}, {"value": 2, "label": "lifts off"}]
 
 
@@ -41,20 +60,44 @@ class Control:
         start, end, step = RANGES[name]
         marked = name == "energy"
         self.slider = pmui.FloatSlider(
-            value=value, start=start, end=end, step=step, label="", show_value=False, size="small", tooltips=False,
-            marks=ENERGY_MARKS if marked else False, sizing_mode="stretch_width", margin=(-4, 10, 14 if marked else -4, 10),
-            tags=[name], sx={"& .MuiSlider-markLabel": {"fontSize": 12, "top": 22}})  # fmt: skip
+            value=value,
+            start=start,
+            end=end,
+            step=step,
+            label="",
+            show_value=False,
+            size="small",
+            tooltips=False,
+            marks=ENERGY_MARKS if marked else False,
+            sizing_mode="stretch_width",
+            margin=(-4, 10, 14 if marked else -4, 10),
+            tags=[name],
+            sx={"& .MuiSlider-markLabel": {"fontSize": 12, "top": 22}},
+        )
         at_once(self.slider, "value", "value_throttled")
         self.entry = pmui.TextInput(
-            value=number(value), label="", size="small", width=92, margin=0, tags=[name],
-            sx={"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}})  # fmt: skip
+            value=number(value),
+            label="",
+            size="small",
+            width=92,
+            margin=0,
+            tags=[name],
+            sx={"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}},
+        )
         self.words = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=0)
         title = pn.pane.HTML(
-            f'<div class="name">{SYMBOLS[name]}&ensp;{NAMES[name]}</div>', stylesheets=[STYLE], margin=(4, 0, 0, 0),
-            sizing_mode="stretch_width")  # fmt: skip
+            f'<div class="name">{SYMBOLS[name]}&ensp;{NAMES[name]}</div>',
+            stylesheets=[STYLE],
+            margin=(4, 0, 0, 0),
+            sizing_mode="stretch_width",
+        )
         self.view = pn.Column(
-            pn.Row(title, self.entry, sizing_mode="stretch_width", margin=0), self.slider, self.words,
-            sizing_mode="stretch_width", margin=(0, 14, 8, 16))  # fmt: skip
+            pn.Row(title, self.entry, sizing_mode="stretch_width", margin=0),
+            self.slider,
+            self.words,
+            sizing_mode="stretch_width",
+            margin=(0, 14, 8, 16),
+        )
         self._silent = False
         self.slider.param.watch(self._slid, "value")
         self.entry.param.watch(self._typed, "value")
@@ -85,8 +128,7 @@ class Control:
             return
         self._silent, self._shown = True, number(shown)
         if self._follow:
-            self.slider.param.update(
-                start=min(self.slider.start, value), end=max(self.slider.end, value), value=value)  # fmt: skip
+            self.slider.param.update(start=min(self.slider.start, value), end=max(self.slider.end, value), value=value)
             self._follow = False
         self.entry.value = self._shown
         self._silent = False
@@ -104,8 +146,7 @@ class Controls:
 
     def __init__(self, explorer, pacer):
         self._explorer, self._pacer = explorer, pacer
-        self._controls = {
-            name: Control(name, getattr(explorer, name), self._request) for name in Explorer.INPUTS}  # fmt: skip
+        self._controls = {name: Control(name, getattr(explorer, name), self._request) for name in Explorer.INPUTS}
 
     def _request(self, name, value, typed=False):
         if name == "energy" and typed:
@@ -134,11 +175,17 @@ class Controls:
         spin, marks = scene.upright_spin, scene.marks
         turns = spin * scene.scales.angular_velocity / (2 * math.pi)
         worst = ("rolls all along", "would slip on the way", "would lift off on the way")[int(scene.regime.max())]
+        inner, outer = scene.turning
+        said = "".join(f"<br>{html.escape(note)}" for note in scene.notes)
         limits = " · ".join(
-            f"{word} from {number(round(E, 4))}" for word, E in (("slips", marks.slip), ("lifts off", marks.lift))
-            if math.isfinite(E))  # fmt: skip
+            f"{word} {number(round(E, 4))}"
+            for word, E in (("steady", marks.steady), ("slips from", marks.slip), ("lifts off from", marks.lift))
+            if math.isfinite(E)
+        )
         return {
             "K_J": f"(<i>g</i>/<i>R</i>)<sup>½</sup>; the point P is at {number(round(scene.plane.pole, 4))}",
             "K_R": f"<i>ω</i><sub>3</sub> = {spin:.2f} (<i>g</i>/<i>R</i>)<sup>½</sup> = {turns:.1f} rev/s near "
-                   "<i>θ</i> = 0, for <i>R</i> = 1.6 cm",
-            "energy": f"<b>{worst}</b><br>{limits}"}  # fmt: skip
+            "<i>θ</i> = 0, for <i>R</i> = 1.6 cm" + PRINTED * (scene.constants.K_R == 10 and scene.top == Top.paper()),
+            "energy": f"<b>{worst}</b>{said}; <i>θ</i> from {inner:.3f} to {outer:.3f} rad "
+            f"({math.degrees(inner):.1f}° to {math.degrees(outer):.1f}°)<br>in <i>MgR</i>: {limits}",
+        }

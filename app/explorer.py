@@ -48,11 +48,11 @@ UNLIMITED = 0.25
 class Plane:
     """What Figs. 5 and 6 show of one top at one K_R and mu_s: all tielines, whatever motion is selected.
 
-    K_J (n,) ascending; lift and slip are the two limits' tippe_core tielines over it (F_z >= 0 alone, and with
-    F_h <= mu_s F_z as well). theta, height (n, m): Fig. 5's mesh of f1^2 theta_dot^2 on the tielines of `surface`, a row
-    from its own inner to its own outer turning point. hover_theta (k,), hover_K_J (j,): where hover_E and hover_ratio
-    (j, k) are given: on each tieline of the slip limit its own motion, beyond its ends the motion of least
-    energy that gets there.
+    K_J (n,) ascending; lift and slip are tippe_core's tielines over it under the two limits (F_z >= 0 alone, and with
+    F_h <= mu_s F_z as well). theta, height (n, m): Fig. 5's mesh of f1^2 theta_dot^2 on the tielines of `surface`, a
+    row from its own inner to its own outer turning point. hover_theta (k,), hover_K_J (j,): where hover_E and
+    hover_ratio (j, k) are given: on each tieline of the slip limit its own motion, beyond its ends the motion of
+    least energy that gets there.
     """
 
     K_J: np.ndarray
@@ -108,8 +108,8 @@ class Marks:
 class Scene:
     """All that the views show. Trajectory arrays have one row a frame; vectors are along the axes of space.
 
-    ratio is F_h/F_z; regime one of ROLLS, SLIPS, LIFTS a frame; upright_spin omega_3 at theta = 0; profile (k, 2) the radius
-    of the body drawn and its height above O along axis 3. messages: a sentence for each control that was given
+    ratio is F_h/F_z; regime one of ROLLS, SLIPS, LIFTS a frame; upright_spin omega_3 at theta = 0; profile (k, 2) the
+    radius of the body drawn and its height above O along axis 3. messages: a sentence for each control that was given
     what cannot be; the rest of the scene is then the last good one. notes: sentences about what is shown.
     """
 
@@ -159,7 +159,8 @@ class Explorer(param.Parameterized):
     def _solve(self):
         try:
             scene = solve(
-                Top(self.a, self.I1, self.I3), self.K_J, self.K_R, self.mu_s, self.energy, self.upper, self.limit)  # fmt: skip
+                Top(self.a, self.I1, self.I3), self.K_J, self.K_R, self.mu_s, self.energy, self.upper, self.limit
+            )
         except TopError as error:
             if self.scene is None:
                 raise
@@ -174,8 +175,12 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
     marks = energy_marks(top, K_J, K_R, mu_s)
     E = marks.energy(share)
     if share < 0 or not np.isfinite(share):
-        raise TopError("E", E, f"E >= {marks.steady:.6g} MgR at K_J = {K_J:g} and K_R = {K_R:g}",
-                       "Below the steady precession there is no motion: move the energy up.")  # fmt: skip
+        raise TopError(
+            "E",
+            E,
+            f"E >= {marks.steady:.6g} MgR at K_J = {K_J:g} and K_R = {K_R:g}",
+            "Below the steady precession there is no motion: move the energy up.",
+        )
     constants = Constants(K_J, K_R, E)
     wells = turning_points(top, constants)
     well = int(np.argmin(np.abs(wells - marks.theta_steady).min(axis=1)))
@@ -190,17 +195,29 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
     w1, w2, w3 = (component[:, None] for component in trajectory.omega.T)
     theta = between(inner, outer, MESH_COLUMNS)
     return Scene(
-        top=top, scales=Scales.paper(), mu_s=mu_s, constants=constants, share=share, marks=marks,
-        plane=plane(top, K_R, mu_s, upper, limit), turning=(float(inner), float(outer)),
-        curve=np.column_stack([theta, height(theta, top, constants)]), trajectory=trajectory,
+        top=top,
+        scales=Scales.paper(),
+        mu_s=mu_s,
+        constants=constants,
+        share=share,
+        marks=marks,
+        plane=plane(top, K_R, mu_s, upper, limit),
+        turning=(float(inner), float(outer)),
+        curve=np.column_stack([theta, height(theta, top, constants)]),
+        trajectory=trajectory,
         force=F_x[:, None] * nodal + F_y[:, None] * across + F_z[:, None] * (0, 0, 1),
         omega=w1 * nodal + w2 * towards + w3 * axis,
         momentum=top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis,
-        normal=F_z, ratio=ratio,
+        normal=F_z,
+        ratio=ratio,
         regime=np.where(F_z < 0, LIFTS, np.where(ratio > mu_s, SLIPS, ROLLS)),
-        K_J=trajectory.jellett / top.I1, K_R=trajectory.routh, E=trajectory.energy,
-        upright_spin=float(omega3(0.0, top, constants)), profile=outline(top),
-        notes=tuple(remarks(K_J, mu_s, marks, upper)))  # fmt: skip
+        K_J=trajectory.jellett / top.I1,
+        K_R=trajectory.routh,
+        E=trajectory.energy,
+        upright_spin=float(omega3(0.0, top, constants)),
+        profile=outline(top),
+        notes=tuple(remarks(K_J, mu_s, marks, upper)),
+    )
 
 
 def energy_marks(top, K_J, K_R, mu_s):
@@ -216,7 +233,8 @@ def energy_marks(top, K_J, K_R, mu_s):
     if nodes[2] == nodes[0]:
         nodes[2] += UNLIMITED * (1 + abs(steady))
     return Marks(
-        steady=steady, slip=E_slip, lift=E_lift, theta_steady=float(lift.theta_steady[0]), nodes=np.array(nodes))  # fmt: skip
+        steady=steady, slip=E_slip, lift=E_lift, theta_steady=float(lift.theta_steady[0]), nodes=np.array(nodes)
+    )
 
 
 def frame_times(period, top, constants):
@@ -255,8 +273,19 @@ def outline(top):
         return ball
     disc = -top.a + np.array([-0.15, -0.15, 0.15, 0.15])
     wide = max(1.2, 1.5 * top.I3**0.5)
-    return np.vstack([ball[:50], [[0.2, disc[0]], [wide, disc[1]], [wide, disc[2]], [0.15, disc[3]], [0.15, disc[3] + 0.6],
-                                  [0, disc[3] + 0.6]]])  # fmt: skip
+    return np.vstack(
+        [
+            ball[:50],
+            [
+                [0.2, disc[0]],
+                [wide, disc[1]],
+                [wide, disc[2]],
+                [0.15, disc[3]],
+                [0.15, disc[3] + 0.6],
+                [0, disc[3] + 0.6],
+            ],
+        ]
+    )
 
 
 def between(inner, outer, columns):
@@ -276,7 +305,7 @@ def height(theta, top, constants):
 def plane(top, K_R, mu_s, upper, limit):
     """The Plane. The same arguments give the same object, so a view can tell by identity that nothing changed."""
     poles = pole_constants(top, K_R)
-    low, high = (sorted((0.0, poles[0])) if upper else sorted(1.25 * np.array(poles)))
+    low, high = sorted((0.0, poles[0])) if upper else sorted(1.25 * np.array(poles))
     if high - low < 1e-9:
         low, high = -1.0, 1.0
     step = 2.0 ** np.floor(np.log2((high - low) / LEAST_TIELINES))
@@ -297,10 +326,22 @@ def plane(top, K_R, mu_s, upper, limit):
     pole = poles[0]
     at_pole = np.flatnonzero(K_J == pole)
     return Plane(
-        K_J=K_J, lift=lift, slip=slip, surface=surface, theta=theta, height=heights,
-        K_J_range=(low, high), theta_range=(0.0, float(theta_end)), limit=limit, pole=float(pole),
+        K_J=K_J,
+        lift=lift,
+        slip=slip,
+        surface=surface,
+        theta=theta,
+        height=heights,
+        K_J_range=(low, high),
+        theta_range=(0.0, float(theta_end)),
+        limit=limit,
+        pole=float(pole),
         pole_height=float(heights[at_pole].max(initial=0.0)) if at_pole.size else 0.0,
-        hover_theta=hover_theta, hover_K_J=even, hover_E=hover_E, hover_ratio=hover_ratio)  # fmt: skip
+        hover_theta=hover_theta,
+        hover_K_J=even,
+        hover_E=hover_E,
+        hover_ratio=hover_ratio,
+    )
 
 
 def everywhere(top, theta, K_J, K_R, E_limit):

@@ -7,7 +7,7 @@ import param
 from panel.custom import JSComponent
 
 # Two, so that one is on its way while the browser paints the other.
-HANDS_IN_FLIGHT = 2
+HANDS_IN_FLIGHT = 1
 # A hidden tab paints nothing and so never answers.
 ANSWER_WITHIN = 2.0
 
@@ -22,9 +22,11 @@ class Painted(JSComponent):
 
     sent = param.Integer(default=0)
     painted = param.Integer(default=0)
+    narrow = param.Boolean(default=False, doc="whether the window is too narrow for controls beside the pictures")
 
     _esm = """
     export function render({model}) {
+      if (innerWidth < 900) model.narrow = true
       model.on("sent", () => requestAnimationFrame(() => setTimeout(() => { model.painted = model.sent })))
     }
     """
@@ -34,8 +36,8 @@ class Pacer:
     """Between the controls and an Explorer, and between its scenes and the views.
 
     hand and rest: functions of a scene; hand draws what the hand moves and is cheap, rest draws all else. The newest
-    request is solved and drawn by `hand` while at most HANDS_IN_FLIGHT of those before are unpainted; `rest` follows once
-    the browser has time for it, and leaves out scenes that have been overtaken.
+    request is solved and drawn by `hand` once the one before is painted; `rest` follows when its own last picture is
+    painted, and leaves out scenes that have been overtaken.
     """
 
     def __init__(self, explorer, hand, rest):
@@ -56,7 +58,7 @@ class Pacer:
         late = time.monotonic() - ANSWER_WITHIN
         self._hands = [sent for sent in self._hands if sent[1] > late]
         self._rests = [sent for sent in self._rests if sent[1] > late]
-        if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
+        if self._wanted and not self._hands:
             inputs, self._wanted = self._wanted, {}
             self.explorer.param.update(**inputs)
 

@@ -10,7 +10,6 @@ from bokeh.models import (
     ColumnDataSource,
     CustomJS,
     CustomJSHover,
-    FixedTicker,
     HoverTool,
     Range1d,
     Span,
@@ -38,12 +37,12 @@ SEEK = 'window.dispatchEvent(new CustomEvent("tippe:seek", {detail: {t: cb_obj.x
 
 READ_PLANE = """
 const {K_J, slip_E, lift_E, slip_by, lift_by} = limits.data
-const nearest = K_J.reduce((best, k, j) => Math.abs(k - special_vars.y) < Math.abs(K_J[best] - special_vars.y) ? j : best, 0)
+const away = (j) => Math.abs(K_J[j] - special_vars.y)
+const nearest = K_J.reduce((best, _, j) => away(j) < away(best) ? j : best, 0)
 if (format == "K_J") return K_J[nearest].toFixed(3)
 if (format == "theta") return `${special_vars.x.toFixed(3)} rad = ${(special_vars.x * 180 / Math.PI).toFixed(1)}°`
 if (format == "E") return `${value.toFixed(4)} MgR`
 if (format == "ratio") return Number.isFinite(value) ? value.toFixed(3) : "no contact"
-const E = limits.data.E_here ?? value
 if (!(value > slip_E[nearest])) return slip_by[nearest]
 return value > lift_E[nearest] ? `beyond ${lift_by[nearest]}` : `beyond ${slip_by[nearest]}`
 """
@@ -58,8 +57,16 @@ TOOLTIP = """
 def plain(**options):
     """A figure without a frame, in the page's own type; nothing on it is logged or asks the server."""
     fig = figure(
-        sizing_mode="stretch_both", toolbar_location=None, tools="", outline_line_color=None, min_border=4,
-        background_fill_color=None, border_fill_color=None, lod_threshold=None, **options)  # fmt: skip
+        sizing_mode="stretch_both",
+        toolbar_location=None,
+        tools="",
+        outline_line_color=None,
+        min_border=4,
+        background_fill_color=None,
+        border_fill_color=None,
+        lod_threshold=None,
+        **options,
+    )
     fig.grid.grid_line_color = GRID
     fig.axis.axis_line_color = fig.axis.major_tick_line_color = FAINT
     fig.axis.minor_tick_line_color = None
@@ -75,19 +82,42 @@ class PlaneFigure:
     def __init__(self):
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane")
         self.limits = ColumnDataSource()
-        self.limits.data = {name: np.zeros(0) for name in (
-            "K_J", "lift_in", "lift_out", "slip_in", "slip_out", "verge", "lift_verge", "steady",
-            "slip_E", "lift_E", "slip_by", "lift_by")}  # fmt: skip
+        self.limits.data = {
+            name: np.zeros(0)
+            for name in (
+                "K_J",
+                "lift_in",
+                "lift_out",
+                "slip_in",
+                "slip_out",
+                "verge",
+                "lift_verge",
+                "steady",
+                "slip_E",
+                "lift_E",
+                "slip_by",
+                "lift_by",
+            )
+        }
         self.pole = ColumnDataSource({"theta": [0.0], "K_J": [0.0]})
         self.field = ColumnDataSource({"E": [], "ratio": [], "x": [], "y": [], "w": [], "h": []})
-        self.selected = ColumnDataSource({"K_J": [0.0], "inner": [0.0], "outer": [0.0], "steady": [0.0], "colour": [INK]})
+        self.selected = ColumnDataSource(
+            {"K_J": [0.0], "inner": [0.0], "outer": [0.0], "steady": [0.0], "colour": [INK]}
+        )
         self.bead = ColumnDataSource({"theta": [0.0], "K_J": [0.0]})
 
         for left, right in (("lift_in", "slip_in"), ("slip_out", "lift_out")):
             fig.harea(y="K_J", x1=left, x2=right, source=self.limits, fill_color=COLOURS["friction"], fill_alpha=0.16)
         fig.segment(
-            x0="slip_in", x1="slip_out", y0="K_J", y1="K_J", source=self.limits, line_color=INK, line_alpha=0.55,
-            line_width=1)  # fmt: skip
+            x0="slip_in",
+            x1="slip_out",
+            y0="K_J",
+            y1="K_J",
+            source=self.limits,
+            line_color=INK,
+            line_alpha=0.55,
+            line_width=1,
+        )
         fig.line("lift_in", "K_J", source=self.limits, line_color=FAINT, line_width=1)
         fig.line("lift_verge", "K_J", source=self.limits, line_color=COLOURS["normal"], line_width=2)
         fig.line("verge", "K_J", source=self.limits, line_color=COLOURS["friction"], line_width=2)
@@ -95,29 +125,50 @@ class PlaneFigure:
         fig.add_layout(Span(location=np.pi / 2, dimension="height", line_color=FAINT, line_dash=[2, 4]))
         fig.scatter("theta", "K_J", source=self.pole, size=8, color=INK)
         fig.text(
-            "theta", "K_J", text={"value": "P"}, source=self.pole, x_offset=10, text_baseline="middle", text_font_style="italic",
-            text_font_size="15px", text_color=INK)  # fmt: skip
+            "theta",
+            "K_J",
+            text={"value": "P"},
+            source=self.pole,
+            x_offset=6,
+            y_offset=-4,
+            text_font_style="italic",
+            text_font_size="15px",
+            text_color=INK,
+        )
 
-        everywhere = fig.image(
-            "E", x="x", y="y", dw="w", dh="h", source=self.field, global_alpha=0, level="overlay")  # fmt: skip
+        everywhere = fig.image("E", x="x", y="y", dw="w", dh="h", source=self.field, global_alpha=0, level="overlay")
         read = CustomJSHover(args={"limits": self.limits}, code=READ_PLANE)
-        fig.add_tools(HoverTool(
-            renderers=[everywhere], tooltips=TOOLTIP, formatters={"@E": read, "@ratio": read}, point_policy="follow_mouse"))  # fmt: skip
+        fig.add_tools(
+            HoverTool(
+                renderers=[everywhere],
+                tooltips=TOOLTIP,
+                formatters={"@E": read, "@ratio": read},
+                point_policy="follow_mouse",
+            )
+        )
 
         on_top = {"source": self.selected, "level": "overlay"}
         fig.segment(
-            x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5, line_cap="round", **on_top)  # fmt: skip
-        fig.scatter("steady", "K_J", marker="dash", angle=np.pi / 2, size=14, line_color="colour", line_width=2, **on_top)
+            x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5, line_cap="round", **on_top
+        )
         fig.scatter(
-            "theta", "K_J", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK, line_width=2)  # fmt: skip
+            "steady", "K_J", marker="dash", angle=np.pi / 2, size=14, line_color="colour", line_width=2, **on_top
+        )
+        fig.scatter(
+            "theta", "K_J", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK, line_width=2
+        )
         self._plane = None
 
     def show_selected(self, scene):
         inner, outer = scene.turning
         worst = int(scene.regime.max())
         self.selected.data = {
-            "K_J": [scene.constants.K_J], "inner": [inner], "outer": [outer], "steady": [scene.marks.theta_steady],
-            "colour": [COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == SLIPS else "normal"]]}  # fmt: skip
+            "K_J": [scene.constants.K_J],
+            "inner": [inner],
+            "outer": [outer],
+            "steady": [scene.marks.theta_steady],
+            "colour": [COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == SLIPS else "normal"]],
+        }
         self.bead.data = {"theta": np.array([inner]), "K_J": np.array([scene.constants.K_J])}
 
     def show_plane(self, scene):
@@ -126,19 +177,38 @@ class PlaneFigure:
             return
         self._plane = plane
         lift, slip = plane.lift, plane.slip
-        by = {"slip": "slipping", "lift-off": "lifting off", "nothing": "nothing", "no motion": "even the steady precession breaks it"}
+        by = {
+            "slip": "slipping",
+            "lift-off": "lifting off",
+            "nothing": "nothing",
+            "no motion": "even the steady precession breaks it",
+        }
         self.limits.data = {
-            "K_J": plane.K_J, "lift_in": lift.theta_inner, "lift_out": lift.theta_outer,
-            "slip_in": slip.theta_inner, "slip_out": slip.theta_outer, "verge": slip.theta_verge,
-            "lift_verge": lift.theta_verge, "steady": lift.theta_steady, "slip_E": slip.E, "lift_E": lift.E,
-            "slip_by": [by[word] for word in slip.limited_by], "lift_by": [by[word] for word in lift.limited_by]}  # fmt: skip
+            "K_J": plane.K_J,
+            "lift_in": lift.theta_inner,
+            "lift_out": lift.theta_outer,
+            "slip_in": slip.theta_inner,
+            "slip_out": slip.theta_outer,
+            "verge": slip.theta_verge,
+            "lift_verge": lift.theta_verge,
+            "steady": lift.theta_steady,
+            "slip_E": slip.E,
+            "lift_E": lift.E,
+            "slip_by": [by[word] for word in slip.limited_by],
+            "lift_by": [by[word] for word in lift.limited_by],
+        }
         step = plane.hover_K_J[1] - plane.hover_K_J[0]
         low, high = plane.hover_K_J[0] - step / 2, plane.hover_K_J[-1] + step / 2
         self.field.data = {
-            "E": [plane.hover_E.astype(np.float32)], "ratio": [plane.hover_ratio.astype(np.float32)],
-            "x": [0.0], "w": [plane.theta_range[1]], "y": [low], "h": [high - low]}  # fmt: skip
+            "E": [plane.hover_E.astype(np.float32)],
+            "ratio": [plane.hover_ratio.astype(np.float32)],
+            "x": [0.0],
+            "w": [plane.theta_range[1]],
+            "y": [low],
+            "h": [high - low],
+        }
         self.pole.data = {"theta": [0.0], "K_J": [plane.pole]}
-        pad = 0.04 * (plane.K_J_range[1] - plane.K_J_range[0])
+        pad = 0.065 * (plane.K_J_range[1] - plane.K_J_range[0])
         self.figure.y_range.update(start=plane.K_J_range[0] - pad, end=plane.K_J_range[1] + pad)
         self.figure.x_range.update(start=-0.015 * plane.theta_range[1], end=plane.theta_range[1])
 
@@ -149,13 +219,17 @@ class TimeFigures:
     NAMES = ("theta", "normal", "ratio", "constants")
 
     def __init__(self):
-        self.motion = ColumnDataSource({name: np.zeros(2) for name in ("t", "theta", "normal", "ratio", "K_J", "K_R", "E")})
+        self.motion = ColumnDataSource(
+            {name: np.zeros(2) for name in ("t", "theta", "normal", "ratio", "K_J", "K_R", "E")}
+        )
         x_range = Range1d(0, 1)
         self.figures = {name: plain(x_range=x_range, y_range=Range1d(0, 1), name=name) for name in self.NAMES}
         curves = {
-            "theta": {"theta": COLOURS["theta"]}, "normal": {"normal": COLOURS["normal"]},
+            "theta": {"theta": COLOURS["theta"]},
+            "normal": {"normal": COLOURS["normal"]},
             "ratio": {"ratio": COLOURS["friction"]},
-            "constants": {"K_J": COLOURS["jellett"], "K_R": COLOURS["omega"], "E": COLOURS["energy"]}}  # fmt: skip
+            "constants": {"K_J": COLOURS["jellett"], "K_R": COLOURS["omega"], "E": COLOURS["energy"]},
+        }
         self.spans = []
         for name, fig in self.figures.items():
             for column, colour in curves[name].items():
@@ -173,7 +247,8 @@ class TimeFigures:
         self.figures["ratio"].add_layout(self.slips)
         self.figures["ratio"].add_layout(self.beyond)
         self.figures["normal"].add_layout(
-            BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None))  # fmt: skip
+            BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
+        )
 
         self._shown = None
 
@@ -184,8 +259,14 @@ class TimeFigures:
         t = scene.trajectory.t
         every = max(1, len(t) // POINTS_A_CURVE)
         curves = {
-            "t": t, "theta": scene.trajectory.theta, "normal": scene.normal, "ratio": scene.ratio, "K_J": scene.K_J,
-            "K_R": scene.K_R, "E": scene.E}  # fmt: skip
+            "t": t,
+            "theta": scene.trajectory.theta,
+            "normal": scene.normal,
+            "ratio": scene.ratio,
+            "K_J": scene.K_J,
+            "K_R": scene.K_R,
+            "E": scene.E,
+        }
         self.motion.data = {name: curve[::every] for name, curve in curves.items()}
         self.figures["theta"].x_range.update(start=t[0], end=t[-1])
         self.slips.location = self.beyond.bottom = scene.mu_s
@@ -193,7 +274,11 @@ class TimeFigures:
             "theta": scene.turning,
             "normal": (min(0, scene.normal.min()), max(1.5, scene.normal.max())),
             "ratio": (0, max(1.4 * scene.mu_s, min(scene.ratio.max(), 4 * scene.mu_s + 1))),
-            "constants": (min(0, scene.K_J.min(), scene.K_R.min()), max(scene.K_J.max(), scene.K_R.max(), scene.E.max()))}  # fmt: skip
+            "constants": (
+                min(0, scene.K_J.min(), scene.K_R.min()),
+                max(scene.K_J.max(), scene.K_R.max(), scene.E.max()),
+            ),
+        }
         for name, (low, high) in bounds.items():
             pad = 0.08 * (high - low) or 0.05
             self.figures[name].y_range.update(start=low - pad, end=high + pad)
@@ -201,5 +286,7 @@ class TimeFigures:
 
 def follow_clock(document, plane, times):
     """Lets the browser's own clock move the time lines and the bead on the selected tieline."""
-    document.js_on_event("document_ready", CustomJS(
-        args={"spans": times.spans, "motion": times.motion, "bead": plane.bead}, code=FOLLOW_CLOCK))  # fmt: skip
+    document.js_on_event(
+        "document_ready",
+        CustomJS(args={"spans": times.spans, "motion": times.motion, "bead": plane.bead}, code=FOLLOW_CLOCK),
+    )

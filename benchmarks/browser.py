@@ -2,8 +2,8 @@
 
     python benchmarks/browser.py [--chromium PATH]
 
-The bare app redraws one line of 400 points when a Bokeh slider moves. Both get the same input from Chromium itself, while
-the top plays:
+The bare app redraws one line of 400 points when a Bokeh slider moves. Both get the same input from Chromium itself,
+while the top plays:
 
     steps  STEPS arrow keys on the slider, the next one when the page shows the last
     drag   the mouse pulls the slider to and fro, RATE moves a second
@@ -70,33 +70,37 @@ WATCH = """
   // time, sent in the same message, from the first picture drawn after it on.
   const motion = view("constants").model.renderers[0].data_source
   const {top3d, surface3d} = window.__tippe
-  let waiting
-  motion.properties.data.change.connect(() => {
-    const value = Number(motion.data.K_J[0].toFixed(9))
-    if (waiting?.value !== value) waiting = {value, top: top3d.pictures, surface: surface3d.pictures}
-  })
-  view("constants").repainted.connect(() => { if (waiting) waiting.plots = true })
+  let waiting = []
+  motion.properties.data.change.connect(() => waiting.push(
+    {value: Number(motion.data.K_J[0].toFixed(9)), top: top3d.pictures, surface: surface3d.pictures}))
+  view("constants").repainted.connect(() => { for (const sent of waiting) sent.plots = true })
   const look = () => {
     requestAnimationFrame(look)
-    if (waiting?.plots && top3d.pictures > waiting.top && surface3d.pictures > waiting.surface) {
-      painted("page", waiting.value)
-      waiting.top = Infinity
-    }
+    const whole = waiting.findLastIndex(
+      (sent) => sent.plots && top3d.pictures > sent.top && surface3d.pictures > sent.surface)
+    if (whole < 0) return
+    painted("page", waiting[whole].value)
+    waiting = waiting.slice(whole + 1)
   }
   look()
 }
 """
 
-FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync"]  # fmt: skip
+FLAGS = [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 
 
 def serve(command, path):
     with socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    server = subprocess.Popen(
-        [*command, "--port", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+    server = subprocess.Popen([*command, "--port", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     url = f"http://localhost:{port}/{path}"
     for _ in range(200):
         try:
@@ -140,8 +144,10 @@ def delays(page):
     for part in ("figure", "page"):
         paints = np.array(bench[part])
         # The newest input whose value a paint shows, of those made before it.
-        newest = [max((i for i in range(len(times)) if times[i] <= t and abs(values[i] - v) < 1e-6), default=-1)
-                  for t, v in paints]  # fmt: skip
+        newest = [
+            max((i for i in range(len(times)) if times[i] <= t and abs(values[i] - v) < 1e-6), default=-1)
+            for t, v in paints
+        ]
         newest = np.array(newest)
         found.append([paints[newest >= i, 0].min() - times[i] for i in range(len(times)) if (newest >= i).any()])
     return found
@@ -156,9 +162,17 @@ def main():
         bare = Path(folder, "bare.py")
         bare.write_text(BARE)
         apps = {
-            "bare": (serve([sys.executable, "-m", "bokeh", "serve", str(bare)], "bare"), ".noUi-handle", ".noUi-handle"),
-            "ours": (serve([sys.executable, "-m", "panel", "serve", str(root / "app")], "app"), ".MuiSlider-thumb",
-                     ".MuiSlider-thumb input")}  # fmt: skip
+            "bare": (
+                serve([sys.executable, "-m", "bokeh", "serve", str(bare)], "bare"),
+                ".noUi-handle",
+                ".noUi-handle",
+            ),
+            "ours": (
+                serve([sys.executable, "-m", "panel", "serve", str(root / "app")], "app"),
+                ".MuiSlider-thumb",
+                ".MuiSlider-thumb input",
+            ),
+        }
         browser = playwright.chromium.launch(executable_path=options.chromium, args=FLAGS)
         results = {}
         try:
@@ -171,9 +185,9 @@ def main():
                     if name == "ours":
                         page.wait_for_function("window.__tippe?.surface3d?.pictures && __tippe.top3d?.pictures > 5")
                     page.evaluate(WATCH, name == "ours")
-                    for way, use in (("steps", lambda: step(page, focus)), ("drag", lambda: drag(page, handle))):  # noqa: B023
+                    for way, use, place in (("steps", step, focus), ("drag", drag, handle)):
                         page.evaluate("() => { for (const list of Object.values(bench)) list.length = 0 }")
-                        use()
+                        use(page, place)
                         for part, found in zip(("figure", "page"), delays(page), strict=True):
                             results.setdefault((way, part), {}).setdefault(name, []).extend(found)
                     page.close()
@@ -182,14 +196,18 @@ def main():
             browser.close()
             for (server, _), *_ in apps.values():
                 server.terminate()
-    print(f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
-          f"panel {version('panel')}, bokeh {version('bokeh')}, Chromium {browser_version}")  # fmt: skip
+    print(
+        f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
+        f"panel {version('panel')}, bokeh {version('bokeh')}, Chromium {browser_version}"
+    )
     for (way, part), found in results.items():
         base = np.percentile(found["bare"], 95)
         for name, delay in found.items():
             p50, p95 = np.percentile(delay, (50, 95))
-            print(f"{way:5} {part:6} {name}  n = {len(delay):4}  p50 {p50:5.0f} ms  p95 {p95:5.0f} ms  "
-                  f"{p95 / base:5.2f} times bare")  # fmt: skip
+            print(
+                f"{way:5} {part:6} {name}  n = {len(delay):4}  p50 {p50:5.0f} ms  p95 {p95:5.0f} ms  "
+                f"{p95 / base:5.2f} times bare"
+            )
 
 
 if __name__ == "__main__":

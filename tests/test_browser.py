@@ -1,4 +1,4 @@
-"""The whole page in Chromium: it loads from this machine alone, shows tippe_core's numbers, and plays without the server."""
+"""The whole page in Chromium: it loads from this machine alone, shows tippe_core's numbers, plays with no server."""
 
 import shutil
 import socket
@@ -16,8 +16,14 @@ from app.explorer import solve
 from tippe_core import Top
 
 ROOT = Path(__file__).parent.parent
-FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync"]  # fmt: skip
+FLAGS = [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 PATIENCE = 20_000  # ms: software drawing on a busy machine
 
 # A number array of a source, as the page holds it: by the name of its figure, the renderer and the column.
@@ -37,7 +43,8 @@ def server():
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
     process = subprocess.Popen(
-        [sys.executable, "-m", "panel", "serve", "app", "--port", str(port), "--address", "localhost"], cwd=ROOT)  # fmt: skip
+        [sys.executable, "-m", "panel", "serve", "app", "--port", str(port), "--address", "localhost"], cwd=ROOT
+    )
     url = f"http://localhost:{port}/app"
     deadline = time.monotonic() + 60
     while True:
@@ -71,8 +78,12 @@ class Visit:
         page.on("request", lambda request: self.requests.append(request.url))
         page.on("console", lambda message: message.type == "error" and self.errors.append(message.text))
         page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.on("websocket", lambda socket: [
-            socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")])  # fmt: skip
+        page.on(
+            "websocket",
+            lambda socket: [
+                socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")
+            ],
+        )
         page.goto(url)
         page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && __tippe.top3d?.pictures > 2")
         page.wait_for_function("Bokeh.documents[0].is_idle")
@@ -83,7 +94,9 @@ class Visit:
     def until_column(self, figure, renderer, column, first):
         """Waits until a column of a source begins with this number."""
         self.page.wait_for_function(
-            f"([place, first]) => Math.abs(({COLUMN})(place)[0] - first) < 1e-9", arg=[[figure, renderer, column], first])  # fmt: skip
+            f"([place, first]) => Math.abs(({COLUMN})(place)[0] - first) < 1e-9",
+            arg=[[figure, renderer, column], first],
+        )
 
     def pause(self):
         self.page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
@@ -135,7 +148,8 @@ def test_the_top_stands_as_the_trajectory_says(visit):
     motion = solve(Top.paper(), 7.0, 10.0, 0.5, 0.9).trajectory
     for index in (0, 100, 777):
         visit.page.evaluate(
-            "t => window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t}}))", float(motion.t[index]))  # fmt: skip
+            "t => window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t}}))", float(motion.t[index])
+        )
         visit.page.wait_for_function("i => __tippe.top3d.index == i", arg=index)
         visit.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         drawn = np.array(visit.page.evaluate("__tippe.top3d.quaternion"))
@@ -146,7 +160,8 @@ def test_the_lines_over_time_go_with_the_clock_of_the_top(visit):
     visit.pause()
     visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 3}}))")
     visit.page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
-        .filter((m) => m.type == "Span" && m.level == "overlay").every((m) => Math.abs(m.location - __tippe.top3d.t) < 1e-9
+        .filter((m) => m.type == "Span" && m.level == "overlay")
+        .every((m) => Math.abs(m.location - __tippe.top3d.t) < 1e-9
             && Math.abs(m.location - 3) < 0.02)""")
 
 

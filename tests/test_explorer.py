@@ -19,7 +19,7 @@ TABLE = np.array([
     [5, 5.33490, 0.6844, 1.1207, 3.60713, 0.7165, 1.0764, 1.0664],
     [6, 6.58010, 0.5220, 1.0040, 3.82036, 0.5654, 0.9350, 0.9350],
     [7, 9.08885, 0.3294, 0.8907, 4.30872, 0.3839, 0.7754, 0.7754],
-    [8, 14.86605, 0.0945, 0.7991, 5.78017, 0.1328, 0.5837, 0.5837]])  # fmt: skip
+    [8, 14.86605, 0.0945, 0.7991, 5.78017, 0.1328, 0.5837, 0.5837]])
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ def test_fig_6_of_the_first_visit_is_the_papers_table(explorer):
     assert np.array_equal(plane.K_J[rows], TABLE[:, 0])
     shown = np.column_stack([
         plane.lift.theta_inner, plane.lift.theta_outer, plane.slip.theta_inner, plane.slip.theta_outer,
-        plane.slip.theta_verge])[rows]  # fmt: skip
+        plane.slip.theta_verge])[rows]
     assert shown == pytest.approx(TABLE[:, [2, 3, 5, 6, 7]], abs=5e-5)
     for tie, column in ((plane.lift, 1), (plane.slip, 4)):
         two_E_prime = Constants(plane.K_J, 10.0, tie.E).two_E_prime(Top.paper())
@@ -86,7 +86,7 @@ def test_what_did_not_change_is_the_same_object(explorer):
 
 
 @pytest.mark.parametrize("inputs", [{}, {"K_J": 3.0, "K_R": 6.0}, {"K_J": 12.0}, {"upper": False, "K_J": -5.0},
-                                    {"a": -1.5, "I1": 3.0, "I3": 0.5, "K_J": 0.5}])  # fmt: skip
+                                    {"a": -1.5, "I1": 3.0, "I3": 0.5, "K_J": 0.5}])
 def test_the_numbers_are_tippe_cores(explorer, inputs):
     explorer.param.update(**inputs)
     scene = explorer.scene
@@ -134,7 +134,7 @@ def test_share_and_energy_are_each_others_inverse(explorer, share):
 
 @pytest.mark.parametrize("name, value, says", [
     ("I3", 0.9, "2 I1"), ("I1", -0.1, "I1"), ("a", 1.2, "a"), ("energy", -0.2, "E >= "), ("mu_s", -0.1, "mu_s"),
-    ("K_J", float("nan"), "K_J")])  # fmt: skip
+    ("K_J", float("nan"), "K_J")])
 def test_what_cannot_be_is_said_beside_its_control_and_the_picture_stays(explorer, name, value, says):
     good, before = explorer.scene, getattr(explorer, name)
     setattr(explorer, name, value)
