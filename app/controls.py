@@ -176,7 +176,7 @@ class Controls:
         turns = spin * scene.scales.angular_velocity / (2 * math.pi)
         worst = ("rolls all along", "would slip on the way", "would lift off on the way")[int(scene.regime.max())]
         inner, outer = scene.turning
-        said = "".join(f"<br>{html.escape(note)}" for note in scene.notes)
+        said = "".join(f" {html.escape(note)}" for note in scene.notes)
         limits = " · ".join(
             f"{word} {number(round(E, 4))}"
             for word, E in (("steady", marks.steady), ("slips from", marks.slip), ("lifts off from", marks.lift))
@@ -186,6 +186,6 @@ class Controls:
             "K_J": f"(<i>g</i>/<i>R</i>)<sup>½</sup>; the point P is at {number(round(scene.plane.pole, 4))}",
             "K_R": f"<i>ω</i><sub>3</sub> = {spin:.2f} (<i>g</i>/<i>R</i>)<sup>½</sup> = {turns:.1f} rev/s near "
             "<i>θ</i> = 0, for <i>R</i> = 1.6 cm" + PRINTED * (scene.constants.K_R == 10 and scene.top == Top.paper()),
-            "energy": f"<b>{worst}</b>{said}; <i>θ</i> from {inner:.3f} to {outer:.3f} rad "
+            "energy": f"<b>{worst}.</b>{said}<br><i>θ</i> from {inner:.3f} to {outer:.3f} rad "
             f"({math.degrees(inner):.1f}° to {math.degrees(outer):.1f}°)<br>in <i>MgR</i>: {limits}",
         }

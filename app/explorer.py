@@ -201,7 +201,7 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
         constants=constants,
         share=share,
         marks=marks,
-        plane=plane(top, K_R, mu_s, upper, limit),
+        plane=plane(top, K_R, mu_s, upper, limit, *K_J_range(top, K_J, K_R, upper)),
         turning=(float(inner), float(outer)),
         curve=np.column_stack([theta, height(theta, top, constants)]),
         trajectory=trajectory,
@@ -216,7 +216,7 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
         E=trajectory.energy,
         upright_spin=float(omega3(0.0, top, constants)),
         profile=outline(top),
-        notes=tuple(remarks(K_J, mu_s, marks, upper)),
+        notes=tuple(remarks(marks)),
     )
 
 
@@ -301,13 +301,25 @@ def height(theta, top, constants):
     return np.maximum(value, 0)
 
 
-@lru_cache(maxsize=8)
-def plane(top, K_R, mu_s, upper, limit):
-    """The Plane. The same arguments give the same object, so a view can tell by identity that nothing changed."""
+def K_J_range(top, K_J, K_R, upper):
+    """From 0 to P for the upper hemisphere, like the paper; else past both poles; in any case as far as K_J."""
     poles = pole_constants(top, K_R)
-    low, high = sorted((0.0, poles[0])) if upper else sorted(1.25 * np.array(poles))
+    beyond = 0.25 * max(map(abs, poles))
+    low, high = sorted((0.0, poles[0])) if upper else (min(poles) - beyond, max(poles) + beyond)
     if high - low < 1e-9:
         low, high = -1.0, 1.0
+    # In whole steps, so that a K_J that moves outside does not change the picture each time.
+    if K_J < low:
+        low = float(np.floor(K_J - 0.5))
+    if K_J > high:
+        high = float(np.ceil(K_J + 0.5))
+    return float(low), float(high)
+
+
+@lru_cache(maxsize=8)
+def plane(top, K_R, mu_s, upper, limit, low, high):
+    """The Plane. The same arguments give the same object, so a view can tell by identity that nothing changed."""
+    poles = pole_constants(top, K_R)
     step = 2.0 ** np.floor(np.log2((high - low) / LEAST_TIELINES))
     even = step * np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
     K_J = np.union1d(even, [pole for pole in poles if low <= pole <= high])
@@ -361,12 +373,10 @@ def everywhere(top, theta, K_J, K_R, E_limit):
         return E, np.where(F_z > 0, F_h / F_z, np.inf)
 
 
-def remarks(K_J, mu_s, marks, upper):
+def remarks(marks):
     if np.isnan(marks.lift):
-        yield "Even the steady precession would lift off: F_z < 0 at every energy."
+        yield "Even the steady precession would lift off."
     elif np.isnan(marks.slip):
-        yield f"Even the steady precession would slip at mu_s = {mu_s:g}."
+        yield "Even the steady precession would slip on this table."
     elif np.isinf(marks.lift) and np.isinf(marks.slip):
         yield "Nothing limits this motion: it neither slips nor lifts off at any energy."
-    if upper and K_J < 0:
-        yield "This motion is in the lower hemisphere: show all of (0, π) to see its tieline."

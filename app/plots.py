@@ -209,7 +209,7 @@ class PlaneFigure:
         }
         self.pole.data = {"theta": [0.0], "K_J": [plane.pole]}
         pad = 0.065 * (plane.K_J_range[1] - plane.K_J_range[0])
-        self.figure.y_range.update(start=plane.K_J_range[0] - pad, end=plane.K_J_range[1] + pad)
+        self.figure.y_range.update(start=plane.K_J_range[0] - pad, end=plane.K_J_range[1] + 1.6 * pad)
         self.figure.x_range.update(start=-0.015 * plane.theta_range[1], end=plane.theta_range[1])
 
 
