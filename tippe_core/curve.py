@@ -325,7 +325,7 @@ def wells(curve):
     with localcontext(EXACT):
         exact, stations = curve.exact, find_stations(curve)
         size = max(abs(exact.e), exact.K_R**2, exact.K_J**2)
-        rounding = size * Decimal(2) ** -50 if curve.rounded else Decimal(0)
+        rounding = size * (Decimal(2) ** -50 if curve.rounded else Decimal("1e-50"))
         found, inner = [], None
         for before, here in zip([None, *stations], stations, strict=False):
             if here.bottom and abs(here.gap) <= rounding:

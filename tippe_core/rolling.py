@@ -102,11 +102,12 @@ class Rolling:
         with np.errstate(invalid="ignore", divide="ignore"):
             return 1 / np.sqrt(Q)
 
-    def _h_exact(self, sh):
+    def _h_exact(self, ch, sh):
         """dt/dkappa with the digits of EXACT."""
         curve, inner, outer = self._exact
         with localcontext(EXACT):
-            c = [inner - (inner - outer) * Decimal(x) for x in (sh**2).tolist()]
+            c = [inner - (inner - outer) * Decimal(down) if down < up else outer + (inner - outer) * Decimal(up)
+                 for up, down in zip((ch**2).tolist(), (sh**2).tolist(), strict=True)]  # fmt: skip
             return np.array([float(((inner - x) * (x - outer) * f1_2(x, curve.top) / curve.D(x)[0]).sqrt()) for x in c])
 
     def _bracket(self, v, m):
@@ -129,23 +130,24 @@ class Rolling:
             return None
 
         def Q(y):
-            return 1 / self._h(*self._versines(np.sqrt((1 + y) / 2), np.sqrt((1 - y) / 2))) ** 2
+            up, down = np.maximum((1 + y) / 2, 1e-20), np.maximum((1 - y) / 2, 1e-20)
+            return 1 / self._h_exact(np.sqrt(up), np.sqrt(down)) ** 2
 
         y = np.concatenate([[1], ch**2 - sh**2, [-1]])
-        values = np.nan_to_num(Q(y))
+        values = Q(y)
         i = int(values.argmin())
-        y0, step = y[i], 0.01
+        y0 = y[i]
         if i in (0, len(y) - 1):
-            low, near = np.nan_to_num(Q(np.array([y0, y0 * (1 - 1e-4)])))
+            low, near = Q(np.array([y0, y0 * (1 - 1e-4)]))
             eps = 1e-4 * low / (near - low)
         else:
-            for step in (1e-2, 1e-3, 1e-4):
-                left, low, right = np.nan_to_num(Q(np.clip(y0 + step * np.array([-1, 0, 1]), -1, 1)))
-                y0 += step * np.clip((left - right) / (2 * (left - 2 * low + right)), -10, 10)
-            eps = np.sqrt(2 * max(low, 0) / (left - 2 * low + right)) * step
+            for step in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6):
+                left, low, right = Q(np.clip(y0 + step * np.array([-1, 0, 1]), -1, 1))
+                curvature = (left - 2 * low + right) / step**2
+                y0 += np.clip((left - right) / (2 * step * curvature), -10 * step, 10 * step)
+            eps = np.sqrt(2 * low / curvature) if curvature > 0 else 1
         if not eps < 0.2:
             return None
-        eps = max(eps, 1e-12)
         ends = np.arcsinh((1 - y0) / eps), np.arcsinh((1 + y0) / eps)
         alpha = sum(ends) / 2
         return y0, eps, alpha, (ends[1] - ends[0]) / (2 * alpha)
@@ -163,7 +165,7 @@ class Rolling:
                       for middle, part in (((x - 1) / 2, up), ((x + 1) / 2, down)))  # fmt: skip
             stretch = eps * alpha * np.cosh(alpha * (x - x0)) * np.sqrt(up * down) / (sh * ch)
         # where Q nearly vanishes its terms cancel after all
-        return ch, sh, *self._versines(ch, sh), self._h_exact(sh), stretch
+        return ch, sh, *self._versines(ch, sh), self._h_exact(ch, sh), stretch
 
     @cached_property
     def _plain(self):
@@ -455,7 +457,7 @@ def _from_state(top, constants, state):
                 raise TopError(name, getattr(constants, name), f"{float(getattr(exact, name)):.10g}, that of the State",
                                "Give None for the constants.")  # fmt: skip
     curve = ExactCurve(top, exact, rounded=False)
-    if state.theta_dot == 0 and curve.N(here) == 0:
+    if state.theta_dot == 0 and abs(curve.N(here)) < Decimal("1e-50") * max(1, exact.K_J**2, exact.K_R**2):
         return curve, Well(here, here), here
     inner, outer = min(wells(curve), key=lambda w: max(here - w.inner, w.outer - here))
     return curve, Well(inner, outer), min(max(here, outer), inner)
