@@ -383,6 +383,7 @@ def _binary_stl(triangles):
     across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     length = np.linalg.norm(across, axis=1, keepdims=True)
     rows = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-    rows["normal"], rows["corners"] = across / np.where(length, length, 1), triangles
+    # + 0: a zero has no sign, so that a corner has the same bytes in all its triangles
+    rows["normal"], rows["corners"] = across / np.where(length, length, 1), triangles + 0.0
     header = b"tippe top, mm, axis 3 along z".ljust(80)
     return header + np.uint32(len(rows)).astype("<u4").tobytes() + rows.tobytes()
