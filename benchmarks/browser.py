@@ -212,3 +212,17 @@ def main():
 
 if __name__ == "__main__":
     main()
+
+# Results. The machine had other work to do in every run (load average 3 to 4 on 2 cores), which costs our page more than
+# the bare one: it also draws in 3-D by processor. Aim: figure at most 1.5 times bare at p95, page at most 4 times.
+#
+# 2026-11-21, x86_64, 2 cores, no graphics card, Python 3.11.7, panel 1.9.4, bokeh 3.9.2, Chromium 156.0.8078.79, 1 round,
+# the less loaded one of two
+# steps figure bare  n =   60  p50    53 ms  p95    73 ms   1.00 times bare
+# steps figure ours  n =   60  p50    70 ms  p95   119 ms   1.62 times bare
+# steps page   bare  n =   60  p50    53 ms  p95    73 ms   1.00 times bare
+# steps page   ours  n =   60  p50   232 ms  p95   270 ms   3.68 times bare
+# drag  figure bare  n =   80  p50    57 ms  p95    73 ms   1.00 times bare
+# drag  figure ours  n =   88  p50   264 ms  p95   447 ms   6.15 times bare
+# drag  page   bare  n =   80  p50    57 ms  p95    73 ms   1.00 times bare
+# drag  page   ours  n =   88  p50   391 ms  p95   569 ms   7.82 times bare

@@ -13,11 +13,9 @@ const COARSEST = 0.6;
 const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
 const MAX_PIXEL_RATIO = 2;
 
-// There, what a person moves on the page comes first: for a while after each input there is no picture in 3-D, then they
-// come one a frame of the screen, each stage in turn, and without what takes long: fine pixels, a new shadow, long wide lines.
-const QUIET_MS = 110;
-const QUIET_AT_MOST_MS = 350; // when the inputs never pause
-const HELD_MS = 120; // from one picture of a stage to its next
+// There, what a person moves on the page comes first: while a hand is on a control, pictures in 3-D are drawn only of what
+// is new, one a frame of the screen, and without what takes long: fine pixels, a new shadow, long wide lines.
+const HELD_MS = 180; // from one picture of a stage to its next
 const HAND_MS = 300; // how long after its last input a hand is taken to have let go
 const HAND_COARSE = 0.5;
 const LONG_LINE = 300; // segments
@@ -131,9 +129,7 @@ export class Stage {
     if (this.costed) slow = this.cost > SLOW_MS || this.coarse < 1;
     const held = slow && now - inputAt < HAND_MS;
     if (held) {
-      const since = now - this.drawnAt;
-      const quiet = since < HELD_MS || (now - inputAt < QUIET_MS && since < QUIET_AT_MOST_MS);
-      if (quiet || anyDrawnAt === now || !this.asked) return this.again();
+      if (!this.asked || anyDrawnAt === now || now - this.drawnAt < HELD_MS) return this.again();
     }
     if (!held && this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost) return this.again();
     this.asked = false;
@@ -145,8 +141,7 @@ export class Stage {
       this.drawnAt = anyDrawnAt = now;
       this.costed = false;
     }
-    if (this.moving) this.invalidate();
-    if (held) this.again(); // once more, and fine, when the hand lets go
+    if (this.moving || held) this.again(); // held: once more, and fine, when the hand lets go
   };
 
   setCoarse(share) {
