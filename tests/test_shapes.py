@@ -505,6 +505,8 @@ def test_impossible_bodies_are_named(kind, good, name, value):
         (lambda: Lathe(R=0.005, points=((0.01, 0.0), (0.01, 0.01)), density=(700.0, 0.0)), "density[1]"),
         (lambda: Lathe(R=0.005, points=((0.01, 0.0),), density=-1.0), "density"),
         (lambda: Lathe(R=0.005, points=((0.0, 0.005), (0.0, 0.006), (0.01, 0.007)), density=1.0), "points"),
+        (lambda: Lathe(R=0.005, points=((0.01, 0.0), (0.0, 0.01), (0.01, 0.02)), density=1.0), "points"),
+        (lambda: Turned(R=0.1, solid=ball(0.1) - frustum(0.1, 0.02, 0.0, 0.03) + cylinder(0.02, 0.0, 0.05)), "solid"),
         (lambda: Ball(R=0.02, M=0.04) - 9000 * ball(0.01), "density"),
         (lambda: PAPER - PAPER.density * ball(0.001, -0.0165), "density"),
         (lambda: PAPER + 700 * ball(0.002, 0.05), "solid"),

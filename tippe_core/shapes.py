@@ -403,6 +403,10 @@ def _rows(name, rows, columns, most):
 def _one_piece(name, solid):
     if solid.mass <= 0 or solid.pieces != 1:
         raise TopError(name, f"{solid.pieces} bodies", "one body", "Make its parts overlap or touch.")
+    starts = [id(edge.start) for outline in solid.outlines for edge in outline]
+    through_axis = any(edge.end[0] == 0 for outline in solid.outlines for edge in outline[:-1])
+    if through_axis or len(set(starts)) < len(starts):
+        raise TopError(name, "a point or circle", "a face where parts meet", "Make them overlap, or leave a gap.")
 
 
 def _times(factor, weight):
