@@ -213,16 +213,15 @@ def main():
 if __name__ == "__main__":
     main()
 
-# Results. The machine had other work to do in every run (load average 3 to 4 on 2 cores), which costs our page more than
-# the bare one: it also draws in 3-D by processor. Aim: figure at most 1.5 times bare at p95, page at most 4 times.
+# Results. Aim: figure at most 1.5 times bare at p95, page at most 4 times. The machine had other work to do in every run
+# (load average 3 to 5 on 2 cores), which costs our page more than the bare one: it also draws in 3-D by processor.
 #
-# 2026-11-21, x86_64, 2 cores, no graphics card, Python 3.11.7, panel 1.9.4, bokeh 3.9.2, Chromium 156.0.8078.79, 1 round,
-# the less loaded one of two
-# steps figure bare  n =   60  p50    53 ms  p95    73 ms   1.00 times bare
-# steps figure ours  n =   60  p50    70 ms  p95   119 ms   1.62 times bare
-# steps page   bare  n =   60  p50    53 ms  p95    73 ms   1.00 times bare
-# steps page   ours  n =   60  p50   232 ms  p95   270 ms   3.68 times bare
-# drag  figure bare  n =   80  p50    57 ms  p95    73 ms   1.00 times bare
-# drag  figure ours  n =   88  p50   264 ms  p95   447 ms   6.15 times bare
-# drag  page   bare  n =   80  p50    57 ms  p95    73 ms   1.00 times bare
-# drag  page   ours  n =   88  p50   391 ms  p95   569 ms   7.82 times bare
+# 2026-11-21, x86_64, 2 cores, no graphics card, Python 3.11.7, panel 1.9.4, bokeh 3.9.2, Chromium 156.0.8078.79,
+# two runs of one round each
+#                 load 3.3                                  load 4.7
+# steps figure bare  p50  53 ms  p95  73 ms               p50  41 ms  p95  70 ms
+# steps figure ours  p50  70 ms  p95 119 ms   1.62        p50  89 ms  p95 138 ms   1.97 times bare
+# steps page   ours  p50 232 ms  p95 270 ms   3.68        p50 268 ms  p95 488 ms   6.95 times bare
+# drag  figure bare  p50  57 ms  p95  73 ms               p50  49 ms  p95  66 ms
+# drag  figure ours  p50 264 ms  p95 447 ms   6.15        p50 376 ms  p95 693 ms  10.48 times bare
+# drag  page   ours  p50 391 ms  p95 569 ms   7.82        p50 562 ms  p95 930 ms  14.08 times bare
