@@ -213,7 +213,7 @@ def main():
 if __name__ == "__main__":
     main()
 
-# Results. Aim: figure at most 1.5 times bare at p95, page at most 4 times. The machine had other work to do in every run
+# Results. Aim: figure at most 1.5 times bare at p95, page at most 4 times. The machine had other work in every run
 # (load average 3 to 5 on 2 cores), which costs our page more than the bare one: it also draws in 3-D by processor.
 #
 # 2026-11-21, x86_64, 2 cores, no graphics card, Python 3.11.7, panel 1.9.4, bokeh 3.9.2, Chromium 156.0.8078.79,
