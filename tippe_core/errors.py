@@ -23,7 +23,7 @@ def finite(name, value):
     """value as a float, or a TopError that names it."""
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if isinstance(value, bool) or not math.isfinite(number):
         raise TopError(name, value, "a finite number")
