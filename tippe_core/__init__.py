@@ -18,6 +18,7 @@ from .curve import (
 )
 from .errors import NoMotionError, TopError
 from .forces import friction_force, normal_force
+from .outcome import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
 from .rolling import Rolling, roll
 from .shapes import (
     PRESETS,
@@ -46,12 +47,14 @@ __all__ = [
     "PRESETS",
     "Ball",
     "BareSphere",
+    "Change",
     "Constants",
     "Lathe",
     "LoadedSphere",
     "Measured",
     "NoMotionError",
     "OrdinaryTop",
+    "Outcome",
     "Preset",
     "Rolling",
     "Scales",
@@ -59,6 +62,8 @@ __all__ = [
     "Solid",
     "State",
     "SteadyPrecessions",
+    "SteadyStates",
+    "Thresholds",
     "Tielines",
     "Top",
     "TopError",
@@ -76,16 +81,20 @@ __all__ = [
     "figures",
     "friction_force",
     "frustum",
+    "jellett_potential",
     "limit_energy",
     "load_top",
     "normal_force",
     "omega2",
     "omega3",
+    "outcome",
     "pole_constants",
     "rocking_period",
     "roll",
     "save_top",
     "steady_precessions",
+    "steady_states",
+    "thresholds",
     "tielines",
     "turning_points",
     "zone",

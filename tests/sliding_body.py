@@ -1,0 +1,98 @@
+"""A round-pegged top sliding on a table, as a rigid body in space: the oracle for motion with friction.
+
+No Euler angles, no constants, no formula of tippe_core: body-to-space quaternion, angular velocity and velocity of G,
+all in space axes, and for the accelerations the equations of Newton and Euler with the condition that the top stays
+on the table, as seven linear equations for (w', v', N) by LAPACK:
+
+    v' = N (z - k) - z,   I w' + w x I w = -r x N (z - k),   z . (v - w x r)' = 0,   r = z - a 3
+
+k (horizontal) is friction over N, opposite in sign; the law k(u) of the slip u = v - w x r is the caller's.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def skew(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def matrix(q):
+    """Body to space, from the quaternion x, y, z, w of any length."""
+    x, y, z, w = q / np.linalg.norm(q)
+    turn = skew([x, y, z])
+    return np.eye(3) + 2 * w * turn + 2 * turn @ turn
+
+
+def slip(top, axis, w, v):
+    return v - np.cross(w, UP - top.a * axis)
+
+
+def accelerations(top, law, axis, w, v):
+    """(w', v', N) with the axis 3, w and v in space axes."""
+    r = UP - top.a * axis
+    inertia = top.I1 * np.eye(3) + (top.I3 - top.I1) * np.outer(axis, axis)
+    direction = UP - law(slip(top, axis, w, v))
+    left, right = np.zeros((7, 7)), np.zeros(7)
+    left[:3, :3], left[:3, 6] = inertia, np.cross(r, direction)
+    right[:3] = -np.cross(w, inertia @ w)
+    left[3:6, 3:6], left[3:6, 6] = np.eye(3), -direction
+    right[3:6] = -UP
+    left[6, :3], left[6, 3:6] = UP @ skew(r), UP  # z . (v' + r x w') = z . (w x r')
+    right[6] = UP @ np.cross(w, -top.a * np.cross(w, axis))
+    solved = np.linalg.solve(left, right)
+    return solved[:3], solved[3:6], solved[6]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """One row a time; vectors in space axes. work: of friction, since the start."""
+
+    quaternion: np.ndarray
+    omega: np.ndarray
+    velocity: np.ndarray
+    com: np.ndarray
+    work: np.ndarray
+
+
+def integrate(top, law, quaternion, omega, velocity, com, times, rtol=1e-12):
+    """From the state at times[0], velocity and com (3,) those of G, through times (rising)."""
+
+    def rates(_, y):
+        q, w, v = y[:4], y[4:7], y[7:10]
+        axis = matrix(q)[:, 2]
+        w_dot, v_dot, N = accelerations(top, law, axis, w, v)
+        u = slip(top, axis, w, v)
+        q_dot = np.append(q[3] * w + np.cross(w, q[:3]), -w @ q[:3]) / 2
+        return np.concatenate([q_dot, w_dot, v_dot, v, [-N * law(u) @ u]])
+
+    start = np.concatenate([quaternion, omega, velocity, com, [0.0]])
+    y = solve_ivp(rates, (times[0], times[-1]), start, "DOP853", times, rtol=rtol, atol=rtol).y.T
+    return Motion(y[:, :4], y[:, 4:7], y[:, 7:10], y[:, 10:13], y[:, 13])
+
+
+def linearised(top, law, pole, spin):
+    """Eigenvalues of small motions about spinning on the axis: pole = 1 upright, -1 inverted; spin about axis 3.
+
+    In the axis's and the spin's horizontal components and G's velocity, by central differences.
+    """
+
+    def rates(y):
+        axis = np.array([y[0], y[1], pole * np.sqrt(1 - y[0] ** 2 - y[1] ** 2)])
+        across = np.array([y[2], y[3], 0.0])
+        across[2] = -axis @ across / axis[2]
+        w = spin * axis + across
+        v = np.array([y[4], y[5], 0.0])
+        v[2] = np.cross(w, UP - top.a * axis)[2]
+        w_dot, v_dot, _ = accelerations(top, law, axis, w, v)
+        axis_dot = np.cross(w, axis)
+        across_dot = w_dot - (w_dot @ axis + w @ axis_dot) * axis - spin * axis_dot
+        return np.concatenate([axis_dot[:2], across_dot[:2], v_dot[:2]])
+
+    steps = 1e-4 * np.eye(6)
+    columns = [(8 * (rates(h) - rates(-h)) - (rates(2 * h) - rates(-2 * h))) / (12 * 1e-4) for h in steps]
+    return np.linalg.eigvals(np.array(columns).T)

@@ -1,0 +1,217 @@
+"""Where friction takes a top: the steady states at a given Jellett constant, and the spins at which they turn stable.
+
+Any force at the contact point keeps C_J = I1 s w2 + I3 (c - a) w3, and sliding friction only takes energy. The least
+energy at a tilt theta is that of the top turning as a whole about the vertical through G,
+
+    V_J = a(1 - c) + C_J^2/(2 I_eff),     I_eff = I1 s^2 + I3 (c - a)^2 ,
+
+so the end is a minimum of V_J (Gallop; the paper's note 58), and it depends on the friction law only through the rate.
+With dV_J/dc = 0 written out, the steady states between the poles are zeros of a polynomial of degree four in c:
+
+    a I_eff^2 = C_J^2 [I1 c - I3 (c - a)] .
+
+At the poles C_J = I3 (1 - a) omega upright and -I3 (1 + a) Omega inverted, and V_J is least there where
+
+    upright    a (1 - a)^2 > omega^2 [I1 - I3 (1 - a)] ,        inverted    a (1 + a)^2 < Omega^2 [I3 (1 + a) - I1]
+
+(Rauch-Wojciechowski, Skoldstam, Glad, Regul. Chaotic Dyn. 10, 333 (2005); Rutstam, arXiv:1306.2470).
+"""
+
+from collections import namedtuple
+from dataclasses import dataclass
+
+import numpy as np
+
+from .constants import State, versines
+from .errors import TopError, finite
+from .top import Scales
+
+SteadyStates = namedtuple("SteadyStates", "theta stable")
+
+
+@dataclass(frozen=True)
+class Change:
+    """How the stability of spinning about the vertical axis at a pole depends on the spin.
+
+    stable: "above" or "below" the spin, or "always" or "never"; spin in (g/R)^1/2, nan where no spin changes it.
+    """
+
+    stable: str
+    spin: float
+
+    def holds(self, spin):
+        """Whether it is stable with this spin (of either sign)."""
+        return {"always": True, "never": False}.get(self.stable, (abs(spin) > self.spin) == (self.stable == "above"))
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """The spins at which upright (theta = 0) and inverted spinning turn stable or unstable, in (g/R)^1/2.
+
+    group     for a >= 0, by I1/I3: "never rises" below 1 - a, "can invert" up to 1 + a, "rises part of the way" above;
+              for a < 0: "can stand upright" where I1/I3 < 1 - a, "never stands upright" above; "neutral" for a uniform
+              ball, which no tilt suits better than another
+    upright, inverted   Change: the top's own spin there
+    launch    the upright spin that has the C_J of the inverted threshold (nan where there is none)
+    rise      the tilt that a top which rises part of the way cannot exceed however it is spun: cos = -a/(I1/I3 - 1)
+              (nan for the others)
+    """
+
+    group: str
+    upright: Change
+    inverted: Change
+    launch: float
+    rise: float
+
+
+def thresholds(top):
+    """The Thresholds of a top."""
+    a, gamma = top.a, top.I1 / top.I3
+    if a == 0 and gamma == 1:
+        group = "neutral"
+    elif a < 0:
+        group = "can stand upright" if gamma < 1 - a else "never stands upright"
+    else:
+        group = "never rises" if gamma < 1 - a else "can invert" if gamma < 1 + a else "rises part of the way"
+    upright = _change(a * (1 - a) ** 2, top.I3 * (1 - a) - top.I1)
+    inverted = _change(-a * (1 + a) ** 2, top.I3 * (1 + a) - top.I1)
+    rise = np.arccos(-a / (gamma - 1)) if group == "rises part of the way" else np.nan
+    return Thresholds(group, upright, inverted, abs(1 + a) / (1 - a) * inverted.spin, float(rise))
+
+
+def _change(height, inertia):
+    """Stable where height + inertia spin^2 > 0."""
+    if height * inertia < 0:
+        return Change("above" if inertia > 0 else "below", float(np.sqrt(-height / inertia)))
+    return Change("always" if height + inertia > 0 else "never", np.nan)
+
+
+def jellett_potential(theta, top, C_J):
+    """V_J = a(1 - c) + C_J^2/(2 I_eff) in MgR. theta in rad and C_J broadcast; inf where I_eff = 0 and C_J is not."""
+    v, m = versines(theta)
+    I_eff = top.I1 * v * m + top.I3 * (1 - v - top.a) ** 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return top.a * v + np.where(np.equal(C_J, 0), 0.0, np.square(C_J) / (2 * I_eff))
+
+
+def steady_states(top, C_J):
+    """The extrema of V_J at C_J (a number): SteadyStates(theta, stable), arrays from theta = 0 to pi, both included.
+
+    A top on any friction comes to rest in them relative to its own precession; stable where V_J is least. (For a
+    uniform ball V_J is flat: every tilt is steady and none stable; only the poles are listed.)
+    """
+    C_J = finite("C_J", C_J)
+    a, I1, I3 = top.a, top.I1, top.I3
+    I_eff = np.poly1d([I3 - I1, -2 * I3 * a, I1 + I3 * a * a])
+    slope = C_J**2 * np.poly1d([I1 - I3, I3 * a]) - a * I_eff**2  # I_eff^2 dV_J/dc
+    c = [x.real for x in slope.roots if abs(x.imag) < 1e-9 and abs(x.real) < 1]
+    places = np.array([1.0, *sorted(c, reverse=True), -1.0])
+    between = slope((places[:-1] + places[1:]) / 2)  # > 0 where V_J falls as theta grows
+    falls_before = np.array([any(between), *(between > 0)])
+    rises_after = np.array([*(between < 0), any(between)])
+    return SteadyStates(np.arccos(places), falls_before & rises_after)
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """Where friction takes a start.
+
+    verdict   "turns over", "stays inverted" or, for a < 0, "falls over" (theta = pi); "goes upright" (0); "hangs" in
+              between; "stays as it is" (a uniform ball)
+    theta     the tilt of that end, rad; omega3 the spin about axis 3 there, (g/R)^1/2
+    certain   False where the energy suffices to reach another minimum of V_J as well: then this is the one downhill
+    C_J, launch   the Jellett constant and the upright spin that has it
+    steady    SteadyStates at C_J; thresholds: Thresholds
+    sentence  all this in words, spins in rev/s where the scales of the top were given
+    """
+
+    verdict: str
+    theta: float
+    omega3: float
+    certain: bool
+    C_J: float
+    launch: float
+    steady: SteadyStates
+    thresholds: Thresholds
+    sentence: str
+
+
+def outcome(top, state, scales=None):
+    """The Outcome of a State on any plane with sliding friction.
+
+    scales: Scales of the real top, for a sentence in rev/s. The state's vx, vy left None mean G at rest.
+    """
+    if not isinstance(state, State):
+        raise TopError("state", state, "a State")
+    if scales is not None and not isinstance(scales, Scales):
+        raise TopError("scales", scales, "Scales, or None")
+    a, I1, I3 = top.a, top.I1, top.I3
+    s, c, w1, w2, w3 = np.sin(state.theta), np.cos(state.theta), state.theta_dot, state.omega2, state.omega3
+    C_J = I1 * s * w2 + I3 * (c - a) * w3
+    velocity = (state.vx or 0.0) ** 2 + (state.vy or 0.0) ** 2 + (a * s * w1) ** 2
+    E = (I1 * (w1**2 + w2**2) + I3 * w3**2 + velocity) / 2 + a * versines(state.theta)[0]
+    steady, limits = steady_states(top, C_J), thresholds(top)
+    V = jellett_potential(steady.theta, top, C_J)
+    here = float(jellett_potential(state.theta, top, C_J))
+    if limits.group == "neutral":
+        verdict, theta, certain = "stays as it is", state.theta, True
+    else:
+        end = _downhill(state.theta, steady, V, here)
+        theta, certain = float(steady.theta[end]), _reachable_minima(state.theta, steady, V, E) <= 1
+        far = "falls over" if a < 0 else "stays inverted" if state.theta > np.pi / 2 else "turns over"
+        verdict = "goes upright" if end == 0 else far if end == len(V) - 1 else "hangs"
+    I_eff = I1 * np.sin(theta) ** 2 + I3 * (np.cos(theta) - a) ** 2
+    omega3 = C_J * (np.cos(theta) - a) / I_eff if I_eff else 0.0
+    launch = C_J / (I3 * (1 - a))
+    return Outcome(verdict, theta, float(omega3), certain, float(C_J), float(launch), steady, limits,
+                   _sentence(verdict, theta, certain, launch, limits, scales))  # fmt: skip
+
+
+def _reachable_minima(theta, steady, V, E):
+    """How many minima of V_J no barrier above E parts from theta."""
+    right = int(np.searchsorted(steady.theta, theta))
+    below, count = V <= E, 0
+    for side in (range(right - 1, -1, -1), range(right, len(V))):
+        for i in side:
+            if not below[i]:
+                break
+            count += bool(steady.stable[i])
+    return count
+
+
+def _downhill(theta, steady, V, here):
+    """The index of the minimum of V_J below theta; a start on a maximum of it leaves to the lower neighbour."""
+    right = int(np.searchsorted(steady.theta, theta))
+    at = min(max(right, 0), len(V) - 1)
+    if steady.theta[at] == theta:
+        if steady.stable[at]:
+            return at
+        sides = [i for i in (at - 1, at + 1) if 0 <= i < len(V)]
+        return min(sides, key=lambda i: V[i])
+    # V_J is monotone between neighbours
+    end = right if V[right] < here else right - 1
+    while not steady.stable[end]:  # an inflexion
+        end += 1 if end == right else -1
+    return end
+
+
+def _sentence(verdict, theta, certain, launch, limits, scales):
+    unit = scales.angular_velocity / (2 * np.pi) if scales else 1.0
+
+    def spin(value):
+        return f"{abs(value) * unit:.3g} {'rev/s' if scales else '(g/R)^1/2'}"
+
+    def stability(pole, change, value):
+        if change.stable in ("always", "never"):
+            return f"{pole} is {'stable' if change.stable == 'always' else 'unstable'} at any spin"
+        return f"{pole} is stable only {change.stable} {spin(value)}"
+
+    will = {"turns over": "turn over", "stays inverted": "stay inverted", "falls over": "fall over",
+            "goes upright": "go upright", "hangs": f"hang at {np.degrees(theta):.1f} degrees",
+            "stays as it is": "keep its tilt"}[verdict]  # fmt: skip
+    doubt = "" if certain else " (if its energy does not carry it over into the other minimum of V_J)"
+    reasons = [stability("upright", limits.upright, limits.upright.spin)]
+    if limits.group in ("never rises", "can invert", "rises part of the way"):
+        reasons.append(stability("inverted", limits.inverted, limits.launch))
+    reason = "a uniform ball has no preferred one" if limits.group == "neutral" else " and ".join(reasons)
+    return f"Launched at {spin(launch)} it will {will}{doubt}: {reason}."
