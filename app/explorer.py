@@ -14,8 +14,10 @@ from tippe_core import (
     Constants,
     Rolling,
     Scales,
+    Shape,
     Top,
     TopError,
+    TruncatedSphere,
     f,
     figures,
     friction_force,
@@ -39,6 +41,10 @@ MOST_TURN = 0.3
 LEAST_TIELINES = 48
 MESH_COLUMNS = 48
 HOVER_COLUMNS = 96
+
+# Half of the third digit: the paper rounds appendix A's top to three, and with those it is the same body still.
+ROUNDED = 5e-4
+OUTLINE_POINTS = 96
 
 # A limit that is never reached still needs a place on the energy slider: this share of the energy above the last one.
 UNLIMITED = 0.25
@@ -109,8 +115,9 @@ class Scene:
     """All that the views show. Trajectory arrays have one row a frame; vectors are along the axes of space.
 
     ratio is F_h/F_z; regime one of ROLLS, SLIPS, LIFTS a frame; upright_spin omega_3 at theta = 0; profile (k, 2) the
-    radius of the body drawn and its height above O along axis 3. messages: a sentence for each control that was given
-    what cannot be; the rest of the scene is then the last good one. notes: sentences about what is shown.
+    radius of the body drawn and its height above O along axis 3; shape the body, None where a, I1, I3 were set apart
+    from it, and then scales are still its R and M. messages: a sentence for each control that was given what cannot be;
+    the rest of the scene is then the last good one. notes: sentences about what is shown.
     """
 
     top: Top
@@ -134,6 +141,7 @@ class Scene:
     E: np.ndarray
     upright_spin: float
     profile: np.ndarray
+    shape: Shape | None
     messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
     notes: tuple = ()
 
@@ -148,6 +156,9 @@ class Explorer(param.Parameterized):
     a = param.Number(0.070, doc="distance of G below the centre O of the sphere, in R")
     I1 = param.Number(0.399, doc="moment of inertia about an axis through G across the axis of symmetry, in MR^2")
     I3 = param.Number(0.408, doc="moment of inertia about the axis of symmetry, in MR^2")
+    shape = param.ClassSelector(
+        class_=Shape, default=TruncatedSphere.paper(), allow_None=False, doc="the body; a, I1, I3 are set with it"
+    )
     upper = param.Boolean(True, doc="show the upper hemisphere, like the paper, or all of (0, pi)")
     limit = param.Selector(default="lift-off", objects=["lift-off", "slip"], doc="which limit Fig. 5 is drawn at")
     cursor = param.Number(0.0, doc="the time looked at, in (R/g)^1/2; moving it solves nothing")
@@ -155,11 +166,18 @@ class Explorer(param.Parameterized):
 
     INPUTS = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3")
 
-    @param.depends(*INPUTS, "upper", "limit", watch=True, on_init=True)
+    @param.depends(*INPUTS, "shape", "upper", "limit", watch=True, on_init=True)
     def _solve(self):
         try:
             scene = solve(
-                Top(self.a, self.I1, self.I3), self.K_J, self.K_R, self.mu_s, self.energy, self.upper, self.limit
+                Top(self.a, self.I1, self.I3),
+                self.K_J,
+                self.K_R,
+                self.mu_s,
+                self.energy,
+                self.upper,
+                self.limit,
+                self.shape,
             )
         except TopError as error:
             if self.scene is None:
@@ -170,8 +188,13 @@ class Explorer(param.Parameterized):
             self.scene = scene
 
 
-def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
-    """The Scene of one top and one motion. Raises TopError, whose name is the input at fault."""
+def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None):
+    """The Scene of one top and one motion; shape: the body, appendix A's where none is given.
+
+    Raises TopError, whose name is the input at fault.
+    """
+    shape = shape or TruncatedSphere.paper()
+    drawn = shape if fits(shape, top) else None
     marks = energy_marks(top, K_J, K_R, mu_s)
     E = marks.energy(share)
     if share < 0 or not np.isfinite(share):
@@ -196,7 +219,7 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
     theta = between(inner, outer, MESH_COLUMNS)
     return Scene(
         top=top,
-        scales=Scales.paper(),
+        scales=shape.scales,
         mu_s=mu_s,
         constants=constants,
         share=share,
@@ -215,8 +238,9 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off"):
         K_R=trajectory.routh,
         E=trajectory.energy,
         upright_spin=float(omega3(0.0, top, constants)),
-        profile=outline(top),
-        notes=tuple(remarks(marks)),
+        profile=outline(top) if drawn is None else body(drawn),
+        shape=drawn,
+        notes=tuple(remarks(marks, drawn, float(outer))),
     )
 
 
@@ -255,18 +279,24 @@ def axes(theta, phi):
     return nodal, across, c * up - s * across, s * up + c * across
 
 
-def outline(top):
-    """The body that is drawn, as (radius, height above O along axis 3), (k, 2). For the paper's top its appendix A.
+def fits(shape, top):
+    """Whether a, I1 and I3 are the shape's, to the three digits of appendix A."""
+    own = shape.top
+    return max(abs(own.a - top.a), abs(own.I1 - top.I1), abs(own.I3 - top.I3)) < ROUNDED
 
-    a, I1 and I3 do not fix a shape. Only the sphere that rolls is certain, so any other tippe top is drawn as
-    a whole ball, and a top with G above O as a disc on a round peg.
+
+@lru_cache(maxsize=8)
+def body(shape):
+    """The shape's outline, (radius, height above O along axis 3) in R, (k, 2)."""
+    return shape.profile(max(OUTLINE_POINTS, len(shape.solid.outline) + 1)) / shape.R
+
+
+def outline(top):
+    """A stand-in for the body of a top of which only a, I1 and I3 are known, like body(shape).
+
+    Only the sphere that rolls is certain, so a tippe top is drawn as a whole ball, and a top with G above O as
+    a disc on a round peg.
     """
-    if top == Top.paper():
-        cut, radius, length = 0.82 / 1.6, 0.32 / 1.6, 1.92 / 1.6
-        angle = np.linspace(0, np.pi - np.arccos(cut), 40)
-        ball = np.column_stack([np.sin(angle), -np.cos(angle)])
-        end = cut + length
-        return np.vstack([ball, [[radius, cut], [radius, end - 0.05], [radius - 0.05, end], [0, end]]])
     angle = np.linspace(0, np.pi, 60)
     ball = np.column_stack([np.sin(angle), -np.cos(angle)])
     if top.a >= -0.3:
@@ -373,7 +403,11 @@ def everywhere(top, theta, K_J, K_R, E_limit):
         return E, np.where(F_z > 0, F_h / F_z, np.inf)
 
 
-def remarks(marks):
+def remarks(marks, shape, theta_outer):
+    if shape is None:
+        yield "a, I1 and I3 were set apart from the body: what is drawn stands in for it."
+    elif shape.touch_angle is not None and theta_outer > shape.touch_angle:
+        yield f"Past θ = {np.degrees(shape.touch_angle):.0f}° not only the sphere would touch the table."
     if np.isnan(marks.lift):
         yield "Even the steady precession would lift off."
     elif np.isnan(marks.slip):

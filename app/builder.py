@@ -1,0 +1,283 @@
+"""The top builder without its widgets: dimensions, presets and files -> a shape, and the motion it is given.
+
+SI, as in tippe_core.shapes. Where a person reads or sets a dimension it is in the unit of its Dimension.
+"""
+
+import re
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+import numpy as np
+import param
+
+from app.explorer import fits
+from tippe_core import (
+    PRESETS,
+    Ball,
+    BareSphere,
+    Constants,
+    Lathe,
+    LoadedSphere,
+    OrdinaryTop,
+    Scales,
+    Shape,
+    Top,
+    TopError,
+    TruncatedSphere,
+    Turned,
+    a_from_rocking,
+    load_top,
+    pole_constants,
+    save_top,
+)
+from tippe_core.curve import f3_squared
+
+# What a new body is thrown with: the spin near theta = 0 that the paper's top has at K_R = 10, and a tippe top's K_J at
+# the share of P that it has at K_J = 7. An ordinary top is let go at a tilt, or it would not stay up.
+THROWN_SHARE = 7 / pole_constants(Top.paper(), 10.0)[0]
+THROWN_SPIN = 10.0 / f3_squared(0.0, Top.paper()) ** 0.5 * Scales.paper().angular_velocity  # rad/s
+THROWN_TILT = 0.3
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A field of a shape as a person reads it: factor is the number of units in one of SI; low to high, the slider."""
+
+    name: str
+    words: str
+    unit: str
+    factor: float
+    low: float
+    high: float
+    step: float
+
+
+def _length(name, words, low, high):
+    return Dimension(name, words, "mm", 1e3, low, high, 0.1)
+
+
+def _density(name, words):
+    return Dimension(name, words, "kg/m³", 1.0, 0, 12_000, 10)
+
+
+_MASS = Dimension("M", "mass", "g", 1e3, 0.5, 200, 0.1)
+
+FAMILIES = {
+    TruncatedSphere: ("truncated sphere with a stem", (
+        _length("R", "radius of the sphere", 2, 40), _length("c", "height of the cut above O", -20, 40),
+        _length("l", "length of the stem", 0, 60), _length("r", "radius of the stem", 0, 15), _MASS)),
+    LoadedSphere: ("loaded sphere", (
+        _length("R", "radius of the sphere", 2, 40), _length("b", "radius of the core", 0.5, 30),
+        _length("d", "depth of the core below O", -30, 30), _density("density", "density of the sphere"),
+        _density("core_density", "density of the core; 0 a cavity"))),
+    OrdinaryTop: ("ordinary top", (
+        _length("R", "radius of the peg", 0.5, 20), _length("h", "height of the peg above O", 0, 60),
+        _length("r1", "radius of the body below", 0.5, 50), _length("r2", "radius of the body above", 0, 50),
+        _length("t", "thickness of the body", 0.5, 60), _length("r", "radius of the stem", 0, 15),
+        _length("l", "length of the stem", 0, 60), _MASS)),
+    Ball: ("uniform ball", (_length("R", "radius", 2, 40), _MASS)),
+    BareSphere: ("sphere of unknown inside", (
+        _length("R", "radius of the sphere", 2, 40), _MASS,
+        Dimension("a", "G below O, in R", "", 1.0, -0.9, 0.9, 0.005),
+        Dimension("I1", "inertia across the axis, in MR²", "", 1.0, 0.05, 0.7, 0.001),
+        Dimension("I3", "inertia about the axis, in MR²", "", 1.0, 0.05, 0.7, 0.001))),
+    Lathe: ("turned from points", ()),
+    Turned: ("turned from pieces", ()),
+}  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Draft:
+    """The body as it stands on the bench: all that its views show.
+
+    messages: a sentence for each field ("file" and "stl" among them) that was given what cannot be; the shape is then
+    the last good one. name and source: of the preset it is, else empty.
+    """
+
+    shape: Shape
+    messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
+    name: str = ""
+    source: str = ""
+
+    @property
+    def family(self):
+        """What kind of body it is, in words."""
+        return FAMILIES[type(self.shape)][0]
+
+    @property
+    def dimensions(self):
+        """The Dimensions that can be set, () for a body that only a file can describe."""
+        return FAMILIES[type(self.shape)][1]
+
+
+class Builder(param.Parameterized):
+    """Changes the body of an Explorer. Every change, or refusal, is one `draft` event.
+
+    request: what takes the Explorer's new inputs, Explorer.param.update or a Pacer's request.
+    """
+
+    draft = param.ClassSelector(class_=Draft, constant=True, doc="the body as it stands")
+
+    def __init__(self, explorer, request=None):
+        super().__init__()
+        self._explorer, self._request = explorer, request or explorer.param.update
+        self._publish(_draft(explorer.shape))
+
+    def set(self, name, value):
+        """One dimension, in SI."""
+        self._try(name, lambda: replace(self.draft.shape, **{name: value}))
+
+    def choose(self, name):
+        """The preset of this name, thrown anew."""
+        self._adopt(next(preset.shape for preset in PRESETS if preset.name == name))
+
+    def choose_family(self, family):
+        """The first preset of a family, thrown anew."""
+        self._adopt(next(preset.shape for preset in PRESETS if FAMILIES[type(preset.shape)][0] == family))
+
+    def load(self, text):
+        """The body in a file that save() wrote, thrown anew."""
+        self._try("file", lambda: load_top(text), self._throw)
+
+    def save(self):
+        """The body as the text of a small JSON file."""
+        return save_top(self.draft.shape)
+
+    def stl(self):
+        """The body as the bytes of an STL file, in mm; None, and a sentence at "stl", where there is none."""
+        try:
+            return self.draft.shape.stl()
+        except TopError as error:
+            self._refuse("stl", error)
+            return None
+
+    def measured(self, *, M, R, a):
+        """A sphere of this M and R with a/R as measured and the inertia, in MR^2, of the body on the bench."""
+        own = self.draft.shape.top
+        self._try("measured", lambda: BareSphere(R=R, M=M, a=a, I1=own.I1, I3=own.I3))
+
+    def attach(self):
+        """Gives the Explorer the body's own a, I1 and I3 back."""
+        self._adopt(self.draft.shape, self._keep)
+
+    @property
+    def attached(self):
+        """Whether the Explorer's a, I1 and I3 are the body's."""
+        explorer = self._explorer
+        return fits(self.draft.shape, Top(explorer.a, explorer.I1, explorer.I3))
+
+    def _try(self, name, make, motion=None):
+        try:
+            shape = make()
+            shape.top  # noqa: B018  (a body may be sound and still stand on no peg)
+        except TopError as error:
+            self._refuse(name, error)
+        else:
+            self._adopt(shape, motion or self._keep)
+
+    def _refuse(self, name, error):
+        self._publish(replace(self.draft, messages=MappingProxyType({name: sentence(error)})))
+
+    def _adopt(self, shape, motion=None):
+        self._publish(_draft(shape))
+        top = shape.top
+        K_J, K_R = (motion or self._throw)(shape)
+        self._request(shape=shape, a=top.a, I1=top.I1, I3=top.I3, K_J=K_J, K_R=K_R)
+
+    def _publish(self, draft):
+        with param.edit_constant(self):
+            self.draft = draft
+
+    def _keep(self, shape):
+        """K_J and K_R of the same spin in rad/s near theta = 0, and the same share of P, as the Explorer has now."""
+        explorer = self._explorer
+        if explorer.scene.top == shape.top and explorer.scene.scales == shape.scales:
+            return explorer.K_J, explorer.K_R
+        before = explorer.scene.top
+        slower = shape.scales.time / explorer.scene.scales.time
+        K_R = explorer.K_R * slower * (f3_squared(0.0, shape.top) / f3_squared(0.0, before)) ** 0.5
+        pole = pole_constants(before, explorer.K_R)[0]
+        share = explorer.K_J / pole if pole else 0.0
+        return float(share * pole_constants(shape.top, K_R)[0]), float(K_R)
+
+    @staticmethod
+    def _throw(shape):
+        spin, top = THROWN_SPIN * shape.scales.time, shape.top
+        if top.a < 0:
+            thrown = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, spin)
+            return float(thrown.K_J), float(thrown.K_R)
+        K_R = spin * f3_squared(0.0, top) ** 0.5
+        return float(THROWN_SHARE * pole_constants(top, K_R)[0]), float(K_R)
+
+
+def _draft(shape):
+    known = next((preset for preset in PRESETS if preset.shape == shape), None)
+    return Draft(shape=shape, name=known.name, source=known.source) if known else Draft(shape=shape)
+
+
+def sentence(error):
+    """A TopError in the units of the sliders: what is in m becomes mm, what is in kg becomes g."""
+    value, allowed = error.value, error.allowed
+    for unit, smaller in (("m", "mm"), ("kg", "g")):
+        if isinstance(value, float) and re.search(rf"\({unit}[,)]| {unit} for this body", allowed):
+            value *= 1e3
+            allowed = re.sub(r"(?<![\w./])-?\d+(\.\d+)?(e[+-]?\d+)?(?![\w.])(?! kg/m)", _thousandfold, allowed)
+            allowed = re.sub(rf"(\(|\d ){unit}(?=[,)]| for)", rf"\g<1>{smaller}", allowed)
+            return str(TopError(error.name, float(f"{value:.6g}"), allowed, error.remedy)).replace(
+                " is not possible", f" {smaller} is not possible", 1)  # fmt: skip
+    return str(error)
+
+
+def _thousandfold(match):
+    return f"{1e3 * float(match[0]):g}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rocking:
+    """What a stopwatch, a balance and a caliper say: SI, each with its standard uncertainty."""
+
+    T: float
+    dT: float
+    D: float
+    dD: float
+    M: float
+
+    def a(self, shape):
+        """a/R with its uncertainty, a tippe_core.Measured, for the I1 (in MR^2) of the shape."""
+        return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
+
+
+def handles(shape):
+    """Where the section can be taken hold of: {dimension: (x, z)}, m, x across axis 3 and z above O along it."""
+    R = shape.R
+    side = (R * np.sqrt(0.5), -R * np.sqrt(0.5))
+    if isinstance(shape, TruncatedSphere):
+        cut = np.sqrt((R - shape.c) * (R + shape.c))
+        at = {"R": side, "c": (-cut, shape.c)}
+        return at | {"r": (shape.r, shape.c + shape.l / 2), "l": (0.0, shape.c + shape.l)} if shape.l else at
+    if isinstance(shape, LoadedSphere):
+        return {"R": side, "b": (shape.b, -shape.d), "d": (0.0, -shape.d)}
+    if isinstance(shape, OrdinaryTop):
+        face = shape.h + shape.t
+        at = {"R": side, "h": (-shape.r1, shape.h), "r1": (shape.r1, shape.h), "r2": (shape.r2, face),
+              "t": (-shape.r2, face)}  # fmt: skip
+        return at | {"r": (shape.r, face + shape.l / 2), "l": (0.0, face + shape.l)} if shape.l else at
+    if isinstance(shape, BareSphere):
+        return {"R": side, "a": (0.0, -shape.a * R)}
+    return {"R": side} if isinstance(shape, Ball) else {}
+
+
+def pulled(shape, name, x, z):
+    """The dimension (SI, to 0.01 mm) at which its handle is nearest to (x, z)."""
+    if name == "R":
+        value = (x - z) * np.sqrt(0.5)
+    elif name in ("r", "r1", "r2", "b"):
+        value = abs(x)
+    elif name == "a":
+        return round(float(-z / shape.R), 3)
+    else:
+        below = {"l": getattr(shape, "c", 0.0), "d": 0.0, "c": 0.0, "h": 0.0, "t": getattr(shape, "h", 0.0)}[name]
+        if name == "l" and isinstance(shape, OrdinaryTop):
+            below = shape.h + shape.t
+        value = -z if name == "d" else z - below
+    return round(float(value), 5)

@@ -1,0 +1,222 @@
+"""The builder without a browser: a body changes in one event, and the explorer's numbers are the body's."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.builder import FAMILIES, Builder, Rocking, handles, pulled, sentence
+from app.explorer import Explorer
+from tippe_core import (
+    PRESETS,
+    Ball,
+    BareSphere,
+    Top,
+    TopError,
+    TruncatedSphere,
+    load_top,
+    rocking_period,
+    save_top,
+)
+
+
+@pytest.fixture
+def explorer():
+    return Explorer()
+
+
+@pytest.fixture
+def builder(explorer):
+    return Builder(explorer)
+
+
+def watch(thing, name):
+    seen = []
+    thing.param.watch(lambda event: seen.append(event.new), name)
+    return seen
+
+
+def test_the_first_visit_is_the_papers_rounded_top_in_the_body_of_appendix_A(explorer, builder):
+    scene = explorer.scene
+    assert scene.top == Top.paper()
+    assert builder.attached and scene.shape == builder.draft.shape == TruncatedSphere.paper()
+    assert builder.draft.name == "The paper's tippe top" and "appendix A" in builder.draft.source
+    # Fig. 7: the lowest point, the sphere, the stem's radius and its end
+    assert scene.profile[0] == pytest.approx([0, -1])
+    assert scene.profile[-1] == pytest.approx([0, (0.82 + 1.92) / 1.6])
+    assert np.any(np.all(np.isclose(scene.profile, [0.32 / 1.6, 0.82 / 1.6]), axis=1))
+
+
+def test_a_dimension_is_one_event_and_the_explorer_follows(explorer, builder):
+    drafts, scenes = watch(builder, "draft"), watch(explorer, "scene")
+    builder.set("l", 0.010)
+    expected = replace(TruncatedSphere.paper(), l=0.010)
+    assert [draft.shape for draft in drafts] == [expected]
+    assert not drafts[0].messages and not drafts[0].name
+    assert len(scenes) == 1
+    assert scenes[0].top == expected.top and scenes[0].shape == expected
+    assert scenes[0].profile[-1] == pytest.approx([0, (0.0082 + 0.010) / 0.016])
+
+
+def test_the_motion_stays_the_same_throw_when_a_dimension_changes(explorer, builder):
+    def rev_per_second():
+        return explorer.scene.upright_spin * explorer.scene.scales.angular_velocity / (2 * np.pi)
+
+    before = rev_per_second(), explorer.K_J / explorer.scene.plane.pole
+    builder.set("R", 0.019)
+    assert rev_per_second() == pytest.approx(before[0], rel=1e-12)
+    assert explorer.K_J / explorer.scene.plane.pole == pytest.approx(before[1], rel=1e-12)
+    assert explorer.scene.scales.R == 0.019 and explorer.scene.scales.M == 0.0115
+
+
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_presets(explorer, builder, preset):
+    drafts, scenes = watch(builder, "draft"), watch(explorer, "scene")
+    builder.choose(preset.name)
+    assert len(drafts) == 1 and (drafts[0].name, drafts[0].source) == (preset.name, preset.source)
+    scene = explorer.scene
+    assert len(scenes) == 1 and not scene.messages
+    assert scene.top == preset.shape.top and scene.shape == preset.shape and scene.scales == preset.shape.scales
+    # The spin stays what the paper's top has at K_R = 10 (physics.md: 34.7 cycles/s), and the table carries the motion.
+    assert scene.upright_spin * scene.scales.angular_velocity / (2 * np.pi) == pytest.approx(34.7, abs=0.05) or (
+        preset.shape.com > 0
+    )
+    assert np.isfinite(scene.marks.slip) or preset.name == "Uniform ball"
+    assert scene.normal.min() > 0 and scene.regime.max() == 0
+    # the lowest point is the contact of the sphere that rolls, and nothing is below the table
+    assert scene.profile[0] == pytest.approx([0, -1]) and scene.profile[:, 1].min() >= -1
+
+
+def test_a_family_is_one_of_its_presets(builder):
+    for family in ("ordinary top", "loaded sphere", "uniform ball", "truncated sphere with a stem"):
+        builder.choose_family(family)
+        assert builder.draft.family == family
+
+
+@pytest.mark.parametrize("name, value, says", [
+    ("c", 0.020, "c = 20 mm is not possible: allowed is -16 < c <= 16 (mm, the cut goes through the sphere)."),
+    ("r", 0.015, "0 <= r <= 13.739 (mm"), ("l", 0.0, "With both 0 there is none"), ("R", 0.005, "c = 8.2 mm"),
+    ("M", -1e-3, "M = -1 g is not possible: allowed is 0 < M (g)."), ("R", float("nan"), "R = nan")])
+def test_a_bad_dimension_is_said_at_its_field_and_changes_nothing(explorer, builder, name, value, says):
+    shape, scene, drafts = builder.draft.shape, explorer.scene, watch(builder, "draft")
+    builder.set(name, value)
+    assert len(drafts) == 1 and list(builder.draft.messages) == [name]
+    assert says.lower() in builder.draft.messages[name].lower()
+    assert builder.draft.shape is shape and explorer.scene is scene
+    builder.set("l", 0.0190)
+    assert not builder.draft.messages
+
+
+def test_moving_a_I1_I3_parts_them_from_the_body_and_says_so(explorer, builder):
+    explorer.I1 = 0.42
+    assert explorer.scene.shape is None and not builder.attached
+    assert any("set apart from the body" in note for note in explorer.scene.notes)
+    assert explorer.scene.profile[-1] == pytest.approx([0, 1])
+    builder.attach()
+    assert builder.attached and explorer.scene.shape == TruncatedSphere.paper()
+    assert not any("set apart" in note for note in explorer.scene.notes)
+
+
+def test_the_stem_touches_the_table_where_physics_md_has_it(explorer, builder):
+    assert np.degrees(builder.draft.shape.touch_angle) == pytest.approx(119, abs=0.5)
+    explorer.param.update(upper=False, K_J=-5.0, K_R=10.0, energy=0.9)
+    assert explorer.scene.turning[1] > builder.draft.shape.touch_angle
+    assert any("119°" in note for note in explorer.scene.notes)
+
+
+# --- files ---
+
+
+def test_save_and_load(builder, explorer):
+    builder.choose("Wooden cone")
+    builder.set("t", 0.021)
+    text, shape = builder.save(), builder.draft.shape
+    builder.choose("Uniform ball")
+    drafts, scenes = watch(builder, "draft"), watch(explorer, "scene")
+    builder.load(text.encode())
+    assert builder.draft.shape == shape and explorer.scene.shape == shape
+    assert len(drafts) == len(scenes) == 1
+    assert load_top(builder.save()) == shape
+
+
+@pytest.mark.parametrize("change, says", [
+    ({"schema": "other"}, "schema"), ({"version": 2}, "version"), ({"kind": "Cube"}, "kind"),
+    ({"dimensions": {"R": 0.016}}, "missing")])
+def test_a_file_that_cannot_be_is_said_and_changes_nothing(explorer, builder, change, says):
+    shape, scene = builder.draft.shape, explorer.scene
+    for text in (json.dumps(json.loads(save_top(shape)) | change), "no file", b"\xff\xfe", b"x" * 100_000):
+        builder.load(text)
+        assert list(builder.draft.messages) == ["file"]
+        assert builder.draft.shape is shape and explorer.scene is scene
+    builder.load(json.dumps(json.loads(save_top(shape)) | change))
+    assert says in builder.draft.messages["file"]
+
+
+def test_an_impossible_body_in_a_file_names_its_field(builder):
+    document = json.loads(save_top(TruncatedSphere.paper()))
+    document["dimensions"]["c"] = 0.5
+    builder.load(json.dumps(document))
+    assert builder.draft.messages["file"].startswith("c = 500 mm is not possible")
+
+
+def test_stl(builder):
+    assert len(builder.stl()) > 84
+    builder.choose("Top S")
+    assert builder.stl() is None and "inside is known" in builder.draft.messages["stl"]
+
+
+# --- handles ---
+
+
+@pytest.mark.parametrize("shape", [*(preset.shape for preset in PRESETS),
+                                   replace(TruncatedSphere.paper(), l=0.0, r=0.0)], ids=lambda s: type(s).__name__)
+def test_a_handle_pulled_to_where_it_is_changes_nothing(shape):
+    for name, (x, z) in handles(shape).items():
+        assert pulled(shape, name, x, z) == pytest.approx(getattr(shape, name), abs=5e-4 if name == "a" else 5.1e-6)
+
+
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_a_handle_goes_where_the_hand_is(preset):
+    for name in handles(preset.shape):
+        for value in (getattr(preset.shape, name) * 0.95, getattr(preset.shape, name) * 1.02):
+            try:
+                changed = replace(preset.shape, **{name: value})
+            except TopError:
+                continue
+            there = handles(changed)[name]
+            assert pulled(preset.shape, name, *there) == pytest.approx(
+                value, abs=5e-4 if name == "a" else 5.1e-6), name  # fmt: skip
+
+
+def test_every_dimension_is_a_field_within_its_slider():
+    for preset in PRESETS:
+        for dimension in FAMILIES[type(preset.shape)][1]:
+            shown = getattr(preset.shape, dimension.name) * dimension.factor
+            assert dimension.low <= shown <= dimension.high, (preset.name, dimension.name)
+
+
+# --- measured ---
+
+
+def test_the_period_of_a_known_top_gives_its_a_back(builder, explorer):
+    shape = TruncatedSphere.paper()
+    T = rocking_period(shape.top) * shape.scales.time
+    found = Rocking(T=T, dT=0.01 * T, D=2 * shape.R, dD=1e-4, M=0.012).a(shape)
+    assert found.value == pytest.approx(shape.top.a, rel=1e-9)
+    # one per cent of T, by two periods instead of a derivative
+    other = Rocking(T=1.01 * T, dT=0, D=2 * shape.R, dD=0, M=0.012).a(shape)
+    assert found.shares["T"] == pytest.approx(abs(other.value - found.value), rel=0.03)
+    builder.measured(M=0.012, R=0.016, a=found.value)
+    assert isinstance(builder.draft.shape, BareSphere)
+    assert explorer.scene.top.a == pytest.approx(shape.top.a, rel=1e-9) and explorer.scene.scales.M == 0.012
+
+
+@pytest.mark.parametrize("make, says", [
+    (lambda: Top(1.5, 0.4, 0.4), "a = 1.5 is not possible: allowed is a < 1 (in units of R)."),
+    (lambda: Ball(R=-1.0, M=0.01), "R = -1000 mm is not possible"),
+    (lambda: replace(PRESETS[3].shape, l=5000.0), "0 <= l <= 1e+06 (mm)")])
+def test_sentences_are_in_the_units_of_the_sliders(make, says):
+    with pytest.raises(TopError) as error:
+        make()
+    assert says in sentence(error.value)
