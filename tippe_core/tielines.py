@@ -1,16 +1,22 @@
 """How far a rolling top can go: the tielines of Figs. 5 and 6, and the energies that end them.
 
-With w2 = B/s and the excess x = 2E' - U, so that f1^2 theta_dot^2 = x, the forces at a theta are (forces.py)
+With B = s w2, the bracket of (36), and q = w1^2 + w2^2, the forces (37) to (39) are regular at the poles:
 
-    F_z = z0 + z1 x ,   F_y = y0 + y1 x ,   F_x^2 = x1 x ,
+    2E' = 2a(1 - c) + f1^2 q - (1 - I1/I3) B^2
+    F_z = zc + zb B + z1 q                 A = (a/f1^2) {1 - a c + [a (c - a) - I1] q}
+    F_h^2 = X^2 q + D B^2 + 2 A Y B + s^2 A^2
+    X = (w3/f2^2) [I1 c - I3 (c - a)] ,    Y = (w3/f1^2) [I3 (1 - a c) - I1 - a^2 s^2] ,    D = (Y^2 - X^2)/s^2
 
-so the top lifts off where a linear function of the energy vanishes, and slips where a quadratic does,
+(f3^2 = (I3/I1) f2^2 and f1^2 - f2^2 = (1 - I1/I3) s^2 bring them there). So at each theta the top keeps to the table
+where mu F_z - n F_h >= 0 (mu = mu_s, n = 1; for lift-off alone mu = 1, n = 0), in intervals of q that end at zeros of
 
-    (y1^2 - mu^2 z1^2) x^2 + (x1 + 2 y0 y1 - 2 mu^2 z0 z1) x + y0^2 - mu^2 z0^2 = 0 .
+    mu^2 F_z^2 - n F_h^2 = P2 q^2 - 2 b q + P0 .
 
-A trajectory in the well of theta_p reaches theta when its energy is at least the largest U between. The limit of a K_J
-is the least over theta of the first energy from there on that breaks it. Everything is found on a grid of theta for all
-K_J at once, then refined: a least value inside by parabolas, one where the violation meets the turning point as a zero.
+A trajectory of the well first reaches theta with the energy `base`, the largest U between theta and the steady
+precession. The first energy that breaks the limit there is base, where its q lies in no such interval, and else that
+of its interval's end. The limit of a K_J is the least of these over theta. It is found on a grid for all K_J at once,
+placed by polynomials through the grid's own points and made exact by Newton's step; what this does not settle is
+searched on closer and closer grids.
 """
 
 from collections import namedtuple
@@ -18,17 +24,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .constants import Constants, f1_2, f2_2, f3_2, versines
-from .curve import ExactCurve, angle, bracket_slope, find_stations, pole_gaps, pole_slope, turning_points, well_slope
+from .constants import ExactTop, f2_2
+from .curve import ExactCurve, angle, bracket_slope, find_stations, pole_gaps, pole_slope, well_slope
 from .errors import TopError, finite
-
-Rows = namedtuple("Rows", "height G s f2 Zc Zl Zq Yc Yl Yq z1 y1 x1")
 
 
 @dataclass(frozen=True, eq=False)
 class Tielines:
-    """One tieline for each K_J, arrays of its shape: the trajectory of largest energy on which the top neither leaves the
-    table nor (where mu_s is given) slips.
+    """One tieline for each K_J, arrays of its shape: the trajectory of largest energy on which the top neither leaves
+    the table nor (where mu_s is given) slips.
 
     E the largest energy (6) in MgR; theta_inner, theta_outer its turning points; theta_verge where on it the limit is
     first reached; limited_by "lift-off", "slip", "nothing" (E is inf: no energy breaks the limit) or "no motion" (E is
@@ -57,84 +61,12 @@ def limit_energy(top, K_J, K_R, mu_s=None):
 
 def tielines(top, K_J, K_R, mu_s=None):
     """Tielines of Fig. 5 (mu_s None: F_z >= 0) or of Fig. 6 (F_h <= mu_s F_z too). K_J of any shape, K_R a number."""
-    if mu_s is None:
-        return _tielines(top, K_J, K_R, [None])[0]
     return _tielines(top, K_J, K_R, [mu_s])[0]
 
 
 def figures(top, K_J, K_R, mu_s):
     """Both at once, for less than two calls: (tielines of Fig. 5, tielines of Fig. 6)."""
     return tuple(_tielines(top, K_J, K_R, [None, mu_s]))
-
-
-# ---- the grid: every coefficient that depends on theta alone ----
-
-_X = (np.arange(256) + 0.5) / 256
-GRID = np.pi * (_X - 0.9 * np.sin(2 * np.pi * _X) / (2 * np.pi))  # closer at the poles, where U is steep
-
-
-def _rows(theta, top, K_R):
-    a, I1 = top.a, top.I1
-    c, s = np.cos(theta), np.sin(theta)
-    s2 = s * s
-    f1, f2, f3 = f1_2(c, top), f2_2(c, s2, top), np.sqrt(f3_2(c, s2, top))
-    w3, ratio, lever = K_R / f3, top.I3 / I1 * (c - a), a / f1
-    g = top.I3 / I1 * (top.I3 + 1 - a * c) * w3 / (f3 * f3)
-    k = c * (I1 + 1 + a * a) - a * (1 + c * c)
-    y, one = lever * s * (a * (c - a) - I1), 1 - a * c
-    return Rows(
-        height=2 * a * (1 - c), G=ratio * w3, s=s, f2=f2,
-        Zc=1 - lever * a * s2, Zl=-lever * f2 * g * s, Zq=lever * k,
-        Yc=lever * s * one, Yl=one * f2 * g / f1 - w3, Yq=y,
-        z1=lever * k / f1, y1=y / f1, x1=(top.I3 * w3 / (f3 * f3) * (c - ratio)) ** 2 / f1)  # fmt: skip
-
-
-def _at_rest(rows, K_J):
-    """U, z0 and y0."""
-    w = (K_J - rows.G) / rows.s
-    w_sq = w * w
-    U = rows.f2 * w_sq
-    U += rows.height
-    z0 = rows.Zq * w_sq
-    w_sq *= rows.Yq
-    z0 += rows.Zl * w
-    z0 += rows.Zc
-    w *= rows.Yl
-    w += w_sq
-    w += rows.Yc
-    return U, z0, w
-
-
-def _lift(rows, z):
-    """The excess, counted from where F_z = z, at which F_z falls to 0: negative where it is below already; inf if never."""
-    return z * np.where(rows.z1 < 0, -1 / rows.z1, np.inf)
-
-
-def _slip(rows, z, y, x, mu):
-    """The same for F_h rising to mu F_z, counted from where F_z = z, F_y = y and F_x^2 = x."""
-    C = mu * z
-    B = C * (-2 * mu * rows.z1)
-    B += (2 * rows.y1) * y
-    B += rows.x1
-    over = C < 0
-    C *= -C
-    C += y * y
-    C += x
-    over |= C > 1e-24
-    root = B * B
-    root -= (4 * (rows.y1**2 - (mu * rows.z1) ** 2)) * C
-    np.sqrt(root, out=root)
-    root += B
-    C *= -2
-    C /= root
-    # no zero ahead: a negative discriminant, or both zeros behind
-    np.copyto(C, np.inf, where=~(root > 0))
-    np.copyto(C, np.minimum(C, 0) if over.any() else C, where=over)
-    C[over & ~(root > 0)] = -np.inf
-    return C
-
-
-# ---- the limits ----
 
 
 def _tielines(top, K_J, K_R, limits):
@@ -149,291 +81,361 @@ def _tielines(top, K_J, K_R, limits):
     if not K_J.size:
         empty = np.empty(shape)
         return [Tielines(*[empty] * 5, np.empty(shape, "U9"), empty, empty) for _ in limits]
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return [Tielines(*(np.reshape(part, shape) for part in parts)) for parts in _solved(top, K_J, K_R, limits)]
+    with np.errstate(all="ignore"):
+        columns = _Wells(top, K_J, K_R).columns(limits)
+        return [Tielines(*(np.reshape(part, shape) for part in parts)) for parts in columns]
 
 
-def _solved(top, K_J, K_R, limits):
-    """The columns of Tielines for each of the limits."""
-    well = _Wells(top, K_J, K_R)
-    e, verge, slips, broken = (np.reshape(part, (len(limits), -1)) for part in well.limits(limits))
-    for which, i in zip(*np.nonzero(well.narrow(e)), strict=True):
-        e[which, i], verge[which, i], slips[which, i] = _closer(well, i, limits[which])
-    inner, outer = well.ends(e)
-    for i in range(len(limits)):
-        by = np.where(broken[i], "no motion", np.where(np.isinf(e[i]), "nothing", np.where(slips[i], "slip", "lift-off")))
-        place = np.where(np.isfinite(e[i]), verge[i], np.nan)
-        yield K_J, well.energy(e[i]), inner[i], outer[i], place, by, well.theta_p, well.energy(well.U_p)
+# ---- one theta: everything that depends on it alone ----
+
+Place = namedtuple("Place", "x s2 f1 f2 drop height slope zc zb z1 X2 Y A0 A1 D")
 
 
-def _closer(well, i, mu):
-    """2E', theta and whether it slips, for a tieline too short for the grid: on ever closer grids about theta_p."""
-    theta, grid = well.theta_p[i], well.grid
-    for _ in range(8):
-        j = np.searchsorted(grid, theta)
-        low, high = (grid[j - 4] if j >= 4 else 0.0), (grid[j + 3] if j + 3 < len(grid) else np.pi)
-        grid = low + (high - low) * (np.arange(len(GRID)) + 0.5) / len(GRID)
-        part = _Wells(well.top, well.K_J[i : i + 1], well.K_R, grid, well.theta_p[i : i + 1])
-        e, verge, slips, _ = part.limits([mu])
-        if not part.narrow(e[None])[0, 0]:
-            break
-    return e[0], verge[0], slips[0]
+def _place(x, north, top, K_R):
+    """Coefficients at distance x of cos(theta) to the nearer pole: real, or complex to have derivatives (f(x + ih)/h).
+
+    Next to the inverted pole they are those of the upright one with the signs of a, cos(theta) and K_R turned.
+    """
+    sign = np.where(north, 1.0, -1.0)
+    I1, I3, a, K = top.I1, top.I3, sign * top.a, sign * K_R
+    c, s2 = 1 - x, x * (2 - x)
+    p, one = c - a, 1 - a * c
+    g2 = I1 + p * p
+    f1, f2 = g2 + s2, g2 + I1 / I3 * s2
+    w3, lever = K / np.sqrt(I3 / I1 * f2), a / f1
+    P, R, a2 = I3 * one - I1, I1 * c - I3 * p, top.a**2
+    X, kappa = w3 / f2 * R, 1 - I1 / I3
+    D = I3 * I3 * (1 - a2) - 2 * I1 * I3 + I1 * I1 - 2 * a2 * P + a2 * a2 * s2
+    return Place(
+        x=x, s2=s2, f1=f1, f2=f2, drop=kappa, height=2 * top.a * np.where(north, x, 2 - x),
+        slope=pole_slope(x, a, K, top),
+        zc=1 - a2 * s2 / f1, zb=-lever * (I3 + one) * w3, z1=lever * (c * (I1 + 1 + a2) - a * (1 + c * c)),
+        X2=X * X, Y=w3 / f1 * (P - a2 * s2), A0=lever * one, A1=lever * (a * p - I1),
+        D=(w3 / f1) ** 2 * D - kappa * X * X * (f1 + f2) / (f1 * f1))  # fmt: skip
+
+
+def _distance(theta, phi):
+    """1 - cos of the nearer of theta and phi = pi - theta, and whether that is theta."""
+    north = theta <= phi
+    return 2 * np.sin(np.where(north, theta, phi) / 2) ** 2, north
+
+
+def _angle(x, north):
+    half = 2 * np.arctan2(np.sqrt(x), np.sqrt(2 - x))
+    return np.where(north, half, np.pi - half)
+
+
+def _interval(p, B, q, mu, n):
+    """2E' at the end of the interval from q on in which the top keeps to the table (less than at q, or nan: it has no
+    end), and mu F_z - n F_h at q."""
+    z0 = p.zc + p.zb * B
+    margin = z0 + p.z1 * q
+    if np.all(n == 0):
+        end = z0 * (-1 / np.where(p.z1 == 0, 1e-300, p.z1))
+    else:
+        h2 = p.s2 * p.A1 * p.A1  # F_h^2 = h0 + 2 h1 q + h2 q^2
+        h1 = p.A1 * p.Y * B + (p.X2 / 2 + p.s2 * p.A0 * p.A1)
+        # the 1e-300 keeps the ball that needs no friction from 0/0
+        h0 = (p.D * B + 2 * p.A0 * p.Y) * B + (p.s2 * p.A0 * p.A0 - 1e-300)
+        margin = mu * margin - n * np.sqrt(np.maximum(h0 + (2 * h1 + h2 * q) * q, 0))
+        P2, z0 = mu * mu * p.z1 * p.z1 - n * h2, mu * z0
+        z0z1 = z0 * (mu * p.z1)
+        b, P0 = n * h1 - z0z1, z0 * z0 - n * h0
+        r = np.sqrt(n * (h1 * (b - z0z1) + h0 * P2 + h2 * z0 * z0))  # b^2 - P2 P0, less what cancels
+        end = np.where(b >= 0, P0 / (b + r), (b - r) / P2)
+    return p.f1 * end + (p.height - p.drop * B * B), margin
+
+
+# ---- the grid, and polynomials through its points ----
+
+_CELLS, _REACH = 256, 3
+h = 1e-60  # f(x + ih) = f(x) + ih f'(x), to all digits
+_STENCIL = np.arange(-_REACH, _REACH + 1)[:, None]
+_FIT = np.linalg.inv(_STENCIL ** np.arange(2 * _REACH + 1.0))  # values on the stencil to coefficients
+
+
+def _mapped(t):
+    """theta at place t of the grid: closer at the poles, where U is steep."""
+    X = t / _CELLS
+    return np.pi * (X - 0.9 * np.sin(2 * np.pi * X) / (2 * np.pi))
+
+
+GRID = np.maximum(_mapped(np.arange(_CELLS + 1.0)), 1e-100)  # and both poles, but for their zeros
+
+
+def _zero(coefficients, t):
+    """The zero next to t of polynomials, rows of coefficients from the constant on, and the slope there."""
+    for _ in range(3):
+        value, slope = coefficients[-1], 0.0
+        for c in coefficients[-2::-1]:
+            slope = slope * t + value
+            value = value * t + c
+        t = t - value / slope
+    return t, slope
+
+
+def _least(values):
+    """Where polynomials through values (stencil, k) are least, from the stencil's middle, and the curvature there."""
+    fit = _FIT @ values
+    return _zero(fit[1:] * np.arange(1, 2 * _REACH + 1)[:, None], -fit[1] / (2 * fit[2]))
 
 
 class _Wells:
-    """The wells of the steady precessions of least energy at one K_R, one for each K_J (k,), on the grid (k, n)."""
+    """The wells of the steady precessions of least energy at one K_R, one for each K_J (k,)."""
 
-    def __init__(self, top, K_J, K_R, grid=GRID, theta_p=None):
-        self.top, self.K_J, self.K_R, self.grid = top, K_J, K_R, grid
-        self.gaps = pole_gaps(top, K_J, K_R)
-        self.rows = _rows(grid, top, K_R)
-        U, self.z, self.y = _at_rest(self.rows, K_J[:, None])
-        self.lowest = U.argmin(axis=1)
-        self.theta_p = self._steady(U) if theta_p is None else theta_p
-        self.at_p = _at_rest(_rows(_clip(self.theta_p, 1e-9, np.pi - 1e-9), top, K_R), K_J)
-        self.U_p = self.at_p[0]
-        rising = U[:, 1:] > U[:, :-1]
+    def __init__(self, top, K_J, K_R):
+        self.top, self.K_J, self.K_R, self.barriers = top, K_J, K_R, {}
+        self.gaps, self.k = pole_gaps(top, K_J, K_R), np.arange(len(K_J))
+        self.place, self.B, self.q, self.U = self._on(GRID, GRID[::-1], self.k)
+        self.lowest = self.U.argmin(axis=1)
+        self.theta_p = self._steady()
+        rising = self.U[:, 1:] > self.U[:, :-1]
         several = np.flatnonzero((rising[:, :-1] > rising[:, 1:]).any(axis=1))
         self.barriers = {i: self._barriers(i) for i in several}
-        self.base, self.x = U, 0.0
+        self.base = self.U
         if self.barriers:
-            self.base = self._base(U, grid)
-            over = self.base - U
-            self.z, self.y, self.x = self.z + self.rows.z1 * over, self.y + self.rows.y1 * over, self.rows.x1 * over
+            _, _, self.q, self.base = self._on(GRID, GRID[::-1], self.k)
 
     def energy(self, e):
         """E from 2E'."""
         return (e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
 
-    def _steady(self, U):
-        """theta_p: the zero of N next to the lowest point of the grid."""
-        top, k, n = self.top, np.arange(len(self.K_J)), len(GRID)
-        j = _clip(self.lowest, 1, n - 2)
-        theta, _ = _vertex(np.array([GRID[j + i] for i in (-1, 0, 1)]), np.array([U[k, j + i] for i in (-1, 0, 1)]))
-        h = 1e-6
-        for _ in range(3):
-            N = self._slope(np.array([theta - h, theta + h]))
-            step = h * (N[0] + N[1]) / (N[1] - N[0])
-            theta = theta - step
-            if not np.any(np.abs(step) > 1e-7):
-                break
-        edge = (self.lowest < 4) | (self.lowest > n - 5)
-        astray = ~(np.abs(step) < 1e-9) | ~(np.abs(theta - GRID[j]) <= GRID[j + 1] - GRID[j - 1])
-        for gap, pole, a, K in zip(self.gaps, (0, np.pi), (top.a, -top.a), (self.K_R, -self.K_R), strict=True):
-            # upright at K_J(P): U = 2 a v + f2^2 C^2 v/2 there
-            still = 2 * a + (top.I1 + (1 - a) ** 2) * pole_slope(0.0, a, K, top) ** 2 / 2 > 0
-            at = still & (gap == 0) & (np.abs(GRID[self.lowest] - pole) < 0.01)
-            theta[at], edge[at], astray[at] = pole, False, False
-        for i in np.flatnonzero(edge | astray):
-            found = [x for x in find_stations(ExactCurve.of(top, self.K_J[i], self.K_R)) if x.bottom]
-            theta[i] = angle(max(found, key=lambda x: x.gap).c)
-        return theta
+    def _gap(self, north, k):
+        return np.where(north, self.gaps[0][k], self.gaps[1][k])
 
-    def _slope(self, theta):
-        c, s2 = np.cos(theta), np.sin(theta) ** 2
-        B = self.K_J - self.top.I3 / self.top.I1 * (c - self.top.a) * self.K_R / np.sqrt(f3_2(c, s2, self.top))
-        return well_slope(c, s2, B, -bracket_slope(c, s2, self.top, self.K_R), self.top)
+    def _on(self, theta, phi, k):
+        """Place, B, and the q and 2E' that first reach each theta, on grids (n,) or (k, n), for K_J of indices k."""
+        x, north = _distance(theta, phi)
+        p = _place(x, north, self.top, self.K_R)
+        B = self._gap(north, k[:, None]) + p.x * p.slope
+        q = B * B / p.s2
+        U = p.f2 * q + p.height
+        if not self.barriers:
+            return p, B, q, U
+        base, theta = U.copy(), np.broadcast_to(theta, U.shape)
+        for row, i in enumerate(k):
+            for place, height in self.barriers.get(i, ()):
+                beyond = (theta[row] - place) * (self.theta_p[i] - place) < 0
+                base[row] = np.where(beyond, np.maximum(base[row], height), base[row])
+        return p, B, q + (base - U) / p.f1, base
+
+    def _bracket(self, x, north, d):
+        """B, f2^2, s^2, and the top and K_R as the nearer pole sees them."""
+        sign = np.where(north, 1.0, -1.0)
+        t, K = ExactTop(sign * self.top.a, self.top.I1, self.top.I3), sign * self.K_R
+        s2 = x * (2 - x)
+        return d + x * pole_slope(x, t.a, K, t), f2_2(1 - x, s2, t), s2, t, K
+
+    def _steady(self):
+        """theta_p: the zero of N next to the lowest point of the grid."""
+        j = _clip(self.lowest, _REACH, _CELLS - _REACH)
+        t, _ = _least(1 / (self.U[self.k, self.lowest] - 1 - self.U[self.k, j + _STENCIL]))
+        t = j + np.where(np.abs(t) < _REACH, t, 0)
+        x, north = _distance(_mapped(t), _mapped(_CELLS - t))
+        d = self._gap(north, self.k)
+        for _ in range(30):
+            z = x + h * 1j
+            B, _, s2, t, K = self._bracket(z, north, d)
+            N = well_slope(1 - z, s2, B, -bracket_slope(1 - z, s2, t, K), t)
+            step = N.real / N.imag * h
+            x = x - step
+            if not np.any(np.abs(step) > 1e-8 * x):
+                break
+        theta = _angle(x, north)
+        astray = ~(np.abs(step) <= 1e-8 * x) | ~(np.abs(theta - GRID[self.lowest]) <= GRID[j + 1] - GRID[j - 1])
+        astray |= (self.lowest == 0) | (self.lowest == _CELLS)
+        for gap, pole, sign in zip(self.gaps, (0, np.pi), (1, -1), strict=True):
+            if np.any(gap == 0):  # upright at K_J(P): U = 2 a v + f2^2 C^2 v/2 there
+                a, C = sign * self.top.a, pole_slope(0.0, sign * self.top.a, sign * self.K_R, self.top)
+                still = 2 * a + (self.top.I1 + (1 - a) ** 2) * C**2 / 2 > 0
+                at = still & (gap == 0) & (np.abs(GRID[self.lowest] - pole) < 0.01)
+                theta[at], astray[at] = pole, False
+        for i in np.flatnonzero(astray):
+            found = [s for s in find_stations(ExactCurve.of(self.top, self.K_J[i], self.K_R)) if s.bottom]
+            theta[i] = angle(max(found, key=lambda s: s.gap).c)
+        return theta
 
     def _barriers(self, i):
         """(theta, U) of the largest U that separate the wells of one K_J."""
         stations = find_stations(ExactCurve.of(self.top, self.K_J[i], self.K_R))
-        tops = [x for x in stations if not x.bottom and x.gap.is_finite()]
-        return [(angle(x.c), -float(x.gap)) for x in tops]
+        return [(angle(s.c), -float(s.gap)) for s in stations if not s.bottom and s.gap.is_finite()]
 
-    def _base(self, U, theta, k=None):
-        """The least energy with which each theta is reached: the largest U between it and theta_p.
+    def columns(self, limits):
+        """The columns of Tielines for each of the limits."""
+        pairs = [(1.0, 0.0) if mu is None else (float(mu), 1.0) for mu in limits]
+        e, verge, normal, broken, U_p = self._limits(pairs)
+        ends = self._ends(e)
+        for i, (_, n) in enumerate(pairs):
+            by = np.where((normal[i] > 1e-9) & (n > 0), "slip", "lift-off")
+            by = np.where(broken[i], "no motion", np.where(np.isinf(e[i]), "nothing", by))
+            yield self.K_J, self.energy(e[i]), *ends[i], verge[i], by, self.theta_p, self.energy(U_p)
 
-        U (k, n) on the grid, or U and theta (..., i) for the K_J of the indices k (i,).
-        """
-        base, theta = U.copy(), np.broadcast_to(theta, U.shape)
-        for i, tops in self.barriers.items():
-            at = (i,) if k is None else (..., k == i)
-            for place, height in tops:
-                beyond = (theta[at] - place) * (self.theta_p[i] - place) < 0
-                base[at] = np.where(beyond, np.maximum(base[at], height), base[at])
-        return base
-
-    def _forces(self, theta, k):
-        """Rows, base, and F_z, F_y and F_x^2 there, at theta (..., i) for the K_J of the indices k (i,)."""
-        rows = _rows(theta, self.top, self.K_R)
-        U, z, y = _at_rest(rows, self.K_J[k])
-        base, x = U, 0.0
-        if self.barriers:
-            base = self._base(U, theta, k)
-            over = base - U
-            z, y, x = z + rows.z1 * over, y + rows.y1 * over, rows.x1 * over
-        return rows, base, z, y, x
-
-    def _span(self, e):
-        """First and last point of the grid on the trajectories of energies e (k,); the first after the last where none is."""
-        inside = self.base <= e[:, None]
-        first, last = inside.argmax(axis=1), len(self.grid) - 1 - inside[:, ::-1].argmax(axis=1)
-        return first, np.where(inside[np.arange(len(e)), first], last, -1)
-
-    def narrow(self, e):
-        """Where a trajectory of energy e (limits, k) has fewer than six points of the grid."""
-        return np.isfinite(e) & [last - first < 5 for first, last in map(self._span, e)]
-
-    def limits(self, limits):
-        """2E' of each limit, the theta where it is reached, whether by slipping, and whether at rest already: (limits, k)."""
-        count, n = len(self.K_J), len(self.grid)
-        lift = _lift(self.rows, self.z)
-        j, stencil = [], []
-        for mu in limits:
-            excess = lift if mu is None else np.minimum(lift, _slip(self.rows, self.z, self.y, self.x, mu))
-            first = np.maximum(excess, 0)
-            first += self.base
-            least = _clip(first.argmin(axis=1), 1, n - 2)
-            j.append(least)
-            stencil.append(excess[np.arange(count), [least - 1, least, least + 1]])
-        k, j = np.tile(np.arange(count), len(limits)), np.concatenate(j)
-        mu = np.repeat([np.inf if mu is None else mu for mu in limits], count)
-        excess = np.concatenate(stencil, axis=1)
-        at = np.array([j - 1, j, j + 1])
-        theta = self.grid[at]
-        base, margin = self.base[k, at], _margin(self.z[k, at], self.y[k, at], self.x[k, at] if self.barriers else 0.0, mu)
-        over = excess < 0
-        e_corner, corner, normal = self._corner(theta, over, margin, k, mu)
-        e_inside, inside, slipping = self._inside(theta, base + excess, over, np.isfinite(e_corner), corner, k, mu)
-        at_corner = e_corner < e_inside
-        e, verge = np.where(at_corner, (e_corner, corner), (e_inside, inside))
-        missed = ~np.isfinite(e) & np.isfinite(base[1] + np.maximum(excess[1], 0))
-        e, verge = np.where(missed, base[1] + np.maximum(excess[1], 0), e), np.where(missed, theta[1], verge)
-        U, z, y = (np.tile(part, len(limits)) for part in self.at_p)
-        friction = np.isfinite(mu)
-        broken = (z < 0) | (friction & (np.abs(y) > np.where(friction, mu, 0) * z + 1e-12))
-        slips = friction & np.where(at_corner, normal > 1e-9, slipping)
-        return np.where(broken, np.nan, e), verge, slips, broken
-
-    def _corner(self, theta, over, margin, k, mu):
-        """Where between three points of the grid the limit is reached at the turning point itself: energy, theta, F_z.
-
-        over (3, i): whether the limit is broken there at once, margin (3, i) how far it is; inf where there is no corner.
-        """
-        left = over[0] != over[1]
-        i = np.flatnonzero(left | (over[1] != over[2]))
-        e, zero, normal = np.full(len(k), np.inf), theta[1].copy(), np.zeros(len(k))
-        if not i.size:
-            return e, zero, normal
-        low, high = np.where(left, theta[:2], theta[1:])[:, i]
-        # inverse quadratic interpolation on the last three points, kept in the bracket
-        xs, fs = [*theta[:, i]], [*margin[:, i]]
-        for _ in range(10):
-            (x0, x1, x2), (f0, f1, f2) = xs, fs
-            d0, d1, d2 = f0 - f1, f1 - f2, f0 - f2
-            x = _clip(x2 + f2 * (f1 / d0 * ((x1 - x2) / d1 - (x0 - x2) / d2) - (x1 - x2) / d1), low, high)
-            x = np.where(np.isfinite(x), x, x2)
-            _, base, z, y, square = self._forces(x, k[i])
-            xs, fs = [x1, x2, x], [f1, f2, _margin(z, y, square, mu[i])]
-            if np.abs(x - x2).max() < 1e-7:
+    def _limits(self, pairs):
+        """2E' of the limits, theta and F_z where they are reached, whether broken at rest (limits, k); U there (k,)."""
+        found = []
+        for mu, n in pairs:
+            end, margin = _interval(self.place, self.B, self.q, mu, n)
+            first = np.where(margin < 0, self.base, np.where(end >= self.base, end, np.inf))
+            j = _clip(first.argmin(axis=1), 1, _CELLS - 1)
+            i = _clip(j, _REACH, _CELLS - _REACH)
+            found.append((j, i, end[self.k, i + _STENCIL], margin[self.k, i + _STENCIL], first))
+        firsts = [f[-1] for f in found]
+        j, i, end, margin = (np.concatenate(parts, axis=-1) for parts in list(zip(*found, strict=True))[:4])
+        count, shape = len(j), (len(pairs), len(self.k))
+        k, r, at = np.tile(self.k, len(pairs)), np.arange(count), j - i + _REACH
+        # the limit is first broken at a turning point, where the margin there is zero,
+        over = margin < 0
+        left, right = over[at - 1, r] != over[at, r], over[at, r] != over[at + 1, r]
+        low = at - left
+        high = low + 1
+        T = self.place.s2[i + _STENCIL] * margin
+        T_low, T_high = T[low, r], T[high, r]
+        share = T_low / (T_low - T_high)
+        share = np.where(low + i == _REACH, np.sqrt(share), share)
+        share = np.where(high + i == _REACH + _CELLS, 1 - np.sqrt(1 - share), share)
+        corner, _ = _zero(_FIT @ T, low - _REACH + share)
+        outward = over[high, r]  # the limit is broken on the side of larger theta
+        # or within the trajectory, where the energy of the interval's end is least: its reciprocal is smooth also where
+        # the interval loses its end
+        floor = np.tile(self.U[self.k, self.lowest], len(pairs)) - 1
+        y = 1 / (end - floor)
+        inside, curve = _least(-y)
+        beyond = np.where(outward, high, low)
+        past = y[beyond, r] * (self.U[k, i + beyond - _REACH] - floor) < 1  # broken from below
+        before = (curve > 0) & ((inside < corner) == outward) & (np.abs(inside - (j - i)) <= 1)
+        before &= (y[at - 1, r] > 0) & (y[at + 1, r] > 0)
+        at_corner = (left | right) & (past | ~before)
+        t = i + _clip(np.where(at_corner, corner, inside), j - i - 1, j - i + 1)
+        # exactly, by Newton's step, with the steady precessions in the same arrays
+        x, north = _distance(np.append(_mapped(t), self.theta_p), np.append(_mapped(_CELLS - t), np.pi - self.theta_p))
+        per_t = np.sin(_mapped(t)) * np.pi / _CELLS * (1 - 0.9 * np.cos(2 * np.pi * t / _CELLS))  # |dx/dt|
+        mu, n = np.repeat(np.transpose([*pairs, (1.0, 0.0)]), shape[1], axis=1)
+        d, tilt = self._gap(north, np.append(k, self.k)), per_t**2 * y[at, r] ** 2 / curve
+        step = np.inf
+        for _ in range(4):
+            p = _place(x + h * 1j, north, self.top, self.K_R)
+            B = d + p.x * p.slope
+            q = B * B / np.maximum(p.s2, 1e-200)
+            U = p.f2 * q + p.height
+            end, margin = _interval(p, B, q, mu, n)
+            M, (end_, U_) = (p.s2 * margin)[:count], (z[:count] for z in (end, U))
+            rise = np.where(at_corner, U_.imag, end_.imag / 2) / h
+            before, step = step, np.where(at_corner, M.real / M.imag * h, end_.imag / h * tilt)
+            e = np.where(at_corner, U_.real, end_.real) - rise * step
+            step = np.where(np.abs(step) < np.abs(before) / 2, step / (1 - step / before), step)  # as the last one went
+            x[:count] -= step
+            off = np.abs(step) / np.minimum(per_t, x[:count])
+            if not np.any(off > 1e-5):
                 break
-        e[i], zero[i], normal[i] = base, x, z
-        return e, zero, normal
+        ahead = end_.real - U_.real
+        below = (n == 0) & (p.z1.real > 0)  # the interval is entered there with more energy, not left
+        below = below[:count] | ~(np.abs(ahead) < 1e-3 * (1 + np.abs(U_.real)))
+        falling = (end_.imag < 0) == north[:count]
+        good = np.where(at_corner, ~(left & right) & (below | (falling == outward)), (curve > 0) & (ahead > 0))
+        sure = (good & (off <= 1e-5) & np.isfinite(e)).reshape(shape)
+        sure[:, list(self.barriers)] = False
+        e, verge = np.where(sure, e.reshape(shape), np.inf), _angle(x, north)[:count].reshape(shape)
+        normal = _normal(p, B, np.append(e, U.real[count:]))[:count].real.reshape(shape)
+        # at rest
+        p, d = Place(*(np.real(part)[..., count:] if np.ndim(part) else part for part in p)), d[count:]
+        w2 = np.where(d == 0, 0.0, d / np.sqrt(p.s2)) + np.sqrt(p.x / (2 - p.x)) * p.slope
+        F_y = np.sqrt(p.s2) * (p.A0 + p.A1 * w2**2) + w2 * p.Y
+        F_z = p.zc + p.zb * np.sqrt(p.s2) * w2 + p.z1 * w2**2
+        broken = np.array([(F_z < 0) | (n * np.abs(F_y) > mu * F_z + 1e-12) for mu, n in pairs])
+        for which, first in enumerate(firsts):
+            # all that is left in doubt, and what may be lower between points of the grid than at them
+            middle = first[:, 1:-1]
+            before, after = first[:, :-2] - middle, first[:, 2:] - middle
+            doubt = (before >= 0) & (after >= 0) & (middle - np.maximum(before, after) < e[which][:, None])
+            doubt[self.k, found[which][0] - 1] = ~sure[which]
+            doubt &= np.isfinite(middle) & ~broken[which][:, None]
+            rows, cells = np.nonzero(doubt)
+            if len(rows):
+                self._search(pairs[which], rows, cells + 1, e[which], verge[which], normal[which])
+        verge[~np.isfinite(e) | broken] = np.nan
+        return np.where(broken, np.nan, e), verge, normal, broken, p.height + p.f2 * w2**2
 
-    def _inside(self, theta, first, over, has_corner, corner, k, mu):
-        """Where the energy that breaks the limit is least between the three points: energy, theta, whether it slips there."""
-        middle, _ = _vertex(theta, first)
-        # beyond a corner the limit is broken at once: the least inside lies on the allowed side
-        before, after = has_corner & (corner < theta[1]), has_corner & (corner > theta[1])
-        low = np.where((before & over[0]) | (after & over[1]), corner, theta[0])
-        high = np.where((after & over[2]) | (before & over[1]), corner, theta[2])
-        middle = np.where(np.isfinite(middle), middle, theta[1])
-        h = (theta[2] - theta[0]) / 200
-        i = np.flatnonzero((low < high) & np.isfinite(first[1]))
-        e, place, slipping = np.full(len(k), np.inf), theta[1].copy(), np.zeros(len(k), bool)
-        for _ in range(6):
-            if not i.size:
+    def _search(self, pair, k, j, e, verge, normal):
+        """Closer and closer grids about points j of the grid, for K_J of indices k: writes what is lower than e."""
+        for theta, (p, B, q, base), closer in self._closer(k, j - 1, j + 1):
+            end, margin = _interval(p, B, q, *pair)
+            first = np.where(margin < 0, base, np.where(end >= base, end, np.inf))
+            at = first.argmin(axis=1)
+            closer(np.maximum(at - 1, 0), np.minimum(at + 1, theta.shape[1] - 1))
+        r = np.arange(len(k))
+        least, F_z = first[r, at], _normal(p, B, first)[r, at]
+        for i, value, place, z in zip(k, least, theta[r, at], F_z, strict=True):
+            if value < e[i]:
+                e[i], verge[i], normal[i] = value, place, z
+
+    def _closer(self, k, low, high):
+        """Grids that close in, for K_J of indices k, from points low to high of the grid."""
+        share, r = np.arange(33) / 32, np.arange(len(k))
+        ends = [np.array([grid[low], grid[high]]) for grid in (GRID, GRID[::-1])]
+
+        def closer(low, high):
+            ends[:] = [np.array([grid[r, low], grid[r, high]]) for grid in (theta, phi)]
+
+        for _ in range(20):
+            theta, phi = (low[:, None] + (high - low)[:, None] * share for low, high in ends)
+            yield theta, self._on(theta, phi, k), closer
+            if all((np.abs(high - low) <= 1e-16 * np.minimum(*map(np.max, ends))).all() for low, high in ends):
                 break
-            centre = _clip(middle[i], low[i] + h[i], high[i] - h[i])
-            points = np.array([centre - h[i], centre, centre + h[i]])
-            values, slips = self._first(points, k[i], mu[i])
-            slipping[i] = slips[1]
-            vertex, least = _vertex(points, values)
-            good = np.abs(vertex - centre) <= 2 * h[i]
-            lowest = values.argmin(axis=0), np.arange(len(i))
-            e[i] = np.where(good, least, values[lowest])
-            place[i] = np.where(good, vertex, points[lowest])
-            pinned = ~good & ((place[i] <= low[i] + 2 * h[i]) | (place[i] >= high[i] - 2 * h[i]))
-            middle[i] = np.where(np.isfinite(vertex) & (np.abs(vertex - centre) < 50 * h[i]), vertex, points[lowest])
-            i = i[~good & ~pinned]
-        inside = (place > low) & (place < high)
-        return np.where(inside, e, np.inf), place, slipping
 
-    def _first(self, theta, k, mu):
-        """The first energy that breaks the limit, for theta (j, i), and whether it is by slipping."""
-        rows, base, z, y, x = self._forces(theta, k)
-        lift, friction = _lift(rows, z), np.isfinite(mu)
-        slip = np.where(friction, _slip(rows, z, y, x, np.where(friction, mu, 0)), np.inf)
-        return base + np.minimum(lift, slip), slip < lift
-
-    def ends(self, e):
-        """theta at the turning points of the trajectories of energies e (limits, k) in these wells: (2, limits, k)."""
-        n, k, theta = len(self.grid), np.arange(e.shape[1]), []
-        curvature = self.base[k, self.lowest] - self.U_p
-        wide = np.abs(self.grid[self.lowest] - self.theta_p) / np.sqrt(np.maximum(curvature, 0))
-        for energy in e:
-            first, last = self._span(energy)
-            for j, step in ((first, -1), (last, 1)):
-                beyond = _clip(j + step, 0, n - 1)
-                share = (energy - self.base[k, j]) / (self.base[k, beyond] - self.base[k, j])
-                guess = self.grid[j] + np.where((share >= 0) & (share <= 1), share, 0) * (self.grid[beyond] - self.grid[j])
-                near = wide * np.sqrt(np.maximum(energy - self.U_p, 0))
-                few = last - first < 4
-                guess = np.where(few & np.isfinite(near), self.theta_p + step * near, guess)
-                theta.append(guess)
-        theta = np.array(theta).reshape(len(e), 2, -1).swapaxes(0, 1)
-        theta = self._turning(theta, e)
-        theta[:, np.isinf(e)] = np.array([[0.0], [np.pi]])
-        doubtful = ~(theta[0] <= self.theta_p + 1e-9) | ~(theta[1] >= self.theta_p - 1e-9)
-        doubtful[:, list(self.barriers)] = True
-        for which, i in zip(*np.nonzero(doubtful & np.isfinite(e)), strict=True):
-            theta[:, which, i] = self._exact_ends(i, e[which, i])
+    def _ends(self, e):
+        """theta at both turning points of the trajectories of energies e (limits, k) in these wells: (limits, 2, k)."""
+        k, energy, low, top = self.k, e[:, None], [], self.top
+        for one in e:
+            inside = self.base <= one[:, None]
+            low.append((inside.argmax(axis=1), _CELLS - inside[:, ::-1].argmax(axis=1)))
+        within = np.array(low)
+        none = within[:, 1] - within[:, 0] > np.where(self.base[k, within[:, 0]] <= e, _CELLS, 0)
+        beyond = _clip(within + np.array([[-1], [1]]), 0, _CELLS)
+        north = within <= _CELLS // 2
+        x_1, x_2 = (2 * np.sin(GRID[np.where(north, j, _CELLS - j)] / 2) ** 2 for j in (within, beyond))
+        D_1, D_2 = (self.place.s2[j] * (energy - self.U[k, j]) for j in (within, beyond))
+        share = np.where(within == beyond, 0, D_1 / (D_1 - D_2))
+        x, d = x_1 + (x_2 - x_1) * share, self._gap(north, k)
+        for _ in range(12):
+            z = x + h * 1j
+            B, f2, s2, _, _ = self._bracket(z, north, d)
+            D = s2 * (energy - 2 * top.a * np.where(north, z, 2 - z)) - f2 * B * B
+            step = D.real / D.imag * h
+            x = _clip(x - step, 0, 2)
+            if not np.any(np.abs(step) > 1e-7 * x):
+                break
+        theta = _angle(x, north)
+        theta[:, 0][np.isinf(e)], theta[:, 1][np.isinf(e)] = 0.0, np.pi
+        # where the grid has no point within, or a barrier: closer and closer to the first point too high beyond theta_p
+        for side, sign in enumerate((1, -1)):
+            gone = sign * (theta[:, side] - self.theta_p) > 0
+            doubt = np.isfinite(e) & (gone | none | np.isnan(theta[:, side]))
+            doubt[:, list(self.barriers)] = np.isfinite(e[:, list(self.barriers)])
+            which, rows = np.nonzero(doubt)
+            if len(rows):
+                theta[which, side, rows] = self._end(rows, e[which, rows], sign)
         return theta
 
-    def _turning(self, theta, e):
-        """Newton's steps to the zeros of D = s^2 (e - U) in the distance of cos(theta) to the nearer pole."""
-        top = self.top
-        v, m = versines(theta)
-        north = theta < np.pi / 2
-        x, a, K = np.where(north, v, m), np.where(north, top.a, -top.a), np.where(north, self.K_R, -self.K_R)
-        delta, gamma, d = top.I1 / top.I3, top.I3 / top.I1, np.where(north, *self.gaps)
-        lift = np.where(north, e, e - 4 * top.a)  # e less 2a(1 - c) at the pole
-        for _ in range(12):
-            c, s2 = 1 - x, x * (2 - x)
-            p = c - a
-            B, f2, f3_2 = d + x * pole_slope(x, a, K, top), top.I1 + delta * s2 + p * p, top.I3 + s2 + gamma * p * p
-            rest = lift - 2 * a * x
-            dB, df2 = -gamma * K * (top.I3 + 1 - a * c) / (f3_2 * np.sqrt(f3_2)), 2 * (p - delta * c)
-            D = s2 * rest - f2 * B * B
-            slope = 2 * a * s2 - 2 * c * rest - B * (df2 * B + 2 * f2 * dB)  # dD/dc
-            x, before = _clip(x + D / slope, 0, 2), x
-            if not np.any(np.abs(x - before) > 1e-7 * x):  # Newton's steps: the error left is the square of that
-                break
-        half = np.arctan2(np.sqrt(x), np.sqrt(2 - x))
-        return np.where(north, 2 * half, np.pi - 2 * half)
+    def _end(self, k, e, sign):
+        """The turning point on one side of theta_p (1: inner, -1: outer), for K_J of indices k."""
+        beyond = (sign * (GRID - self.theta_p[k, None]) < 0) & (self.base[k] > e[:, None])
+        low = np.where(sign > 0, _CELLS - beyond[:, ::-1].argmax(axis=1), beyond.argmax(axis=1))
+        high = np.searchsorted(GRID, self.theta_p[k], side="left" if sign > 0 else "right") - (sign < 0)
+        if sign < 0:
+            low, high = high, low
+        for theta, (_, _, _, base), closer in self._closer(k, low, high):
+            allowed = (base <= e[:, None]) | (sign * (theta - self.theta_p[k, None]) >= 0)
+            at = np.where(sign > 0, allowed.argmax(axis=1), theta.shape[1] - allowed[:, ::-1].argmax(axis=1))
+            at = _clip(at, 1, theta.shape[1] - 1)
+            closer(at - 1, at)
+        r = np.arange(len(k))
+        return (theta[r, at - 1] + theta[r, at]) / 2
 
-    def _exact_ends(self, i, e):
-        """As turning_points has them, where the grid leaves doubt."""
-        E = (e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J[i] ** 2) / 2
-        pairs = turning_points(self.top, Constants(self.K_J[i], self.K_R, max(E, self.energy(self.U_p)[i])))
-        return min(pairs, key=lambda p: max(p[0] - self.theta_p[i], self.theta_p[i] - p[1]))
+
+def _normal(p, B, e):
+    """F_z at 2E' = e."""
+    return p.zc + p.zb * B + p.z1 * (e - p.height + p.drop * B * B) / p.f1
 
 
 def _clip(x, low, high):
     return np.minimum(np.maximum(x, low), high)  # np.clip takes ten times as long on arrays this short
-
-
-def _margin(z, y, x, mu):
-    """mu F_z - F_h, or F_z where mu is infinite."""
-    friction = np.isfinite(mu)
-    return np.where(friction, np.where(friction, mu, 0) * z - np.sqrt(y * y + x), z)
-
-
-def _vertex(x, y):
-    """Abscissa and value of the parabola through three points, (3, k) each: nan, inf or a maximum where it has no least."""
-    left, right = x[1] - x[0], x[2] - x[1]
-    slope_left, slope_right = (y[1] - y[0]) / left, (y[2] - y[1]) / right
-    curve = (slope_right - slope_left) / (left + right)
-    slope = slope_left + left * curve
-    step = np.where(curve > 0, -slope / (2 * curve), np.nan)
-    return x[1] + step, y[1] + step * slope / 2
