@@ -38,6 +38,7 @@ from .shapes import (
     rocking_period,
     save_top,
 )
+from .sliding import Coulomb, SmoothedCoulomb, Viscous, slide
 from .solids import Solid, ball, cylinder, frustum, zone
 from .tielines import Tielines, figures, limit_energy, tielines
 from .top import Scales, Top
@@ -49,6 +50,7 @@ __all__ = [
     "BareSphere",
     "Change",
     "Constants",
+    "Coulomb",
     "Lathe",
     "LoadedSphere",
     "Measured",
@@ -59,6 +61,7 @@ __all__ = [
     "Rolling",
     "Scales",
     "Shape",
+    "SmoothedCoulomb",
     "Solid",
     "State",
     "SteadyPrecessions",
@@ -70,6 +73,7 @@ __all__ = [
     "Trajectory",
     "TruncatedSphere",
     "Turned",
+    "Viscous",
     "a_from_rocking",
     "ball",
     "cylinder",
@@ -92,6 +96,7 @@ __all__ = [
     "rocking_period",
     "roll",
     "save_top",
+    "slide",
     "steady_precessions",
     "steady_states",
     "thresholds",

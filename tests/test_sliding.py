@@ -1,0 +1,253 @@
+"""slide() against a rigid body that shares no formula with it, published motions, and what friction must keep."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import sliding_body as sb
+from cases import LOADED, ORDINARY, PAPER
+from rigid_body import euler_quaternion
+
+from tippe_core import (
+    Constants,
+    Coulomb,
+    Rolling,
+    Scales,
+    SmoothedCoulomb,
+    State,
+    Top,
+    TopError,
+    Viscous,
+    outcome,
+    slide,
+    tielines,
+)
+
+S_SCALES = Scales(R=0.02, M=0.02, g=9.82)
+REFERENCE = State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0)
+
+
+def in_space(phi, theta, along_1, along_2, along_3):
+    """Components along 1', 2', 3 (arrays) turned into space components (n, 3)."""
+    s, c, y = np.sin(theta), np.cos(theta), np.stack([-np.sin(phi), np.cos(phi), 0 * phi])
+    x, z = np.stack([np.cos(phi), np.sin(phi), 0 * phi]), np.array([[0.0], [0.0], [1.0]])
+    return (along_1 * x + along_2 * (c * y + s * z) + along_3 * (c * z - s * y)).T
+
+
+def rotated(phi, horizontal):
+    turn = np.exp(1j * phi) * (horizontal[:, 0] + 1j * horizontal[:, 1])
+    return np.stack([turn.real, turn.imag], axis=1)
+
+
+def first_instant(top, state):
+    phi, theta = np.array([state.phi]), np.array([state.theta])
+    omega = in_space(phi, theta, state.theta_dot, state.omega2, state.omega3)[0]
+    q = euler_quaternion(state.phi, state.theta, state.psi).astype(float)
+    flat = rotated(phi, np.array([[state.vx or 0.0, state.vy or 0.0]]))[0]
+    axis = sb.matrix(q)[:, 2]
+    velocity = np.append(flat, np.cross(omega, sb.UP - top.a * axis)[2])
+    return q, omega, velocity, np.array([state.x or 0.0, state.y or 0.0, 1 - top.a * axis[2]])
+
+
+MOTIONS = {
+    "viscous": (LOADED, State(0.1, 0, 0, 4.0), Viscous(0.443)),
+    "smoothed": (PAPER, *REFERENCE),
+    "everything": (PAPER, State(1.2, 0.5, -1.0, 6.0, 0.4, 2.0, 0.3, -0.2, 0.5, -0.7), Viscous(0.2)),
+    "ordinary": (ORDINARY, State(0.3, 0.1, 0.2, 3.0, vx=0.3), SmoothedCoulomb(0.2, 0.1)),
+    "Coulomb, slipping on": (PAPER, State(0.8, 0, 0, 8.0, vx=8.0, vy=9.0), Coulomb(0.2)),
+    "from the pole": (PAPER, State(0.0, 1.0, 0, 6.0, vx=0.1), Viscous(0.3)),
+    "from the inverted pole": (LOADED, State(np.pi, 0.2, 0, 3.0), SmoothedCoulomb(0.3, 0.5)),
+    "no friction": (PAPER, State(0.5, 0.2, 1.0, 5.0, vx=0.4), Viscous(0.0)),
+}
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_against_the_rigid_body(name):
+    top, state, friction = MOTIONS[name]
+    times = np.linspace(2.0, 12.0, 101)
+    motion = sb.integrate(top, lambda u: friction.k(u @ u) * u, *first_instant(top, state), times)
+    moved = slide(top, state, friction, times, rtol=1e-12)
+    assert moved.events == () and set(moved.regime) == {"slip"}
+    q = motion.quaternion / np.linalg.norm(motion.quaternion, axis=1)[:, None]
+    q *= np.sign((q * moved.quaternion).sum(axis=1))[:, None]
+    np.testing.assert_allclose(moved.quaternion, q, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(moved.com, motion.com, rtol=0, atol=1e-8 * max(1, abs(top.a)))
+    omega = in_space(moved.phi, moved.theta, *moved.omega.T)
+    np.testing.assert_allclose(omega, motion.omega, rtol=0, atol=1e-8)
+    axes = np.array([sb.matrix(x)[:, 2] for x in q])
+    body = list(zip(axes, motion.omega, motion.velocity, strict=True))
+    slips = np.array([sb.slip(top, *row) for row in body])[:, :2]
+    np.testing.assert_allclose(rotated(moved.phi, moved.slip), slips, rtol=0, atol=1e-8)
+    N = np.array([sb.accelerations(top, lambda u: friction.k(u @ u) * u, *row)[2] for row in body])
+    np.testing.assert_allclose(moved.force[:, 2], N, rtol=0, atol=1e-7)
+    O = moved.com[:, :2] + top.a * axes[:, :2]
+    np.testing.assert_allclose(moved.contact, O, rtol=0, atol=1e-8 * max(1, abs(top.a)))
+    np.testing.assert_allclose(moved.energy - moved.energy[0], motion.work, rtol=0, atol=1e-8)
+    # the angles make the quaternion, up to its sign, and are continuous
+    for i in range(0, 101, 10):
+        again = euler_quaternion(moved.phi[i], moved.theta[i], moved.psi[i]).astype(float)
+        assert abs(abs(again @ moved.quaternion[i]) - 1) < 1e-12
+    off = np.sin(moved.theta) > 0.05
+    if off.all():
+        assert np.abs(np.diff(moved.phi)).max() < 1.0
+
+
+def test_reference_inversion():
+    """physics.md's smoothed Coulomb top; C_J, the energy and the work of friction over the whole inversion."""
+    times = np.linspace(0, 300, 30001)
+    moved = slide(PAPER, *REFERENCE, times, rtol=1e-12)
+    assert abs(moved.t[np.argmax(moved.theta > np.pi / 2)] - 180) < 2
+    assert np.cos(moved.theta[-1]) == pytest.approx(-0.99947, abs=5e-6)
+    assert moved.omega[-1, 2] == pytest.approx(-7.6113, abs=5e-5)
+    assert np.abs(moved.jellett / moved.jellett[0] - 1).max() < 1e-10
+    assert np.diff(moved.energy).max() < 1e-10
+    assert moved.routh[0] * moved.routh[-1] < 0
+    power = (moved.force[:, :2] * moved.slip).sum(axis=1)
+    h = times[1]
+    work = h * (power.sum() - (power[0] + power[-1]) / 2)
+    work -= h**2 / 12 * (np.gradient(power, h, edge_order=2)[-1] - np.gradient(power, h, edge_order=2)[0])
+    assert moved.energy[-1] - moved.energy[0] == pytest.approx(work, abs=1e-8)
+
+
+def test_results_do_not_depend_on_the_tolerance():
+    """Ten times finer, and after 300 (R/g)^1/2 theta is the same to some 2e4 rtol; so is the time of passing pi/2."""
+    times = np.linspace(0, 300, 3001)
+    ladder = [(rtol, slide(PAPER, *REFERENCE, times, rtol=rtol)) for rtol in (1e-8, 1e-10, 1e-11, 1e-12)]
+    passing = [np.interp(0, -np.cos(moved.theta[1700:1900]), times[1700:1900]) for _, moved in ladder]
+    for (rtol, moved), (_, finer) in pairwise(ladder):
+        assert np.abs(moved.theta - finer.theta).max() < 1e5 * rtol
+    assert np.ptp(passing) < 1e-3 and np.ptp(passing[1:]) < 1e-5
+    default = slide(PAPER, *REFERENCE, times)
+    assert np.abs(default.jellett / default.jellett[0] - 1).max() < 1e-8
+
+
+@pytest.mark.parametrize(("rad_per_s", "end"), [(25, 0.0), (60, 1.90888), (90, np.pi)])
+def test_the_three_regimes_of_S(rad_per_s, end):
+    top, unit = LOADED, S_SCALES
+    state, times = State(0.1, 0, 0, rad_per_s / unit.angular_velocity), np.linspace(0, 25 / unit.time, 501)
+    moved = slide(top, state, Viscous(1.0 * unit.velocity), times)
+    assert moved.theta[-1] == pytest.approx(end, abs=0.003)
+    assert outcome(top, state).theta == pytest.approx(end, abs=0.003)
+    free = slide(top, state, Viscous(0.0), times)
+    assert free.theta.max() < np.pi / 2
+    np.testing.assert_allclose(free.omega[:, 2], free.omega[0, 2], rtol=1e-8)
+
+
+GROUPS = [LOADED, Top(a=0.1, I1=0.5, I3=0.4), Top(a=0.1, I1=0.3, I3=0.45), Top(a=-0.3, I1=0.4, I3=0.5)]
+
+
+@pytest.mark.parametrize("top", GROUPS)
+@pytest.mark.parametrize("theta", [0.1, 2.0])
+@pytest.mark.parametrize("spin", [0.5, 1.0, 2.0, 4.0])
+def test_outcome_is_what_viscous_friction_comes_to(top, spin, theta):
+    """Weak friction, for it settles sooner than one that hardly lets the top slip."""
+    state = State(theta, 0, 0, spin)
+    said = outcome(top, state)
+    if said.certain:
+        moved = slide(top, state, Viscous(0.015), np.array([0.0, 3000.0]), rtol=1e-7)
+        assert moved.theta[-1] == pytest.approx(said.theta, abs=0.02)
+
+
+# ---- stick and slip ----
+
+
+def rolling_start(K_J, share):
+    """A State that rolls at first; its energy above the steady precession's is share times the slip limit's."""
+    limit = tielines(PAPER, K_J, 10.0, 0.5)
+    steady, most = float(np.ravel(limit.E_steady)[0]), float(np.ravel(limit.E)[0])
+    rolling = Rolling(PAPER, Constants(K_J, 10.0, steady + share * (most - steady)))
+    at = rolling(np.array([0.0, 0.05 * rolling.period]))
+    theta, (w1, w2, w3) = at.theta[1], at.omega[1]
+    c, s = np.cos(theta), np.sin(theta)
+    return State(theta, w1, w2, w3, vx=w2 * (c - PAPER.a) - w3 * s, vy=-w1 * (1 - PAPER.a * c))
+
+
+STICK_SLIP = [(7.0, 1.3, Coulomb(0.3, 0.5)), (7.0, 1.3, Coulomb(0.5)), (5.0, 1.02, Coulomb(0.49, 0.5)),
+              (8.0, 1.3, Coulomb(0.5)), (2.0, 1.02, Coulomb(0.3, 0.5))]  # fmt: skip
+
+
+@pytest.mark.parametrize(("K_J", "share", "friction"), STICK_SLIP)
+def test_sticking_and_slipping(K_J, share, friction):
+    times = np.linspace(0, 2, 2001)
+    moved = slide(PAPER, rolling_start(K_J, share), friction, times, rtol=1e-11)
+    finer = slide(PAPER, rolling_start(K_J, share), friction, times, rtol=1e-12)
+    assert [what for _, what in moved.events[:4]] == ["slips", "sticks", "slips", "sticks"]
+    np.testing.assert_allclose(*([t for t, _ in m.events] for m in (moved, finer)), rtol=0, atol=1e-9)
+    rolls = moved.regime == "roll"
+    F_h, F_z = np.hypot(*moved.force[:, :2].T), moved.force[:, 2]
+    assert np.all(F_h[rolls] <= friction.mu_s * F_z[rolls] * (1 + 1e-9))
+    np.testing.assert_array_equal(moved.slip[rolls], 0)
+    fast = np.hypot(*moved.slip.T) > 1e-6
+    np.testing.assert_allclose(F_h[~rolls], friction.mu_k * F_z[~rolls], rtol=1e-9)
+    u, F = moved.slip[fast], moved.force[fast, :2]
+    assert np.all((u * F).sum(axis=1) < 0)
+    assert np.abs(u[:, 0] * F[:, 1] - u[:, 1] * F[:, 0]).max() < 1e-9
+    assert np.diff(moved.energy).max() < 1e-10
+    assert np.abs(moved.jellett / moved.jellett[0] - 1).max() < 1e-10
+    assert np.ptp(moved.routh[: np.argmin(rolls)]) < 1e-12
+    assert np.abs(np.diff(moved.quaternion, axis=0)).max() < 0.02
+    for t, what in moved.events:
+        around = np.searchsorted(moved.t, t) + np.array([-1, 0])
+        assert list(moved.regime[around]) == (["roll", "slip"] if what == "slips" else ["slip", "roll"])
+
+
+def test_equal_coefficients_are_the_limit_of_smoothed_friction():
+    """Another law, ever steeper at zero slip, that knows no events: the distance falls in proportion to eps."""
+    state, times = rolling_start(7.0, 1.3), np.linspace(0, 2, 201)
+    moved = slide(PAPER, state, Coulomb(0.5), times, rtol=1e-11)
+    distance = [np.abs(slide(PAPER, state, SmoothedCoulomb(0.5, eps), times, rtol=1e-11).quaternion
+                       - moved.quaternion).max() for eps in (1e-2, 1e-3, 1e-4)]  # fmt: skip
+    assert distance[2] < 1e-3
+    assert distance[1] < distance[0] / 5 and distance[2] < distance[1] / 5
+
+
+def test_coulomb_with_stick_is_soon_caught_rolling_and_never_flips():
+    for friction in (Coulomb(0.3), Coulomb(0.3, 0.4)):
+        moved = slide(PAPER, REFERENCE[0], friction, np.linspace(0, 300, 3001))
+        assert [what for _, what in moved.events] == ["sticks"] and moved.events[0][0] < 1
+        assert moved.theta.max() < 0.2 and np.all(moved.omega[:, 2] > 0)
+
+
+def test_a_start_that_rolls_is_the_exact_rolling_motion():
+    times = np.linspace(1, 20, 200)
+    state = rolling_start(7.0, 0.5)
+    moved = slide(PAPER, state, Coulomb(0.5), times)
+    rolled = Rolling(PAPER, None, state)(times)
+    assert moved.events == () and set(moved.regime) == {"roll"}
+    for name in ("quaternion", "contact", "com", "omega", "force", "phi", "psi"):
+        expected = getattr(rolled, name).copy()
+        if name in ("com", "contact"):  # roll() counts from the contact point, slide() from G
+            expected[:, :2] -= rolled.com[0, :2]
+        np.testing.assert_allclose(getattr(moved, name), expected, rtol=0, atol=1e-10)
+
+
+def test_lift_off_ends_the_motion():
+    state = State(0.8, 9.0, 0, 3.0)
+    times = np.linspace(0, 5, 5001)
+    moved = slide(PAPER, state, Viscous(0.3), times, rtol=1e-11)
+    (t, what), = moved.events
+    assert what == "lifts off" and moved.t[-1] <= t < moved.t[-1] + 1.001e-3
+    assert moved.force[:, 2].min() > 0 and moved.force[-1, 2] < 0.02
+    motion = sb.integrate(PAPER, lambda u: 0.3 * u, *first_instant(PAPER, state), np.array([0.0, t]))
+    axis = sb.matrix(motion.quaternion[-1])[:, 2]
+    N = sb.accelerations(PAPER, lambda u: 0.3 * u, axis, motion.omega[-1], motion.velocity[-1])[2]
+    assert abs(N) < 1e-7
+
+
+@pytest.mark.parametrize(("name", "call"), [
+    ("mu_k", lambda: Coulomb(-0.1)),
+    ("mu_k", lambda: Coulomb(0)),
+    ("mu_s", lambda: Coulomb(0.3, 0.2)),
+    ("gamma", lambda: Viscous(-1)),
+    ("eps", lambda: SmoothedCoulomb(0.3, 0)),
+    ("mu", lambda: SmoothedCoulomb(np.nan, 1)),
+    ("state", lambda: slide(PAPER, 1, Viscous(1), [0, 1])),
+    ("friction", lambda: slide(PAPER, REFERENCE[0], 0.3, [0, 1])),
+    ("times", lambda: slide(PAPER, *REFERENCE, [1, 0])),
+    ("rtol", lambda: slide(PAPER, *REFERENCE, [0, 1], rtol=0)),
+    ("mu_k", lambda: slide(ORDINARY, State(1.0, 0, 0, 1.0), Coulomb(9.0), [0, 1])),
+])  # fmt: skip
+def test_bad_input_is_named(name, call):
+    with pytest.raises(TopError) as caught:
+        call()
+    assert caught.value.name == name

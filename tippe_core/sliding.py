@@ -1,0 +1,490 @@
+"""Motion with friction at the contact point: what turns a tippe top over.
+
+Newton and Euler in space axes, r = z - a e from the contact point to G, e along axis 3, L about G, v of G:
+
+    e' = w x e ,   L' = -r x F ,   v' = F - z ,   w = L/I1 + (1/I3 - 1/I1)(L . e) e ,
+    slip  u = v - w x r ,   F = F_z (z - k u) ,   k(|u|) the friction law.
+
+The top stays on the table, F_z = 1 - a e_z'', which is linear in F_z:
+
+    F_z {1 + (a/I1) [a s^2 - r_z k (u . e)]} = 1 - a [L_z (L . e) - e_z L^2]/I1^2 .
+
+No Euler angle: the orientation is that of a frame that has e as third axis and does not turn about it (quaternion p),
+and the angle chi by which the body has turned in it, chi' = w3. Both are smooth through theta = 0 and pi.
+
+Coulomb's friction has no direction at u = 0. So with it the unknowns are log|u| and the direction beta of u in place of
+v, and the motion is followed in tau, where dt = dtau |u|/(|u| + SLOW): on the way to sticking and out of it |u| falls
+or grows exponentially in tau and beta is smooth. That is a change of variables, not of the law. With the smooth laws
+tau = t.
+"""
+
+from dataclasses import dataclass
+from math import cos, exp, isfinite, log, sin
+
+import numpy as np
+from scipy.integrate import LSODA
+from scipy.optimize import brentq
+
+from .constants import State, f3_2, versines
+from .errors import TopError, finite
+from .forces import contact_force
+from .rolling import Rolling
+from .trajectory import Trajectory, checked_times
+
+SLOW, STILL = 0.01, 1e-11  # (gR)^1/2; from STILL to 0 is less than the 1e-9 to which events are located
+
+LOG_STILL = log(STILL)
+
+
+# ---- friction laws: k(u^2), with F_h = -k F_z u ----
+
+
+@dataclass(frozen=True)
+class Coulomb:
+    """F_h = -mu_k F_z u/|u| where the top slips; where it does not, what keeps it rolling, up to mu_s F_z.
+
+    mu_s >= mu_k > 0; mu_s = mu_k where it is not given. Raises TopError for anything else.
+    """
+
+    mu_k: float
+    mu_s: float | None = None
+
+    def __post_init__(self):
+        _positive(self, "mu_k")
+        if self.mu_s is None:
+            object.__setattr__(self, "mu_s", self.mu_k)
+        _positive(self, "mu_s")
+        if self.mu_s < self.mu_k:
+            raise TopError("mu_s", self.mu_s, f"mu_s >= mu_k = {self.mu_k:g}", "Friction at rest is the larger one.")
+
+    def k(self, square):
+        return self.mu_k / square**0.5
+
+
+@dataclass(frozen=True)
+class Viscous:
+    """F_h = -gamma F_z u, gamma >= 0 in (gR)^-1/2: one of g s/m in SI, F = -g N v, is gamma = g (gR)^1/2 here.
+
+    gamma = 0 is the smooth plane. Raises TopError for anything else.
+    """
+
+    gamma: float
+
+    def __post_init__(self):
+        _positive(self, "gamma", zero=True)
+
+    def k(self, square):
+        return self.gamma
+
+
+@dataclass(frozen=True)
+class SmoothedCoulomb:
+    """F_h = -mu F_z u/(u^2 + eps^2)^1/2, mu > 0, eps > 0 in (gR)^1/2: Coulomb's law made smooth, so it never sticks.
+
+    Raises TopError for anything else.
+    """
+
+    mu: float
+    eps: float
+
+    def __post_init__(self):
+        _positive(self, "mu")
+        _positive(self, "eps")
+
+    def k(self, square):
+        return self.mu / (square + self.eps * self.eps) ** 0.5
+
+
+def _positive(law, name, zero=False):
+    value = finite(name, getattr(law, name))
+    if value < 0 or (value == 0 and not zero):
+        raise TopError(name, value, f"{name} {'>=' if zero else '>'} 0")
+    object.__setattr__(law, name, value)
+
+
+# ---- the motion ----
+
+
+def slide(top, state, friction, times, rtol=1e-9):
+    """The motion with friction at the given times: Trajectory.
+
+    state: State at times[0]; x, y, vx, vy left None mean G at the origin, at rest.
+    friction: Coulomb(mu_k, mu_s), Viscous(gamma) or SmoothedCoulomb(mu, eps).
+    times: (n,) in (R/g)^1/2, not falling. rtol: 1e-13 to 1e-3; over 300 (R/g)^1/2 of a turning top C_J drifts by some
+    4 rtol of itself at rtol = 1e-9.
+
+    events: (time, what) with "sticks" and "slips" (Coulomb), located to 1e-9, and "lifts off": the Trajectory ends
+    there, at the last of the times before it, for flight is not computed. regime: "slip", or "roll" where Coulomb's
+    friction holds the top; that part is the exact one of rolling.py.
+    Raises TopError for bad input, and for friction so strong that no normal force balances it (Painleve).
+    """
+    if not isinstance(state, State):
+        raise TopError("state", state, "a State")
+    if not isinstance(friction, Coulomb | Viscous | SmoothedCoulomb):
+        raise TopError("friction", friction, "Coulomb(mu_k, mu_s), Viscous(gamma) or SmoothedCoulomb(mu, eps)")
+    t = checked_times(times)
+    if np.any(np.diff(t) < 0):
+        raise TopError("times", times, "times that do not fall", "Friction has no way back.")
+    _check_balance(top, friction)
+    rtol = finite("rtol", rtol)
+    if not 1e-13 <= rtol <= 1e-3:
+        raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
+    return _Run(top, friction, rtol / 10)(state, t)
+
+
+def _check_balance(top, friction):
+    """F_z must be positive for every direction of u: mu |a| r_z s < I1 + a^2 s^2 (Painleve)."""
+    name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), (None, 0.0))
+    s, c = np.sin(theta := np.linspace(0, np.pi, 721)), np.cos(theta)
+    arm = abs(top.a * (1 - top.a * c)) * s
+    with np.errstate(divide="ignore"):
+        most = np.min((top.I1 + (top.a * s) ** 2) / arm)
+    if mu >= most:
+        raise TopError(name, mu, f"{name} < {most:.6g} for this top",
+                       "More friction than that no normal force balances (Painleve's paradox).")  # fmt: skip
+
+
+class _Run:
+    """One motion: stretches of slipping and of rolling, each a Trajectory of the times within it.
+
+    y = (p_x, p_y, p_z, p_w, chi, L_x, L_y, L_z, v_x, v_y, x, y, t), all in space axes; with Coulomb's friction the
+    unknowns z are the same but for log|u|, beta in place of v_x, v_y.
+    """
+
+    def __init__(self, top, friction, tolerance):
+        self.top, self.friction, self.tolerance = top, friction, tolerance
+        self.sticks = isinstance(friction, Coulomb)
+
+    def __call__(self, state, times):
+        y = self._start(state, times[0])
+        rolls = self.sticks and np.hypot(*_slip(self.top, y)) < STILL and self._holds(y)
+        if self.sticks and not rolls:
+            y = self._let_go(y)
+        stretches, events, done, event = [], [], 0, ""
+        while event is not None:
+            stretch, y, event = (self._roll if rolls else self._slip)(y, times[done:])
+            stretches.append(stretch)
+            done += len(stretch.t)
+            if event is not None:
+                events.append((float(y[12]), event))
+            if event == "lifts off":
+                break
+            rolls = event == "sticks"
+        return _joined(self.top, stretches, tuple(events))
+
+    # ---- slipping ----
+
+    def _rates(self, tau, z):
+        top, z = self.top, z.tolist()
+        e, w, L3, carried = _turning(top, z)
+        (ex, ey, ez), (wx, wy, wz), (px, py, pz, pw) = e, w, z[:4]
+        a, rz, w3 = top.a, 1 - top.a * ez, L3 / top.I3
+        if self.sticks:
+            speed, out_x, out_y = exp(z[8]), cos(z[9]), sin(z[9])
+            vx, vy = speed * out_x + carried[0], speed * out_y + carried[1]
+            push = self.friction.mu_k * out_x, self.friction.mu_k * out_y
+        else:
+            vx, vy = z[8:10]
+            push = _push(self.friction, vx - carried[0], vy - carried[1])
+        Fx, Fy, Fz = _force(top, z, e, L3, push)
+        torque = a * ey * Fz + rz * Fy, -a * ex * Fz - rz * Fx, a * (ex * Fy - ey * Fx)  # -r x F
+        ox, oy, oz = (wx - w3 * ex) / 2, (wy - w3 * ey) / 2, (wz - w3 * ez) / 2  # half the frame's angular velocity
+        rates = (
+            ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz,
+            oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz, w3,
+            *torque, Fx, Fy, vx, vy, 1.0)  # fmt: skip
+        if not self.sticks:
+            return rates
+        x_dot, y_dot = self._slip_rate(e, w, L3, torque, (Fx, Fy))
+        g = 1 / (speed + SLOW)
+        rates = [g * speed * rate for rate in rates]
+        rates[8:10] = g * (x_dot * out_x + y_dot * out_y), g * (y_dot * out_x - x_dot * out_y)
+        return rates
+
+    def _slip_rate(self, e, w, L3, torque, F_h):
+        """u' = v' - w' x r - w x r', with r' = -a e'."""
+        top = self.top
+        a, more, (ex, ey, ez), (wx, wy, wz) = top.a, 1 / top.I3 - 1 / top.I1, e, w
+        ex_, ey_, ez_ = wy * ez - wz * ey, wz * ex - wx * ez, wx * ey - wy * ex
+        along, across = more * (torque[0] * ex + torque[1] * ey + torque[2] * ez), more * L3
+        wx_ = torque[0] / top.I1 + along * ex + across * ex_  # L . e' = 0
+        wy_ = torque[1] / top.I1 + along * ey + across * ey_
+        wz_ = torque[2] / top.I1 + along * ez + across * ez_
+        rz = 1 - a * ez
+        return (F_h[0] - (wy_ * rz + a * wz_ * ey) + a * (wy * ez_ - wz * ey_),
+                F_h[1] + (wx_ * rz + a * wz_ * ex) + a * (wz * ex_ - wx * ez_))  # fmt: skip
+
+    def _unknowns(self, y):
+        """z of y."""
+        z = np.array(y)
+        if self.sticks:
+            ux, uy = _slip(self.top, y)
+            z[8:10] = np.log(np.hypot(ux, uy)), np.arctan2(uy, ux)
+        return z
+
+    def _known(self, z):
+        """y of z (13, ...)."""
+        y = np.array(z)
+        if self.sticks:
+            speed = np.exp(z[8])
+            carried = _turning(self.top, z)[3]
+            y[8], y[9] = speed * np.cos(z[9]) + carried[0], speed * np.sin(z[9]) + carried[1]
+        return y
+
+    def _Fz(self, z):
+        e, _, L3, carried = _turning(self.top, z)
+        if self.sticks:
+            push = self.friction.mu_k * np.cos(z[9]), self.friction.mu_k * np.sin(z[9])
+        else:
+            push = _push(self.friction, z[8] - carried[0], z[9] - carried[1])
+        return _force(self.top, z, e, L3, push)[2]
+
+    def _slip(self, y, times):
+        """A Trajectory of the times before the next event, the state then, and the event (None: the times are over)."""
+        end, z = times[-1], self._unknowns(y)
+        atol = np.full(13, self.tolerance)
+        atol[5:8] *= max(1.0, float(np.linalg.norm(z[5:8])))
+        begin, bound = (0.0, np.inf) if self.sticks else (z[12], end)
+        solver = LSODA(self._rates, begin, z, bound, rtol=1e-13, atol=atol)
+        done, event = int(np.searchsorted(times, z[12], "right")), None
+        path, rows = [z], [np.tile(z, (done, 1))]
+        while z[12] < end and event is None:
+            last = z
+            if solver.step() or not isfinite(Fz := self._Fz(solver.y.tolist())):
+                raise TopError("friction", self.friction, "weaker friction for this top",
+                               f"The equations could not be followed past t = {last[12]:.6g}.")  # fmt: skip
+            z, dense = solver.y, None
+            if not self.sticks:
+                z[12] = solver.t  # without the rounding of its integration
+            if Fz < 0.1:
+                dense = solver.dense_output()
+                tau = self._lift_off(dense)
+                if tau is not None:
+                    z, event = dense(tau), "lifts off"
+                    times = times[times <= z[12]]
+            if event is None and self.sticks and z[8] < min(last[8], LOG_STILL) and self._holds(z):
+                left = exp(z[8]) * (z[12] - last[12]) / (exp(last[8]) - exp(z[8]))  # until u = 0
+                z = z + left * np.array(self._rates(0.0, z)) * (1 + SLOW / exp(z[8]))
+                z[8], event = -np.inf, "sticks"
+            count = int(np.searchsorted(times, z[12], "right"))
+            if count > done:
+                rows.append(self._at(times[done:count], dense or solver.dense_output()))
+                done = count
+            path.append(z)
+        samples = np.concatenate(rows)
+        samples[:, 12] = times[:done]
+        return self._trajectory(self._known(samples.T), np.array(path).T), self._known(z), event
+
+    def _at(self, times, dense):
+        """z (n, 13) at times within the last step."""
+        if not self.sticks:
+            return dense(times).T
+        tau, limit = np.full(len(times), dense.t), 2 * dense.t - dense.t_old
+        for _ in range(20):  # Newton's steps
+            z = dense(tau)
+            missing = times - z[12]
+            if np.all(np.abs(missing) < 1e-13 * (1 + np.abs(times))):
+                break
+            tau = np.clip(tau + missing * (1 + SLOW / np.exp(z[8])), dense.t_old, limit)
+        return dense(tau).T
+
+    def _lift_off(self, dense):
+        """The first tau of the last step at which F_z = 0, or None."""
+        taus = np.linspace(dense.t_old, dense.t, 9)
+        below = np.flatnonzero(self._Fz(dense(taus)) < 0)
+        if not below.size:
+            return None
+        i = below[0]
+        return taus[0] if i == 0 else brentq(lambda tau: self._Fz(dense(tau)), taus[i - 1], taus[i], xtol=1e-15)
+
+    # ---- sticking and letting go ----
+
+    def _state(self, y):
+        """The State at y, with G's velocity unsaid."""
+        theta, phi, psi, (w1, w2, w3) = (part[..., 0] for part in self._pose(y[:, None], y[:, None]))
+        if theta in (0.0, np.pi):
+            w1, w2 = np.hypot(w1, w2), 0.0
+        return State(theta, w1, w2, w3, phi, psi, y[10], y[11])
+
+    def _holds(self, y):
+        """Whether rolling would need no more friction than mu_s F_z here."""
+        return _margin(rolling_force(self.top, self._state(y)), self.friction.mu_s) >= 0
+
+    def _roll(self, y, times):
+        """As _slip, without slipping: by the exact motion of rolling.py."""
+        state = self._state(y)
+        rolling = Rolling(self.top, None, state)
+        lets_go = self._first_slip(rolling)
+        count = int(np.searchsorted(times, y[12] + lets_go)) if np.isfinite(lets_go) else len(times)
+        # the first time is where the stretch starts
+        stretch = _cut(rolling(np.array([y[12], *times[:count]])), slice(1, None))
+        if count == len(times):
+            return stretch, y, None
+        last = _cut(rolling(np.array([0.0, lets_go])), slice(1, None))
+        return stretch, self._let_go(self._from_trajectory(last, y[12] + lets_go)), "slips"
+
+    def _first_slip(self, rolling):
+        """Time from the start to where rolling first needs mu_s F_z; inf if it never does. One nutation tells all."""
+
+        def margin(t):
+            return _margin(rolling(np.append(0.0, t)).force[1:].T, self.friction.mu_s)
+
+        t = np.linspace(0, rolling.period, 513)
+        values = margin(t)
+        over = np.flatnonzero(values[1:] < 0)
+        # between samples, where it dips
+        for i in np.flatnonzero((values[1:-1] < values[:-2]) & (values[1:-1] <= values[2:])) + 1:
+            if over.size and over[0] < i:
+                break
+            finer = np.linspace(t[i - 1], t[i + 1], 65)
+            dip = np.flatnonzero(margin(finer) < 0)
+            if dip.size:
+                return brentq(lambda x: margin(x)[0], finer[dip[0] - 1], finer[dip[0]], xtol=1e-13)
+        if not over.size:
+            return np.inf
+        i = over[0]
+        return t[0] if values[i] <= 0 else brentq(lambda x: margin(x)[0], t[i], t[i + 1], xtol=1e-13)
+
+    def _let_go(self, y):
+        """y with the least slip, if it has none, in the direction in which slipping starts: u' along u, outward."""
+        if np.hypot(*_slip(self.top, y)) >= STILL:
+            return y
+        z = np.array(y)
+        z[8] = LOG_STILL
+
+        def start(beta):
+            """u' at no slip, in the direction beta of u: (outward, across)."""
+            z[9] = beta
+            return self._rates(0.0, z)[8:10]
+
+        grid = np.linspace(0, 2 * np.pi, 65)
+        across = np.array([start(beta)[1] for beta in grid])
+        found = [brentq(lambda beta: start(beta)[1], grid[i], grid[i + 1])
+                 for i in np.flatnonzero(across[:-1] * across[1:] <= 0)]  # fmt: skip
+        z[9] = max(found, key=lambda beta: start(beta)[0])
+        return self._known(z)
+
+    # ---- between y and what is said of it ----
+
+    def _start(self, state, t):
+        """y at a State."""
+        s, c = np.sin(state.theta / 2), np.cos(state.theta / 2)
+        turn = np.exp(1j * state.phi)
+        v = complex(state.vx or 0.0, state.vy or 0.0) * turn
+        return self._y(state.theta, s, c, turn, state.phi + state.psi, (state.theta_dot, state.omega2, state.omega3),
+                       v, complex(state.x or 0.0, state.y or 0.0), t)  # fmt: skip
+
+    def _from_trajectory(self, one, t):
+        """y at the only instant of a Trajectory."""
+        theta, turn = one.theta[0], np.exp(1j * one.phi[0])
+        v, m = versines(theta)
+        w1, w2, w3 = one.omega[0]
+        s, c = np.sin(theta), 1 - v
+        vx = w2 * (c - self.top.a) - w3 * s
+        vy = -w1 * (1 - self.top.a * c)
+        return self._y(theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[0] + one.psi[0], one.omega[0],
+                       complex(vx, vy) * turn, complex(*one.com[0, :2]), t)  # fmt: skip
+
+    def _y(self, theta, sin_half, cos_half, turn, chi, omega, v, place, t):
+        # p = Rz(phi) Rx(theta) Rz(-phi)
+        L1, L2, L3 = np.array([self.top.I1, self.top.I1, self.top.I3]) * omega
+        s, c = np.sin(theta), np.cos(theta)
+        p, L = sin_half * turn, complex(L1, c * L2 - s * L3) * turn
+        return np.array([p.real, p.imag, 0.0, cos_half, chi, L.real, L.imag, s * L2 + c * L3,
+                         v.real, v.imag, place.real, place.imag, t])  # fmt: skip
+
+    def _pose(self, y, path):
+        """theta, phi, psi (n,) and omega (3, n) about 1', 2', 3 at y (13, n).
+
+        path: the unknowns at all steps of the integration, to follow the angles along.
+        """
+        # p_w + i p_z = cos(theta/2) exp i(phi + psi - chi)/2,  p_x + i p_y = sin(theta/2) exp i(phi - psi + chi)/2
+        together = np.concatenate([path, y], axis=1)
+        order = np.argsort(together[12], kind="stable")
+        angles = np.arctan2(together[[2, 1]], together[[3, 0]])
+        angles[:, order] = np.unwrap(angles[:, order])
+        plus, minus = angles[:, path.shape[1] :]
+        phi, psi = plus + minus, plus - minus + y[4]
+        theta = 2 * np.arctan2(np.hypot(y[0], y[1]), np.hypot(y[2], y[3]))
+        _, w, _, _ = _turning(self.top, y)
+        c, s, across = np.cos(theta), np.sin(theta), (w[0] + 1j * w[1]) * np.exp(-1j * phi)
+        return theta, phi, psi, np.array([across.real, c * across.imag + s * w[2], c * w[2] - s * across.imag])
+
+    def _trajectory(self, y, path):
+        """The Trajectory of slipping at y (13, n); path as in _pose."""
+        top, (theta, phi, psi, omega) = self.top, self._pose(y, path)
+        e, _, L3, carried = _turning(top, y)
+        u = y[8] - carried[0], y[9] - carried[1]
+        F = _force(top, y, e, L3, _push(self.friction, *u))
+        turn = np.exp(-1j * phi)
+        u_h, F_h = (u[0] + 1j * u[1]) * turn, (F[0] + 1j * F[1]) * turn
+        p, half = y[:4] / np.sqrt((y[:4] ** 2).sum(axis=0)), np.exp(0.5j * y[4])  # q = p Rz(chi)
+        xy, zw = (p[0] + 1j * p[1]) * half.conj(), (p[3] + 1j * p[2]) * half
+        return Trajectory(
+            top=top, t=y[12], theta=theta, phi=phi, psi=psi,
+            quaternion=np.stack([xy.real, xy.imag, zw.imag, zw.real], axis=1),
+            contact=np.stack([y[10] + top.a * e[0], y[11] + top.a * e[1]], axis=1),
+            com=np.stack([y[10], y[11], 1 - top.a * np.cos(theta)], axis=1), omega=omega.T,
+            slip=np.stack([u_h.real, u_h.imag], axis=1), force=np.stack([F_h.real, F_h.imag, F[2]], axis=1),
+            regime=np.full(len(theta), "slip"))  # fmt: skip
+
+
+# ---- the equations above, for floats or arrays ----
+
+
+def _turning(top, y):
+    """e, w, L . e and the horizontal part of w x r."""
+    px, py, pz, pw, _, Lx, Ly, Lz = y[:8]
+    a, I1 = top.a, top.I1
+    ex, ey, ez = 2 * (px * pz + pw * py), 2 * (py * pz - pw * px), 1 - 2 * (px * px + py * py)
+    L3 = Lx * ex + Ly * ey + Lz * ez
+    along = (1 / top.I3 - 1 / I1) * L3
+    wx, wy, wz = Lx / I1 + along * ex, Ly / I1 + along * ey, Lz / I1 + along * ez
+    rz = 1 - a * ez
+    return (ex, ey, ez), (wx, wy, wz), L3, (wy * rz + a * wz * ey, -wx * rz - a * wz * ex)
+
+
+def _slip(top, y):
+    """u = v - w x r"""
+    carried = _turning(top, y)[3]
+    return y[8] - carried[0], y[9] - carried[1]
+
+
+def _push(friction, ux, uy):
+    """k u"""
+    k = friction.k(ux * ux + uy * uy)
+    return k * ux, k * uy
+
+
+def _force(top, y, e, L3, push):
+    """F = F_z (z - k u)"""
+    Lx, Ly, Lz = y[5:8]
+    a, I1, (ex, ey, ez), (kx, ky) = top.a, top.I1, e, push
+    lean = a * (ex * ex + ey * ey) - (1 - a * ez) * (kx * ex + ky * ey)
+    Fz = (1 - a * (Lz * L3 - ez * (Lx * Lx + Ly * Ly + Lz * Lz)) / (I1 * I1)) / (1 + a / I1 * lean)
+    return -kx * Fz, -ky * Fz, Fz
+
+
+def rolling_force(top, state):
+    """(F_x, F_y, F_z) by (37) to (39) that a top needs at a State in order to roll on without slipping."""
+    v, m = versines(state.theta)
+    K_R = np.sqrt(f3_2(1 - v, v * m, top)) * state.omega3
+    w1, w2 = state.theta_dot, state.omega2
+    return contact_force(v, m, top, K_R, w1, w1 * w1, w2, state.omega3)
+
+
+def _margin(force, mu_s):
+    """mu_s F_z - F_h"""
+    return mu_s * force[2] - np.hypot(force[0], force[1])
+
+
+_PARTS = ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "slip", "force", "regime")
+
+
+def _cut(trajectory, part):
+    return Trajectory(top=trajectory.top, **{name: getattr(trajectory, name)[part] for name in _PARTS})
+
+
+def _joined(top, stretches, events):
+    return Trajectory(top=top, events=events,
+                      **{name: np.concatenate([getattr(s, name) for s in stretches]) for name in _PARTS})  # fmt: skip
