@@ -121,6 +121,7 @@ class Builder(param.Parameterized):
     def __init__(self, explorer, request=None):
         super().__init__()
         self._explorer, self._request = explorer, request or explorer.param.update
+        self.asked = {}  # the inputs last requested
         self._publish(_draft(explorer.shape))
 
     def set(self, name, value):
@@ -138,6 +139,10 @@ class Builder(param.Parameterized):
     def load(self, text):
         """The body in a file that save() wrote, thrown anew."""
         self._try("file", lambda: load_top(text), self._throw)
+
+    def refuse_file(self, largest):
+        """Says that a file was larger than so many bytes."""
+        self._refuse("file", TopError("file", "too large", f"at most {largest} bytes", "A saved top is far smaller."))
 
     def save(self):
         """The body as the text of a small JSON file."""
@@ -182,7 +187,8 @@ class Builder(param.Parameterized):
         self._publish(_draft(shape))
         top = shape.top
         K_J, K_R = (motion or self._throw)(shape)
-        self._request(shape=shape, a=top.a, I1=top.I1, I3=top.I3, K_J=K_J, K_R=K_R)
+        self.asked = {"shape": shape, "a": top.a, "I1": top.I1, "I3": top.I3, "K_J": K_J, "K_R": K_R}
+        self._request(**self.asked)
 
     def _publish(self, draft):
         with param.edit_constant(self):

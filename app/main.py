@@ -4,12 +4,14 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
+from app.builder import Builder
 from app.controls import Controls
 from app.explorer import Explorer
 from app.pacing import Pacer
 from app.plots import PlaneFigure, TimeFigures, follow_clock
 from app.surface3d import Surface3D, pack
 from app.top3d import Top3D, pack_frames
+from app.workshop import Measure, Workshop
 
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
 INK = "#22303c"
@@ -71,7 +73,7 @@ def plane_card(plane):
     )
 
 
-def times_card(times, scales, kept):
+def times_card(times, unit, kept):
     labels = {
         "theta": "<i>θ</i><br>rad",
         "normal": "<i>F</i><sub>z</sub><br><i>Mg</i>",
@@ -96,11 +98,15 @@ def times_card(times, scales, kept):
     return card(
         "The motion over time; click to look at an instant",
         *rows,
-        words(
-            '<div class="axis"><i>t</i> in (<i>R</i>/<i>g</i>)<sup>½</sup>, '
-            f"{scales.time * 1e3:.1f} ms of the real top</div>"
-        ),
+        unit,
         kept,
+    )
+
+
+def unit_words(scene):
+    return (
+        '<div class="axis"><i>t</i> in (<i>R</i>/<i>g</i>)<sup>½</sup>, '
+        f"{scene.scales.time * 1e3:.1f} ms of the real top</div>"
     )
 
 
@@ -175,15 +181,24 @@ def page():
 
     def show_rest(scene):
         controls.show(scene)
-        kept.object = kept_words(scene)
+        kept.object, unit.object = kept_words(scene), unit_words(scene)
         plane.show_plane(scene)
         times.show(scene)
         show_surface(surface, scene)
         show_top(top, scene)
+        workshop.show_scene(scene)
 
-    kept = words("")
+    kept, unit = words(""), words("")
     pacer = Pacer(explorer, plane.show_selected, show_rest)
     controls = Controls(explorer, pacer)
+    builder = Builder(explorer, pacer.request)
+    followers = controls.views("K_J", "K_R", "a", "I1", "I3")
+    workshop = Workshop(
+        builder,
+        explorer,
+        {slider.tags[0]: slider for view in followers for slider in view.select(pmui.FloatSlider)},
+    )
+    measure = Measure(builder)
     surface.param.watch(lambda event: event.new and controls.pick(event.new[0]), "picked")
     plane.figure.on_event("tap", lambda event: controls.pick(event.y))
     plane.show_selected(explorer.scene)
@@ -220,7 +235,10 @@ def page():
         card("The top", top),
         plane_card(plane),
         card(f"{HEIGHT} over the (<i>K</i><sub>J</sub>, <i>θ</i>) plane: the paper’s Fig. 5", surface),
-        times_card(times, explorer.scene.scales, kept),
+        times_card(times, unit, kept),
+        card("The body, cut along its axis; drag its handles", *workshop.section_view, height="max-content"),
+        card("Build a top", *workshop.bench_view, height="max-content"),
+        card("Measure your own", *measure.view, height="max-content"),
         sizing_mode="stretch_width",
         margin=0,
         styles={

@@ -1,0 +1,434 @@
+"""The builder's widgets: the section with its handles, the dimensions, presets, files, and a measured top."""
+
+import html
+import io
+import math
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+import param
+from bokeh.models import ColumnDataSource, HoverTool, Range1d
+
+from app.builder import FAMILIES, Rocking, handles, pulled, sentence
+from app.colours import COLOURS
+from app.controls import STYLE, number
+from app.explorer import body
+from app.pacing import at_once
+from app.plots import FAINT, INK, plain
+from tippe_core import PRESETS, BareSphere, LoadedSphere, TopError, Turned
+
+SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
+           "I3": "<i>I</i><sub>3</sub>", "density": "<i>ρ</i>", "core_density": "<i>ρ</i><sub>core</sub>"}  # fmt: skip
+WOOD, CORE = "#d9b98c", "#8a96a3"
+FRAME = 276  # px; square, so that both axes have one scale
+REACH = 16  # px from a handle that still take hold of it
+LARGEST_FILE = 65_536
+PLAIN = {"textTransform": "none"}
+FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
+
+
+def words(text, **options):
+    return pn.pane.HTML(text, stylesheets=[STYLE], **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+def alert(text):
+    return f'<div class="alert" role="alert">{html.escape(text)}</div>' if text else ""
+
+
+def symbol(name):
+    return SYMBOLS.get(name, f"<i>{name}</i>")
+
+
+def field(value, **options):
+    return pmui.TextInput(value=value, label="", size="small", sx=FIELD, **({"width": 84, "margin": 0} | options))
+
+
+def grid(*content):
+    """Side by side where there is room."""
+    return pn.Column(
+        *content, sizing_mode="stretch_width", margin=(6, 0),
+        styles={"display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 215px), 1fr))",
+                "column-gap": "22px"},
+    )  # fmt: skip
+
+
+def typed(text):
+    """The number in a field; raises ValueError."""
+    value = float(text.replace("−", "-").replace(",", "."))
+    if not math.isfinite(value):
+        raise ValueError
+    return value
+
+
+class Section:
+    """The cut through axis 3, to scale in mm, with handles. pull: what takes (dimension, value in SI) from a hand."""
+
+    def __init__(self, pull):
+        self._pull, self._held, self._shape, self._span = pull, None, None, 0.0
+        self.figure = fig = plain(x_range=Range1d(-1, 1), y_range=Range1d(-1, 1), name="section")
+        fig.update(sizing_mode=None, width=FRAME + 50, height=FRAME + 30, frame_width=FRAME, frame_height=FRAME)
+        fig.xaxis.ticker.desired_num_ticks = fig.yaxis.ticker.desired_num_ticks = 5
+        self.solid = ColumnDataSource({"x": [], "z": [], "colour": []})
+        self.lines = ColumnDataSource({"x": [], "z": [], "colour": [], "dash": [], "width": []})
+        self.points = ColumnDataSource({"x": [], "z": [], "colour": []})
+        self.letters = ColumnDataSource({"x": [], "z": [], "text": [], "dx": [], "dy": [], "style": []})
+        self.handles = ColumnDataSource({"x": [], "z": [], "name": [], "says": []})
+        fig.patches("x", "z", source=self.solid, fill_color="colour", line_color=INK, line_width=1.5)
+        fig.multi_line("x", "z", source=self.lines, line_color="colour", line_dash="dash", line_width="width")
+        fig.scatter("x", "z", source=self.points, size=7, color="colour")
+        fig.text("x", "z", text="text", source=self.letters, x_offset="dx", y_offset="dy", text_color=INK,
+                 text_font_size="15px", text_font_style="style", text_font={"value": "Georgia, serif"},
+                 text_align="center", text_baseline="middle")  # fmt: skip
+        knobs = fig.scatter("x", "z", source=self.handles, size=14, fill_color="white", line_color=COLOURS["theta"],
+                            line_width=3)  # fmt: skip
+        fig.add_tools(HoverTool(renderers=[knobs], tooltips="@says", point_policy="snap_to_data"))
+        fig.on_event("panstart", self._take)
+        fig.on_event("pan", self._drag)
+        fig.on_event("panend", self._let_go)
+
+    def _take(self, event):
+        places = {name: np.hypot(1e3 * x - event.x, 1e3 * z - event.y) for name, (x, z) in handles(self._shape).items()}
+        nearest = min(places, key=places.get, default=None)
+        self._held = nearest if places and places[nearest] < REACH * self._span / FRAME else None
+
+    def _drag(self, event):
+        if self._held:
+            self._pull(self._held, pulled(self._shape, self._held, event.x / 1e3, event.y / 1e3))
+
+    def _let_go(self, event):
+        if self._held:
+            self._held = None
+            self._frame()
+
+    def show(self, draft):
+        shape = self._shape = draft.shape
+        profile = 1e3 * shape.R * body(shape)
+        R, height = 1e3 * shape.R, 1e3 * shape.com
+        if not self._held:
+            self._frame()
+        span = self._span
+        solids = [(profile, WOOD)] + [(1e3 * rows, "white") for rows in _cavities(shape)]
+        self.solid.data = {
+            "x": [np.concatenate([rows[:, 0], -rows[::-1, 0]]) for rows, _ in solids],
+            "z": [np.concatenate([rows[:, 1], rows[::-1, 1]]) for rows, _ in solids],
+            "colour": [colour for _, colour in solids],
+        }
+        turn = np.linspace(0, 2 * np.pi, 73)
+        circles = [(R * np.sin(turn), R * np.cos(turn), FAINT, [2, 4], 1)]
+        if isinstance(shape, LoadedSphere):
+            b = 1e3 * shape.b
+            circles.append((b * np.sin(turn), b * np.cos(turn) - 1e3 * shape.d, INK, [], 1.5))
+            self.solid.stream({"x": [circles[1][0]], "z": [circles[1][1]],
+                               "colour": [CORE if shape.core_density else "white"]})  # fmt: skip
+        low, high = min(-R, profile[:, 1].min()), profile[:, 1].max()
+        wide = profile[:, 0].max()
+        aside = wide + 0.05 * span
+        straight = [
+            ((-span, span), (-R, -R), INK, [], 2),
+            ((0, 0), (low, high + 0.06 * span), FAINT, [8, 4], 1.5),
+            ((-wide - 0.03 * span, wide + 0.03 * span), (height, height), FAINT, [8, 4], 1.5),
+            ((0, -R * 0.8), (0, -R * 0.6), COLOURS["normal"], [], 2),
+            ((aside, aside), (0, height), COLOURS["friction"], [], 3),
+            ((0, aside), (0, 0), COLOURS["friction"], [2, 3], 1),
+            ((0, aside), (height, height), COLOURS["friction"], [2, 3], 1),
+        ]
+        x, z, colour, dash, thick = zip(*circles, *straight, strict=True)
+        self.lines.data = {"x": list(x), "z": list(z), "colour": colour, "dash": list(dash), "width": thick}
+        self.points.data = {"x": [0, 0, 0], "z": [0, height, -R], "colour": [INK, COLOURS["friction"], INK]}
+        letters = [
+            (0, 0, "O", -12, -10, "italic"), (0, height, "G", 14, 10 if height <= 0 else -10, "italic"),
+            (0, -R, "C", 0, 14, "italic"), (-0.4 * R, -0.3 * R, "R", -8 if R > span / 12 else -26, -8, "italic"),
+            (aside, height / 2, "a", 10, 0, "italic"), (0, high + 0.06 * span, "3", 0, -10, "normal"),
+            (-wide - 0.03 * span, height, "1", -10, 0, "normal"),
+        ]  # fmt: skip
+        self.letters.data = dict(zip(("x", "z", "text", "dx", "dy", "style"), zip(*letters, strict=True), strict=True))
+        said = {dimension.name: dimension for dimension in draft.dimensions}
+        at = handles(shape)
+        self.handles.data = {
+            "x": [1e3 * x for x, _ in at.values()],
+            "z": [1e3 * z for _, z in at.values()],
+            "name": list(at),
+            "says": [f"{said[name].words}: {number(getattr(shape, name) * said[name].factor)} {said[name].unit}"
+                     for name in at],
+        }  # fmt: skip
+
+    def _frame(self):
+        """All of the body in view; in coarse steps, so that it does not swim."""
+        profile = 1e3 * self._shape.R * body(self._shape)
+        low, high = profile[:, 1].min(), profile[:, 1].max()
+        needed = 1.3 * max(2 * profile[:, 0].max(), high - low)
+        self._span = span = 1.25 ** math.ceil(math.log(needed, 1.25))
+        middle = (low + high) / 2
+        for axis, centre in ((self.figure.x_range, 0.0), (self.figure.y_range, middle)):
+            axis.update(start=centre - span / 2, end=centre + span / 2)
+
+
+def _cavities(shape):
+    """Closed outlines inside the body, (k, 2) m."""
+    if not isinstance(shape, Turned):
+        return []
+    return [np.vstack([edge.points(24) for edge in outline]) for outline in shape.solid.outlines[1:]]
+
+
+class Knob:
+    """One dimension: a slider with its unit, a number to type, and the sentence where it cannot be."""
+
+    def __init__(self, dimension, pull):
+        self.dimension, self._pull, self._silent = dimension, pull, False
+        self.slider = pmui.FloatSlider(
+            value=dimension.low, start=dimension.low, end=dimension.high, step=dimension.step, label="",
+            show_value=False, size="small", tooltips=False,
+            sizing_mode="stretch_width", margin=(-4, 10, -4, 10), tags=[dimension.name],
+        )  # fmt: skip
+        at_once(self.slider, "value", "value_throttled")
+        self.entry = field("", tags=[dimension.name])
+        self.words = words("")
+        unit = f", {dimension.unit}" if dimension.unit else ""
+        title = words(
+            f'<div class="name">{symbol(dimension.name)}&ensp;<span class="note">{dimension.words}{unit}</span></div>',
+            margin=(4, 0, 0, 0),
+        )
+        self.view = pn.Column(
+            pn.Row(title, self.entry, sizing_mode="stretch_width", margin=0), self.slider, self.words,
+            sizing_mode="stretch_width", margin=(0, 0, 4, 0),
+        )  # fmt: skip
+        self.slider.param.watch(self._slid, "value")
+        self.entry.param.watch(self._typed, "value")
+
+    def _slid(self, event):
+        if not self._silent:
+            self._pull(self.dimension.name, event.new / self.dimension.factor, slid=True)
+
+    def _typed(self, event):
+        if self._silent:
+            return
+        try:
+            value = typed(event.new)
+        except ValueError:
+            self.say(f"“{event.new}” is not a number. Type one, such as {self.dimension.high:g}.")
+            return
+        self._pull(self.dimension.name, value / self.dimension.factor)
+
+    def show(self, shape, under_hand):
+        value = float(f"{getattr(shape, self.dimension.name) * self.dimension.factor:.9g}")
+        self._silent = True
+        self.entry.value = number(value)
+        if not under_hand:
+            slider = self.slider
+            slider.param.update(start=min(slider.start, value), end=max(slider.end, value), value=value)
+        self._silent = False
+        self.say("")
+
+    def say(self, text):
+        self.entry.error_state = bool(text)
+        if self.words.object != alert(text):
+            self.words.object = alert(text)
+
+
+class TopFile(pmui.FileInput):
+    """Counts the files that the browser refused because they are too large; the base class has no word for them."""
+
+    refused = param.Integer(default=0)
+
+    def _handle_msg(self, msg):
+        if msg["status"] == "error":
+            self.refused += 1
+        else:
+            super()._handle_msg(msg)
+
+
+class Workshop:
+    """The builder's cards. sliders: {input of the Explorer: its slider elsewhere}, moved along with the body."""
+
+    def __init__(self, builder, explorer, sliders):
+        self.builder, self._explorer, self._sliders = builder, explorer, sliders
+        self._knobs, self._family, self._slid, self._silent = {}, None, None, False
+        self.section = Section(self._pull)
+        self.derived, self.source, self.file_words = words(""), words(""), words("")
+        self.presets = self._choice("Presets", [preset.name for preset in PRESETS], builder.choose)
+        drawn = list(dict.fromkeys(FAMILIES[type(preset.shape)][0] for preset in PRESETS))
+        self.families = self._choice("Family", drawn, builder.choose_family)
+        self.dimensions = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.stl = self._download("Save STL, in mm", "top.stl", lambda: builder.stl() or b"")
+        self.saved = self._download("Save this top", "top.json", lambda: builder.save().encode())
+        self.file = TopFile(
+            label="Load a top", accept=".json", multiple=False, max_file_size=LARGEST_FILE, size="small",
+            variant="outlined", margin=0, sx=PLAIN,
+        )  # fmt: skip
+        self.file.param.watch(self._loaded, "value", onlychanged=False)
+        self.file.param.watch(lambda event: builder.refuse_file(LARGEST_FILE), "refused")
+        self.back = pmui.Button(label="Back to the body’s own", size="small", variant="outlined", margin=0, sx=PLAIN)
+        self.back.on_click(lambda event: builder.attach())
+        self.parted = pn.Column(
+            words('<div class="alert">The explorer’s <i>a</i>, <i>I</i><sub>1</sub>, <i>I</i><sub>3</sub> were set '
+                  "apart from this body; a stand-in is drawn.</div>"),
+            self.back, visible=False, sizing_mode="stretch_width", margin=0)  # fmt: skip
+        builder.param.watch(lambda event: self._show(event.new), "draft")
+        self._show(builder.draft)
+
+    def _choice(self, label, options, choose):
+        select = pmui.Select(label=label, options=options, value=None, size="small", margin=(4, 6, 4, 0),
+                             sizing_mode="stretch_width")  # fmt: skip
+        select.param.watch(lambda event: None if self._silent or not event.new else choose(event.new), "value")
+        return select
+
+    @staticmethod
+    def _download(label, filename, content):
+        return pmui.FileDownload(
+            label=label, filename=filename, callback=lambda: io.BytesIO(content()), size="small", variant="outlined",
+            margin=0, sx=PLAIN,
+        )  # fmt: skip
+
+    @property
+    def section_view(self):
+        """The section, what follows from it, and whether the explorer's numbers are still its own."""
+        return [pn.pane.Bokeh(self.section.figure, margin=0), self.derived, self.parted]
+
+    @property
+    def bench_view(self):
+        """What a person sets."""
+        files = pn.Column(self.saved, self.file, self.stl, sizing_mode="stretch_width", margin=(6, 0),
+                          styles={"display": "flex", "flex-flow": "row wrap", "gap": "8px"})  # fmt: skip
+        choices = pn.Row(self.presets, self.families, sizing_mode="stretch_width", margin=0)
+        return [choices, self.source, self.dimensions, files, self.file_words]
+
+    def _pull(self, name, value, slid=False):
+        self._slid = name if slid else None
+        self.builder.set(name, value)
+        self._slid = None
+
+    def _loaded(self, event):
+        if event.new:
+            self.builder.load(event.new)
+
+    def _show(self, draft):
+        with pn.io.hold():
+            self._show_fields(draft)
+            said = {name: draft.messages.get(name, "") for name in ("file", "stl")}
+            self.file_words.object = alert(said["file"] or said["stl"])
+            if draft.messages:
+                return
+            self.section.show(draft)
+            self.derived.object = derived_words(draft.shape)
+            self.source.object = f'<div class="note">{html.escape(draft.source)}</div>'
+
+    def _show_fields(self, draft):
+        if draft.family != self._family:
+            self._family = draft.family
+            self._knobs = {dimension.name: Knob(dimension, self._pull) for dimension in draft.dimensions}
+            none = [words('<div class="note">Only a file can describe this body; it has no sliders.</div>')]
+            self.dimensions.objects = [grid(*([knob.view for knob in self._knobs.values()] or none))]
+        for name, knob in self._knobs.items():
+            if name in draft.messages:
+                knob.say(draft.messages[name])
+            elif not draft.messages:
+                knob.show(draft.shape, under_hand=name == self._slid)
+        self._silent = True
+        self.presets.value = draft.name or None
+        self.families.value = draft.family if draft.family in self.families.options else None
+        self._silent = False
+        self.stl.disabled = isinstance(draft.shape, BareSphere)
+
+    def show_scene(self, scene):
+        """Whether the explorer's numbers are the body's, and its sliders at the numbers that came with the body."""
+        self.parted.visible = scene.shape is None
+        explorer, asked = self._explorer, self.builder.asked
+        if asked and all(getattr(explorer, name) == value for name, value in asked.items()):
+            for name, slider in self._sliders.items():
+                value = asked[name]
+                # to the Explorer this is the number it has already
+                slider.param.update(start=min(slider.start, value), end=max(slider.end, value), value=value)
+            self.builder.asked = {}
+
+
+def derived_words(shape):
+    top, angle = shape.top, shape.touch_angle
+    rows = [
+        ("<i>a</i>/<i>R</i>", f"= {top.a:.4f}".replace("-", "−")),
+        ("<i>I</i><sub>1</sub>", f"= {top.I1:.4f} <i>MR</i><sup>2</sup>"),
+        ("<i>I</i><sub>3</sub>", f"= {top.I3:.4f} <i>MR</i><sup>2</sup>"),
+        ("mass", f"{1e3 * shape.mass:.4g} g"),
+    ]
+    if not isinstance(shape, BareSphere):
+        # one number where it is of one material, else the mean
+        rows.append(("density", f"{shape.mass / shape.volume:.0f} kg/m³"))
+    listed = "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
+    touch = (
+        "Nothing but the sphere ever touches the table."
+        if angle is None
+        else f"Its stem or its rim touches the table from <i>θ</i> = {math.degrees(angle):.0f}° on."
+    )
+    known = " Where its mass is inside is not known, so there is nothing to print." * isinstance(shape, BareSphere)
+    return f"<div>{listed}</div><div>{touch}{known}</div>"
+
+
+class Measure:
+    """A top of one's own: mass, diameter and the period of small rocking at rest -> a/R."""
+
+    # name, words, what stands there at first, and SI in one of the unit
+    FIELDS = (("D", "diameter of the sphere, mm", "32.0", 1e-3), ("dD", "its uncertainty, mm", "0.1", 1e-3),
+              ("T", "period of rocking, s", "1.08", 1.0), ("dT", "its uncertainty, s", "0.01", 1.0),
+              ("M", "mass, g", "11.5", 1e-3))  # fmt: skip
+
+    def __init__(self, builder):
+        self.builder = builder
+        self.entries = {name: field(value, tags=[f"own {name}"]) for name, _, value, _ in self.FIELDS}
+        self.result = words("")
+        self.use = pmui.Button(label="Explore a sphere with these numbers", size="small", variant="outlined",
+                               margin=(4, 0), sx=PLAIN)  # fmt: skip
+        self.use.on_click(self._use)
+        for entry in self.entries.values():
+            entry.param.watch(lambda event: self._show(), "value")
+        builder.param.watch(lambda event: self._show(), "draft")
+        self._show()
+
+    @property
+    def view(self):
+        """Fields, formula, answer."""
+        formula = (
+            "Lay the top on a table it does not slip on, tilt it a little, let go without spin, and time it. From<br>"
+            "<i>T</i> = 2π [(<i>I</i><sub>1</sub> + (1 − <i>a</i>)<sup>2</sup>)/<i>a</i>]<sup>½</sup> "
+            "(<i>R</i>/<i>g</i>)<sup>½</sup>&ensp;follows, with "
+            "<i>q</i> = (<i>T</i>/2π)<sup>2</sup> <i>g</i>/<i>R</i>,<br>"
+            "<i>a</i> = 2(1 + <i>I</i><sub>1</sub>)/(2 + <i>q</i> + [(2 + <i>q</i>)<sup>2</sup> − 4(1 + "
+            "<i>I</i><sub>1</sub>)]<sup>½</sup>);&ensp;<i>I</i><sub>1</sub> is that of the body above.")  # fmt: skip
+        fields = [
+            pn.Row(words(f'<div class="note">{says}</div>', margin=(5, 6, 0, 0)), self.entries[name],
+                   sizing_mode="stretch_width", margin=(2, 0))
+            for name, says, _, _ in self.FIELDS]  # fmt: skip
+        return [words(formula), grid(*fields), self.result, self.use]
+
+    def _found(self):
+        """(Rocking, Measured); raises TopError, ValueError."""
+        values = {}
+        for name, _, _, unit in self.FIELDS:
+            entry = self.entries[name]
+            try:
+                values[name] = typed(entry.value) * unit
+            except ValueError:
+                raise ValueError(f"“{entry.value}” is not a number.") from None
+        rocking = Rocking(**values)
+        return rocking, rocking.a(self.builder.draft.shape)
+
+    def _show(self):
+        said = self.builder.draft.messages.get("measured")
+        try:
+            rocking, found = self._found()
+        except ValueError as error:
+            self.result.object = alert(sentence(error) if isinstance(error, TopError) else str(error))
+            self.use.disabled = True
+            return
+        self.use.disabled = False
+        parts = " and ".join(
+            f"{share:.2g} from the {word}"
+            for word, share in (("period", found.shares["T"]), ("diameter", found.shares["R"]))
+        )
+        self.result.object = alert(said) or (
+            f"<div><b><i>a</i>/<i>R</i> = {found.value:.4f} ± {found.uncertainty:.2g}</b> ({parts}), so G is "
+            f"{found.value * rocking.D / 2 * 1e3:.2f} mm below O; <i>I</i><sub>1</sub> = "
+            f"{self.builder.draft.shape.top.I1:.4f} <i>MR</i><sup>2</sup>.</div>")  # fmt: skip
+
+    def _use(self, event):
+        rocking, found = self._found()
+        self.builder.measured(M=rocking.M, R=rocking.D / 2, a=found.value)
