@@ -88,7 +88,7 @@ def _tielines(top, K_J, K_R, limits):
 
 # ---- one theta: everything that depends on it alone ----
 
-Place = namedtuple("Place", "x s2 f1 f2 drop height slope zc zb z1 X2 Y A0 A1 D")
+Place = namedtuple("Place", "x s2 f1 f2 drop height slope N0 N1 N2 zc zb z1 X2 Y A0 A1 D")
 
 
 def _place(x, north, top, K_R):
@@ -109,6 +109,8 @@ def _place(x, north, top, K_R):
     return Place(
         x=x, s2=s2, f1=f1, f2=f2, drop=kappa, height=2 * top.a * np.where(north, x, 2 - x),
         slope=pole_slope(x, a, K, top),
+        # s^4 dU/dc = N0 + N1 B + N2 B^2
+        N0=-2 * top.a * s2 * s2, N1=-2 * sign * (I3 + one) * w3 * s2, N2=2 * sign * (p * one + I1 * c),
         zc=1 - a2 * s2 / f1, zb=-lever * (I3 + one) * w3, z1=lever * (c * (I1 + 1 + a2) - a * (1 + c * c)),
         X2=X * X, Y=w3 / f1 * (P - a2 * s2), A0=lever * one, A1=lever * (a * p - I1),
         D=(w3 / f1) ** 2 * D - kappa * X * X * (f1 + f2) / (f1 * f1))  # fmt: skip
@@ -128,20 +130,21 @@ def _angle(x, north):
 def _interval(p, B, q, mu, n):
     """2E' at the end of the interval from q on in which the top keeps to the table (less than at q, or nan: it has no
     end), and mu F_z - n F_h at q."""
-    z0 = p.zc + p.zb * B
-    margin = z0 + p.z1 * q
+    z1 = mu * p.z1
+    z0 = mu * p.zc + (mu * p.zb) * B
+    margin = z0 + z1 * q
     if np.all(n == 0):
-        end = z0 * (-1 / np.where(p.z1 == 0, 1e-300, p.z1))
+        end = z0 * (-1 / np.where(z1 == 0, 1e-300, z1))
     else:
-        h2 = p.s2 * p.A1 * p.A1  # F_h^2 = h0 + 2 h1 q + h2 q^2
-        h1 = p.A1 * p.Y * B + (p.X2 / 2 + p.s2 * p.A0 * p.A1)
-        # the 1e-300 keeps the ball that needs no friction from 0/0
-        h0 = (p.D * B + 2 * p.A0 * p.Y) * B + (p.s2 * p.A0 * p.A0 - 1e-300)
-        margin = mu * margin - n * np.sqrt(np.maximum(h0 + (2 * h1 + h2 * q) * q, 0))
-        P2, z0 = mu * mu * p.z1 * p.z1 - n * h2, mu * z0
-        z0z1 = z0 * (mu * p.z1)
-        b, P0 = n * h1 - z0z1, z0 * z0 - n * h0
-        r = np.sqrt(n * (h1 * (b - z0z1) + h0 * P2 + h2 * z0 * z0))  # b^2 - P2 P0, less what cancels
+        # F_h^2 = h0 + 2 h1 q + h2 q^2; the 1e-300 keeps the ball that needs no friction from 0/0
+        A0, A1 = n * p.A0, n * p.A1
+        h2 = p.s2 * A1 * A1
+        h1 = A1 * p.Y * B + (n * p.X2 / 2 + p.s2 * A0 * A1)
+        h0 = (n * p.D * B + 2 * A0 * p.Y) * B + (p.s2 * A0 * A0 - 1e-300)
+        margin -= np.sqrt(np.maximum((2 * h1 + h2 * q) * q + h0, 0))
+        P2, P0, u = z1 * z1 - h2, z0 * z0 - h0, z0 * z1
+        b = h1 - u
+        r = np.sqrt(h1 * (b - u) + h0 * P2 + h2 * z0 * z0)  # b^2 - P2 P0, less what cancels
         end = np.where(b >= 0, P0 / (b + r), (b - r) / P2)
     return p.f1 * end + (p.height - p.drop * B * B), margin
 
@@ -172,6 +175,14 @@ def _zero(coefficients, t):
             value = value * t + c
         t = t - value / slope
     return t, slope
+
+
+def _crossing(values, i, j):
+    """Where values on stencils (stencil, k) about points i of the grid are zero, in the cells that begin at j."""
+    low, r = j - i + _REACH, np.arange(len(i))
+    share = values[low, r] / (values[low, r] - values[low + 1, r])
+    share = np.where(j == 0, np.sqrt(share), np.where(j == _CELLS - 1, 1 - np.sqrt(1 - share), share))
+    return i + _zero(_FIT @ values, j - i + share)[0]
 
 
 def _least(values):
@@ -229,20 +240,24 @@ class _Wells:
     def _steady(self):
         """theta_p: the zero of N next to the lowest point of the grid."""
         j = _clip(self.lowest, _REACH, _CELLS - _REACH)
-        t, _ = _least(1 / (self.U[self.k, self.lowest] - 1 - self.U[self.k, j + _STENCIL]))
-        t = j + np.where(np.abs(t) < _REACH, t, 0)
+        p, B = self.place, self.B[self.k, j + _STENCIL]
+        N = (p.N2[j + _STENCIL] * B + p.N1[j + _STENCIL]) * B + p.N0[j + _STENCIL]
+        t, _ = _zero(_FIT @ N, (self.lowest - j) * 1.0)
+        t = j + np.where(np.abs(t) < _REACH, t, self.lowest - j)
         x, north = _distance(_mapped(t), _mapped(_CELLS - t))
-        d = self._gap(north, self.k)
+        d, i = self._gap(north, self.k), self.k
         for _ in range(30):
-            z = x + h * 1j
-            B, _, s2, t, K = self._bracket(z, north, d)
+            z = x[i] + h * 1j
+            B, _, s2, t, K = self._bracket(z, north[i], d[i])
             N = well_slope(1 - z, s2, B, -bracket_slope(1 - z, s2, t, K), t)
             step = N.real / N.imag * h
-            x = x - step
-            if not np.any(np.abs(step) > 1e-8 * x):
+            x[i] -= step
+            i = i[~(np.abs(step) <= 1e-8 * x[i])]
+            if not i.size:
                 break
         theta = _angle(x, north)
-        astray = ~(np.abs(step) <= 1e-8 * x) | ~(np.abs(theta - GRID[self.lowest]) <= GRID[j + 1] - GRID[j - 1])
+        astray = ~(np.abs(theta - GRID[self.lowest]) <= GRID[j + 1] - GRID[j - 1])
+        astray[i] = True
         astray |= (self.lowest == 0) | (self.lowest == _CELLS)
         for gap, pole, sign in zip(self.gaps, (0, np.pi), (1, -1), strict=True):
             if np.any(gap == 0):  # upright at K_J(P): U = 2 a v + f2^2 C^2 v/2 there
@@ -278,9 +293,9 @@ class _Wells:
             first = np.where(margin < 0, self.base, np.where(end >= self.base, end, np.inf))
             j = _clip(first.argmin(axis=1), 1, _CELLS - 1)
             i = _clip(j, _REACH, _CELLS - _REACH)
-            found.append((j, i, end[self.k, i + _STENCIL], margin[self.k, i + _STENCIL], first))
+            found.append((j, i, first[self.k, j], end[self.k, i + _STENCIL], margin[self.k, i + _STENCIL], first))
         firsts = [f[-1] for f in found]
-        j, i, end, margin = (np.concatenate(parts, axis=-1) for parts in list(zip(*found, strict=True))[:4])
+        j, i, most, end, margin = (np.concatenate(parts, axis=-1) for parts in list(zip(*found, strict=True))[:5])
         count, shape = len(j), (len(pairs), len(self.k))
         k, r, at = np.tile(self.k, len(pairs)), np.arange(count), j - i + _REACH
         # the limit is first broken at a turning point, where the margin there is zero,
@@ -289,11 +304,7 @@ class _Wells:
         low = at - left
         high = low + 1
         T = self.place.s2[i + _STENCIL] * margin
-        T_low, T_high = T[low, r], T[high, r]
-        share = T_low / (T_low - T_high)
-        share = np.where(low + i == _REACH, np.sqrt(share), share)
-        share = np.where(high + i == _REACH + _CELLS, 1 - np.sqrt(1 - share), share)
-        corner, _ = _zero(_FIT @ T, low - _REACH + share)
+        corner = _crossing(T, i, low + i - _REACH) - i
         outward = over[high, r]  # the limit is broken on the side of larger theta
         # or within the trajectory, where the energy of the interval's end is least: its reciprocal is smooth also where
         # the interval loses its end
@@ -324,15 +335,16 @@ class _Wells:
             e = np.where(at_corner, U_.real, end_.real) - rise * step
             step = np.where(np.abs(step) < np.abs(before) / 2, step / (1 - step / before), step)  # as the last one went
             x[:count] -= step
-            off = np.abs(step) / np.minimum(per_t, x[:count])
-            if not np.any(off > 1e-5):
+            off = np.abs(step) / np.minimum(per_t, x[:count]) * np.where(at_corner, 1e7, 1e4)  # of what still counts
+            if not np.any(off > 1):
                 break
         ahead = end_.real - U_.real
         below = (n == 0) & (p.z1.real > 0)  # the interval is entered there with more energy, not left
         below = below[:count] | ~(np.abs(ahead) < 1e-3 * (1 + np.abs(U_.real)))
         falling = (end_.imag < 0) == north[:count]
-        good = np.where(at_corner, ~(left & right) & (below | (falling == outward)), (curve > 0) & (ahead > 0))
-        sure = (good & (off <= 1e-5) & np.isfinite(e)).reshape(shape)
+        good = ~(left & right) & np.where(below, past, falling == outward)
+        good = np.where(at_corner, good, (curve > 0) & (ahead > 0))
+        sure = (good & (off <= 1) & (e <= most + 1e-12 * np.abs(most))).reshape(shape)
         sure[:, list(self.barriers)] = False
         e, verge = np.where(sure, e.reshape(shape), np.inf), _angle(x, north)[:count].reshape(shape)
         normal = _normal(p, B, np.append(e, U.real[count:]))[:count].real.reshape(shape)
@@ -343,13 +355,15 @@ class _Wells:
         F_z = p.zc + p.zb * np.sqrt(p.s2) * w2 + p.z1 * w2**2
         broken = np.array([(F_z < 0) | (n * np.abs(F_y) > mu * F_z + 1e-12) for mu, n in pairs])
         for which, first in enumerate(firsts):
-            # all that is left in doubt, and what may be lower between points of the grid than at them
-            middle = first[:, 1:-1]
-            before, after = first[:, :-2] - middle, first[:, 2:] - middle
-            doubt = (before >= 0) & (after >= 0) & (middle - np.maximum(before, after) < e[which][:, None])
-            doubt[self.k, found[which][0] - 1] = ~sure[which]
-            doubt &= np.isfinite(middle) & ~broken[which][:, None]
-            rows, cells = np.nonzero(doubt)
+            # what is in doubt, and where the first energy may fall lower between points of the grid than at them
+            rise = first[:, 1:] - first[:, :-1]
+            local = (rise[:, :-1] <= 0) & (rise[:, 1:] >= 0)
+            local[self.k, found[which][0] - 1] = ~sure[which]
+            rows, cells = np.divmod(np.flatnonzero(local), _CELLS - 1)
+            dip = np.maximum(-rise[rows, cells], rise[rows, cells + 1])
+            doubt = (first[rows, cells + 1] - dip < e[which][rows]) | (cells + 1 == found[which][0][rows])
+            doubt &= np.isfinite(first[rows, cells + 1]) & ~broken[which][rows]
+            rows, cells = rows[doubt], cells[doubt]
             if len(rows):
                 self._search(pairs[which], rows, cells + 1, e[which], verge[which], normal[which])
         verge[~np.isfinite(e) | broken] = np.nan
@@ -390,19 +404,20 @@ class _Wells:
             low.append((inside.argmax(axis=1), _CELLS - inside[:, ::-1].argmax(axis=1)))
         within = np.array(low)
         none = within[:, 1] - within[:, 0] > np.where(self.base[k, within[:, 0]] <= e, _CELLS, 0)
-        beyond = _clip(within + np.array([[-1], [1]]), 0, _CELLS)
-        north = within <= _CELLS // 2
-        x_1, x_2 = (2 * np.sin(GRID[np.where(north, j, _CELLS - j)] / 2) ** 2 for j in (within, beyond))
-        D_1, D_2 = (self.place.s2[j] * (energy - self.U[k, j]) for j in (within, beyond))
-        share = np.where(within == beyond, 0, D_1 / (D_1 - D_2))
-        x, d = x_1 + (x_2 - x_1) * share, self._gap(north, k)
+        j = _clip(within - [[1], [0]], 0, _CELLS - 1).ravel()
+        i = _clip(j, _REACH, _CELLS - _REACH)
+        above = np.repeat(e, 2, axis=0).ravel() - self.U[np.resize(k, i.size), i + _STENCIL]
+        D = self.place.s2[i + _STENCIL] * above
+        t = np.where(within % _CELLS, _crossing(D, i, j).reshape(within.shape), within)  # or through a pole
+        x, north = _distance(_mapped(t), _mapped(_CELLS - t))
+        d = self._gap(north, k)
         for _ in range(12):
             z = x + h * 1j
             B, f2, s2, _, _ = self._bracket(z, north, d)
             D = s2 * (energy - 2 * top.a * np.where(north, z, 2 - z)) - f2 * B * B
             step = D.real / D.imag * h
             x = _clip(x - step, 0, 2)
-            if not np.any(np.abs(step) > 1e-7 * x):
+            if not np.any(np.abs(step) > 1e-6 * x):
                 break
         theta = _angle(x, north)
         theta[:, 0][np.isinf(e)], theta[:, 1][np.isinf(e)] = 0.0, np.pi
