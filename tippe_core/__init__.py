@@ -39,6 +39,7 @@ from .shapes import (
     save_top,
 )
 from .sliding import Coulomb, SmoothedCoulomb, Viscous, slide
+from .smooth import Gliding, glide
 from .solids import Solid, ball, cylinder, frustum, zone
 from .tielines import Tielines, figures, limit_energy, tielines
 from .top import Scales, Top
@@ -51,6 +52,7 @@ __all__ = [
     "Change",
     "Constants",
     "Coulomb",
+    "Gliding",
     "Lathe",
     "LoadedSphere",
     "Measured",
@@ -85,6 +87,7 @@ __all__ = [
     "figures",
     "friction_force",
     "frustum",
+    "glide",
     "jellett_potential",
     "limit_energy",
     "load_top",

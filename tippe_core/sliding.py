@@ -29,6 +29,7 @@ from .constants import State, f3_2, versines
 from .errors import TopError, finite
 from .forces import contact_force
 from .rolling import Rolling
+from .smooth import first_below
 from .trajectory import Trajectory, checked_times
 
 SLOW, STILL = 0.01, 1e-11  # (gR)^1/2; from STILL to 0 is less than the 1e-9 to which events are located
@@ -303,7 +304,9 @@ class _Run:
         """The State at y, with G's velocity unsaid."""
         theta, phi, psi, (w1, w2, w3) = (part[..., 0] for part in self._pose(y[:, None], y[:, None]))
         if theta in (0.0, np.pi):
-            w1, w2 = np.hypot(w1, w2), 0.0
+            pole = np.cos(theta)  # 1' along omega, as it is just after the pole
+            lean = np.angle(pole * (w1 + 1j * pole * w2))
+            w1, w2, phi, psi = pole * np.hypot(w1, w2), 0.0, phi + lean, psi - pole * lean
         return State(theta, w1, w2, w3, phi, psi, y[10], y[11])
 
     def _holds(self, y):
@@ -314,7 +317,11 @@ class _Run:
         """As _slip, without slipping: by the exact motion of rolling.py."""
         state = self._state(y)
         rolling = Rolling(self.top, None, state)
-        lets_go = self._first_slip(rolling)
+
+        def margin(t):
+            return _margin(rolling(np.append(0.0, t)).force[1:].T, self.friction.mu_s)
+
+        lets_go = first_below(margin, rolling.period)
         count = int(np.searchsorted(times, y[12] + lets_go)) if np.isfinite(lets_go) else len(times)
         # the first time is where the stretch starts
         stretch = _cut(rolling(np.array([y[12], *times[:count]])), slice(1, None))
@@ -322,28 +329,6 @@ class _Run:
             return stretch, y, None
         last = _cut(rolling(np.array([0.0, lets_go])), slice(1, None))
         return stretch, self._let_go(self._from_trajectory(last, y[12] + lets_go)), "slips"
-
-    def _first_slip(self, rolling):
-        """Time from the start to where rolling first needs mu_s F_z; inf if it never does. One nutation tells all."""
-
-        def margin(t):
-            return _margin(rolling(np.append(0.0, t)).force[1:].T, self.friction.mu_s)
-
-        t = np.linspace(0, rolling.period, 513)
-        values = margin(t)
-        over = np.flatnonzero(values[1:] < 0)
-        # between samples, where it dips
-        for i in np.flatnonzero((values[1:-1] < values[:-2]) & (values[1:-1] <= values[2:])) + 1:
-            if over.size and over[0] < i:
-                break
-            finer = np.linspace(t[i - 1], t[i + 1], 65)
-            dip = np.flatnonzero(margin(finer) < 0)
-            if dip.size:
-                return brentq(lambda x: margin(x)[0], finer[dip[0] - 1], finer[dip[0]], xtol=1e-13)
-        if not over.size:
-            return np.inf
-        i = over[0]
-        return t[0] if values[i] <= 0 else brentq(lambda x: margin(x)[0], t[i], t[i + 1], xtol=1e-13)
 
     def _let_go(self, y):
         """y with the least slip, if it has none, in the direction in which slipping starts: u' along u, outward."""

@@ -1,0 +1,192 @@
+"""Motion on the smooth plane (appendix B): exact, for any length of time, by the same Fourier series as rolling.
+
+No horizontal force acts: G moves uniformly, and w3 and L_z = I3 w3 c + I1 w2 s are constant. With e = 2E - I3 w3^2, E
+without the drift of G, c_dot^2 = s^2 theta_dot^2 is a cubic over I1 + a^2 s^2,
+
+    (I1 + a^2 s^2) theta_dot^2 = e - 2a(1 - c) - (L_z - I3 w3 c)^2/(I1 s^2) ,
+    (I1 + a^2 s^2) c_dot^2 = P = s^2 [e - 2a(1 - c)] - (L_z - I3 w3 c)^2/I1 = (c1 - c)(c - c2) Q ,
+    Q = e + (I3 w3)^2/I1 - 2a(1 - c - c1 - c2) ,
+
+so with rolling.py's kappa dt = [(I1 + a^2 s^2)/Q]^1/2 dkappa. Its regular orientation next to a pole holds too: for it
+w2 = B/s with B = (L_z - I3 w3 c)/I1 = d + v I3 w3/I1, and theta_dot and w2 have the same inertia at a pole. The table
+pushes with
+
+    F_z = 1 + d^2/dt^2 (-a c) = {I1 + a [I1 c (w1^2 + w2^2) - I3 w3 s w2]}/(I1 + a^2 s^2) .
+"""
+
+from dataclasses import replace
+from decimal import Decimal, localcontext
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .constants import EXACT, State, exact_top, versines
+from .curve import angle, solve
+from .errors import TopError
+from .rolling import Rolling
+from .trajectory import Trajectory, checked_times
+
+
+def glide(top, state, times):
+    """The motion on a smooth plane at the given times: Trajectory. Exact to rounding for times of any length.
+
+    state: State at times[0]; x, y, vx, vy left None mean G at the origin, at rest.
+    times: (n,) in (R/g)^1/2, not falling. Where the top leaves the table the Trajectory ends, with the event
+    (time, "lifts off"), for flight is not computed.
+    Raises TopError for bad input, and next to motions that take for ever to fall off an unstable steady precession.
+    """
+    t = checked_times(times)
+    if np.any(np.diff(t) < 0):
+        raise TopError("times", times, "times that do not fall")
+    gliding = Gliding(top, state)
+    lifts = gliding.lift_off
+    moved = gliding(t[t - t[0] <= lifts])
+    return moved if lifts > t[-1] - t[0] else replace(moved, events=((float(t[0] + lifts), "lifts off"),))
+
+
+class Gliding(Rolling):
+    """The motion on the smooth plane as a function of time since its start: arguments as in glide().
+
+    period (of the nutation), phi_advance, psi_advance, theta(times) as in Rolling; turning_points (2,) in rad;
+    lift_off, the time from the start to F_z = 0 (inf: never; if the table could also pull, called with times the
+    motion goes on after it).
+    """
+
+    def __init__(self, top, state):
+        if not isinstance(state, State):
+            raise TopError("state", state, "a State")
+        self.top, self.start, self._inward = top, state, state.theta_dot < 0
+        v, m = (float(x) for x in versines(state.theta))
+        with localcontext(EXACT):
+            t, w1, w2, w3 = exact_top(top), *(Decimal(w) for w in (state.theta_dot, state.omega2, state.omega3))
+            v = Decimal(v) if v <= m else 2 - Decimal(m)
+            here, s2 = 1 - v, v * (2 - v)
+            L3 = t.I3 * w3
+            L_z = L3 * here + t.I1 * w2 * s2.sqrt()
+            e = t.I1 * (w1 * w1 + w2 * w2) + t.a * t.a * s2 * w1 * w1 + 2 * t.a * v
+            inner, outer = _turning(t, e, L_z, L3, here, still=state.theta_dot == 0)
+            self.turning_points = np.array([angle(inner), angle(outer)])
+            self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
+            self.width = float(inner - outer)
+            self._place = float(max(inner - here, 0)) ** 0.5, float(max(here - outer, 0)) ** 0.5
+            self.gaps = float((L_z - L3) / t.I1), float((L_z + L3) / t.I1)
+            self._Q_outer = float(e + L3 * L3 / t.I1 - 2 * t.a * (1 - inner - 2 * outer))
+            self._C = float(L3 / t.I1)
+            self.E = float(e + L3 * w3) / 2
+        self.K_R = 0.0
+
+    def _h(self, v, m):
+        Q = self._Q_outer + 2 * self.top.a * (self.v2 - v)
+        if self.width == 0 and not np.all(Q > 0):
+            return np.ones_like(Q)  # at rest on an unstable steady precession: any rate of kappa will do
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.sqrt((self.top.I1 + self.top.a**2 * v * m) / Q)
+
+    def _h_exact(self, sh):
+        return self._h(*self._versines(np.sqrt(1 - sh**2), sh))  # Q has nothing to cancel
+
+    def _too_near(self):
+        return TopError("E", self.E, "an energy further from that of an unstable steady precession",
+                        "So near to it the nutation takes almost for ever; change the start a little.")  # fmt: skip
+
+    def _sigma_rates(self, v, m, h):
+        (north, south), rates = self.gaps, []
+        for x, x1, x2, d, sign in ((v, self.v1, self.v2, north, -1), (m, self.m1, self.m2, south, 1)):
+            with np.errstate(invalid="ignore", divide="ignore"):
+                peak = np.where(x > 0, (h * d - np.copysign(np.sqrt(x1 * x2), d)) / np.where(x > 0, x, 1), 0)
+            rates.append((peak + h * sign * (self.start.omega3 - self._C)) / 2)
+        return np.array(rates)
+
+    def _omega(self, ch, sh, v, m, h):
+        w1, _, _ = super()._omega(ch, sh, v, m, h)
+        x, d, C = np.minimum(v, m), np.where(v <= m, *self.gaps), np.where(v <= m, self._C, -self._C)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            w2 = np.where(d == 0, 0.0, d / np.sqrt(v * m)) + np.sqrt(x / (2 - x)) * C
+        return w1, w2, np.full_like(w2, self.start.omega3)
+
+    def _F_z(self, v, m, w1, w2):
+        a, I1, s, c = self.top.a, self.top.I1, np.sqrt(v * m), 1 - v
+        return (I1 + a * I1 * (c * (w1**2 + w2**2) - self._C * s * w2)) / (I1 + a * a * s * s)
+
+    @property
+    def lift_off(self):
+        """Time from the start to where F_z falls to 0, in (R/g)^1/2; inf if it never does."""
+
+        def F_z(t):
+            now = self._state(*self._clock(np.append(0.0, t)))
+            w1, w2, _ = now["omega"]
+            return self._F_z(now["v"], now["m"], w1, w2)[1:]
+
+        return first_below(F_z, self.period)
+
+    def __call__(self, times):
+        """The Trajectory at the times (n,)."""
+        top, start, t = self.top, self.start, checked_times(times)
+        first = self._state(np.zeros(1), *(np.array([x]) for x in self._start_phase))
+        now = self._state(*self._clock(t))
+        d_phi, d_psi = start.phi - first["phi"][0], start.psi - first["psi"][0]
+        pole = np.cos(start.theta)
+        if start.theta in (0.0, np.pi) and start.theta_dot * pole < 0:  # 1' turns round as theta does
+            d_phi, d_psi = d_phi + np.pi, d_psi - np.pi * pole
+        phi, psi = now["phi"] + d_phi, now["psi"] + d_psi
+        drift = complex(start.vx or 0.0, start.vy or 0.0) * np.exp(1j * start.phi)
+        G = complex(start.x or 0.0, start.y or 0.0) + drift * (t - t[0])
+        contact = G - 1j * now["s_exp_phi"] * np.exp(1j * d_phi) * top.a
+        xy, zw = now["xy"] * np.exp(0.5j * (d_phi - d_psi)), now["zw"] * np.exp(0.5j * (d_phi + d_psi))
+        v, m, (w1, w2, w3) = now["v"], now["m"], now["omega"]
+        s, c, moving = np.sqrt(v * m), 1 - v, drift * np.exp(-1j * phi)
+        slip = moving.real - (w2 * (c - top.a) - w3 * s), moving.imag + w1 * (1 - top.a * c)
+        F_z, none = self._F_z(v, m, w1, w2), np.zeros(len(t))
+        return Trajectory(
+            top=top, t=t, theta=now["theta"], phi=phi, psi=psi,
+            quaternion=np.stack([xy.real, xy.imag, zw.imag, zw.real], axis=1),
+            contact=np.stack([contact.real, contact.imag], axis=1),
+            com=np.stack([G.real, G.imag, 1 - top.a + top.a * v], axis=1),
+            omega=np.stack([w1, w2, w3], axis=1), slip=np.stack(slip, axis=1),
+            force=np.stack([none, none, F_z], axis=1), regime=np.full(len(t), "slip"))  # fmt: skip
+
+
+def _turning(t, e, L_z, L3, here, still):
+    """cos(theta) at the turning points, Decimals: the zeros of P on both sides of here."""
+
+    def P(c):
+        B, rest = L_z - L3 * c, e - 2 * t.a * (1 - c)
+        return ((1 - c * c) * rest - B * B / t.I1,
+                -2 * c * rest + 2 * t.a * (1 - c * c) + 2 * L3 * B / t.I1)  # fmt: skip
+
+    one = Decimal(1)
+    if not still:
+        inner = one if P(one)[0] == 0 and e > 0 else solve(P, here, one, False)
+        outer = -one if P(-one)[0] == 0 and e > 4 * t.a else solve(P, -one, here, True)
+        return inner, outer
+    slope = P(here)[1]
+    if slope == 0 or (abs(here) == 1 and slope * here > 0):
+        return here, here
+    # P = (c - here)(A c^2 + B c + C)
+    A, square = -2 * t.a, -(e - 2 * t.a) - L3 * L3 / t.I1
+    B = square + A * here
+    C = 2 * t.a + 2 * L_z * L3 / t.I1 + B * here
+    root = max(B * B - 4 * A * C, Decimal(0)).sqrt()
+    q = -(B + root if B >= 0 else B - root) / 2
+    zeros = [x for x in ([q / A] if A else []) + ([C / q] if q else []) if (x > here) == (slope > 0)]
+    other = min(zeros, key=lambda x: abs(x - here))
+    return (max(min(other, one), here), here) if slope > 0 else (here, min(max(other, -one), here))
+
+
+def first_below(function, period):
+    """The first t >= 0 at which function(t (n,)) -> (n,), of the given period, falls below 0; inf if it never does."""
+    t = np.linspace(0, period, 513)
+    values = function(t)
+
+    def crossing(times, values):
+        i = int(np.argmax(values < 0))
+        return 0.0 if i == 0 else brentq(lambda x: function(np.array([x]))[0], times[i - 1], times[i], xtol=1e-13)
+
+    dips = np.flatnonzero((values[1:-1] < values[:-2]) & (values[1:-1] <= values[2:])) + 1
+    first = int(np.argmax(values < 0)) if np.any(values < 0) else len(t)
+    for i in dips[dips < first]:
+        finer = np.linspace(t[i - 1], t[i + 1], 65)
+        between = function(finer)
+        if np.any(between < 0):
+            return crossing(finer, between)
+    return crossing(t, values) if first < len(t) else np.inf
