@@ -179,17 +179,20 @@ def page():
         Surface3D(sizing_mode="stretch_both"),
     )
 
-    def show_rest(scene):
-        controls.show(scene)
-        kept.object, unit.object = kept_words(scene), unit_words(scene)
+    def show_planes(scene):
         plane.show_plane(scene)
-        times.show(scene)
         show_surface(surface, scene)
         show_top(top, scene)
-        workshop.show_scene(scene)
+
+    def show_words(scene):
+        with pn.io.hold():
+            controls.show(scene)
+            kept.object, unit.object = kept_words(scene), unit_words(scene)
+            workshop.show_scene(scene)
 
     kept, unit = words(""), words("")
-    pacer = Pacer(explorer, plane.show_selected, show_rest)
+    pictures = (show_planes, times.show)
+    pacer = Pacer(explorer, plane.show_selected, pictures, show_words)
     controls = Controls(explorer, pacer)
     builder = Builder(explorer, pacer.request)
     followers = controls.views("K_J", "K_R", "a", "I1", "I3")
@@ -201,9 +204,9 @@ def page():
     measure = Measure(builder)
     surface.param.watch(lambda event: event.new and controls.pick(event.new[0]), "picked")
     plane.figure.on_event("tap", lambda event: controls.pick(event.y))
-    plane.show_selected(explorer.scene)
-    show_rest(explorer.scene)
-    follow_clock(pn.state.curdoc, plane, times)
+    for show in (plane.show_selected, *pictures, show_words):
+        show(explorer.scene)
+    follow_clock(plane, times)
 
     hemisphere = pmui.RadioButtonGroup.from_param(
         explorer.param.upper,

@@ -1,13 +1,16 @@
 """Keeps the picture under the hand: of a stream of requests only the newest is solved, once the last was painted."""
 
 import time
+from functools import partial
 
 import panel as pn
 import param
 from panel.custom import JSComponent
 
 # Two, so that one is on its way while the browser paints the other.
-HANDS_IN_FLIGHT = 1
+HANDS_IN_FLIGHT = 2
+# After its last request a hand is taken to rest.
+REST_AFTER = 0.15
 # A hidden tab paints nothing and so never answers.
 ANSWER_WITHIN = 2.0
 
@@ -35,47 +38,65 @@ class Painted(JSComponent):
 class Pacer:
     """Between the controls and an Explorer, and between its scenes and the views.
 
-    hand and rest: functions of a scene; hand draws what the hand moves and is cheap, rest draws all else. The newest
-    request is solved and drawn by `hand` once the one before is painted; `rest` follows when its own last picture is
-    painted, and leaves out scenes that have been overtaken.
+    Functions of a scene: hand draws what the hand moves and is cheap. The pictures follow in turn, each in a message
+    of its own once the one before is painted, so that a hand never waits for more than one; a round of them shows
+    one scene, the newest at its start. words are for a hand at rest, or for an input that cannot be.
     """
 
-    def __init__(self, explorer, hand, rest):
-        self.explorer, self._hand, self._rest = explorer, hand, rest
+    def __init__(self, explorer, hand, pictures, words):
+        self.explorer, self._hand, self._pictures, self._words = explorer, hand, pictures, words
         self.painted = Painted(width=0, height=0, margin=0)
         at_once(self.painted, "painted")
-        self._wanted, self._rest_is_due = {}, False
-        self._hands, self._rests = [], []  # (number, when sent) of what the browser has yet to paint
+        self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
+        self._requested = 0.0
+        self._hands, self._drawing = [], []  # (number, when sent) of what the browser has yet to paint
         explorer.param.watch(self._on_scene, "scene")
         self.painted.param.watch(self._on_painted, "painted")
 
     def request(self, **inputs):
         """Asks for these inputs of the Explorer; a later request for the same input replaces one still waiting."""
         self._wanted.update(inputs)
+        self._requested = time.monotonic()
+        if self._resting:
+            self._resting = False
+            pn.state.curdoc.add_timeout_callback(self._rest, round(1000 * REST_AFTER))
         self._advance()
 
     def _advance(self):
         late = time.monotonic() - ANSWER_WITHIN
         self._hands = [sent for sent in self._hands if sent[1] > late]
-        self._rests = [sent for sent in self._rests if sent[1] > late]
-        if self._wanted and not self._hands:
+        self._drawing = [sent for sent in self._drawing if sent[1] > late]
+        if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
             inputs, self._wanted = self._wanted, {}
             self.explorer.param.update(**inputs)
+        if not self._drawing:
+            if not self._round and self._round_is_due:
+                scene, self._round_is_due = self.explorer.scene, False
+                self._round = [partial(draw, scene) for draw in self._pictures]
+            if self._round:
+                self._send(self._round.pop(0), self._drawing)
 
     def _on_scene(self, event):
-        self._send(self._hand, self._hands)
-        self._rest_is_due = True
+        self._send(partial(self._hand, event.new), self._hands)
+        self._round_is_due = True
+        if self._resting or event.new.messages or event.old.messages:
+            self._words(event.new)
+
+    def _rest(self):
+        left = self._requested + REST_AFTER - time.monotonic()
+        if left > 0 or self._wanted:
+            pn.state.curdoc.add_timeout_callback(self._rest, max(round(1000 * left), 20))
+            return
+        self._resting = True
+        self._words(self.explorer.scene)
 
     def _send(self, draw, in_flight):
-        with pn.io.hold():  # one message, in order, so that the answer comes after the pictures
-            draw(self.explorer.scene)
+        with pn.io.hold():  # one message, in order, so that the answer comes after the picture
+            draw()
             self.painted.sent += 1
         in_flight.append((self.painted.sent, time.monotonic()))
 
     def _on_painted(self, event):
         self._hands = [sent for sent in self._hands if sent[0] > event.new]
-        self._rests = [sent for sent in self._rests if sent[0] > event.new]
+        self._drawing = [sent for sent in self._drawing if sent[0] > event.new]
         self._advance()
-        if self._rest_is_due and not self._rests:
-            self._rest_is_due = False
-            self._send(self._rest, self._rests)

@@ -22,14 +22,23 @@ from app.explorer import ROLLS, SLIPS
 INK, FAINT, GRID = "#22303c", "#8a96a3", "#e7ebef"
 POINTS_A_CURVE = 640
 
-# Moves the time lines and the bead in the browser; not synced, so playing sends nothing to the server.
+# Moves the time lines and the bead in the browser; not synced, so playing sends nothing to the server. Run by each new
+# size of a figure, of which the first comes as soon as there is something to move.
 FOLLOW_CLOCK = """
+if (motion.followed) return
+motion.followed = true
+let now = 0
+const place_bead = () => {
+  const {t, theta} = motion.data, last = t.length - 1
+  const x = Math.min(Math.max((now - t[0]) / (t[last] - t[0]), 0), 1) * last, i = Math.min(Math.floor(x), last - 1)
+  selected.data.theta[0] = theta[i] + (x - i) * (theta[i + 1] - theta[i])
+  selected.change.emit()
+}
+motion.properties.data.change.connect(place_bead)
 window.addEventListener("tippe:clock", ({detail: {t}}) => {
+  now = t
   for (const span of spans) span.setv({location: t}, {sync: false})
-  const {t: ts, theta} = motion.data, last = ts.length - 1
-  const x = Math.min(Math.max((t - ts[0]) / (ts[last] - ts[0]), 0), 1) * last, i = Math.min(Math.floor(x), last - 1)
-  bead.data.theta[0] = theta[i] + (x - i) * (theta[i + 1] - theta[i])
-  bead.change.emit()
+  place_bead()
 })
 """
 
@@ -102,9 +111,8 @@ class PlaneFigure:
         self.pole = ColumnDataSource({"theta": [0.0], "K_J": [0.0]})
         self.field = ColumnDataSource({"E": [], "ratio": [], "x": [], "y": [], "w": [], "h": []})
         self.selected = ColumnDataSource(
-            {"K_J": [0.0], "inner": [0.0], "outer": [0.0], "steady": [0.0], "colour": [INK]}
+            {"K_J": [0.0], "inner": [0.0], "outer": [0.0], "steady": [0.0], "theta": [0.0], "colour": [INK]}
         )
-        self.bead = ColumnDataSource({"theta": [0.0], "K_J": [0.0]})
 
         for left, right in (("lift_in", "slip_in"), ("slip_out", "lift_out")):
             fig.harea(y="K_J", x1=left, x2=right, source=self.limits, fill_color=COLOURS["friction"], fill_alpha=0.16)
@@ -154,22 +162,21 @@ class PlaneFigure:
         fig.scatter(
             "steady", "K_J", marker="dash", angle=np.pi / 2, size=14, line_color="colour", line_width=2, **on_top
         )
-        fig.scatter(
-            "theta", "K_J", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK, line_width=2
-        )
+        fig.scatter("theta", "K_J", size=13, fill_color="white", line_color=INK, line_width=2, **on_top)
         self._plane = None
 
     def show_selected(self, scene):
         inner, outer = scene.turning
         worst = int(scene.regime.max())
-        self.selected.data = {
-            "K_J": [scene.constants.K_J],
-            "inner": [inner],
-            "outer": [outer],
-            "steady": [scene.marks.theta_steady],
-            "colour": [COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == SLIPS else "normal"]],
+        # A patch, because theta, where the bead is, belongs to the browser's clock.
+        row = {
+            "K_J": scene.constants.K_J,
+            "inner": inner,
+            "outer": outer,
+            "steady": scene.marks.theta_steady,
+            "colour": COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == SLIPS else "normal"],
         }
-        self.bead.data = {"theta": np.array([inner]), "K_J": np.array([scene.constants.K_J])}
+        self.selected.patch({name: [(0, value)] for name, value in row.items()})
 
     def show_plane(self, scene):
         plane = scene.plane
@@ -284,9 +291,9 @@ class TimeFigures:
             self.figures[name].y_range.update(start=low - pad, end=high + pad)
 
 
-def follow_clock(document, plane, times):
+def follow_clock(plane, times):
     """Lets the browser's own clock move the time lines and the bead on the selected tieline."""
-    document.js_on_event(
-        "document_ready",
-        CustomJS(args={"spans": times.spans, "motion": times.motion, "bead": plane.bead}, code=FOLLOW_CLOCK),
+    follow = CustomJS(
+        args={"spans": times.spans, "motion": times.motion, "selected": plane.selected}, code=FOLLOW_CLOCK
     )
+    plane.figure.js_on_change("inner_width", follow)

@@ -66,18 +66,17 @@ WATCH = """
   const shown = () => ours ? under.data.K_J[0] : under.data.value[0]
   plane.repainted.connect(() => painted("figure", shown()))
   if (!ours) return plane.repainted.connect(() => painted("page", shown()))
-  // The page is as old as its oldest part. The two in 3-D have no value to read: theirs is that of the plots over
-  // time, sent in the same message, from the first picture drawn after it on.
+  // The page is as old as its oldest part: the plots over time, the top in 3-D, and the motion in Fig. 5.
   const motion = view("constants").model.renderers[0].data_source
   const {top3d, surface3d} = window.__tippe
   let waiting = []
   motion.properties.data.change.connect(() => waiting.push(
-    {value: Number(motion.data.K_J[0].toFixed(9)), top: top3d.pictures, surface: surface3d.pictures}))
+    {value: Number(motion.data.K_J[0].toFixed(9)), motions: top3d.motions.received}))
   view("constants").repainted.connect(() => { for (const sent of waiting) sent.plots = true })
   const look = () => {
     requestAnimationFrame(look)
     const whole = waiting.findLastIndex(
-      (sent) => sent.plots && top3d.pictures > sent.top && surface3d.pictures > sent.surface)
+      (sent) => sent.plots && top3d.motions.shown >= sent.motions && Math.abs(surface3d.selected - sent.value) < 1e-5)
     if (whole < 0) return
     painted("page", waiting[whole].value)
     waiting = waiting.slice(whole + 1)

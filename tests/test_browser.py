@@ -151,7 +151,6 @@ def test_the_top_stands_as_the_trajectory_says(visit):
             "t => window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t}}))", float(motion.t[index])
         )
         visit.page.wait_for_function("i => __tippe.top3d.index == i", arg=index)
-        visit.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         drawn = np.array(visit.page.evaluate("__tippe.top3d.quaternion"))
         assert abs(drawn @ motion.quaternion[index]) == pytest.approx(1, abs=1e-6)
 

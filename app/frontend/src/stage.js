@@ -2,25 +2,25 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-// Where WebGL is drawn by the processor, moving pictures leave time for the rest of the page, and get coarser until they
-// do; a picture at rest is always drawn fine.
+// Where WebGL is drawn by the processor, moving pictures get coarser until they come quickly enough; a picture at rest is
+// always drawn fine.
 const SLOW_MS = 24; // a picture that takes longer than this to come out
-const REST = 1.6; // is followed by the next one after this many times as long
+const REST = 1.2; // is followed by the next one after this many times as long
 const COARSER_MS = 34;
-const FINER_MS = 20;
+const FINER_MS = 14;
 const STEP = 0.8;
 const COARSEST = 0.6;
 const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
 const MAX_PIXEL_RATIO = 2;
+const SAMPLES = 4;
 
 // There, what a person moves on the page comes first: while a hand is on a control, pictures in 3-D are drawn only of what
-// is new, one a frame of the screen, and without what takes long: fine pixels, a new shadow, long wide lines.
-const HELD_MS = 180; // from one picture of a stage to its next
-const HAND_MS = 300; // how long after its last input a hand is taken to have let go
+// is new, and without what takes long: fine pixels, a new shadow, long wide lines.
+const HAND_MS = 150; // how long after its last input a hand is taken to have let go
 const HAND_COARSE = 0.5;
 const LONG_LINE = 300; // segments
+let inWork = 0; // pictures that were begun and are not on the screen
 let slow = false; // whether the processor draws, as any stage measured
-let anyDrawnAt = 0;
 let inputAt = -Infinity;
 const isCanvas = (target) => target.localName === "canvas";
 const onInput = (event) => {
@@ -30,20 +30,28 @@ const onInput = (event) => {
 for (const type of ["pointerdown", "pointermove", "keydown"]) window.addEventListener(type, onInput, { capture: true });
 
 export class Stage {
-  // tick(now) runs before each drawn frame and says whether another one is to follow; fit(aspect) runs after a new size.
-  constructor(holder, { label, fov, tick = () => false, fit = () => {} }) {
+  // tick(now, held) runs before each drawn frame and says whether another one is to follow, held while a hand is on a
+  // control and the picture is to stand still; fit(aspect) runs after a new size; shown() when a picture came out.
+  constructor(holder, { label, fov, tick = () => false, fit = () => {}, shown = () => {} }) {
     this.holder = holder;
     this.tick = tick;
     this.fit = fit;
+    this.shown = shown;
     this.inView = true;
     this.cost = 0; // ms until a drawn picture is out, a running mean
     this.coarse = 1;
     this.tries = 0;
+    this.pictures = 0; // that came out
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(fov, 1, 0.1, 150);
     this.camera.up.set(0, 0, 1); // physics: z is up
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "low-power" });
-    this.setFineness(1);
+    // Smooth edges are the target's: what is drawn straight into a canvas holds up the whole page until it is done.
+    this.renderer = new THREE.WebGLRenderer({ antialias: false, powerPreference: "low-power" });
+    this.target = new THREE.WebGLRenderTarget(1, 1, {
+      samples: SAMPLES, colorSpace: THREE.SRGBColorSpace, internalFormat: "RGBA8",
+    });
+    this.target.isXRRenderTarget = true; // three's own word for: the colours of a screen, not of a texture
+    this.fineness = 1;
 
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
@@ -68,6 +76,7 @@ export class Stage {
     canvas.addEventListener("webglcontextlost", () => {
       if (this.disposed) return;
       this.lost = true;
+      this.forget();
       this.note("The browser took this picture's graphics memory away. It comes back by itself, or reload the page.");
     });
     canvas.addEventListener("webglcontextrestored", () => {
@@ -105,6 +114,7 @@ export class Stage {
     this.fit(this.camera.aspect);
     this.camera.updateProjectionMatrix();
     this.draw(); // now, not at the next frame: a new size empties the canvas
+    this.present();
   }
 
   invalidate() {
@@ -118,40 +128,53 @@ export class Stage {
 
   frame = (now) => {
     this.request = 0;
-    if (this.disposed || !this.holder.isConnected) return;
-    if (this.moving && !this.costed && !this.simple) {
-      // The first frame after a drawn one comes late by what the drawing took.
-      this.cost += 0.15 * (Math.min(now - this.drawnAt, 250) - this.cost);
-      this.costed = true;
-      if (this.cost > COARSER_MS && this.coarse > COARSEST) this.setCoarse(Math.max(this.coarse * STEP, COARSEST));
-      else if (this.cost < FINER_MS && this.coarse < 1 && this.tries++ < MOST_TRIES) this.setCoarse(Math.min(this.coarse / STEP, 1));
+    if (this.disposed) return;
+    if (this.fence) {
+      if (this.isDrawn()) {
+        this.learn(performance.now() - this.drawnAt);
+        this.present();
+      }
+      // The next picture begins in a later frame: what goes on the screen waits for all that was begun before it.
+      return this.again();
     }
-    if (this.costed) slow = this.cost > SLOW_MS || this.coarse < 1;
+    if (!this.holder.isConnected) return;
     const held = slow && now - inputAt < HAND_MS;
-    if (held) {
-      if (!this.asked || anyDrawnAt === now || now - this.drawnAt < HELD_MS) return this.again();
+    const wanted = this.asked || (!held && (this.moving || (this.simple && this.inView)));
+    const early = !held && this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost;
+    if (!wanted || early || inWork) {
+      if (wanted || held) this.again(); // held: once more, and fine, when the hand lets go
+      return;
     }
-    if (!held && this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost) return this.again();
     this.asked = false;
-    this.moving = this.tick(now);
+    this.moving = this.tick(now, held);
     if (this.inView) {
-      this.setFineness(held ? HAND_COARSE : this.moving ? this.coarse : 1);
+      this.fineness = held ? HAND_COARSE : this.moving ? this.coarse : 1;
       this.setSimple(held);
+      this.setSamples(slow && this.moving || held ? 0 : SAMPLES);
       this.draw();
-      this.drawnAt = anyDrawnAt = now;
-      this.costed = false;
     }
-    if (this.moving || held) this.again(); // held: once more, and fine, when the hand lets go
+    this.again();
   };
+
+  // From what a picture took: whether this machine is slow, and how coarse moving ones are to be.
+  learn(took) {
+    if (this.simple || this.pictures < 3) return; // the first ones wait for their shaders
+    this.cost += 0.15 * (Math.min(took, 250) - this.cost);
+    slow = this.cost > SLOW_MS || this.coarse < 1;
+    if (!this.moving) return;
+    if (this.cost > COARSER_MS && this.coarse > COARSEST) this.setCoarse(Math.max(this.coarse * STEP, COARSEST));
+    else if (this.cost < FINER_MS && this.coarse < 1 && this.tries++ < MOST_TRIES) this.setCoarse(Math.min(this.coarse / STEP, 1));
+  }
 
   setCoarse(share) {
     this.coarse = share;
     this.cost = (COARSER_MS + FINER_MS) / 2; // unknown again
   }
 
-  setFineness(share) {
-    const ratio = share * Math.min(devicePixelRatio, MAX_PIXEL_RATIO);
-    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+  setSamples(samples) {
+    if (samples === this.target.samples) return;
+    this.target.samples = samples;
+    this.target.dispose(); // three makes it anew
   }
 
   setSimple(simple) {
@@ -163,15 +186,53 @@ export class Stage {
     });
   }
 
+  // Begins a picture, which the graphics process then draws while the page goes on; present() puts it on the screen.
   draw() {
     if (this.disposed || this.lost || !this.width) return;
+    const { renderer, target } = this, gl = renderer.getContext();
+    const pixels = this.fineness * Math.min(devicePixelRatio, MAX_PIXEL_RATIO);
+    target.setSize(Math.round(this.width * pixels), Math.round(this.height * pixels));
     this.beforeDraw?.();
-    this.renderer.render(this.scene, this.camera);
+    renderer.setRenderTarget(target);
+    renderer.render(this.scene, this.camera);
+    renderer.setRenderTarget(null);
+    this.forget();
+    inWork += 1;
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    this.drawnAt = performance.now();
+  }
+
+  forget() {
+    if (!this.fence) return;
+    this.renderer.getContext().deleteSync(this.fence);
+    this.fence = null;
+    inWork -= 1;
+  }
+
+  isDrawn() {
+    const gl = this.renderer.getContext();
+    return gl.getSyncParameter(this.fence, gl.SYNC_STATUS) === gl.SIGNALED;
+  }
+
+  present() {
+    if (!this.fence) return;
+    const { renderer, target: { width, height } } = this, gl = renderer.getContext(), canvas = renderer.domElement;
+    this.forget();
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
+    // Beside three's own record of what is bound, so it is left as it was: nothing.
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, renderer.properties.get(this.target).__webglFramebuffer);
+    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
+    this.pictures += 1;
+    this.shown();
   }
 
   dispose() {
     if (this.disposed) return;
     this.disposed = true;
+    this.forget();
     cancelAnimationFrame(this.request);
     this.resizing.disconnect();
     this.seeing.disconnect();
@@ -184,6 +245,7 @@ export class Stage {
       }
       object.shadow?.dispose?.();
     });
+    this.target.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }

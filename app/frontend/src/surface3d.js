@@ -16,7 +16,7 @@ const CLICK_PX = 4; // a press that moves less than this is a click, not a turn
 // Pale to dark in even steps of OKLCH's lightness, from yellow to brown: no hue of a line is among them.
 const ramp = ["#f8f2dd", "#eed8a8", "#e5bb76", "#da9f4a", "#cc8325", "#b8690f", "#9f5414", "#81421e", "#623422"].map((hex) => new THREE.Color(hex));
 
-const data = ["K_J", "theta", "heights", "energy", "verge", "steady", "P", "selected", "selected_curve", "theta_max", "limit"];
+const data = ["K_J", "theta", "heights", "energy", "verge", "steady", "P", "theta_max", "limit"];
 const QUANTITY = "<i>f</i><sub>1</sub><sup>2</sup> <i>θ̇</i><sup>2</sup>";
 const limits = {
   "lift-off": { colour: colours.normal, text: "<i>F</i><sub>z</sub> = 0" },
@@ -26,7 +26,7 @@ const limits = {
 export function renderSurface3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const { picture } = frameIn(el);
-  const stage = tryStage(picture, { label: "Figure 5: a surface over theta and K_J", fov: 26, fit });
+  const stage = tryStage(picture, { label: "Figure 5: a surface over theta and K_J", fov: 26, fit, tick, shown: () => (shown = drawing) });
   if (!stage) return;
   const { scene, camera, controls, renderer } = stage;
   scene.background = new THREE.Color(GROUND);
@@ -91,6 +91,18 @@ export function renderSurface3D({ model, el, view }) {
   picture.append(readout, key);
 
   let rows = 0, columns = 0, K_J, theta, height, energy;
+  let selected, drawing, shown; // K_J of the motion on display: as sent, in the picture begun, and on the screen
+
+  function tick() {
+    drawing = selected;
+    return false;
+  }
+
+  // What a hand moves is one motion among the many.
+  function updateSelected() {
+    buildSelected();
+    stage.invalidate();
+  }
 
   function update() {
     [K_J, theta, height, energy] = [model.K_J, model.theta, model.heights, model.energy].map(float32);
@@ -106,6 +118,7 @@ export function renderSurface3D({ model, el, view }) {
     if (moved) axes.place(true);
     buildSurface();
     buildLines();
+    buildSelected();
     leave();
     stage.invalidate();
   }
@@ -184,7 +197,17 @@ export function renderSurface3D({ model, el, view }) {
       `<span style="--swatch: ${limit.colour}">${limit.text}</span>` +
       `<span style="--swatch: #1d2733">steady precession</span><span style="--swatch: ${colours.theta}">this motion</span>`;
 
+    const [poleTheta, poleK, poleHeight] = float32(model.P);
+    pole.visible = poleLabel.visible = Number.isFinite(poleHeight) && poleK >= y.low && poleK <= y.high;
+    if (pole.visible) {
+      pole.position.set(x.at(poleTheta), y.at(poleK), z.at(poleHeight));
+      poleLabel.at.copy(pole.position);
+    }
+  }
+
+  function buildSelected() {
     const [chosen, inner, outer] = float32(model.selected), curve = float32(model.selected_curve);
+    selected = chosen;
     const inBox = Number.isFinite(chosen) && chosen >= y.low && chosen <= y.high;
     for (const line of floor.selected) {
       line.setSegments(inBox ? 1 : 0, (s, put) => {
@@ -193,13 +216,6 @@ export function renderSurface3D({ model, el, view }) {
     }
     for (const line of selectedCurves) {
       line.setPath(inBox ? curve.length >> 1 : 0, (i, put) => put(x.at(curve[2 * i]), y.at(chosen), z.at(curve[2 * i + 1])));
-    }
-
-    const [poleTheta, poleK, poleHeight] = float32(model.P);
-    pole.visible = poleLabel.visible = Number.isFinite(poleHeight) && poleK >= y.low && poleK <= y.high;
-    if (pole.visible) {
-      pole.position.set(x.at(poleTheta), y.at(poleK), z.at(poleHeight));
-      poleLabel.at.copy(pole.position);
     }
   }
 
@@ -282,7 +298,9 @@ export function renderSurface3D({ model, el, view }) {
     labels.place();
   };
   const onData = coalesce(update); // a new scene sets many parameters: one picture
+  const onSelected = coalesce(updateSelected);
   for (const name of data) model.on(name, onData);
+  for (const name of ["selected", "selected_curve"]) model.on(name, onSelected);
   update();
 
   const report = {
@@ -291,13 +309,15 @@ export function renderSurface3D({ model, el, view }) {
     get K_J() { return Array.from(K_J); },
     get theta() { return Array.from(theta); },
     get height() { return Array.from(height); },
-    get pictures() { return renderer.info.render.frame; },
+    get pictures() { return stage.pictures; },
+    get selected() { return shown; },
     get readout() { return readout.hidden ? "" : readout.textContent; },
   };
   (window.__tippe ??= {}).surface3d = report;
 
   const dispose = () => {
     onData.cancel();
+    onSelected.cancel();
     hover.cancel();
     if (window.__tippe.surface3d === report) delete window.__tippe.surface3d;
     stage.dispose();

@@ -30,7 +30,7 @@ const verdicts = [
 export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const { root, picture } = frameIn(el);
-  const stage = tryStage(picture, { label: "The top, rolling on a table", fov: 30, tick, fit });
+  const stage = tryStage(picture, { label: "The top, rolling on a table", fov: 30, tick, fit, shown: () => (shown = drawing) });
   if (!stage) return;
   const { scene, camera, controls, renderer } = stage;
 
@@ -120,15 +120,17 @@ export function renderTop3D({ model, el, view }) {
   let restarted = true;
   let lastFrame;
   let drawn; // what the last drawn picture showed
+  let received = 0, drawing = 0, shown = 0; // motions that came; the last of them in the picture begun, and on the screen
 
-  function tick(now) {
-    if (player.playing && player.frames.count > 1) {
+  function tick(now, held) {
+    if (!held && player.playing && player.frames.count > 1) {
       // model.seconds of the real top pass in one unit of t; speed 1 shows them at their own pace.
       const unitsPerMs = model.speed / (1000 * model.seconds);
       restarted = player.advance(now, unitsPerMs) || restarted;
     }
     pose();
     follow(now);
+    drawing = received;
     return player.playing && player.frames.count > 1;
   }
 
@@ -176,7 +178,7 @@ export function renderTop3D({ model, el, view }) {
     bar.update(model.seconds);
     const { t, playing } = player;
     if (!drawn || drawn.t !== t || drawn.playing !== playing) {
-      drawn = { t, playing };
+      drawn = { t, playing, index: player.index };
       window.dispatchEvent(new CustomEvent("tippe:clock", { detail: { t, index: player.index, playing } }));
     }
   }
@@ -257,6 +259,7 @@ export function renderTop3D({ model, el, view }) {
   function newFrames() {
     const first = !player.frames.count;
     player.setFrames(model.frames);
+    received += 1;
     const { frames } = player;
     const most = frames.scales;
     for (const name of Object.keys(LONGEST)) scales[name] = 1 / niceAbove(most[name] / LONGEST[name]);
@@ -301,13 +304,14 @@ export function renderTop3D({ model, el, view }) {
   // What is drawn, for tests and for the curious
   const report = {
     get t() { return player.t; },
-    get index() { return player.index; },
+    get index() { return drawn?.index; },
     get count() { return player.frames.count; },
     get playing() { return player.playing; },
     get position() { return body.position.toArray(); },
     get quaternion() { return body.quaternion.toArray(); },
     get verdict() { return verdict.textContent; },
-    get pictures() { return renderer.info.render.frame; },
+    get pictures() { return stage.pictures; },
+    get motions() { return { received, shown }; },
   };
   (window.__tippe ??= {}).top3d = report;
 
