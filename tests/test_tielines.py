@@ -125,9 +125,9 @@ def test_tielines_do_what_they_say(top, mu_s):
             continue
         rows = turning_points(top, Constants(K_J[k], K_R, E))
         ends = np.array([lines.theta_inner[k], lines.theta_outer[k]])
-        assert np.abs(rows - ends).sum(axis=1).min() < 1e-6
+        assert np.abs(rows - ends).sum(axis=1).min() < 1e-10
         assert ends[0] - 1e-9 <= lines.theta_steady[k] <= ends[1] + 1e-9
-        assert np.abs(theta[stable] - lines.theta_steady[k]).min() < 1e-6
+        assert np.abs(theta[stable] - lines.theta_steady[k]).min() < 1e-12
         assert lines.E_steady[k] <= E
         assert ends[0] - 1e-6 <= lines.theta_verge[k] <= ends[1] + 1e-6
         for share, kept in ((1 - 1e-6, True), (1 + 1e-4, False)):
@@ -144,6 +144,21 @@ def holds(top, constants, theta_p, mu_s):
     Fz = normal_force(theta, top, constants)
     slack = Fz if mu_s is None else np.minimum(Fz, mu_s * Fz - np.hypot(Fx, Fy))
     return bool(slack.min() > -1e-9)
+
+
+@pytest.mark.parametrize("pole", [0, 1], ids=["upright", "inverted"])
+@pytest.mark.parametrize("top", [PAPER, LOADED, FLAT, ORDINARY], ids=["paper", "loaded", "flat", "ordinary"])
+def test_turning_points_next_to_a_pole(top, pole):
+    """Their distance to the pole is that of turning_points, which has sixty digits, to twelve figures of theta."""
+    P = pole_constants(top, 10.0)[pole]
+    K_J = P * (1 + np.array([-1e-3, -1e-6, -1e-9, -1e-12, 1e-12, 1e-9, 1e-6, 1e-3]))
+    for mu_s in (None, 1.5):
+        lines = tielines(top, K_J, 10.0, mu_s)
+        for k in np.flatnonzero(np.isfinite(lines.E)):
+            rows = turning_points(top, Constants(K_J[k], 10.0, lines.E[k]))
+            ends = [lines.theta_inner[k], lines.theta_outer[k]]
+            assert np.abs(rows - ends).max(axis=1).min() < 1e-12
+            assert rows.min() == pytest.approx(ends[0], rel=1e-9)
 
 
 def test_array_of_K_J_is_the_same_as_one_by_one():

@@ -177,6 +177,19 @@ def _zero(coefficients, t):
     return t, slope
 
 
+def _newton(function, x, enough):
+    """Newton's steps in place on function(x + ih, i), i indices of x, to steps of a part `enough`; the i left over."""
+    i = np.arange(x.size)
+    for _ in range(30):
+        value = function(x[i] + h * 1j, i)
+        step = value.real / value.imag * h
+        x[i] = np.maximum(x[i] - step, 0)
+        i = i[np.abs(step) > enough * x[i] + 10 * h]
+        if not i.size:
+            break
+    return i
+
+
 def _crossing(values, i, j):
     """Where values on stencils (stencil, k) about points i of the grid are zero, in the cells that begin at j."""
     low, r = j - i + _REACH, np.arange(len(i))
@@ -193,6 +206,8 @@ def _least(values):
 
 class _Wells:
     """The wells of the steady precessions of least energy at one K_R, one for each K_J (k,)."""
+
+    _AT_REST = "x s2 f2 height slope zc zb z1 Y A0 A1".split()
 
     def __init__(self, top, K_J, K_R):
         self.top, self.K_J, self.K_R, self.barriers = top, K_J, K_R, {}
@@ -245,19 +260,16 @@ class _Wells:
         t, _ = _zero(_FIT @ N, (self.lowest - j) * 1.0)
         t = j + np.where(np.abs(t) < _REACH, t, self.lowest - j)
         x, north = _distance(_mapped(t), _mapped(_CELLS - t))
-        d, i = self._gap(north, self.k), self.k
-        for _ in range(30):
-            z = x[i] + h * 1j
+        d = self._gap(north, self.k)
+
+        def N(z, i):
             B, _, s2, t, K = self._bracket(z, north[i], d[i])
-            N = well_slope(1 - z, s2, B, -bracket_slope(1 - z, s2, t, K), t)
-            step = N.real / N.imag * h
-            x[i] -= step
-            i = i[~(np.abs(step) <= 1e-8 * x[i])]
-            if not i.size:
-                break
+            return well_slope(1 - z, s2, B, -bracket_slope(1 - z, s2, t, K), t)
+
+        left = _newton(N, x, 1e-8)
         theta = _angle(x, north)
         astray = ~(np.abs(theta - GRID[self.lowest]) <= GRID[j + 1] - GRID[j - 1])
-        astray[i] = True
+        astray[left] = True
         astray |= (self.lowest == 0) | (self.lowest == _CELLS)
         for gap, pole, sign in zip(self.gaps, (0, np.pi), (1, -1), strict=True):
             if np.any(gap == 0):  # upright at K_J(P): U = 2 a v + f2^2 C^2 v/2 there
@@ -349,7 +361,7 @@ class _Wells:
         e, verge = np.where(sure, e.reshape(shape), np.inf), _angle(x, north)[:count].reshape(shape)
         normal = _normal(p, B, np.append(e, U.real[count:]))[:count].real.reshape(shape)
         # at rest
-        p, d = Place(*(np.real(part)[..., count:] if np.ndim(part) else part for part in p)), d[count:]
+        p, d = p._replace(**{name: getattr(p, name).real[count:] for name in self._AT_REST}), d[count:]
         w2 = np.where(d == 0, 0.0, d / np.sqrt(p.s2)) + np.sqrt(p.x / (2 - p.x)) * p.slope
         F_y = np.sqrt(p.s2) * (p.A0 + p.A1 * w2**2) + w2 * p.Y
         F_z = p.zc + p.zb * np.sqrt(p.s2) * w2 + p.z1 * w2**2
@@ -398,28 +410,23 @@ class _Wells:
 
     def _ends(self, e):
         """theta at both turning points of the trajectories of energies e (limits, k) in these wells: (limits, 2, k)."""
-        k, energy, low, top = self.k, e[:, None], [], self.top
-        for one in e:
-            inside = self.base <= one[:, None]
-            low.append((inside.argmax(axis=1), _CELLS - inside[:, ::-1].argmax(axis=1)))
-        within = np.array(low)
-        none = within[:, 1] - within[:, 0] > np.where(self.base[k, within[:, 0]] <= e, _CELLS, 0)
+        insides = [self.base <= energy[:, None] for energy in e]
+        within = np.array([(inside.argmax(axis=1), _CELLS - inside[:, ::-1].argmax(axis=1)) for inside in insides])
+        none = ~(self.base[self.k, within[:, 0]] <= e)
         j = _clip(within - [[1], [0]], 0, _CELLS - 1).ravel()
         i = _clip(j, _REACH, _CELLS - _REACH)
-        above = np.repeat(e, 2, axis=0).ravel() - self.U[np.resize(k, i.size), i + _STENCIL]
-        D = self.place.s2[i + _STENCIL] * above
-        t = np.where(within % _CELLS, _crossing(D, i, j).reshape(within.shape), within)  # or through a pole
+        k, energy = np.tile(self.k, 2 * len(e)), np.repeat(e, 2, axis=0).ravel()
+        gap = self.place.s2[i + _STENCIL] * (energy - self.U[k, i + _STENCIL])
+        t = np.where(within.ravel() % _CELLS, _crossing(gap, i, j), within.ravel())  # or through a pole
         x, north = _distance(_mapped(t), _mapped(_CELLS - t))
         d = self._gap(north, k)
-        for _ in range(12):
-            z = x + h * 1j
-            B, f2, s2, _, _ = self._bracket(z, north, d)
-            D = s2 * (energy - 2 * top.a * np.where(north, z, 2 - z)) - f2 * B * B
-            step = D.real / D.imag * h
-            x = _clip(x - step, 0, 2)
-            if not np.any(np.abs(step) > 1e-6 * x):
-                break
-        theta = _angle(x, north)
+
+        def D(z, i):
+            B, f2, s2, _, _ = self._bracket(z, north[i], d[i])
+            return s2 * (energy[i] - 2 * self.top.a * np.where(north[i], z, 2 - z)) - f2 * B * B
+
+        _newton(D, x, 1e-6)
+        theta = _angle(x, north).reshape(within.shape)
         theta[:, 0][np.isinf(e)], theta[:, 1][np.isinf(e)] = 0.0, np.pi
         # where the grid has no point within, or a barrier: closer and closer to the first point too high beyond theta_p
         for side, sign in enumerate((1, -1)):
