@@ -6,7 +6,7 @@ from decimal import Context, Decimal, localcontext
 
 import numpy as np
 
-from .errors import TopError, finite
+from .errors import TopError, finite, numbers
 
 # The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic
 # in cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34), for which the
@@ -51,14 +51,17 @@ class Constants:
     def __post_init__(self):
         for field in fields(self):
             value = getattr(self, field.name)
-            if np.ndim(value) == 0:
-                value = finite(field.name, value)
+            if np.ndim(value) == 0 and not isinstance(value, (list, tuple)):
+                value = finite(field.name, value) + 0.0  # -0 and 0 are one value, and have one hash
             else:
-                value = np.array(value, dtype=float)
+                value = numbers(field.name, value) + 0.0
                 value.flags.writeable = False
-                if not np.all(np.isfinite(value)):
-                    raise TopError(field.name, value[~np.isfinite(value)].flat[0], "a finite number")
             object.__setattr__(self, field.name, value)
+        try:
+            np.broadcast_shapes(*(np.shape(x) for x in (self.K_J, self.K_R, self.E)))
+        except ValueError:
+            shapes = ", ".join(str(np.shape(x)) for x in (self.K_J, self.K_R, self.E))
+            raise TopError("constants", shapes, "shapes of K_J, K_R and E that broadcast together") from None
 
     def __eq__(self, other):
         if not isinstance(other, Constants):
@@ -110,7 +113,7 @@ class State:
     def __post_init__(self):
         for field in fields(self):
             value = getattr(self, field.name)
-            if value is not None:
+            if value is not None or field.name not in ("x", "y", "vx", "vy"):
                 object.__setattr__(self, field.name, finite(field.name, value))
         if not 0 <= self.theta <= np.pi:
             raise TopError("theta", self.theta, "0 <= theta <= pi (rad)")
@@ -129,6 +132,8 @@ class Exact:
 
     @classmethod
     def of(cls, constants, top):
+        if any(np.ndim(x) for x in (constants.K_J, constants.K_R, constants.E)):
+            raise TopError("constants", constants, "numbers K_J, K_R and E here, not arrays")
         with localcontext(EXACT):
             K_J, K_R, E = (Decimal(x) for x in (constants.K_J, constants.K_R, constants.E))
             return cls(*map(nonzero, (K_J, K_R)), 2 * E - K_R**2 + Decimal(top.I1) / Decimal(top.I3) * K_J**2)
@@ -148,11 +153,12 @@ class Exact:
 
 
 def nonzero(K):
-    """K, or 0 where its square would vanish among floats."""
-    return K if abs(K) > Decimal("1e-140") else Decimal(0)
+    """K, or 0 where it is so small that the turn at a pole, at 1 - c near K^2, would be lost among floats."""
+    return K if abs(K) > Decimal("1e-24") else Decimal(0)
 
 
 def versines(theta):
     """(1 - cos theta, 1 + cos theta), each to full relative precision, at its zero too; pi is the inverted pole."""
+    theta = np.asarray(theta, dtype=float)
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
-    return v, np.where(np.asarray(theta) == np.pi, 0.0, m)
+    return v, np.where(theta == np.pi, 0.0, m)

@@ -16,8 +16,8 @@ from decimal import Decimal, localcontext
 import numpy as np
 from scipy.optimize import brentq
 
-from .constants import EXACT, Exact, exact_top, f1_2, f2_2, f3_2, versines
-from .errors import NoMotionError
+from .constants import EXACT, Exact, exact_top, f1_2, f2_2, f3_2, nonzero, versines
+from .errors import NoMotionError, finite, numbers
 
 SteadyPrecessions = namedtuple("SteadyPrecessions", "theta stable")
 Well = namedtuple("Well", "inner outer")  # cos(theta) at the turning points, Decimals
@@ -74,24 +74,33 @@ def pole_constants(top, K_R):
     number these are the floats nearest to them, which everything here takes for the poles' own.
     """
     if np.ndim(K_R):
+        K_R = numbers("K_R", K_R)
         return tuple(top.I3 / top.I1 * (c - top.a) * K_R / np.sqrt(f3_2(c, 0, top)) for c in (1, -1))
     with localcontext(EXACT):
-        t, K_R = exact_top(top), Decimal(float(K_R))
+        t, K_R = exact_top(top), Decimal(finite("K_R", K_R))
         return tuple(float(exact_bracket_term(Decimal(c), Decimal(0), t, K_R)) for c in (1, -1))
 
 
 def pole_gaps(top, K_J, K_R):
-    """d = K_J - K_J(P), and the same at the inverted pole, without the rounding of K_J(P) (where K_R is a number)."""
-    if np.ndim(K_R):
-        return tuple(K_J - K for K in pole_constants(top, K_R))
+    """d = K_J - K_J(P), and the same at the inverted pole, without the rounding of K_J(P)."""
     gaps = []
     with localcontext(EXACT):
-        t = exact_top(top)
-        for c in (1, -1):
-            K = exact_bracket_term(Decimal(c), Decimal(0), t, Decimal(float(K_R)))
-            d = (K_J - float(K)) - float(K - Decimal(float(K)))
-            gaps.append(np.where(at_pole(d, K_J), 0.0, d))
+        ratios = [exact_bracket_term(Decimal(c), Decimal(0), exact_top(top), Decimal(1)) for c in (1, -1)]
+    for ratio in ratios:
+        high = float(ratio)
+        low = float(ratio - Decimal(high))
+        K = high * K_R
+        # the product's own rounding, by Dekker: each factor in two halves of 26 bits
+        (a1, a2), (b1, b2) = halves(high), halves(K_R)
+        d = (K_J - K) - (((a1 * b1 - K) + a1 * b2 + a2 * b1) + a2 * b2 + low * K_R)
+        gaps.append(np.where(at_pole(d, K_J), 0.0, d))
     return tuple(gaps)
+
+
+def halves(x):
+    """x as a sum of two floats of half its digits."""
+    high = (x * 134217729.0) - (x * 134217729.0 - x)
+    return high, x - high
 
 
 def at_pole(d, K_J):
@@ -117,7 +126,7 @@ def pole_slope(x, a, K_R, top):
         C = (p * p * far + top.I3 * (p + q)) / (f3_pole * f3 * (p * f3 + q * f3_pole))
         opposite = p * q <= 0
         if np.any(opposite):
-            C = np.where(opposite, (p / f3_pole - q / f3) / x, C)
+            C = np.where(opposite, np.where(p == 0, 1 / f3, (p / f3_pole - q / f3) / x), C)
     return gamma * K_R * C
 
 
@@ -160,7 +169,8 @@ class ExactCurve:
     @classmethod
     def of(cls, top, K_J, K_R):
         """With no energy."""
-        return cls(top, Exact(Decimal(float(K_J)), Decimal(float(K_R)), Decimal(0)))
+        K_J, K_R = (nonzero(Decimal(finite(name, K))) for name, K in (("K_J", K_J), ("K_R", K_R)))
+        return cls(top, Exact(K_J, K_R, Decimal(0)))
 
     def U(self, c):
         t, s2 = self.top, 1 - c * c
@@ -249,6 +259,8 @@ _GRID_V, _GRID_M = versines(_GRID)
 def extrema(curve):
     """cos(theta) of all zeros of N in (0, pi), from theta = 0 on: where U is least or largest. List of Decimals."""
     top, K_J, K_R = curve.top_, float(curve.exact.K_J), float(curve.exact.K_R)
+    if K_J == K_R == 0:
+        return []  # U is the height alone
     v, m, c, s2 = _GRID_V, _GRID_M, 1 - _GRID_V, _GRID_V * _GRID_M
     d, x, C = near_pole(v, m, top, K_R, tuple(map(float, curve.gaps)))
 
@@ -301,7 +313,9 @@ def steady_precessions(top, K_J, K_R):
 
 def angle(c):
     """theta of an exact cos(theta)."""
-    return 2 * np.arctan2(float(1 - c) ** 0.5, float(1 + c) ** 0.5)
+    with localcontext(EXACT):
+        v, m = 1 - c, 1 + c
+    return 2 * np.arctan2(float(v) ** 0.5, float(m) ** 0.5)
 
 
 def find_stations(curve):
@@ -339,11 +353,12 @@ def wells(curve):
                     found.append(Well(inner, here.c))
             elif before is not None and before.gap > 0 and not (before.bottom and abs(before.gap) <= rounding):
                 found.append(Well(inner, turning_point(curve, here, before)))
+        found = found or [Well(s.c, s.c) for s in stations if s.gap == 0][:1]  # a ball at rest
         if found:
             return found
         shift = float(exact.K_R**2 - curve.top.I1 / curve.top.I3 * exact.K_J**2)
         E, E_least = (float(exact.e) + shift) / 2, (float(exact.e - max(s.gap for s in stations)) + shift) / 2
-        constants = f"K_J = {float(exact.K_J):.10g} and K_R = {float(exact.K_R):.10g}"
+        constants = f"K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) + 0.0:.10g}"
         raise NoMotionError("E", E, f"E >= {E_least:.10g} for this top, {constants}",
                             "Below it is no motion, at it the steady precession of least energy.")  # fmt: skip
 

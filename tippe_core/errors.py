@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 
 class TopError(ValueError):
     """A quantity outside the range in which it means anything.
@@ -28,3 +30,17 @@ def finite(name, value):
     if isinstance(value, bool) or not math.isfinite(number):
         raise TopError(name, value, "a finite number")
     return number
+
+
+def numbers(name, values):
+    """values as a new float array, or a TopError that names them."""
+    try:
+        array = np.array(values)
+    except (TypeError, ValueError, OverflowError):
+        array = np.array("")
+    if array.dtype.kind not in "iuf":
+        raise TopError(name, values, "finite numbers")
+    array = array.astype(float)
+    if not np.all(np.isfinite(array)):
+        raise TopError(name, float(array[~np.isfinite(array)].flat[0]), "a finite number")
+    return array

@@ -33,7 +33,10 @@ def _on_curve(theta, top, constants):
 
 
 def normal_force(theta, top, constants):
-    """F_z = 1 + a (s f'/2 + c f), (37), in Mg. theta in rad; theta and the constants broadcast."""
+    """F_z = 1 + a (s f'/2 + c f), (37), in Mg. theta in rad; theta and the constants broadcast.
+
+    nan at a pole that no motion with this K_J reaches.
+    """
     return _on_curve(theta, top, constants)[2]
 
 

@@ -34,7 +34,7 @@ from .errors import TopError
 from .forces import contact_force
 from .trajectory import Trajectory, checked_times
 
-_NODES_LEAST, _NODES_MOST = 32, 2**13  # half a second; enough for energies within 1e-9 of that of a merging
+_NODES_LEAST, _NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that of a merging
 
 
 def roll(top, constants, times, start="inner", well=0):
@@ -43,14 +43,15 @@ def roll(top, constants, times, start="inner", well=0):
     constants: K_J, K_R and E, numbers; or None where start is a State.
     times: (n,) in (R/g)^1/2, in any order; the motion starts at times[0].
     start: "inner" or "outer" turning point, or a State. phi = psi = 0 and the contact point at the origin at times[0]
-    unless the State says otherwise. well: the row of turning_points in which to move, where there are several.
+    unless the State says otherwise. well: the row of turning_points in which to move, where there are several (a State
+    is in one of them already).
     Raises TopError (NoMotionError where the energy is below every well).
     """
     return Rolling(top, constants, start, well)(times)
 
 
 class Rolling:
-    """The motion without slipping as a function of time since its start: arguments as in roll().
+    """The motion without slipping, for any times: arguments as in roll(); it starts at the times[0] of each call.
 
     period (of the nutation, in (R/g)^1/2), phi_advance and psi_advance (rad in a period);
     theta(times) alone, or called with times for the whole Trajectory.
@@ -215,8 +216,9 @@ class Rolling:
 
     def _too_near(self):
         E = (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
-        return TopError("E", E, "an energy further from that of an unstable steady precession",
-                       "So near to it the nutation takes almost for ever; change E a little.")  # fmt: skip
+        return TopError("E", E, f"an energy whose nutation {_NODES_MOST} nodes resolve",
+                        "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "
+                        "well; change E a little.")  # fmt: skip
 
     @property
     def period(self):
@@ -392,6 +394,8 @@ class Rolling:
         first = self._state(np.zeros(1), *(np.array([x]) for x in self._start_phase))
         now = self._state(*self._clock(t))
         d_phi, d_psi = start.phi - first["phi"][0], start.psi - first["psi"][0]
+        if start.theta_dot * first["omega"][0][0] < 0:  # at a pole, where the motion goes on along -1'
+            d_phi, d_psi = d_phi + np.pi, d_psi + (np.pi if self.m1 < self.v1 else -np.pi)
         x, y = start.x, start.y
         lean = 1j * first["s_exp_phi"][0] * np.exp(1j * d_phi) * top.a  # from the contact point to G
         origin = complex(0 if x is None else x - lean.real, 0 if y is None else y - lean.imag)
@@ -428,13 +432,13 @@ class Rolling:
 
 
 def _from_constants(top, constants, start, well):
-    if start not in ("inner", "outer"):
+    if not isinstance(start, str) or start not in ("inner", "outer"):
         raise TopError("start", start, '"inner", "outer" or a State')
     if not isinstance(constants, Constants):
         raise TopError("constants", constants, "Constants(K_J, K_R, E)", "Only a State can stand in for them.")
     curve = ExactCurve(top, Exact.of(constants, top))
     found = wells(curve)
-    if isinstance(well, bool) or well not in range(len(found)):
+    if isinstance(well, bool) or not isinstance(well, (int, np.integer)) or well not in range(len(found)):
         raise TopError("well", well, f"0 to {len(found) - 1}, a row of turning_points")
     return curve, found[well]
 
@@ -451,10 +455,13 @@ def _from_state(top, constants, state):
             raise TopError(name, given, f"{value:.10g}, G's velocity when the top rolls",
                            "Leave it out for a rolling top.")  # fmt: skip
     if constants is not None:
+        if not isinstance(constants, Constants):
+            raise TopError("constants", constants, "Constants(K_J, K_R, E), or None beside a State")
         own = Exact.of(constants, top)
-        for name in ("K_J", "K_R"):
+        for name in ("K_J", "K_R", "e"):
             if abs(getattr(own, name) - getattr(exact, name)) > Decimal("1e-9") * max(1, abs(getattr(exact, name))):
-                raise TopError(name, getattr(constants, name), f"{float(getattr(exact, name)):.10g}, that of the State",
+                raise TopError(name.replace("e", "2E'"), float(getattr(own, name)),
+                               f"{float(getattr(exact, name)):.10g}, that of the State",
                                "Give None for the constants.")  # fmt: skip
     curve = ExactCurve(top, exact, rounded=False)
     if state.theta_dot == 0 and abs(curve.N(here)) < Decimal("1e-50") * max(1, exact.K_J**2, exact.K_R**2):

@@ -29,7 +29,7 @@ class Top:
         for name in ("I1", "I3"):
             if getattr(self, name) <= 0:
                 raise TopError(name, getattr(self, name), f"{name} > 0 (in MR^2)")
-        if self.I3 > 2 * self.I1:
+        if self.I3 > 2 * self.I1 * (1 + 1e-15):
             raise TopError(
                 "I3", self.I3, f"0 < I3 <= 2 I1 = {2 * self.I1:g}",
                 f"No body has more: lower I3 or raise I1 to {self.I3 / 2:g} or above.")  # fmt: skip

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from .curve import f3_squared
-from .errors import TopError
+from .errors import TopError, numbers
 from .top import Top
 
 
@@ -14,13 +14,14 @@ from .top import Top
 class Trajectory:
     """A motion of a top at n instants, in units of R, M and g.
 
-    t (n,) times; theta, phi, psi (n,) Euler angles in rad, phi the azimuth of 1', each continuous in time;
+    t (n,) times; theta, phi, psi (n,) Euler angles in rad, phi the azimuth of 1', continuous in time but for the half
+    turns at a pole;
     quaternion (n, 4) x, y, z, w, body to space = Rz(phi) Rx(theta) Rz(psi);
     contact (n, 2) and com (n, 3), the contact point and G in space, z from the table up;
     omega (n, 3) about 1', 2', 3; slip (n, 2), the velocity of the top's material at the contact, and
     force (n, 3) on the top there, both in the turning axes x (along 1'), y (z cross 1'), z;
     regime (n,) "roll", "slip" or "air"; events, a tuple of (time, what).
-    jellett, routh and energy (n,) are computed from these, not from what the motion was asked for.
+    jellett, routh and energy (n,) are computed from these, not from what was asked for. All arrays are read-only.
     """
 
     top: Top
@@ -36,6 +37,11 @@ class Trajectory:
     force: np.ndarray
     regime: np.ndarray
     events: tuple = ()
+
+    def __post_init__(self):
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
 
     @cached_property
     def jellett(self):
@@ -61,11 +67,8 @@ class Trajectory:
 
 
 def checked_times(times):
-    """times as a (n,) float array, or a TopError."""
-    try:
-        t = np.asarray(times, dtype=float)
-    except (TypeError, ValueError):
-        t = np.array(np.nan)
-    if t.ndim != 1 or not t.size or not np.all(np.isfinite(t)):
+    """times as a new (n,) float array, or a TopError."""
+    t = numbers("times", times)
+    if t.ndim != 1 or not t.size:
         raise TopError("times", times, "a one-dimensional, not empty array of finite numbers, in (R/g)^1/2")
     return t
