@@ -44,6 +44,10 @@ RANGES = {
     "I1": (0.05, 2, 0.001),
     "I3": (0.05, 2, 0.001),
 }
+FOLLOW_HAND = """
+const text = String(Number(cb_obj.value.toPrecision(6))).replace("-", "−")
+entry.data.setv({value_input: text}, {sync: false})
+"""
 PRINTED = ". The paper prints about 20; its equation (31) gives this."
 ENERGY_MARKS = [{"value": 0, "label": "steady"}, {"value": 1, "label": "slips"}, {"value": 2, "label": "lifts off"}]
 
@@ -99,6 +103,9 @@ class Control:
             margin=(0, 14, 8, 16),
         )
         self._silent = False
+        # The number goes with the hand: no need to ask the server for it.
+        if not marked:
+            self.slider.jscallback(value=FOLLOW_HAND, args={"entry": self.entry})
         self.slider.param.watch(self._slid, "value")
         self.entry.param.watch(self._typed, "value")
 

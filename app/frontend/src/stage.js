@@ -13,6 +13,7 @@ const COARSEST = 0.6;
 const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
 const MAX_PIXEL_RATIO = 2;
 const SAMPLES = 4;
+const POLL_MS = 8;
 
 // There, what a person moves on the page comes first: while a hand is on a control, pictures in 3-D are drawn only of what
 // is new, and without what takes long: fine pixels, a new shadow, long wide lines.
@@ -126,25 +127,38 @@ export class Stage {
     if (!this.disposed) this.request ||= requestAnimationFrame(this.frame);
   }
 
+  // Waits beside the frames of the screen: asking in each of them has the page go through its painting for nothing.
+  soon() {
+    if (this.disposed) return;
+    this.timer ||= setTimeout(() => {
+      this.timer = 0;
+      if (this.isReady(performance.now())) this.again();
+      else if (this.fence || this.asked || this.moving || (this.simple && this.inView)) this.soon();
+    }, POLL_MS);
+  }
+
+  isHeld = (now) => slow && now - inputAt < HAND_MS;
+
+  isReady(now) {
+    if (this.fence) return this.isDrawn();
+    if (inWork) return false;
+    if (this.isHeld(now)) return this.asked; // once more, and fine, when the hand lets go
+    const early = this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost;
+    return !early && (this.asked || this.moving || (this.simple && this.inView));
+  }
+
   frame = (now) => {
     this.request = 0;
     if (this.disposed) return;
+    if (!this.isReady(now)) return this.soon();
     if (this.fence) {
-      if (this.isDrawn()) {
-        this.learn(performance.now() - this.drawnAt);
-        this.present();
-      }
+      this.learn(performance.now() - this.drawnAt);
+      this.present();
       // The next picture begins in a later frame: what goes on the screen waits for all that was begun before it.
-      return this.again();
+      return this.soon();
     }
     if (!this.holder.isConnected) return;
-    const held = slow && now - inputAt < HAND_MS;
-    const wanted = this.asked || (!held && (this.moving || (this.simple && this.inView)));
-    const early = !held && this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost;
-    if (!wanted || early || inWork) {
-      if (wanted || held) this.again(); // held: once more, and fine, when the hand lets go
-      return;
-    }
+    const held = this.isHeld(now);
     this.asked = false;
     this.moving = this.tick(now, held);
     if (this.inView) {
@@ -153,7 +167,7 @@ export class Stage {
       this.setSamples(slow && this.moving || held ? 0 : SAMPLES);
       this.draw();
     }
-    this.again();
+    this.soon();
   };
 
   // From what a picture took: whether this machine is slow, and how coarse moving ones are to be.
@@ -234,6 +248,7 @@ export class Stage {
     this.disposed = true;
     this.forget();
     cancelAnimationFrame(this.request);
+    clearTimeout(this.timer);
     this.resizing.disconnect();
     this.seeing.disconnect();
     this.controls.dispose();
