@@ -32,7 +32,9 @@ from .rolling import Rolling
 from .smooth import first_below
 from .trajectory import Trajectory, checked_times
 
-SLOW, STILL = 0.01, 1e-11  # (gR)^1/2; from STILL to 0 is less than the 1e-9 to which events are located
+# STILL: the last of the slip, which takes far less time than the 1e-9 to which events are located. SLACK (Mg): what
+# rolling may need beyond mu_s F_z before it counts as slipping, above what so small a slip does to the forces.
+SLOW, STILL, SLACK = 0.01, 1e-13, 1e-10
 
 LOG_STILL = log(STILL)
 
@@ -158,7 +160,7 @@ class _Run:
 
     def __call__(self, state, times):
         y = self._start(state, times[0])
-        rolls = self.sticks and np.hypot(*_slip(self.top, y)) < STILL and self._holds(y)
+        rolls = self.sticks and np.hypot(*_slip(self.top, y)) < 1e-12 and self._holds(y)
         if self.sticks and not rolls:
             y = self._let_go(y)
         stretches, events, done, event = [], [], 0, ""
@@ -319,7 +321,7 @@ class _Run:
         rolling = Rolling(self.top, None, state)
 
         def margin(t):
-            return _margin(rolling(np.append(0.0, t)).force[1:].T, self.friction.mu_s)
+            return _margin(rolling(np.append(0.0, t)).force[1:].T, self.friction.mu_s) + SLACK
 
         lets_go = first_below(margin, rolling.period)
         count = int(np.searchsorted(times, y[12] + lets_go)) if np.isfinite(lets_go) else len(times)
