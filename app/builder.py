@@ -138,7 +138,7 @@ class Builder(param.Parameterized):
 
     def load(self, text):
         """The body in a file that save() wrote, thrown anew."""
-        self._try("file", lambda: load_top(text), self._throw)
+        self._try("file", lambda: load_top(text), thrown)
 
     def refuse_file(self, largest):
         """Says that a file was larger than so many bytes."""
@@ -186,7 +186,7 @@ class Builder(param.Parameterized):
     def _adopt(self, shape, motion=None):
         self._publish(_draft(shape))
         top = shape.top
-        K_J, K_R = (motion or self._throw)(shape)
+        K_J, K_R = (motion or thrown)(shape)
         self.asked = {"shape": shape, "a": top.a, "I1": top.I1, "I3": top.I3, "K_J": K_J, "K_R": K_R}
         self._request(**self.asked)
 
@@ -206,14 +206,15 @@ class Builder(param.Parameterized):
         share = explorer.K_J / pole if pole else 0.0
         return float(share * pole_constants(shape.top, K_R)[0]), float(K_R)
 
-    @staticmethod
-    def _throw(shape):
-        spin, top = THROWN_SPIN * shape.scales.time, shape.top
-        if top.a < 0:
-            thrown = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, spin)
-            return float(thrown.K_J), float(thrown.K_R)
-        K_R = spin * f3_squared(0.0, top) ** 0.5
-        return float(THROWN_SHARE * pole_constants(top, K_R)[0]), float(K_R)
+
+def thrown(shape):
+    """(K_J, K_R) of the throw that a new body is given."""
+    spin, top = THROWN_SPIN * shape.scales.time, shape.top
+    if top.a < 0:
+        constants = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, spin)
+        return float(constants.K_J), float(constants.K_R)
+    K_R = spin * f3_squared(0.0, top) ** 0.5
+    return float(THROWN_SHARE * pole_constants(top, K_R)[0]), float(K_R)
 
 
 def _draft(shape):

@@ -5,6 +5,7 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.builder import Builder
+from app.compare import Compare
 from app.controls import Controls
 from app.explorer import Explorer
 from app.pacing import Pacer
@@ -201,7 +202,9 @@ def page():
         explorer,
         {slider.tags[0]: slider for view in followers for slider in view.select(pmui.FloatSlider)},
     )
-    measure = Measure(builder)
+    measure, compare = Measure(builder), Compare(explorer)
+    families = card("Compare tops: Fig. 6 of a family", *compare.figures_view, height="max-content")
+    families.styles = families.styles | {"grid-column": "1 / -1"}
     surface.param.watch(lambda event: event.new and controls.pick(event.new[0]), "picked")
     plane.figure.on_event("tap", lambda event: controls.pick(event.y))
     for show in (plane.show_selected, *pictures, show_words):
@@ -242,6 +245,8 @@ def page():
         card("The body, cut along its axis; drag its handles", *workshop.section_view, height="max-content"),
         card("Build a top", *workshop.bench_view, height="max-content"),
         card("Measure your own", *measure.view, height="max-content"),
+        card("What friction leaves, of many tops", *compare.map_view, height="max-content"),
+        families,
         sizing_mode="stretch_width",
         margin=0,
         styles={

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from app.builder import FAMILIES, Builder, Rocking, handles, pulled, sentence
+from app.compare import A, Compare
 from app.explorer import Explorer
+from app.family import allowed_share, neighbours, share_map
 from tippe_core import (
     PRESETS,
     Ball,
@@ -220,3 +222,53 @@ def test_sentences_are_in_the_units_of_the_sliders(make, says):
     with pytest.raises(TopError) as error:
         make()
     assert says in sentence(error.value)
+
+
+# --- families ---
+
+
+def test_the_allowed_share_is_the_area_of_the_papers_table():
+    """physics.md's tielines of the paper's top at K_R = 10: outer - inner over K_J from 0 to P, by trapezoids."""
+    K_J = np.array([0, 1, 2, 3, 4, 5, 6, 7, 8, 8.3651])
+    lift = np.array([1.6943, 1.5787, 1.4646, 1.3508, 1.2365, 1.1207, 1.0040, 0.8907, 0.7991, 0.7789]) - [
+        1.3085, 1.1960, 1.0797, 0.9578, 0.8274, 0.6844, 0.5220, 0.3294, 0.0945, 0.0]
+    slip = np.array([1.6637, 1.5519, 1.4393, 1.3242, 1.2043, 1.0764, 0.9350, 0.7754, 0.5837, 0.4998]) - [
+        1.3383, 1.2210, 1.1023, 0.9804, 0.8529, 0.7165, 0.5654, 0.3839, 0.1328, 0.0]
+    share = np.trapezoid(slip, K_J) / np.trapezoid(lift, K_J)
+    # the rule's own error with ten points, both areas curved alike
+    assert allowed_share(Top.paper(), 10.0, 0.5) == pytest.approx(share, abs=3e-3)
+
+
+def test_without_a_limit_all_is_allowed_and_more_friction_allows_more():
+    assert allowed_share(Top(0.0, 0.4, 0.4), 10.0, 0.5) == 1
+    shares = [allowed_share(Top.paper(), 10.0, mu_s) for mu_s in (0.1, 0.3, 0.5, 1.0, 20.0)]
+    assert shares == sorted(shares) and shares[-1] == pytest.approx(1, abs=0.01)
+
+
+def test_a_map_grows_top_by_top_and_has_holes_where_no_top_is():
+    steps = list(share_map(0.4, 10.0, 0.5, np.array([0.07, 0.3, 1.5]), np.array([1.0, 2.5])))
+    assert [done for done, _ in steps] == [1, 2, 3, 4, 5, 6]
+    share = steps[-1][1].share
+    assert share[0, 0] == allowed_share(Top(0.07, 0.4, 0.4), 10.0, 0.5)
+    assert np.array_equal(np.isnan(share), [[False, False, True], [True, True, True]])
+
+
+def test_neighbours_are_tops():
+    assert [top.a for _, top in neighbours(Top.paper(), "a")] == pytest.approx([0.035, 0.0525, 0.07, 0.0875, 0.105])
+    assert len(neighbours(Top.paper(), "I3")) == 5
+    assert len(neighbours(Top(0.1, 0.3, 0.5), "I3")) == 3  # I3 <= 2 I1
+
+
+def test_compare_computes_when_asked_and_stops_when_told(explorer):
+    compare = Compare(explorer)
+    for family, figures in (("presets", len(PRESETS)), ("a", 5), ("", 0)):
+        compare.family.value = family
+        assert len(compare.row) == figures
+    compare._steps = share_map(0.4, 10.0, 0.5, np.linspace(0.1, 0.2, len(A)), np.linspace(0.8, 1.2, 100))
+    while not compare.bar.value:
+        compare.turn()
+    done = compare.bar.value
+    assert len(compare.shares.data["share"]) == 1 and done < 100
+    compare.cancel.clicks += 1
+    compare.turn()
+    assert compare.start.disabled is False and compare.bar.value == done and "Cancelled" in compare.said.object
