@@ -192,7 +192,8 @@ class Controls:
         return {
             "K_J": f"(<i>g</i>/<i>R</i>)<sup>½</sup>; the point P is at {number(round(scene.plane.pole, 4))}",
             "K_R": f"<i>ω</i><sub>3</sub> = {spin:.2f} (<i>g</i>/<i>R</i>)<sup>½</sup> = {turns:.1f} rev/s near "
-            "<i>θ</i> = 0, for <i>R</i> = 1.6 cm" + PRINTED * (scene.constants.K_R == 10 and scene.top == Top.paper()),
+            f"<i>θ</i> = 0, for <i>R</i> = {100 * scene.scales.R:.3g} cm"
+            + PRINTED * (scene.constants.K_R == 10 and scene.top == Top.paper()),
             "energy": f"<b>{worst}.</b>{said}<br><i>θ</i> from {inner:.3f} to {outer:.3f} rad "
             f"({math.degrees(inner):.1f}° to {math.degrees(outer):.1f}°)<br>in <i>MgR</i>: {limits}",
         }
