@@ -115,7 +115,7 @@ def kept_words(scene):
     """How well the constants, recomputed from the motion, stay what they are."""
     drift = max(np.ptp(values) / max(1, np.abs(values).max()) for values in (scene.K_J, scene.K_R, scene.E))
     return (
-        '<div class="axis key">the three constants, recomputed from the poses, vary by less than '
+        '<div class="axis key">the three constants, recomputed from the motion, vary by less than '
         f"{max(drift, 1e-16):.0e}"
         "</div>"
     )
@@ -265,7 +265,6 @@ def page():
         theme_toggle=False,
         busy_indicator=None,
     )
-    pacer.painted.param.watch(lambda event: page.param.update(sidebar_open=False), "narrow")
     return page
 
 

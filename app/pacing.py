@@ -25,11 +25,13 @@ class Painted(JSComponent):
 
     sent = param.Integer(default=0)
     painted = param.Integer(default=0)
-    narrow = param.Boolean(default=False, doc="whether the window is too narrow for controls beside the pictures")
 
     _esm = """
     export function render({model}) {
-      if (innerWidth < 900) model.narrow = true
+      // too narrow for controls beside the pictures
+      if (innerWidth < 900)
+        for (const {data} of Bokeh.documents.flatMap((doc) => [...doc.all_models]))
+          if (data?.attributes && "sidebar_open" in data.attributes) data.setv({sidebar_open: false})
       model.on("sent", () => requestAnimationFrame(() => setTimeout(() => { model.painted = model.sent })))
     }
     """
