@@ -13,11 +13,11 @@ Repetitions take turns, so that a busy machine is busy for all; medians are prin
 
 Results
 -------
-2026-11-21, AMD EPYC (2 cores, shared with other work: load 3), Python 3.11.7, numpy 2.4.6, scipy 1.17.1, heyoka 7.13.2
-(a) figures 2.305 ms / plain f 0.109 ms = 21.0   (aim <= 15)
-(b) theta(t) 2.01 ms, error 1.2e-13; heyoka 6.90 ms, error 5.4e-14: 3.4 times   (aim >= 5)
-    DOP853 3320 ms, error 1.8e-11: 1658 times   (aim >= 100)
-(c) roll() 7.54 ms   (aim <= 10)
+2026-11-21, AMD EPYC (2 cores), Python 3.11.7, numpy 2.4.6, scipy 1.17.1, heyoka 7.13.2
+(a) figures 1.694 ms / plain f 0.099 ms = 17.1   (aim <= 15)
+(b) theta(t) 1.16 ms, error 1.2e-13; heyoka 4.71 ms, error 5.4e-14: 4.1 times   (aim >= 5)
+    DOP853 3797 ms, error 1.8e-11: 2184 times   (aim >= 100)
+(c) roll() 4.59 ms   (aim <= 10)
 """
 
 import argparse
