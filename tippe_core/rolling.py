@@ -157,6 +157,15 @@ class Rolling:
         """n midpoints of eta in (0, pi): (cos(kappa/2), sin(kappa/2)), v, m, h, dkappa/deta."""
         if n == _NODES_LEAST and not self._map:
             return self._plain
+        if n not in self._crowded:  # time, kappa and orientation ask for the same ones, and exact ones are slow
+            self._crowded[n] = self._exact_nodes(n)
+        return self._crowded[n]
+
+    @cached_property
+    def _crowded(self):
+        return {}
+
+    def _exact_nodes(self, n):
         half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
         ch, sh, stretch = np.cos(half), np.sin(half), np.ones(n)
         if self._map:
@@ -280,10 +289,10 @@ class Rolling:
         """d sigma_-+/dkappa: half of phi_dot (1 + c) - w3 and of phi_dot (1 - c) + w3, less the turn at the pole."""
         w3 = self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
         (north, south), rates = self.gaps, []
+        gap, nearer, C = near_pole(v, m, self.top, self.K_R, self.gaps)
+        B = gap + nearer * C
         for x, x1, x2, d, sign in ((v, self.v1, self.v2, north, -1), (m, self.m1, self.m2, south, 1)):
-            B = self._bracket(v, m)
             near = v <= m if sign < 0 else m <= v
-            _, _, C = near_pole(v, m, self.top, self.K_R, self.gaps)
             with np.errstate(invalid="ignore", divide="ignore"):
                 slope = np.where(near, C, (B - d) / x)
                 peak = np.where(x > 0, (h * d - np.copysign(np.sqrt(x1 * x2), d)) / np.where(x > 0, x, 1), 0)

@@ -176,9 +176,7 @@ class TruncatedSphere(OneMaterial):
         cut = sqrt((self.R - self.c) * (self.R + self.c))
         _range("r", self.r, 0, cut, "m, the radius of the cut it stands on", remedy="Lower r, or cut lower.")
         _range("l", self.l, 0, LARGEST, "m")
-        if (self.r == 0) != (self.l == 0):
-            name = "r" if self.r == 0 else "l"
-            raise TopError(name, 0.0, f"{name} > 0 (m)", "A stem has a radius and a length; with both 0 there is none.")
+        _stem(self.r, self.l)
 
     @cached_property
     def form(self):
@@ -253,9 +251,7 @@ class OrdinaryTop(OneMaterial):
         _range("t", self.t, 0, LARGEST, "m", above=True)
         _range("r", self.r, 0, self.r2, "m, the radius r2 of the face the stem stands on")
         _range("l", self.l, 0, LARGEST, "m")
-        if (self.r == 0) != (self.l == 0):
-            name = "r" if self.r == 0 else "l"
-            raise TopError(name, 0.0, f"{name} > 0 (m)", "A stem has a radius and a length; with both 0 there is none.")
+        _stem(self.r, self.l)
 
     @cached_property
     def form(self):
@@ -378,6 +374,12 @@ class BareSphere(Shape):
 
 
 KINDS = {kind.__name__: kind for kind in (TruncatedSphere, LoadedSphere, OrdinaryTop, Lathe, Turned, Ball, BareSphere)}
+
+
+def _stem(r, l):
+    if (r == 0) != (l == 0):
+        name = "r" if r == 0 else "l"
+        raise TopError(name, 0.0, f"{name} > 0 (m)", "A stem has a radius and a length; with both 0 there is none.")
 
 
 def _range(name, value, low, high, unit, above=False, below=False, remedy=""):
