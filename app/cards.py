@@ -1,0 +1,60 @@
+"""The page's building blocks: cards, words in the page's own type, a grid that fits a phone."""
+
+import panel as pn
+
+PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
+INK = "#22303c"
+# Two rows fill a screen; a phone, where the rows of buttons wrap, needs more.
+HEIGHT_OF_A_CARD = "max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px))"
+TYPE = """
+:host { font: 13px/1.4 system-ui, sans-serif; color: #22303c } h2 { font-size: 15px; margin: 0; font-weight: 600 }
+i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 } i { font-size: 1.1em }
+.key { color: #5b6875 } .key span { white-space: nowrap }
+.axis { text-align: center } .quantity { font-size: 14px; text-align: right } b { font-weight: 600 }
+.swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
+"""
+
+
+def words(text, **options):
+    return pn.pane.HTML(text, stylesheets=[TYPE], **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+def swatch(colour, text, style="solid"):
+    return f'<span><span class="swatch" style="border-color: {colour}; border-top-style: {style}"></span>{text}</span>'
+
+
+def card(title, *content, height=HEIGHT_OF_A_CARD):
+    return pn.Column(
+        words(f"<h2>{title}</h2>"),
+        *content,
+        sizing_mode="stretch_width",
+        margin=0,
+        styles={
+            "background": "white",
+            "border-radius": "10px",
+            "padding": "10px 14px",
+            "height": height,
+            "box-shadow": "0 1px 3px rgb(34 48 60 / 18%)",
+            "box-sizing": "border-box",
+            "overflow": "hidden",
+        },
+    )
+
+
+def section(title):
+    return words(f"<h2>{title}</h2>", margin=(14, 16, 0, 16))
+
+
+def grid(*cards, narrowest=480):
+    """Cards side by side where there is room for it."""
+    return pn.Column(
+        *cards,
+        sizing_mode="stretch_width",
+        margin=0,
+        styles={
+            "display": "grid",
+            "grid-template-columns": f"repeat(auto-fit, minmax(min(100%, {narrowest}px), 1fr))",
+            "gap": "12px",
+            "padding": "12px",
+        },
+    )
