@@ -1,8 +1,61 @@
-"""Hypothesis draws the same examples on every run, so that a failure is a failure of the commit."""
+"""Hypothesis draws the same examples on every run, so that a failure is a failure of the commit. One browser and one
+server for all tests that need them."""
 
+import subprocess
+import sys
+import time
+import urllib.request
+from pathlib import Path
+
+import pytest
 from hypothesis import HealthCheck, settings
+from playwright.sync_api import sync_playwright
+from visiting import Visit, free_port, launch
 
 settings.register_profile(
     "repeatable", derandomize=True, deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("repeatable")
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    with sync_playwright() as playwright:
+        browser = launch(playwright)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="session")
+def server():
+    """The address of the page, served as a person serves it."""
+    port = free_port()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "panel", "serve", "app", "--port", str(port), "--address", "localhost"],
+        cwd=Path(__file__).parent.parent,
+    )
+    url = f"http://localhost:{port}/app"
+    deadline = time.monotonic() + 60
+    while True:
+        try:
+            urllib.request.urlopen(url, timeout=60).close()
+            break
+        except OSError:
+            if process.poll() is not None or time.monotonic() > deadline:
+                process.terminate()
+                pytest.fail(f"panel serve app did not answer on {url}")
+            time.sleep(0.1)
+    yield url
+    process.terminate()
+    process.wait()
+
+
+@pytest.fixture(params=[(1400, 900)], ids=["1400x900"])
+def visit(request, server, chromium):
+    """A Visit in a window of this size; the test fails on an error in the page."""
+    width, height = request.param
+    page = chromium.new_page(viewport={"width": width, "height": height})
+    visit = Visit(page, server)
+    yield visit
+    page.close()
+    assert not visit.errors

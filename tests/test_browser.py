@@ -1,117 +1,12 @@
 """The whole page in Chromium: it loads from this machine alone, shows tippe_core's numbers, plays with no server."""
 
-import shutil
-import socket
-import subprocess
-import sys
-import time
-import urllib.request
-from pathlib import Path
-
 import numpy as np
 import pytest
-from playwright.sync_api import sync_playwright
 
 from app.explorer import solve
 from tippe_core import Top
 
-ROOT = Path(__file__).parent.parent
-FLAGS = [
-    "--no-sandbox",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-PATIENCE = 20_000  # ms: software drawing on a busy machine
-
-# A number array of a source, as the page holds it: by the name of its figure, the renderer and the column.
-COLUMN = """
-([figure, renderer, column]) => {
-  const models = [...Bokeh.documents[0]._all_models.values()]
-  const found = models.find((m) => m.name == figure && m.renderers)
-  return Array.from(found.renderers[renderer].data_source.data[column])
-}
-"""
 K_J_FIELD, I3_FIELD = 0, 6  # places in the sidebar
-
-
-@pytest.fixture(scope="module")
-def server():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        port = probe.getsockname()[1]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "panel", "serve", "app", "--port", str(port), "--address", "localhost"], cwd=ROOT
-    )
-    url = f"http://localhost:{port}/app"
-    deadline = time.monotonic() + 60
-    while True:
-        try:
-            urllib.request.urlopen(url, timeout=60).close()
-            break
-        except OSError:
-            if process.poll() is not None or time.monotonic() > deadline:
-                process.terminate()
-                pytest.fail(f"panel serve app did not answer on {url}")
-            time.sleep(0.1)
-    yield url
-    process.terminate()
-    process.wait()
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
-        yield browser
-        browser.close()
-
-
-class Visit:
-    """A page that is open, and what it asked for, said and sent."""
-
-    def __init__(self, page, url):
-        self.page, self.requests, self.errors, self.sent = page, [], [], []
-        page.set_default_timeout(PATIENCE)
-        page.on("request", lambda request: self.requests.append(request.url))
-        page.on("console", lambda message: message.type == "error" and self.errors.append(message.text))
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.on(
-            "websocket",
-            lambda socket: [
-                socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")
-            ],
-        )
-        page.goto(url)
-        page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && __tippe.top3d?.pictures > 2")
-        page.wait_for_function("Bokeh.documents[0].is_idle")
-
-    def column(self, *place):
-        return np.array(self.page.evaluate(COLUMN, place))
-
-    def until_column(self, figure, renderer, column, first):
-        """Waits until a column of a source begins with this number."""
-        self.page.wait_for_function(
-            f"([place, first]) => Math.abs(({COLUMN})(place)[0] - first) < 1e-9",
-            arg=[[figure, renderer, column], first],
-        )
-
-    def pause(self):
-        self.page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
-            .filter((m) => m.properties?.playing).forEach((m) => { m.playing = false })""")
-        self.page.wait_for_function("!__tippe.top3d.playing")
-
-
-@pytest.fixture(params=[(1400, 900)], ids=["1400x900"])
-def visit(request, server, chromium):
-    width, height = request.param
-    page = chromium.new_page(viewport={"width": width, "height": height})
-    visit = Visit(page, server)
-    yield visit
-    page.close()
-    assert not visit.errors
 
 
 def test_the_page_loads_from_this_machine_alone(visit, server):

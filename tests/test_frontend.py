@@ -4,14 +4,12 @@ The page as a whole has its own tests; here one component stands alone, so a fai
 """
 
 import re
-import shutil
-import socket
 from pathlib import Path
 
 import numpy as np
 import panel as pn
 import pytest
-from playwright.sync_api import sync_playwright
+from visiting import free_port
 
 from app.bundle import Bundled
 from app.colours import COLOURS
@@ -19,9 +17,6 @@ from app.surface3d import Surface3D, pack
 from app.top3d import Top3D, pack_frames
 
 ROOT = Path(__file__).parent.parent
-FLAGS = [
-    "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-    "--disable-sync"]  # fmt: skip
 
 
 def test_both_sides_have_the_same_colours():
@@ -59,20 +54,6 @@ def frames(tilt=0.4, regime=0):
 
 
 OUTLINE = pack([[0, -1], [0.7, -0.7], [1, 0], [0.85, 0.5], [0.2, 0.5], [0.2, 1.7], [0, 1.7]])
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
-        yield browser
-        browser.close()
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
 
 
 @pytest.fixture

@@ -1,0 +1,70 @@
+"""A visit to the page in Chromium; the fixtures that start a server and a browser are in conftest.py."""
+
+import shutil
+import socket
+
+import numpy as np
+
+PATIENCE = 20_000  # ms: software drawing on a busy machine
+FLAGS = [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+# A number array of a source, as the page holds it: by the name of its figure, the renderer and the column.
+COLUMN = """
+([figure, renderer, column]) => {
+  const models = [...Bokeh.documents[0]._all_models.values()]
+  const found = models.find((m) => m.name == figure && m.renderers)
+  return Array.from(found.renderers[renderer].data_source.data[column])
+}
+"""
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return probe.getsockname()[1]
+
+
+def launch(playwright):
+    return playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+
+
+class Visit:
+    """A page that is open, and what it asked for, said and sent."""
+
+    def __init__(self, page, url):
+        self.page, self.requests, self.errors, self.sent = page, [], [], []
+        page.set_default_timeout(PATIENCE)
+        page.on("request", lambda request: self.requests.append(request.url))
+        page.on("console", lambda message: message.type == "error" and self.errors.append(message.text))
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on(
+            "websocket",
+            lambda socket: [
+                socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")
+            ],
+        )
+        page.goto(url)
+        page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && __tippe.top3d?.pictures > 2")
+        page.wait_for_function("Bokeh.documents[0].is_idle")
+
+    def column(self, *place):
+        return np.array(self.page.evaluate(COLUMN, place))
+
+    def until_column(self, figure, renderer, column, first):
+        """Waits until a column of a source begins with this number."""
+        self.page.wait_for_function(
+            f"([place, first]) => Math.abs(({COLUMN})(place)[0] - first) < 1e-9",
+            arg=[[figure, renderer, column], first],
+        )
+
+    def pause(self):
+        self.page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
+            .filter((m) => m.properties?.playing).forEach((m) => { m.playing = false })""")
+        self.page.wait_for_function("!__tippe.top3d.playing")
