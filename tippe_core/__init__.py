@@ -43,7 +43,7 @@ from .smooth import Gliding, glide
 from .solids import Solid, ball, cylinder, frustum, zone
 from .tielines import Tielines, figures, limit_energy, tielines
 from .top import Scales, Top
-from .trajectory import Trajectory
+from .trajectory import Ledger, Trajectory
 
 __all__ = [
     "PRESETS",
@@ -54,6 +54,7 @@ __all__ = [
     "Coulomb",
     "Gliding",
     "Lathe",
+    "Ledger",
     "LoadedSphere",
     "Measured",
     "NoMotionError",

@@ -5,7 +5,7 @@ contact is at -R and a tippe top's G below 0. Every shape is a frozen record of 
 
     .solid .mass .com .moments .volume      kg, m (height of G above O, -a), (I1, I3) in kg m^2, m^3
     .top .scales                            Top(a, I1, I3) and Scales(R, M): what the paper's equations need
-    .profile(n) .touch_angle .stl()         for drawing, for the limits of the round peg, for printing
+    .profile(n) .touch_angle .edge .stl()   for drawing, for the limits of the round peg, for printing
 
 An impossible body is a TopError that names the dimension.
 """
@@ -94,18 +94,31 @@ class Shape:
         beta from the lower end of axis 3, comes to it when D cos(theta - beta) = R; the end of the sphere's surface is
         such a point with D = R. A round part of radius b about a centre at height e does when R + e cos(theta) = b.
         """
-        angles = [inf]
+        return self._touch[0]
+
+    @property
+    def edge(self):
+        """What touches there, the edge of the stem's end as a rule: (radius, height above O, rounding) in R, or None.
+
+        A circle about axis 3, 0 where it is a point, rounded by a ball of that radius along it.
+        """
+        return self._touch[1]
+
+    @cached_property
+    def _touch(self):
+        found = []
         for edge in self.solid.outline[1:]:
             for radius, z in (edge.start, edge.end):
                 D, beta = hypot(radius, z), atan2(radius, -z)
                 if D >= self.R * (1 - 1e-12):
-                    angles.append(beta - acos(min(1.0, self.R / D)))
+                    found.append((beta - acos(min(1.0, self.R / D)), (float(radius / self.R), float(z / self.R), 0.0)))
             if edge.arc and abs(edge.slice.R - self.R) < abs(edge.slice.centre):
                 theta = acos((edge.slice.R - self.R) / edge.slice.centre)
                 point = edge.slice.centre - edge.slice.R * (edge.slice.R - self.R) / edge.slice.centre
                 if edge.start[1] < point < edge.end[1]:
-                    angles.append(theta)
-        return min(angles) if min(angles) < pi - 1e-9 else None
+                    found.append((theta, (0.0, float(edge.slice.centre / self.R), float(edge.slice.R / self.R))))
+        angle, edge = min(found, default=(inf, None))
+        return (angle, edge) if angle < pi - 1e-9 else (None, None)
 
     def with_mass(self, M):
         """The same body of a material, or materials, so much denser that it weighs M (kg)."""

@@ -1,5 +1,6 @@
 """The record that every kind of motion returns."""
 
+from collections import namedtuple
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -8,6 +9,8 @@ import numpy as np
 from .curve import f3_squared
 from .errors import TopError, numbers
 from .top import Top
+
+Ledger = namedtuple("Ledger", "spin precession nutation height translation heat")
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,8 +23,16 @@ class Trajectory:
     contact (n, 2) and com (n, 3), the contact point and G in space, z from the table up;
     omega (n, 3) about 1', 2', 3; slip (n, 2), the velocity of the top's material at the contact, and
     force (n, 3) on the top there, both in the turning axes x (along 1'), y (z cross 1'), z;
-    regime (n,) "roll", "slip" or "air"; events, a tuple of (time, what).
-    jellett, routh and energy (n,) are computed from these, not from what was asked for. All arrays are read-only.
+    regime (n,) "roll", "slip" or "air"; events, a tuple of (time, what);
+    velocity (n, 3) of G in the same axes; where it is not given, that of the sphere's contact: omega x r + slip;
+    heat (n,) in MgR: what friction and impacts took since t[0], by their own work; 0 where not given.
+
+    Where a stem's end takes part, contact, slip and force are those of the point that carries; of two, the force is
+    the sum, and the contact and the slip are the means of both, weighted by the load. In the air slip and force are 0
+    and the contact is the point of the table below O.
+
+    jellett, routh, energy, L_3, L_z (n,) and ledger are computed from these, not from what was asked for. All arrays
+    are read-only.
     """
 
     top: Top
@@ -37,8 +48,17 @@ class Trajectory:
     force: np.ndarray
     regime: np.ndarray
     events: tuple = ()
+    velocity: np.ndarray | None = None
+    heat: np.ndarray | None = None
 
     def __post_init__(self):
+        if self.velocity is None:
+            (w1, w2, w3), (ux, uy), a = self.omega.T, self.slip.T, self.top.a
+            s, c = np.sin(self.theta), np.cos(self.theta)
+            v = w2 * (c - a) - w3 * s + ux, -w1 * (c * (c - a) + s**2) + uy, a * s * w1
+            object.__setattr__(self, "velocity", np.stack(v, axis=1))
+        if self.heat is None:
+            object.__setattr__(self, "heat", np.zeros(len(self.t)))
         for value in vars(self).values():
             if isinstance(value, np.ndarray):
                 value.flags.writeable = False
@@ -55,15 +75,32 @@ class Trajectory:
         return np.sqrt(f3_squared(self.theta, self.top)) * self.omega[:, 2]
 
     @cached_property
-    def energy(self):
-        """E of (6), with G's velocity v = omega x r + slip."""
+    def L_3(self):
+        """I3 w3, G's angular momentum about axis 3."""
+        return self.top.I3 * self.omega[:, 2]
+
+    @cached_property
+    def L_z(self):
+        """I1 s w2 + I3 c w3, G's angular momentum about the vertical."""
+        top, (_, w2, w3) = self.top, self.omega.T
+        return top.I1 * np.sin(self.theta) * w2 + top.I3 * np.cos(self.theta) * w3
+
+    @cached_property
+    def ledger(self):
+        """Where the energy is: Ledger of (n,) arrays in MgR, whose sum stays what it was.
+
+        spin I3 w3^2/2, precession I1 w2^2/2, nutation I1 w1^2/2, height of G above its place when upright,
+        translation v^2/2 of G, up and down included, and heat.
+        """
         top, (w1, w2, w3) = self.top, self.omega.T
-        s, c = np.sin(self.theta), np.cos(self.theta)
-        vx = w2 * (c - top.a) - w3 * s + self.slip[:, 0]
-        vy = -w1 * (c * (c - top.a) + s**2) + self.slip[:, 1]
-        vz = top.a * s * w1
-        kinetic = top.I1 * (w1**2 + w2**2) + top.I3 * w3**2 + vx**2 + vy**2 + vz**2
-        return kinetic / 2 + 2 * top.a * np.sin(self.theta / 2) ** 2
+        height = self.com[:, 2] - (1 - top.a)
+        return Ledger(top.I3 * w3**2 / 2, top.I1 * w2**2 / 2, top.I1 * w1**2 / 2, height,
+                      (self.velocity**2).sum(axis=1) / 2, self.heat)  # fmt: skip
+
+    @cached_property
+    def energy(self):
+        """E of (6), counted from G's height when upright."""
+        return sum(self.ledger[:-1])
 
 
 def checked_times(times):
