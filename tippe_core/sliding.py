@@ -26,7 +26,7 @@ from scipy.integrate import LSODA
 from scipy.optimize import brentq
 
 from .constants import State, f3_2, versines
-from .errors import TopError, finite
+from .errors import TopError, finite, numbers
 from .forces import contact_force
 from .rolling import Rolling
 from .smooth import first_below
@@ -108,7 +108,7 @@ def _positive(law, name, zero=False):
 # ---- the motion ----
 
 
-def slide(top, state, friction, times, rtol=1e-9):
+def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, progress=None):
     """The motion with friction at the given times: Trajectory.
 
     state: State at times[0]; x, y, vx, vy left None mean G at the origin, at rest.
@@ -116,9 +116,13 @@ def slide(top, state, friction, times, rtol=1e-9):
     times: (n,) in (R/g)^1/2, not falling. rtol: 1e-13 to 1e-3; over 300 (R/g)^1/2 of a turning top C_J drifts by some
     4 rtol of itself at rtol = 1e-9.
 
-    events: (time, what) with "sticks" and "slips" (Coulomb), located to 1e-9, and "lifts off": the Trajectory ends
-    there, at the last of the times before it, for flight is not computed. regime: "slip", or "roll" where Coulomb's
-    friction holds the top; that part is the exact one of rolling.py.
+    landing: "stop", and the Trajectory ends where the top lifts off, at the last of the times before it.
+    edge: (radius, height above O along axis 3, rounding) in R of the edge of the stem's end, Shape.edge; or None, a
+    whole sphere. progress: called now and then with the time reached; what it raises stops the run and passes through.
+
+    events: (time, what), located to 1e-9: "sticks" and "slips" (Coulomb), "lifts off", "stem touches" (ends the
+    Trajectory). regime: "slip", or "roll" where Coulomb's friction holds the top; that part is the exact one of
+    rolling.py. heat: the work of friction.
     Raises TopError for bad input, and for friction so strong that no normal force balances it (Painleve).
     """
     if not isinstance(state, State):
@@ -132,7 +136,31 @@ def slide(top, state, friction, times, rtol=1e-9):
     rtol = finite("rtol", rtol)
     if not 1e-13 <= rtol <= 1e-3:
         raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
-    return _Run(top, friction, rtol / 10)(state, t)
+    return _Run(top, friction, rtol / 10, _checked_edge(edge, state), progress or _nothing)(state, t)
+
+
+def _nothing(_):
+    pass
+
+
+def _checked_edge(edge, state):
+    """(radius, height, rounding), or None."""
+    if edge is None:
+        return None
+    parts = numbers("edge", edge)
+    if parts.shape not in ((2,), (3,)) or parts[0] < 0 or (parts[2:] < 0).any():
+        raise TopError("edge", edge, "(radius >= 0, height above O, rounding >= 0) in R, or None")
+    edge = tuple(np.append(parts, 0.0)[:3].tolist())
+    if _gap(edge, np.cos(state.theta), np.sin(state.theta)) < 0:
+        raise TopError("theta", state.theta, "less than the tilt at which the stem's end touches the table",
+                       "Lower it, or take a whole sphere.")  # fmt: skip
+    return edge
+
+
+def _gap(edge, c, s):
+    """Height of the edge's lowest point above the table while the sphere stands on it."""
+    radius, height, rounding = edge
+    return 1 + height * c - radius * s - rounding
 
 
 def _check_balance(top, friction):
@@ -150,12 +178,12 @@ def _check_balance(top, friction):
 class _Run:
     """One motion: stretches of slipping and of rolling, each a Trajectory of the times within it.
 
-    y = (p_x, p_y, p_z, p_w, chi, L_x, L_y, L_z, v_x, v_y, x, y, t), all in space axes; with Coulomb's friction the
-    unknowns z are the same but for log|u|, beta in place of v_x, v_y.
+    y = (p_x, p_y, p_z, p_w, chi, L_x, L_y, L_z, v_x, v_y, x, y, t, heat), all in space axes; with Coulomb's friction
+    the unknowns z are the same but for log|u|, beta in place of v_x, v_y.
     """
 
-    def __init__(self, top, friction, tolerance):
-        self.top, self.friction, self.tolerance = top, friction, tolerance
+    def __init__(self, top, friction, tolerance, edge=None, progress=_nothing):
+        self.top, self.friction, self.tolerance, self.edge, self.progress = top, friction, tolerance, edge, progress
         self.sticks = isinstance(friction, Coulomb)
 
     def __call__(self, state, times):
@@ -170,7 +198,7 @@ class _Run:
             done += len(stretch.t)
             if event is not None:
                 events.append((float(y[12]), event))
-            if event == "lifts off":
+            if event in ("lifts off", "stem touches"):
                 break
             rolls = event == "sticks"
         return _joined(self.top, stretches, tuple(events))
@@ -195,7 +223,7 @@ class _Run:
         rates = (
             ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz,
             oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz, w3,
-            *torque, Fx, Fy, vx, vy, 1.0)  # fmt: skip
+            *torque, Fx, Fy, vx, vy, 1.0, (carried[0] - vx) * Fx + (carried[1] - vy) * Fy)  # fmt: skip
         if not self.sticks:
             return rates
         x_dot, y_dot = self._slip_rate(e, w, L3, torque, (Fx, Fy))
@@ -226,7 +254,7 @@ class _Run:
         return z
 
     def _known(self, z):
-        """y of z (13, ...)."""
+        """y of z (14, ...)."""
         y = np.array(z)
         if self.sticks:
             speed = np.exp(z[8])
@@ -245,7 +273,7 @@ class _Run:
     def _slip(self, y, times):
         """A Trajectory of the times before the next event, the state then, and the event (None: the times are over)."""
         end, z = times[-1], self._unknowns(y)
-        atol = np.full(13, self.tolerance)
+        atol = np.full(14, self.tolerance)
         atol[5:8] *= max(1.0, float(np.linalg.norm(z[5:8])))
         begin, bound = (0.0, np.inf) if self.sticks else (z[12], end)
         solver = LSODA(self._rates, begin, z, bound, rtol=1e-13, atol=atol)
@@ -259,12 +287,14 @@ class _Run:
             z, dense = solver.y, None
             if not self.sticks:
                 z[12] = solver.t  # without the rounding of its integration
-            if Fz < 0.1:
+            if Fz < 0.1 or (self.edge and self._room(z) < 0.1):
                 dense = solver.dense_output()
-                tau = self._lift_off(dense)
-                if tau is not None:
-                    z, event = dense(tau), "lifts off"
+                tau, event = self._leaves(dense)
+                if event is not None:
+                    z = dense(tau)
                     times = times[times <= z[12]]
+            if len(path) % 64 == 0:
+                self.progress(float(z[12]))
             if event is None and self.sticks and z[8] < min(last[8], LOG_STILL) and self._holds(z):
                 left = exp(z[8]) * (z[12] - last[12]) / (exp(last[8]) - exp(z[8]))  # until u = 0
                 z = z + left * np.array(self._rates(0.0, z)) * (1 + SLOW / exp(z[8]))
@@ -291,14 +321,23 @@ class _Run:
             tau = np.clip(tau + missing * (1 + SLOW / np.exp(z[8])), dense.t_old, limit)
         return dense(tau).T
 
-    def _lift_off(self, dense):
-        """The first tau of the last step at which F_z = 0, or None."""
-        taus = np.linspace(dense.t_old, dense.t, 9)
-        below = np.flatnonzero(self._Fz(dense(taus)) < 0)
-        if not below.size:
-            return None
-        i = below[0]
-        return taus[0] if i == 0 else brentq(lambda tau: self._Fz(dense(tau)), taus[i - 1], taus[i], xtol=1e-15)
+    def _room(self, z):
+        """Height of the stem's edge above the table."""
+        px, py, pz, pw = z[:4]
+        return _gap(self.edge, 1 - 2 * (px * px + py * py), 2 * np.sqrt((px * px + py * py) * (pz * pz + pw * pw)))
+
+    def _leaves(self, dense):
+        """The first tau of the last step at which the sphere no longer carries alone, and what happens there."""
+        taus, found = np.linspace(dense.t_old, dense.t, 9), (np.inf, None)
+        guards = {"lifts off": self._Fz} | ({"stem touches": self._room} if self.edge else {})
+        for event, guard in guards.items():
+            below = np.flatnonzero(guard(dense(taus)) < 0)
+            if below.size:
+                i = below[0]
+                between = taus[i - 1 : i + 1]
+                tau = brentq(lambda tau, g=guard: g(dense(tau)), *between, xtol=1e-15) if i else taus[0]
+                found = min(found, (tau, event))
+        return found
 
     # ---- sticking and letting go ----
 
@@ -323,14 +362,22 @@ class _Run:
         def margin(t):
             return _margin(rolling(np.append(0.0, t)).force[1:].T, self.friction.mu_s) + SLACK
 
-        lets_go = first_below(margin, rolling.period)
-        count = int(np.searchsorted(times, y[12] + lets_go)) if np.isfinite(lets_go) else len(times)
+        def room(t):
+            theta = rolling.theta(np.append(0.0, t))[1:]
+            return _gap(self.edge, np.cos(theta), np.sin(theta))
+
+        self.progress(float(y[12]))
+        ends, event = first_below(margin, rolling.period), "slips"
+        if self.edge and (touches := first_below(room, rolling.period)) < ends:
+            ends, event = touches, "stem touches"
+        count = int(np.searchsorted(times, y[12] + ends)) if np.isfinite(ends) else len(times)
         # the first time is where the stretch starts
-        stretch = _cut(rolling(np.array([y[12], *times[:count]])), slice(1, None))
+        stretch = _cut(rolling(np.array([y[12], *times[:count]])), slice(1, None), y[13])
         if count == len(times):
             return stretch, y, None
-        last = _cut(rolling(np.array([0.0, lets_go])), slice(1, None))
-        return stretch, self._let_go(self._from_trajectory(last, y[12] + lets_go)), "slips"
+        last = _cut(rolling(np.array([0.0, ends])), slice(1, None), y[13])
+        y = self._from_trajectory(last, y[12] + ends)
+        return stretch, y if event == "stem touches" else self._let_go(y), event
 
     def _let_go(self, y):
         """y with the least slip, if it has none, in the direction in which slipping starts: u' along u, outward."""
@@ -359,7 +406,7 @@ class _Run:
         turn = np.exp(1j * state.phi)
         v = complex(state.vx or 0.0, state.vy or 0.0) * turn
         return self._y(state.theta, s, c, turn, state.phi + state.psi, (state.theta_dot, state.omega2, state.omega3),
-                       v, complex(state.x or 0.0, state.y or 0.0), t)  # fmt: skip
+                       v, complex(state.x or 0.0, state.y or 0.0), t, 0.0)  # fmt: skip
 
     def _from_trajectory(self, one, t):
         """y at the only instant of a Trajectory."""
@@ -370,18 +417,18 @@ class _Run:
         vx = w2 * (c - self.top.a) - w3 * s
         vy = -w1 * (1 - self.top.a * c)
         return self._y(theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[0] + one.psi[0], one.omega[0],
-                       complex(vx, vy) * turn, complex(*one.com[0, :2]), t)  # fmt: skip
+                       complex(vx, vy) * turn, complex(*one.com[0, :2]), t, one.heat[0])  # fmt: skip
 
-    def _y(self, theta, sin_half, cos_half, turn, chi, omega, v, place, t):
+    def _y(self, theta, sin_half, cos_half, turn, chi, omega, v, place, t, heat):
         # p = Rz(phi) Rx(theta) Rz(-phi)
         L1, L2, L3 = np.array([self.top.I1, self.top.I1, self.top.I3]) * omega
         s, c = np.sin(theta), np.cos(theta)
         p, L = sin_half * turn, complex(L1, c * L2 - s * L3) * turn
         return np.array([p.real, p.imag, 0.0, cos_half, chi, L.real, L.imag, s * L2 + c * L3,
-                         v.real, v.imag, place.real, place.imag, t])  # fmt: skip
+                         v.real, v.imag, place.real, place.imag, t, heat])  # fmt: skip
 
     def _pose(self, y, path):
-        """theta, phi, psi (n,) and omega (3, n) about 1', 2', 3 at y (13, n).
+        """theta, phi, psi (n,) and omega (3, n) about 1', 2', 3 at y (14, n).
 
         path: the unknowns at all steps of the integration, to follow the angles along.
         """
@@ -398,7 +445,7 @@ class _Run:
         return theta, phi, psi, np.array([across.real, c * across.imag + s * w[2], c * w[2] - s * across.imag])
 
     def _trajectory(self, y, path):
-        """The Trajectory of slipping at y (13, n); path as in _pose."""
+        """The Trajectory of slipping at y (14, n); path as in _pose."""
         top, (theta, phi, psi, omega) = self.top, self._pose(y, path)
         e, _, L3, carried = _turning(top, y)
         u = y[8] - carried[0], y[9] - carried[1]
@@ -413,7 +460,7 @@ class _Run:
             contact=np.stack([y[10] + top.a * e[0], y[11] + top.a * e[1]], axis=1),
             com=np.stack([y[10], y[11], 1 - top.a * np.cos(theta)], axis=1), omega=omega.T,
             slip=np.stack([u_h.real, u_h.imag], axis=1), force=np.stack([F_h.real, F_h.imag, F[2]], axis=1),
-            regime=np.full(len(theta), "slip"))  # fmt: skip
+            regime=np.full(len(theta), "slip"), heat=y[13])  # fmt: skip
 
 
 # ---- the equations above, for floats or arrays ----
@@ -465,11 +512,13 @@ def _margin(force, mu_s):
     return mu_s * force[2] - np.hypot(force[0], force[1])
 
 
-_PARTS = ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "slip", "force", "regime")
+_PARTS = ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "slip", "force", "regime", "velocity",
+          "heat")  # fmt: skip
 
 
-def _cut(trajectory, part):
-    return Trajectory(top=trajectory.top, **{name: getattr(trajectory, name)[part] for name in _PARTS})
+def _cut(trajectory, part, heat):
+    parts = {name: getattr(trajectory, name)[part] for name in _PARTS}
+    return Trajectory(top=trajectory.top, **parts | {"heat": np.full(len(parts["t"]), heat)})
 
 
 def _joined(top, stretches, events):
