@@ -5,8 +5,8 @@ import param
 
 from app.bundle import Bundled
 
-REGIMES = ("rolls", "would slip here", "would lift off here")
-"""What the codes 0, 1, 2 in the last column of the frames mean."""
+REGIMES = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "has left the table")
+"""What the codes 0 to 5 in the last column of the frames mean."""
 
 
 def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
@@ -23,7 +23,7 @@ def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
     force : (n, 3) the table's force on the top, in Mg
     omega : (n, 3) angular velocity
     momentum : (n, 3) angular momentum about G
-    regime : (n,) codes: 0 rolls, 1 would slip here, 2 would lift off here
+    regime : (n,) codes: places in REGIMES
     """
     return np.column_stack((t, quaternion, contact, com, force, omega, momentum, regime)).astype("<f4").tobytes()
 
@@ -32,7 +32,8 @@ class Top3D(Bundled):
     """The top on its table, with its tracks and arrows, and the bar that plays it.
 
     While it plays, and when it is moved by hand, it dispatches `tippe:clock` on the browser's window with
-    `{t, index, playing}`; it moves to the time of a `tippe:seek` with `{t}`.
+    `{t, index, playing}`; it moves to the time of a `tippe:seek` with `{t}`. Tops with a `clock` play as one, for the
+    same stretch of time, and their events are `tippe:clock:<clock>` and `tippe:seek:<clock>`.
     """
 
     frames = param.Bytes(default=b"", doc="The motion, from `pack_frames`; empty where there is none.")
@@ -43,6 +44,11 @@ class Top3D(Bundled):
     seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
     time = param.Number(
         default=0.0, doc="The cursor. The browser writes it when a person moves it, not while it plays."
+    )
+    clock = param.String(default="", constant=True, doc="The name of the clock that several tops share.")
+    a = param.Number(
+        default=None,
+        doc="G's distance below O, in R, where O may leave its height of R: in flight, on a stem. None: it does not.",
     )
     playing = param.Boolean(
         default=True, doc="Whether it plays. Where a person prefers reduced motion it starts paused."

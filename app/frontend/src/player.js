@@ -43,6 +43,13 @@ export class Player {
     return this.t < t;
   }
 
+  // The time of another player. Tells whether that began anew.
+  follow(t) {
+    const before = this.t;
+    if (this.frames.count) this.t = this.wrap(t);
+    return this.t < before;
+  }
+
   setPlaying(playing) {
     if (playing === this.playing) return;
     this.playing = playing;

@@ -25,7 +25,11 @@ const verdicts = [
   ["rolls", colours.normal],
   ["would slip here", colours.friction],
   ["would lift off here", colours.omega],
+  ["slips", colours.friction],
+  ["in the air", colours.omega],
+  ["has left the table", colours.omega],
 ];
+const clocks = new Map(); // the tops that go together, by the name of their clock
 
 export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
@@ -103,7 +107,10 @@ export function renderTop3D({ model, el, view }) {
   const scalesText = addText(picture, "scales");
 
   const player = new Player({
-    changed: () => stage.invalidate(),
+    changed() {
+      stage.invalidate();
+      tellOthers();
+    },
     landed: tellTime,
     playingChanged: () => (model.playing = player.playing),
   });
@@ -120,18 +127,41 @@ export function renderTop3D({ model, el, view }) {
   let restarted = true;
   let lastFrame;
   let drawn; // what the last drawn picture showed
+  const suffix = model.clock ? `:${model.clock}` : "";
+  const member = { player, stage, echo: false };
+  const others = () => (clocks.get(model.clock) ?? []).filter((other) => other !== member);
   let received = 0, drawing = 0, shown = 0; // motions that came; the last of them in the picture begun, and on the screen
 
   function tick(now, held) {
     if (!held && player.playing && player.frames.count > 1) {
       // model.seconds of the real top pass in one unit of t; speed 1 shows them at their own pace.
       const unitsPerMs = model.speed / (1000 * model.seconds);
-      restarted = player.advance(now, unitsPerMs) || restarted;
+      const leads = leader() === member;
+      restarted = player.advance(now, leads ? unitsPerMs : 0) || restarted;
+      if (!leads) restarted = player.follow(leader().player.t) || restarted;
     }
     pose();
     follow(now);
     drawing = received;
     return player.playing && player.frames.count > 1;
+  }
+
+  // Of the tops of one clock, the one that moves the time: the first in view.
+  function leader() {
+    if (!model.clock) return member;
+    const tops = clocks.get(model.clock);
+    return tops.find(({ stage }) => stage.inView) ?? tops[0];
+  }
+
+  // What a person does to one top of a clock is done to all.
+  function tellOthers() {
+    if (member.echo) return;
+    for (const other of others()) {
+      other.echo = true;
+      other.player.setPlaying(player.playing);
+      if (other.player.t !== player.t) other.player.seek(player.t);
+      other.echo = false;
+    }
   }
 
   // The picture of the moment player.t
@@ -143,8 +173,10 @@ export function renderTop3D({ model, el, view }) {
     if (some) {
       frames.read(at, moment);
       place.set(moment.contact.x, moment.contact.y, 1);
-      body.position.copy(place);
       body.quaternion.copy(moment.quaternion);
+      body.position.copy(place);
+      // off the table, or on its stem, the sphere's centre is where G and the axis say
+      if (model.a !== null) body.position.set(0, 0, model.a).applyQuaternion(moment.quaternion).add(moment.com);
       underneath.position.set(place.x, place.y, ABOVE_TABLE / 2);
       shade.position.set(place.x + 1.2, place.y + 1.3, ABOVE_TABLE / 3);
       centre.position.copy(moment.com);
@@ -179,7 +211,8 @@ export function renderTop3D({ model, el, view }) {
     const { t, playing } = player;
     if (!drawn || drawn.t !== t || drawn.playing !== playing) {
       drawn = { t, playing, index: player.index };
-      window.dispatchEvent(new CustomEvent("tippe:clock", { detail: { t, index: player.index, playing } }));
+      const detail = { t, index: player.index, playing };
+      if (leader() === member) window.dispatchEvent(new CustomEvent(`tippe:clock${suffix}`, { detail }));
     }
   }
 
@@ -258,7 +291,9 @@ export function renderTop3D({ model, el, view }) {
 
   function newFrames() {
     const first = !player.frames.count;
+    member.echo = true; // a new motion is no news of the clock
     player.setFrames(model.frames);
+    member.echo = false;
     received += 1;
     const { frames } = player;
     const most = frames.scales;
@@ -270,7 +305,8 @@ export function renderTop3D({ model, el, view }) {
     for (const line of Object.values(track)) line.setPath(frames.count, (i) => frames.contact(i), ABOVE_TABLE);
     for (const line of Object.values(comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
     if (first && frames.count) {
-      player.seek(model.time);
+      if (others().length) player.follow(leader().player.t);
+      else player.seek(model.time);
       pose();
       firstView();
     } else if (!player.playing) restarted = true;
@@ -289,16 +325,17 @@ export function renderTop3D({ model, el, view }) {
     if (Math.abs(model.time - player.t) > 1e-9 * Math.max(1, Math.abs(player.t))) player.seek(model.time);
   });
   model.on("playing", () => player.setPlaying(model.playing));
-  for (const name of ["mu_s", "seconds", "show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow"]) {
+  for (const name of ["mu_s", "seconds", "show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"]) {
     model.on(name, () => stage.invalidate());
   }
   const onSeek = (event) => player.seek(event.detail.t);
-  window.addEventListener("tippe:seek", onSeek);
+  window.addEventListener(`tippe:seek${suffix}`, onSeek);
+  if (model.clock) clocks.set(model.clock, [...others(), member]);
 
   newProfile();
   newFrames();
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  player.playing = model.playing && !still;
+  player.playing = (others()[0]?.player ?? model).playing && !still;
   if (model.playing !== player.playing) model.playing = player.playing;
 
   // What is drawn, for tests and for the curious
@@ -313,12 +350,16 @@ export function renderTop3D({ model, el, view }) {
     get pictures() { return stage.pictures; },
     get motions() { return { received, shown }; },
   };
-  (window.__tippe ??= {}).top3d = report;
+  window.__tippe ??= {};
+  window.__tippe.tops ??= (clock) => (clocks.get(clock) ?? []).map((top) => top.report);
+  member.report = report;
+  if (!model.clock) window.__tippe.top3d = report;
 
   const dispose = () => {
     onFrames.cancel();
     clearTimeout(told);
-    window.removeEventListener("tippe:seek", onSeek);
+    window.removeEventListener(`tippe:seek${suffix}`, onSeek);
+    if (model.clock) clocks.set(model.clock, others());
     if (window.__tippe.top3d === report) delete window.__tippe.top3d;
     stage.dispose();
   };
