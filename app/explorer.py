@@ -4,7 +4,7 @@ Angles in rad; lengths in R, masses in M, accelerations in g, so times in (R/g)^
 """
 
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from types import MappingProxyType
 
 import numpy as np
@@ -15,6 +15,7 @@ from tippe_core import (
     Rolling,
     Scales,
     Shape,
+    State,
     Top,
     TopError,
     TruncatedSphere,
@@ -41,6 +42,13 @@ MOST_TURN = 0.3
 LEAST_TIELINES = 48
 MESH_COLUMNS = 48
 HOVER_COLUMNS = 96
+
+# At its limit a motion rolls still: rounding is not to say otherwise.
+AT_LIMIT = 1e-9
+SAMPLES_A_NUTATION = 128
+LEVELS = (0.15, 0.4, 0.7, 1.0, 2.0)
+LEVEL_COLUMNS = 32
+POTENTIAL_COLUMNS = 160
 
 # Half of the third digit: the paper rounds appendix A's top to three, and with those it is the same body still.
 ROUNDED = 5e-4
@@ -126,6 +134,8 @@ class Scene:
     constants: Constants
     share: float
     marks: Marks
+    state: State
+    rolling: Rolling
     plane: Plane
     turning: tuple
     curve: np.ndarray
@@ -145,14 +155,70 @@ class Scene:
     messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
     notes: tuple = ()
 
+    # What not every picture shows is computed when the first one asks.
+
+    @cached_property
+    def nutation(self):
+        """One nutation from t = 0, closed: the Trajectory at SAMPLES_A_NUTATION + 1 equally spaced times."""
+        return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION + 1))
+
+    @cached_property
+    def levels(self):
+        """Motions of the same K_J and K_R at other energies, and one at LEVELS[i] of the marks: [(theta, theta_dot)],
+        each theta ascending, theta_dot >= 0."""
+        curves = []
+        for share in LEVELS:
+            constants = replace(self.constants, E=self.marks.energy(share))
+            wells = turning_points(self.top, constants)
+            inner, outer = wells[int(np.argmin(np.abs(wells - self.marks.theta_steady).min(axis=1)))]
+            theta = between(inner, outer, LEVEL_COLUMNS)
+            theta_dot = np.sqrt(np.maximum(f(theta, self.top, constants), 0))
+            theta_dot[[0, -1]] = 0
+            curves.append((theta, theta_dot))
+        return curves
+
+    @cached_property
+    def potential(self):
+        """theta (n,) and the least energy there, E (n,): a motion turns where its energy is that."""
+        inner, outer = self.turning
+        reach = 0.6 * (outer - inner) + 0.05
+        theta = np.linspace(max(inner - reach, 1e-3), min(outer + reach, np.pi - 1e-3), POTENTIAL_COLUMNS)
+        return theta, least_energy(theta, self.top, self.constants.K_J, self.constants.K_R)
+
+    @cached_property
+    def rosette(self):
+        """Centre x, y and the least and largest distance of the track from it; None where the track goes straight on.
+
+        A nutation turns the motion by phi_advance and moves it: together a turn about one point of the table.
+        """
+        track = self.nutation.contact @ (1, 1j)
+        turn = np.exp(1j * self.rolling.phi_advance)
+        if abs(1 - turn) < AT_LIMIT:
+            return None
+        centre = (track[-1] - turn * track[0]) / (1 - turn)
+        away = np.abs(track - centre)
+        return centre.real, centre.imag, away.min(), away.max()
+
 
 class Explorer(param.Parameterized):
-    """The controls. Several set in one `param.update` make one solve and one `scene` event."""
+    """The controls. Several set in one `param.update` make one solve and one `scene` event.
+
+    The motion has three faces, GIVEN: what was set last is what it is given by, and the inputs of the other two then
+    follow to the last digit, so that each may be changed next. To put back what was: set `given` and its inputs.
+    """
 
     K_J = param.Number(7.0, doc="Jellett's constant, in (g/R)^1/2")
     K_R = param.Number(10.0, doc="Routh's constant, in (MR^2)^1/2 (g/R)^1/2")
-    mu_s = param.Number(0.5, doc="coefficient of static friction")
     energy = param.Number(0.9, doc="0 the steady precession, 1 the limit of friction, 2 the limit F_z = 0")
+    E = param.Number(0.0, doc="the energy itself, in MgR")
+    theta = param.Number(0.0, doc="the tilt at t = 0, in rad")
+    theta_dot = param.Number(0.0, doc="its rate, in (g/R)^1/2")
+    omega2 = param.Number(0.0, doc="the angular velocity about 2' at t = 0, in (g/R)^1/2")
+    omega3 = param.Number(0.0, doc="the angular velocity about the axis of symmetry at t = 0, in (g/R)^1/2")
+    phi = param.Number(0.0, doc="the azimuth of 1' at t = 0, in rad")
+    psi = param.Number(0.0, doc="the turn about the axis of symmetry at t = 0, in rad")
+    given = param.Selector(default="share", objects=["share", "E", "state"], doc="which of GIVEN holds")
+    mu_s = param.Number(0.5, doc="coefficient of static friction")
     a = param.Number(0.070, doc="distance of G below the centre O of the sphere, in R")
     I1 = param.Number(0.399, doc="moment of inertia about an axis through G across the axis of symmetry, in MR^2")
     I3 = param.Number(0.408, doc="moment of inertia about the axis of symmetry, in MR^2")
@@ -161,14 +227,52 @@ class Explorer(param.Parameterized):
     )
     upper = param.Boolean(True, doc="show the upper hemisphere, like the paper, or all of (0, pi)")
     limit = param.Selector(default="lift-off", objects=["lift-off", "slip"], doc="which limit Fig. 5 is drawn at")
+    face = param.Selector(
+        default="constants", objects=["constants", "state"], doc="which face the controls show; it changes nothing else"
+    )
     cursor = param.Number(0.0, doc="the time looked at, in (R/g)^1/2; moving it solves nothing")
     scene = param.ClassSelector(class_=Scene, constant=True, doc="the last solution")
 
+    GIVEN = MappingProxyType(
+        {
+            "share": ("K_J", "K_R", "energy"),
+            "E": ("K_J", "K_R", "E"),
+            "state": ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"),
+        }
+    )
     INPUTS = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3")
 
-    @param.depends(*INPUTS, "shape", "upper", "limit", watch=True, on_init=True)
+    def __init__(self, **inputs):
+        super().__init__(**inputs)
+        self._following = False
+        motion = {name for names in self.GIVEN.values() for name in names}
+        self.param.watch(self._on_inputs, [*motion, "given", "mu_s", "a", "I1", "I3", "shape", "upper", "limit"])
+        self._solve()
+
+    def _on_inputs(self, *events):
+        if self._following:
+            return
+        changed = {event.name for event in events}
+        if "given" not in changed:
+            if changed & set(self.GIVEN["state"]):
+                self._follow(given="state")
+            elif "E" in changed:
+                self._follow(given="E")
+            elif changed & set(self.GIVEN["share"]):
+                self._follow(given="share")
+        self._solve()
+
+    def _follow(self, **values):
+        self._following = True
+        try:
+            with param.edit_constant(self):
+                self.param.update(**values)
+        finally:
+            self._following = False
+
     def _solve(self):
         try:
+            state = {name: getattr(self, name) for name in self.GIVEN["state"]}
             scene = solve(
                 Top(self.a, self.I1, self.I3),
                 self.K_J,
@@ -178,25 +282,40 @@ class Explorer(param.Parameterized):
                 self.upper,
                 self.limit,
                 self.shape,
+                E=self.E if self.given == "E" else None,
+                state=State(**state) if self.given == "state" else None,
             )
         except TopError as error:
             if self.scene is None:
                 raise
             control = {"E": "energy"}.get(error.name, error.name)
-            scene = replace(self.scene, messages=MappingProxyType({control: str(error)}))
-        with param.edit_constant(self):
-            self.scene = scene
+            self._follow(scene=replace(self.scene, messages=MappingProxyType({control: str(error)})))
+            return
+        found = {"energy": scene.share} | {name: getattr(scene.constants, name) for name in self.GIVEN["E"]}
+        found |= {name: getattr(scene.state, name) for name in self.GIVEN["state"]}
+        self._follow(
+            scene=scene, **{name: value for name, value in found.items() if name not in self.GIVEN[self.given]}
+        )
 
 
-def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None):
+def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None, *, E=None, state=None):
     """The Scene of one top and one motion; shape: the body, appendix A's where none is given.
 
+    E, where given, is the energy, whatever the share; state, where given, the motion at t = 0, whatever the constants.
     Raises TopError, whose name is the input at fault.
     """
     shape = shape or TruncatedSphere.paper()
     drawn = shape if fits(shape, top) else None
+    if state is not None:
+        constants = Constants.from_state(top, state.theta, state.theta_dot, state.omega2, state.omega3)
+        K_J, K_R, E = constants.K_J, constants.K_R, constants.E
     marks = energy_marks(top, K_J, K_R, mu_s)
-    E = marks.energy(share)
+    if state is not None:
+        share = max(marks.share(E), 0.0)  # rounding may leave a steady precession below itself
+    elif E is not None:
+        share = marks.share(E)
+    else:
+        E = marks.energy(share)
     if share < 0 or not np.isfinite(share):
         raise TopError(
             "E",
@@ -205,15 +324,23 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None):
             "Below the steady precession there is no motion: move the energy up.",
         )
     constants = Constants(K_J, K_R, E)
-    wells = turning_points(top, constants)
-    well = int(np.argmin(np.abs(wells - marks.theta_steady).min(axis=1)))
-    inner, outer = wells[well]
-    rolling = Rolling(top, constants, well=well)
+    if state is not None:
+        rolling = Rolling(top, None, start=state)
+        ends = (rolling.v1, rolling.m1), (rolling.v2, rolling.m2)
+        inner, outer = (2 * np.arctan2(v**0.5, m**0.5) for v, m in ends)
+    else:
+        wells = turning_points(top, constants)
+        well = int(np.argmin(np.abs(wells - marks.theta_steady).min(axis=1)))
+        inner, outer = wells[well]
+        rolling = Rolling(top, constants, well=well)
     trajectory = rolling(frame_times(rolling.period, top, constants))
 
     F_x, F_y, F_z = trajectory.force.T
     with np.errstate(divide="ignore"):
         ratio = np.hypot(F_x, F_y) / np.abs(F_z)
+    if state is None:
+        theta, (w1, w2, w3) = trajectory.theta[0], trajectory.omega[0]
+        state = State(theta, w1, w2 if 0 < theta < np.pi else 0.0, w3)
     nodal, across, axis, towards = axes(trajectory.theta, trajectory.phi)
     w1, w2, w3 = (component[:, None] for component in trajectory.omega.T)
     theta = between(inner, outer, MESH_COLUMNS)
@@ -224,6 +351,8 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None):
         constants=constants,
         share=share,
         marks=marks,
+        state=state,
+        rolling=rolling,
         plane=plane(top, K_R, mu_s, upper, limit, *K_J_range(top, K_J, K_R, upper)),
         turning=(float(inner), float(outer)),
         curve=np.column_stack([theta, height(theta, top, constants)]),
@@ -233,7 +362,7 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None):
         momentum=top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis,
         normal=F_z,
         ratio=ratio,
-        regime=np.where(F_z < 0, LIFTS, np.where(ratio > mu_s, SLIPS, ROLLS)),
+        regime=np.where(F_z < -AT_LIMIT, LIFTS, np.where(ratio > mu_s + AT_LIMIT, SLIPS, ROLLS)),
         K_J=trajectory.jellett / top.I1,
         K_R=trajectory.routh,
         E=trajectory.energy,
@@ -386,14 +515,17 @@ def plane(top, K_R, mu_s, upper, limit, low, high):
     )
 
 
+def least_energy(theta, top, K_J, K_R):
+    """E of the motion that turns at theta: (33) with theta_dot = 0, 2E' = 2a(1 - c) + f2^2 w2^2."""
+    w2 = omega2(theta, top, Constants(K_J, K_R, 0.0))
+    two_E_prime = 2 * top.a * (1 - np.cos(theta)) + f2_squared(theta, top) * w2**2
+    return (two_E_prime + K_R**2 - top.I1 / top.I3 * K_J**2) / 2
+
+
 def everywhere(top, theta, K_J, K_R, E_limit):
     """E and F_h/F_z at (K_J, theta), each (len(K_J), len(theta)); F_h/F_z is inf where F_z <= 0."""
     theta, K_J = theta[None, :], K_J[:, None]
-    w2 = omega2(theta, top, Constants(K_J, K_R, 0.0))
-    # (33) at theta_dot = 0: the least energy that gets to theta.
-    two_E_prime = 2 * top.a * (1 - np.cos(theta)) + f2_squared(theta, top) * w2**2
-    reach = (two_E_prime + K_R**2 - top.I1 / top.I3 * K_J**2) / 2
-    E = np.fmax(reach, np.where(np.isfinite(E_limit), E_limit, np.nan)[:, None])
+    E = np.fmax(least_energy(theta, top, K_J, K_R), np.where(np.isfinite(E_limit), E_limit, np.nan)[:, None])
     constants = Constants(K_J, K_R, E)
     F_z = normal_force(theta, top, constants)
     F_x, F_y = friction_force(theta, top, constants)

@@ -7,7 +7,18 @@ import pytest
 
 import app.explorer
 from app.explorer import LIFTS, ROLLS, SLIPS, Explorer
-from tippe_core import Constants, Top, limit_energy, roll, tielines, turning_points
+from tippe_core import (
+    Constants,
+    State,
+    Top,
+    limit_energy,
+    omega2,
+    omega3,
+    roll,
+    steady_precessions,
+    tielines,
+    turning_points,
+)
 
 # Tielines of the paper's top at K_R = 10: K_J, 2E' (F_z), inner, outer, 2E' (mu_s = 0.5), inner, outer, verge.
 TABLE = np.array([
@@ -57,7 +68,7 @@ def test_fig_5_ends_at_the_papers_point_P(explorer):
 def test_several_inputs_make_one_solve_and_one_event(explorer, monkeypatch):
     solves, scenes = [], watch(explorer)
     solve = app.explorer.solve
-    monkeypatch.setattr(app.explorer, "solve", lambda *inputs: solves.append(inputs) or solve(*inputs))
+    monkeypatch.setattr(app.explorer, "solve", lambda *inputs, **face: solves.append(inputs) or solve(*inputs, **face))
     explorer.param.update(K_J=5.0, K_R=9.0, mu_s=0.4, energy=0.5)
     assert len(solves) == len(scenes) == 1
     assert scenes[0] is explorer.scene
@@ -164,3 +175,80 @@ def test_hover_knows_the_whole_plane(explorer):
         assert plane.hover_E[j, inside] == pytest.approx(plane.slip.E[row], rel=1e-12)
         assert np.all(plane.hover_ratio[j, inside] <= 0.5 + 1e-9)
         assert np.all(plane.hover_E[j, ~inside] > plane.slip.E[row])
+
+
+def inputs_of(explorer):
+    return {name: getattr(explorer, name) for names in Explorer.GIVEN.values() for name in names}
+
+
+def test_constants_and_initial_state_follow_each_other_to_the_last_digit(explorer):
+    start = State(0.6, 1.5, -2.0, 9.0)
+    scenes = watch(explorer)
+    explorer.param.update(theta=0.6, theta_dot=1.5, omega2=-2.0, omega3=9.0)
+    assert explorer.given == "state" and len(scenes) == 1 and not explorer.scene.messages
+    constants = Constants.from_state(Top.paper(), 0.6, 1.5, -2.0, 9.0)
+    assert explorer.scene.constants == constants
+    assert (explorer.K_J, explorer.K_R, explorer.E) == (constants.K_J, constants.K_R, constants.E)
+    expected = roll(Top.paper(), None, explorer.scene.trajectory.t, start=start)
+    assert np.array_equal(explorer.scene.trajectory.quaternion, expected.quaternion)
+    assert explorer.scene.trajectory.theta[0] == pytest.approx(0.6, abs=1e-15)
+
+    explorer.E = 40.0
+    assert explorer.given == "E" and explorer.scene.constants == Constants(constants.K_J, constants.K_R, 40.0)
+    state = explorer.scene.state
+    assert (explorer.theta, explorer.theta_dot, explorer.omega2, explorer.omega3) == (
+        state.theta, state.theta_dot, state.omega2, state.omega3)
+    back = Constants.from_state(Top.paper(), state.theta, state.theta_dot, state.omega2, state.omega3)
+    assert (back.K_J, back.K_R, back.E) == pytest.approx((constants.K_J, constants.K_R, 40.0), rel=1e-13)
+
+
+@pytest.mark.parametrize("change", [{"K_J": 6.1}, {"E": 28.1}, {"omega3": 8.8}, {"theta": 0.5, "theta_dot": -0.3}])
+def test_what_was_can_be_put_back(explorer, change):
+    explorer.param.update(**change)
+    before, given = inputs_of(explorer), explorer.given
+    kept = {name: before[name] for name in Explorer.GIVEN[given]}
+    for other in ({"K_J": 3.0}, {"E": 29.0}, {"theta": 0.7}):
+        explorer.param.update(**other)
+        assert inputs_of(explorer) != before
+        explorer.param.update(given=given, **kept)
+        assert inputs_of(explorer) == before
+
+
+def test_the_face_shown_changes_nothing(explorer):
+    scene, scenes, before = explorer.scene, watch(explorer), inputs_of(explorer)
+    explorer.face = "state"
+    assert explorer.scene is scene and not scenes and inputs_of(explorer) == before
+
+
+@pytest.mark.parametrize("name, value", [("theta", 4.0), ("theta_dot", float("inf"))])
+def test_a_state_that_cannot_be_is_said_beside_it(explorer, name, value):
+    good = explorer.scene
+    setattr(explorer, name, value)
+    assert list(explorer.scene.messages) == [name] and explorer.scene.trajectory is good.trajectory
+
+
+def test_at_the_limit_itself_the_top_still_rolls(explorer):
+    for K_J in (0.0, 3.0, 6.0, 7.0, 8.0):
+        explorer.param.update(K_J=K_J, energy=1.0)
+        assert explorer.scene.regime.max() == ROLLS
+
+
+def test_levels_and_potential_are_of_the_same_well(explorer):
+    """Where the potential is least the steady precession stands, and a level is level: its energy from its state."""
+    scene = explorer.scene
+    theta, E = scene.potential
+    (steady,) = steady_precessions(scene.top, 7.0, 10.0).theta
+    assert abs(theta[E.argmin()] - steady) < theta[1] - theta[0]
+    for theta, theta_dot in scene.levels:
+        w2, w3 = omega2(theta, scene.top, scene.constants), omega3(theta, scene.top, scene.constants)
+        found = [Constants.from_state(scene.top, *state).E for state in zip(theta, theta_dot, w2, w3, strict=True)]
+        assert np.ptp(found) < 1e-12 * found[0]
+
+
+def test_the_track_stays_between_two_circles(explorer):
+    for K_J in (2.0, 7.0):
+        explorer.K_J = K_J
+        x, y, nearest, farthest = explorer.scene.rosette
+        away = np.hypot(*(explorer.scene.trajectory.contact - (x, y)).T)
+        # The circles are touched between two frames.
+        assert nearest - 1e-9 <= away.min() < nearest + 1e-3 and farthest - 1e-3 < away.max() <= farthest + 1e-3
