@@ -5,7 +5,7 @@ import param
 
 from app.bundle import Bundled
 
-REGIMES = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "has left the table")
+REGIMES = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "the motion ends here")
 """What the codes 0 to 5 in the last column of the frames mean."""
 
 

@@ -27,7 +27,7 @@ const verdicts = [
   ["would lift off here", colours.omega],
   ["slips", colours.friction],
   ["in the air", colours.omega],
-  ["has left the table", colours.omega],
+  ["the motion ends here", colours.omega],
 ];
 const clocks = new Map(); // the tops that go together, by the name of their clock
 
@@ -146,11 +146,11 @@ export function renderTop3D({ model, el, view }) {
     return player.playing && player.frames.count > 1;
   }
 
-  // Of the tops of one clock, the one that moves the time: the first in view.
+  // Of the tops of one clock, the one that moves the time: the first in view with something to show.
   function leader() {
     if (!model.clock) return member;
     const tops = clocks.get(model.clock);
-    return tops.find(({ stage }) => stage.inView) ?? tops[0];
+    return tops.find(({ stage, player }) => stage.inView && player.frames.count > 1) ?? tops[0];
   }
 
   // What a person does to one top of a clock is done to all.
