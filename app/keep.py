@@ -1,0 +1,285 @@
+"""The state of the page as the query of a URL, and the steps back and forth through it.
+
+Each view names what of it is to be kept: a Parameterized, and a Field for each parameter. A query holds what is not the
+default, every number to the last digit: ?v=1&KJ=6.7&mu=.3. What a stranger wrote there is read, never believed.
+"""
+
+import base64
+import binascii
+import re
+import zlib
+from dataclasses import dataclass, fields
+from typing import Any
+from urllib.parse import parse_qsl, quote
+
+import param
+
+from app.explorer import Explorer
+from tippe_core import TopError, load_top, save_top
+from tippe_core.shapes import KINDS, LONGEST
+
+# The defaults are part of a version: with others, or with another meaning of a name, this becomes 2.
+VERSION = 1
+LONGEST_QUERY = 12_000  # a body of the most points that can be built is shorter
+MOST_NAMES = 60
+LONGEST_NUMBER = 32
+STEPS = 100
+
+UNKNOWN = "This link was made by a newer version of the explorer; what this one knows of it is shown."
+NUMBER = re.compile(r"-?(\d+\.?\d*|\.\d+)(e-?\d+)?", re.ASCII)
+
+
+class Number:
+    """A float, as short as it can be and to the last digit."""
+
+    @staticmethod
+    def text(value):
+        """Of a finite number."""
+        text = repr(float(value)).removesuffix(".0").replace("e+", "e").replace("e-0", "e-")
+        return re.sub(r"^(-?)0\.", r"\1.", text)
+
+    @staticmethod
+    def value(text):
+        """Of what text() wrote; else a ValueError."""
+        if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text) or abs(float(text)) == float("inf"):
+            raise ValueError("a finite number")
+        return float(text)
+
+
+class OneOf:
+    """One of a few values, each by its word."""
+
+    def __init__(self, **words):
+        self._words = words
+
+    def text(self, value):
+        """The word of a value."""
+        return next(word for word, known in self._words.items() if known == value)
+
+    def value(self, text):
+        """The value of a word; else a ValueError."""
+        if text not in self._words:
+            raise ValueError("one of " + ", ".join(self._words))
+        return self._words[text]
+
+
+class Body:
+    """A shape: its kind and its dimensions in SI; where those are lists, its file, packed."""
+
+    PACKED = "z"
+
+    @classmethod
+    def text(cls, shape):
+        """Of any Shape."""
+        dimensions = [getattr(shape, field.name) for field in fields(shape)]
+        if all(isinstance(value, float) for value in dimensions):
+            return "_".join([type(shape).__name__, *map(Number.text, dimensions)])
+        return cls.PACKED + base64.urlsafe_b64encode(zlib.compress(save_top(shape).encode(), 9)).decode().rstrip("=")
+
+    @classmethod
+    def value(cls, text):
+        """Of what text() wrote; else a ValueError, which may be the TopError of an impossible body."""
+        if text.startswith(cls.PACKED):
+            shape = cls._unpacked(text[len(cls.PACKED) :])
+        else:
+            name, *dimensions = text.split("_")
+            kind = KINDS.get(name)
+            if kind is None or len(dimensions) != len(fields(kind)):
+                raise ValueError("a body: its kind and its dimensions")
+            names = (field.name for field in fields(kind))
+            shape = kind(**{name: Number.value(size) for name, size in zip(names, dimensions, strict=True)})
+        shape.top  # noqa: B018  (a body may be sound and still stand on no peg)
+        return shape
+
+    @staticmethod
+    def _unpacked(text):
+        unpack = zlib.decompressobj()
+        try:
+            document = unpack.decompress(base64.urlsafe_b64decode(text + "=" * (-len(text) % 4)), LONGEST)
+        except (binascii.Error, zlib.error, ValueError):
+            raise ValueError("a body's file, packed") from None
+        return load_top(document)
+
+
+@dataclass(frozen=True)
+class Field:
+    """A parameter that is kept: its name in the URL, how it is written, and whether changing it is a step to undo."""
+
+    key: str
+    codec: Any
+    undoable: bool = True
+
+
+EXPLORER = {
+    "shape": Field("body", Body),
+    "a": Field("a", Number),
+    "I1": Field("I1", Number),
+    "I3": Field("I3", Number),
+    "mu_s": Field("mu", Number),
+    "given": Field("by", OneOf(share="share", E="E", state="state")),
+    "K_J": Field("KJ", Number),
+    "K_R": Field("KR", Number),
+    "energy": Field("e", Number),
+    "E": Field("E", Number),
+    "theta": Field("th", Number),
+    "theta_dot": Field("thd", Number),
+    "omega2": Field("w2", Number),
+    "omega3": Field("w3", Number),
+    "phi": Field("phi", Number),
+    "psi": Field("psi", Number),
+    "upper": Field("half", OneOf(yes=True, no=False)),
+    "limit": Field("limit", OneOf(lift="lift-off", slip="slip")),
+    "face": Field("face", OneOf(constants="constants", state="state"), undoable=False),
+}
+FOLLOWING = {name for names in Explorer.GIVEN.values() for name in names}
+
+
+def read(query):
+    """(texts, sentence): the names and texts of a query, {} and a sentence where it cannot be one. Never raises."""
+    query = query.removeprefix("?")
+    if len(query) > LONGEST_QUERY:
+        return {}, f"This link is too long to be one of the explorer’s ({len(query)} letters)."
+    try:
+        texts = dict(parse_qsl(query, keep_blank_values=True, max_num_fields=MOST_NAMES))
+    except ValueError:
+        return {}, "This link has more in it than one of the explorer’s can have."
+    version = texts.pop("v", str(VERSION))
+    return texts, "" if version == str(VERSION) else UNKNOWN
+
+
+def values(texts, known, skip=()):
+    """(values, sentence): the parameters that texts give, those not possible left out and named. Never raises."""
+    found, wrong = {}, []
+    for name, field in known.items():
+        if field.key not in texts:
+            continue
+        try:
+            found[name] = field.codec.value(texts[field.key])
+        except ValueError as error:
+            wrong.append(str(error) if isinstance(error, TopError) else f"{field.key} is to be {error}.")
+    sentence = f"Part of this link cannot be read, and is left at its default: {' '.join(wrong)}" if wrong else ""
+    return found, sentence
+
+
+def explorer_of(texts):
+    """(Explorer, sentence): the motion that texts ask for, else the default one. Never raises."""
+    asked, sentence = values(texts, EXPLORER)
+    if "shape" in asked:
+        top = asked["shape"].top
+        asked = {"a": top.a, "I1": top.I1, "I3": top.I3} | asked
+    try:
+        return Explorer(**asked), sentence
+    # what the solver says of numbers whose squares or reciprocals are no numbers
+    except (ValueError, ArithmeticError) as error:
+        said = str(error) if isinstance(error, TopError) else "its numbers are too large or too small."
+        return Explorer(), f"This link asks for what cannot be, so the first motion is shown: {said}"
+
+
+def usual(explorer):
+    """{parameter: value} of an Explorer where a query is silent about it: the motion by which it is given, its body."""
+    names = [name for name in EXPLORER if name not in FOLLOWING or name in Explorer.GIVEN[explorer.given]]
+    first = {name: Explorer.param[name].default for name in names}
+    if explorer.shape == first["shape"]:
+        return first
+    top = explorer.shape.top
+    return first | {"a": top.a, "I1": top.I1, "I3": top.I3}
+
+
+@dataclass(frozen=True)
+class Part:
+    """What one view keeps: a Parameterized, {parameter: Field}, and what says which of them count, with defaults."""
+
+    owner: param.Parameterized
+    known: dict
+    usual: Any
+
+    def state(self, undoable=False):
+        """{parameter: value} as of now, of those that count."""
+        names = (name for name in self.usual(self.owner) if self.known[name].undoable or not undoable)
+        return {name: getattr(self.owner, name) for name in names}
+
+
+class Keep(param.Parameterized):
+    """The state of a page: its query, and undo and redo.
+
+    at_rest() is to be called when a gesture ends; it makes the query, and where something undoable changed, a step.
+    allowed: whether what is set now can be shown at all; else it is passed over.
+    """
+
+    query = param.String(default="", doc="the state, from the question mark on; empty where all is the default")
+    can_undo = param.Boolean(default=False, doc="whether there is a step back")
+    can_redo = param.Boolean(default=False, doc="whether there is a step forward")
+    changed = param.Event(doc="something that is kept was set; a hand may still be at it")
+
+    def __init__(self, texts=None, allowed=lambda: True):
+        super().__init__()
+        self._texts = dict(texts or {})  # of views that are not made yet
+        self._parts, self._allowed = [], allowed
+        self._steps, self._at = [{}], 0
+
+    def add(self, owner, known, usual=None, opened=False):
+        """Keeps these parameters of a view too, at what the link said of them; returns a sentence where that was wrong.
+
+        usual: the owner's parameters that count now, with their defaults; without it all of them. opened: the link has
+        been obeyed already.
+        """
+        first = {name: owner.param[name].default for name in known}
+        part = Part(owner, known, usual or (lambda owner: first))
+        found, sentence = values(self._texts, known)
+        for field in known.values():
+            self._texts.pop(field.key, None)
+        if found and not opened:
+            owner.param.update(**found)
+        self._parts.append(part)
+        owner.param.watch(lambda *events: self.param.trigger("changed"), list(known))
+        # it is not a step that a view was made
+        self._steps = [step | {id(owner): part.state(undoable=True)} for step in self._steps]
+        self._write()
+        return sentence
+
+    def at_rest(self):
+        """A gesture has ended."""
+        if not self._allowed():
+            return
+        step = {id(part.owner): part.state(undoable=True) for part in self._parts}
+        if step != self._steps[self._at]:
+            self._steps = [*self._steps[: self._at + 1], step][-STEPS - 1 :]
+            self._at = len(self._steps) - 1
+        self._write()
+
+    def undo(self):
+        """One step back; only to the last one that could be shown where what is set now cannot."""
+        self._go(self._at - self._allowed())
+
+    def redo(self):
+        """One step forward."""
+        self._go(self._at + 1)
+
+    def _go(self, to):
+        if not 0 <= to < len(self._steps):
+            return
+        self._at = to
+        for part in self._parts:
+            part.owner.param.update(**self._steps[to][id(part.owner)])
+        self._write()
+
+    def _write(self):
+        texts = {}
+        for part in self._parts:
+            first = part.usual(part.owner)
+            texts |= {
+                part.known[name].key: part.known[name].codec.text(value)
+                for name, value in part.state().items()
+                if not same(value, first[name])
+            }
+        texts = ({"v": str(VERSION)} | texts | self._texts) if texts or self._texts else {}
+        self.param.update(
+            query="?" + "&".join(f"{quote(key)}={quote(text)}" for key, text in texts.items()) if texts else "",
+            can_undo=self._at > 0,
+            can_redo=self._at < len(self._steps) - 1,
+        )
+
+
+def same(value, other):
+    """Equal to the last digit, and in the sign of zero."""
+    return value == other and (not isinstance(value, float) or Number.text(value) == Number.text(other))

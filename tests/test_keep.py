@@ -1,0 +1,243 @@
+"""The state in a URL without a browser: to the last digit there and back, hostile ones refused in a sentence; undo."""
+
+import base64
+import zlib
+from dataclasses import fields
+from urllib.parse import urlencode
+
+import numpy as np
+import param
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from app.explorer import Explorer
+from app.keep import EXPLORER, LONGEST_QUERY, STEPS, UNKNOWN, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
+from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
+
+# Version 1 of the links: a default or a name that is not as here makes old links mean something else.
+VERSION_1 = {
+    "body": TruncatedSphere(R=0.016, c=0.0082, l=0.0192, r=0.0032, M=0.0115), "a": 0.070, "I1": 0.399, "I3": 0.408,
+    "mu": 0.5, "by": "share", "KJ": 7.0, "KR": 10.0, "e": 0.9, "E": 0.0, "th": 0.0, "thd": 0.0, "w2": 0.0, "w3": 0.0,
+    "phi": 0.0, "psi": 0.0, "half": True, "limit": "lift-off", "face": "constants"}  # fmt: skip
+BODIES = [
+    *(preset.shape for preset in PRESETS),
+    Lathe(R=0.003, points=((0.002, 0.001), (0.02, 0.006), (0.02, 0.01), (0.0, 0.03)), density=(7e3, 1e3, 7e2, 1 / 3)),
+    Turned(R=0.016, solid=700.0 * ball(0.016) - 700.0 * cylinder(0.004, 0.001, 0.009)),
+]
+
+
+def kept(explorer, texts=None):
+    keep = Keep(texts, allowed=lambda: not explorer.scene.messages)
+    assert keep.add(explorer, EXPLORER, usual, opened=True) == ""
+    return keep
+
+
+def opened(query):
+    texts, sentence = read(query)
+    explorer, more = explorer_of(texts)
+    return explorer, sentence + more
+
+
+def assert_same_picture(explorer, other):
+    for name in ("curve", "force", "omega", "momentum", "normal", "ratio", "regime", "K_J", "K_R", "E", "profile"):
+        assert np.array_equal(getattr(explorer.scene, name), getattr(other.scene, name))
+    for name in ("t", "theta", "phi", "psi", "quaternion", "contact", "com"):
+        assert np.array_equal(getattr(explorer.scene.trajectory, name), getattr(other.scene.trajectory, name))
+    for name in ("K_J", "theta", "height", "hover_E", "hover_ratio"):
+        assert np.array_equal(getattr(explorer.scene.plane, name), getattr(other.scene.plane, name), equal_nan=True)
+    assert explorer.scene.plane.limit == other.scene.plane.limit
+
+
+def test_version_1_is_what_it_was():
+    assert {field.key: Explorer.param[name].default for name, field in EXPLORER.items()} == VERSION_1
+
+    assert kept(Explorer()).query == ""
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+@example(5e-324)
+@example(1.7976931348623157e308)
+@example(-0.0)
+@example(0.1 + 0.2)
+def test_a_number_comes_back_to_the_last_bit(value):
+    text = Number.text(value)
+    assert np.float64(Number.value(text)).tobytes() == np.float64(value).tobytes()
+    assert set(text) <= set("0123456789.e-")
+
+
+@pytest.mark.parametrize("shape", BODIES, ids=lambda shape: type(shape).__name__)
+def test_a_body_comes_back(shape):
+    assert Body.value(Body.text(shape)) == shape
+
+
+@pytest.mark.parametrize("values", [
+    {},
+    {"K_J": 6.7, "mu_s": 0.3},
+    {"K_J": 1 / 3, "K_R": np.pi * 3, "energy": 2 / 3, "upper": False, "limit": "slip"},
+    {"E": 27.000000000000004, "given": "E"},
+    {"theta": 0.3, "theta_dot": 0.7, "omega2": -1 / 7, "omega3": 9.1, "phi": 1.25, "given": "state"},
+    {"a": -2.1, "I1": 1.1, "I3": 0.2, "K_J": 3.9, "K_R": 14.0},
+])  # fmt: skip
+def test_the_same_picture_to_the_last_digit(values):
+    explorer = Explorer()
+    explorer.param.update(**values)
+    assert not explorer.scene.messages
+    query = kept(explorer).query
+    again, sentence = opened(query)
+    assert sentence == "" and kept(again).query == query
+    assert_same_picture(explorer, again)
+
+
+@pytest.mark.parametrize("shape", BODIES, ids=lambda shape: type(shape).__name__)
+def test_the_same_body_to_the_last_digit(shape):
+    explorer, top = Explorer(), shape.top
+    explorer.param.update(shape=shape, a=top.a, I1=top.I1, I3=top.I3)
+    query = kept(explorer).query
+    again, sentence = opened(query)
+    assert sentence == ""
+    assert (again.shape, again.a, again.I1, again.I3) == (shape, top.a, top.I1, top.I3)
+    assert ("a=" in query) == (shape == TruncatedSphere.paper())  # a body gives its own a, I1, I3
+    assert_same_picture(explorer, again)
+
+
+def test_a_link_is_short():
+    explorer = Explorer()
+    explorer.param.update(K_J=6.7, mu_s=0.3)
+    assert kept(explorer).query == "?v=1&mu=.3&KJ=6.7"
+    shape = LoadedSphere(R=0.02, b=0.008, d=0.01, density=1190.0, core_density=7850.0)
+    # every number with as many digits as there are
+    explorer.param.update(shape=shape, a=1 / 7, I1=1 / 3, I3=2 / 5.1, mu_s=1 / 3, K_J=7 / 3, K_R=28 / 3, energy=1 / 7)
+    assert len(kept(explorer).query) < 260
+
+
+def test_the_longest_body_fits():
+    rng = np.random.default_rng(5)
+    heights = np.sort(rng.uniform(0, 0.05, 400))
+    points = tuple((float(radius), float(z)) for radius, z in zip(rng.uniform(0.001, 0.02, 400), heights, strict=True))
+    text = Body.text(Lathe(R=0.01, points=points, density=700.0))
+    assert len(text) < LONGEST_QUERY - 500
+    assert Body.value(text).points == points
+
+
+@pytest.mark.parametrize("query", [
+    "?KJ=nan", "?KJ=inf", "?KJ=1e999", "?KJ=1_0", "?KJ=0x10", "?KJ=٣", "?KJ=", "?KJ=[1]", "?KJ=true", "?KJ= 7",
+    "?KJ=1" + 40 * "0", "?body=Ball", "?body=Ball_1", "?body=__import__", "?body=Ball_-1_1", "?body=z", "?body=zAAAA",
+    "?half=maybe", "?limit=<script>alert(1)</script>", "?by=E", "?KR=1e308", "?a=-1e308", "?I3=1e-300", "?I3=2",
+    "?a=1", "?e=-1", "?mu=-1", "?by=state&th=4", "?body=" + 13_000 * "z", "&".join(f"n{i}=1" for i in range(100)),
+    "?body=z" + base64.urlsafe_b64encode(zlib.compress(b"[" * 60_000)).decode(),
+    "?body=z" + base64.urlsafe_b64encode(zlib.compress(bytes(50_000_000))).decode()[:LONGEST_QUERY - 100],
+    "?v=2", "?v=0&KJ=5",
+])  # fmt: skip
+def test_a_bad_link_gives_a_sentence_and_the_default(query):
+    explorer, sentence = opened(query)
+    assert sentence.endswith((".", "shown.")) and len(sentence) < 600
+    assert_same_picture(explorer, Explorer() if "KJ=5" not in query else opened("?KJ=5")[0])
+
+
+def test_what_is_not_known_is_passed_over_and_the_rest_obeyed():
+    explorer, sentence = opened("?v=1&utm_source=mail&KJ=6.5&colour=blue")
+    assert sentence == "" and explorer.K_J == 6.5
+    explorer, sentence = opened("?v=7&KJ=6.5")
+    assert sentence == UNKNOWN and explorer.K_J == 6.5
+    explorer, sentence = opened("?KJ=6.5&mu=many")
+    assert "mu" in sentence and (explorer.K_J, explorer.mu_s) == (6.5, 0.5)
+
+
+KEYS = st.sampled_from(["v", "tab", *(field.key for field in EXPLORER.values())])
+HOSTILE = st.sampled_from([
+    "nan", "-inf", "1e308", "-1e308", "1e-308", "5e-324", "9" * 400, "null", "{}", "[" * 500, "<script>", "%00",
+    "../..", "__class__", "Ball_1e308_1e308", "Ball_1e-6_1e-300", "TruncatedSphere_.016_.0082_.0192_.0032_.0115", "zeJw",
+    "state", "E", "share", "0", "-0", "1", "3.14159"])  # fmt: skip
+
+
+@given(st.lists(st.tuples(KEYS, HOSTILE | st.text(max_size=30) | st.floats().map(repr)), max_size=8), st.booleans())
+def test_no_link_raises(pairs, quoted):
+    query = urlencode(pairs) if quoted else "&".join(f"{key}={text}" for key, text in pairs)
+    explorer, sentence = opened("?" + query)
+    assert isinstance(sentence, str) and not explorer.scene.messages
+    assert np.isfinite(explorer.scene.trajectory.theta).all()
+
+
+def test_back_and_forth():
+    explorer = Explorer()
+    keep, first = kept(explorer), explorer.scene
+    assert not keep.can_undo and not keep.can_redo
+    for K_J in (6.9, 6.8, 6.7):  # what a hand does on its way is no step
+        explorer.K_J = K_J
+    keep.at_rest()
+    explorer.param.update(theta=0.5, theta_dot=0.0, omega2=-1.0, omega3=8.0, given="state")
+    keep.at_rest()
+    second = explorer.scene
+    keep.undo()
+    assert (explorer.given, explorer.K_J) == ("share", 6.7) and keep.can_undo and keep.can_redo
+    keep.undo()
+    assert np.array_equal(explorer.scene.trajectory.theta, first.trajectory.theta)
+    assert keep.query == "" and not keep.can_undo
+    keep.undo()
+    keep.redo()
+    keep.redo()
+    assert np.array_equal(explorer.scene.trajectory.quaternion, second.trajectory.quaternion)
+    assert not keep.can_redo
+    keep.undo()
+    explorer.mu_s = 0.2
+    keep.at_rest()  # another way from here
+    assert not keep.can_redo
+    keep.at_rest()
+    keep.undo()
+    assert (explorer.mu_s, explorer.K_J) == (0.5, 6.7)
+
+
+def test_the_steps_are_bounded():
+    explorer = Explorer()
+    keep = kept(explorer)
+    for i in range(STEPS + 20):
+        explorer.param.update(upper=bool(i % 2), mu_s=0.1 + i / 1000)
+        keep.at_rest()
+    steps = 0
+    while keep.can_undo:
+        keep.undo()
+        steps += 1
+    assert steps == STEPS
+
+
+def test_what_cannot_be_is_neither_kept_nor_a_step():
+    explorer = Explorer()
+    keep = kept(explorer)
+    explorer.K_J = 6.0
+    keep.at_rest()
+    query = keep.query
+    explorer.I3 = 0.9
+    keep.at_rest()
+    assert explorer.scene.messages and keep.query == query
+    keep.undo()  # out of what cannot be
+    assert not explorer.scene.messages and (explorer.I3, explorer.K_J) == (0.408, 6.0) and keep.query == query
+
+
+class Other(param.Parameterized):
+    plane = param.Selector(default="rough", objects=["rough", "smooth"])
+    gamma = param.Number(default=1.0)
+
+
+def test_a_view_made_later_gets_its_part_of_the_link():
+    known = {"plane": Field("plane", OneOf(rough="rough", smooth="smooth")), "gamma": Field("gamma", Number)}
+    texts, _ = read("?v=1&plane=smooth&gamma=.25&KJ=6&x=%26a%3Db")
+    keep, other = kept(explorer_of(texts)[0], texts), Other()
+    assert opened(keep.query)[0].K_J == 6
+    assert read(keep.query)[0] == texts  # what belongs to views not made yet stays in the link
+    assert keep.add(other, known) == "" and (other.plane, other.gamma) == ("smooth", 0.25)
+    assert not keep.can_undo
+    other.gamma = 0.5
+    keep.at_rest()
+    assert read(keep.query)[0]["gamma"] == ".5"
+    keep.undo()
+    assert other.gamma == 0.25
+    assert "gamma" in kept(Explorer(), {"gamma": "much"}).add(Other(), known)
+
+
+def test_every_input_of_the_explorer_is_kept():
+    left = set(Explorer.param) - set(EXPLORER) - {"name", "scene", "cursor"}
+    assert not left
+    assert all(field.key == field.key.strip("_") for field in EXPLORER.values())
+    assert len({field.key for field in EXPLORER.values()}) == len(EXPLORER)
+    assert all(fields(shape) for shape in BODIES)
