@@ -18,7 +18,6 @@ or grows exponentially in tau and beta is smooth. That is a change of variables,
 tau = t.
 """
 
-from dataclasses import dataclass
 from math import cos, exp, isfinite, log, sin
 
 import numpy as np
@@ -26,86 +25,19 @@ from scipy.integrate import LSODA
 from scipy.optimize import brentq
 
 from .constants import State, f3_2, versines
+from .contacts import EDGE, SLOW, SPHERE, TOUCH, Body, change, gap, pose, record, turning
 from .errors import TopError, finite, numbers
 from .forces import contact_force
+from .friction import Coulomb, SmoothedCoulomb, Viscous
 from .rolling import Rolling
 from .smooth import first_below
 from .trajectory import Trajectory, checked_times
 
 # STILL: the last of the slip, which takes far less time than the 1e-9 to which events are located. SLACK (Mg): what
 # rolling may need beyond mu_s F_z before it counts as slipping, above what so small a slip does to the forces.
-SLOW, STILL, SLACK = 0.01, 1e-13, 1e-10
+STILL, SLACK, MOST_EVENTS = 1e-13, 1e-10, 1000
 
 LOG_STILL = log(STILL)
-
-
-# ---- friction laws: k(u^2), with F_h = -k F_z u ----
-
-
-@dataclass(frozen=True)
-class Coulomb:
-    """F_h = -mu_k F_z u/|u| where the top slips; where it does not, what keeps it rolling, up to mu_s F_z.
-
-    mu_s >= mu_k > 0; mu_s = mu_k where it is not given. Raises TopError for anything else.
-    """
-
-    mu_k: float
-    mu_s: float | None = None
-
-    def __post_init__(self):
-        _positive(self, "mu_k")
-        if self.mu_s is None:
-            object.__setattr__(self, "mu_s", self.mu_k)
-        _positive(self, "mu_s")
-        if self.mu_s < self.mu_k:
-            raise TopError("mu_s", self.mu_s, f"mu_s >= mu_k = {self.mu_k:g}", "Friction at rest is the larger one.")
-
-    def k(self, square):
-        return self.mu_k / square**0.5
-
-
-@dataclass(frozen=True)
-class Viscous:
-    """F_h = -gamma F_z u, gamma >= 0 in (gR)^-1/2: one of g s/m in SI, F = -g N v, is gamma = g (gR)^1/2 here.
-
-    gamma = 0 is the smooth plane. Raises TopError for anything else.
-    """
-
-    gamma: float
-
-    def __post_init__(self):
-        _positive(self, "gamma", zero=True)
-
-    def k(self, square):
-        return self.gamma
-
-
-@dataclass(frozen=True)
-class SmoothedCoulomb:
-    """F_h = -mu F_z u/(u^2 + eps^2)^1/2, mu > 0, eps > 0 in (gR)^1/2: Coulomb's law made smooth, so it never sticks.
-
-    Raises TopError for anything else.
-    """
-
-    mu: float
-    eps: float
-
-    def __post_init__(self):
-        _positive(self, "mu")
-        _positive(self, "eps")
-
-    def k(self, square):
-        return self.mu / (square + self.eps * self.eps) ** 0.5
-
-
-def _positive(law, name, zero=False):
-    value = finite(name, getattr(law, name))
-    if value < 0 or (value == 0 and not zero):
-        raise TopError(name, value, f"{name} {'>=' if zero else '>'} 0")
-    object.__setattr__(law, name, value)
-
-
-# ---- the motion ----
 
 
 def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, progress=None):
@@ -116,13 +48,21 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     times: (n,) in (R/g)^1/2, not falling. rtol: 1e-13 to 1e-3; over 300 (R/g)^1/2 of a turning top C_J drifts by some
     4 rtol of itself at rtol = 1e-9.
 
-    landing: "stop", and the Trajectory ends where the top lifts off, at the last of the times before it.
-    edge: (radius, height above O along axis 3, rounding) in R of the edge of the stem's end, Shape.edge; or None, a
-    whole sphere. progress: called now and then with the time reached; what it raises stops the run and passes through.
+    landing: "stop", and the Trajectory ends where the top lifts off, at the last of the times before it; or "plastic":
+    it flies, and lands without a bounce; friction acts in the impact by its own law, in proportion to the normal force
+    and so to the normal impulse (contacts.py; that of Coulomb's law stops the slip if mu_s lets it, viscous friction
+    takes some of it). It is the same where the stem touches, for either landing.
+    edge: (radius, height above O along axis 3, rounding 0 if not given) in R of the edge of the stem's end, Shape.edge;
+    or None, a whole sphere. A start tilted further than where it touches stands on the edge.
+    progress: called now and then with the time reached; what it raises stops the run and passes through.
 
-    events: (time, what), located to 1e-9: "sticks" and "slips" (Coulomb), "lifts off", "stem touches" (ends the
-    Trajectory). regime: "slip", or "roll" where Coulomb's friction holds the top; that part is the exact one of
-    rolling.py. heat: the work of friction.
+    events: (time, what), located to 1e-9: "sticks" and "slips" (Coulomb), "lifts off" and "lands", or "lands on its
+    stem"; "stem touches" or "ball touches" (the other carries on), "stem leaves", "stands on its stem" (the ball has
+    left), "falls back on its ball". The Trajectory ends early, without a sample at the event, with "lifts off" where
+    that stops it, with "stands upright" on a stem within 1e-3 rad of its flat end, where friction is no longer that of
+    a point, and with "chatters" where more than 1000 events follow each other.
+    regime: "slip", or "roll" where Coulomb's friction holds the top; on the sphere that part is the exact one of
+    rolling.py. heat: the work of friction and of impacts.
     Raises TopError for bad input, and for friction so strong that no normal force balances it (Painleve).
     """
     if not isinstance(state, State):
@@ -136,31 +76,26 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     rtol = finite("rtol", rtol)
     if not 1e-13 <= rtol <= 1e-3:
         raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
-    return _Run(top, friction, rtol / 10, _checked_edge(edge, state), progress or _nothing)(state, t)
+    if landing not in ("stop", "plastic"):
+        raise TopError("landing", landing, '"stop" or "plastic"')
+    return _Run(top, friction, rtol / 10, _checked_edge(edge), landing == "plastic", progress or _nothing)(state, t)
 
 
 def _nothing(_):
     pass
 
 
-def _checked_edge(edge, state):
+def _checked_edge(edge):
     """(radius, height, rounding), or None."""
     if edge is None:
         return None
     parts = numbers("edge", edge)
     if parts.shape not in ((2,), (3,)) or parts[0] < 0 or (parts[2:] < 0).any():
         raise TopError("edge", edge, "(radius >= 0, height above O, rounding >= 0) in R, or None")
-    edge = tuple(np.append(parts, 0.0)[:3].tolist())
-    if _gap(edge, np.cos(state.theta), np.sin(state.theta)) < 0:
-        raise TopError("theta", state.theta, "less than the tilt at which the stem's end touches the table",
-                       "Lower it, or take a whole sphere.")  # fmt: skip
+    radius, height, rounding = edge = tuple(np.append(parts, 0.0)[:3].tolist())
+    if np.hypot(radius, height) < 1 + 1e-6 - rounding:
+        raise TopError("edge", edge, "an edge outside the sphere that rolls, by 1e-6 R at least")
     return edge
-
-
-def _gap(edge, c, s):
-    """Height of the edge's lowest point above the table while the sphere stands on it."""
-    radius, height, rounding = edge
-    return 1 + height * c - radius * s - rounding
 
 
 def _check_balance(top, friction):
@@ -182,32 +117,66 @@ class _Run:
     the unknowns z are the same but for log|u|, beta in place of v_x, v_y.
     """
 
-    def __init__(self, top, friction, tolerance, edge=None, progress=_nothing):
+    def __init__(self, top, friction, tolerance, edge=None, flies=False, progress=_nothing):
         self.top, self.friction, self.tolerance, self.edge, self.progress = top, friction, tolerance, edge, progress
+        self.flies, self.body = flies, Body(top, friction, tolerance, edge, progress)
         self.sticks = isinstance(friction, Coulomb)
 
     def __call__(self, state, times):
         y = self._start(state, times[0])
-        rolls = self.sticks and np.hypot(*_slip(self.top, y)) < 1e-12 and self._holds(y)
-        if self.sticks and not rolls:
-            y = self._let_go(y)
-        stretches, events, done, event = [], [], 0, ""
-        while event is not None:
-            stretch, y, event = (self._roll if rolls else self._slip)(y, times[done:])
+        if self.edge and gap(self.edge, np.cos(state.theta), np.sin(state.theta)) < 0:
+            y, modes = self.body.settle(self.body.on_edge(y), ("starts", None))
+        else:
+            rolls = self.sticks and np.hypot(*_slip(self.top, y)) < 1e-12 and self._holds(y)
+            modes = {SPHERE: "stick" if rolls else "slip"}
+        stretches, events, done = [], [], 0
+        while True:
+            stretch, y, event, now = self._stretch(y, times[done:], modes)
             stretches.append(stretch)
             done += len(stretch.t)
-            if event is not None:
-                events.append((float(y[12]), event))
-            if event in ("lifts off", "stem touches"):
+            if event is None:
                 break
-            rolls = event == "sticks"
+            events.append((float(y[12]), event))
+            if event == "stands upright" or (not now and not self.flies):
+                break
+            if len(events) >= MOST_EVENTS:
+                events.append((float(y[12]), "chatters"))
+                break
+            modes = now
         return _joined(self.top, stretches, tuple(events))
+
+    def _stretch(self, y, times, modes):
+        """A Trajectory of the times before the next event, the state then, its name and the modes (see Body) after it.
+
+        At the end of the times the name is None.
+        """
+        if tuple(modes) != (SPHERE,):
+            stretch, y, event = self.body.follow(y, times, modes) if modes else self.body.fly(y, times)
+            if event is None:
+                return stretch, y, None, modes
+            if event[0] == "stands":
+                return stretch, y, "stands upright", modes
+        else:
+            y = y[:14]
+            self._floor = min(self._room(y), 0.0) if self.edge else 0.0
+            if modes[SPHERE] == "stick":
+                stretch, y, event = self._roll(y, times)
+            else:
+                stretch, y, event = self._slip(self._let_go(y) if self.sticks else y, times)
+            if event in (None, "sticks", "slips"):
+                return stretch, y, event, {SPHERE: "stick" if event == "sticks" else "slip"}
+            y = self.body.on_sphere(y)
+            if event == "lifts off":
+                return stretch, y, event, {}
+            event = "touches", EDGE
+        y, now = self.body.settle(y, event)
+        return stretch, y, change(modes, now, event), now
 
     # ---- slipping ----
 
     def _rates(self, tau, z):
         top, z = self.top, z.tolist()
-        e, w, L3, carried = _turning(top, z)
+        e, w, L3, carried = turning(top, z)
         (ex, ey, ez), (wx, wy, wz), (px, py, pz, pw) = e, w, z[:4]
         a, rz, w3 = top.a, 1 - top.a * ez, L3 / top.I3
         if self.sticks:
@@ -258,12 +227,12 @@ class _Run:
         y = np.array(z)
         if self.sticks:
             speed = np.exp(z[8])
-            carried = _turning(self.top, z)[3]
+            carried = turning(self.top, z)[3]
             y[8], y[9] = speed * np.cos(z[9]) + carried[0], speed * np.sin(z[9]) + carried[1]
         return y
 
     def _Fz(self, z):
-        e, _, L3, carried = _turning(self.top, z)
+        e, _, L3, carried = turning(self.top, z)
         if self.sticks:
             push = self.friction.mu_k * np.cos(z[9]), self.friction.mu_k * np.sin(z[9])
         else:
@@ -324,16 +293,23 @@ class _Run:
     def _room(self, z):
         """Height of the stem's edge above the table."""
         px, py, pz, pw = z[:4]
-        return _gap(self.edge, 1 - 2 * (px * px + py * py), 2 * np.sqrt((px * px + py * py) * (pz * pz + pw * pw)))
+        return gap(self.edge, 1 - 2 * (px * px + py * py), 2 * np.sqrt((px * px + py * py) * (pz * pz + pw * pw)))
+
+    def _nears(self, z):
+        """Falls below 0 where the edge is at the table and falls (e_z' < 0), even if it has just left it."""
+        (ex, ey, _), (wx, wy, _), _, _ = turning(self.top, z)
+        return np.maximum(self._room(z) - self._floor + TOUCH, wx * ey - wy * ex + SLACK)
 
     def _leaves(self, dense):
         """The first tau of the last step at which the sphere no longer carries alone, and what happens there."""
         taus, found = np.linspace(dense.t_old, dense.t, 9), (np.inf, None)
-        guards = {"lifts off": self._Fz} | ({"stem touches": self._room} if self.edge else {})
+        guards = {"lifts off": self._Fz} | ({"stem touches": self._nears} if self.edge else {})
         for event, guard in guards.items():
             below = np.flatnonzero(guard(dense(taus)) < 0)
             if below.size:
                 i = below[0]
+                if event == "stem touches" and i and self._room(dense(taus[i - 1])) > 0:
+                    guard = self._room
                 between = taus[i - 1 : i + 1]
                 tau = brentq(lambda tau, g=guard: g(dense(tau)), *between, xtol=1e-15) if i else taus[0]
                 found = min(found, (tau, event))
@@ -343,7 +319,7 @@ class _Run:
 
     def _state(self, y):
         """The State at y, with G's velocity unsaid."""
-        theta, phi, psi, (w1, w2, w3) = (part[..., 0] for part in self._pose(y[:, None], y[:, None]))
+        theta, phi, psi, (w1, w2, w3) = (part[..., 0] for part in pose(self.top, y[:, None], y[:, None]))
         if theta in (0.0, np.pi):
             pole = np.cos(theta)  # 1' along omega, as it is just after the pole
             lean = np.angle(pole * (w1 + 1j * pole * w2))
@@ -364,7 +340,7 @@ class _Run:
 
         def room(t):
             theta = rolling.theta(np.append(0.0, t))[1:]
-            return _gap(self.edge, np.cos(theta), np.sin(theta))
+            return TOUCH - self._floor + gap(self.edge, np.cos(theta), np.sin(theta))
 
         self.progress(float(y[12]))
         ends, event = first_below(margin, rolling.period), "slips"
@@ -376,8 +352,7 @@ class _Run:
         if count == len(times):
             return stretch, y, None
         last = _cut(rolling(np.array([0.0, ends])), slice(1, None), y[13])
-        y = self._from_trajectory(last, y[12] + ends)
-        return stretch, y if event == "stem touches" else self._let_go(y), event
+        return stretch, self._from_trajectory(last, y[12] + ends), event
 
     def _let_go(self, y):
         """y with the least slip, if it has none, in the direction in which slipping starts: u' along u, outward."""
@@ -427,60 +402,20 @@ class _Run:
         return np.array([p.real, p.imag, 0.0, cos_half, chi, L.real, L.imag, s * L2 + c * L3,
                          v.real, v.imag, place.real, place.imag, t, heat])  # fmt: skip
 
-    def _pose(self, y, path):
-        """theta, phi, psi (n,) and omega (3, n) about 1', 2', 3 at y (14, n).
-
-        path: the unknowns at all steps of the integration, to follow the angles along.
-        """
-        # p_w + i p_z = cos(theta/2) exp i(phi + psi - chi)/2,  p_x + i p_y = sin(theta/2) exp i(phi - psi + chi)/2
-        together = np.concatenate([path, y], axis=1)
-        order = np.argsort(together[12], kind="stable")
-        angles = np.arctan2(together[[2, 1]], together[[3, 0]])
-        angles[:, order] = np.unwrap(angles[:, order])
-        plus, minus = angles[:, path.shape[1] :]
-        phi, psi = plus + minus, plus - minus + y[4]
-        theta = 2 * np.arctan2(np.hypot(y[0], y[1]), np.hypot(y[2], y[3]))
-        _, w, _, _ = _turning(self.top, y)
-        c, s, across = np.cos(theta), np.sin(theta), (w[0] + 1j * w[1]) * np.exp(-1j * phi)
-        return theta, phi, psi, np.array([across.real, c * across.imag + s * w[2], c * w[2] - s * across.imag])
-
     def _trajectory(self, y, path):
-        """The Trajectory of slipping at y (14, n); path as in _pose."""
-        top, (theta, phi, psi, omega) = self.top, self._pose(y, path)
-        e, _, L3, carried = _turning(top, y)
+        """The Trajectory of slipping at y (14, n); path as in pose."""
+        top = self.top
+        e, _, L3, carried = turning(top, y)
         u = y[8] - carried[0], y[9] - carried[1]
-        F = _force(top, y, e, L3, _push(self.friction, *u))
-        turn = np.exp(-1j * phi)
-        u_h, F_h = (u[0] + 1j * u[1]) * turn, (F[0] + 1j * F[1]) * turn
-        p, half = y[:4] / np.sqrt((y[:4] ** 2).sum(axis=0)), np.exp(0.5j * y[4])  # q = p Rz(chi)
-        xy, zw = (p[0] + 1j * p[1]) * half.conj(), (p[3] + 1j * p[2]) * half
-        return Trajectory(
-            top=top, t=y[12], theta=theta, phi=phi, psi=psi,
-            quaternion=np.stack([xy.real, xy.imag, zw.imag, zw.real], axis=1),
-            contact=np.stack([y[10] + top.a * e[0], y[11] + top.a * e[1]], axis=1),
-            com=np.stack([y[10], y[11], 1 - top.a * np.cos(theta)], axis=1), omega=omega.T,
-            slip=np.stack([u_h.real, u_h.imag], axis=1), force=np.stack([F_h.real, F_h.imag, F[2]], axis=1),
-            regime=np.full(len(theta), "slip"), heat=y[13])  # fmt: skip
+        return record(top, y, path, u, _force(top, y, e, L3, _push(self.friction, *u)))
 
 
 # ---- the equations above, for floats or arrays ----
 
 
-def _turning(top, y):
-    """e, w, L . e and the horizontal part of w x r."""
-    px, py, pz, pw, _, Lx, Ly, Lz = y[:8]
-    a, I1 = top.a, top.I1
-    ex, ey, ez = 2 * (px * pz + pw * py), 2 * (py * pz - pw * px), 1 - 2 * (px * px + py * py)
-    L3 = Lx * ex + Ly * ey + Lz * ez
-    along = (1 / top.I3 - 1 / I1) * L3
-    wx, wy, wz = Lx / I1 + along * ex, Ly / I1 + along * ey, Lz / I1 + along * ez
-    rz = 1 - a * ez
-    return (ex, ey, ez), (wx, wy, wz), L3, (wy * rz + a * wz * ey, -wx * rz - a * wz * ex)
-
-
 def _slip(top, y):
     """u = v - w x r"""
-    carried = _turning(top, y)[3]
+    carried = turning(top, y)[3]
     return y[8] - carried[0], y[9] - carried[1]
 
 
