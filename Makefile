@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
 
-.PHONY: serve test bench image browser
+.PHONY: serve test validation docs bench image browser
 
 serve: .venv/serve
 	$(BIN)/panel serve app --port 5006 --show
@@ -13,7 +13,15 @@ test: .venv/test browser
 	$(BIN)/lint-imports
 	$(BIN)/pytest
 
-bench: .venv/bench browser
+# Writes docs/validation.md from the results of the tests, with the whole accuracy map: some ten minutes.
+validation: .venv/test
+	$(BIN)/python tests/validation.py
+
+docs: .venv/docs
+	$(BIN)/sphinx-build -W -q docs docs/_build
+	@echo "docs/_build/index.html"
+
+bench: .venv/bench .venv/test browser
 	$(BIN)/python benchmarks/bench.py
 
 image:
@@ -30,6 +38,6 @@ browser: .venv/test
 	$(BIN)/pip install --quiet --editable .
 	touch $@
 
-.venv/test .venv/bench: .venv/%: .venv/serve
+.venv/test .venv/docs .venv/bench: .venv/%: .venv/serve
 	$(BIN)/pip install --quiet --editable '.[$*]'
 	touch $@
