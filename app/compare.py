@@ -1,6 +1,9 @@
-"""Tops of a family side by side: Fig. 6 of each on common axes, and a map of the share of it that friction leaves."""
+"""Tops of a family side by side: Figs. 5 and 6 of each on common axes, and a map of the share that friction leaves."""
 
-import time
+import html
+from functools import partial
+from itertools import chain
+from threading import Thread
 
 import numpy as np
 import panel as pn
@@ -8,139 +11,256 @@ import panel_material_ui as pmui
 from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d
 from bokeh.palettes import Viridis256
 
+from app import cards
 from app.builder import thrown
 from app.colours import COLOURS
-from app.family import neighbours, region, share_map
+from app.family import neighbours, ordinary, pegs, presets, region, share_map
 from app.plots import FAINT, INK, plain
-from app.workshop import words
-from tippe_core import PRESETS
+from app.workshop import alert, field, typed, words
+from tippe_core import TopError
 
-FAMILIES = {"none": "", "the presets": "presets", "other a": "a", "other I₃": "I3"}
-FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "8px"}
-A, RATIOS = np.linspace(0.02, 0.5, 17), np.linspace(0.6, 1.6, 11)
-# A turn of the server computes so long, in s, and then the page is served for so long at least, in ms.
-TURN, REST = 0.1, 20
+FAMILIES = {"none": "", "the presets": "presets", "ordinary tops": "pegs", "other a": "a", "other I₃": "I3"}
+FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "8px 12px", "align-items": "center"}
+SMALL = 162  # px: two of them beside each other on a phone
+RATIOS = np.linspace(0.6, 1.9, 40)
+SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
+KINDS = {"tippe tops": "tippe", "ordinary tops": "ordinary"}
 BUTTON = {"size": "small", "variant": "outlined", "margin": 0, "sx": {"textTransform": "none"}}
+SHEET = "#dcebf6"
+# Fig. 5 as a drawing: K_J runs so far back and up, of the width and the height of the picture
+BACK, UP, HIGH = 0.28, 0.45, 0.5
+
+
+def waterfall(shown, end, most):
+    """Fig. 5 of a family.Region as a drawing: a sheet of f1^2 theta_dot^2 stands on every tieline, K_J to the back.
+
+    end: where the theta axis ends; most: the height, in K_R^2, that all figures have room for.
+    """
+
+    def place(theta, part, height=0.0):
+        return theta + BACK * end * part, UP * part + HIGH * height / most
+
+    fig = plain(x_range=Range1d(-0.06 * end, (1 + BACK) * end * 1.03), y_range=Range1d(-0.14, UP + HIGH + 0.04),
+                title=shown.name, name="waterfall")  # fmt: skip
+    fig.update(sizing_mode=None, width=SMALL, height=190)
+    fig.title.text_font_size, fig.title.text_color, fig.title.text_font_style = "12px", INK, "normal"
+    fig.axis.visible = fig.grid.visible = False
+    corners = [place(*corner) for corner in ((0, 0), (end, 0), (end, 1), (0, 1), (0, 0))]
+    fig.line(*zip(*corners, strict=True), line_color=FAINT)
+    for theta, label in ((0, "0"), (np.pi / 2, "π/2"), (np.pi, "π")):
+        if theta <= end:
+            fig.line(*zip(place(theta, 0), place(theta, 1), strict=True), line_color=FAINT, line_dash=[2, 4])
+            fig.text(theta, 0, text=[label], y_offset=4, text_align="center", text_baseline="top", text_color=INK,
+                     text_font_size="11px")  # fmt: skip
+    rows = np.flatnonzero(np.isfinite(shown.height).all(axis=1))[::-1]
+    sheets = [place(shown.theta[row], shown.part[row], shown.height[row]) for row in rows]
+    # closed along the tieline, from the back to the front
+    fig.patches([x for x, _ in sheets], [y for _, y in sheets], fill_color=SHEET, fill_alpha=0.85,
+                line_color=INK, line_alpha=0.7, line_width=0.7)  # fmt: skip
+    fig.line(*place(shown.lift.theta_steady, shown.part), line_color=INK, line_dash=[6, 4], line_width=1.5)
+    lifts = np.where(np.isfinite(shown.lift.E), shown.lift.theta_outer, np.nan)
+    fig.line(*place(lifts, shown.part), line_color=COLOURS["normal"], line_width=1.5)
+    return fig
 
 
 def small_figure(shown, x_range, y_range):
     """Fig. 6 of one top, a family.Region, with K_J in units of its own K_J(P)."""
-    fig = plain(x_range=x_range, y_range=y_range, title=f"{shown.name}; {shown.pole:.3g}")
-    fig.update(sizing_mode=None, width=205, height=230)
+    fig = plain(x_range=x_range, y_range=y_range, title=f"{shown.name}; {shown.pole:.3g}".replace("-", "−"))
+    fig.update(sizing_mode=None, width=SMALL, height=200)
     fig.title.text_font_size, fig.title.text_color, fig.title.text_font_style = "12px", INK, "normal"
     fig.xaxis.ticker.desired_num_ticks = 3
     steady, lift, slip = shown.lift.theta_steady, shown.lift, shown.slip
     ends = {"l0": lift.theta_inner, "l1": lift.theta_outer, "s0": slip.theta_inner, "s1": slip.theta_outer}
     # where even the steady precession breaks a limit, the tieline is a point there
     ends = {name: np.where(np.isnan(theta), steady, theta) for name, theta in ends.items()}
-    source = ColumnDataSource({"part": shown.part, "steady": steady, **ends})
+    source = ColumnDataSource({"part": shown.part, "steady": steady, "verge": slip.theta_verge,
+                               "lifts": np.where(np.isfinite(lift.E), ends["l1"], np.nan), **ends})
     for left, right in (("l0", "s0"), ("s1", "l1")):
         fig.harea(y="part", x1=left, x2=right, source=source, fill_color=COLOURS["friction"], fill_alpha=0.16)
     fig.segment(x0="s0", x1="s1", y0="part", y1="part", source=source, line_color=INK, line_alpha=0.55)
-    fig.line("l1", "part", source=source, line_color=COLOURS["normal"], line_width=2)
+    fig.line("lifts", "part", source=source, line_color=COLOURS["normal"], line_width=2)
+    fig.line("verge", "part", source=source, line_color=COLOURS["friction"], line_width=2)
     fig.line("steady", "part", source=source, line_color=INK, line_width=1.5, line_dash=[6, 4])
     return fig
 
 
 class Compare:
-    """The card's content. Nothing is computed before a person asks for it."""
+    """The tab's content. Nothing is computed before a person asks for it."""
+
+    # what a map is made with: name, symbol
+    FIELDS = (("I1", "<i>I</i><sub>1</sub>"), ("K_R", "<i>K</i><sub>R</sub>"), ("mu_s", "<i>μ</i><sub>s</sub>"))
 
     def __init__(self, explorer):
-        self._explorer, self._steps, self._job = explorer, None, None
-        self.row = pn.Column(sizing_mode="stretch_width", margin=0, styles=FLOW)
-        self.family = pmui.RadioButtonGroup(
-            label="", options=FAMILIES, value="", size="small", margin=0,
-            sx={"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}},
-        )  # fmt: skip
+        self._explorer, self._job = explorer, None
+        self.rows = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.key = cards.words("")
+        self.family = self._buttons(FAMILIES)
         self.family.param.watch(lambda event: self.show(event.new), "value")
+        self.kind = self._buttons(KINDS)
+        self.kind.value = "ordinary" if explorer.scene.top.a < 0 else "tippe"
+        self.kind.param.watch(lambda event: self._prefill(), "value")
+        self.entries = {name: field("", tags=[f"map {name}"], width=76) for name, _ in self.FIELDS}
+        self._prefill()
         self.said = words("")
-        # half a cell beyond the first and the last
-        sides = [Range1d(values[0] - step / 2, values[-1] + step / 2)
-                 for values, step in ((A, A[1] - A[0]), (RATIOS, RATIOS[1] - RATIOS[0]))]  # fmt: skip
-        self.map = fig = plain(x_range=sides[0], y_range=sides[1], name="map")
-        fig.update(sizing_mode=None, width=330, height=300)
+        self.map = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*_sides(RATIOS)), name="map")
+        fig.update(sizing_mode="stretch_width", height=330)
         colours = LinearColorMapper(palette=Viridis256, low=0, high=1, nan_color="rgba(0, 0, 0, 0)")
-        self.shares = ColumnDataSource({"share": []})
+        self.shares = ColumnDataSource({"share": [], "x": [], "w": []})
         self.here = ColumnDataSource({"a": [], "ratio": []})
-        picture = fig.image(
-            "share", x=sides[0].start, dw=sides[0].end - sides[0].start, y=sides[1].start,
-            dh=sides[1].end - sides[1].start, source=self.shares, color_mapper=colours,
-        )  # fmt: skip
+        bottom, top = _sides(RATIOS)
+        picture = fig.image("share", x="x", dw="w", y=bottom, dh=top - bottom, source=self.shares,
+                            color_mapper=colours)  # fmt: skip
         fig.scatter("a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
         fig.add_layout(ColorBar(color_mapper=colours, width=10, major_label_text_color=INK,
                                 major_tick_line_color=FAINT), "right")  # fmt: skip
         fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{0.000}, I₃/I₁ $y{0.00}: @share{0.00}"))
+        self._show_span()
         self.bar = pmui.LinearProgress(value=0, variant="determinate", visible=False, sizing_mode="stretch_width",
                                        margin=(8, 0))  # fmt: skip
         self.start = pmui.Button(label="Compute the map", **BUTTON)
         self.cancel = pmui.Button(label="Cancel", disabled=True, **BUTTON)
-        self.start.on_click(lambda event: self.compute())
+        self.start.on_click(self.compute)
         self.cancel.on_click(lambda event: self._end("Cancelled; the rest of the map is empty."))
+
+    @staticmethod
+    def _buttons(options):
+        return pmui.RadioButtonGroup(label="", options=options, value=next(iter(options.values())), size="small",
+                                     margin=0, sx=cards.PLAIN)  # fmt: skip
 
     @property
     def figures_view(self):
-        """Fig. 6 of several tops."""
-        key = (
-            "Tielines under both limits over <i>θ</i> (rad), upwards <i>K</i><sub>J</sub>/<i>K</i><sub>J</sub>(P); "
-            "<i>K</i><sub>J</sub>(P) beside the name")  # fmt: skip
-        return [self.family, words(f'<div class="note">{key}</div>', margin=(6, 0, 0, 0)), self.row]
+        """Figs. 5 and 6 of several tops."""
+        return [self.family, self.key, self.rows]
 
     @property
     def map_view(self):
         """The map of the share, and what starts and stops it."""
         says = (
-            "The part of the (<i>K</i><sub>J</sub>, <i>θ</i>) plane that friction leaves, of what "
-            "<i>F</i><sub>z</sub> ≥ 0 allows: over <i>a</i>/<i>R</i>, upwards "
-            "<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>, at this <i>I</i><sub>1</sub>, "
-            "<i>K</i><sub>R</sub> and <i>μ</i><sub>s</sub>. The ring is this top.")  # fmt: skip
+            "The part of the (<i>K</i><sub>J</sub>, <i>θ</i>) plane, <i>K</i><sub>J</sub> from 0 to P, that friction "
+            "leaves, of what <i>F</i><sub>z</sub> ≥ 0 allows: over <i>a</i>/<i>R</i>, upwards "
+            "<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>, all tops with the same")  # fmt: skip
+        with_these = [pn.Row(words(symbol, sizing_mode=None, margin=(5, 4, 0, 0)), self.entries[name], margin=0)
+                      for name, symbol in self.FIELDS]  # fmt: skip
         return [
-            words(f"<div>{says}</div>", margin=(0, 0, 6, 0)),
-            pn.Column(self.start, self.cancel, sizing_mode="stretch_width", margin=0, styles=FLOW),
+            self.kind,
+            words(f"<div>{says}</div>", margin=(6, 0)),
+            pn.Column(*with_these, self.start, self.cancel, sizing_mode="stretch_width", margin=(0, 0, 6, 0),
+                      styles=FLOW),
             self.bar,
             self.said,
-            pn.pane.Bokeh(self.map, margin=0),
-        ]
+            pn.pane.Bokeh(self.map, sizing_mode="stretch_width", height=330, margin=0),
+            words('<div class="note">The ring is the explorer’s own top, where its <i>I</i><sub>1</sub> is the '
+                  "map’s.</div>"),
+        ]  # fmt: skip
 
     def show(self, which):
-        """The small figures: of the "presets", all with one spin, or of this top's neighbours, at this K_R; "" none."""
-        explorer, tops = self._explorer, []
-        if which == "presets":
-            tops = [(preset.name, preset.shape.top, thrown(preset.shape)[1]) for preset in PRESETS]
-        elif which:
-            tops = [(name, top, explorer.K_R) for name, top in neighbours(explorer.scene.top, which)]
-        ranges = Range1d(0, np.pi), Range1d(0, 1.02)
-        self.row.objects = [
-            pn.pane.Bokeh(small_figure(region(name, top, K_R, explorer.mu_s), *ranges), margin=0)
-            for name, top, K_R in tops
-        ]
+        """The small figures: of the "presets" or of "pegs", all with one spin, or of this top's neighbours, at this
+        K_R; "" none."""
+        explorer = self._explorer
+        tops = {"": list, "presets": presets, "pegs": pegs}.get(
+            which, lambda: [(name, top, explorer.K_R) for name, top in neighbours(explorer.scene.top, which)])()
+        shown = [region(name, top, K_R, explorer.mu_s) for name, top, K_R in tops]
+        reach = max((np.nanmax(one.lift.theta_outer, initial=0.0) for one in shown), default=0.0)
+        end = min(np.pi, max(np.pi / 2, 1.03 * reach))
+        most = max((np.nanmax(one.height, initial=0.0) for one in shown), default=0.0) or 1.0
+        ranges = Range1d(0, end), Range1d(0, 1.02)
+        self.key.object = key_words(explorer.mu_s) if shown else ""
+        pairs = [pn.Column(_pane(waterfall(one, end, most)), _pane(small_figure(one, *ranges)), width=SMALL, margin=0)
+                 for one in shown]  # fmt: skip
+        self.rows.objects = [pn.Column(*pairs, sizing_mode="stretch_width", margin=0, styles=FLOW)]
 
-    def compute(self):
-        """Starts the map, a few tops a turn of the server, so that the page and "Cancel" stay alive."""
+    def _prefill(self):
+        """The explorer's own numbers where its top is of this kind, else those of a preset that is."""
+        explorer, ordinary_tops = self._explorer, self.kind.value == "ordinary"
+        I1, K_R = explorer.scene.top.I1, explorer.K_R
+        if (explorer.scene.top.a < 0) != ordinary_tops:
+            shape = ordinary() if ordinary_tops else type(explorer).shape.default
+            I1, K_R = shape.top.I1, thrown(shape)[1]
+        for name, value in (("I1", I1), ("K_R", K_R), ("mu_s", explorer.mu_s)):
+            self.entries[name].value = f"{value:.4g}"
+
+    def _show_span(self):
+        a = SPANS[self.kind.value]
+        low, high = _sides(a)
+        self.map.x_range.update(start=low, end=high)
+        return {"x": [low], "w": [high - low]}
+
+    def _asked(self):
+        """I1, K_R and mu_s as they were typed; raises ValueError, TopError."""
+        values = {}
+        for name, entry in self.entries.items():
+            try:
+                values[name] = typed(entry.value)
+            except ValueError:
+                raise ValueError(f"{name}: “{entry.value}” is not a number.") from None
+        for name, allowed, good in (("I1", "I1 > 0 (in MR^2)", values["I1"] > 0),
+                                    ("mu_s", "mu_s >= 0", values["mu_s"] >= 0)):  # fmt: skip
+            if not good:
+                raise TopError(name, values[name], allowed)
+        return values
+
+    def compute(self, event=None):
+        """The map, in a thread of its own, so that this page and all others stay served; the Thread, None where there
+        can be no map, and then a sentence says why."""
+        a = SPANS[self.kind.value]
+        try:
+            asked = self._asked()
+        except ValueError as error:
+            self.said.object = alert(str(error))
+            return None
         top = self._explorer.scene.top
-        self._steps = share_map(top.I1, self._explorer.K_R, self._explorer.mu_s, A, RATIOS)
-        self.here.data = {"a": [top.a], "ratio": [top.I3 / top.I1]}
+        own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1
+        self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
+        span = self._show_span()
         self.start.disabled, self.cancel.disabled = True, False
         self.bar.visible, self.bar.value, self.said.object = True, 0, ""
-        self._job = pn.state.add_periodic_callback(self.turn, period=REST)
+        self._job = span
+        steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
+        thread = Thread(target=self._work, args=(span, steps, pn.state.curdoc), daemon=True)
+        thread.start()
+        return thread
 
-    def turn(self):
-        """Some more tops; the picture after each row, and the end after the last."""
-        if self._steps is None:
-            return
-        until = time.monotonic() + TURN
-        while time.monotonic() < until:
-            done, found = next(self._steps, (None, None))
-            if done is None:
-                self._end("")
+    def _work(self, job, steps, doc):
+        for done, found in chain(steps, [(None, None)]):
+            if self._job is not job:
                 return
-            if done % len(A) == 0:
-                self.shares.data = {"share": [found.share.copy()]}
-                self.bar.value = int(100 * done / found.share.size)
+            show = partial(self._show_row, job, done, found)
+            doc.add_next_tick_callback(show) if doc else show()
+
+    def _show_row(self, span, done, found):
+        """The map with a row more; None after the last."""
+        if self._job is not span:
+            return
+        if found is None:
+            self._end("")
+            return
+        self.shares.data = {"share": [found.share], **span}
+        self.bar.value = int(100 * done / found.share.size)
 
     def _end(self, text):
-        self._steps = None
-        if self._job is not None:
-            self._job.stop()
-            self._job = None
+        self._job = None
         self.start.disabled, self.cancel.disabled, self.bar.visible = False, True, False
-        self.said.object = f'<div class="note">{text}</div>' if text else ""
+        self.said.object = f'<div class="note">{html.escape(text)}</div>' if text else ""
+
+
+def key_words(mu_s):
+    lines = "".join((
+        cards.swatch(INK, "tielines under both limits"), cards.swatch(INK, "steady precession", "dashed"),
+        cards.swatch(COLOURS["normal"], "where <i>F</i><sub>z</sub> = 0"),
+        cards.swatch(COLOURS["friction"], f"verge of slipping, <i>μ</i><sub>s</sub> = {mu_s:g}")))  # fmt: skip
+    return (
+        '<div class="key">Above, Fig. 5: on each tieline stands <i>f</i><sub>1</sub><sup>2</sup><i>θ̇</i><sup>2</sup>, '
+        "in units of <i>K</i><sub>R</sub><sup>2</sup>, at the largest energy for which <i>F</i><sub>z</sub> ≥ 0; "
+        "<i>θ</i> (rad) to the right, <i>K</i><sub>J</sub> from 0 in front to P behind. Below, Fig. 6: "
+        "<i>K</i><sub>J</sub>/<i>K</i><sub>J</sub>(P) over <i>θ</i> (rad), with <i>K</i><sub>J</sub>(P) beside the "
+        f"name. All have the same axes.</div>" f'<div class="key">{lines}</div>')  # fmt: skip
+
+
+def _pane(figure):
+    return pn.pane.Bokeh(figure, width=SMALL, height=figure.height, margin=0)
+
+
+def _sides(values):
+    """Half a cell beyond the first and the last."""
+    step = values[1] - values[0]
+    return values[0] - step / 2, values[-1] + step / 2

@@ -1,17 +1,23 @@
-"""Many tops at once: how much of the (K_J, theta) plane friction leaves them, and Fig. 6 of several side by side."""
+"""Many tops at once: Figs. 5 and 6 of several side by side, and how much of Fig. 5's region friction leaves them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tippe_core import Top, TopError, figures, pole_constants
+from app.builder import thrown
+from tippe_core import PRESETS, Constants, Top, TopError, allowed_shares, f, f1_squared, figures, pole_constants
 
-TIELINES = 64
+TIELINES, POINTS = 48, 40
+PEGS = (0.0, 0.0036, 0.0072, 0.0108, 0.0162)  # m, the last one the preset's own
 
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """Fig. 6 of one top: its name, K_J(P), and the tielines of both limits at part (n,) = K_J/K_J(P), 0 to 1."""
+    """Figs. 5 and 6 of one top: its name, K_J(P), and the tielines of both limits at part (n,) = K_J/K_J(P), 0 to 1.
+
+    theta, height (n, m): Fig. 5's f1^2 theta_dot^2 on the tielines of lift-off, in units of K_R^2, so that tops spun
+    differently have one scale.
+    """
 
     name: str
     top: Top
@@ -19,24 +25,22 @@ class Region:
     part: np.ndarray
     lift: object
     slip: object
+    theta: np.ndarray
+    height: np.ndarray
 
 
 def region(name, top, K_R, mu_s, count=TIELINES):
-    """The Region of a top, from tippe_core's own tielines (on its grid of 256 theta, then refined)."""
+    """The Region of a top, from tippe_core's own tielines."""
     pole = pole_constants(top, K_R)[0]
     part = (np.arange(count) + 0.5) / count
-    return Region(name, top, float(pole), part, *figures(top, part * pole, K_R, mu_s))
-
-
-def allowed_share(top, K_R, mu_s):
-    """The share, 0 to 1, of Fig. 5's region of the (K_J, theta) plane, K_J from 0 to P, that friction leaves.
-
-    The area between the turning points of the tielines under F_h <= mu_s F_z, over the area under F_z >= 0 alone; a
-    tieline that does not exist is 0 wide, one that nothing limits is as wide as theta.
-    """
-    both = region("", top, K_R, mu_s)
-    slip, lift = (np.nansum(limit.theta_outer - limit.theta_inner) for limit in (both.slip, both.lift))
-    return float(slip / lift) if lift else np.nan
+    lift, slip = figures(top, part * pole, K_R, mu_s)
+    share = (1 - np.cos(np.linspace(0, np.pi, POINTS))) / 2
+    theta = lift.theta_inner[:, None] + (lift.theta_outer - lift.theta_inner)[:, None] * share
+    limited = np.isfinite(lift.E)
+    rows = Constants((part * pole)[:, None], K_R, np.where(limited, lift.E, lift.E_steady)[:, None])
+    height = np.maximum(f1_squared(theta, top) * f(theta, top, rows), 0) / (K_R**2 or 1)
+    height[~limited] = np.nan
+    return Region(name, top, float(pole), part, lift, slip, theta, height)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,14 +53,28 @@ class Map:
 
 
 def share_map(I1, K_R, mu_s, a, ratio):
-    """Yields (tops done, the Map so far) after every top. Whoever stops taking has stopped it."""
+    """Yields (tops done, the Map so far) after every row. Whoever stops taking has stopped it."""
     share = np.full((len(ratio), len(a)), np.nan)
-    for done, (row, column) in enumerate(np.ndindex(share.shape), 1):
-        try:
-            share[row, column] = allowed_share(Top(float(a[column]), I1, float(I1 * ratio[row])), K_R, mu_s)
-        except TopError:
-            pass  # no such top: the map has a hole there
-        yield done, Map(a, ratio, share)
+    for row, part in enumerate(ratio):
+        share[row] = allowed_shares(a, I1, I1 * part, K_R, mu_s)
+        yield (row + 1) * len(a), Map(a, ratio, share.copy())
+
+
+def presets():
+    """[(name, Top, K_R)]: every preset, thrown as a new body is."""
+    return [(preset.name, preset.shape.top, thrown(preset.shape)[1]) for preset in PRESETS]
+
+
+def pegs():
+    """[(name, Top, K_R)]: ordinary tops, the disc on pegs of several lengths, a/R to about -10, all with one spin."""
+    disc = ordinary()
+    bodies = [replace(disc, h=h) for h in PEGS]
+    return [(f"a = {body.top.a:.3g}".replace("-", "−"), body.top, thrown(body)[1]) for body in bodies]
+
+
+def ordinary():
+    """The preset that is an ordinary top with a/R near -10."""
+    return next(preset.shape for preset in PRESETS if preset.shape.top.a < -5)
 
 
 def neighbours(top, which):
@@ -65,9 +83,10 @@ def neighbours(top, which):
     for factor in (0.5, 0.75, 1.0, 1.25, 1.5):
         try:
             if which == "a":
-                tops.append((f"a = {factor * top.a:.3g}", Top(factor * top.a, top.I1, top.I3)))
+                named = f"a = {factor * top.a:.3g}", Top(factor * top.a, top.I1, top.I3)
             else:
-                tops.append((f"I₃/I₁ = {factor * top.I3 / top.I1:.3g}", Top(top.a, top.I1, factor * top.I3)))
+                named = f"I₃/I₁ = {factor * top.I3 / top.I1:.3g}", Top(top.a, top.I1, factor * top.I3)
         except TopError:
             continue  # half the family may not exist, such as I3 > 2 I1
+        tops.append((named[0].replace("-", "−"), named[1]))
     return tops

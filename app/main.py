@@ -33,8 +33,9 @@ def build_view(explorer, roll):
 def family_view(explorer):
     compare = Compare(explorer)
     return grid(
+        card("Compare tops: Figs. 5 and 6 of a family", *compare.figures_view, height="max-content"),
         card("What friction leaves, of many tops", *compare.map_view, height="max-content"),
-        card("Compare tops: Fig. 6 of a family", *compare.figures_view, height="max-content"),
+        narrowest=1000,
     )
 
 

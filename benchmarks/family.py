@@ -1,14 +1,19 @@
 """Tops a second of the map of allowed shares: python benchmarks/family.py. Aim: 1,000 on one core, 64 K_J by 256 theta.
 
-A map like the page's, from the module that the page uses; processor time, so that other work on the machine counts
-less, and beside it the time of one plain numpy evaluation of f, (36), on a grid of that size.
+The page's own maps, of tippe tops and of ordinary ones; processor time, so that other work on the machine counts less;
+beside it, in the same run, one plain numpy evaluation of f, (36), on a grid of that size, and what tippe_core.tielines
+takes for the same tops, against which the shares are compared too.
 
 Results
 -------
-2026-11-21, AMD EPYC (2 cores, shared with other work: load 3), Python 3.11.7, numpy 2.4.6
-400 tops in 2.50 s: 160 tops/s; one top 6.24 ms / plain f 0.146 ms = 42.8
-The aim is missed six times over: every tieline is refined to tippe_core's full accuracy, which a map does not need. The
-same sum on the bare grid reached 760 tops/s, but was wrong by up to 0.13 in the share, so it is not used.
+2026-11-21, AMD EPYC (2 cores, shared with other work: load 5), Python 3.11.7, numpy 2.4.6
+tippe tops: 1025 tops/s, 4.7 times plain f; tielines 137/s; differ by 1e-06 (median), 1e-03 (95 %), 7e-03 (most)
+tippe tops, slow: 1227 tops/s, 4.0 times plain f; tielines 182/s; differ by 1e-05 (median), 5e-04 (95 %), 2e-03 (most)
+ordinary tops, a to -10: 596 tops/s, 8.2 times plain f; tielines 70/s; differ by 9e-07 (median), 4e-05 (95 %), 3e-03 (most)
+ordinary tops, light: 568 tops/s, 8.6 times plain f; tielines 90/s; differ by 1e-06 (median), 5e-05 (95 %), 2e-04 (most)
+With a load of 1: 1087, 1437, 753 and 771 tops/s. The aim is met for tippe tops and missed for ordinary ones: their wells
+are far narrower than a point of the grid, and each needs one to three closer grids of its own.
+The largest differences among tippe tops are rows on which tielines lets the other turning point slip.
 """
 
 import platform
@@ -16,26 +21,47 @@ import time
 
 import numpy as np
 
-from app.family import TIELINES, share_map
-from tippe_core import Constants, Top, f
+from app.family import ordinary
+from tippe_core import Constants, Top, allowed_shares, f, figures, pole_constants
+from tippe_core.share import COLUMNS, PART, ROWS
 
-A, RATIOS = np.linspace(0.02, 0.5, 20), np.linspace(0.6, 1.6, 20)
-REPEAT = 200
+RATIOS = np.linspace(0.6, 1.9, 30)
+DISC = ordinary().top.I1
+# name, a, I1, K_R
+MAPS = (
+    ("tippe tops", np.linspace(0.02, 0.5, 30), 0.399, 10.0),
+    ("tippe tops, slow", np.linspace(0.02, 0.5, 30), 0.399, 4.0),
+    ("ordinary tops, a to -10", np.linspace(-10, -0.2, 30), DISC, 53.3),
+    ("ordinary tops, light", np.linspace(-10, -0.2, 30), 3.66, 23.6),
+)
+EVERY, REPEAT, MU_S = 11, 200, 0.5
+
+
+def exact(top, K_R):
+    lift, slip = figures(top, PART * pole_constants(top, K_R)[0], K_R, MU_S)
+    return np.nansum(slip.theta_outer - slip.theta_inner) / np.nansum(lift.theta_outer - lift.theta_inner)
+
+
+def timed(function):
+    start = time.process_time()
+    return function(), time.process_time() - start
 
 
 def main():
-    top = Top.paper()
-    start = time.process_time()
-    done = sum(1 for _ in share_map(top.I1, 10.0, 0.5, A, RATIOS))
-    spent = time.process_time() - start
-    theta, K_J = np.linspace(0.01, 3.13, 256), np.linspace(0, 8, TIELINES)[:, None]
-    start = time.process_time()
-    for _ in range(REPEAT):
-        f(theta, top, Constants(K_J, 10.0, 28.0))
-    plain = (time.process_time() - start) / REPEAT
+    theta, K_J = np.linspace(0.01, 3.13, COLUMNS), np.linspace(0, 8, ROWS)[:, None]
+    constants = Constants(K_J, 10.0, 28.0)
+    _, plain = timed(lambda: [f(theta, Top.paper(), constants) for _ in range(REPEAT)])
+    plain /= REPEAT
     print(f"Python {platform.python_version()}, numpy {np.__version__}, {platform.machine()}")
-    print(f"{done} tops in {spent:.2f} s: {done / spent:.0f} tops/s (aim 1000)")
-    print(f"one top {1e3 * spent / done:.2f} ms / plain f {1e3 * plain:.3f} ms = {spent / done / plain:.1f}")
+    for name, a, I1, K_R in MAPS:
+        a, ratio = (grid.ravel() for grid in np.meshgrid(a, RATIOS))
+        shares, spent = timed(lambda a=a, I1=I1, ratio=ratio, K_R=K_R: allowed_shares(a, I1, I1 * ratio, K_R, MU_S))
+        tops = [Top(a[i], I1, I1 * ratio[i]) for i in range(0, len(a), EVERY)]
+        slow, spent_slow = timed(lambda tops=tops, K_R=K_R: np.array([exact(top, K_R) for top in tops]))
+        off = np.abs(shares[::EVERY] - slow)
+        print(f"{name}: {len(a) / spent:.0f} tops/s, {spent / len(a) / plain:.1f} times plain f; "
+              f"tielines {len(tops) / spent_slow:.0f}/s; "
+              f"differ by {np.median(off):.0e} (median), {np.quantile(off, 0.95):.0e} (95 %), {off.max():.0e} (most)")
 
 
 if __name__ == "__main__":

@@ -5,11 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from limits import Family
 
 from app.builder import FAMILIES, Builder, Rocking, handles, pulled, sentence
-from app.compare import A, Compare
+from app.compare import Compare
 from app.explorer import Explorer
-from app.family import allowed_share, neighbours, share_map
+from app.family import neighbours, pegs, region, share_map
 from tippe_core import (
     PRESETS,
     Ball,
@@ -17,10 +18,14 @@ from tippe_core import (
     Top,
     TopError,
     TruncatedSphere,
+    allowed_shares,
+    figures,
     load_top,
+    pole_constants,
     rocking_period,
     save_top,
 )
+from tippe_core.share import PART, _widths
 
 
 @pytest.fixture
@@ -236,20 +241,60 @@ def test_the_allowed_share_is_the_area_of_the_papers_table():
         1.3383, 1.2210, 1.1023, 0.9804, 0.8529, 0.7165, 0.5654, 0.3839, 0.1328, 0.0]
     share = np.trapezoid(slip, K_J) / np.trapezoid(lift, K_J)
     # the rule's own error with ten points, both areas curved alike
-    assert allowed_share(Top.paper(), 10.0, 0.5) == pytest.approx(share, abs=3e-3)
+    assert allowed_shares(0.07, 0.399, 0.408, 10.0, 0.5) == pytest.approx(share, abs=3e-3)
+
+
+def exact_share(a, I1, I3, K_R, mu_s):
+    """From tielines at the same 64 K_J, each refined to full accuracy."""
+    top = Top(a, I1, I3)
+    lift, slip = figures(top, PART * pole_constants(top, K_R)[0], K_R, mu_s)
+    return np.nansum(slip.theta_outer - slip.theta_inner) / np.nansum(lift.theta_outer - lift.theta_inner)
+
+
+@pytest.mark.parametrize("a, ratio, I1, K_R, mu_s", [
+    (0.07, 1.02, 0.399, 10.0, 0.5), (0.02, 0.6, 0.399, 10.0, 0.5), (0.3, 1.6, 0.399, 10.0, 0.1),
+    (0.5, 0.8, 0.399, 4.0, 0.3), (-10.1, 1.9, 48.2, 53.3, 0.5), (-5.0, 1.0, 48.2, 53.3, 0.5),
+    (-2.9, 1.04, 3.66, 23.6, 0.5), (-1.7, 0.6, 0.4, 10.0, 0.5), (-8.0, 1.2, 2.0, 30.0, 0.5)])
+def test_the_bulk_share_is_that_of_the_exact_tielines(a, ratio, I1, K_R, mu_s):
+    """Tippe and ordinary tops, wells of a radian and of 1e-5, one and two of them. 5e-4 is a thirtieth of what the eye
+    could tell on the map's scale of colours."""
+    share = allowed_shares(a, I1, ratio * I1, K_R, mu_s)
+    assert share == pytest.approx(exact_share(a, I1, ratio * I1, K_R, mu_s), abs=5e-4)
+
+
+@pytest.mark.parametrize("a, I1, I3, K_R, mu_s, row", [
+    (0.070, 0.399, 0.408, 10.0, 0.5, 40), (0.449, 0.399, 0.3024, 10.0, 0.5, 14), (-2.9, 3.66, 3.8, 23.6, 0.5, 62)])
+def test_a_width_is_that_of_the_slow_search(a, I1, I3, K_R, mu_s, row):
+    """limits.py walks trajectory after trajectory with a rigid body's own forces."""
+    top = Top(a, I1, I3)
+    with np.errstate(all="ignore"):
+        widths = _widths(*np.array([[[a]], [[I1]], [[I3]]]), K_R, mu_s)[:, 0, row]
+    slow = Family(top, PART[row] * pole_constants(top, K_R)[0], K_R)
+    for width, mu in zip(widths, (None, mu_s), strict=True):
+        _, inner, outer, _ = slow.limit(mu)
+        assert width == pytest.approx(np.nan_to_num(outer - inner), rel=1e-3)
 
 
 def test_without_a_limit_all_is_allowed_and_more_friction_allows_more():
-    assert allowed_share(Top(0.0, 0.4, 0.4), 10.0, 0.5) == 1
-    shares = [allowed_share(Top.paper(), 10.0, mu_s) for mu_s in (0.1, 0.3, 0.5, 1.0, 20.0)]
+    assert allowed_shares(0.0, 0.4, 0.4, 10.0, 0.5) == 1
+    shares = [allowed_shares(0.07, 0.399, 0.408, 10.0, mu_s) for mu_s in (0.1, 0.3, 0.5, 1.0, 20.0)]
     assert shares == sorted(shares) and shares[-1] == pytest.approx(1, abs=0.01)
 
 
-def test_a_map_grows_top_by_top_and_has_holes_where_no_top_is():
+def test_shares_of_many_are_those_of_each():
+    """The same numbers, whatever else is in the batch."""
+    a, I3 = np.linspace(-3.0, 0.4, 70), np.linspace(0.3, 0.7, 70)
+    together = allowed_shares(a, 0.4, I3, 10.0, 0.5)
+    for index in (0, 31, 32, 64, 69):
+        assert together[index] == allowed_shares(a[index], 0.4, I3[index], 10.0, 0.5)
+
+
+def test_a_map_grows_row_by_row_and_has_holes_where_no_top_is():
     steps = list(share_map(0.4, 10.0, 0.5, np.array([0.07, 0.3, 1.5]), np.array([1.0, 2.5])))
-    assert [done for done, _ in steps] == [1, 2, 3, 4, 5, 6]
+    assert [done for done, _ in steps] == [3, 6]
+    assert np.isnan(steps[0][1].share[1]).all()
     share = steps[-1][1].share
-    assert share[0, 0] == allowed_share(Top(0.07, 0.4, 0.4), 10.0, 0.5)
+    assert share[0, 0] == allowed_shares(0.07, 0.4, 0.4, 10.0, 0.5)
     assert np.array_equal(np.isnan(share), [[False, False, True], [True, True, True]])
 
 
@@ -259,16 +304,59 @@ def test_neighbours_are_tops():
     assert len(neighbours(Top(0.1, 0.3, 0.5), "I3")) == 3  # I3 <= 2 I1
 
 
-def test_compare_computes_when_asked_and_stops_when_told(explorer):
+def test_the_family_of_ordinary_tops_reaches_what_the_paper_wished_for():
+    assert min(top.a for _, top, _ in pegs()) < -10 and max(top.a for _, top, _ in pegs()) < 0
+
+
+def test_fig_5_of_a_region_is_the_papers():
+    """The paper's P at its height 18.6, here in units of K_R^2; the tielines start and end at height 0."""
+    found = region("", Top.paper(), 10.0, 0.5, count=2000)
+    before, last = found.height[-2:].max(axis=1) * 100
+    assert last + (last - before) / 2 == pytest.approx(18.6, abs=0.05)
+    assert np.abs(found.height[:, [0, -1]]).max() < 1e-9
+
+
+def test_compare_draws_both_figures_on_common_axes(explorer):
     compare = Compare(explorer)
-    for family, figures in (("presets", len(PRESETS)), ("a", 5), ("", 0)):
+    for family, tops in (("presets", len(PRESETS)), ("pegs", 5), ("a", 5)):
         compare.family.value = family
-        assert len(compare.row) == figures
-    compare._steps = share_map(0.4, 10.0, 0.5, np.linspace(0.1, 0.2, len(A)), np.linspace(0.8, 1.2, 100))
-    while not compare.bar.value:
-        compare.turn()
-    done = compare.bar.value
-    assert len(compare.shares.data["share"]) == 1 and done < 100
-    compare.cancel.clicks += 1
-    compare.turn()
-    assert compare.start.disabled is False and compare.bar.value == done and "Cancelled" in compare.said.object
+        drawn = [[pane.object for pane in pair] for pair in compare.rows[0]]
+        assert len(drawn) == tops
+        for row in zip(*drawn, strict=True):
+            for axis in ("x_range", "y_range"):
+                assert len({(getattr(fig, axis).start, getattr(fig, axis).end) for fig in row}) == 1
+    compare.family.value = ""
+    assert not compare.rows[0].objects
+
+
+def test_a_map_of_either_kind_fills_and_shows_this_top(explorer, monkeypatch):
+    monkeypatch.setattr("app.compare.RATIOS", np.array([0.9, 1.1]))
+    monkeypatch.setattr("app.compare.SPANS", {"tippe": np.array([0.1, 0.2]), "ordinary": np.array([-10.0, -5.0])})
+    compare = Compare(explorer)
+    for kind, own in (("tippe", 1), ("ordinary", 0)):
+        compare.kind.value = kind
+        compare.compute().join()
+        assert np.all((compare.shares.data["share"][0] > 0) & (compare.shares.data["share"][0] < 1))
+        assert len(compare.here.data["a"]) == own
+        assert compare.cancel.disabled and not compare.start.disabled
+
+
+def test_a_map_stops_when_told_and_refuses_what_cannot_be(explorer, monkeypatch):
+    asked = []
+
+    def slowly(*args):
+        yield 10, share_map_of_nothing
+        compare.cancel.clicks += 1
+        yield 20, share_map_of_nothing
+        asked.append("more")
+
+    share_map_of_nothing = next(share_map(0.4, 10.0, 0.5, np.array([0.07]), np.array([1.0, 1.1])))[1]
+    monkeypatch.setattr("app.compare.share_map", slowly)
+    compare = Compare(explorer)
+    compare.compute().join()
+    assert not asked and "Cancelled" in compare.said.object and not compare.start.disabled
+    for name, text in (("mu_s", "-1"), ("I1", "0"), ("K_R", "fast")):
+        compare = Compare(explorer)
+        compare.entries[name].value = text
+        assert compare.compute() is None
+        assert name in compare.said.object and not compare.start.disabled

@@ -38,6 +38,7 @@ from .shapes import (
     rocking_period,
     save_top,
 )
+from .share import allowed_shares
 from .sliding import Coulomb, SmoothedCoulomb, Viscous, slide
 from .smooth import Gliding, glide
 from .solids import Solid, ball, cylinder, frustum, zone
@@ -78,6 +79,7 @@ __all__ = [
     "Turned",
     "Viscous",
     "a_from_rocking",
+    "allowed_shares",
     "ball",
     "cylinder",
     "dimension_from_rocking",
