@@ -1,0 +1,663 @@
+"""The page for a class or for the open internet: `python -m app.server`, set by environment variables (Settings).
+
+`panel serve app` serves the same page to one person. Here, what one visitor may cost the others is bounded: sessions
+are counted and made one at a time, in turn among addresses; a message is looked at before Bokeh takes it, and has an
+end; a visitor who sends more than a share of the processor can answer is read more slowly. docs/DEPLOY.md and
+SECURITY.md say what follows from that.
+"""
+
+import asyncio
+import logging
+import os
+import re
+import secrets
+import signal
+import sys
+import threading
+import time
+import traceback
+from collections import Counter, OrderedDict, deque
+from contextlib import contextmanager
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import bokeh.server.urls
+import panel as pn
+from bokeh.core.validation import silence
+from bokeh.core.validation.warnings import EMPTY_LAYOUT
+from bokeh.protocol.exceptions import MessageError, ProtocolError, ValidationError
+from bokeh.server.server import BaseServer
+from bokeh.server.tornado import BokehTornado
+from bokeh.util.token import get_session_id, get_token_payload
+from panel.io.application import build_single_handler_application
+from panel.io.document import _cleanup_doc
+from panel.io.resources import LOCAL_DIST, patch_model_css
+from panel.io.server import INDEX_HTML, ComponentResourceHandler, DocHandler, WSHandler, get_static_routes
+from panel.io.session import generate_session
+from panel.io.state import set_curdoc
+from tornado.httpserver import HTTPServer
+from tornado.ioloop import IOLoop
+from tornado.netutil import bind_sockets
+from tornado.web import HTTPError, RequestHandler
+
+log = logging.getLogger("tippe")
+
+LARGEST_FRAGMENT = 256 * 1024  # bytes; a saved top is at most 64 KiB, a third more as base64
+MOST_FRAGMENTS = 35  # of one message: header, metadata, content, and 16 buffers with a header each
+MOST_EVENTS, MOST_PARTS, DEEPEST = 100, 10_000, 16
+KINDS = {"PATCH-DOC", "PULL-DOC-REQ", "SERVER-INFO-REQ"}  # a browser never pushes a document
+EVENTS = {"ModelChanged", "MessageSent"}  # nor adds roots, or streams
+
+LONGEST_MESSAGE = 10.0  # s of the processor for what one message asks for
+SHARE, SAVED = 0.5, 5.0  # of the processor for one connection, and s of it that a quiet one has saved up
+EACH_MESSAGE = 0.002  # s: what the cheapest one costs
+
+FRESH = 120  # s in which a page that was sent may open its session; a session that is there stays open to its page
+TOKEN_LASTS = 24 * 3600
+PING = 20  # s
+GRACE = 3.0  # s from SIGTERM to the end, whatever still runs
+
+
+# --- settings
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """What an operator sets: each field is the environment variable TIPPE_ and its name in capitals."""
+
+    port: int = field(default=5006, metadata={"from": 1, "to": 65535, "says": "to listen on"})
+    address: str = field(default="", metadata={"says": "to listen on; empty: all of this machine's"})
+    prefix: str = field(default="", metadata={"says": "before /app in the address, for a proxy that keeps it"})
+    origins: str = field(default="", metadata={"says": "host:port, by commas, that the page goes by; empty: any"})
+    frames: str = field(default="'self'", metadata={"says": "pages that may show this one in a frame, as in a CSP"})
+    workers: int = field(default=1, metadata={"from": 1, "to": 64, "says": "processes on this one port"})
+    sessions: int = field(default=250, metadata={"from": 1, "to": 100_000, "says": "at once, in each worker"})
+    sessions_per_address: int = field(
+        default=250, metadata={"from": 1, "to": 100_000, "says": "at once; a lecture hall may be one address"}
+    )
+    linger: int = field(default=30, metadata={"from": 1, "to": 3600, "says": "s that a session waits for its page"})
+    proxy: int = field(default=0, metadata={"from": 0, "to": 1, "says": "1: believe X-Forwarded-For and -Proto"})
+    secret: str = field(default="", metadata={"says": "signs sessions; empty: a new one at each start"})
+    log: str = field(default="info", metadata={"says": "debug, info, warning or error"})
+
+    @classmethod
+    def of(cls, environment):
+        """From os.environ; raises ValueError naming the variable, its value and what is allowed."""
+        known = {f"TIPPE_{item.name.upper()}": item for item in fields(cls)}
+        for name in environment:
+            if name.startswith("TIPPE_") and name not in known:
+                raise ValueError(f"{name} is no setting. There are {', '.join(known)}.")
+        values = {}
+        for name, item in known.items():
+            text = environment.get(name, "").strip()
+            if not text:
+                continue
+            values[item.name] = text
+            if item.type is int:
+                low, high = item.metadata["from"], item.metadata["to"]
+                if not re.fullmatch(r"\d{1,9}", text) or not low <= int(text) <= high:
+                    raise ValueError(f"{name} is {text!r}; allowed is a whole number from {low} to {high}.")
+                values[item.name] = int(text)
+        settings = cls(**values)
+        for host in settings.hosts:
+            if not re.fullmatch(r"[\w.*-]+(:(\d{1,5}|\*))?|\[[\da-fA-F:]+\](:\d{1,5})?", host):
+                raise ValueError(f"TIPPE_ORIGINS has {host!r}; allowed is host or host:port, such as top.example.org.")
+        if settings.prefix and not re.fullmatch(r"(/?[\w.~-]+)+/?", settings.prefix):
+            raise ValueError(f"TIPPE_PREFIX is {settings.prefix!r}; allowed is a path, such as /tops.")
+        if settings.log not in ("debug", "info", "warning", "error"):
+            raise ValueError(f"TIPPE_LOG is {settings.log!r}; allowed is debug, info, warning or error.")
+        if any(mark in settings.frames for mark in ";,\r\n"):
+            raise ValueError(f"TIPPE_FRAMES is {settings.frames!r}; allowed are sources of a CSP, by spaces.")
+        return settings
+
+    @property
+    def hosts(self):
+        """The origins as host or host:port."""
+        return [re.sub(r"^\w+://", "", host.strip()).rstrip("/").lower() for host in self.origins.split(",") if host]
+
+    def lets(self, host):
+        """Whether the server goes by this name, as in the Host header; a listed one without port is at 80 and 443."""
+
+        def apart(text):
+            name, port = re.fullmatch(r"(.*?)(?::(\d+|\*))?", text).groups()
+            return name, port or ""
+
+        name, port = apart(host.lower())
+        for listed in self.hosts:
+            listed_name, listed_port = apart(listed)
+            same = listed_name in ("*", name) or (listed_name.startswith("*.") and name.endswith(listed_name[1:]))
+            if same and (listed_name == "*" or listed_port in (port, "*") or {listed_port, port} <= {"", "80", "443"}):
+                return True
+        return not self.hosts
+
+
+# --- who may come in
+
+
+class Door:
+    """Counts sessions, and has them made one at a time, in turn among the addresses that ask."""
+
+    def __init__(self, settings):
+        self.settings, self.sessions = settings, {}  # Bokeh's own, by id
+        self.open = Counter()  # sessions and waiting ones, by address
+        self._waiting = OrderedDict()  # address -> deque of futures
+        self._busy = False
+
+    def refusal(self, address):
+        """A sentence, or None where there is room."""
+        if len(self.sessions) + sum(map(len, self._waiting.values())) >= self.settings.sessions:
+            return "All places are taken at the moment."
+        if self.open[address] >= self.settings.sessions_per_address:
+            return "Too many pages are open from your address."
+        return None
+
+    def enter(self, address):
+        self.open[address] += 1
+
+    def leave(self, address):
+        self.open[address] -= 1
+        if self.open[address] <= 0:
+            del self.open[address]
+
+    async def turn(self, address):
+        """Returns when it is this one's turn; the next waits for done()."""
+        if not self._busy:
+            self._busy = True
+            return
+        mine = asyncio.get_running_loop().create_future()
+        self._waiting.setdefault(address, deque()).append(mine)
+        await mine
+
+    def done(self, took):
+        """Those inside are served before the next is made."""
+        IOLoop.current().call_later(took / 4, self._next)
+
+    def _next(self):
+        if not self._waiting:
+            self._busy = False
+            return
+        address, queue = self._waiting.popitem(last=False)
+        mine = queue.popleft()
+        if queue:
+            self._waiting[address] = queue  # behind the others
+        mine.set_result(None)
+
+
+class Budget:
+    """A share of the processor: who is over it waits, and while he waits nothing more is read from him."""
+
+    def __init__(self):
+        self.left, self.at, self.told = SAVED, time.monotonic(), False
+
+    def spend(self, seconds):
+        """Counts s of the processor; returns s to wait."""
+        now = time.monotonic()
+        self.left = min(SAVED, self.left + SHARE * (now - self.at)) - seconds
+        self.at = now
+        return max(0.0, -self.left / SHARE)
+
+
+@contextmanager
+def at_most(seconds):
+    """Ends what runs inside with TimeoutError after so many s of the processor, where there are signals for it."""
+    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def end(*_):
+        raise TimeoutError(f"took more than {seconds:g} s of the processor")
+
+    signal.signal(signal.SIGPROF, end)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+
+
+# --- what may come in
+
+
+class Refused(ValueError):
+    """What a browser running this page never sends. The sentence goes to whoever sent it."""
+
+
+def inspect(message):
+    """Raises Refused for what is no message of this page's, whatever its values."""
+    if message.msgtype not in KINDS:
+        raise Refused(f"A {str(message.msgtype)[:40]!r} message is not for this server.")
+    if message.msgtype != "PATCH-DOC":
+        return
+    events = message.content.get("events") if isinstance(message.content, dict) else None
+    if not isinstance(events, list) or not 0 < len(events) <= MOST_EVENTS:
+        raise Refused(f"A message has a list of 1 to {MOST_EVENTS} events.")
+    for event in events:
+        kind = event.get("kind") if isinstance(event, dict) else None
+        if kind not in EVENTS:
+            raise Refused(f"An event of kind {str(kind)[:40]!r} is not for this server.")
+    parts, level = 0, [message.content]
+    for _ in range(DEEPEST):
+        level = [part for whole in level for part in (whole.values() if isinstance(whole, dict) else whole)
+                 if isinstance(part, (dict, list, str, int, float))]  # fmt: skip
+        parts += len(level)
+        if parts > MOST_PARTS:
+            raise Refused(f"A message has at most {MOST_PARTS} parts.")
+        level = [part for part in level if isinstance(part, (dict, list))]
+        if not level:
+            return
+    raise Refused(f"A message is at most {DEEPEST} deep.")
+
+
+def ours(error):
+    """Whether an error came out of this project's own code, and so is a bug of its."""
+    here = str(Path(__file__).parent.parent)
+    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)} - {__file__}
+    return any(file.startswith((f"{here}/app/", f"{here}/tippe_core/")) for file in files)
+
+
+class Socket(WSHandler):
+    """Bokeh's, with a limit at each place where a browser could ask for more than its share."""
+
+    entered = None
+
+    def check_origin(self, origin):
+        host = urlsplit(origin).netloc.lower()
+        if self.application.tippe.lets(host) if self.application.tippe.hosts else host == self.request.host.lower():
+            return True
+        log.warning("refused a connection to %s by a page of %.100r: TIPPE_ORIGINS", self.request.host, origin)
+        return False
+
+    async def _async_open(self, token):
+        try:
+            await self._enter(token)
+        except (ProtocolError, RuntimeError, ValueError, KeyError) as error:
+            self._refuse(1008, str(error))
+
+    async def _enter(self, token):
+        payload = get_token_payload(token)
+        context, door, address = self.application_context, self.application.door, self.request.remote_ip
+        known = get_session_id(token) in context._sessions
+        if not known:
+            age = TOKEN_LASTS - (payload["session_expiry"] - time.time())
+            refusal = "That session has ended; load the page again." if age > FRESH else door.refusal(address)
+            if refusal == "All places are taken at the moment.":
+                await context._cleanup_sessions(0)  # those whose page has gone
+                refusal = door.refusal(address)
+            if refusal:
+                self._refuse(4000, refusal)
+                return
+        self.entered = address
+        self.budget = Budget()
+        door.enter(address)
+        if known:
+            await super()._async_open(token)
+            return
+        await door.turn(address)
+        start = time.monotonic()
+        try:
+            if self.ws_connection is not None and not self.ws_connection.is_closing():
+                await context.create_session_if_needed(get_session_id(token), self.request, token)
+                prepare(context.get_session(get_session_id(token)).document)
+                await super()._async_open(token)
+        finally:
+            door.done(time.monotonic() - start)
+
+    def on_close(self):
+        if self.entered is not None:
+            self.application.door.leave(self.entered)
+            self.entered = None
+        if self.connection is not None:
+            super().on_close()
+
+    def _refuse(self, code, sentence):
+        log.warning("refused %s: %.200s", self.request.remote_ip, sentence)
+        self.close(code, sentence.encode()[:120].decode(errors="ignore"))
+
+    async def on_message(self, fragment):
+        if self.connection is None:
+            return self._refuse(1002, "A message came before the session was open.")
+        self.fragments = getattr(self, "fragments", 0) + 1
+        try:
+            if self.fragments > MOST_FRAGMENTS:
+                raise Refused(f"A message comes in at most {MOST_FRAGMENTS} pieces.")
+            message = await self.receiver.consume(fragment)
+        except (MessageError, ProtocolError, ValidationError, Refused, ValueError, RecursionError) as error:
+            return self._refuse(1007, f"That is no message: {error}")
+        except Exception as error:
+            return self._refuse(1007, f"That is no message ({type(error).__name__}).")
+        if message is None:
+            return None
+        self.fragments = 0
+        await self._answer(message)
+        wait = self.budget.spend(EACH_MESSAGE)
+        if wait:
+            if not self.budget.told:
+                log.warning("%s sends more than its share; it is read more slowly", self.request.remote_ip)
+            self.budget.told = True
+            await asyncio.sleep(min(wait, 10))
+        else:
+            self.budget.told = False
+
+    async def _answer(self, message):
+        """The reply to a message. What cannot be done is said in one line, to the sender and in the log."""
+        try:
+            inspect(message)
+            if message.msgtype == "PATCH-DOC":
+                message.apply_to_document = self._bounded(message.apply_to_document)
+            reply = await self.handler._handlers[message.msgtype](message, self.connection)
+        except Exception as error:
+            if ours(error) and not isinstance(error, TimeoutError):
+                log.error("a bug: %s", "".join(traceback.format_exception(error)))
+                sentence = "The server could not do that; what is shown has not changed."
+            else:
+                name = type(error).__name__
+                log.warning("refused from %s: %s: %.300s", self.request.remote_ip, name, " ".join(str(error).split()))
+                sentence = str(error) if isinstance(error, Refused) else f"The server did not take that ({name})."
+            reply = self.connection and self._error(message, sentence)
+        if reply and self.connection is not None:
+            await self.send_message(reply)
+
+    def _bounded(self, apply):
+        def applied(*arguments):
+            start = time.process_time()
+            try:
+                with at_most(LONGEST_MESSAGE):
+                    apply(*arguments)
+            finally:
+                self.budget.spend(time.process_time() - start)
+
+        return applied
+
+    def _error(self, message, sentence):
+        reply = self.connection.error(message, sentence)
+        reply.content["traceback"] = None
+        return reply
+
+
+# --- what goes out
+
+HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "same-origin",  # the address holds what a person set
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=(), payment=(), usb=()",
+}
+# BokehJS makes functions of the page's CustomJS, and Panel imports a component's code from a blob.
+POLICY = (
+    "default-src 'none'; script-src 'self' 'nonce-{nonce}' 'unsafe-eval' blob:; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws://{host} wss://{host} blob: data:; "
+    "worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames}"
+)
+# While the page waits for its turn, and where it is not let in.
+WAITING = """
+<div id="waiting" role="status" style="display:none;position:fixed;inset:30% 10% auto;text-align:center;z-index:9999;
+font:16px/1.5 system-ui,sans-serif;color:#22303c"></div>
+<script>
+(() => {
+  const words = document.getElementById("waiting")
+  const say = (text) => { words.textContent = text; words.style.display = "block" }
+  const here = () => window.Bokeh?.documents?.length > 0
+  setTimeout(() => here() || say("Your page is being made; many may have come at once."), 3000)
+  addEventListener("unhandledrejection", () => {
+    if (here()) return
+    say("The server is full or busy. This page tries again by itself in a few seconds.")
+    setTimeout(() => location.reload(), 5000 + 5000 * Math.random())
+  })
+  const look = setInterval(() => { if (here()) { words.remove(); clearInterval(look) } }, 200)
+})()
+</script>
+"""
+PLAIN = """<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>Tippe top explorer</title>{again}
+<p style="font: 18px/1.5 system-ui, sans-serif; margin: 20vh 10vw; color: #22303c">{sentence}</p></html>"""
+
+
+def policy(request, settings, nonce=""):
+    host = request.host if re.fullmatch(r"[\w.:\[\]-]{1,260}", request.host) else ""
+    text = POLICY.format(nonce=nonce, host=host, frames=settings.frames)
+    return text if host else text.replace(" ws:// wss://", "")
+
+
+class Handler(RequestHandler):
+    """Of this project's few plain answers."""
+
+    @property
+    def tippe(self):
+        return self.application.tippe
+
+    def say(self, status, sentence, again=0):
+        """A page with one sentence."""
+        self.set_status(status)
+        self.set_header("Content-Type", "text/html; charset=utf-8")
+        self.set_header("Cache-Control", "no-store")
+        self.set_header("Content-Security-Policy", policy(self.request, self.tippe))
+        if again:
+            self.set_header("Retry-After", str(again))
+        refresh = f'<meta http-equiv="refresh" content="{again}">' if again else ""
+        self.finish(PLAIN.format(sentence=sentence, again=refresh))
+
+
+class Page(Handler, DocHandler):
+    """The page, from one template session: a visitor's own is made when his browser opens the socket."""
+
+    async def get(self, *arguments, **named):
+        if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
+            self.redirect(f"{self.tippe.prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
+            return
+        if not self.tippe.lets(self.request.host):
+            log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
+            self.say(403, "This server does not go by the name in your address bar; TIPPE_ORIGINS lists its names.")
+            return
+        refusal = self.application.door.refusal(self.request.remote_ip)
+        if refusal:
+            log.warning("refused %s a page: %s", self.request.remote_ip, refusal)
+            self.say(503, f"{refusal} This page tries again by itself.", again=10)
+            return
+        self.nonce = secrets.token_urlsafe(16)
+        self.set_header("Content-Security-Policy", policy(self.request, self.tippe, self.nonce))
+        await super().get(*arguments, **named)
+
+    def write(self, chunk):
+        if isinstance(chunk, str) and "</body>" in chunk:
+            before, after = chunk.rsplit("</body>", 1)
+            chunk = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.nonce}"', f"{before}{WAITING}</body>{after}")
+        super().write(chunk)
+
+
+class Session(Handler):
+    """Whether a session is "here" or "gone"."""
+
+    def initialize(self, application_context, **_):
+        self.context = application_context
+
+    def get(self):
+        self.set_header("Cache-Control", "no-store")
+        asked = self.get_query_argument("id", "")
+        self.set_header("Content-Type", "text/plain")
+        self.write("here" if any(name.split(".")[0] == asked for name in self.context._sessions) else "gone")
+
+
+class Liveness(Handler):
+    """For the health checks of containers, and how full it is."""
+
+    def get(self):
+        self.set_header("Cache-Control", "no-store")
+        self.write({"live": True, "sessions": len(self.application.door.sessions)})
+
+
+class Component(ComponentResourceHandler):
+    """Panel's would import any module that a visitor names."""
+
+    def parse_url_path(self, path):
+        if path.split("/")[0] not in sys.modules:
+            raise HTTPError(404)
+        return super().parse_url_path(path)
+
+
+def set_default_headers(handler):
+    for name, value in HEADERS.items():
+        handler.set_header(name, value)
+    handler.clear_header("Server")
+
+
+# --- the server
+
+
+def serve(settings, sockets, parent=None):
+    """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
+    silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
+    RequestHandler.set_default_headers = set_default_headers
+    bokeh.server.urls.per_app_patterns[:] = [(r"/ws", Socket), (r"/session", Session), (r"/?", Page)]
+    static = [(pattern, Component if handler is ComponentResourceHandler else handler, *more)
+              for pattern, handler, *more in get_static_routes({})]  # fmt: skip
+    apps = {"/app": build_single_handler_application(Path(__file__).parent)}
+    warm(apps["/app"], settings)
+    tornado = BokehTornado(
+        apps,
+        prefix=settings.prefix,
+        extra_patterns=[(r"/liveness", Liveness), *static],
+        index=INDEX_HTML,
+        secret_key=settings.secret.encode(),
+        sign_sessions=True,
+        keep_alive_milliseconds=0,  # tornado's own pings end connections that do not answer
+        websocket_ping_interval=PING,
+        websocket_ping_timeout=PING,
+        websocket_max_message_size_bytes=LARGEST_FRAGMENT,
+        unused_session_lifetime_milliseconds=1000 * settings.linger,
+        check_unused_sessions_milliseconds=5000,
+        session_token_expiration=TOKEN_LASTS,
+        include_headers=["User-Agent", "Accept-Language", "Host"],
+        include_cookies=[],
+    )
+    context = tornado.applications["/app"]
+    tornado.tippe, tornado.door = settings, Door(settings)
+    tornado.door.sessions = context._sessions
+    http = HTTPServer(tornado, xheaders=bool(settings.proxy), max_body_size=LARGEST_FRAGMENT,
+                      max_header_size=32 * 1024, idle_connection_timeout=60)  # fmt: skip
+    http.add_sockets(sockets)
+    loop = IOLoop.current()
+    server = BaseServer(loop, tornado, http)
+
+    def stop(*_):
+        log.info("stopping")
+        if hasattr(signal, "setitimer"):
+            signal.signal(signal.SIGALRM, lambda *_: os._exit(0))  # where something does not come to an end
+            signal.setitimer(signal.ITIMER_REAL, GRACE)
+        loop.add_callback_from_signal(close)
+
+    async def close():
+        http.stop()
+        for connection in list(tornado._clients):
+            connection._socket.close(1001, "The server is stopping.")
+        await asyncio.sleep(0.2)
+        server.stop(wait=False)
+        loop.stop()
+
+    for name in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(name, stop)
+    if parent is not None:
+        loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), stop()), IOLoop.READ)
+    server.start()
+    log.info("serving http://%s:%d%s/app", settings.address or "localhost", settings.port, settings.prefix)
+    loop.start()
+
+
+def prepare(document):
+    """What Panel does to the session that it writes a page from, and a session that is made from a token lacks."""
+    document._template_variables["dist_url"] = LOCAL_DIST
+    for root in document.roots:
+        patch_model_css(root, dist_url=LOCAL_DIST)
+
+
+def warm(application, settings):
+    """One session that is the template of all pages, made before the first visitor comes."""
+    pn.config.reuse_sessions, pn.config.session_key_func = True, lambda request: "page"
+    session = generate_session(application)
+    if not session.document.roots:
+        raise SystemExit("The page could not be made; the reason stands above.")
+    with set_curdoc(session.document):
+        pn.state._session_key_funcs[f"{settings.prefix}/app"] = pn.config.session_key_func
+        pn.state._sessions["page"] = session
+        session.block_expiration()
+        pn.state._on_load(None)
+    _cleanup_doc(session.document, destroy=False)
+
+
+def supervise(settings, sockets):
+    """Keeps so many workers on the same sockets; one that ends is replaced, and all end with this one, however it ends.
+
+    (panel serve --num-procs forks too, but its first process waits for the others with no signal handler: SIGTERM ends
+    that one alone and leaves the workers to the system.)
+    """
+    workers, ending = {}, []
+    held, ours_ends = os.pipe()
+
+    def begin():
+        pid = os.fork()
+        if pid:
+            workers[pid] = time.monotonic()
+            return
+        code = 1
+        try:
+            os.close(ours_ends)
+            for name in (signal.SIGTERM, signal.SIGINT, signal.SIGALRM):
+                signal.signal(name, signal.SIG_DFL)
+            serve(settings, sockets, parent=held)
+            code = 0
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            os._exit(code)
+
+    def end(*_):
+        ending.append(True)
+        for pid in workers:
+            os.kill(pid, signal.SIGTERM)
+
+    for name in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(name, end)
+    for _ in range(settings.workers):
+        begin()
+    while workers:
+        pid, status = os.wait()
+        lived = time.monotonic() - workers.pop(pid)
+        if ending:
+            continue
+        log.error("worker %d ended (%s) after %.0f s", pid, os.waitstatus_to_exitcode(status), lived)
+        if lived < 5:
+            log.error("a worker that does not live 5 s is not replaced: stopping")
+            end()
+        elif not ending:
+            begin()
+    return 0 if ending and lived >= 5 else 1
+
+
+def main():
+    """Reads the settings, listens, serves; returns the exit code."""
+    try:
+        settings = Settings.of(os.environ)
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 2
+    logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True,
+                        format=f"%(asctime)s %(levelname)s {os.uname().nodename} %(process)d %(message)s")  # fmt: skip
+    log.setLevel(settings.log.upper())
+    if settings.log == "debug":
+        logging.getLogger("tornado.access").setLevel(logging.INFO)
+    if not settings.secret:
+        settings = replace(settings, secret=secrets.token_hex(32))
+    settings = replace(settings, prefix=settings.prefix and "/" + settings.prefix.strip("/"))
+    try:
+        sockets = bind_sockets(settings.port, settings.address or None)
+    except OSError as error:
+        print(f"TIPPE_PORT {settings.port}, TIPPE_ADDRESS {settings.address!r}: {error.strerror}", file=sys.stderr)
+        return 1
+    if settings.workers > 1:
+        return supervise(settings, sockets)
+    serve(settings, sockets)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
