@@ -6,6 +6,7 @@ import panel_material_ui as pmui
 from app.builder import Builder
 from app.cards import card, grid
 from app.compare import Compare
+from app.connection import Connection
 from app.explorer import Explorer
 from app.roll import Roll
 from app.workshop import Measure, Workshop
@@ -66,7 +67,7 @@ def page():
     roll = Roll(explorer)
     return pmui.Page(
         title="Tippe top explorer",
-        sidebar=roll.sidebar,
+        sidebar=[*roll.sidebar, Connection(width=0, height=0, margin=0)],
         sidebar_open=not on_a_phone(),
         main=tabs(
             {
