@@ -48,6 +48,45 @@ def accelerations(top, law, axis, w, v):
     return solved[:3], solved[3:6], solved[6]
 
 
+def sphere(top):
+    """A contact: from G to the sphere's lowest point, as a function of the axis 3."""
+    return lambda axis: top.a * axis - UP
+
+
+def edge(top, radius, height):
+    """A contact: from G to the lowest point of a circle about axis 3, that many R above O."""
+
+    def lowest(axis):
+        first = np.cross(axis, [0.6, 0.0, 0.8])  # two radii of the circle
+        first /= np.linalg.norm(first)
+        second = np.cross(axis, first)
+        beta = np.arctan2(-second[2], -first[2])
+        return (top.a + height) * axis + radius * (np.cos(beta) * first + np.sin(beta) * second)
+
+    return lowest
+
+
+def supported(top, law, contacts, axis, w, v):
+    """(w', v', N of each contact) where all contacts press on the table.
+
+    As accelerations(), with one unknown N and one condition z . (v + w x rho)' = 0 a contact, rho' by differences.
+    """
+    inertia, m = top.I1 * np.eye(3) + (top.I3 - top.I1) * np.outer(axis, axis), len(contacts)
+    left, right = np.zeros((6 + m, 6 + m)), np.zeros(6 + m)
+    left[:3, :3], left[3:6, 3:6] = inertia, np.eye(3)
+    right[:3], right[3:6] = -np.cross(w, inertia @ w), -UP
+    axis_dot, h = np.cross(w, axis), 1e-5
+    for i, contact in enumerate(contacts):
+        rho = contact(axis)
+        rho_dot = (contact(axis + h * axis_dot) - contact(axis - h * axis_dot)) / (2 * h)
+        push = UP - law(v + np.cross(w, rho))
+        left[:3, 6 + i], left[3:6, 6 + i] = -np.cross(rho, push), -push
+        left[6 + i, :3], left[6 + i, 3:6] = -UP @ skew(rho), UP
+        right[6 + i] = -UP @ np.cross(w, rho_dot)
+    solved = np.linalg.solve(left, right)
+    return solved[:3], solved[3:6], solved[6:]
+
+
 @dataclass(frozen=True, eq=False)
 class Motion:
     """One row a time; vectors in space axes. work: of friction, since the start."""
@@ -59,16 +98,24 @@ class Motion:
     work: np.ndarray
 
 
-def integrate(top, law, quaternion, omega, velocity, com, times, rtol=1e-12):
-    """From the state at times[0], velocity and com (3,) those of G, through times (rising)."""
+def integrate(top, law, quaternion, omega, velocity, com, times, rtol=1e-12, contacts=None):
+    """From the state at times[0], velocity and com (3,) those of G, through times (rising).
+
+    contacts: those that press on the table all the time; the sphere's alone if not given.
+    """
 
     def rates(_, y):
         q, w, v = y[:4], y[4:7], y[7:10]
         axis = matrix(q)[:, 2]
-        w_dot, v_dot, N = accelerations(top, law, axis, w, v)
-        u = slip(top, axis, w, v)
+        if contacts is None:
+            w_dot, v_dot, N = accelerations(top, law, axis, w, v)
+            slips, loads = [slip(top, axis, w, v)], [N]
+        else:
+            w_dot, v_dot, loads = supported(top, law, contacts, axis, w, v)
+            slips = [v + np.cross(w, contact(axis)) for contact in contacts]
         q_dot = np.append(q[3] * w + np.cross(w, q[:3]), -w @ q[:3]) / 2
-        return np.concatenate([q_dot, w_dot, v_dot, v, [-N * law(u) @ u]])
+        power = sum(-N * law(u) @ u for N, u in zip(loads, slips, strict=True))
+        return np.concatenate([q_dot, w_dot, v_dot, v, [power]])
 
     start = np.concatenate([quaternion, omega, velocity, com, [0.0]])
     y = solve_ivp(rates, (times[0], times[-1]), start, "DOP853", times, rtol=rtol, atol=rtol).y.T

@@ -101,10 +101,6 @@ def gap(edge, c, s):
     return 1 + h * c - b * s - q
 
 
-def _skew(x):
-    return np.array([[0.0, -x[2], x[1]], [x[2], 0.0, -x[0]], [-x[1], x[0], 0.0]])
-
-
 class Body:
     """The top with its two possible contacts. Its states are y of 16.
 
@@ -137,20 +133,18 @@ class Body:
         """rho, rho', its height above the table and u, of contact i."""
         if e is None:
             e, w, _, _ = turning(self.top, y)
-            e, w = np.array(e), np.array(w)
-        a = self.top.a
-        e_dot = _cross(w, e)
+        (ex, ey, ez), (ex_, ey_, ez_) = e, _cross(w, e)  # e, e'
         if i == SPHERE:
-            rho, rho_dot = a * e - UP, a * e_dot
+            along, down, turns = self.top.a, 1.0, 0.0
         else:
             b, h, q = self.edge
-            rho, rho_dot = (a + h) * e - q * UP, (a + h) * e_dot
-            if b:
-                c, s = e[2], sqrt(e[0] * e[0] + e[1] * e[1])
-                n = (UP - c * e) / s
-                rho = rho - b * n
-                rho_dot = rho_dot + b / s * (e_dot[2] * e + c * e_dot - c * e_dot[2] / s * n)
-        return rho, rho_dot, y[15] + rho[2], np.array([y[8], y[9], y[14]]) + _cross(w, rho)
+            along, down, turns = self.top.a + h, q, 0.0
+            if b:  # rho = (a + h + b e_z/s) e - (b/s + q) z
+                s = sqrt(ex * ex + ey * ey)
+                along, down, turns = along + b * ez / s, down + b / s, b * ez_ / (s * s * s)
+        rho = along * ex, along * ey, along * ez - down
+        rho_dot = along * ex_ + turns * ex, along * ey_ + turns * ey, along * ez_
+        return rho, rho_dot, y[15] + rho[2], _sum((y[8], y[9], y[14]), _cross(w, rho))
 
     def heights(self, y):
         """Of the sphere's and the edge's lowest points above the table (k, n), at y (16, n)."""
@@ -163,45 +157,48 @@ class Body:
         """Heights that count as 0 from y on: what the tolerance took from those of contacts that just parted."""
         return np.minimum(self.heights(y), 0.0)
 
-    def _inverse(self, y, e):
-        return np.eye(3) / self.top.I1 + (1 / self.top.I3 - 1 / self.top.I1) * np.outer(e, e)
+    def _response(self, e, F, at, rho):
+        """v' + w' x rho for the force F at `at`; u' for an impulse."""
+        top, torque = self.top, _cross(at, F)
+        along = (1 / top.I3 - 1 / top.I1) * (torque[0] * e[0] + torque[1] * e[1] + torque[2] * e[2])
+        w_dot = [x / top.I1 + along * axis for x, axis in zip(torque, e, strict=True)]
+        return _sum(F, _cross(w_dot, rho))
 
     def forces(self, y, modes):
         """{i: (F, rho, u)} for the contacts of modes, and what the others' u_z' is: {i: float}."""
         top = self.top
         e, w, L3, _ = turning(top, y)
-        e, w = np.array(e), np.array(w)
-        inverse, free = self._inverse(y, e), (1 / top.I3 - 1 / top.I1) * L3 * _cross(w, e)
-        at = {i: self._contact(y, i, e, w) for i in (modes if len(modes) == len(self.contacts) else self.contacts)}
-        away = {i: _cross(w, rho_dot) + _cross(free, rho) - UP for i, (rho, rho_dot, _, _) in at.items()}
-        arms = {i: _skew(at[i][0]) for i in at}
-        columns, rows, right = {}, {}, []
-        for i, mode in modes.items():
-            _, _, height, u = at[i]
-            back = -2 * STEADY * u - away[i]
-            back[2] -= STEADY * STEADY * height
+        free = [(1 / top.I3 - 1 / top.I1) * L3 * x for x in _cross(w, e)]  # w' but for the forces
+        at, away, unknowns, rows = {}, {}, [], []
+        for i in self.contacts:
+            rho, rho_dot, height, u = at[i] = self._contact(y, i, e, w)
+            x, yy, z = away[i] = _sum(_cross(w, rho_dot), _cross(free, rho), (0.0, 0.0, -1.0))
+            mode = modes.get(i)
+            if mode:
+                rows.append((i, 2, -z - 2 * STEADY * u[2] - STEADY * STEADY * height))
             if mode == "stick":
-                columns[i], rows[i] = np.eye(3), np.eye(3)
-            else:
+                rows += (i, 0, -x - 2 * STEADY * u[0]), (i, 1, -yy - 2 * STEADY * u[1])
+                unknowns += [(i, axis) for axis in ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))]
+            elif mode == "slip":
                 k = self.friction.k(u[0] * u[0] + u[1] * u[1])
-                columns[i], rows[i] = np.array([[-k * u[0]], [-k * u[1]], [1.0]]), UP[None]
-            right.append(rows[i] @ back)
-        coupling = {i: {j: np.eye(3) - arms[i] @ inverse @ arms[j] for j in modes} for i in at}
-        if modes:
-            matrix = np.block([[rows[i] @ coupling[i][j] @ columns[j] for j in modes] for i in modes])
-            right = np.concatenate(right)
-            if len(right) == 6:
-                solved = np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
-            else:
-                solved = np.linalg.solve(matrix, right)
-        found, place = {}, 0
-        for i in modes:
-            size = columns[i].shape[1]
-            found[i] = columns[i] @ solved[place : place + size], at[i][0], at[i][3]
-            place += size
-        others = {i: (away[i] + sum((coupling[i][j] @ found[j][0] for j in modes), np.zeros(3)))[2]
-                  for i in at if i not in modes}  # fmt: skip
-        return found, others
+                unknowns.append((i, (-k * u[0], -k * u[1], 1.0)))
+        moved = [{i: self._response(e, d, at[j][0], at[i][0]) for i in at} for j, d in unknowns]
+        if len(rows) == 1:
+            i, part, needed = rows[0]
+            sizes = [needed / moved[0][i][part]]
+        elif rows:
+            matrix = np.array([[column[i][part] for column in moved] for i, part, _ in rows])
+            right = np.array([needed for _, _, needed in rows])
+            singular = len(right) == 6
+            sizes = np.linalg.lstsq(matrix, right, rcond=1e-9)[0] if singular else np.linalg.solve(matrix, right)
+        found = {i: [0.0, 0.0, 0.0] for i in modes}
+        others = {i: away[i][2] for i in at if i not in modes}
+        for (j, d), size, column in zip(unknowns, sizes if rows else (), moved, strict=True):
+            for part in range(3):
+                found[j][part] += size * d[part]
+            for i in others:
+                others[i] += size * column[i][2]
+        return {i: (F, at[i][0], at[i][3]) for i, F in found.items()}, others
 
     # ---- followed on one or two contacts ----
 
@@ -218,14 +215,16 @@ class Body:
 
     def _rates(self, y, modes):
         top = self.top
+        y = y.tolist()
         found, _ = self.forces(y, modes)
         (ex, ey, ez), (wx, wy, wz), L3, _ = turning(top, y)
         px, py, pz, pw = y[:4]
         w3 = L3 / top.I3
         ox, oy, oz = (wx - w3 * ex) / 2, (wy - w3 * ey) / 2, (wz - w3 * ez) / 2  # half the frame's angular velocity
-        total, torque, heat = -UP, np.zeros(3), 0.0
+        total, torque, heat = (0.0, 0.0, -1.0), (0.0, 0.0, 0.0), 0.0
         for F, rho, u in found.values():
-            total, torque, heat = total + F, torque + _cross(rho, F), heat - F @ u
+            total, torque = _sum(total, F), _sum(torque, _cross(rho, F))
+            heat -= F[0] * u[0] + F[1] * u[1] + F[2] * u[2]
         rates = np.array([
             ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz,
             oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz, w3,
@@ -234,6 +233,7 @@ class Body:
 
     def _guards(self, y, modes, floor):
         """What must not be negative: {(kind, contact): float}. floor: heights that count as the table's."""
+        y = y.tolist()
         found, _ = self.forces(y, modes)
         guards = {}
         for i, (F, _, _) in found.items():
@@ -269,11 +269,12 @@ class Body:
             y, dense = solver.y.copy(), solver.dense_output()
             if not scaled:  # without the rounding of its integration
                 y[12] = end if solver.status == "finished" else begin + solver.t
-            for tau in np.linspace(solver.t_old, solver.t, 4)[1:]:
-                if (event := self._first(self._guards(dense(tau), modes, floor))) is not None:
-                    tau = self._crossing(dense, modes, floor, event, tau, tau - (solver.t - solver.t_old) / 3)
-                    y = dense(tau)
-                    break
+            if min((guards := self._guards(y, modes, floor)).values()) < 0.05:
+                third = (solver.t - solver.t_old) / 3
+                for tau in (solver.t_old + third, solver.t - third, solver.t):
+                    if (event := self._first(guards if tau == solver.t else self._guards(dense(tau), modes, floor))):
+                        y = dense(self._crossing(dense, modes, floor, event, tau, tau - third))
+                        break
             speeds = self._speeds(y, modes)
             for i, speed in speeds.items():
                 if event is None and speed < min(before[i], 1e5 * self.tolerance) and self._may_stick(y, modes, i):
@@ -292,14 +293,17 @@ class Body:
     def _speeds(self, y, modes):
         if not self.sticks:
             return {}
-        return {i: float(np.hypot(*self._contact(y, i)[3][:2])) for i, mode in modes.items() if mode == "slip"}
+        return {i: float(np.hypot(*self._slip(y, i))) for i, mode in modes.items() if mode == "slip"}
+
+    def _slip(self, y, i):
+        return np.array(self._contact(y, i)[3][:2])
 
     def _halted(self, y, modes, i):
         """y where the last of the slip at contact i is gone: by the midpoint rule."""
-        middle, u = y, self._contact(y, i)[3][:2]
+        middle, u = y, self._slip(y, i)
         for _ in range(3):
             rates = self._rates(middle, modes) / self._clock(middle, modes)
-            left = 1e-6 * (u @ u) / (u @ (u - self._contact(y + 1e-6 * rates, i)[3][:2]))
+            left = 1e-6 * (u @ u) / (u @ (u - self._slip(y + 1e-6 * rates, i)))
             middle = y + left / 2 * rates
         return y + left * rates
 
@@ -341,10 +345,10 @@ class Body:
         u, F, contact = np.zeros((2, n)), np.zeros((3, n)), np.empty((n, 2))
         for k, y in enumerate(samples):
             found = self.forces(y, modes)[0].values()
-            F[:, k] = sum(push for push, _, _ in found)
+            F[:, k] = np.sum([push for push, _, _ in found], axis=0)
             share = [push[2] / F[2, k] for push, _, _ in found]
-            u[:, k] = sum(part * slip[:2] for part, (_, _, slip) in zip(share, found, strict=True))
-            contact[k] = y[10:12] + sum(part * rho[:2] for part, (_, rho, _) in zip(share, found, strict=True))
+            u[:, k] = share @ np.array([slip[:2] for _, _, slip in found])
+            contact[k] = y[10:12] + share @ np.array([rho[:2] for _, rho, _ in found])
         rolls = set(modes.values()) == {"stick"}
         if rolls:
             u[:] = 0
@@ -383,7 +387,7 @@ class Body:
             t = np.minimum(at + step * np.arange(257), left)
             flown = self._flown(y, t)
             heights = self.heights(flown)
-            low = (heights < floor - TOUCH) & (np.diff(heights, axis=1, append=np.inf) < 0)
+            low = (heights < floor - TOUCH) & (np.diff(heights, axis=1, prepend=np.inf) < 0)
             for i in np.flatnonzero(low.any(axis=1)):
                 k = int(np.argmax(low[i]))
 
@@ -419,7 +423,7 @@ class Body:
                 y = self._impact(y, i)
         options = {i: [None, "slip"] for i in closed if self._contact(y, i)[3][2] < 1e-9}
         for i in options:
-            if self.sticks and np.hypot(*self._contact(y, i)[3][:2]) < REST:
+            if self._rests(y, i):
                 options[i] = [None, "stick", "slip"]
         if touched in options and kind in ("leaves", "sticks", "slips"):  # it is settled; elsewhere rounding may decide
             options[touched] = {"leaves": [None], "sticks": ["stick"], "slips": ["slip"]}[kind]
@@ -430,10 +434,10 @@ class Body:
         speeds = np.array([self._contact(y, i)[3][2] for i in closed])
         if len(closed) < 2 or np.abs(speeds).max() > self.gentle:
             return y
-        found, _ = self.forces(y, dict.fromkeys(closed, "slip"))
+        found, _ = self.forces(y, {i: "stick" if self._rests(y, i) else "slip" for i in closed})
         if min(F[2] for F, _, _ in found.values()) <= 0:
             return y
-        W = [[(self._mobility(y, i, j) @ UP)[2] for j in closed] for i in closed]
+        W = [[self._mobility(y, i, j)[2, 2] for j in closed] for i in closed]
         for i, P in zip(closed, np.linalg.solve(W, -speeds), strict=True):
             y = self._pushed(y, i, P * UP)
         return y
@@ -459,16 +463,19 @@ class Body:
     def _let_go(self, y, modes):
         """y with the least slip where a contact at rest starts to slip: against the force that would have held it."""
         for i, mode in modes.items():
-            if mode == "slip" and self.sticks and np.hypot(*(rest := self._contact(y, i)[3])[:2]) < REST:
+            if mode == "slip" and self._rests(y, i):
                 F = self.forces(y, modes | {i: "stick"})[0][i][0]
                 y = y.copy()
-                y[8:10] += -1e-9 * F[:2] / (np.hypot(F[0], F[1]) or 1.0) - rest[:2]
+                y[8:10] -= 1e-9 * np.array(F[:2]) / (np.hypot(F[0], F[1]) or 1.0) + self._slip(y, i)
         return y
 
+    def _rests(self, y, i):
+        return self.sticks and np.hypot(*self._slip(y, i)) < REST
+
     def _mobility(self, y, i, j):
-        """3 x 3: u_i for an impulse at contact j."""
-        e = np.array(turning(self.top, y)[0])
-        return np.eye(3) - _skew(self._contact(y, i)[0]) @ self._inverse(y, e) @ _skew(self._contact(y, j)[0])
+        """(3, 3): u_i for an impulse at contact j."""
+        e, at, rho = turning(self.top, y)[0], self._contact(y, j)[0], self._contact(y, i)[0]
+        return np.array([self._response(e, axis, at, rho) for axis in np.eye(3).tolist()]).T
 
     def _pushed(self, y, i, impulse):
         before, y = self._kinetic(y), y.copy()
@@ -484,7 +491,7 @@ class Body:
 
     def _impact(self, y, i):
         """y after the plastic impact at contact i."""
-        W, u0 = self._mobility(y, i, i), self._contact(y, i)[3]
+        W, u0 = self._mobility(y, i, i), np.array(self._contact(y, i)[3])
         impulse = impact(W, u0, self.friction)
         return self._pushed(y, i, impulse)
 
@@ -530,8 +537,8 @@ def impact(W, u0, friction):
 def change(before, after, event):
     """What to call the change of modes after an event (kind, contact)."""
     carried, carries = tuple(sorted(before)), tuple(sorted(after))
-    if not carried and carries:
-        return "lands on its stem" if carries == (EDGE,) else "lands"
+    if not carried:
+        return "lands on its stem" if EDGE in carries or (not carries and event[1] == EDGE) else "lands"
     if carried == carries or carries == (SPHERE, EDGE):
         touches = {SPHERE: "ball touches", EDGE: "stem touches"}
         return event[0] if event[0] in ("sticks", "slips") else touches[event[1]]
@@ -541,6 +548,9 @@ def change(before, after, event):
 
 
 def _cross(x, y):
-    x0, x1, x2 = x
-    y0, y1, y2 = y
-    return np.array([x1 * y2 - x2 * y1, x2 * y0 - x0 * y2, x0 * y1 - x1 * y0])
+    (x0, x1, x2), (y0, y1, y2) = x, y
+    return x1 * y2 - x2 * y1, x2 * y0 - x0 * y2, x0 * y1 - x1 * y0
+
+
+def _sum(*vectors):
+    return tuple(map(sum, zip(*vectors, strict=True)))

@@ -58,9 +58,13 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
 
     events: (time, what), located to 1e-9: "sticks" and "slips" (Coulomb), "lifts off" and "lands", or "lands on its
     stem"; "stem touches" or "ball touches" (the other carries on), "stem leaves", "stands on its stem" (the ball has
-    left), "falls back on its ball". The Trajectory ends early, without a sample at the event, with "lifts off" where
-    that stops it, with "stands upright" on a stem within 1e-3 rad of its flat end, where friction is no longer that of
-    a point, and with "chatters" where more than 1000 events follow each other.
+    left), "falls back on its ball". How many of ever smaller bounces between the two are listed depends on rtol. The
+    Trajectory ends early, without a sample at the event, with
+    "lifts off" where that stops it,
+    "rim touches" where the sphere's surface ends before anything else touches (an edge on the sphere, as of a cut ball
+    without a stem): what comes then is not computed,
+    "stands upright" on a stem within 1e-3 rad of its flat end, where friction is no longer that of a point,
+    "chatters" where more than 1000 events follow each other.
     regime: "slip", or "roll" where Coulomb's friction holds the top; on the sphere that part is the exact one of
     rolling.py. heat: the work of friction and of impacts.
     Raises TopError for bad input, and for friction so strong that no normal force balances it (Painleve).
@@ -93,8 +97,8 @@ def _checked_edge(edge):
     if parts.shape not in ((2,), (3,)) or parts[0] < 0 or (parts[2:] < 0).any():
         raise TopError("edge", edge, "(radius >= 0, height above O, rounding >= 0) in R, or None")
     radius, height, rounding = edge = tuple(np.append(parts, 0.0)[:3].tolist())
-    if np.hypot(radius, height) < 1 + 1e-6 - rounding:
-        raise TopError("edge", edge, "an edge outside the sphere that rolls, by 1e-6 R at least")
+    if np.hypot(radius, height) + rounding < 1 - 1e-6:
+        raise TopError("edge", edge, "an edge not inside the sphere that rolls")
     return edge
 
 
@@ -119,11 +123,19 @@ class _Run:
 
     def __init__(self, top, friction, tolerance, edge=None, flies=False, progress=_nothing):
         self.top, self.friction, self.tolerance, self.edge, self.progress = top, friction, tolerance, edge, progress
-        self.flies, self.body = flies, Body(top, friction, tolerance, edge, progress)
+        # an edge on the sphere itself is where its surface ends: rim, cos(theta) there
+        b, h, q = edge or (0.0, 0.0, 1.0)
+        self.rim = -h / np.hypot(b, h) if edge and np.hypot(b, h) + q < 1 + 1e-6 else -2.0
+        if self.rim > -2:
+            self.edge = None
+        self.flies, self.body = flies, Body(top, friction, tolerance, self.edge, progress)
         self.sticks = isinstance(friction, Coulomb)
 
     def __call__(self, state, times):
         y = self._start(state, times[0])
+        if np.cos(state.theta) < self.rim:
+            raise TopError("theta", state.theta, f"less than {np.arccos(self.rim):.6g} for this top",
+                           "The sphere's surface ends there.")  # fmt: skip
         if self.edge and gap(self.edge, np.cos(state.theta), np.sin(state.theta)) < 0:
             y, modes = self.body.settle(self.body.on_edge(y), ("starts", None))
         else:
@@ -137,7 +149,7 @@ class _Run:
             if event is None:
                 break
             events.append((float(y[12]), event))
-            if event == "stands upright" or (not now and not self.flies):
+            if event in ("stands upright", "rim touches") or (not now and not self.flies):
                 break
             if len(events) >= MOST_EVENTS:
                 events.append((float(y[12]), "chatters"))
@@ -166,10 +178,12 @@ class _Run:
             if event in (None, "sticks", "slips"):
                 return stretch, y, event, {SPHERE: "stick" if event == "sticks" else "slip"}
             y = self.body.on_sphere(y)
-            if event == "lifts off":
+            if event in ("lifts off", "rim touches"):
                 return stretch, y, event, {}
             event = "touches", EDGE
         y, now = self.body.settle(y, event)
+        if turning(self.top, y)[0][2] < self.rim:
+            return stretch, y, "rim touches", {}
         return stretch, y, change(modes, now, event), now
 
     # ---- slipping ----
@@ -256,7 +270,8 @@ class _Run:
             z, dense = solver.y, None
             if not self.sticks:
                 z[12] = solver.t  # without the rounding of its integration
-            if Fz < 0.1 or (self.edge and self._room(z) < 0.1):
+            ez = 1 - 2 * (z[0] * z[0] + z[1] * z[1])
+            if Fz < 0.1 or ez < self.rim or (self.edge and self._room(z) < 0.1):
                 dense = solver.dense_output()
                 tau, event = self._leaves(dense)
                 if event is not None:
@@ -303,7 +318,9 @@ class _Run:
     def _leaves(self, dense):
         """The first tau of the last step at which the sphere no longer carries alone, and what happens there."""
         taus, found = np.linspace(dense.t_old, dense.t, 9), (np.inf, None)
-        guards = {"lifts off": self._Fz} | ({"stem touches": self._nears} if self.edge else {})
+        guards = {"lifts off": self._Fz, "rim touches": lambda z: turning(self.top, z)[0][2] - self.rim}
+        if self.edge:
+            guards["stem touches"] = self._nears
         for event, guard in guards.items():
             below = np.flatnonzero(guard(dense(taus)) < 0)
             if below.size:
@@ -338,14 +355,19 @@ class _Run:
         def margin(t):
             return _margin(rolling(np.append(0.0, t)).force[1:].T, self.friction.mu_s) + SLACK
 
+        def tilt(t):
+            return rolling.theta(np.append(0.0, t))[1:]
+
         def room(t):
-            theta = rolling.theta(np.append(0.0, t))[1:]
+            theta = tilt(t)
             return TOUCH - self._floor + gap(self.edge, np.cos(theta), np.sin(theta))
 
         self.progress(float(y[12]))
         ends, event = first_below(margin, rolling.period), "slips"
         if self.edge and (touches := first_below(room, rolling.period)) < ends:
             ends, event = touches, "stem touches"
+        if self.rim > -2 and (touches := first_below(lambda t: np.cos(tilt(t)) - self.rim, rolling.period)) < ends:
+            ends, event = touches, "rim touches"
         count = int(np.searchsorted(times, y[12] + ends)) if np.isfinite(ends) else len(times)
         # the first time is where the stretch starts
         stretch = _cut(rolling(np.array([y[12], *times[:count]])), slice(1, None), y[13])

@@ -1,0 +1,292 @@
+"""Flight, landing and the edge of the stem's end against a rigid body that shares no formula with slide()."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import sliding_body as sb
+from cases import LOADED, PAPER
+from test_sliding import in_space
+
+from tippe_core import (
+    Ball,
+    Coulomb,
+    OrdinaryTop,
+    SmoothedCoulomb,
+    State,
+    TopError,
+    TruncatedSphere,
+    Viscous,
+    slide,
+)
+from tippe_core.contacts import impact
+
+STEM = TruncatedSphere.paper()
+EDGE = STEM.edge
+TOUCH = STEM.touch_angle
+VISCOUS = Viscous(0.3)
+
+
+def law(friction):
+    return lambda u: friction.k(u @ u) * u
+
+
+def matrices(moved):
+    return np.array([sb.matrix(q) for q in moved.quaternion])
+
+
+def momenta(moved):
+    """L about G and v of G, (n, 3) each, in space."""
+    top, L = moved.top, moved.omega * [moved.top.I1, moved.top.I1, moved.top.I3]
+    turn = np.exp(1j * moved.phi) * (moved.velocity[:, 0] + 1j * moved.velocity[:, 1])
+    assert top is moved.top
+    return in_space(moved.phi, moved.theta, *L.T), np.stack([turn.real, turn.imag, moved.velocity[:, 2]], axis=1)
+
+
+def first_instant(moved):
+    i = in_space(moved.phi, moved.theta, *moved.omega.T)[0]
+    return moved.quaternion[0], i, momenta(moved)[1][0], moved.com[0]
+
+
+@pytest.mark.parametrize("shape", [STEM, OrdinaryTop(R=2e-3, h=6e-3, r1=2e-2, r2=2e-2, t=5e-3, r=2e-3, l=1e-2, M=0.02),
+                                   Ball(R=0.01, M=0.01)])  # fmt: skip
+def test_the_edge_of_a_shape_is_what_touches(shape):
+    """Its lowest point comes to the table at touch_angle, and is above it before."""
+    if shape.touch_angle is None:
+        assert shape.edge is None
+        return
+    radius, height, rounding = shape.edge
+    beta = np.linspace(0, 2 * np.pi, 2001)
+    for tilt, sign in ((0, 0), (-1e-3, 1), (1e-3, -1)):
+        theta = shape.touch_angle + tilt
+        lowest = (1 + height * np.cos(theta) + radius * np.sin(theta) * np.cos(beta)).min() - rounding
+        assert abs(lowest) < 1e-12 if sign == 0 else lowest * sign > 1e-7
+
+
+# ---- on the stem, and on both ----
+
+ON_BOTH = State(TOUCH, 0.0, 0.31, -1.32, vx=0.58, vy=-0.31)
+SUPPORTED = {
+    "stem": (State(3.0, 0, 0, -9.0), VISCOUS, (sb.edge(PAPER, *EDGE[:2]),)),
+    "stem, moving": (State(2.9, 0.1, -0.2, -8.0, 0.3, 0.2, 1.0, 2.0, 0.2, 0.1), SmoothedCoulomb(0.2, 0.3),
+                     (sb.edge(PAPER, *EDGE[:2]),)),
+    "both": (ON_BOTH, VISCOUS, (sb.sphere(PAPER), sb.edge(PAPER, *EDGE[:2]))),
+    "both, moving": (replace(ON_BOTH, omega2=0.4, omega3=-0.3, vx=0.3, vy=-0.2, phi=1.0), SmoothedCoulomb(0.2, 0.3),
+                     (sb.sphere(PAPER), sb.edge(PAPER, *EDGE[:2]))),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SUPPORTED)
+def test_on_the_stem_and_on_both_against_the_rigid_body(name):
+    state, friction, contacts = SUPPORTED[name]
+    times = np.linspace(0.0, 3.0, 31)
+    moved = slide(PAPER, state, friction, times, rtol=1e-12, edge=EDGE)
+    assert {what for _, what in moved.events} <= ({"stem touches"} if len(contacts) > 1 else set())
+    motion = sb.integrate(PAPER, law(friction), *first_instant(moved), times, contacts=contacts)
+    q = motion.quaternion / np.linalg.norm(motion.quaternion, axis=1)[:, None]
+    q *= np.sign((q * moved.quaternion).sum(axis=1))[:, None]
+    np.testing.assert_allclose(moved.quaternion, q, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(moved.com, motion.com, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(momenta(moved)[1], motion.velocity, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(moved.energy - moved.energy[0], motion.work, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(moved.heat, -motion.work, rtol=0, atol=1e-8)
+    axes = matrices(moved)[:, :, 2]
+    for i in range(0, 31, 5):
+        w, v = motion.omega[i], motion.velocity[i]
+        N = sb.supported(PAPER, law(friction), contacts, axes[i], w, v)[2]
+        rho = np.array([contact(axes[i]) for contact in contacts])
+        assert np.all(N > 0)
+        assert moved.force[i, 2] == pytest.approx(N.sum(), abs=1e-6)
+        np.testing.assert_allclose(moved.contact[i], moved.com[i, :2] + N @ rho[:, :2] / N.sum(), rtol=0, atol=1e-6)
+        np.testing.assert_allclose(moved.com[i, 2] + rho[:, 2], 0, atol=1e-9)
+
+
+def test_rolling_on_the_stem():
+    """Coulomb's friction stops the edge; then energy stays, the edge rests on the table, and friction in its cone."""
+    friction = Coulomb(0.3)
+    moved = slide(PAPER, State(3.0, 0, 0, -9.0), friction, np.linspace(0, 4, 401), rtol=1e-12, edge=EDGE)
+    assert [what for _, what in moved.events] == ["sticks"]
+    rolls = moved.regime == "roll"
+    assert 100 < rolls.sum() < 300
+    assert np.ptp(moved.energy[rolls]) < 1e-10
+    axes, (_, v) = matrices(moved)[:, :, 2], momenta(moved)
+    w = in_space(moved.phi, moved.theta, *moved.omega.T)
+    for i in np.flatnonzero(rolls)[::20]:
+        np.testing.assert_allclose(v[i] + np.cross(w[i], sb.edge(PAPER, *EDGE[:2])(axes[i])), 0, atol=1e-10)
+    F_h = np.hypot(*moved.force[:, :2].T)
+    assert np.all(F_h[rolls] < 0.3 * moved.force[rolls, 2])
+    # Newton: the force is the acceleration of G plus its weight
+    h, i = 1e-2, np.flatnonzero(rolls)[1:-1]
+    turn = np.exp(1j * moved.phi[i]) * (moved.force[i, 0] + 1j * moved.force[i, 1])
+    F = np.stack([turn.real, turn.imag, moved.force[i, 2] - 1], axis=1)
+    np.testing.assert_allclose((moved.com[i + 1] - 2 * moved.com[i] + moved.com[i - 1]) / h**2, F, rtol=0, atol=5e-3)
+
+
+HANDING = [(State(1.9, 0, 0, -3.0), VISCOUS), (State(1.9, 0, 0, -1.0), Coulomb(0.3, 0.4)),
+           (State(1.5, 3.0, 5.0, 3.0), Coulomb(0.3, 0.35)), (State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0)),
+           (State(2.5, 0, 0, -9.0), SmoothedCoulomb(0.3, 0.1))]  # fmt: skip
+
+
+@pytest.mark.parametrize(("state", "friction"), HANDING)
+def test_hand_over_landing_and_flight(state, friction):
+    """Nothing goes through the table, energy only falls and all of it is in the ledger, forces push within the law."""
+    times = np.linspace(0, 196 if state.theta == 0.1 else 18, 1001)
+    moved = slide(PAPER, state, friction, times, rtol=1e-11, landing="plastic", edge=EDGE)
+    what = [name for _, name in moved.events]
+    assert {"stands on its stem", "lands on its stem"} & set(what)
+    axes = matrices(moved)[:, :, 2]
+    for contact in (sb.sphere(PAPER), sb.edge(PAPER, *EDGE[:2])):
+        heights = moved.com[:, 2] + [contact(axis)[2] for axis in axes]
+        assert heights.min() > -1e-9
+    assert np.diff(moved.energy).max() < 1e-10
+    np.testing.assert_allclose(sum(moved.ledger), moved.energy[0], rtol=0, atol=1e-8)
+    assert np.all(moved.force[:, 2] >= 0)
+    air = moved.regime == "air"
+    np.testing.assert_array_equal(moved.force[air], 0)
+    if isinstance(friction, Coulomb):
+        assert np.all(np.hypot(*moved.force[:, :2].T) <= friction.mu_s * moved.force[:, 2] * (1 + 1e-9))
+    # at half the tolerance the same, but for how many of ever smaller bounces count
+    finer = slide(PAPER, state, friction, times, rtol=5e-12, landing="plastic", edge=EDGE)
+    assert {name for _, name in finer.events} == set(what)
+    for (a, name), (b, same) in zip(moved.events[:3], finer.events[:3], strict=True):
+        assert name == same and abs(a - b) < 1e-6
+    assert finer.theta[-1] == pytest.approx(moved.theta[-1], abs=1e-5)
+
+
+def test_a_top_that_starts_on_its_stem_can_stand_up_on_it():
+    moved = slide(PAPER, State(2.5, 0, 0, -9.0), SmoothedCoulomb(0.3, 0.1), np.linspace(0, 20, 201), edge=EDGE,
+                  landing="plastic")  # fmt: skip
+    t, what = moved.events[-1]
+    assert what == "stands upright" and t - 0.1 < moved.t[-1] < t
+    assert np.pi - moved.theta[-1] < 0.02
+
+
+# ---- flight and impact ----
+
+
+def flight():
+    """A motion with a flight, sampled closely around its ends."""
+    state = State(1.5, 3.0, 5.0, 3.0)
+    (t0, _), (t1, _) = slide(PAPER, state, VISCOUS, np.linspace(0, 3, 31), rtol=1e-12, landing="plastic").events[:2]
+    near = 1e-9
+    times = np.concatenate([[0, t0 - near], np.linspace(t0 + near, t1 - near, 101), [t1 + near]])
+    return slide(PAPER, state, VISCOUS, times, rtol=1e-12, landing="plastic")
+
+
+def test_flight_is_free_and_the_impact_balances():
+    moved = flight()
+    assert [what for _, what in moved.events[:2]] == ["lifts off", "lands"]
+    air = slice(2, 103)
+    assert set(moved.regime[air]) == {"air"} and set(moved.regime[[0, 1, 103]]) == {"slip"}
+    L, v = momenta(moved)
+    np.testing.assert_allclose(L[air], np.broadcast_to(L[1], (101, 3)), rtol=0, atol=1e-7)
+    t = moved.t[air] - moved.t[1]
+    fall = moved.com[1] + v[1] * t[:, None] - np.outer(t**2 / 2, sb.UP)
+    np.testing.assert_allclose(moved.com[air], fall, rtol=0, atol=1e-7)
+    axes = matrices(moved)[:, :, 2]
+    # the axis goes round L at |L|/I1, found by turning it as a rigid body does
+    turn, along = np.linalg.norm(L[1]) / PAPER.I1 * t[-1], L[1] / np.linalg.norm(L[1])
+    there = (axes[1] * np.cos(turn) + np.cross(along, axes[1]) * np.sin(turn)
+             + along * (along @ axes[1]) * (1 - np.cos(turn)))  # fmt: skip
+    np.testing.assert_allclose(axes[102], there, rtol=0, atol=1e-7)
+    heights = moved.com[air, 2] + [sb.sphere(PAPER)(axis)[2] for axis in axes[air]]
+    assert heights.min() > -1e-12 and abs(heights[-1]) < 1e-8 and heights[50] > 1e-3
+    # the impact: no jump of place, momentum and angular momentum from one impulse at the contact, no bounce
+    i, j = 102, 103
+    push, rho = v[j] - v[i], sb.sphere(PAPER)(axes[j])
+    np.testing.assert_allclose(L[j] - L[i], np.cross(rho, push), rtol=0, atol=1e-7)
+    w = in_space(moved.phi, moved.theta, *moved.omega.T)
+    before, after = (v[k] + np.cross(w[k], rho) for k in (i, j))
+    assert before[2] < -1e-3 and abs(after[2]) < 1e-7 and push[2] > 0
+    assert moved.energy[j] < moved.energy[i]
+    assert moved.heat[j] - moved.heat[i] == pytest.approx(moved.energy[i] - moved.energy[j], abs=1e-9)
+    assert np.ptp(moved.heat[air]) < 1e-15
+    assert (push[:2] @ (before + after)[:2]) < 0  # friction works against the slip
+
+
+BALL = np.diag([1 + 1 / 0.4, 1 + 1 / 0.4, 1.0])  # of a uniform ball: u_h = v - w x r, r = z
+
+
+@pytest.mark.parametrize(("friction", "kept"), [
+    (Viscous(0.4), np.exp(-0.4 * 3.5 * 0.7)),
+    (Viscous(0.0), 1.0),
+    (Coulomb(0.2), 1 - 0.2 * 3.5 * 0.7 / 1.3),
+    (Coulomb(0.9), 0.0),
+])  # fmt: skip
+def test_the_impact_of_a_ball(friction, kept):
+    """Falling at 0.7: P = 0.7, and the slip (of 1.3) obeys du/dP = -3.5 k u, in closed form."""
+    u0 = np.array([0.5, 1.2, -0.7])
+    u = u0 + BALL @ impact(BALL, u0, friction)
+    np.testing.assert_allclose(u, [0.5 * kept, 1.2 * kept, 0], rtol=0, atol=1e-9)
+
+
+def test_an_impact_that_turns_the_slip_round():
+    """A lean body whose slip stops on the way: less friction than mu_s then slips on, more sticks."""
+    W = np.array([[3.0, 0, 1.2], [0, 3.0, 0], [1.2, 0, 1.0]])
+    u0 = np.array([0.1, 0.0, -1.0])
+    held = impact(W, u0, Coulomb(0.5))
+    np.testing.assert_allclose(u0 + W @ held, 0, atol=1e-12)
+    slips = impact(W, u0, Coulomb(0.2))
+    u = u0 + W @ slips
+    assert abs(u[2]) < 1e-9 and u[0] > 0.1 and slips[0] < 0
+    assert slips[0] == pytest.approx(-0.2 * slips[2], rel=1e-6)
+
+
+# ---- what is asked for ----
+
+
+def test_stop_at_lift_off_is_as_it_was():
+    state, times = State(0.8, 9.0, 0, 3.0), np.linspace(0, 1, 101)
+    stopped, flying = (slide(PAPER, state, VISCOUS, times, landing=how) for how in ("stop", "plastic"))
+    assert stopped.events == flying.events[:1] and len(stopped.t) < len(flying.t) == 101
+    np.testing.assert_array_equal(stopped.com, flying.com[: len(stopped.t)])
+
+
+def test_a_loaded_sphere_needs_no_stem():
+    times = np.linspace(0, 60, 61)
+    whole = slide(LOADED, State(0.1, 0, 0, 4.0), VISCOUS, times)
+    assert whole.events == ()
+
+
+def test_progress_and_stop():
+    class Stop(Exception):
+        pass
+
+    seen = []
+
+    def progress(t):
+        seen.append(t)
+        if t > 100:
+            raise Stop
+
+    with pytest.raises(Stop):
+        slide(PAPER, State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0), [0, 300.0], progress=progress)
+    assert len(seen) > 10 and np.all(np.diff(seen) > 0) and 100 < seen[-1] < 110
+    for state, friction in ((State(0.1, 0, 0, 8.8), Coulomb(0.5)), (State(3.0, 0, 0, -9.0), VISCOUS),
+                            (State(1.5, 3.0, 5.0, 3.0), Coulomb(0.3))):  # fmt: skip
+        seen.clear()
+        slide(PAPER, state, friction, [0, 10.0], edge=EDGE, landing="plastic", progress=progress)
+        assert seen
+
+
+def test_the_surface_of_a_cut_ball_ends():
+    bowl = TruncatedSphere(R=0.016, c=0.004, l=0, r=0, M=0.01)
+    for friction in (VISCOUS, Coulomb(0.5)):
+        moved = slide(bowl.top, State(1.0, 2.0, 0, 1.0), friction, np.linspace(0, 5, 501), edge=bowl.edge)
+        assert moved.events[-1][1] == "rim touches"
+        assert 0 < bowl.touch_angle - moved.theta[-1] < 0.05
+    with pytest.raises(TopError):
+        slide(bowl.top, State(2.0, 0, 0, 1.0), VISCOUS, [0, 1], edge=bowl.edge)
+
+
+@pytest.mark.parametrize(("name", "more"), [
+    ("landing", {"landing": "elastic"}),
+    ("edge", {"edge": (0.1, 0.2)}),
+    ("edge", {"edge": (-1.0, 2.0)}),
+    ("edge", {"edge": (1.0, np.nan)}),
+    ("edge", {"edge": 3.0}),
+])  # fmt: skip
+def test_bad_input_is_named(name, more):
+    with pytest.raises(TopError) as caught:
+        slide(PAPER, State(0.1, 0, 0, 1.0), VISCOUS, [0, 1], **more)
+    assert caught.value.name == name
