@@ -8,6 +8,7 @@ from app.cards import card, grid
 from app.compare import Compare
 from app.connection import Connection
 from app.explorer import Explorer
+from app.learn import Learn
 from app.roll import Roll
 from app.workshop import Measure, Workshop
 
@@ -74,6 +75,7 @@ def page():
                 "Roll": lambda: roll.main,
                 "Build a top": lambda: build_view(explorer, roll),
                 "Families": lambda: family_view(explorer),
+                "Learn": lambda: Learn(explorer, roll).view,
             }
         ),
         sidebar_width=320,
@@ -82,5 +84,5 @@ def page():
     )
 
 
-pn.extension(respect_explicit_sizing=True)
+pn.extension("katex", respect_explicit_sizing=True)
 page().servable()

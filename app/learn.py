@@ -1,0 +1,324 @@
+"""The tab "Learn": a question, a prediction, a run, an explanation with this run's numbers."""
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+from bokeh.models import ColumnDataSource, CustomJS, Range1d
+
+from app import lesson
+from app.cards import INK, PLAIN, card, grid, swatch, words
+from app.colours import COLOURS
+from app.explorer import axes, outline
+from app.plots import plain
+from app.roll import show_top
+from app.surface3d import pack
+from app.text import listed, say
+from app.top3d import REGIMES, Top3D, pack_frames
+from tippe_core import TopError
+
+CLOCK = "learn"
+CODES = {"roll": REGIMES.index("rolls"), "slip": REGIMES.index("slips"), "air": REGIMES.index("in the air")}
+ROLLING_SPEED, SLIDING_SPEED = 1 / 16, 1 / 4
+MARGIN = 0.06
+# MathML, which is what KaTeX leaves to the browser here, wants a font that has tall brackets.
+MATHS = "math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math }"
+
+# Turns the section's drawing with the clock: only a rotation of the points that Python sent.
+TURN_SECTION = """
+if (motion.followed) return
+motion.followed = true
+let now = 0
+const draw = () => {
+  const {t, theta, push} = motion.data, last = t.length - 1
+  const i = Math.round(Math.min(Math.max((now - t[0]) / (t[last] - t[0]), 0), 1) * last)
+  const s = Math.sin(theta[i]), c = Math.cos(theta[i]), a = motion.data.a[0]
+  const {across, along} = body.data, x = body.data.x, y = body.data.y
+  for (let k = 0; k < across.length; k++) {
+    x[k] = across[k] * c - along[k] * s
+    y[k] = 1 + across[k] * s + along[k] * c
+  }
+  body.change.emit()
+  const G = [a * s, 1 - a * c], foot = [-s * c, 1 - c * c + 0], mark = (k, x0, y0, x1, y1) => {
+    Object.assign(lines.data.x0, {[k]: x0}); Object.assign(lines.data.y0, {[k]: y0})
+    Object.assign(lines.data.x1, {[k]: x1}); Object.assign(lines.data.y1, {[k]: y1})
+  }
+  // the axis 3; the vertical through G; r from C to G; the arm of the torque about z, and that about 3
+  const foot3 = [s * c, 1 - c * c]
+  mark(0, 1.25 * s, 1 - 1.25 * c, -1.9 * s, 1 + 1.9 * c)
+  mark(1, G[0], 0, G[0], 2.1)
+  mark(2, 0, 0, G[0], G[1])
+  mark(3, 0, G[1], G[0], G[1])
+  mark(4, 0, 0, foot3[0], foot3[1])
+  lines.change.emit()
+  const at = (k, x, y) => { points.data.x[k] = x; points.data.y[k] = y }
+  at(0, 0, 1); at(1, ...G); at(2, 0, 0); at(3, -1.9 * s, 1 + 1.9 * c)
+  points.data.name[4] = push[i] >= 0 ? "F⊙" : "F⊗"
+  at(4, 0, -0.02)
+  points.change.emit()
+}
+motion.properties.data.change.connect(draw)
+window.addEventListener("tippe:clock:CLOCK", ({detail: {t}}) => { now = t; draw() })
+draw()
+""".replace("CLOCK", CLOCK)
+
+
+def paragraphs(text):
+    return "".join(f"<p style='margin: 0 0 8px'>{part}</p>" for part in text.split("\n"))
+
+
+def option(step, key):
+    """The words of an option; some steps have their own for the same key."""
+    return listed("learn.options").get(step.name, {}).get(key) or say(f"learn.options.{key}")
+
+
+def equation(tex):
+    """The paper's equation, typeset by KaTeX; on a narrow screen it scrolls by itself."""
+    return pn.pane.LaTeX(
+        f"$\\displaystyle {tex}$", sizing_mode="stretch_width", margin=(2, 0, 8, 0),
+        styles={"font-size": "15px", "overflow-x": "auto", "overflow-y": "hidden", "padding": "4px 0 6px"},
+        stylesheets=[MATHS],
+    )  # fmt: skip
+
+
+def show_motion(view, scene, motion):
+    """A Trajectory of its own in place of the scene's: of a ball, since a stem would touch the table on the way."""
+    if view.tags == [id(motion)]:
+        return
+    view.tags = [id(motion)]
+    nodal, across, axis, towards = axes(motion.theta, motion.phi)
+    w1, w2, w3 = (component[:, None] for component in motion.omega.T)
+    F_x, F_y, F_z = (component[:, None] for component in motion.force.T)
+    top = scene.top
+    view.param.update(
+        mu_s=lesson.FRICTION.mu,
+        profile=pack(outline(top)),
+        seconds=scene.scales.time,
+        speed=SLIDING_SPEED,
+        frames=pack_frames(
+            motion.t,
+            motion.quaternion,
+            motion.contact,
+            motion.com,
+            F_x * nodal + F_y * across + F_z * (0, 0, 1),
+            w1 * nodal + w2 * towards + w3 * axis,
+            top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis,
+            [CODES[regime] for regime in motion.regime],
+        ),
+    )
+
+
+class StepFigure:
+    """A lesson.Picture: curves and points over two axes."""
+
+    def __init__(self):
+        self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="lesson")
+        fig.update(sizing_mode="stretch_width", height=280)
+        self.curves = ColumnDataSource({"xs": [], "ys": [], "colour": [], "dash": []})
+        self.points = ColumnDataSource({"x": [], "y": [], "name": []})
+        fig.multi_line("xs", "ys", source=self.curves, line_color="colour", line_dash="dash", line_width=2)
+        fig.scatter("x", "y", source=self.points, size=9, fill_color="white", line_color=INK, line_width=2)
+        fig.text("x", "y", "name", source=self.points, x_offset=-8, y_offset=-8, text_align="right", text_color=INK,
+                 text_font_size="13px")  # fmt: skip
+        self.key, self.x, self.y = words(""), words(""), words("")
+
+    @property
+    def view(self):
+        return [self.key, self.y, pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0), self.x]
+
+    def show(self, picture):
+        self.curves.data = {
+            "xs": [curve.x for curve in picture.curves], "ys": [curve.y for curve in picture.curves],
+            "colour": [curve.colour for curve in picture.curves], "dash": [curve.dash for curve in picture.curves],
+        }  # fmt: skip
+        self.points.data = {
+            "x": [point.x for point in picture.points], "y": [point.y for point in picture.points],
+            "name": [say(f"learn.points.{point.key}") for point in picture.points],
+        }  # fmt: skip
+        for axis, values in (("x_range", [part.x for part in (*picture.curves, *picture.points)]),
+                             ("y_range", [part.y for part in (*picture.curves, *picture.points)])):  # fmt: skip
+            values = np.concatenate([np.atleast_1d(value) for value in values])
+            low, high = np.nanmin(values), np.nanmax(values)
+            pad = MARGIN * (high - low) or 0.05 * (1 + abs(low))
+            getattr(self.figure, axis).update(start=low - pad, end=high + pad)
+        known = {curve.key: curve for curve in picture.curves if curve.key != "zero"}
+        key = "".join(swatch(c.colour, say(f"learn.curves.{c.key}"), c.dash) for c in known.values())
+        self.key.object = f'<div class="key">{key}</div>'
+        self.x.object = f'<div class="axis">{say(f"learn.axes.{picture.x}")}</div>'
+        self.y.object = f"<div>{say(f'learn.axes.{picture.y}')}</div>"
+
+
+class SectionFigure:
+    """The paper's Fig. 4, live: the section through the contact point and the axis, with the two lever arms of F_x."""
+
+    def __init__(self):
+        self.figure = fig = plain(x_range=Range1d(-2.1, 2.1), y_range=Range1d(-0.45, 3.1), name="section",
+                                  match_aspect=True)  # fmt: skip
+        fig.update(sizing_mode="stretch_width", height=330)
+        fig.grid.visible = fig.axis.visible = False
+        self.motion = ColumnDataSource({"t": [0.0, 1.0], "theta": [0.5, 0.5], "push": [1.0, 1.0], "a": [0.07, 0.07]})
+        self.body = ColumnDataSource({name: np.zeros(1) for name in ("across", "along", "x", "y")})
+        five = [0.0] * 5
+        self.lines = ColumnDataSource(
+            {"x0": five, "y0": list(five), "x1": list(five), "y1": list(five),
+             "colour": ["#8a96a3", "#8a96a3", INK, COLOURS["friction"], COLOURS["theta"]],
+             "dash": ["dashed", "dotted", "solid", "solid", "solid"], "width": [1.5, 1.5, 2, 5, 5]})  # fmt: skip
+        self.points = ColumnDataSource(
+            {"x": list(five), "y": list(five), "name": ["O", "G", "C", "3", "F⊙"], "dx": [10, 10, -18, 8, 8],
+             "dy": [-4, 4, 16, 0, 20], "size": [5, 8, 7, 0, 0]})  # fmt: skip
+        fig.patch("x", "y", source=self.body, fill_color="#d9b48a", fill_alpha=0.35, line_color="#8a6a42")
+        fig.segment(x0=[-2.1], x1=[2.1], y0=[0], y1=[0], line_color=INK, line_width=1.5)
+        fig.segment("x0", "y0", "x1", "y1", source=self.lines, line_color="colour", line_dash="dash",
+                    line_width="width")  # fmt: skip
+        fig.scatter("x", "y", source=self.points, size="size", color=INK)
+        fig.text("x", "y", "name", source=self.points, x_offset="dx", y_offset="dy", text_color=INK,
+                 text_font_size="15px", text_font_style="italic")  # fmt: skip
+        turn = CustomJS(args={"motion": self.motion, "body": self.body, "lines": self.lines, "points": self.points},
+                        code=TURN_SECTION)  # fmt: skip
+        fig.js_on_change("inner_width", turn)
+        self.words = words("")
+
+    @property
+    def view(self):
+        return [self.words, pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0)]
+
+    def show(self, scene):
+        radius, height = scene.profile.T
+        across, along = np.concatenate([radius, -radius[::-1]]), np.concatenate([height, height[::-1]])
+        self.body.data = {"across": across, "along": along, "x": across.copy(), "y": along + 1}
+        motion = scene.trajectory
+        self.motion.data = {
+            "t": motion.t, "theta": motion.theta, "push": motion.force[:, 0], "a": np.full(len(motion.t), scene.top.a),
+        }  # fmt: skip
+        arms = swatch(COLOURS["friction"], say("learn.arms.z")) + swatch(COLOURS["theta"], say("learn.arms.three"))
+        self.words.object = f'<div class="key">{arms}</div>'
+
+
+class Learn:
+    """The ten steps. explorer, roll: where the runs are set up, by the same requests as the sliders'."""
+
+    def __init__(self, explorer, roll, step=lesson.NAMES[0]):
+        self._explorer, self._roll = explorer, roll
+        self.guesses = {}
+        self._silent = False
+        titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
+        self.select = pmui.Select(label=say("learn.page.step"), options=titles, value=step, size="small",
+                                  sizing_mode="stretch_width", margin=(4, 0))  # fmt: skip
+        self.back, self.next = (
+            pmui.Button(label=say(f"learn.page.{name}"), size="small", variant="outlined", sx=PLAIN,
+                        margin=(10, 0, 0, 8))
+            for name in ("back", "next")
+        )  # fmt: skip
+        self.question, self.verdict, self.explanation, self.sources = (words("") for _ in range(4))
+        self.prediction = pn.Column(sizing_mode="stretch_width", margin=(6, 0))
+        self.run = pmui.Button(label=say("learn.page.predict"), size="small", variant="contained", sx=PLAIN,
+                               margin=(2, 0, 8, 0))  # fmt: skip
+        self.equations = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.figure, self.section = StepFigure(), SectionFigure()
+        self.top = Top3D(clock=CLOCK, height=360, sizing_mode="stretch_width")
+        self.picture_card = card(say("learn.page.picture"), *self.figure.view, height="max-content")
+        self.section_card = card(say("learn.page.section"), *self.section.view, height="max-content")
+        self.select.param.watch(lambda event: self._open(), "value")
+        self.back.on_click(lambda event: self._go(-1))
+        self.next.on_click(lambda event: self._go(1))
+        self.run.on_click(lambda event: self._run())
+        roll.followers.append(self.show_scene)
+        self._open()
+
+    @property
+    def step(self):
+        return lesson.STEPS[lesson.NAMES.index(self.select.value)]
+
+    @property
+    def view(self):
+        head = pn.Row(self.select, self.back, self.next, sizing_mode="stretch_width", margin=0)
+        promise = words(f'<div class="key">{say("learn.page.promise")}</div>', margin=(8, 0, 0, 0))
+        steps = card(say("learn.sections.lesson"), head, self.question, self.prediction, self.run, self.verdict,
+                     self.explanation, self.equations, self.sources, promise, height="max-content")  # fmt: skip
+        beside = pn.Column(
+            card(say("learn.page.top"), self.top, height="max-content"), self.section_card, self.picture_card,
+            sizing_mode="stretch_width", margin=0, styles={"gap": "12px"},
+        )  # fmt: skip
+        return grid(steps, beside)
+
+    def _go(self, by):
+        place = lesson.NAMES.index(self.select.value) + by
+        self.select.value = lesson.NAMES[min(max(place, 0), len(lesson.NAMES) - 1)]
+
+    def _open(self):
+        """Asks the question of this step, about the motion that it would set up for the present top."""
+        step, scene = self.step, self._explorer.scene
+        place = lesson.NAMES.index(step.name)
+        self.back.disabled, self.next.disabled = place == 0, place == len(lesson.NAMES) - 1
+        try:
+            plan = lesson.planned(step, scene, self._explorer.shape)
+        except TopError as error:
+            self.question.object = f'<div role="alert">{error}</div>'
+            return
+        answer = step.answer(plan)
+        asks = step.asks(plan)
+        self.question.object = (
+            f"<h2 style='margin: 8px 0 4px'>{say(f'learn.{step.name}.title')}</h2>"
+            f"<div style='font-size: 15px'>{say(f'learn.{step.name}.question', **answer.numbers)}</div>"
+        )
+        self.prediction.objects = [self._widget(step, asks)]
+        full = [(listed(f"sources.{name}.short"), listed(f"sources.{name}.full")) for name in step.sources]
+        self.sources.object = f"<div class='key' style='margin-top: 6px'>{say('learn.page.sources')}</div>" + "".join(
+            f"<details><summary style='cursor: pointer; color: #0b5cad'>{short}</summary>{text}</details>"
+            for short, text in full
+        )
+        self.show_scene(scene)
+
+    def _widget(self, step, asks):
+        guess = self.guesses.get(step.name)
+        label = say("learn.page.yours")
+        if isinstance(asks, lesson.Choice):
+            options = {option(step, key): key for key in asks.options}
+            self.widget = pmui.RadioBoxGroup(label=label, options=options, value=guess, inline=False, margin=(4, 0))
+        else:
+            value = guess if guess is not None else (asks.low + asks.high) / 2
+            self.widget = pmui.FloatSlider(
+                label=f"{label}{f', {asks.unit}' if asks.unit else ''}", start=asks.low, end=asks.high, step=asks.step,
+                value=value, sizing_mode="stretch_width", margin=(4, 12), size="small",
+            )  # fmt: skip
+        return self.widget
+
+    def _run(self):
+        if self.widget.value is None:
+            self.verdict.object = f'<div role="status">{say("learn.page.choose")}</div>'
+            return
+        self.guesses[self.step.name] = self.widget.value
+        self._roll.pacer.request(**self.step.inputs(self._explorer.scene.top))
+
+    def show_scene(self, scene):
+        """The pictures, and once there is a prediction the verdict, by the motion that runs now."""
+        step = self.step
+        guess = self.guesses.get(step.name)
+        verdict, answer = lesson.judged(step, scene, guess)
+        with pn.io.hold():
+            asked = guess is not None
+            self.run.label = say("learn.page.again" if asked else "learn.page.predict")
+            self.picture_card.visible = asked
+            self.section_card.visible = step.name == "jellett"
+            if self.section_card.visible:
+                self.section.show(scene)
+            if answer.motion is not None and asked:
+                show_motion(self.top, scene, answer.motion)
+            else:
+                self.top.speed = ROLLING_SPEED
+                show_top(self.top, scene)
+            self.equations.objects = [equation(tex) for tex in step.tex] if asked else []
+            self.verdict.object = self.explanation.object = ""
+            if asked:
+                said = say(f"learn.verdict.{verdict}")
+                self.verdict.object = f"<div role='status' style='font-size: 15px'><b>{said}</b></div>"
+                self.explanation.object = self._explained(step, answer)
+                self.figure.show(answer.picture)
+
+    @staticmethod
+    def _explained(step, answer):
+        key = "nan" if isinstance(answer.truth, float) and np.isnan(answer.truth) else "explain"
+        told = paragraphs(say(f"learn.{step.name}.{key}", **answer.numbers))
+        follows = f'<div class="key">{say("learn.page.follows")}</div>'
+        if isinstance(answer.truth, str):
+            told = paragraphs(f"{option(step, answer.truth)}.") + told
+        return f"<div style='font-size: 14px'>{told}</div>{follows}"

@@ -1,0 +1,437 @@
+"""The lesson as data: ten steps, each a question, a motion to set up, and the answer that the computation gives.
+
+Nothing here is a stored key: answer(scene) works it out from the scene's own top and motion. The words are in
+app/text, under the steps' names.
+"""
+
+from collections import namedtuple
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from app.colours import COLOURS
+from app.explorer import solve
+from tippe_core import (
+    Constants,
+    SmoothedCoulomb,
+    State,
+    Trajectory,
+    allowed_shares,
+    f,
+    f1_squared,
+    f3_squared,
+    normal_force,
+    omega3,
+    pole_constants,
+    slide,
+    thresholds,
+    tielines,
+    turning_points,
+)
+
+K_R = 10.0  # the paper's, for Figs. 5 and 6
+TILT = 0.1  # rad: nobody lets a top go exactly upright
+FRICTION = SmoothedCoulomb(0.3, 1.0)
+WHILE = np.linspace(0.0, 300.0, 6001)  # fine enough to draw the top between two instants
+SETTLED = 0.3  # rad from a pole
+EVERY = 8  # of those, for a curve
+FEW = 24
+
+Curve = namedtuple("Curve", "key colour x y dash", defaults=("solid",))
+Point = namedtuple("Point", "key x y")
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A graph beside a step; x, y are the symbols on its axes, the curves' and points' keys name their words."""
+
+    x: str
+    y: str
+    curves: tuple
+    points: tuple = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """truth: what the computation says, an option or a number; numbers: for the words of the explanation.
+
+    motion: a Trajectory to show in 3-D in place of the scene's own.
+    """
+
+    truth: str | float
+    numbers: dict
+    picture: Picture
+    motion: Trajectory | None = None
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A prediction that is one of a few."""
+
+    options: tuple
+
+    def verdict(self, guess, truth):
+        return "right" if guess == truth else "off"
+
+
+@dataclass(frozen=True)
+class Guess:
+    """A prediction on a slider. near: how far a good one may be off, a share of the truth and at least so much."""
+
+    low: float
+    high: float
+    step: float
+    unit: str
+    share: float
+    least: float
+
+    def verdict(self, guess, truth):
+        if np.isnan(truth):
+            return "never"
+        near = max(self.least, self.share * abs(truth))
+        return "right" if abs(guess - truth) <= near else "near" if abs(guess - truth) <= 3 * near else "off"
+
+
+@dataclass(frozen=True)
+class Step:
+    """A step: the prediction asked for, the Explorer's inputs for a top, and the answer of a scene.
+
+    tex: the paper's equations, and their numbers; sources: names in sources.toml.
+    """
+
+    name: str
+    asks: Callable
+    inputs: Callable
+    answer: Callable
+    tex: tuple
+    sources: tuple
+
+
+def at(K_J_share, energy, mu_s=0.5):
+    """Inputs for a motion of K_R = 10 at this share of K_J(P) and of the energy's marks."""
+
+    def inputs(top):
+        K_J = K_J_share * pole_constants(top, K_R)[0]
+        return {"K_J": K_J, "K_R": K_R, "energy": energy, "mu_s": mu_s, "given": "share"}
+
+    return inputs
+
+
+def near_upright(top):
+    """Inputs for a top spun at K_R = 10 and let go, tilted a little."""
+    constants = Constants(0.0, K_R, 0.0)
+    state = {"theta": TILT, "theta_dot": 0.0, "omega2": 0.0, "omega3": float(omega3(TILT, top, constants))}
+    return state | {"phi": 0.0, "psi": 0.0, "given": "state"}
+
+
+def choice(*options):
+    return lambda scene: Choice(options)
+
+
+# ---- the answers ----
+
+
+@lru_cache(maxsize=16)
+def slid(top, spin):
+    """The Trajectory of a top let go at TILT with this spin on a table that is not rough enough."""
+    return slide(top, State(TILT, 0.0, 0.0, spin), FRICTION, WHILE, rtol=1e-8)
+
+
+def where(theta):
+    return "upright" if theta < SETTLED else "over" if theta > np.pi - SETTLED else "between"
+
+
+def revolutions(scene, spin):
+    """rev/s of the real top."""
+    return spin * scene.scales.angular_velocity / (2 * np.pi)
+
+
+def level(key, colour, x, y, dash="dashed"):
+    return Curve(key, colour, np.array([x[0], x[-1]]), np.array([y, y]), dash)
+
+
+def free(scene):
+    top, spin = scene.top, scene.upright_spin
+    motion = slid(top, spin)
+    end = float(motion.theta[-1])
+    inner, outer = np.degrees(turning_points(top, Constants.from_state(top, TILT, 0.0, 0.0, spin))[0])
+    numbers = {
+        "spin": revolutions(scene, spin), "tilt": np.degrees(TILT), "end": np.degrees(end), "mu": FRICTION.mu,
+        "seconds": motion.t[-1] * scene.scales.time, "inner": inner, "outer": outer,
+        "spin_end": revolutions(scene, motion.omega[-1, 2]),
+    }  # fmt: skip
+    curves = (
+        Curve("slides", COLOURS["friction"], motion.t[::EVERY], np.degrees(motion.theta[::EVERY])),
+        level("rolls", COLOURS["theta"], motion.t, inner),
+        level("rolls", COLOURS["theta"], motion.t, outer),
+    )
+    return Answer(where(end), numbers, Picture("t", "degrees", curves), motion)
+
+
+def jellett(scene):
+    """dL_z/dL_3 along the motion, by the straight line through its own L_3 and L_z."""
+    motion, top = scene.nutation, scene.top
+    L_3, L_z = motion.L_3, motion.L_z
+    spread = L_3 - L_3.mean()
+    steady = np.abs(spread).max() < 1e-7 * (1 + np.abs(L_3).max())
+    slope = top.a if steady else float(spread @ (L_z - L_z.mean()) / (spread @ spread))
+    numbers = {
+        "slope": slope, "a": top.a, "L_3_low": L_3.min(), "L_3_high": L_3.max(), "L_z_low": L_z.min(),
+        "L_z_high": L_z.max(), "K_J": scene.constants.K_J, "C_J": top.I1 * scene.constants.K_J,
+        "drift": np.ptp(motion.jellett) / top.I1,
+    }  # fmt: skip
+    picture = Picture("L_3", "L_z", (Curve("motion", COLOURS["jellett"], L_3, L_z),))
+    return Answer(slope, numbers, picture)
+
+
+def energy(scene):
+    """What lifting G from upright to inverted costs, in percent of the spin's kinetic energy."""
+    top, spin, motion = scene.top, scene.upright_spin, scene.nutation
+    share = 100 * 2 * top.a / (top.I3 * spin**2 / 2)
+    ledger, half = motion.ledger, len(motion.t) // 2
+    kinetic = ledger.spin + ledger.precession + ledger.nutation + ledger.translation
+    numbers = {
+        "share": share, "lift": 2 * top.a, "spin": revolutions(scene, spin), "kinetic": top.I3 * spin**2 / 2,
+        "E": scene.constants.E, "drift": np.ptp(motion.energy), "kinetic_inner": kinetic[0],
+        "height_inner": ledger.height[0], "kinetic_outer": kinetic[half], "height_outer": ledger.height[half],
+    }  # fmt: skip
+    names = {"spin": "omega", "precession": "momentum", "nutation": "theta", "translation": "friction"}
+    curves = [Curve(name, COLOURS[colour], motion.t, getattr(ledger, name)) for name, colour in names.items()]
+    curves += [Curve("height", COLOURS["normal"], motion.t, ledger.height),
+               Curve("sum", COLOURS["energy"], motion.t, motion.energy)]  # fmt: skip
+    return Answer(share, numbers, Picture("t", "energy", tuple(curves)))
+
+
+def routh(scene):
+    """What Routh's constant would take of the spin's kinetic energy on the way from upright to inverted, in percent."""
+    top, constants = scene.top, scene.constants
+    theta = np.linspace(0, np.pi, 181)
+    spin = omega3(theta, top, constants)
+    share = 100 * (1 - f3_squared(0.0, top) / f3_squared(np.pi, top))
+    motion = scene.trajectory
+    numbers = {
+        "share": share, "K_R": constants.K_R, "upright": spin[0], "inverted": spin[-1], "drift": np.ptp(scene.K_R),
+        "inner": motion.omega[:, 2].min(), "outer": motion.omega[:, 2].max(),
+        "needed": 100 * 2 * top.a / (top.I3 * spin[0] ** 2 / 2),
+    }  # fmt: skip
+    here = np.linspace(*scene.turning, 60)
+    curves = (
+        Curve("would", COLOURS["omega"], np.degrees(theta), spin, "dashed"),
+        Curve("motion", COLOURS["theta"], np.degrees(here), omega3(here, top, constants)),
+    )
+    return Answer(share, numbers, Picture("degrees", "omega_3", curves))
+
+
+def turning(scene):
+    """Where the motion turns back, in degrees."""
+    top, constants = scene.top, scene.constants
+    inner, outer = np.degrees(scene.turning)
+    reach = 0.35 * (scene.turning[1] - scene.turning[0]) + 0.02
+    theta = np.linspace(max(scene.turning[0] - reach, 1e-3), min(scene.turning[1] + reach, np.pi - 1e-3), 241)
+    height = f1_squared(theta, top) * f(theta, top, constants)
+    numbers = {
+        "inner": inner, "outer": outer, "K_J": constants.K_J, "K_R": constants.K_R, "E": constants.E,
+        "two_E_prime": constants.two_E_prime(top), "steady": np.degrees(scene.marks.theta_steady),
+        "fastest": np.abs(scene.nutation.omega[:, 0]).max(), "period": scene.rolling.period,
+        "milliseconds": 1e3 * scene.rolling.period * scene.scales.time,
+    }  # fmt: skip
+    curves = (
+        Curve("curve", COLOURS["theta"], np.degrees(theta), height),
+        level("zero", "#5b6875", np.degrees(theta), 0.0, "solid"),
+    )
+    points = (Point("inner", inner, 0.0), Point("outer", outer, 0.0))
+    return Answer(float(outer), numbers, Picture("degrees", "height", curves, points))
+
+
+def ties(scene):
+    """Where the range of tilt goes as K_J grows towards P: the paper's Fig. 5 from above."""
+    top, (K_J, K_R) = scene.top, (scene.constants.K_J, scene.constants.K_R)
+    pole = pole_constants(top, K_R)[0]
+    K = np.linspace(0, 1, FEW + 1) * pole
+    found, here = tielines(top, K, K_R), tielines(top, [K_J, K_J + 0.1 * pole], K_R)
+    middle = np.degrees((here.theta_inner + here.theta_outer) / 2)
+    change = middle[1] - middle[0]
+    truth = "no motion" if np.isnan(change) else "stays" if abs(change) < 0.5 else "down" if change < 0 else "up"
+    numbers = {
+        "K_J": K_J, "next": K_J + 0.1 * pole, "pole": pole, "middle": middle[0], "middle_next": middle[1],
+        "inner": np.degrees(here.theta_inner[0]), "outer": np.degrees(here.theta_outer[0]), "K_R": K_R,
+        "E": here.E[0],
+    }  # fmt: skip
+    return Answer(truth, numbers, Picture("degrees", "K_J", (tied(found, "lift", COLOURS["normal"]), selected(scene))))
+
+
+def tied(found, key, colour):
+    """Tielines as one curve with gaps."""
+    gap = np.full(len(found.K_J), np.nan)
+    theta = np.column_stack([found.theta_inner, found.theta_outer, gap]).ravel()
+    return Curve(key, colour, np.degrees(theta), np.column_stack([found.K_J, found.K_J, gap]).ravel())
+
+
+def selected(scene):
+    K_J = scene.constants.K_J
+    return Curve("motion", COLOURS["theta"], np.degrees(scene.turning), np.array([K_J, K_J]))
+
+
+def jump(scene):
+    """Where on the trajectory F_z first reaches 0 as the energy is raised."""
+    top, constants = scene.top, scene.constants
+    limit = tielines(top, [constants.K_J], constants.K_R)
+    E, inner, outer, verge = (
+        float(x[0]) for x in (limit.E, limit.theta_inner, limit.theta_outer, limit.theta_verge)
+    )
+    theta = np.linspace(*scene.turning, 121)[1:-1]
+    curves = [Curve("motion", COLOURS["theta"], np.degrees(theta), normal_force(theta, top, constants))]
+    if not np.isfinite(E):
+        truth = "never"
+    else:
+        near = 1e-3 * (outer - inner)
+        truth = "inner" if verge - inner < near else "outer" if outer - verge < near else "between"
+        on = np.linspace(inner, outer, 121)[1:-1]
+        F_z = normal_force(on, top, Constants(constants.K_J, constants.K_R, E))
+        curves.append(Curve("limit", COLOURS["normal"], np.degrees(on), F_z, "dashed"))
+    span = np.concatenate([curve.x for curve in curves])
+    curves.append(level("zero", "#5b6875", np.array([span.min(), span.max()]), 0.0, "solid"))
+    numbers = {
+        "E": E, "now": constants.E, "verge": np.degrees(verge), "inner": np.degrees(inner), "outer": np.degrees(outer),
+        "least": scene.normal.min(), "most": scene.normal.max(),
+    }  # fmt: skip
+    return Answer(truth, numbers, Picture("degrees", "F_z", tuple(curves)))
+
+
+def slip(scene):
+    """The share of Fig. 5's region that friction takes away, in percent: Fig. 6."""
+    top, K_R, mu_s = scene.top, scene.constants.K_R, scene.mu_s
+    lost = 100 * (1 - float(allowed_shares(top.a, top.I1, top.I3, K_R, mu_s)))
+    K = np.linspace(0, 1, FEW + 1) * pole_constants(top, K_R)[0]
+    lift, slips = tielines(top, K, K_R), tielines(top, K, K_R, mu_s)
+    numbers = {
+        "lost": lost, "left": 100 - lost, "mu_s": mu_s, "ratio": scene.ratio.max(), "K_J": scene.constants.K_J,
+        "E": scene.constants.E, "E_slip": scene.marks.slip, "E_lift": scene.marks.lift,
+    }  # fmt: skip
+    curves = (tied(lift, "lift", "#e3b394"), tied(slips, "slip", COLOURS["friction"]), selected(scene))
+    return Answer(lost, numbers, Picture("degrees", "K_J", curves))
+
+
+def proof(scene):
+    """What Jellett's and Routh's constants, both of a start near upright, say of the spin at theta = pi."""
+    top, spin = scene.top, scene.upright_spin
+    start = Constants.from_state(top, TILT, 0.0, 0.0, spin)
+    by_routh = float(omega3(np.pi, top, start))
+    by_jellett = -top.I1 / top.I3 * start.K_J / (1 + top.a) if top.a != -1 else np.nan
+    same = abs(by_routh - by_jellett) < 1e-9 * abs(spin)
+    truth = "agree" if same else "opposite" if by_routh * by_jellett < 0 else "size"
+    motion = slid(top, spin)
+    numbers = {
+        "jellett": revolutions(scene, by_jellett), "routh": revolutions(scene, by_routh),
+        "spin": revolutions(scene, spin), "K_J": start.K_J, "K_R": start.K_R,
+        "toy": revolutions(scene, motion.omega[-1, 2]), "end": np.degrees(motion.theta[-1]),
+    }  # fmt: skip
+    theta = np.linspace(0, np.pi, 121)
+    curves = (
+        Curve("by_routh", COLOURS["omega"], np.degrees(theta), omega3(theta, top, start)),
+        Curve("slides", COLOURS["friction"], np.degrees(motion.theta[::EVERY]), motion.omega[::EVERY, 2]),
+    )
+    points = (Point("jellett_at_pi", 180.0, by_jellett),)
+    return Answer(truth, numbers, Picture("degrees", "omega_3", curves, points))
+
+
+def needed_spin(top):
+    """The least spin, in (g/R)^1/2, from which a top let go near upright turns over: nan where none does."""
+    limits = thresholds(top)
+    if top.a <= 0 or limits.group != "can invert" or limits.upright.stable not in ("below", "never"):
+        return np.nan
+    falls = limits.upright.spin if limits.upright.stable == "below" else 0.0
+    stays = limits.launch if limits.inverted.stable == "above" else 0.0
+    return max(falls, stays)
+
+
+def flip(scene):
+    """The spin that turns it over once it may slip, in rev/s."""
+    top = scene.top
+    least, spin = needed_spin(top), scene.upright_spin
+    tried = [slid(top, share * least) for share in (0.8, 2.0)] if np.isfinite(least) else [slid(top, spin)]
+    motion = tried[-1]
+    half = np.abs(motion.theta - np.pi / 2).argmin()
+    numbers = {
+        "least": revolutions(scene, least), "rad": least * scene.scales.angular_velocity,
+        "gamma": top.I1 / top.I3, "low": 1 - top.a, "high": 1 + top.a,
+        "E_start": motion.energy[0], "E_end": motion.energy[-1], "heat": motion.heat[-1],
+        "jellett_drift": np.ptp(motion.jellett), "routh_start": motion.routh[0], "routh_end": motion.routh[-1],
+        "fast_end": np.degrees(motion.theta[-1]), "slow_end": np.degrees(tried[0].theta[-1]),
+        "half": motion.t[half] * scene.scales.time,
+    }  # fmt: skip
+    keys = ("slower", "faster") if len(tried) == 2 else ("slides",)
+    colours = (COLOURS["theta"], COLOURS["friction"])
+    curves = tuple(
+        Curve(key, colour, run.t[::EVERY], np.degrees(run.theta[::EVERY]))
+        for key, colour, run in zip(keys, colours, tried, strict=False)
+    )
+    return Answer(revolutions(scene, least), numbers, Picture("t", "degrees", curves), motion)
+
+
+# ---- the steps ----
+
+
+def of_torque(scene):
+    reach = max(1.0, np.ceil(1.5 * abs(scene.top.a)))
+    return Guess(-reach if scene.top.a < 0 else 0.0, reach, 0.01, "", 0.15, 0.02)
+
+
+def of_percent(scene):
+    return Guess(-100.0 if scene.top.a < 0 else 0.0, 100.0, 0.5, "%", 0.25, 2.0)
+
+
+STEPS = (
+    Step("free", choice("over", "between", "upright"), near_upright, free,
+         (r"\vec r=R\hat{\vec z}-a\hat{\vec 3}\quad(3)\qquad "
+          r"\vec v=\vec\omega\times\vec r\quad(4)",), ("gray", "perry", "bohr")),
+    Step("jellett", of_torque, at(0.8, 0.9), jellett,
+         (r"\frac{\tau_z}{\tau_3}=\frac{F_x\,a\sin\theta}{F_x\,R\sin\theta}=\frac aR",
+          r"L_z-\frac aR\,L_3=J\quad(13)",
+          r"\sin\theta\,\omega_{2'}+\frac{I_3}{I_1}(\cos\theta-a)\,\omega_3=K_J\quad(30)"),
+         ("jellett", "routh", "obrien", "leutwyler")),
+    Step("energy", of_percent, at(0.8, 0.9), energy,
+         (r"E=\tfrac12 I_1(\omega_{1'}^2+\omega_{2'}^2)+\tfrac12 I_3\omega_3^2+\tfrac12Mv^2+Mga(1-\cos\theta)"
+          r"\quad(6)",), ("gray", "pliskin")),
+    Step("routh", of_percent, at(0.8, 0.9), routh,
+         (r"f_3\,\omega_3=K_R\quad(31)",
+          r"f_3^2=I_3+\sin^2\theta+\frac{I_3}{I_1}(\cos\theta-a)^2\quad(32)"), ("routh", "isaeva")),
+    Step("turning", lambda scene: Guess(0.0, 180.0, 0.5, "°", 0.0, 3.0), at(0.6, 0.95), turning,
+         (r"f_1^2\,\dot\theta^2=2E'-2a(1-\cos\theta)-\frac{f_2^2}{\sin^2\theta}\left[K_J-\frac{I_3}{I_1}"
+          r"(\cos\theta-a)\frac{K_R}{f_3}\right]^2\quad(36)",), ("gray", "arnold")),
+    Step("ties", choice("down", "stays", "up"), at(0.6, 1.9), ties,
+         (r"f(\theta_m)=0\qquad f(\theta_p)=f'(\theta_p)=0",), ("gray",)),
+    Step("jump", choice("inner", "between", "outer", "never"), at(0.6, 1.98), jump,
+         (r"F_z=1+a\left(\tfrac12\sin\theta\,f'+\cos\theta\,f\right)\quad(37)",), ("gray",)),
+    Step("slip", of_percent, at(0.6, 0.98), slip,
+         (r"F_x=-\frac{I_3K_R\,f^{1/2}}{f_3^3}\left(\cos\theta-\frac{I_3}{I_1}(\cos\theta-a)\right)\quad(38)",
+          r"\left(F_x^2+F_y^2\right)^{1/2}\le\mu_sF_z"), ("gray", "kane")),
+    Step("proof", choice("agree", "size", "opposite"), near_upright, proof,
+         (r"\omega_3(\pi)=-\frac{I_1}{I_3}\frac{K_J}{1+a}\quad(30)\qquad "
+          r"\omega_3(\pi)=\frac{K_R}{f_3(\pi)}\quad(31)",), ("gray", "routh", "jellett")),
+    Step("flip", lambda scene: Guess(0.0, 60.0, 0.1, "rev/s", 0.2, 0.5), near_upright, flip,
+         (r"\vec v\ne\vec\omega\times\vec r",
+          r"\omega^2>\frac{Mga\,(1-\alpha)^2}{I_1-I_3(1-\alpha)}\,,\qquad 1-\alpha<\frac{I_1}{I_3}<1+\alpha\,,"
+          r"\qquad\alpha=\frac aR"), ("gallop", "leutwyler", "rauch")),
+)  # fmt: skip
+NAMES = tuple(step.name for step in STEPS)
+
+
+def planned(step, scene, shape):
+    """The Scene that a step's inputs give this scene's top; shape: the Explorer's."""
+    inputs = step.inputs(scene.top)
+    state = {name: inputs[name] for name in ("theta", "theta_dot", "omega2", "omega3") if name in inputs}
+    share = inputs.get("energy", 0.0)
+    return solve(scene.top, inputs.get("K_J", 0.0), K_R, inputs.get("mu_s", scene.mu_s), share, shape=shape,
+                 state=State(**state) if state else None)  # fmt: skip
+
+
+def judged(step, scene, guess):
+    """(verdict, Answer): "right", "near", "off", or "never" where there is no such number; by this scene alone.
+
+    (None, Answer) where there is no guess.
+    """
+    answer = step.answer(scene)
+    return (None if guess is None else step.asks(scene).verdict(guess, answer.truth)), answer
