@@ -21,16 +21,21 @@ from tippe_core import (
     OrdinaryTop,
     Scales,
     Shape,
+    Solid,
     Top,
     TopError,
     TruncatedSphere,
     Turned,
     a_from_rocking,
+    ball,
+    cylinder,
+    frustum,
     load_top,
     pole_constants,
     save_top,
 )
 from tippe_core.curve import f3_squared
+from tippe_core.solids import LARGEST
 
 # What a new body is thrown with: the spin near theta = 0 that the paper's top has at K_R = 10, and a tippe top's K_J at
 # the share of P that it has at K_J = 7. An ordinary top is let go at a tilt, or it would not stay up.
@@ -81,7 +86,7 @@ FAMILIES = {
         Dimension("a", "G below O, in R", "", 1.0, -0.9, 0.9, 0.005),
         Dimension("I1", "inertia across the axis, in MR²", "", 1.0, 0.05, 0.7, 0.001),
         Dimension("I3", "inertia about the axis, in MR²", "", 1.0, 0.05, 0.7, 0.001))),
-    Lathe: ("turned from points", ()),
+    Lathe: ("turned from points", (_length("R", "radius of the peg", 0.5, 40), _density("density", "density"))),
     Turned: ("turned from pieces", ()),
 }  # fmt: skip
 
@@ -106,8 +111,17 @@ class Draft:
 
     @property
     def dimensions(self):
-        """The Dimensions that can be set, () for a body that only a file can describe."""
-        return FAMILIES[type(self.shape)][1]
+        """The Dimensions that can be set."""
+        dimensions = FAMILIES[type(self.shape)][1]
+        if isinstance(self.shape, Lathe) and isinstance(self.shape.density, tuple):
+            last = self.shape.points[0][1]
+            pieces = [_density("density 0", "density of the peg")]
+            for index, (_, height) in enumerate(self.shape.points[1:], 1):
+                if height > last:  # a step is no piece
+                    pieces.append(_density(f"density {index}", f"density, {1e3 * last:.4g} to {1e3 * height:.4g} mm"))
+                last = height
+            return (dimensions[0], *pieces)
+        return dimensions
 
 
 class Builder(param.Parameterized):
@@ -125,8 +139,53 @@ class Builder(param.Parameterized):
         self._publish(_draft(explorer.shape))
 
     def set(self, name, value):
-        """One dimension, in SI."""
-        self._try(name, lambda: replace(self.draft.shape, **{name: value}))
+        """One dimension, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
+        self._try(name, lambda: changed(self.draft.shape, name, value))
+
+    def add_point(self, x=None, z=None):
+        """A point of a Lathe's profile: at radius |x| and height z, or in the middle of its longest piece."""
+        points = self.draft.shape.points
+        if z is None:
+            rows = np.array(points)
+            index = int(np.hypot(*np.diff(rows, axis=0).T).argmax()) + 1 if len(rows) > 1 else 1
+            x, z = rows[index - 1 : index + 1].mean(axis=0) if len(rows) > 1 else rows[0] + [0, self.draft.shape.R]
+        else:
+            index = sum(height <= z for _, height in points)
+        self._rows("points", lambda rows, fill: (*rows[:index], fill(rows, index), *rows[index:]), (abs(x), z))
+
+    def remove_point(self, index):
+        """Takes the point away."""
+        self._rows("points", lambda rows, fill: (*rows[:index], *rows[index + 1 :]), None)
+
+    def _rows(self, name, edit, point):
+        """The Lathe whose points, and densities if it has one a point, are edited alike."""
+        shape = self.draft.shape
+        rows = {"points": edit(shape.points, lambda rows, index: tuple(round(float(x), 5) for x in point))}
+        if isinstance(shape.density, tuple):
+            rows["density"] = edit(shape.density, lambda rows, index: rows[min(index, len(rows) - 1)])
+        self._try(name, lambda: replace(shape, **rows))
+
+    def part_densities(self):
+        """A density for each piece of a Lathe instead of one for all, or back to the first."""
+        shape = self.draft.shape
+        parted = isinstance(shape.density, tuple)
+        density = shape.density[0] if parted else (shape.density,) * len(shape.points)
+        self._try("density", lambda: replace(shape, density=density))
+
+    def compose(self, kind, density, r, low, high):
+        """Puts a piece on the body, or takes it away where the density (kg/m^3) is negative: a "cylinder" or "cone"
+        (its point up) from the height low to high (m), or a "ball" of radius r about (low + high)/2."""
+        def made():
+            form = {"cylinder": lambda: cylinder(r, low, high), "cone": lambda: frustum(r, 0.0, low, high),
+                    "ball": lambda: ball(r, (low + high) / 2)}[kind]()  # fmt: skip
+            return self.draft.shape + density * form
+
+        self._try("piece", made)
+
+    def take_off(self):
+        """Undoes the last compose of a Turned body."""
+        shape = self.draft.shape
+        self._try("piece", lambda: replace(shape, solid=Solid(shape.solid.slices[:-1])))
 
     def choose(self, name):
         """The preset of this name, thrown anew."""
@@ -143,6 +202,11 @@ class Builder(param.Parameterized):
     def refuse_file(self, largest):
         """Says that a file was larger than so many bytes."""
         self._refuse("file", TopError("file", "too large", f"at most {largest} bytes", "A saved top is far smaller."))
+
+    def follow(self):
+        """Shows the body that the Explorer was given by something else."""
+        if self._explorer.shape != self.draft.shape:
+            self._publish(_draft(self._explorer.shape))
 
     def save(self):
         """The body as the text of a small JSON file."""
@@ -254,6 +318,28 @@ class Rocking:
         return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
 
 
+def value_of(shape, name):
+    """The dimension of that name, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
+    field, index = _field(name)
+    return getattr(shape, field) if index is None else getattr(shape, field)[index]
+
+
+def changed(shape, name, value):
+    """The shape with another value of that dimension."""
+    field, index = _field(name)
+    if index is not None:
+        rows = list(getattr(shape, field))
+        rows[index] = value
+        value = tuple(rows)
+    return replace(shape, **{field: value})
+
+
+def _field(name):
+    """The field of a shape that a dimension is in, and its row there or None."""
+    field, _, index = name.partition(" ")
+    return {"point": "points"}.get(field, field), int(index) if index else None
+
+
 def handles(shape):
     """Where the section can be taken hold of: {dimension: (x, z)}, m, x across axis 3 and z above O along it."""
     R = shape.R
@@ -271,12 +357,24 @@ def handles(shape):
         return at | {"r": (shape.r, face + shape.l / 2), "l": (0.0, face + shape.l)} if shape.l else at
     if isinstance(shape, BareSphere):
         return {"R": side, "a": (0.0, -shape.a * R)}
+    if isinstance(shape, Lathe):
+        half = np.arccos(-shape.points[0][1] / R) / 2
+        return {"R": (R * np.sin(half), -R * np.cos(half)),
+                **{f"point {index}": point for index, point in enumerate(shape.points)}}  # fmt: skip
     return {"R": side} if isinstance(shape, Ball) else {}
 
 
 def pulled(shape, name, x, z):
     """The dimension (SI, to 0.01 mm) at which its handle is nearest to (x, z)."""
-    if name == "R":
+    if name.startswith("point "):
+        # no further than its neighbours: the heights of a profile rise
+        points, index = shape.points, int(name[6:])
+        low = points[index - 1][1] if index else -shape.R
+        high = points[index + 1][1] if index + 1 < len(points) else LARGEST
+        return (max(0.0, round(float(x), 5)), min(max(round(float(z), 5), low), high))
+    if name == "R" and isinstance(shape, Lathe):
+        value = np.hypot(x, z)
+    elif name == "R":
         value = (x - z) * np.sqrt(0.5)
     elif name in ("r", "r1", "r2", "b"):
         value = abs(x)

@@ -21,7 +21,7 @@ from tippe_core import TopError
 
 FAMILIES = {"none": "", "the presets": "presets", "ordinary tops": "pegs", "other a": "a", "other I₃": "I3"}
 FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "8px 12px", "align-items": "center"}
-SMALL = 162  # px: two of them beside each other on a phone
+SMALL = 158  # px: two of them beside each other on a phone
 RATIOS = np.linspace(0.6, 1.9, 40)
 SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
 KINDS = {"tippe tops": "tippe", "ordinary tops": "ordinary"}
@@ -65,7 +65,7 @@ def waterfall(shown, end, most):
 
 def small_figure(shown, x_range, y_range):
     """Fig. 6 of one top, a family.Region, with K_J in units of its own K_J(P)."""
-    fig = plain(x_range=x_range, y_range=y_range, title=f"{shown.name}; {shown.pole:.3g}".replace("-", "−"))
+    fig = plain(x_range=x_range, y_range=y_range, title=f"K_J(P) = {shown.pole:.3g}".replace("-", "−"))
     fig.update(sizing_mode=None, width=SMALL, height=200)
     fig.title.text_font_size, fig.title.text_color, fig.title.text_font_style = "12px", INK, "normal"
     fig.xaxis.ticker.desired_num_ticks = 3
@@ -252,8 +252,8 @@ def key_words(mu_s):
         '<div class="key">Above, Fig. 5: on each tieline stands <i>f</i><sub>1</sub><sup>2</sup><i>θ̇</i><sup>2</sup>, '
         "in units of <i>K</i><sub>R</sub><sup>2</sup>, at the largest energy for which <i>F</i><sub>z</sub> ≥ 0; "
         "<i>θ</i> (rad) to the right, <i>K</i><sub>J</sub> from 0 in front to P behind. Below, Fig. 6: "
-        "<i>K</i><sub>J</sub>/<i>K</i><sub>J</sub>(P) over <i>θ</i> (rad), with <i>K</i><sub>J</sub>(P) beside the "
-        f"name. All have the same axes.</div>" f'<div class="key">{lines}</div>')  # fmt: skip
+        "<i>K</i><sub>J</sub>/<i>K</i><sub>J</sub>(P) over <i>θ</i> (rad), with <i>K</i><sub>J</sub>(P) above. "
+        f"All have the same axes.</div>" f'<div class="key">{lines}</div>')  # fmt: skip
 
 
 def _pane(figure):

@@ -10,13 +10,13 @@ import panel_material_ui as pmui
 import param
 from bokeh.models import ColumnDataSource, HoverTool, Range1d
 
-from app.builder import FAMILIES, Rocking, handles, pulled, sentence
+from app.builder import FAMILIES, Rocking, handles, pulled, sentence, value_of
 from app.colours import COLOURS
 from app.controls import STYLE, number
 from app.explorer import body
 from app.pacing import at_once
 from app.plots import FAINT, INK, plain
-from tippe_core import PRESETS, BareSphere, LoadedSphere, TopError, Turned
+from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TopError, Turned
 
 SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
            "I3": "<i>I</i><sub>3</sub>", "density": "<i>ρ</i>", "core_density": "<i>ρ</i><sub>core</sub>"}  # fmt: skip
@@ -37,6 +37,8 @@ def alert(text):
 
 
 def symbol(name):
+    if name.startswith("density "):
+        return SYMBOLS["density"]
     return SYMBOLS.get(name, f"<i>{name}</i>")
 
 
@@ -53,6 +55,12 @@ def grid(*content):
     )  # fmt: skip
 
 
+def flow(*content):
+    """In a row, as far as there is room."""
+    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center"}
+    return pn.Column(*content, sizing_mode="stretch_width", margin=(6, 0), styles=styles)
+
+
 def typed(text):
     """The number in a field; raises ValueError."""
     value = float(text.replace("−", "-").replace(",", "."))
@@ -66,6 +74,7 @@ class Section:
 
     def __init__(self, pull):
         self._pull, self._held, self._shape, self._span = pull, None, None, 0.0
+        self.last_point = None  # index of the point of a Lathe that was held last
         self.figure = fig = plain(x_range=Range1d(-1, 1), y_range=Range1d(-1, 1), name="section")
         fig.update(sizing_mode=None, width=FRAME + 50, height=FRAME + 30, frame_width=FRAME, frame_height=FRAME)
         fig.xaxis.ticker.desired_num_ticks = fig.yaxis.ticker.desired_num_ticks = 5
@@ -88,9 +97,15 @@ class Section:
         fig.on_event("panend", self._let_go)
 
     def _take(self, event):
-        places = {name: np.hypot(1e3 * x - event.x, 1e3 * z - event.y) for name, (x, z) in handles(self._shape).items()}
+        self._held = self.handle_at(event.x, event.y)
+        if self._held and self._held.startswith("point "):
+            self.last_point = int(self._held[6:])
+
+    def handle_at(self, x, y):
+        """The name of the handle that a hand at (x, y) in mm takes hold of, or None."""
+        places = {name: np.hypot(1e3 * across - x, 1e3 * z - y) for name, (across, z) in handles(self._shape).items()}
         nearest = min(places, key=places.get, default=None)
-        self._held = nearest if places and places[nearest] < REACH * self._span / FRAME else None
+        return nearest if places and places[nearest] < REACH * self._span / FRAME else None
 
     def _drag(self, event):
         if self._held:
@@ -149,8 +164,9 @@ class Section:
             "x": [1e3 * x for x, _ in at.values()],
             "z": [1e3 * z for _, z in at.values()],
             "name": list(at),
-            "says": [f"{said[name].words}: {number(getattr(shape, name) * said[name].factor)} {said[name].unit}"
-                     for name in at],
+            "says": [f"{said[name].words}: {number(value_of(shape, name) * said[name].factor)} {said[name].unit}"
+                     if name in said else f"radius {number(1e3 * x)} mm, height {number(1e3 * z)} mm"
+                     for name, (x, z) in at.items()],
         }  # fmt: skip
 
     def _frame(self):
@@ -211,7 +227,7 @@ class Knob:
         self._pull(self.dimension.name, value / self.dimension.factor)
 
     def show(self, shape, under_hand):
-        value = float(f"{getattr(shape, self.dimension.name) * self.dimension.factor:.9g}")
+        value = float(f"{value_of(shape, self.dimension.name) * self.dimension.factor:.9g}")
         self._silent = True
         self.entry.value = number(value)
         if not under_hand:
@@ -224,6 +240,59 @@ class Knob:
         self.entry.error_state = bool(text)
         if self.words.object != alert(text):
             self.words.object = alert(text)
+
+
+class Pieces:
+    """Putting pieces on the body and taking them away: hollow and stemmed bodies."""
+
+    # name, what stands there at first
+    FIELDS = (("r", "4"), ("from", "0"), ("to", "6"))
+
+    def __init__(self, builder):
+        self.builder, self._exact = builder, 0.0
+        self.kind = pmui.Select(label="", options=["ball", "cylinder", "cone"], value="ball", size="small", width=110,
+                                margin=0)  # fmt: skip
+        self.entries = {name: field(value, width=58, tags=[f"piece {name}"]) for name, value in self.FIELDS}
+        self.density = field("", width=66, tags=["piece density"])
+        self.words = words("")
+        self.put, self.take, self.undo = (
+            pmui.Button(label=label, size="small", variant="outlined", margin=0, sx=PLAIN)
+            for label in ("Put on", "Take away", "Undo the last piece"))
+        self.put.on_click(lambda event: self._compose(1))
+        self.take.on_click(lambda event: self._compose(-1))
+        self.undo.on_click(lambda event: builder.take_off())
+        self._view = pn.Column(
+            words('<div class="note">A piece more or less: radius and heights above O in mm, density in kg/m³</div>'),
+            flow(self.kind, *(pn.Row(words(label, sizing_mode=None, margin=(5, 4, 0, 0)), entry, margin=0)
+                              for label, entry in (("<i>r</i>", self.entries["r"]), ("from", self.entries["from"]),
+                                                   ("to", self.entries["to"]), ("<i>ρ</i>", self.density))),
+                 self.put, self.take, self.undo),
+            self.words, sizing_mode="stretch_width", margin=0)  # fmt: skip
+
+    @property
+    def view(self):
+        return [self._view]
+
+    def show(self, shape):
+        self._view.visible = not isinstance(shape, BareSphere)
+        self.undo.visible = isinstance(shape, Turned) and len(shape.solid.slices) > 1
+        if self._view.visible:
+            density = getattr(shape, "density", shape.mass / shape.volume)
+            # what is taken away has to be all there is: the number itself, not the digits shown
+            self._exact = density[0] if isinstance(density, tuple) else density
+            self.density.value = number(self._exact)
+        self.words.object = ""
+
+    def _compose(self, sign):
+        values = {}
+        for name, entry in (*self.entries.items(), ("density", self.density)):
+            try:
+                values[name] = typed(entry.value)
+            except ValueError:
+                self.words.object = alert(f"{name}: “{entry.value}” is not a number.")
+                return
+        density = self._exact if self.density.value == number(self._exact) else values["density"]
+        self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
 
 
 class TopFile(pmui.FileInput):
@@ -243,13 +312,19 @@ class Workshop:
 
     def __init__(self, builder, explorer, sliders):
         self.builder, self._explorer, self._sliders = builder, explorer, sliders
-        self._knobs, self._family, self._slid, self._silent = {}, None, None, False
+        self._knobs, self._named, self._slid, self._silent = {}, None, None, False
         self.section = Section(self._pull)
         self.derived, self.source, self.file_words = words(""), words(""), words("")
         self.presets = self._choice("Presets", [preset.name for preset in PRESETS], builder.choose)
         drawn = list(dict.fromkeys(FAMILIES[type(preset.shape)][0] for preset in PRESETS))
         self.families = self._choice("Family", drawn, builder.choose_family)
         self.dimensions = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.section.figure.on_event("doubletap", self._tapped_twice)
+        self.parting = self._button("", lambda event: builder.part_densities())
+        self.points = flow(
+            self._button("Add a point", lambda event: builder.add_point()),
+            self._button("Remove the point held last", self._remove), self.parting)  # fmt: skip
+        self.pieces = Pieces(builder)
         self.stl = self._download("Save STL, in mm", "top.stl", lambda: builder.stl() or b"")
         self.saved = self._download("Save this top", "top.json", lambda: builder.save().encode())
         self.file = TopFile(
@@ -274,6 +349,26 @@ class Workshop:
         return select
 
     @staticmethod
+    def _button(label, click):
+        button = pmui.Button(label=label, size="small", variant="outlined", margin=0, sx=PLAIN)
+        button.on_click(click)
+        return button
+
+    def _remove(self, event):
+        last = len(self.builder.draft.shape.points) - 1
+        held, self.section.last_point = self.section.last_point, None
+        self.builder.remove_point(last if held is None else min(held, last))
+
+    def _tapped_twice(self, event):
+        """On a point of a free profile: takes it away; elsewhere: adds one."""
+        if isinstance(self.builder.draft.shape, Lathe):
+            name = self.section.handle_at(event.x, event.y) or ""
+            if name.startswith("point "):
+                self.builder.remove_point(int(name[6:]))
+            elif not name:
+                self.builder.add_point(event.x / 1e3, event.y / 1e3)
+
+    @staticmethod
     def _download(label, filename, content):
         return pmui.FileDownload(
             label=label, filename=filename, callback=lambda: io.BytesIO(content()), size="small", variant="outlined",
@@ -288,10 +383,9 @@ class Workshop:
     @property
     def bench_view(self):
         """What a person sets."""
-        files = pn.Column(self.saved, self.file, self.stl, sizing_mode="stretch_width", margin=(6, 0),
-                          styles={"display": "flex", "flex-flow": "row wrap", "gap": "8px"})  # fmt: skip
+        files = flow(self.saved, self.file, self.stl)
         choices = pn.Row(self.presets, self.families, sizing_mode="stretch_width", margin=0)
-        return [choices, self.source, self.dimensions, files, self.file_words]
+        return [choices, self.source, self.dimensions, self.points, *self.pieces.view, files, self.file_words]
 
     def _pull(self, name, value, slid=False):
         self._slid = name if slid else None
@@ -305,8 +399,9 @@ class Workshop:
     def _show(self, draft):
         with pn.io.hold():
             self._show_fields(draft)
-            said = {name: draft.messages.get(name, "") for name in ("file", "stl")}
-            self.file_words.object = alert(said["file"] or said["stl"])
+            elsewhere = {"measured", *self._knobs}
+            said = [text for name, text in draft.messages.items() if name not in elsewhere]
+            self.file_words.object = alert(said[0] if said else "")
             if draft.messages:
                 return
             self.section.show(draft)
@@ -314,11 +409,17 @@ class Workshop:
             self.source.object = f'<div class="note">{html.escape(draft.source)}</div>'
 
     def _show_fields(self, draft):
-        if draft.family != self._family:
-            self._family = draft.family
+        named = [draft.family, *((dimension.name, dimension.words) for dimension in draft.dimensions)]
+        if named != self._named:
+            self._named = named
             self._knobs = {dimension.name: Knob(dimension, self._pull) for dimension in draft.dimensions}
-            none = [words('<div class="note">Only a file can describe this body; it has no sliders.</div>')]
-            self.dimensions.objects = [grid(*([knob.view for knob in self._knobs.values()] or none))]
+            self.dimensions.objects = [grid(*(knob.view for knob in self._knobs.values()))]
+        free = isinstance(draft.shape, Lathe)
+        self.points.visible = free
+        if free:
+            self.parting.label = (
+                "One density for all" if isinstance(draft.shape.density, tuple) else "A density for each piece")
+        self.pieces.show(draft.shape)
         for name, knob in self._knobs.items():
             if name in draft.messages:
                 knob.say(draft.messages[name])

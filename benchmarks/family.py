@@ -9,10 +9,11 @@ Results
 2026-11-21, AMD EPYC (2 cores, shared with other work: load 5), Python 3.11.7, numpy 2.4.6
 tippe tops: 1025 tops/s, 4.7 times plain f; tielines 137/s; differ by 1e-06 (median), 1e-03 (95 %), 7e-03 (most)
 tippe tops, slow: 1227 tops/s, 4.0 times plain f; tielines 182/s; differ by 1e-05 (median), 5e-04 (95 %), 2e-03 (most)
-ordinary tops, a to -10: 596 tops/s, 8.2 times plain f; tielines 70/s; differ by 9e-07 (median), 4e-05 (95 %), 3e-03 (most)
+ordinary tops, a to -10: 596 tops/s, 8.2 times plain f; tielines 70/s; differ by 9e-07 (median),
+    4e-05 (95 %), 3e-03 (most)
 ordinary tops, light: 568 tops/s, 8.6 times plain f; tielines 90/s; differ by 1e-06 (median), 5e-05 (95 %), 2e-04 (most)
-With a load of 1: 1087, 1437, 753 and 771 tops/s. The aim is met for tippe tops and missed for ordinary ones: their wells
-are far narrower than a point of the grid, and each needs one to three closer grids of its own.
+With a load of 1: 1087, 1437, 753 and 771 tops/s. The aim is met for tippe tops and missed for ordinary ones: their
+wells are far narrower than a point of the grid, and each needs one to three closer grids of its own.
 The largest differences among tippe tops are rows on which tielines lets the other turning point slip.
 """
 

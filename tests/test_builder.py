@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from limits import Family
 
-from app.builder import FAMILIES, Builder, Rocking, handles, pulled, sentence
+from app.builder import FAMILIES, Builder, Rocking, changed, handles, pulled, sentence, value_of
 from app.compare import Compare
 from app.explorer import Explorer
 from app.family import neighbours, pegs, region, share_map
@@ -180,18 +180,19 @@ def test_stl(builder):
                                    replace(TruncatedSphere.paper(), l=0.0, r=0.0)], ids=lambda s: type(s).__name__)
 def test_a_handle_pulled_to_where_it_is_changes_nothing(shape):
     for name, (x, z) in handles(shape).items():
-        assert pulled(shape, name, x, z) == pytest.approx(getattr(shape, name), abs=5e-4 if name == "a" else 5.1e-6)
+        assert pulled(shape, name, x, z) == pytest.approx(value_of(shape, name), abs=5e-4 if name == "a" else 5.1e-6)
 
 
 @pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
 def test_a_handle_goes_where_the_hand_is(preset):
     for name in handles(preset.shape):
-        for value in (getattr(preset.shape, name) * 0.95, getattr(preset.shape, name) * 1.02):
+        for factor in (0.95, 1.02):
+            value = factor * np.array(value_of(preset.shape, name))
             try:
-                changed = replace(preset.shape, **{name: value})
+                other = changed(preset.shape, name, tuple(value) if value.ndim else float(value))
             except TopError:
                 continue
-            there = handles(changed)[name]
+            there = handles(other)[name]
             assert pulled(preset.shape, name, *there) == pytest.approx(
                 value, abs=5e-4 if name == "a" else 5.1e-6), name  # fmt: skip
 
@@ -201,6 +202,53 @@ def test_every_dimension_is_a_field_within_its_slider():
         for dimension in FAMILIES[type(preset.shape)][1]:
             shown = getattr(preset.shape, dimension.name) * dimension.factor
             assert dimension.low <= shown <= dimension.high, (preset.name, dimension.name)
+
+
+# --- free profiles and pieces ---
+
+
+def test_a_point_of_a_profile_goes_with_the_hand_and_stays_between_its_neighbours(builder, explorer):
+    builder.choose("Free profile")
+    shape = builder.draft.shape
+    builder.set("point 2", pulled(shape, "point 2", 0.030, 0.015))
+    assert builder.draft.shape.points[2] == (0.030, 0.015) and explorer.scene.shape == builder.draft.shape
+    assert [30e-3 / 5e-3, 15e-3 / 5e-3] in explorer.scene.profile.tolist()
+    # up past the next point, and across the axis
+    assert pulled(shape, "point 2", -0.01, 0.5) == (0.0, shape.points[3][1])
+
+
+def test_points_come_and_go_with_their_densities(builder):
+    builder.choose("Free profile")
+    before = builder.draft.shape
+    builder.add_point(-0.020, 0.013)
+    assert builder.draft.shape.points == (*before.points[:2], (0.020, 0.013), *before.points[2:])
+    builder.remove_point(2)
+    assert builder.draft.shape == before
+    builder.part_densities()
+    builder.set("density 5", 8000.0)
+    # the last piece is a frustum of 4 and 3 mm, 21 mm high: its volume by the school's formula
+    stem = np.pi / 3 * 0.021 * (0.004**2 + 0.004 * 0.003 + 0.003**2)
+    assert builder.draft.shape.mass - before.mass == pytest.approx(7300 * stem)
+    assert {dimension.name for dimension in builder.draft.dimensions} == {"R", *(f"density {i}" for i in range(6))}
+    builder.add_point()
+    assert len(builder.draft.shape.density) == len(builder.draft.shape.points) == 7
+    for _ in range(8):
+        builder.remove_point(len(builder.draft.shape.points) - 1)
+    assert "points" in builder.draft.messages  # a profile needs a point, and the last good body stays
+    assert builder.draft.shape.mass > 0
+
+
+def test_pieces_put_on_and_taken_away(builder, explorer):
+    paper = TruncatedSphere.paper()
+    builder.compose("ball", -paper.density, 0.005, -0.003, 0.007)
+    assert builder.draft.shape == next(preset.shape for preset in PRESETS if preset.name == "Hollow tippe top")
+    assert explorer.scene.scales.M == pytest.approx(paper.mass - paper.density * 4 / 3 * np.pi * 0.005**3)
+    builder.compose("ball", -paper.density, 0.005, 0.050, 0.060)
+    assert "piece" in builder.draft.messages and len(builder.draft.shape.solid.slices) == 3
+    builder.take_off()
+    assert builder.draft.shape.top.a == pytest.approx(paper.top.a, rel=1e-12)
+    builder.compose("cylinder", 700.0, 0.002, 0.0274, 0.040)
+    assert builder.draft.shape.profile(50)[-1] == pytest.approx([0, 0.040])
 
 
 # --- measured ---

@@ -547,6 +547,14 @@ PRESETS = (
     Preset(
         "Uniform ball", Ball(R=0.02, M=0.040),
         "a = 0 and I1 = I3 = 2/5; dimensions our own, an acrylic ball 40 mm across."),
+    Preset(
+        "Hollow tippe top", TruncatedSphere.paper() - TruncatedSphere.paper().density * ball(0.005, 0.002),
+        "The paper's top with a ball of 5 mm radius taken away about 2 mm above O; the cavity is our own."),
+    Preset(
+        "Free profile", Lathe(
+            R=0.005, density=700.0,
+            points=((0.005, 0.0), (0.018, 0.010), (0.022, 0.016), (0.018, 0.021), (0.004, 0.024), (0.003, 0.045))),
+        "Dimensions our own: a turned wooden top whose points can be dragged."),
 )  # fmt: skip
 
 
