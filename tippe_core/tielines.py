@@ -28,6 +28,8 @@ from .constants import ExactTop, f2_2
 from .curve import ExactCurve, angle, bracket_slope, find_stations, pole_gaps, pole_slope, well_slope
 from .errors import TopError, finite
 
+_BLOCK = 256  # K_J at once: more of them leave the processor's caches
+
 
 @dataclass(frozen=True, eq=False)
 class Tielines:
@@ -82,8 +84,9 @@ def _tielines(top, K_J, K_R, limits):
         empty = np.empty(shape)
         return [Tielines(*[empty] * 5, np.empty(shape, "U9"), empty, empty) for _ in limits]
     with np.errstate(all="ignore"):
-        columns = _Wells(top, K_J, K_R).columns(limits)
-        return [Tielines(*(np.reshape(part, shape) for part in parts)) for parts in columns]
+        blocks = [list(_Wells(top, K_J[i : i + _BLOCK], K_R).columns(limits)) for i in range(0, K_J.size, _BLOCK)]
+        columns = [zip(*parts, strict=True) for parts in zip(*blocks, strict=True)]
+        return [Tielines(*(np.concatenate(part).reshape(shape) for part in parts)) for parts in columns]
 
 
 # ---- one theta: everything that depends on it alone ----
