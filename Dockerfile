@@ -1,21 +1,30 @@
 # docker build -t tippe-top-explorer . && docker run --rm -p 5006:5006 tippe-top-explorer; then http://localhost:5006/app
-# Under another name than localhost:5006 add -e BOKEH_ALLOW_WS_ORIGIN=that.name:port
+# Settings are environment variables; docs/DEPLOY.md lists them.
 
 FROM python:3.12-slim AS build
 WORKDIR /src
 COPY . .
-# Node.js, which the bundle is built with, lives and dies in pip's build environment.
+# Node.js, which the bundle is built with, lives and dies in pip's build environment. Then what nothing here loads goes:
+# tests, source maps, scripts that are there minified too, and Panel's copies of libraries for panes that the page has not.
 RUN python3 -m venv /opt/venv \
     && /opt/venv/bin/pip install --no-cache-dir . \
-    && cd /opt/venv \
-    && ln -s "$(bin/python -c 'import app; print(app.__path__[0])')" app \
-    && bin/pip uninstall --yes pip
+    && /opt/venv/bin/pip uninstall --yes pip \
+    && cd /opt/venv/lib/python3*/site-packages \
+    && find . -type d -name tests -prune -exec rm -r {} + \
+    && find . -name '*.map' -delete -o -name '*.pyi' -delete \
+    && for full in $(find bokeh/server/static panel/dist -name '*.js'); do \
+           if [ -e "${full%.js}.min.js" ]; then rm "$full"; fi; done \
+    && rm -r bokeh/server/static/js/lib bokeh/server/static/js/compiler.js \
+    && cd panel/dist/bundled \
+    && rm -rf @microsoft abstractvtkplot aceplot bootstrap4 bootstrap5 datatabulator deckglplot echarts font-awesome \
+           gridstack jquery jsoneditor material-components-web* perspective plotlyplot quillinput reveal.js* terminal vegaplot
 
 FROM python:3.12-slim
 COPY --from=build /opt/venv /opt/venv
-ENV PATH=/opt/venv/bin:$PATH PYTHONUNBUFFERED=1
-USER nobody
-WORKDIR /opt/venv
+ENV PATH=/opt/venv/bin:$PATH PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 PYTHONSAFEPATH=1
+USER 65534:65534
 EXPOSE 5006
-HEALTHCHECK --start-period=30s CMD ["python", "-c", "import urllib.request as u; u.urlopen('http://localhost:5006/liveness')"]
-CMD ["panel", "serve", "app", "--address", "0.0.0.0", "--port", "5006", "--liveness"]
+HEALTHCHECK --interval=30s --timeout=5s --start-period=30s CMD ["python", "-c", \
+    "import os, urllib.request as u; u.urlopen(f\"http://localhost:{os.environ.get('TIPPE_PORT') or 5006}/liveness\", timeout=4)"]
+STOPSIGNAL SIGTERM
+CMD ["python", "-m", "app"]

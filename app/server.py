@@ -1,4 +1,4 @@
-"""The page for a class or for the open internet: `python -m app.server`, set by environment variables (Settings).
+"""The page for a class or for the open internet: `python -m app`, set by environment variables (Settings).
 
 `panel serve app` serves the same page to one person. Here, what one visitor may cost the others is bounded: sessions
 are counted and made one at a time, in turn among addresses; a message is looked at before Bokeh takes it, and has an
@@ -516,7 +516,7 @@ def serve(settings, sockets, parent=None):
     tornado = BokehTornado(
         apps,
         prefix=settings.prefix,
-        extra_patterns=[(r"/liveness", Liveness), *static],
+        extra_patterns=static,
         index=INDEX_HTML,
         secret_key=settings.secret.encode(),
         sign_sessions=True,
@@ -530,6 +530,7 @@ def serve(settings, sockets, parent=None):
         include_headers=["User-Agent", "Accept-Language", "Host"],
         include_cookies=[],
     )
+    tornado.add_handlers(r".*", [(r"/liveness", Liveness)])  # at one place, whatever the prefix
     context = tornado.applications["/app"]
     tornado.tippe, tornado.door = settings, Door(settings)
     tornado.door.sessions = context._sessions
@@ -657,7 +658,3 @@ def main():
         return supervise(settings, sockets)
     serve(settings, sockets)
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

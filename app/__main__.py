@@ -1,0 +1,20 @@
+"""`python -m app`: see app.server."""
+
+import logging
+import os
+import signal
+import sys
+
+
+def run():
+    # In a container nobody else ends the first process, and what is imported here takes its time.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    from app.server import main
+
+    code = main()
+    logging.shutdown()
+    os._exit(code)  # nothing is left to save, and taking all modules apart takes seconds
+
+
+if __name__ == "__main__":
+    run()
