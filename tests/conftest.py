@@ -8,6 +8,7 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+from evidence import compare as compare
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import sync_playwright
 from visiting import Visit, free_port, launch
