@@ -24,6 +24,14 @@ SYMBOLS = {
     "a": "<i>a</i>",
     "I1": "<i>I</i><sub>1</sub>",
     "I3": "<i>I</i><sub>3</sub>",
+    "spin": "<i>ω</i><sub>3</sub>",
+    "tilt": "<i>θ</i>",
+    "slip": "<i>u</i>",
+    "seconds": "<i>t</i>",
+    "mu_k": "<i>μ</i><sub>k</sub>",
+    "mu": "<i>μ</i>",
+    "eps": "<i>ε</i>",
+    "gamma": "<i>γ</i>",
 }
 NAMES = {
     "K_J": "Jellett’s constant",
@@ -33,6 +41,14 @@ NAMES = {
     "a": "eccentricity, in <i>R</i>",
     "I1": "inertia across the axis, in <i>MR</i><sup>2</sup>",
     "I3": "inertia about the axis, in <i>MR</i><sup>2</sup>",
+    "spin": "spin, in rev/s",
+    "tilt": "tilt, in degrees",
+    "slip": "slip, of that with <i>G</i> at rest",
+    "seconds": "time computed, in s",
+    "mu_k": "sliding friction",
+    "mu": "sliding friction",
+    "eps": "its slip scale, in (<i>gR</i>)<sup>½</sup>",
+    "gamma": "viscous friction, in (<i>gR</i>)<sup>−½</sup>",
 }
 # start, end and step of each slider; a typed number may lie outside.
 RANGES = {
@@ -43,6 +59,14 @@ RANGES = {
     "a": (-2, 0.5, 0.005),
     "I1": (0.05, 2, 0.001),
     "I3": (0.05, 2, 0.001),
+    "spin": (0, 40, 0.1),
+    "tilt": (0, 180, 0.5),
+    "slip": (0, 1, 0.01),
+    "seconds": (0.5, 30, 0.5),
+    "mu_k": (0.01, 1, 0.005),
+    "mu": (0.01, 1, 0.005),
+    "eps": (0.01, 1, 0.005),
+    "gamma": (0, 2, 0.01),
 }
 FOLLOW_HAND = """
 const text = String(Number(cb_obj.value.toPrecision(6))).replace("-", "−")

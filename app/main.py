@@ -9,7 +9,9 @@ from app.compare import Compare
 from app.connection import Connection
 from app.explorer import Explorer
 from app.learn import Learn
+from app.planes import Planes
 from app.roll import Roll
+from app.three_planes import ThreePlanes
 from app.workshop import Measure, Workshop
 
 
@@ -18,8 +20,7 @@ def on_a_phone():
     return "mobi" in pn.state.headers.get("User-Agent", "").lower()
 
 
-def build_view(explorer, roll):
-    builder = Builder(explorer, roll.pacer.request)
+def build_view(explorer, roll, builder):
     views = roll.controls.views("K_J", "K_R", "a", "I1", "I3")
     sliders = {slider.tags[0]: slider for view in views for slider in view.select(pmui.FloatSlider)}
     workshop = Workshop(builder, explorer, sliders)
@@ -30,6 +31,14 @@ def build_view(explorer, roll):
         card("Build a top", *workshop.bench_view, height="max-content"),
         card("Measure your own", *Measure(builder).view, height="max-content"),
     )
+
+
+def planes_view(explorer, roll, builder):
+    document = pn.state.curdoc
+    planes = Planes(explorer, builder, document.add_next_tick_callback)
+    roll.followers.append(planes.follow)
+    document.on_session_destroyed(lambda context: planes.stop())
+    return ThreePlanes(planes, builder, roll.pacer.request).main
 
 
 def family_view(explorer):
@@ -66,6 +75,7 @@ def tabs(views):
 def page():
     explorer = Explorer()
     roll = Roll(explorer)
+    builder = Builder(explorer, roll.pacer.request)
     return pmui.Page(
         title="Tippe top explorer",
         sidebar=[*roll.sidebar, Connection(width=0, height=0, margin=0)],
@@ -73,7 +83,8 @@ def page():
         main=tabs(
             {
                 "Roll": lambda: roll.main,
-                "Build a top": lambda: build_view(explorer, roll),
+                "Three planes": lambda: planes_view(explorer, roll, builder),
+                "Build a top": lambda: build_view(explorer, roll, builder),
                 "Families": lambda: family_view(explorer),
                 "Learn": lambda: Learn(explorer, roll).view,
             }
