@@ -209,42 +209,47 @@ class Keep(param.Parameterized):
     query = param.String(default="", doc="the state, from the question mark on; empty where all is the default")
     can_undo = param.Boolean(default=False, doc="whether there is a step back")
     can_redo = param.Boolean(default=False, doc="whether there is a step forward")
+    sentence = param.String(default="", doc="what was wrong with the link, until something is changed")
     changed = param.Event(doc="something that is kept was set; a hand may still be at it")
+    returned = param.Event(doc="undo or redo has put back what was")
 
-    def __init__(self, texts=None, allowed=lambda: True):
-        super().__init__()
+    def __init__(self, texts=None, sentence="", allowed=lambda: True):
+        super().__init__(sentence=sentence)
         self._texts = dict(texts or {})  # of views that are not made yet
         self._parts, self._allowed = [], allowed
-        self._steps, self._at = [{}], 0
+        self._steps, self._at, self._gesture = [{}], 0, None
 
     def add(self, owner, known, usual=None, opened=False):
-        """Keeps these parameters of a view too, at what the link said of them; returns a sentence where that was wrong.
+        """Keeps these parameters of a view too, at what the link said of them.
 
         usual: the owner's parameters that count now, with their defaults; without it all of them. opened: the link has
         been obeyed already.
         """
         first = {name: owner.param[name].default for name in known}
         part = Part(owner, known, usual or (lambda owner: first))
-        found, sentence = values(self._texts, known)
+        found, wrong = values(self._texts, known)
         for field in known.values():
             self._texts.pop(field.key, None)
-        if found and not opened:
+        if not opened:
             owner.param.update(**found)
+            self.sentence = " ".join(filter(None, (self.sentence, wrong)))
         self._parts.append(part)
         owner.param.watch(lambda *events: self.param.trigger("changed"), list(known))
         # it is not a step that a view was made
         self._steps = [step | {id(owner): part.state(undoable=True)} for step in self._steps]
         self._write()
-        return sentence
 
-    def at_rest(self):
-        """A gesture has ended."""
+    def at_rest(self, gesture=None):
+        """A gesture has ended; what comes late of the same gesture, which is not None, makes no step of its own."""
         if not self._allowed():
             return
         step = {id(part.owner): part.state(undoable=True) for part in self._parts}
         if step != self._steps[self._at]:
-            self._steps = [*self._steps[: self._at + 1], step][-STEPS - 1 :]
+            late = gesture is not None and gesture == self._gesture
+            self._steps = [*self._steps[: self._at + (not late)], step][-STEPS - 1 :]
             self._at = len(self._steps) - 1
+            self._gesture = gesture
+            self.sentence = ""
         self._write()
 
     def undo(self):
@@ -258,10 +263,11 @@ class Keep(param.Parameterized):
     def _go(self, to):
         if not 0 <= to < len(self._steps):
             return
-        self._at = to
+        self._at, self._gesture = to, None
         for part in self._parts:
             part.owner.param.update(**self._steps[to][id(part.owner)])
         self._write()
+        self.param.trigger("returned")
 
     def _write(self):
         texts = {}

@@ -1,0 +1,182 @@
+"""What is taken home, without a browser: read by others' readers, compared with tippe_core's own numbers."""
+
+import io
+import json
+import re
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pandas as pd
+import pygltflib
+import pytest
+from PIL import Image
+
+from app import export, prints
+from app.explorer import Explorer
+from app.letter import letter
+from tippe_core import PRESETS, Constants, Top, TruncatedSphere, figures, roll
+
+LINK = "http://localhost/app?v=1&KJ=6.5"
+
+
+def scene_of(**inputs):
+    return Explorer(**inputs).scene
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return scene_of(K_J=6.5, mu_s=0.4)
+
+
+@pytest.fixture(scope="module")
+def motion(scene):
+    """The same motion, asked of tippe_core."""
+    return roll(Top.paper(), Constants(6.5, 10.0, scene.constants.E), scene.trajectory.t)
+
+
+def test_csv_is_the_motion_to_the_last_digit(scene, motion):
+    file = export.motion_csv(scene, LINK)
+    table = pd.read_csv(io.BytesIO(file), comment="#")
+    assert np.array_equal(table["theta"], motion.theta)
+    assert np.array_equal(table[[f"quaternion_{axis}" for axis in "xyzw"]], motion.quaternion)
+    assert np.array_equal(table[["contact_x", "contact_y"]], motion.contact)
+    assert np.array_equal(table[["omega_1", "omega_2", "omega_3"]], motion.omega)
+    assert np.array_equal(table[["force_x", "force_y", "force_z"]], motion.force)
+    said = [line[2:] for line in file.decode().splitlines() if line.startswith("# ")]
+    for line in ("K_J = 6.5 (g/R)^1/2", "mu_s = 0.4", "I1 = 0.399 MR^2", "M = 0.0115 kg", "g = 9.81 m/s^2", LINK,
+                 "t: time, in (R/g)^1/2 = 0.0403855 s"):  # fmt: skip
+        assert line in said
+    for column in table.columns:
+        assert any(line.startswith(re.sub("_[xyzw123]$", "", column) + ":") for line in said)
+
+
+def test_csv_of_the_tielines_is_fig_6(scene):
+    table = pd.read_csv(io.BytesIO(export.tielines_csv(scene)), comment="#")
+    lift, slip = figures(Top.paper(), table["tieline_K_J"].to_numpy(), 10.0, 0.4)
+    assert np.array_equal(table["lift_theta_outer"], lift.theta_outer)
+    assert np.array_equal(table["slip_theta_verge"], slip.theta_verge)
+    assert np.array_equal(table["slip_E"], slip.E)
+
+
+def test_npz_has_both_and_says_what_they_are(scene, motion):
+    with np.load(io.BytesIO(export.arrays_npz(scene, LINK)), allow_pickle=False) as file:
+        said = json.loads(str(file["header"]))
+        assert np.array_equal(file["phi"], motion.phi) and np.array_equal(file["com"], motion.com)
+        assert np.array_equal(file["tieline_K_J"], scene.plane.K_J)
+        assert set(said["units"]) == set(file.files) - {"header"}
+    assert said["parameters"]["E"] == {"value": scene.constants.E, "unit": "MgR"} and said["link"] == LINK
+
+
+MOTIONS = {
+    "paper": {"K_J": 6.5},
+    "all of it, at slipping": {"K_J": -3.0, "upper": False, "limit": "slip", "mu_s": 0.3},
+    "from a state": {"theta": 0.5, "theta_dot": 0.4, "omega2": -1.5, "omega3": 8.0, "phi": 0.3, "given": "state"},
+    "nothing limits it": {"a": 0.0, "I1": 0.4, "I3": 0.4, "K_J": 3.0},
+    "an ordinary top": {"a": -1.891, "I1": 1.105, "I3": 0.196, "K_R": 14.85, "K_J": 3.9525, "upper": False},
+}
+
+
+@pytest.mark.parametrize("inputs", MOTIONS.values(), ids=MOTIONS)
+def test_the_python_gives_the_same_numbers(inputs, tmp_path, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    monkeypatch.chdir(tmp_path)
+    scene = scene_of(**inputs)
+    plane, trajectory = scene.plane, scene.trajectory
+
+    def run(name):
+        code = export.PYTHON[name](scene)
+        assert len([line for line in code.splitlines() if line]) <= 10
+        names = {}
+        exec(compile(code, name, "exec"), names)
+        names["plt"].close("all")
+        return names
+
+    names = run("Fig. 6")
+    for ours, theirs in ((names["lift"], plane.lift), (names["slip"], plane.slip)):
+        for column in ("K_J", "E", "theta_inner", "theta_outer", "theta_verge"):
+            assert np.array_equal(getattr(ours, column), getattr(theirs, column), equal_nan=True)
+    names = run("The motion")
+    for column in ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "force"):
+        assert np.array_equal(getattr(names["motion"], column), getattr(trajectory, column))
+    assert np.array_equal(names["ratio"], scene.ratio)
+    limited = np.isfinite(plane.surface.E)
+    if limited.any():
+        names = run("Fig. 5")
+        assert np.array_equal(names["theta"][limited], plane.theta[limited])
+        assert np.array_equal(names["height"][limited], plane.height[limited])
+
+
+def array(gltf, index):
+    accessor = gltf.accessors[index]
+    view = gltf.bufferViews[accessor.bufferView]
+    kind = {5126: "<f4", 5125: "<u4"}[accessor.componentType]
+    columns = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor.type]
+    values = np.frombuffer(gltf.binary_blob(), kind, accessor.count * columns, view.byteOffset)
+    return values.reshape(accessor.count, columns).astype(float)
+
+
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_gltf_is_the_body_and_its_motion(preset):
+    top = preset.shape.top
+    scene = scene_of(shape=preset.shape, a=top.a, I1=top.I1, I3=top.I3, K_J=0.4, K_R=12.0, energy=0.3)
+    gltf = pygltflib.GLTF2.load_from_bytes(export.animation_glb(scene, slower=16))
+    trajectory, R = scene.trajectory, preset.shape.R
+    animation = gltf.animations[0]
+    seconds = array(gltf, animation.samplers[0].input)[:, 0]
+    assert seconds == pytest.approx(16 * trajectory.t * scene.scales.time, rel=1e-6, abs=1e-6)
+    found = {channel.target.path: array(gltf, animation.samplers[channel.sampler].output)
+             for channel in animation.channels}  # fmt: skip
+    # G is a below O along axis 3: the nodes' own translation and rotation put it where tippe_core has it
+    x, y, z, w = found["rotation"].T
+    axis = np.column_stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+    tolerance = 1e-6 * R * np.abs(trajectory.com).max()  # of a float32
+    assert found["translation"] - top.a * R * axis == pytest.approx(R * trajectory.com, abs=tolerance)
+    assert np.abs(np.sum(found["rotation"] * trajectory.quaternion, axis=1)) == pytest.approx(1, abs=1e-6)
+    assert np.all(np.sum(found["rotation"][1:] * found["rotation"][:-1], axis=1) > 0)
+    primitive = gltf.meshes[gltf.nodes[animation.channels[0].target.node].mesh].primitives[0]
+    points = array(gltf, primitive.attributes.POSITION)
+    corners = points[array(gltf, primitive.indices).astype(int).reshape(-1, 3)]
+    volume = np.sum(np.cross(corners[:, 0], corners[:, 1]) * corners[:, 2]) / 6
+    # outwards, and as large as the body seen from outside; a ring of 48 corners has 0.3 % less area than its circle
+    seen = {"Top S": 4 / 3 * np.pi * R**3, "Hollow tippe top": TruncatedSphere.paper().volume}
+    assert volume == pytest.approx(seen.get(preset.name, preset.shape.volume), rel=0.01)
+    assert gltf.asset.extras["slower than the real top by"] == 16
+
+
+@pytest.mark.parametrize("name", prints.FIGURES)
+def test_a_figure_for_print(scene, name):
+    picture = Image.open(io.BytesIO(prints.draw(scene, name, "png")))
+    assert picture.info["dpi"] == pytest.approx((600, 600), abs=1)
+    assert picture.width == pytest.approx(183 / 25.4 * 600, abs=2)
+    svg = prints.draw(scene, name, "svg")
+    root = ET.fromstring(svg)
+    assert root.tag.endswith("svg") and root.get("width") == f"{183 / 25.4 * 72:.6f}".rstrip("0") + "pt"
+    # letters are drawn as paths, each after a comment that has them
+    said = svg.decode()
+    for parameter in (r"$K_J$ = 6.5", r"$\mu_s$ = 0.4", "$I_1$ = 0.399", "$a$ = 0.07", "$E$ = "):
+        assert parameter in said
+    assert prints.draw(scene, name, "svg") == svg
+
+
+def test_the_printed_curves_are_the_scenes(scene, motion):
+    lines = {line.get_label(): line for line in prints.DRAWN["plane"](scene).axes[0].lines}
+    assert np.array_equal(lines["verge of slipping"].get_xdata(), scene.plane.slip.theta_verge)
+    assert np.array_equal(lines["this motion"].get_xdata(), scene.turning)
+    theta, force = (axes.lines[0].get_ydata() for axes in prints.DRAWN["motion"](scene).axes[:2])
+    assert np.array_equal(theta, motion.theta) and np.array_equal(force, motion.force[:, 2])
+
+
+@pytest.mark.parametrize("which", ["nothing limits it", "an ordinary top"])
+def test_odd_motions_can_be_printed(which):
+    scene = scene_of(**MOTIONS[which])
+    for name in prints.FIGURES:
+        assert prints.draw(scene, name, "svg").startswith(b"<?xml")
+
+
+def test_the_letter_asks_for_nothing(scene):
+    page = letter(scene, LINK + '&x="><script>alert(1)</script>').decode()
+    assert len(page) < 3_000_000
+    outside = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
+    assert "alert(1)" not in outside.replace("&lt;script&gt;alert(1)&lt;/script&gt;", "")
+    assert not re.findall(r"""(?:src|href)=["'](?!http://localhost/app\?)""", outside)
+    assert "three.js authors" in page and "Anaconda" in page
