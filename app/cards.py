@@ -7,10 +7,12 @@ INK = "#22303c"
 # Two rows fill a screen; a phone, where the rows of buttons wrap, needs more.
 HEIGHT_OF_A_CARD = "max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px))"
 TYPE = """
-:host { font: 13px/1.4 system-ui, sans-serif; color: #22303c } h2 { font-size: 15px; margin: 0; font-weight: 600 }
+:host { font: calc(13px * var(--type, 1))/1.4 system-ui, sans-serif; color: var(--ink, #22303c) }
+h2 { font-size: calc(15px * var(--type, 1)); margin: 0; font-weight: 600 }
 i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 } i { font-size: 1.1em }
-.key { color: #5b6875 } .key span { white-space: nowrap }
-.axis { text-align: center } .quantity { font-size: 14px; text-align: right } b { font-weight: 600 }
+.key { color: var(--faint, #5b6875) } .key span { white-space: nowrap } [title] { cursor: help }
+.axis { text-align: center } b { font-weight: 600 }
+.quantity { font-size: calc(14px * var(--type, 1)); text-align: right }
 .swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
 """
 
@@ -30,7 +32,7 @@ def card(title, *content, height=HEIGHT_OF_A_CARD):
         sizing_mode="stretch_width",
         margin=0,
         styles={
-            "background": "white",
+            "background": "var(--card, white)",
             "border-radius": "10px",
             "padding": "10px 14px",
             "height": height,

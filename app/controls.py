@@ -6,14 +6,17 @@ import math
 import panel as pn
 import panel_material_ui as pmui
 
+from app.cards import PLAIN
 from app.explorer import Explorer
 from app.pacing import at_once
 from tippe_core import Top
 
 STYLE = """
-:host { font: 13px/1.35 system-ui, sans-serif; color: #22303c; }
-.name { font-size: 14px } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 17px }
-.name sub { font-size: 11px } .note { color: #5b6875 } .alert { color: #b3261e; font-weight: 500 }
+:host { font: calc(13px * var(--type, 1))/1.35 system-ui, sans-serif; color: var(--ink, #22303c); }
+.name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
+.name sub { font-size: 0.8em } .note { color: var(--faint, #5b6875) } .alert { color: var(--alert, #b3261e);
+  font-weight: 500 } .note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
+.name[title], .note [title] { cursor: help }
 """
 
 SYMBOLS = {
@@ -24,6 +27,10 @@ SYMBOLS = {
     "a": "<i>a</i>",
     "I1": "<i>I</i><sub>1</sub>",
     "I3": "<i>I</i><sub>3</sub>",
+    "theta": "<i>θ</i>",
+    "theta_dot": "<i>θ̇</i>",
+    "omega2": "<i>ω</i><sub>2′</sub>",
+    "omega3": "<i>ω</i><sub>3</sub>",
     "spin": "<i>ω</i><sub>3</sub>",
     "tilt": "<i>θ</i>",
     "slip": "<i>u</i>",
@@ -32,15 +39,25 @@ SYMBOLS = {
     "mu": "<i>μ</i>",
     "eps": "<i>ε</i>",
     "gamma": "<i>γ</i>",
+    "normal": "<i>F</i><sub>z</sub>",
+    "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
+    "height": "<i>f</i><sub>1</sub><sup>2</sup>&hairsp;<i>θ̇</i>&hairsp;<sup>2</sup>",
+    "angle": "<i>θ</i>",
+    "time": "<i>t</i>",
 }
+SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
 NAMES = {
     "K_J": "Jellett’s constant",
     "K_R": "Routh’s constant",
     "mu_s": "friction",
     "energy": "energy",
     "a": "eccentricity, in <i>R</i>",
-    "I1": "inertia across the axis, in <i>MR</i><sup>2</sup>",
-    "I3": "inertia about the axis, in <i>MR</i><sup>2</sup>",
+    "I1": "inertia across, in <i>MR</i><sup>2</sup>",
+    "I3": "inertia about, in <i>MR</i><sup>2</sup>",
+    "theta": "tilt, in rad",
+    "theta_dot": f"its rate, in {SPIN}",
+    "omega2": f"turn, in {SPIN}",
+    "omega3": f"spin, in {SPIN}",
     "spin": "spin, in rev/s",
     "tilt": "tilt, in degrees",
     "slip": "slip, of that with <i>G</i> at rest",
@@ -49,6 +66,35 @@ NAMES = {
     "mu": "sliding friction",
     "eps": "its slip scale, in (<i>gR</i>)<sup>½</sup>",
     "gamma": "viscous friction, in (<i>gR</i>)<sup>−½</sup>",
+}
+# What each symbol is, on hover.
+WORDS = {
+    "K_J": "Jellett’s constant: the angular momentum about the line from the contact point to the sphere’s centre, "
+    "over I₁. Friction at the contact cannot change it.",
+    "K_R": "Routh’s constant: f₃ω₃. It stays while the top rolls without slipping.",
+    "mu_s": "Coefficient of static friction: the top rolls while the friction is at most this times the normal force.",
+    "energy": "Energy of the motion, kinetic and potential, in MgR.",
+    "a": "How far the centre of mass G lies below the centre O of the sphere, in radii R.",
+    "I1": "Moment of inertia about an axis through G across the axis of symmetry, in MR².",
+    "I3": "Moment of inertia about the axis of symmetry, in MR².",
+    "theta": "The tilt: the angle between the vertical and the axis of symmetry when the motion starts.",
+    "theta_dot": "How fast the tilt grows when the motion starts.",
+    "omega2": "Angular velocity about 2′, the axis across the axis of symmetry in the upright plane of the tilt, "
+    "when the motion starts.",
+    "omega3": "Spin: angular velocity about the axis of symmetry when the motion starts.",
+    "spin": "Angular velocity about the axis of symmetry at the start. There is no precession then.",
+    "tilt": "The angle between the vertical and the axis of symmetry at the start.",
+    "slip": "How fast the contact point slips at the start: 1, the centre of mass G is at rest; 0, the top rolls.",
+    "seconds": "For how long the motion is computed, in seconds of the real top.",
+    "mu_k": "Coefficient of sliding friction: the friction while it slips, over the normal force.",
+    "mu": "Coefficient of friction at fast slip: the friction over the normal force.",
+    "eps": "The slip speed at which the smoothed friction is 0.7 of its full size.",
+    "gamma": "Friction over the normal force and the slip speed.",
+    "normal": "Normal force: how hard the table pushes the top up, in weights Mg. Below 0 it would have to pull.",
+    "ratio": "Friction over normal force: where it passes μₛ the top would slip.",
+    "height": "The rate of tilting squared, times f₁²: the energy that is left for tilting, doubled, in MgR.",
+    "angle": "The tilt: the angle between the vertical and the axis of symmetry.",
+    "time": "Time, in units of the square root of R over g.",
 }
 # start, end and step of each slider; a typed number may lie outside.
 RANGES = {
@@ -59,6 +105,10 @@ RANGES = {
     "a": (-2, 0.5, 0.005),
     "I1": (0.05, 2, 0.001),
     "I3": (0.05, 2, 0.001),
+    "theta": (0, math.pi, 0.005),
+    "theta_dot": (-8, 8, 0.02),
+    "omega2": (-8, 8, 0.02),
+    "omega3": (-16, 16, 0.05),
     "spin": (0, 40, 0.1),
     "tilt": (0, 180, 0.5),
     "slip": (0, 1, 0.01),
@@ -68,6 +118,9 @@ RANGES = {
     "eps": (0.01, 1, 0.005),
     "gamma": (0, 2, 0.01),
 }
+# Lines of words below, kept free so that nothing moves while a hand is on a slider.
+LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
+FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
 FOLLOW_HAND = """
 const text = String(Number(cb_obj.value.toPrecision(6))).replace("-", "−")
 entry.data.setv({value_input: text}, {sync: false})
@@ -80,17 +133,22 @@ def number(value):
     return f"{value:.6g}".replace("-", "−")
 
 
+def named(name):
+    """A symbol, with its word on hover."""
+    return f'<span title="{html.escape(WORDS[name])}">{SYMBOLS[name]}</span>'
+
+
 class Control:
-    """One input: its symbol and name, a slider, a number to type, and a line of words below."""
+    """One input: its symbol and name, a slider, a number to type, and lines of words below."""
 
     def __init__(self, name, value, request):
-        self.name, self._request, self._shown, self._follow = name, request, number(value), False
+        self.name, self._request, self._shown = name, request, number(value)
         start, end, step = RANGES[name]
         marked = name == "energy"
         self.slider = pmui.FloatSlider(
             value=value,
-            start=start,
-            end=end,
+            start=min(start, value),
+            end=max(end, value),
             step=step,
             label="",
             show_value=False,
@@ -110,11 +168,17 @@ class Control:
             width=92,
             margin=0,
             tags=[name],
-            sx={"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}},
+            sx={"& input": {"padding": "4px 8px", "fontSize": "inherit", "textAlign": "right"}},
         )
-        self.words = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=0)
+        self.words = pn.pane.HTML(
+            "",
+            stylesheets=[STYLE],
+            sizing_mode="stretch_width",
+            margin=0,
+            styles={"min-height": f"calc({1.35 * 13 * LINES.get(name, 0)}px * var(--type, 1))"},
+        )
         title = pn.pane.HTML(
-            f'<div class="name">{SYMBOLS[name]}&ensp;{NAMES[name]}</div>',
+            f'<div class="name" title="{html.escape(WORDS[name])}">{SYMBOLS[name]}&ensp;{NAMES[name]}</div>',
             stylesheets=[STYLE],
             margin=(4, 0, 0, 0),
             sizing_mode="stretch_width",
@@ -147,23 +211,24 @@ class Control:
         except ValueError:
             self._say(html.escape(f"“{event.new}” is not a number. Type one, such as {self._shown}."), "alert")
             return
-        self._follow = True
         self._request(self.name, value, typed=True)
 
-    def show(self, value, shown, note, message):
-        """value: the input as it was solved; shown: the number for the field. A message stands in the note's place,
-        and then the field keeps what was typed. The slider is moved only after typing: under a hand it is ahead."""
+    def show(self, value, shown, note, message, bounds=None):
+        """value: the input as it was solved; shown: the number for the field; bounds of the slider, RANGES if none.
+        A message stands in the note's place, and then the field keeps what was typed."""
         if message:
-            self._follow = False
             self._say(html.escape(message), "alert")
             return
+        self.follow(value, shown, bounds)
+        self._say(note, "note")
+
+    def follow(self, value, shown, bounds=None):
+        """The slider and the number go where something else has put the value."""
         self._silent, self._shown = True, number(shown)
-        if self._follow:
-            self.slider.param.update(start=min(self.slider.start, value), end=max(self.slider.end, value), value=value)
-            self._follow = False
+        low, high = bounds or RANGES[self.name][:2]
+        self.slider.param.update(start=min(low, value), end=max(high, value), value=value)
         self.entry.value = self._shown
         self._silent = False
-        self._say(note, "note")
 
     def _say(self, words, kind):
         self.entry.error_state = kind == "alert"
@@ -173,33 +238,73 @@ class Control:
 
 
 class Controls:
-    """All of them, wired to a Pacer's requests."""
+    """All of them, wired to a Pacer's requests. motion: the sliders of both faces of the motion, and their switch."""
 
     def __init__(self, explorer, pacer):
         self._explorer, self._pacer = explorer, pacer
-        self._controls = {name: Control(name, getattr(explorer, name), self._request) for name in Explorer.INPUTS}
+        names = (*Explorer.INPUTS, *FACES["state"])
+        self._controls = {name: Control(name, getattr(explorer, name), self._request) for name in names}
+        self._other = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=(2, 14, 0, 16),
+                                   styles={"min-height": "calc(35px * var(--type, 1))"})  # fmt: skip
+        switch = pmui.RadioButtonGroup.from_param(
+            explorer.param.face,
+            label="",
+            options={"constants": "constants", "initial state": "state"},
+            size="small",
+            margin=(6, 16, 2, 16),
+            sx=PLAIN,
+        )
+        faces = {
+            face: pn.Column(*self.views(*names), sizing_mode="stretch_width", margin=0, visible=explorer.face == face)
+            for face, names in FACES.items()
+        }
+
+        def turn(event):
+            for face, column in faces.items():
+                column.visible = face == event.new
+            self._other.object = self._other_face(explorer.scene)
+
+        explorer.param.watch(turn, "face")
+        self.motion = [switch, *faces.values(), self._other]
 
     def _request(self, name, value, typed=False):
-        if name == "energy" and typed:
-            value = self._explorer.scene.marks.share(value)
-        self._pacer.request(**{name: value})
+        if name in FACES["state"]:
+            self._pacer.request(**{name: value}, given="state")
+        elif name == "energy" and typed:
+            self._pacer.request(E=value, given="E")
+        elif name in FACES["constants"]:
+            self._pacer.request(**{name: value}, given="share")
+        else:
+            self._pacer.request(**{name: value})
 
     def views(self, *names):
         return [self._controls[name].view for name in names]
 
-    def pick(self, K_J):
-        """As if K_J had been typed."""
-        self._controls["K_J"].entry.value = number(round(K_J, 3))
-
     def show(self, scene):
-        low, high = scene.plane.K_J_range
-        K_J = scene.constants.K_J
-        self._controls["K_J"].slider.param.update(start=min(low, K_J), end=max(high, K_J))
         notes = self._notes(scene)
         for name, control in self._controls.items():
             value = getattr(self._explorer, name)
             shown = scene.constants.E if name == "energy" else value
-            control.show(value, shown, notes.get(name, ""), scene.messages.get(name))
+            bounds = scene.plane.K_J_range if name == "K_J" else None
+            control.show(value, shown, notes.get(name, ""), scene.messages.get(name), bounds)
+        self._other.object = self._other_face(scene)
+
+    def follow(self, scene):
+        """What a hand on a picture moves, at once."""
+        self._controls["K_J"].follow(scene.constants.K_J, scene.constants.K_J, scene.plane.K_J_range)
+        self._controls["energy"].follow(scene.share, scene.constants.E)
+
+    def _other_face(self, scene):
+        """The face that is not on the sliders."""
+        if self._explorer.face == "constants":
+            values = {name: getattr(scene.state, name) for name in FACES["state"]}
+            begins = "starts at "
+        else:
+            constants = scene.constants
+            values = {"K_J": constants.K_J, "K_R": constants.K_R, "energy": constants.E}
+            begins = "its constants: "
+        said = ", ".join(f"{named(name)} = {value:.4g}".replace("-", "−") for name, value in values.items())
+        return f'<div class="note">{begins}{said}</div>'
 
     @staticmethod
     def _notes(scene):
@@ -213,11 +318,16 @@ class Controls:
             for word, E in (("steady", marks.steady), ("slips from", marks.slip), ("lifts off from", marks.lift))
             if math.isfinite(E)
         )
+        motion = (
+            f"<b>{worst}.</b>{said}<br>{named('theta')} from {inner:.3f} to {outer:.3f} rad "
+            f"({math.degrees(inner):.1f}° to {math.degrees(outer):.1f}°)"
+        )
         return {
+            "omega3": motion,
             "K_J": f"(<i>g</i>/<i>R</i>)<sup>½</sup>; the point P is at {number(round(scene.plane.pole, 4))}",
             "K_R": f"<i>ω</i><sub>3</sub> = {spin:.2f} (<i>g</i>/<i>R</i>)<sup>½</sup> = {turns:.1f} rev/s near "
             f"<i>θ</i> = 0, for <i>R</i> = {100 * scene.scales.R:.3g} cm"
-            + PRINTED * (scene.constants.K_R == 10 and scene.top == Top.paper()),
-            "energy": f"<b>{worst}.</b>{said}<br><i>θ</i> from {inner:.3f} to {outer:.3f} rad "
-            f"({math.degrees(inner):.1f}° to {math.degrees(outer):.1f}°)<br>in <i>MgR</i>: {limits}",
+            + PRINTED
+            * (scene.constants.K_R == 10 and scene.top == Top.paper()),
+            "energy": f"{motion}<br>in <i>MgR</i>: {limits}",
         }

@@ -11,6 +11,7 @@ from bokeh.models import (
     CustomJS,
     CustomJSHover,
     HoverTool,
+    Label,
     Range1d,
     Span,
 )
@@ -19,7 +20,7 @@ from bokeh.plotting import figure
 from app.colours import COLOURS
 from app.explorer import ROLLS, SLIPS
 
-INK, FAINT, GRID = "#22303c", "#8a96a3", "#e7ebef"
+INK, FAINT, GRID, PAPER = "#22303c", "#8a96a3", "#e7ebef", "#ffffff"
 POINTS_A_CURVE = 640
 
 # Moves the time lines and the bead in the browser; not synced, so playing sends nothing to the server. Run by each new
@@ -42,7 +43,69 @@ window.addEventListener("tippe:clock", ({detail: {t}}) => {
 })
 """
 
-SEEK = 'window.dispatchEvent(new CustomEvent("tippe:seek", {detail: {t: cb_obj.x}}))'
+# The clock goes to `time`, and stands there as long as the hand is down.
+SEEK_BY_HAND = """
+const held = ["panstart", "pan"].includes(cb_obj.event_name)
+window.dispatchEvent(new CustomEvent("tippe:seek", {detail: {t: time, held}}))
+"""
+SEEK = "const time = cb_obj.x" + SEEK_BY_HAND
+
+# What a hand on Fig. 6 takes hold of, and what becomes of it: the bead moves the clock, all in the browser; an end of
+# the tieline on display is the energy, the tieline itself K_J; any other tieline becomes the motion, and beyond the
+# tielines the motion that turns there. `hand` takes the last four to Python.
+GRAB = """
+const {x, y, event_name} = cb_obj
+const row = Object.fromEntries(Object.entries(selected.data).map(([name, values]) => [name, values[0]]))
+const {frame: {x_scale, y_scale}, canvas_view: {ui_event_bus}, tool_views} = Bokeh.index.find_one(fig)
+const [hand_x, hand_y] = [x_scale.compute(x), y_scale.compute(y)]
+const px = (theta, K_J) => Math.hypot(x_scale.compute(theta) - hand_x, y_scale.compute(K_J) - hand_y)
+const REACH = 14
+const {K_J, slip_in, slip_out} = limits.data
+const nearest = K_J.reduce((best, _, j) => Math.abs(K_J[j] - y) < Math.abs(K_J[best] - y) ? j : best, 0)
+const grip = () => {
+  if (px(row.theta, row.K_J) < REACH) return "bead"
+  if (Math.min(px(row.inner, row.K_J), px(row.outer, row.K_J)) < REACH) return "end"
+  if (px(Math.min(Math.max(x, row.inner), row.outer), row.K_J) < REACH) return "line"
+  return x >= slip_in[nearest] && x <= slip_out[nearest] ? "tieline" : "point"
+}
+if (event_name == "mousemove") {
+  if (!hand.grip) ui_event_bus.set_cursor({bead: "grab", end: "ew-resize", line: "ns-resize"}[grip()] ?? "pointer")
+  return
+}
+if (event_name == "panstart" || event_name == "tap") hand.grip = grip()
+const taken = hand.grip, done = event_name == "tap" || event_name == "panend"
+if (done) hand.grip = null
+if (event_name == "panstart") tool_views.get(hover)._move_exit()
+hover.setv({active: !hand.grip}, {sync: false})
+if (taken == "bead" || event_name == "tap" && taken == "line") {
+  const {t, theta} = motion.data, now = window.__tippe.top3d.t, last = t.length - 1
+  const clamp = (value, one, other) => Math.min(Math.max(value, Math.min(one, other)), Math.max(one, other))
+  const aim = clamp(x, row.inner, row.outer)
+  // of the times at which the motion is nearest to the hand, the one next to now
+  let found = now, least = Infinity
+  for (let i = 0; i < last; i++) {
+    const [from, to] = [theta[i], theta[i + 1]], inside = clamp(aim, from, to)
+    const at = t[i] + (from == to ? 0 : (inside - from) / (to - from)) * (t[i + 1] - t[i])
+    const away = 1e3 * Math.abs(inside - aim) + Math.abs(at - now) / (t[last] - t[0])
+    if (away < least) [found, least] = [at, away]
+  }
+  window.dispatchEvent(new CustomEvent("tippe:seek", {detail: {t: found, held: !done}}))
+} else if (taken && !(event_name == "tap" && taken == "end")) {
+  const on = taken == "end" ? row.K_J : taken == "tieline" && done ? K_J[nearest] : y
+  if (event_name != "panend") hand.data = {grip: [taken], theta: [x], K_J: [on]}
+}
+// why not, where the hand is
+const say = () => {
+  const text = [" ", "It would slip on the way: F_h/F_z passes μ_s.", "It would lift off on the way: F_z < 0."]
+  const worst = selected.data.worst[0], right = x > (fig.x_range.start + fig.x_range.end) / 2
+  const visible = !!hand.grip && hand.grip != "bead" && worst > 0
+  if (!visible && !sentence.visible) return
+  const align = right ? {text_align: "right", x_offset: -12} : {text_align: "left", x_offset: 12}
+  sentence.setv({x, y, text: text[worst], visible, ...align}, {sync: false})
+}
+hand.say = say
+say()
+"""
 
 READ_PLANE = """
 const {K_J, slip_E, lift_E, slip_by, lift_by} = limits.data
@@ -52,14 +115,19 @@ if (format == "K_J") return K_J[nearest].toFixed(3)
 if (format == "theta") return `${special_vars.x.toFixed(3)} rad = ${(special_vars.x * 180 / Math.PI).toFixed(1)}°`
 if (format == "E") return `${value.toFixed(4)} MgR`
 if (format == "ratio") return Number.isFinite(value) ? value.toFixed(3) : "no contact"
-if (!(value > slip_E[nearest])) return slip_by[nearest]
-return value > lift_E[nearest] ? `beyond ${lift_by[nearest]}` : `beyond ${slip_by[nearest]}`
+const why = {slip: "would slip on the way", "lift-off": "would lift off on the way, F_z < 0"}
+if (!(value > slip_E[nearest])) {
+  if (slip_by[nearest] == "no motion") return "Even the steady precession cannot roll."
+  if (slip_by[nearest] == "nothing") return "Rolls; nothing limits it."
+  return `Rolls; with more energy it ${why[slip_by[nearest]]}.`
+}
+return `Not by rolling: it ${why[value > lift_E[nearest] ? lift_by[nearest] : slip_by[nearest]] ?? "cannot"}.`
 """
 
 TOOLTIP = """
 <div style="font: 13px system-ui, sans-serif; color: #22303c; line-height: 1.5">
-<i>K</i><sub>J</sub> = @E{K_J}<br><i>θ</i> = @E{theta}<br><i>E</i> = @E{E}<br>
-<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub> = @ratio{ratio}<br>limit: @E{limit}</div>
+<i>K</i><sub>J</sub> = @E{K_J} (<i>g</i>/<i>R</i>)<sup>½</sup><br><i>θ</i> = @E{theta}<br><i>E</i> = @E{E}<br>
+<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub> = @ratio{ratio}<br>@E{limit}</div>
 """
 
 
@@ -111,8 +179,17 @@ class PlaneFigure:
         self.pole = ColumnDataSource({"theta": [0.0], "K_J": [0.0]})
         self.field = ColumnDataSource({"E": [], "ratio": [], "x": [], "y": [], "w": [], "h": []})
         self.selected = ColumnDataSource(
-            {"K_J": [0.0], "inner": [0.0], "outer": [0.0], "steady": [0.0], "theta": [0.0], "colour": [INK]}
+            {
+                "K_J": [0.0],
+                "inner": [0.0],
+                "outer": [0.0],
+                "steady": [0.0],
+                "theta": [0.0],
+                "colour": [INK],
+                "worst": [ROLLS],
+            }
         )
+        self.hand = ColumnDataSource({"grip": [""], "theta": [0.0], "K_J": [0.0]})
 
         for left, right in (("lift_in", "slip_in"), ("slip_out", "lift_out")):
             fig.harea(y="K_J", x1=left, x2=right, source=self.limits, fill_color=COLOURS["friction"], fill_alpha=0.16)
@@ -146,14 +223,13 @@ class PlaneFigure:
 
         everywhere = fig.image("E", x="x", y="y", dw="w", dh="h", source=self.field, global_alpha=0, level="overlay")
         read = CustomJSHover(args={"limits": self.limits}, code=READ_PLANE)
-        fig.add_tools(
-            HoverTool(
-                renderers=[everywhere],
-                tooltips=TOOLTIP,
-                formatters={"@E": read, "@ratio": read},
-                point_policy="follow_mouse",
-            )
+        self.hover = HoverTool(
+            renderers=[everywhere],
+            tooltips=TOOLTIP,
+            formatters={"@E": read, "@ratio": read},
+            point_policy="follow_mouse",
         )
+        fig.add_tools(self.hover)
 
         on_top = {"source": self.selected, "level": "overlay"}
         fig.segment(
@@ -162,7 +238,24 @@ class PlaneFigure:
         fig.scatter(
             "steady", "K_J", marker="dash", angle=np.pi / 2, size=14, line_color="colour", line_width=2, **on_top
         )
+        fig.scatter("inner", "K_J", size=9, fill_color="colour", line_color="white", line_width=1, **on_top)
+        fig.scatter("outer", "K_J", size=9, fill_color="colour", line_color="white", line_width=1, **on_top)
         fig.scatter("theta", "K_J", size=13, fill_color="white", line_color=INK, line_width=2, **on_top)
+        self.sentence = Label(
+            x=0,
+            y=0,
+            text=" ",
+            visible=False,
+            level="overlay",
+            y_offset=16,
+            text_color=INK,
+            text_font_size="13px",
+            background_fill_color="white",
+            background_fill_alpha=0.92,
+            border_line_color=FAINT,
+            padding=6,
+        )
+        fig.add_layout(self.sentence)
         self._plane = None
 
     def show_selected(self, scene):
@@ -175,6 +268,7 @@ class PlaneFigure:
             "outer": outer,
             "steady": scene.marks.theta_steady,
             "colour": COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == SLIPS else "normal"],
+            "worst": worst,
         }
         self.selected.patch({name: [(0, value)] for name, value in row.items()})
 
@@ -184,12 +278,6 @@ class PlaneFigure:
             return
         self._plane = plane
         lift, slip = plane.lift, plane.slip
-        by = {
-            "slip": "slipping",
-            "lift-off": "lifting off",
-            "nothing": "nothing",
-            "no motion": "even the steady precession breaks it",
-        }
         self.limits.data = {
             "K_J": plane.K_J,
             "lift_in": lift.theta_inner,
@@ -201,8 +289,8 @@ class PlaneFigure:
             "steady": lift.theta_steady,
             "slip_E": slip.E,
             "lift_E": lift.E,
-            "slip_by": [by[word] for word in slip.limited_by],
-            "lift_by": [by[word] for word in lift.limited_by],
+            "slip_by": list(slip.limited_by),
+            "lift_by": list(lift.limited_by),
         }
         step = plane.hover_K_J[1] - plane.hover_K_J[0]
         low, high = plane.hover_K_J[0] - step / 2, plane.hover_K_J[-1] + step / 2
@@ -243,8 +331,8 @@ class TimeFigures:
                 fig.line("t", column, source=self.motion, line_color=colour, line_width=2)
             self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
             fig.add_layout(self.spans[-1])
-            fig.js_on_event("tap", CustomJS(code=SEEK))
-            fig.js_on_event("pan", CustomJS(code=SEEK))
+            for event in ("tap", "panstart", "pan", "panend"):
+                fig.js_on_event(event, CustomJS(code=SEEK))
             fig.min_border_left = 44
             fig.ygrid.ticker = fig.yaxis.ticker
             fig.yaxis.ticker.desired_num_ticks = 3
@@ -296,4 +384,20 @@ def follow_clock(plane, times):
     follow = CustomJS(
         args={"spans": times.spans, "motion": times.motion, "selected": plane.selected}, code=FOLLOW_CLOCK
     )
-    plane.figure.js_on_change("inner_width", follow)
+    fig = plane.figure
+    fig.js_on_change("inner_width", follow)
+    own = {"fig": fig, "hand": plane.hand}
+    grab = CustomJS(
+        args=own
+        | {
+            "selected": plane.selected,
+            "limits": plane.limits,
+            "motion": times.motion,
+            "sentence": plane.sentence,
+            "hover": plane.hover,
+        },
+        code=GRAB,
+    )
+    for event in ("tap", "panstart", "pan", "panend", "mousemove"):
+        fig.js_on_event(event, grab)
+    plane.selected.js_on_change("patching", CustomJS(args=own, code="hand.say?.()"))

@@ -5,13 +5,17 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.cards import INK, PLAIN, card, grid, section, swatch, words
-from app.controls import Controls
-from app.pacing import Pacer
+from app.colours import COLOURS
+from app.controls import SPIN, Controls, named
+from app.explorer import least_energy
+from app.look import Look
+from app.pacing import Pacer, at_once
 from app.plots import PlaneFigure, TimeFigures, follow_clock
+from app.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.surface3d import Surface3D, pack
 from app.top3d import Top3D, pack_frames
 
-HEIGHT = "<i>f</i><sub>1</sub><sup>2</sup>&hairsp;<i>θ̇</i>&hairsp;<sup>2</sup>"
+PLANE = f"({named('K_J')}, {named('angle')})"
 
 
 def plane_card(plane):
@@ -19,28 +23,30 @@ def plane_card(plane):
         (
             swatch("#8a96a3", "tielines under both limits"),
             swatch("#D55E00", "verge of slipping"),
-            swatch("#009E73", "<i>F</i><sub>z</sub> = 0"),
+            swatch("#009E73", f"{named('normal')} = 0"),
             swatch(INK, "steady precession", "dashed"),
             swatch("#fbe3d5", "lost to slipping"),
             swatch("#0072B2", "this motion"),
         )
     )
     return card(
-        "Which motions roll: the (<i>K</i><sub>J</sub>, <i>θ</i>) plane, the paper’s Fig. 6",
+        f"Which motions roll: the {PLANE} plane, the paper’s Fig. 6",
         words(f'<div class="key">{key}</div>'),
-        words("<i>K</i><sub>J</sub>"),
+        words(f"{named('K_J')} {SPIN}"),
         pn.pane.Bokeh(plane.figure, sizing_mode="stretch_both", margin=0),
-        words('<div class="axis"><i>θ</i> (rad)</div>'),
+        words(f'<div class="axis">{named("angle")} (rad)</div>'),
     )
 
 
 def times_card(times, unit, kept):
     labels = {
-        "theta": "<i>θ</i><br>rad",
-        "normal": "<i>F</i><sub>z</sub><br><i>Mg</i>",
-        "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
-        "constants": '<span style="color:#56B4E9"><i>K</i><sub>J</sub></span><br>'
-        '<span style="color:#CC79A7"><i>K</i><sub>R</sub></span><br><span style="color:#8C6D00"><i>E</i></span>',
+        "theta": f"{named('angle')}<br>rad",
+        "normal": f"{named('normal')}<br><i>Mg</i>",
+        "ratio": named("ratio"),
+        "constants": "<br>".join(
+            f'<span style="color: {COLOURS[colour]}">{named(name)}</span>'
+            for name, colour in {"K_J": "jellett", "K_R": "omega", "energy": "energy"}.items()
+        ),
     }
     rows = [
         pn.Row(
@@ -66,7 +72,7 @@ def times_card(times, unit, kept):
 
 def unit_words(scene):
     return (
-        '<div class="axis"><i>t</i> in (<i>R</i>/<i>g</i>)<sup>½</sup>, '
+        '<div class="axis">' + named("time") + " in (<i>R</i>/<i>g</i>)<sup>½</sup>, "
         f"{scene.scales.time * 1e3:.1f} ms of the real top</div>"
     )
 
@@ -119,7 +125,51 @@ def show_surface(surface, scene):
             theta_max=plane.theta_range[1],
             limit=plane.limit,
         )
-    surface.param.update(selected=pack([motion.K_J, *scene.turning]), selected_curve=pack(scene.curve))
+    surface.param.update(
+        selected=pack([motion.K_J, *scene.turning, scene.regime.max()]), selected_curve=pack(scene.curve)
+    )
+
+
+class Switch:
+    """A card whose one picture at a time is chosen; a picture is made when it is first looked at."""
+
+    def __init__(self, title, *kinds):
+        self._kinds, self._made, self._scene = kinds, {}, None
+        self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
+        self._says = words("", styles={"min-height": "2.8em"})
+        self._switch = pmui.RadioButtonGroup(
+            options={kind.title: i for i, kind in enumerate(kinds)},
+            value=0,
+            label="",
+            size="small",
+            margin=(6, 0, 2, 0),
+            sx=PLAIN,
+        )
+        self._switch.param.watch(lambda event: self._look(event.new), "value")
+        self.view = card(title, self._switch, *self._places, self._says)
+
+    def _look(self, chosen):
+        if chosen not in self._made:
+            kind = self._kinds[chosen]
+            portrait = self._made[chosen] = kind()
+            across, up = kind.axes
+            self._places[chosen].objects = [
+                words(up),
+                pn.pane.Bokeh(portrait.figure, sizing_mode="stretch_both", margin=0),
+                words(f'<div class="axis">{across}</div>'),
+            ]
+        self.show(self._scene)
+        for i, place in enumerate(self._places):
+            place.visible = i == chosen
+
+    def show(self, scene):
+        """Draws the picture that is looked at."""
+        self._scene = scene
+        chosen = self._switch.value
+        if chosen not in self._made:
+            return self._look(chosen)
+        self._made[chosen].show(scene)
+        self._says.object = self._made[chosen].words(scene)
 
 
 class Roll:
@@ -130,17 +180,31 @@ class Roll:
         plane, times, top, surface = (
             PlaneFigure(),
             TimeFigures(),
-            Top3D(sizing_mode="stretch_both"),
+            Top3D(sizing_mode="stretch_both", tiltable=True),
             Surface3D(sizing_mode="stretch_both"),
         )
+        tilt = Switch("The tilt <i>θ</i> by itself", Phase, Curve, Potential)
+        table = Switch("What the table sees", Track, Ring, Force)
         self.followers = []
+        self._grasp, self._held = None, {}
+        self._on_picture = False  # whether the hand is on a picture, and the controls are to go with it
+
+        def show_hand(scene):
+            plane.show_selected(scene)
+            if self._on_picture:
+                controls.follow(scene)
 
         def show_planes(scene):
             plane.show_plane(scene)
             show_surface(surface, scene)
             show_top(top, scene)
 
+        def show_portraits(scene):
+            tilt.show(scene)
+            table.show(scene)
+
         def show_words(scene):
+            self._on_picture = False
             with pn.io.hold():
                 controls.show(scene)
                 kept.object, unit.object = kept_words(scene), unit_words(scene)
@@ -148,12 +212,45 @@ class Roll:
                     follow(scene)
 
         kept, unit = words(""), words("")
-        pictures = (show_planes, times.show)
-        self.pacer = pacer = Pacer(explorer, plane.show_selected, pictures, show_words)
+        pictures = (show_planes, times.show, show_portraits)
+        self.pacer = pacer = Pacer(explorer, show_hand, pictures, show_words)
         self.controls = controls = Controls(explorer, pacer)
-        surface.param.watch(lambda event: event.new and controls.pick(event.new[0]), "picked")
-        plane.figure.on_event("tap", lambda event: controls.pick(event.y))
-        for show in (plane.show_selected, *pictures, show_words):
+
+        def grabbed(grip, theta, K_J, limit):
+            """A hand on the (K_J, theta) plane; limit: the share of energy that the picture's tielines have."""
+            self._on_picture = True
+            if grip == "tieline":
+                pacer.request(K_J=K_J, energy=limit, given="share")
+            elif grip == "line":
+                pacer.request(K_J=K_J, given="share")
+            else:
+                scene = explorer.scene
+                K_J = scene.constants.K_J if grip == "end" else K_J
+                theta = min(max(theta, 0.0), np.pi)
+                pacer.request(K_J=K_J, E=float(least_energy(theta, scene.top, K_J, explorer.K_R)), given="E")
+
+        def on_surface(event):
+            grip, theta, K_J = event.new if event.name == "hand" else ("tieline", *reversed(event.new))
+            grabbed(grip, theta, K_J, {"lift-off": 2.0, "slip": 1.0}[explorer.limit])
+
+        def tilted(event):
+            theta, t, grasp = event.new
+            if grasp != self._grasp:  # from then on the hand moves theta alone
+                self._grasp = grasp
+                motion = explorer.scene.rolling([0.0, t])
+                w1, w2, w3 = motion.omega[1]
+                self._held = {"theta_dot": w1, "omega2": w2, "omega3": w3, "phi": motion.phi[1], "psi": motion.psi[1]}
+            pacer.request(theta=theta, **self._held, given="state")
+
+        plane.hand.on_change(
+            "data", lambda attr, old, new: grabbed(new["grip"][0], new["theta"][0], new["K_J"][0], 1.0)
+        )
+        at_once(surface, "hand")
+        at_once(top, "tilted", "time")
+        surface.param.watch(on_surface, "hand")
+        surface.param.watch(on_surface, "picked")
+        top.param.watch(tilted, "tilted")
+        for show in (show_hand, *pictures, show_words):
             show(explorer.scene)
         follow_clock(plane, times)
 
@@ -171,9 +268,12 @@ class Roll:
             size="small",
             sx=PLAIN,
         )
+        look = Look(width=0, height=0, margin=0)
+        dark = pmui.Switch.from_param(look.param.dark, label="dark", size="small", margin=(4, 10, 0, 16))
+        large = pmui.Switch.from_param(look.param.large, label="large, for a projector", size="small", margin=(4, 0))
         self.sidebar = [
             section("The motion"),
-            *controls.views("K_J", "K_R", "energy"),
+            *controls.motion,
             section("The table"),
             *controls.views("mu_s"),
             section("The top"),
@@ -181,11 +281,16 @@ class Roll:
             section("The pictures"),
             hemisphere,
             limit,
+            section("The page"),
+            pn.Row(dark, large, margin=0),
+            look,
             pacer.painted,
         ]
         self.main = grid(
             card("The top", top),
             plane_card(plane),
-            card(f"{HEIGHT} over the (<i>K</i><sub>J</sub>, <i>θ</i>) plane: the paper’s Fig. 5", surface),
+            card(f"{named('height')} over the {PLANE} plane: the paper’s Fig. 5", surface),
             times_card(times, unit, kept),
+            tilt.view,
+            table.view,
         )

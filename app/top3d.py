@@ -50,6 +50,12 @@ class Top3D(Bundled):
         default=None,
         doc="G's distance below O, in R, where O may leave its height of R: in flight, on a stem. None: it does not.",
     )
+    tiltable = param.Boolean(default=False, constant=True, doc="Whether the axis has a handle when the top is paused.")
+    tilted = param.List(
+        default=[],
+        doc="[theta, t, grasp] of a hand on the axis, the browser writes it: the tilt it asks for, the time at which "
+        "it took hold, and a number that is another one for each grasp.",
+    )
     playing = param.Boolean(
         default=True, doc="Whether it plays. Where a person prefers reduced motion it starts paused."
     )

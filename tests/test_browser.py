@@ -20,11 +20,11 @@ def test_something_moves_at_once(visit):
 
 
 def test_after_a_slider_moved_the_data_on_display_are_tippe_cores(visit):
-    thumb = visit.page.locator(".MuiSlider-root input[type=range]").nth(K_J_FIELD)
+    thumb = visit.page.locator(".MuiSlider-root:visible input[type=range]").nth(K_J_FIELD)
     thumb.focus()
     for _ in range(30):
         thumb.press("ArrowLeft")
-    field = visit.page.locator("input[type=text]").nth(K_J_FIELD)
+    field = visit.page.locator("input[type=text]:visible").nth(K_J_FIELD)
     visit.page.wait_for_function("field => field.value == '6.7'", arg=field.element_handle())
     scene = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
     visit.until_column("constants", 0, "K_J", scene.K_J[0])
@@ -72,10 +72,10 @@ def test_playing_sends_nothing(visit):
 
 def test_a_bad_value_is_said_beside_its_control(visit):
     before = visit.column("theta", 0, "theta")
-    field = visit.page.locator("input[type=text]").nth(I3_FIELD)
+    field = visit.page.locator("input[type=text]:visible").nth(I3_FIELD)
     field.fill("0.9")
     field.press("Enter")
-    alert = visit.page.locator("[role=alert]")
+    alert = visit.page.locator("[role=alert]:visible")
     alert.wait_for()
     assert "I3" in alert.inner_text() and "0.9" in alert.inner_text()
     assert np.array_equal(visit.column("theta", 0, "theta"), before)

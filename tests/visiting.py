@@ -5,7 +5,7 @@ import socket
 
 import numpy as np
 
-PATIENCE = 20_000  # ms: software drawing on a busy machine
+PATIENCE = 60_000  # ms: software drawing on a busy machine
 FLAGS = [
     "--no-sandbox",
     "--disable-quic",
@@ -21,6 +21,16 @@ COLUMN = """
   const models = [...Bokeh.documents[0]._all_models.values()]
   const found = models.find((m) => m.name == figure && m.renderers)
   return Array.from(found.renderers[renderer].data_source.data[column])
+}
+"""
+
+
+# Where on the page a point of a figure is.
+PIXEL = """
+([figure, x, y]) => {
+  const model = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == figure && m.renderers)
+  const {canvas_view: {el}, frame} = Bokeh.index.find_one(model), box = el.getBoundingClientRect()
+  return [box.x + frame.x_scale.compute(x), box.y + frame.y_scale.compute(y)]
 }
 """
 
@@ -63,6 +73,16 @@ class Visit:
             f"([place, first]) => Math.abs(({COLUMN})(place)[0] - first) < 1e-9",
             arg=[[figure, renderer, column], first],
         )
+
+    def pixel(self, figure, x, y):
+        return self.page.evaluate(PIXEL, [figure, float(x), float(y)])
+
+    def drag(self, start, end, moves=6):
+        """The mouse goes down at start, to end in some moves, and stays down."""
+        self.page.mouse.move(*start)
+        self.page.mouse.down()
+        for i in range(1, moves + 1):
+            self.page.mouse.move(*(a + (b - a) * i / moves for a, b in zip(start, end, strict=True)))
 
     def pause(self):
         self.page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]

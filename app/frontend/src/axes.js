@@ -32,6 +32,8 @@ export class Scale {
 
   at = (value) => this.from + ((value - this.low) / (this.high - this.low)) * (this.to - this.from);
 
+  value = (place) => this.low + ((place - this.from) / (this.to - this.from)) * (this.high - this.low);
+
   text(value) {
     const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(this.step * 1.0001)) + (/25/.test(this.step.toPrecision(2)) ? 1 : 0)));
     return (Math.abs(value) < 1e-9 * this.step ? 0 : value).toFixed(digits).replace("-", "−");

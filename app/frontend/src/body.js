@@ -135,5 +135,6 @@ export class Body extends THREE.Mesh {
     this.material.map = paint(firstCorner);
     this.material.needsUpdate = true;
     this.reach = rows.reduce((most, [r, z]) => Math.max(most, Math.hypot(r, z)), 1); // from O to the farthest point
+    this.top = rows.reduce((most, [, z]) => Math.max(most, z), 0); // and to the end of the axis
   }
 }

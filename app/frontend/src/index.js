@@ -1,5 +1,6 @@
+import { renderLook } from "./look.js";
 import { renderSurface3D } from "./surface3d.js";
 import { renderTop3D } from "./top3d.js";
 
 // Panel looks a component up by its Python class's name.
-export default { Surface3D: { render: renderSurface3D }, Top3D: { render: renderTop3D } };
+export default { Look: { render: renderLook }, Surface3D: { render: renderSurface3D }, Top3D: { render: renderTop3D } };

@@ -8,7 +8,6 @@ export class Labels {
     this.stage = stage;
     this.layer = document.createElement("div");
     this.layer.className = "labels";
-    this.layer.setAttribute("aria-hidden", "true");
     stage.holder.append(this.layer);
     this.all = [];
   }
@@ -17,6 +16,7 @@ export class Labels {
   add(html, className = "") {
     const element = document.createElement("span");
     element.className = className;
+    element.setAttribute("aria-hidden", "true");
     element.innerHTML = html;
     this.layer.append(element);
     const label = { element, at: new Vector3(), shift: [0, 0], visible: true };

@@ -36,6 +36,7 @@ export class Player {
 
   // unitsPerMs: how much of the trajectory passes in a millisecond of the wall clock. Tells whether it began anew.
   advance(now, unitsPerMs) {
+    if (this.held) return false;
     const step = this.before === undefined ? 0 : Math.min(now - this.before, LONGEST_STEP_MS);
     this.before = now;
     const t = this.t + step * unitsPerMs;
@@ -72,8 +73,10 @@ export class Player {
     if (count) this.show((this.frames.nearest(this.t) + by + count) % count);
   }
 
-  // A time from outside; a playing top goes on from there.
-  seek(t) {
+  // A time from outside; a playing top goes on from there, once no hand holds the time any more.
+  seek(t, held = false) {
+    if (!held && this.held) this.before = undefined;
+    this.held = held;
     if (!this.frames.count) return;
     if (this.playing) this.t = this.wrap(t);
     else this.land(this.frames.nearest(t));

@@ -243,6 +243,18 @@ export class Stage {
     this.shown();
   }
 
+  // The picture of this moment, fine and so many pixels wide, in a canvas that the next picture will overwrite.
+  still(wide) {
+    this.forget();
+    this.setSimple(false);
+    this.setSamples(SAMPLES);
+    this.fineness = wide / (this.width * Math.min(devicePixelRatio, MAX_PIXEL_RATIO));
+    this.draw();
+    this.present();
+    this.invalidate();
+    return this.renderer.domElement;
+  }
+
   dispose() {
     if (this.disposed) return;
     this.disposed = true;

@@ -15,6 +15,10 @@ export const style = `
 .labels .axis { font: 15px/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; }
 .labels .axis sub, .labels .axis sup, .readout sub, .readout sup { font-size: 70%; line-height: 0; }
 .labels .point { font: 600 15px/1 Georgia, serif; text-shadow: 0 0 3px #fff, 0 0 4px #fff; }
+.labels .handle { width: 22px; height: 22px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid #0072B2;
+  box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
+.labels .handle:active { cursor: grabbing; }
+.labels .handle:focus-visible { outline: 3px solid #1d2733; outline-offset: 2px; }
 .note { position: absolute; inset: auto 12px 12px; margin: 0; padding: 8px 12px; border-radius: 8px; background: #fff4e5;
   color: #5c3b00; box-shadow: 0 1px 4px #0003; }
 .verdict { position: absolute; left: 12px; top: 12px; display: flex; align-items: center; gap: 7px; padding: 5px 12px 5px 9px;

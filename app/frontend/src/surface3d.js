@@ -19,9 +19,21 @@ const ramp = ["#f8f2dd", "#eed8a8", "#e5bb76", "#da9f4a", "#cc8325", "#b8690f", 
 const data = ["K_J", "theta", "heights", "energy", "verge", "steady", "P", "theta_max", "limit"];
 const QUANTITY = "<i>f</i><sub>1</sub><sup>2</sup> <i>θ̇</i><sup>2</sup>";
 const limits = {
-  "lift-off": { colour: colours.normal, text: "<i>F</i><sub>z</sub> = 0" },
-  slip: { colour: colours.friction, text: "<i>F</i><sub>h</sub> = <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>" },
+  "lift-off": {
+    colour: colours.normal, text: "<i>F</i><sub>z</sub> = 0",
+    why: "No motion that keeps to the table gets here:<br><i>F</i><sub>z</sub> &lt; 0, the table would have to pull.",
+  },
+  slip: {
+    colour: colours.friction, text: "<i>F</i><sub>h</sub> = <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>",
+    why: "No motion that rolls gets here:<br>it would slip, <i>F</i><sub>h</sub> &gt; <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>.",
+  },
 };
+const worsts = [
+  { colour: colours.theta },
+  { colour: colours.friction, why: "It would slip on the way:<br><i>F</i><sub>h</sub> passes <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>." },
+  { colour: colours.normal, why: "It would lift off on the way: <i>F</i><sub>z</sub> &lt; 0." },
+];
+const GRIP_PX = 14;
 
 export function renderSurface3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
@@ -91,6 +103,7 @@ export function renderSurface3D({ model, el, view }) {
   picture.append(readout, key);
 
   let rows = 0, columns = 0, K_J, theta, height, energy;
+  let ends = [0, 0], why; // of the motion on display
   let selected, drawing, shown; // K_J of the motion on display: as sent, in the picture begun, and on the screen
 
   function tick() {
@@ -119,7 +132,7 @@ export function renderSurface3D({ model, el, view }) {
     buildSurface();
     buildLines();
     buildSelected();
-    leave();
+    if (!readout.hidden && lastMove && !gripped) hover(); // new numbers under a resting mouse
     stage.invalidate();
   }
 
@@ -206,8 +219,12 @@ export function renderSurface3D({ model, el, view }) {
   }
 
   function buildSelected() {
-    const [chosen, inner, outer] = float32(model.selected), curve = float32(model.selected_curve);
+    const [chosen, inner, outer, worst = 0] = float32(model.selected), curve = float32(model.selected_curve);
     selected = chosen;
+    ends = [inner, outer];
+    why = worsts[worst].why;
+    for (const line of [...floor.selected, ...selectedCurves]) line.material.color.set(worsts[worst].colour);
+    if (gripped) say();
     const inBox = Number.isFinite(chosen) && chosen >= y.low && chosen <= y.high;
     for (const line of floor.selected) {
       line.setSegments(inBox ? 1 : 0, (s, put) => {
@@ -235,20 +252,95 @@ export function renderSurface3D({ model, el, view }) {
   let lastMove;
   const hover = coalesce(() => {
     const i = under(lastMove);
-    if (i === null) return leave();
-    const row = Math.floor(i / columns), box = picture.getBoundingClientRect();
+    if (i === null) return sayWhyNot();
+    const row = Math.floor(i / columns);
     const radians = theta[i];
     readout.innerHTML =
       `<i>θ</i> = ${radians.toFixed(4)} rad = ${((radians * 180) / Math.PI).toFixed(2)}°<br>` +
       `<i>K</i><sub>J</sub> = ${K_J[row].toFixed(4)}<br>${QUANTITY} = ${height[i].toFixed(4)}<br><i>E</i> = ${energy[row].toFixed(4)}`;
-    readout.hidden = false;
-    const left = Math.min(lastMove.clientX - box.left + 16, box.width - readout.offsetWidth - 8);
-    const top = Math.max(lastMove.clientY - box.top - readout.offsetHeight - 12, 8);
-    readout.style.transform = `translate(${left}px, ${top}px)`;
+    placeReadout();
     marker.visible = true;
     marker.position.fromBufferAttribute(mesh.geometry.attributes.position, i);
     stage.invalidate();
   });
+  function placeReadout() {
+    readout.hidden = false;
+    const box = picture.getBoundingClientRect();
+    const left = Math.min(lastMove.clientX - box.left + 16, box.width - readout.offsetWidth - 8);
+    const top = Math.max(lastMove.clientY - box.top - readout.offsetHeight - 12, 8);
+    readout.style.transform = `translate(${left}px, ${top}px)`;
+  }
+
+  // The floor under the pointer: [theta, K_J], or null outside the box.
+  const ground = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0), foot = new THREE.Vector3();
+  function onFloor(event, anywhere = false) {
+    const box = picture.getBoundingClientRect();
+    pointer.set(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
+    ray.setFromCamera(pointer, camera);
+    if (!ray.ray.intersectPlane(ground, foot)) return null;
+    const inside = foot.x >= x.from && foot.x <= x.to && foot.y >= y.from && foot.y <= y.to;
+    return anywhere || inside ? [x.value(foot.x), y.value(foot.y)] : null;
+  }
+
+  // Beyond the ends of the tielines the floor says why there is no surface over it.
+  function sayWhyNot() {
+    const place = rows > 1 && onFloor(lastMove);
+    if (!place) return leave();
+    marker.visible = false;
+    readout.innerHTML =
+      `<i>θ</i> = ${place[0].toFixed(3)} rad, <i>K</i><sub>J</sub> = ${place[1].toFixed(3)}<br>${limits[model.limit].why}`;
+    placeReadout();
+    stage.invalidate();
+  }
+
+  // The tieline on display can be taken hold of on the floor: an end of it, or all of it.
+  let gripped = null;
+  function gripUnder(event) {
+    if (!Number.isFinite(selected)) return null;
+    const box = picture.getBoundingClientRect();
+    const [a, b] = ends.map((theta) => {
+      corner.set(x.at(Math.min(theta, x.high)), y.at(selected), 0).project(camera);
+      return [((corner.x + 1) / 2) * box.width + box.left - event.clientX, ((1 - corner.y) / 2) * box.height + box.top - event.clientY];
+    });
+    if (Math.min(Math.hypot(...a), Math.hypot(...b)) < GRIP_PX) return "end";
+    const along = [b[0] - a[0], b[1] - a[1]], length = along[0] ** 2 + along[1] ** 2 || 1;
+    const share = Math.min(Math.max(-(a[0] * along[0] + a[1] * along[1]) / length, 0), 1);
+    return Math.hypot(a[0] + share * along[0], a[1] + share * along[1]) < GRIP_PX / 2 ? "line" : null;
+  }
+
+  // While the hand pulls: the sentence of the motion it pulled at, if it cannot be.
+  function say() {
+    readout.hidden = !why;
+    if (!why) return;
+    readout.innerHTML = why;
+    placeReadout();
+  }
+
+  const pull = coalesce(() => {
+    const place = gripped && onFloor(lastMove, true);
+    if (!place) return;
+    model.hand = [gripped, Math.min(Math.max(place[0], 0), Math.PI), Math.min(Math.max(place[1], y.low), y.high)];
+    say();
+  });
+  const release = () => {
+    if (!gripped) return;
+    gripped = null;
+    controls.enabled = true;
+    leave();
+  };
+  // Before the camera's own listener, so that what is pulled is not turned as well.
+  picture.addEventListener(
+    "pointerdown",
+    (event) => {
+      gripped = event.isPrimary && event.button === 0 ? gripUnder(event) : null;
+      controls.enabled = !gripped;
+      if (!gripped) return;
+      lastMove = event;
+      canvas.setPointerCapture(event.pointerId);
+    },
+    { capture: true },
+  );
+
   function leave() {
     hover.cancel();
     if (readout.hidden) return;
@@ -260,17 +352,20 @@ export function renderSurface3D({ model, el, view }) {
   const canvas = renderer.domElement;
   let pressed;
   canvas.addEventListener("pointermove", (event) => {
-    if (event.buttons) return leave(); // turning, not reading
     lastMove = event;
+    if (gripped) return pull();
+    if (event.buttons) return leave(); // turning, not reading
+    canvas.style.cursor = { end: "move", line: "move" }[gripUnder(event)] ?? "";
     hover();
   });
-  canvas.addEventListener("pointerleave", leave);
-  canvas.addEventListener("pointerdown", (event) => (pressed = event));
+  canvas.addEventListener("pointerleave", () => gripped || leave());
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, release);
+  canvas.addEventListener("pointerdown", (event) => (pressed = gripped ? null : event));
   canvas.addEventListener("pointerup", (event) => {
     if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > CLICK_PX) return;
-    const i = under(event);
-    if (i === null) return;
-    model.picked = [K_J[Math.floor(i / columns)], theta[i]];
+    const i = under(event), place = i === null ? onFloor(event) : null;
+    if (place) model.hand = ["point", ...place];
+    else if (i !== null) model.picked = [K_J[Math.floor(i / columns)], theta[i]];
     lastMove = event;
     hover(); // a finger does not hover: its tap reads the value too
   });
@@ -311,6 +406,13 @@ export function renderSurface3D({ model, el, view }) {
     get height() { return Array.from(height); },
     get pictures() { return stage.pictures; },
     get selected() { return shown; },
+    get grips() { // where on the page the ends of the motion on display can be taken
+      const box = picture.getBoundingClientRect();
+      return ends.map((theta) => {
+        corner.set(x.at(theta), y.at(selected), 0).project(camera);
+        return [((corner.x + 1) / 2) * box.width + box.left, ((1 - corner.y) / 2) * box.height + box.top];
+      });
+    },
     get readout() { return readout.hidden ? "" : readout.textContent; },
   };
   (window.__tippe ??= {}).surface3d = report;
@@ -319,6 +421,7 @@ export function renderSurface3D({ model, el, view }) {
     onData.cancel();
     onSelected.cancel();
     hover.cancel();
+    pull.cancel();
     if (window.__tippe.surface3d === report) delete window.__tippe.surface3d;
     stage.dispose();
   };

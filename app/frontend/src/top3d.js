@@ -6,8 +6,10 @@ import { Body } from "./body.js";
 import { colours } from "./colours.js";
 import { coalesce, float32, niceAbove } from "./data.js";
 import { emptyPose } from "./frames.js";
+import { Handle } from "./handle.js";
 import { Labels } from "./labels.js";
 import { WideLine } from "./lines.js";
+import { photo } from "./photo.js";
 import { Player } from "./player.js";
 import { Ribbon, Thread } from "./ribbon.js";
 import { tryStage } from "./stage.js";
@@ -114,6 +116,7 @@ export function renderTop3D({ model, el, view }) {
     landed: tellTime,
     playingChanged: () => (model.playing = player.playing),
   });
+  const handle = model.tiltable ? new Handle(stage, labels, model, player) : null;
   const bar = new Bar(root, picture, model, player, () => {
     firstView();
     stage.invalidate();
@@ -197,6 +200,8 @@ export function renderTop3D({ model, el, view }) {
     cone.visible = some && model.show_cone && height > 1e-3 && model.mu_s > 0;
     cone.position.copy(moment.contact);
     cone.scale.set(height * model.mu_s, height * model.mu_s, height);
+
+    handle?.follow(body, some && !player.playing);
 
     const passed = Math.ceil(at);
     show(track, model.show_track, passed, frames.count);
@@ -285,7 +290,7 @@ export function renderTop3D({ model, el, view }) {
   function tellTime() {
     clearTimeout(told);
     told = setTimeout(() => {
-      if (!player.playing && model.time !== player.t) model.time = player.t;
+      if (!player.playing && !player.held && model.time !== player.t) model.time = player.t;
     }, TELL_MS);
   }
 
@@ -293,6 +298,7 @@ export function renderTop3D({ model, el, view }) {
     const first = !player.frames.count;
     member.echo = true; // a new motion is no news of the clock
     player.setFrames(model.frames);
+    if (handle?.begins()) player.land(0);
     member.echo = false;
     received += 1;
     const { frames } = player;
@@ -328,7 +334,7 @@ export function renderTop3D({ model, el, view }) {
   for (const name of ["mu_s", "seconds", "show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"]) {
     model.on(name, () => stage.invalidate());
   }
-  const onSeek = (event) => player.seek(event.detail.t);
+  const onSeek = ({ detail: { t, held } }) => player.seek(t, held);
   window.addEventListener(`tippe:seek${suffix}`, onSeek);
   if (model.clock) clocks.set(model.clock, [...others(), member]);
 
@@ -349,6 +355,7 @@ export function renderTop3D({ model, el, view }) {
     get verdict() { return verdict.textContent; },
     get pictures() { return stage.pictures; },
     get motions() { return { received, shown }; },
+    photo: (wide) => photo(stage, labels, wide),
   };
   window.__tippe ??= {};
   window.__tippe.tops ??= (clock) => (clocks.get(clock) ?? []).map((top) => top.report);

@@ -1,0 +1,72 @@
+// How the page looks: light or dark, and large for a projector. The page's own type follows by variables of CSS, the
+// widgets by their theme; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
+const LARGER = 1.35;
+const INKS = ["#22303c", "#8a96a3", "#e7ebef", "#ffffff"]; // app/plots.py: ink, faint, grid, paper
+const looks = {
+  light: ["#22303c", "#8a96a3", "#e7ebef", "#ffffff"],
+  "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff"],
+  dark: ["#eef2f6", "#9aa7b4", "#333d48", "#161c23"],
+  "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#000000"],
+};
+const FAINT_TYPE = { light: "#5b6875", "light large": "#26323d", dark: "#aab6c2", "dark large": "#e3e8ed" };
+
+export function renderLook({ model }) {
+  const first = new WeakMap(); // model -> what its inks and sizes were
+  let name = "light";
+
+  const exchange = (value, as) => {
+    if (value && typeof value === "object" && typeof value.value === "string") return { ...value, value: as(value.value) };
+    return typeof value === "string" ? as(value) : value;
+  };
+  const ink = (value) => looks[name][INKS.indexOf(value.toLowerCase())] ?? value;
+  const size = (value) => (model.large ? value.replace(/^[\d.]+(?=px)/, (px) => String(LARGER * px)) : value);
+
+  function dress(figurePart) {
+    let own = first.get(figurePart);
+    if (!own) {
+      own = {};
+      for (const property in figurePart.attributes) {
+        if (property.endsWith("_color") || property.endsWith("font_size")) own[property] = figurePart.attributes[property];
+      }
+      first.set(figurePart, own);
+    }
+    const wanted = Object.entries(own).map(([property, value]) => [property, exchange(value, property.endsWith("_color") ? ink : size)]);
+    if (wanted.length) figurePart.setv(Object.fromEntries(wanted), { sync: false });
+  }
+
+  const documentOf = () => Bokeh.documents.find((doc) => doc._all_models.has(model.id)) ?? Bokeh.documents[0];
+  let seen = 0;
+  function dressAll() {
+    const all = [...documentOf()._all_models.values()];
+    seen = all.length;
+    for (const part of all) {
+      if (part.type?.startsWith("panel.") || !part.attributes) continue;
+      if ("dark_theme" in part.attributes && "sidebar_width" in part.attributes) part.setv({ dark_theme: model.dark });
+      dress(part);
+    }
+  }
+
+  function update() {
+    name = `${model.dark ? "dark" : "light"}${model.large ? " large" : ""}`;
+    const [inkNow, , line, paper] = looks[name], root = document.documentElement;
+    const values = {
+      "--ink": inkNow, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper, "--alert": model.dark ? "#ffb4ab" : "#b3261e",
+      "--type": model.large ? LARGER : 1,
+    };
+    for (const [property, value] of Object.entries(values)) root.style.setProperty(property, String(value));
+    root.style.fontSize = model.large ? `${100 * LARGER}%` : "";
+    root.dataset.look = name;
+    dressAll();
+  }
+
+  // A tab is made when it is first looked at: then there are more models to dress.
+  const doc = documentOf();
+  const onChange = () => {
+    if (name !== "light" && doc._all_models.size !== seen) dressAll();
+  };
+  doc.on_change(onChange);
+  model.on("dark", update);
+  model.on("large", update);
+  model.on("remove", () => doc.remove_on_change(onChange));
+  if (model.dark || model.large) update();
+}

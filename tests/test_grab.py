@@ -1,0 +1,206 @@
+"""A hand on the pictures, in Chromium: what is dragged follows, and everything else with it."""
+
+import numpy as np
+import pytest
+from visiting import COLUMN
+
+from app.explorer import least_energy, solve
+from tippe_core import Constants, Top, roll, tielines, turning_points
+
+TOP = Top.paper()
+FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # places in the sidebar
+STATE_FIELDS = {"theta": 0, "theta_dot": 1, "omega2": 2, "omega3": 3}
+
+# The motion on display, as Fig. 6 shows it.
+SELECTED = """
+() => {
+  const plane = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "plane" && m.renderers)
+  const {data} = plane.renderers.map((r) => r.data_source).find((s) => s.data.worst)
+  return Object.fromEntries(Object.entries(data).map(([name, values]) => [name, values[0]]))
+}
+"""
+
+
+def selected(visit):
+    return visit.page.evaluate(SELECTED)
+
+
+def until_selected(visit, **values):
+    """Waits until Fig. 6 shows these values; in rad and (g/R)^1/2, to a pixel's width."""
+    visit.page.wait_for_function(
+        f"(want) => {{ const has = ({SELECTED})(); "
+        "return Object.entries(want).every(([k, v]) => Math.abs(has[k] - v) < 0.01) }",
+        arg=values,
+    )
+    return selected(visit)
+
+
+def field(visit, place):
+    """The number that stands in a field of the sidebar that is seen."""
+    text = visit.page.locator("input[type=text]:visible").nth(place).input_value()
+    return float(text.replace("−", "-"))
+
+
+def until_field(visit, place, value):
+    visit.page.wait_for_function(
+        """([i, value]) => {
+            const seen = (e) => e.matches("input[type=text]") && e.offsetParent
+            const find = (root) => [...root.querySelectorAll("*")].flatMap(
+              (e) => [...(seen(e) ? [e] : []), ...(e.shadowRoot ? find(e.shadowRoot) : [])])
+            return Math.abs(Number(find(document)[i].value.replace("−", "-")) - value) < 1e-4
+        }""",
+        arg=[place, value],
+    )
+
+
+def type_in(visit, place, text):
+    entry = visit.page.locator("input[type=text]:visible").nth(place)
+    entry.fill(text)
+    entry.press("Enter")
+
+
+def top_stands_on(visit, state_or_constants, **options):
+    """Whether the first frame of the top in 3-D is this motion's."""
+    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
+    q = roll(TOP, state_or_constants, [0.0], **options).quaternion[0]
+    visit.page.wait_for_function(
+        "q => Math.abs(__tippe.top3d.quaternion.reduce((sum, x, i) => sum + x * q[i], 0)) > 1 - 1e-6", arg=q.tolist()
+    )
+
+
+def test_an_end_of_the_tieline_is_the_energy(visit):
+    visit.pause()
+    before = selected(visit)
+    visit.drag(visit.pixel("plane", before["outer"], 7.0), visit.pixel("plane", 0.86, 6.2))
+    after = until_selected(visit, outer=0.86, K_J=7.0)
+    assert after["worst"] == 1
+    visit.page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
+        .some((m) => m.type == "Label" && m.visible && m.text.includes("slip"))""")
+    visit.page.mouse.up()
+    E = float(least_energy(after["outer"], TOP, 7.0, 10.0))
+    until_field(visit, FIELDS["energy"], E)
+    assert turning_points(TOP, Constants(7.0, 10.0, E))[0] == pytest.approx([after["inner"], after["outer"]], abs=1e-9)
+    top_stands_on(visit, Constants(7.0, 10.0, E))
+
+
+def test_the_tieline_itself_is_K_J(visit):
+    visit.pause()
+    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
+    visit.page.wait_for_function("__tippe.top3d.index == 0")
+    visit.drag(visit.pixel("plane", 0.62, 7.0), visit.pixel("plane", 0.62, 5.5))
+    after = until_selected(visit, K_J=5.5)
+    visit.page.mouse.up()
+    until_field(visit, FIELDS["K_J"], after["K_J"])
+
+
+def test_a_click_on_another_tieline_is_that_motion_at_its_limit(visit):
+    visit.pause()
+    visit.page.mouse.click(*visit.pixel("plane", 1.2, 3.01))
+    after = until_selected(visit, K_J=3.0, inner=0.9804, outer=1.3242)
+    assert after["K_J"] == 3.0 and after["worst"] == 0
+    E = float(tielines(TOP, [3.0], 10.0, 0.5).E[0])
+    until_field(visit, FIELDS["energy"], float(f"{E:.6g}"))
+    top_stands_on(visit, Constants(3.0, 10.0, E))
+
+
+def test_beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_says_why_not(visit):
+    visit.page.mouse.click(*visit.pixel("plane", 1.1, 7.5))
+    assert until_selected(visit, K_J=7.5, outer=1.1)["worst"] == 2
+    visit.page.mouse.move(*visit.pixel("plane", 1.3, 6.0))
+    visit.page.get_by_text("Not by rolling: it would lift off on the way").wait_for()
+    visit.page.mouse.move(*visit.pixel("plane", 0.96, 6.0))
+    visit.page.get_by_text("Not by rolling: it would slip on the way").wait_for()
+
+
+def test_the_bead_moves_the_clock_and_nothing_else(visit):
+    visit.pause()
+    place = selected(visit)
+    visit.page.wait_for_function("Bokeh.documents[0].is_idle")
+    aim = 0.6 if place["theta"] > 0.6 else 0.7
+    visit.drag(visit.pixel("plane", place["theta"], 7.0), visit.pixel("plane", aim, 7.3))
+    visit.sent.clear()
+    visit.page.mouse.move(*visit.pixel("plane", aim - 0.02, 7.3))
+    # the nearest frame of 64 in a nutation
+    visit.page.wait_for_function(f"(aim) => Math.abs(({SELECTED})().theta - aim) < 0.02", arg=aim - 0.02)
+    t = visit.page.evaluate("__tippe.top3d.t")
+    motion = roll(TOP, solve(TOP, 7.0, 10.0, 0.5, 0.9).constants, [0.0, t])
+    assert motion.theta[1] == pytest.approx(selected(visit)["theta"], abs=1e-3)
+    assert not visit.sent
+    visit.page.mouse.up()
+
+
+def test_the_axis_of_a_paused_top_is_the_initial_tilt(visit):
+    visit.page.get_by_text("initial state").click()
+    visit.pause()
+    handle = visit.page.get_by_role("slider", name="Tilt of the axis")
+    box = handle.bounding_box()
+    tilt = float(handle.get_attribute("aria-valuenow"))
+    start = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    visit.drag(start, (start[0] - 30, start[1] + 30))
+    visit.page.wait_for_function("__tippe.top3d.t == 0")
+    visit.page.mouse.up()
+    handle.press("ArrowDown")
+    visit.page.wait_for_function("Bokeh.documents[0].is_idle && __tippe.top3d.t == 0")
+    # what the handle says is what the field says, and where the curve starts
+    visit.page.wait_for_function(
+        """([column, handle, before]) => {
+            const shown = Number(handle.getAttribute("aria-valuenow"))
+            return shown != before && Math.abs(eval(column)(["theta", 0, "theta"])[0] - shown) < 6e-4
+        }""",
+        arg=[COLUMN, handle.element_handle(), tilt],
+    )
+    until_field(visit, STATE_FIELDS["theta"], float(f"{visit.column('theta', 0, 'theta')[0]:.6g}"))
+
+
+def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(visit):
+    visit.pause()
+    visit.page.get_by_text("initial state").click()
+    for name, text in {"theta": "0.6", "theta_dot": "1.5", "omega2": "−2", "omega3": "9"}.items():
+        type_in(visit, STATE_FIELDS[name], text)
+        until_field(visit, STATE_FIELDS[name], float(text.replace("−", "-")))
+    constants = Constants.from_state(TOP, 0.6, 1.5, -2.0, 9.0)
+    visit.until_column("constants", 0, "K_J", constants.K_J)
+    visit.page.get_by_text(f"{constants.K_J:.4g}".replace("-", "−")).first.wait_for()
+    before = visit.column("theta", 0, "theta")
+    visit.page.get_by_role("button", name="constants", exact=True).click()
+    for name in ("K_J", "K_R"):
+        until_field(visit, FIELDS[name], float(f"{getattr(constants, name):.6g}"))
+    until_field(visit, FIELDS["energy"], float(f"{constants.E:.6g}"))
+    visit.page.get_by_text("initial state").click()
+    assert [field(visit, place) for place in STATE_FIELDS.values()] == [0.6, 1.5, -2.0, 9.0]
+    assert np.array_equal(visit.column("theta", 0, "theta"), before)
+    type_in(visit, STATE_FIELDS["theta"], "4")
+    alert = visit.page.locator("[role=alert]:visible")
+    alert.wait_for()
+    assert "theta" in alert.inner_text()
+    assert np.array_equal(visit.column("theta", 0, "theta"), before)
+
+
+def test_the_floor_of_fig_5_can_be_pulled_and_says_why_not(visit):
+    visit.pause()
+    visit.page.locator("canvas[aria-label^='Figure 5']").scroll_into_view_if_needed()
+    _, outer = visit.page.evaluate("__tippe.surface3d.grips")
+    visit.drag(outer, (outer[0] + 25, outer[1] + 4))
+    visit.page.wait_for_function(f"() => ({SELECTED})().outer > 0.8")
+    assert selected(visit)["K_J"] == 7.0
+    visit.page.wait_for_function("__tippe.surface3d.readout.includes('on the way')")
+    visit.page.mouse.up()
+
+
+@pytest.mark.parametrize("name, figure", [
+    ("phase portrait", "phase"), ("f(θ)", "f"), ("effective potential", "potential"), ("unrolled", "ring"),
+    ("force in its disc", "force")])
+def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(visit, name, figure):
+    visit.pause()
+    visit.page.get_by_role("button", name=name).click()
+    visit.page.wait_for_function(
+        "name => { const m = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == name && m.renderers);"
+        " return m && Bokeh.index.find_one(m)?.frame?.bbox.width > 50 }", arg=figure)
+    line = {"phase": 1, "force": 1, "potential": 1}.get(figure, 0)
+    t, x, y = (visit.column(figure, line, column).tolist() for column in "txy")
+    visit.page.get_by_role("button", name=name).scroll_into_view_if_needed()
+    i = len(t) // 3
+    visit.page.mouse.click(*visit.pixel(figure, x[i], y[i]))
+    visit.page.wait_for_function(
+        """([name, column, renderer, x]) => Math.abs(eval(column)([name, renderer, "x"])[0] - x) < 0.02""",
+        arg=[figure, COLUMN, line + 1, x[i]])
