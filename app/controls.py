@@ -2,6 +2,7 @@
 
 import html
 import math
+import time
 
 import panel as pn
 import panel_material_ui as pmui
@@ -121,6 +122,8 @@ RANGES = {
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
+# s; so long after a value was told it may come back.
+ECHO = 3.0
 FOLLOW_HAND = """
 const text = String(Number(cb_obj.value.toPrecision(6))).replace("-", "−")
 entry.data.setv({value_input: text}, {sync: false})
@@ -165,7 +168,7 @@ class Control:
             value=number(value),
             label="",
             size="small",
-            width=92,
+            width=100,
             margin=0,
             tags=[name],
             sx={"& input": {"padding": "4px 8px", "fontSize": "inherit", "textAlign": "right"}},
@@ -190,7 +193,7 @@ class Control:
             sizing_mode="stretch_width",
             margin=(0, 14, 8, 16),
         )
-        self._silent = False
+        self._silent, self._value, self._told = False, value, {}
         # The number goes with the hand: no need to ask the server for it.
         if not marked:
             self.slider.jscallback(value=FOLLOW_HAND, args={"entry": self.entry})
@@ -198,11 +201,21 @@ class Control:
         self.entry.param.watch(self._typed, "value")
 
     def _slid(self, event):
-        if not self._silent:
-            self._request(self.name, event.new)
+        if self._silent or self._is_echo(event.new):
+            return
+        self._value = event.new
+        self._request(self.name, event.new)
+
+    def _is_echo(self, value):
+        """Whether the browser returns what it was told before the last: a late one does, and no person wished it."""
+        if time.monotonic() - self._told.get(value, -ECHO) > ECHO:
+            return False
+        self._silent, self.slider.value, self.entry.value = True, self._value, self._shown
+        self._silent = False
+        return True
 
     def _typed(self, event):
-        if self._silent:
+        if self._silent or self._is_echo(event.new):
             return
         try:
             value = float(event.new.replace("−", "-").replace(",", "."))
@@ -224,7 +237,12 @@ class Control:
 
     def follow(self, value, shown, bounds=None):
         """The slider and the number go where something else has put the value."""
-        self._silent, self._shown = True, number(shown)
+        self._value, self._shown = value, number(shown)
+        self._told = {old: when for old, when in self._told.items() if time.monotonic() - when < ECHO}
+        for widget, new in ((self.slider, value), (self.entry, self._shown)):
+            if widget.value != new:
+                self._told[new] = time.monotonic()
+        self._silent = True
         low, high = bounds or RANGES[self.name][:2]
         self.slider.param.update(start=min(low, value), end=max(high, value), value=value)
         self.entry.value = self._shown

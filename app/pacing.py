@@ -61,8 +61,12 @@ class Pacer:
         self._requested = time.monotonic()
         if self._resting:
             self._resting = False
-            pn.state.curdoc.add_timeout_callback(self._rest, round(1000 * REST_AFTER))
+            self._after(REST_AFTER, self._rest)
         self._advance()
+
+    @staticmethod
+    def _after(seconds, then):
+        pn.state.curdoc.add_timeout_callback(then, max(round(1000 * seconds), 20))
 
     def _advance(self):
         late = time.monotonic() - ANSWER_WITHIN
@@ -85,12 +89,20 @@ class Pacer:
             self._words(event.new)
 
     def _rest(self):
+        self._advance()  # a hidden tab answers nothing that could do it
         left = self._requested + REST_AFTER - time.monotonic()
         if left > 0 or self._wanted:
-            pn.state.curdoc.add_timeout_callback(self._rest, max(round(1000 * left), 20))
+            self._after(left, self._rest)
             return
         self._resting = True
         self._words(self.explorer.scene)
+        self._after(ANSWER_WITHIN, self._finish)
+
+    def _finish(self):
+        """The pictures of a tab that does not answer come too, late."""
+        self._advance()
+        if self._round or self._round_is_due:
+            self._after(ANSWER_WITHIN, self._finish)
 
     def _send(self, draw, in_flight):
         with pn.io.hold():  # one message, in order, so that the answer comes after the picture

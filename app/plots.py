@@ -36,6 +36,9 @@ const place_bead = () => {
   selected.change.emit()
 }
 motion.properties.data.change.connect(place_bead)
+const {events_el} = Bokeh.index.find_one(fig).canvas_view
+const press = ({offsetX, offsetY}) => { hand.pressed = [offsetX, offsetY] }
+events_el.addEventListener("pointerdown", press, {capture: true})
 window.addEventListener("tippe:clock", ({detail: {t}}) => {
   now = t
   for (const span of spans) span.setv({location: t}, {sync: false})
@@ -57,22 +60,24 @@ GRAB = """
 const {x, y, event_name} = cb_obj
 const row = Object.fromEntries(Object.entries(selected.data).map(([name, values]) => [name, values[0]]))
 const {frame: {x_scale, y_scale}, canvas_view: {ui_event_bus}, tool_views} = Bokeh.index.find_one(fig)
-const [hand_x, hand_y] = [x_scale.compute(x), y_scale.compute(y)]
-const px = (theta, K_J) => Math.hypot(x_scale.compute(theta) - hand_x, y_scale.compute(K_J) - hand_y)
 const REACH = 14
 const {K_J, slip_in, slip_out} = limits.data
 const nearest = K_J.reduce((best, _, j) => Math.abs(K_J[j] - y) < Math.abs(K_J[best] - y) ? j : best, 0)
-const grip = () => {
-  if (px(row.theta, row.K_J) < REACH) return "bead"
-  if (Math.min(px(row.inner, row.K_J), px(row.outer, row.K_J)) < REACH) return "end"
-  if (px(Math.min(Math.max(x, row.inner), row.outer), row.K_J) < REACH) return "line"
+const grip = (sx, sy) => {
+  const away = (theta, K_J) => Math.hypot(x_scale.compute(theta) - sx, y_scale.compute(K_J) - sy)
+  if (away(row.theta, row.K_J) < REACH) return "bead"
+  if (Math.min(away(row.inner, row.K_J), away(row.outer, row.K_J)) < REACH) return "end"
+  if (away(Math.min(Math.max(x_scale.invert(sx), row.inner), row.outer), row.K_J) < REACH) return "line"
   return x >= slip_in[nearest] && x <= slip_out[nearest] ? "tieline" : "point"
 }
+const over = () => grip(x_scale.compute(x), y_scale.compute(y))
 if (event_name == "mousemove") {
-  if (!hand.grip) ui_event_bus.set_cursor({bead: "grab", end: "ew-resize", line: "ns-resize"}[grip()] ?? "pointer")
+  if (!hand.grip) ui_event_bus.set_cursor({bead: "grab", end: "ew-resize", line: "ns-resize"}[over()] ?? "pointer")
   return
 }
-if (event_name == "panstart" || event_name == "tap") hand.grip = grip()
+// a quick hand is elsewhere by the time it counts as dragging
+if (event_name == "panstart") hand.grip = hand.pressed ? grip(...hand.pressed) : over()
+if (event_name == "tap") hand.grip = over()
 const taken = hand.grip, done = event_name == "tap" || event_name == "panend"
 if (done) hand.grip = null
 if (event_name == "panstart") tool_views.get(hover)._move_exit()
@@ -381,12 +386,12 @@ class TimeFigures:
 
 def follow_clock(plane, times):
     """Lets the browser's own clock move the time lines and the bead on the selected tieline."""
-    follow = CustomJS(
-        args={"spans": times.spans, "motion": times.motion, "selected": plane.selected}, code=FOLLOW_CLOCK
-    )
     fig = plane.figure
-    fig.js_on_change("inner_width", follow)
     own = {"fig": fig, "hand": plane.hand}
+    follow = CustomJS(
+        args=own | {"spans": times.spans, "motion": times.motion, "selected": plane.selected}, code=FOLLOW_CLOCK
+    )
+    fig.js_on_change("inner_width", follow)
     grab = CustomJS(
         args=own
         | {

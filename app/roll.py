@@ -4,7 +4,7 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.cards import INK, PLAIN, card, grid, section, swatch, words
+from app.cards import PLAIN, card, grid, section, swatch, words
 from app.colours import COLOURS
 from app.controls import SPIN, Controls, named
 from app.explorer import least_energy
@@ -24,7 +24,7 @@ def plane_card(plane):
             swatch("#8a96a3", "tielines under both limits"),
             swatch("#D55E00", "verge of slipping"),
             swatch("#009E73", f"{named('normal')} = 0"),
-            swatch(INK, "steady precession", "dashed"),
+            swatch("var(--ink, #22303c)", "steady precession", "dashed"),
             swatch("#fbe3d5", "lost to slipping"),
             swatch("#0072B2", "this motion"),
         )

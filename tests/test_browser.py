@@ -38,6 +38,16 @@ def test_after_a_slider_moved_the_data_on_display_are_tippe_cores(visit):
     visit.page.wait_for_function("n => __tippe.top3d.count == n", arg=len(motion.t))
 
 
+def test_a_tab_that_paints_nothing_loses_no_request(visit):
+    """Of a hidden tab no frame is asked for, so nothing tells the server that its pictures arrived."""
+    visit.page.evaluate("() => { window.requestAnimationFrame = () => 0 }")
+    thumb = visit.page.locator(".MuiSlider-root:visible input[type=range]").nth(K_J_FIELD)
+    thumb.focus()
+    for _ in range(8):
+        thumb.press("ArrowLeft")
+    visit.until_column("constants", 0, "K_J", solve(Top.paper(), 6.92, 10.0, 0.5, 0.9).K_J[0])
+
+
 def test_the_top_stands_as_the_trajectory_says(visit):
     visit.pause()
     motion = solve(Top.paper(), 7.0, 10.0, 0.5, 0.9).trajectory

@@ -53,6 +53,11 @@ def until_field(visit, place, value):
     )
 
 
+def show_state(visit):
+    visit.page.get_by_role("button", name="initial state").click()
+    visit.page.locator(":text('its rate'):visible").wait_for()
+
+
 def type_in(visit, place, text):
     entry = visit.page.locator("input[type=text]:visible").nth(place)
     entry.fill(text)
@@ -130,7 +135,7 @@ def test_the_bead_moves_the_clock_and_nothing_else(visit):
 
 
 def test_the_axis_of_a_paused_top_is_the_initial_tilt(visit):
-    visit.page.get_by_text("initial state").click()
+    show_state(visit)
     visit.pause()
     handle = visit.page.get_by_role("slider", name="Tilt of the axis")
     box = handle.bounding_box()
@@ -154,7 +159,7 @@ def test_the_axis_of_a_paused_top_is_the_initial_tilt(visit):
 
 def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(visit):
     visit.pause()
-    visit.page.get_by_text("initial state").click()
+    show_state(visit)
     for name, text in {"theta": "0.6", "theta_dot": "1.5", "omega2": "−2", "omega3": "9"}.items():
         type_in(visit, STATE_FIELDS[name], text)
         until_field(visit, STATE_FIELDS[name], float(text.replace("−", "-")))
@@ -163,10 +168,11 @@ def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(v
     visit.page.get_by_text(f"{constants.K_J:.4g}".replace("-", "−")).first.wait_for()
     before = visit.column("theta", 0, "theta")
     visit.page.get_by_role("button", name="constants", exact=True).click()
+    visit.page.locator(":text('Routh’s constant'):visible").wait_for()
     for name in ("K_J", "K_R"):
         until_field(visit, FIELDS[name], float(f"{getattr(constants, name):.6g}"))
     until_field(visit, FIELDS["energy"], float(f"{constants.E:.6g}"))
-    visit.page.get_by_text("initial state").click()
+    show_state(visit)
     assert [field(visit, place) for place in STATE_FIELDS.values()] == [0.6, 1.5, -2.0, 9.0]
     assert np.array_equal(visit.column("theta", 0, "theta"), before)
     type_in(visit, STATE_FIELDS["theta"], "4")

@@ -41,7 +41,7 @@ export function renderLook({ model }) {
     seen = all.length;
     for (const part of all) {
       if (part.type?.startsWith("panel.") || !part.attributes) continue;
-      if ("dark_theme" in part.attributes && "sidebar_width" in part.attributes) part.setv({ dark_theme: model.dark });
+      if ("dark_theme" in part.attributes && "sidebar_width" in part.attributes) part.setv({ dark_theme: model.dark }, { sync: false }); // Python would put a theme of its own on the figures
       dress(part);
     }
   }
