@@ -12,14 +12,14 @@ from app.cards import INK, PLAIN, TYPE, card, grid, swatch, words
 from app.colours import COLOURS
 from app.controls import STYLE, Control
 from app.planes import FLIES, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS, SLIPS
-from app.plots import plain
+from app.plots import FAINT, plain
 from app.surface3d import pack
 from app.top3d import Top3D, pack_frames
 from tippe_core import PRESETS as BODIES
 
 CLOCK = "planes"
 # A plane's own colour and name, the same in all pictures of this tab.
-LOOKS = {"rough": (INK, "rough: it rolls"), "smooth": (COLOURS["jellett"], "smooth: it glides"),
+LOOKS = {"rough": (COLOURS["normal"], "rough: it rolls"), "smooth": (COLOURS["jellett"], "smooth: it glides"),
          "sliding": (COLOURS["friction"], "sliding")}  # fmt: skip
 REGIMES = {ROLLS: (COLOURS["normal"], "rolls"), SLIPS: (COLOURS["friction"], "slips"),
            FLIES: (COLOURS["omega"], "in the air"), LIFTS: ("#8C2D04", "would lift off")}  # fmt: skip
@@ -53,6 +53,7 @@ BUCKETS, LEDGER_POINTS, BEAD_POINTS = 500, 500, 4000
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
+MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
 NEAR = 0.035  # of the map's width: a click so near to a known top is meant for it
 BUTTON = {
     "size": "small",
@@ -64,9 +65,9 @@ FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "6px"}
 # Three bars side by side have room for what matters only.
 SMALL_BAR = [":host .bar .shows, :host .bar .view, :host .bar .back, :host .bar .forward { display: none }"]
 TABLE = """
-table { border-collapse: collapse; margin: 6px 0 0; font-size: 13px }
+table { border-collapse: collapse; margin: 6px 0 0; font-size: inherit }
 td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: top }
-th { color: var(--faint, #5b6875) } .kept { color: #00714f; font-weight: 600 }
+th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: #009E73 }
 .line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
 """
 
@@ -99,7 +100,8 @@ window.addEventListener("tippe:clock:CLOCK", ({detail: {t}}) => {
 })
 """.replace("CLOCK", CLOCK)
 SEEK = f"""
-window.dispatchEvent(new CustomEvent("tippe:seek:{CLOCK}", {{detail: {{t: cb_obj.x / path.tags[0]}}}}))
+const held = ["panstart", "pan"].includes(cb_obj.event_name)
+window.dispatchEvent(new CustomEvent("tippe:seek:{CLOCK}", {{detail: {{t: cb_obj.x / path.tags[0], held}}}}))
 """
 
 
@@ -229,7 +231,9 @@ class Well:
         self.path = ColumnDataSource({name: [] for name in ("t", "theta", "V", "E")}, tags=[1.0])
         self.bead = ColumnDataSource({"theta": [], "V": [], "E": []})
         fig.line("theta", "V", source=self.curve, line_color=COLOURS["theta"], line_width=2.5)
-        fig.scatter("theta", "V", source=self.steady, size=8, fill_color="fill", line_color=INK, line_width=1.5)
+        fig.scatter(
+            "theta", "V", source=self.steady, size=8, fill_color=INK, fill_alpha="fill", line_color=INK, line_width=1.5
+        )
         on_top = {"source": self.bead, "level": "overlay"}
         fig.segment("theta", "V", "theta", "E", line_color=COLOURS["energy"], line_width=2, **on_top)
         fig.scatter("theta", "E", marker="dash", size=16, line_color=COLOURS["energy"], line_width=3, **on_top)
@@ -241,7 +245,7 @@ class Well:
         V_steady = np.interp(steady.theta, picture.theta, picture.V_J)
         self.curve.data = {"theta": np.degrees(picture.theta), "V": picture.V_J}
         self.steady.data = {"theta": np.degrees(steady.theta), "V": V_steady,
-                            "fill": [INK if stable else "white" for stable in steady.stable]}  # fmt: skip
+                            "fill": steady.stable.astype(float)}  # fmt: skip
         low, high = float(picture.V_J.min()), float(np.min([picture.V_J.max(), 4 * np.median(picture.V_J)]))
         if motion is None:
             self.path.data = {name: [] for name in self.path.data}
@@ -258,6 +262,23 @@ class Well:
         self.figure.y_range.update(start=low - pad, end=high + pad)
 
 
+def beside(place, name, taken):
+    """(dx, dy) in px and the side on which a name stands free of those in taken, to which it is added."""
+    ends = zip(MAP_PX, place, (MAP_X, MAP_Y), strict=True)
+    x, y = (size * (value - low) / (high - low) for size, value, (low, high) in ends)
+    width = LETTER_PX * len(name)
+    for dy in (0, 14, -14, 28, -28, 42):
+        for dx, align in ((8, "left"), (-8, "right")):
+            start = x + dx - (width if align == "right" else 0)
+            box = start, start + width, y - dy - 6, y - dy + 6
+            if x - width < 0 and align == "right":
+                continue
+            if not any(box[0] < b[1] and b[0] < box[1] and box[2] < b[3] and b[2] < box[3] for b in taken):
+                taken.append(box)
+                return dx, dy, align
+    return 8, 0, "left"
+
+
 class Map:
     """The three groups over a/R and I1/I3; pick: takes (a, I1/I3) from a click, pick_body the name of a known top."""
 
@@ -266,31 +287,33 @@ class Map:
         self.figure = fig = plain(x_range=Range1d(*MAP_X), y_range=Range1d(*MAP_Y), name="planes-map")
         (left, right), (low, high) = MAP_X, MAP_Y
         areas = [
-            ((0, 0, right, right), (low, 1, 1 - right, low), "#dfe5ea"),
-            ((0, right, right), (1, 1 + right, 1 - right), "#f8d9c5"),
-            ((0, 0, right, right), (1, high, high, 1 + right), "#dbeaf5"),
-            ((left, left, 0, 0), (low, 1 - left, 1, low), "#dcefe6"),
-            ((left, left, 0, 0), (1 - left, high, high, 1), "#eef1f5"),
+            ((0, 0, right, right), (low, 1, 1 - right, low), (FAINT, 0.3)),
+            ((0, right, right), (1, 1 + right, 1 - right), (COLOURS["friction"], 0.22)),
+            ((0, 0, right, right), (1, high, high, 1 + right), (COLOURS["jellett"], 0.25)),
+            ((left, left, 0, 0), (low, 1 - left, 1, low), (COLOURS["normal"], 0.2)),
+            ((left, left, 0, 0), (1 - left, high, high, 1), (FAINT, 0.15)),
         ]
-        for x, y, colour in areas:
-            fig.patch(x, y, fill_color=colour, line_color="white", level="underlay")
-        says = [(0.33, 0.55, "never rises"), (0.42, 0.98, "can invert"), (0.36, 1.6, "rises part of the way"),
-                (-0.3, 0.75, "can stand upright"), (-0.3, 1.66, "never stands")]  # fmt: skip
+        for x, y, (colour, alpha) in areas:
+            fig.patch(x, y, fill_color=colour, fill_alpha=alpha, line_color=None, level="underlay")
+        says = [(0.33, 0.55, "never rises"), (0.6, 1.2, "can invert"), (0.36, 1.6, "rises part of the way"),
+                (-0.3, 1.15, "can stand upright"), (-0.3, 1.66, "never stands")]  # fmt: skip
         x, y, groups = zip(*says, strict=True)
-        fig.text(x, y, text=groups, text_align="center", text_color="#5b6875", text_font_size="12px",
+        fig.text(x, y, text=groups, text_align="center", text_color=INK, text_font_size="12px",
                  text_font_style="italic")  # fmt: skip
         fig.ygrid.visible = fig.xgrid.visible = False
         # a top far to the left stands at the edge, with its place beside its name
-        self.known, marks = {}, []
+        self.known, marks, taken = {}, [], []
         for body in BODIES:
             top = body.shape.top
             inside = top.a > left
-            self.known[body.name] = (top.a if inside else left + 0.03, top.I1 / top.I3)
+            place = self.known[body.name] = (top.a if inside else left + 0.03, top.I1 / top.I3)
             name = body.name if inside else f"{body.name} (a/R = {top.a:.0f})"
-            marks.append((*self.known[body.name], name, "circle" if inside else "triangle"))
-        known = ColumnDataSource(dict(zip(("x", "y", "name", "marker"), zip(*marks, strict=True), strict=True)))
+            marks.append((*place, name, "circle" if inside else "triangle", *beside(place, name, taken)))
+        names = ("x", "y", "name", "marker", "dx", "dy", "align")
+        known = ColumnDataSource(dict(zip(names, zip(*marks, strict=True), strict=True)))
         fig.scatter("x", "y", source=known, size=9, marker="marker", fill_color="white", line_color=INK, line_width=1.5)
-        fig.text("x", "y", text="name", x_offset=8, y_offset=-5, source=known, text_font_size="12px", text_color=INK)
+        fig.text("x", "y", text="name", x_offset="dx", y_offset="dy", text_align="align", source=known,
+                 text_font_size="12px", text_color=INK, text_baseline="middle")  # fmt: skip
         self.here = ColumnDataSource({"x": [], "y": []})
         fig.scatter("x", "y", source=self.here, size=13, fill_color=COLOURS["friction"], line_color="white",
                     line_width=2, level="overlay")  # fmt: skip
@@ -441,8 +464,8 @@ class ThreePlanes:
     def __init__(self, planes, builder, request):
         self._planes, self._request, self._poll = planes, request, None
         self._tops = {
-            plane: Top3D(sizing_mode="stretch_both", min_width=250, clock=CLOCK, name=plane, show_momentum=False,
-                         show_cone=False)
+            plane: Top3D(sizing_mode="stretch_both", min_width=250, clock=CLOCK, label=f"The top on the {plane} plane",
+                         show_momentum=False, show_cone=False)
             for plane in PLANES
         }  # fmt: skip
         for top in self._tops.values():
@@ -455,8 +478,8 @@ class ThreePlanes:
         self._well.figure.js_on_change("inner_width", follow)
         for figure in self._figures.figures.values():
             seek = CustomJS(args={"path": self._well.path}, code=SEEK)
-            figure.js_on_event("tap", seek)
-            figure.js_on_event("pan", seek)
+            for event in ("tap", "panstart", "pan", "panend"):
+                figure.js_on_event(event, seek)
         self._controls = {name: Control(name, getattr(planes, name), self._asked) for name in
                           ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps")}  # fmt: skip
         self._said = {name: says(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
@@ -502,7 +525,7 @@ class ThreePlanes:
             buttons[-1].on_click(lambda event, name=name: self._choose(name))
         presets = pn.Column(*buttons, sizing_mode="stretch_width", margin=(4, 0, 0, 0), styles=FLOW)
         self._row = pn.Column(
-            *self._tops.values(), sizing_mode="stretch_width", margin=(6, 0, 0, 0),
+            sizing_mode="stretch_width", margin=(6, 0, 0, 0),
             styles={"display": "grid", "gap": "10px"},
         )  # fmt: skip
         plane = self._switch(
@@ -523,7 +546,7 @@ class ThreePlanes:
         self._stem = pmui.Checkbox.from_param(
             self._planes.param.stem, label="the stem’s end can touch", size="small", margin=(0, 14, 0, 6)
         )
-        landing = {"the motion ends": "stop", "it flies, and lands without a bounce": "plastic"}
+        landing = {"the motion ends": "stop", "it flies and lands": "plastic"}
         controls = card(
             "The start, and the friction of the sliding plane",
             self._progress,
@@ -535,7 +558,10 @@ class ThreePlanes:
             self._switch("law", {"Coulomb, sticks": "coulomb", "viscous": "viscous", "smoothed": "smoothed"}),
             self._said["law"],
             *(views[name] for names in NUMBERS.values() for name in names),
-            words("Where the table would have to pull (<i>F</i><sub>z</sub> = 0):", margin=(6, 14, 0, 16)),
+            words(
+                "Where the table would have to pull (<i>F</i><sub>z</sub> = 0); it lands without a bounce:",
+                margin=(6, 14, 0, 16),
+            ),
             self._switch("landing", landing),
             self._stem,
             self._said["stem"],
@@ -671,6 +697,10 @@ class ThreePlanes:
                 top.stylesheets = SMALL_BAR if compare else []
                 if top.visible:
                     self._show_top(top, picture, name)
+            # a picture in 3-D is made when it is first looked at
+            row = [top for top in self._tops.values() if top.visible or top in self._row.objects]
+            if row != self._row.objects:
+                self._row.objects = row
             self._force.object = f"Friction in force: <b>{in_force(picture, plane)}</b>"
             self._table.visible = compare
             self._figures.look(picture, plane)

@@ -45,6 +45,7 @@ class Top3D(Bundled):
     time = param.Number(
         default=0.0, doc="The cursor. The browser writes it when a person moves it, not while it plays."
     )
+    label = param.String(default="The top, rolling on a table", constant=True, doc="Its name.")
     clock = param.String(default="", constant=True, doc="The name of the clock that several tops share.")
     a = param.Number(
         default=None,

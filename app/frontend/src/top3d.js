@@ -36,7 +36,7 @@ const clocks = new Map(); // the tops that go together, by the name of their clo
 export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const { root, picture } = frameIn(el);
-  const stage = tryStage(picture, { label: "The top, rolling on a table", fov: 30, tick, fit, shown: () => (shown = drawing) });
+  const stage = tryStage(picture, { label: model.label, fov: 30, tick, fit, shown: () => (shown = drawing) });
   if (!stage) return;
   const { scene, camera, controls, renderer } = stage;
 
@@ -352,6 +352,7 @@ export function renderTop3D({ model, el, view }) {
     get playing() { return player.playing; },
     get position() { return body.position.toArray(); },
     get quaternion() { return body.quaternion.toArray(); },
+    get label() { return model.label; },
     get verdict() { return verdict.textContent; },
     get pictures() { return stage.pictures; },
     get motions() { return { received, shown }; },
