@@ -7,10 +7,11 @@ from app.builder import Builder
 from app.cards import card, grid
 from app.compare import Compare
 from app.connection import Connection
-from app.explorer import Explorer
+from app.keep import Field, OneOf, explorer_of, read
 from app.learn import Learn
 from app.planes import Planes
 from app.roll import Roll
+from app.share import Share
 from app.three_planes import ThreePlanes
 from app.workshop import Measure, Workshop
 
@@ -50,7 +51,7 @@ def family_view(explorer):
     )
 
 
-def tabs(views):
+def tabs(views, keep):
     """A header and a place for each view; a view is made when it is first looked at, and then stays. {name: maker}"""
     places = [pn.Column(sizing_mode="stretch_width", margin=0, visible=False) for _ in views]
     header = pmui.Tabs(
@@ -69,26 +70,36 @@ def tabs(views):
 
     header.param.watch(lambda event: look(event.new), "active")
     look(header.active)
+    known = OneOf(**{name.lower().replace(" ", "-"): i for i, name in enumerate(views)})
+    keep.add(header, {"active": Field("tab", known, undoable=False)})
     return [header, *places]
 
 
 def page():
-    explorer = Explorer()
+    texts, sentence = read(pn.state.location.search)
+    explorer, wrong = explorer_of(texts)
     roll = Roll(explorer)
     builder = Builder(explorer, roll.pacer.request)
+    share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))))
+    share.keep.param.watch(lambda event: builder.follow(), "returned")
     return pmui.Page(
         title="Tippe top explorer",
         sidebar=[*roll.sidebar, Connection(width=0, height=0, margin=0)],
         sidebar_open=not on_a_phone(),
-        main=tabs(
-            {
-                "Roll": lambda: roll.main,
-                "Three planes": lambda: planes_view(explorer, roll, builder),
-                "Build a top": lambda: build_view(explorer, roll, builder),
-                "Families": lambda: family_view(explorer),
-                "Learn": lambda: Learn(explorer, roll).view,
-            }
-        ),
+        header=share.header,
+        main=[
+            *share.main,
+            *tabs(
+                {
+                    "Roll": lambda: roll.main,
+                    "Three planes": lambda: planes_view(explorer, roll, builder),
+                    "Build a top": lambda: build_view(explorer, roll, builder),
+                    "Families": lambda: family_view(explorer),
+                    "Learn": lambda: Learn(explorer, roll).view,
+                },
+                share.keep,
+            ),
+        ],
         sidebar_width=320,
         theme_toggle=False,
         busy_indicator=None,

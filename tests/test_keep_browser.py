@@ -1,0 +1,182 @@
+"""Keeping the picture, in Chromium, as a person does it: link, QR code, undo, and files opened and compared."""
+
+import io
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+import zxingcpp
+from PIL import Image
+from visiting import Visit
+
+from app.explorer import Explorer, solve
+from tippe_core import Top
+
+# The bytes of the motion as the 3-D view has them.
+FRAMES = """() => {
+  const found = [...Bokeh.documents[0]._all_models.values()].find((m) => m.data?.frames && !m.data.clock)
+  const frames = found.data.frames
+  return Array.from(new Float32Array(frames.buffer ?? frames, frames.byteOffset ?? 0, frames.byteLength / 4))
+}"""
+COLUMNS = [("theta", 0, "theta"), ("normal", 0, "normal"), ("ratio", 0, "ratio"), ("constants", 0, "E"),
+           ("plane", 0, "K_J"), ("plane", 0, "slip_in"), ("plane", 0, "verge")]  # fmt: skip
+K_J_FIELD = 0  # place in the sidebar
+
+
+@pytest.fixture
+def go(chromium):
+    """Opens an address in a browser of its own, and fails the test on an error in the page."""
+    visits = []
+
+    def open_(url):
+        visits.append(Visit(chromium.new_page(viewport={"width": 1400, "height": 900}), url))
+        return visits[-1]
+
+    yield open_
+    for visit in visits:
+        visit.page.close()
+    assert [error for visit in visits for error in visit.errors] == []
+
+
+def thumb(visit, place=K_J_FIELD):
+    return visit.page.locator(".MuiSlider-root input[type=range]").nth(place)
+
+
+def until_address(visit, pattern):
+    visit.page.wait_for_function("pattern => new RegExp(pattern).test(location.search)", arg=pattern)
+
+
+def test_a_link_opens_the_same_picture_elsewhere(go, server):
+    visit = go(server)
+    steps = visit.page.evaluate("history.length")
+    slider = thumb(visit)
+    slider.focus()
+    slider.press("ArrowLeft")
+    until_address(visit, "KJ=6\\.99$")
+    visit.page.get_by_label("Speed").select_option(str(1 / 4))
+    until_address(visit, "slow=4")
+    visit.page.get_by_role("button", name="Pause").click()
+    until_address(visit, "[?&]t=")
+    assert visit.page.evaluate("history.length") == steps  # replaced, not added to
+    visit.page.get_by_role("button", name="Share").click()
+    box = visit.page.get_by_label("Link to what is shown")
+    visit.page.wait_for_function("box => box.value", arg=box.element_handle())
+    link = box.input_value()
+    assert link == visit.page.url and len(link) < 120
+    code = visit.page.locator("svg:has(title:text-is('QR code of the link'))")
+    found = zxingcpp.read_barcodes(Image.open(io.BytesIO(code.screenshot())))
+    assert [code.text for code in found] == [link]
+
+    other = go(server)
+    other.page.goto(link)
+    other.page.wait_for_function("t => window.__tippe?.top3d?.t === t", arg=visit.page.evaluate("__tippe.top3d.t"))
+    other.page.wait_for_function("Bokeh.documents[0].is_idle")
+    for place in COLUMNS:
+        assert np.array_equal(visit.column(*place), other.column(*place))
+    assert np.array_equal(visit.page.evaluate(FRAMES), other.page.evaluate(FRAMES))
+    assert not other.page.evaluate("__tippe.top3d.playing")
+    assert other.page.get_by_label("Speed").input_value() == str(1 / 4)
+    assert thumb(other).input_value() == slider.input_value()
+
+
+def test_undo_is_one_step_a_gesture(go, server):
+    visit = go(server)
+    before = visit.column("theta", 0, "theta")
+    box = thumb(visit).locator("xpath=..").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    visit.page.mouse.move(x, y)
+    visit.page.mouse.down()
+    for i in range(1, 6):
+        visit.page.mouse.move(x - 12 * i, y)
+        address = visit.page.url
+        # however long the hand takes, the address waits for it
+        visit.page.wait_for_function("n => __tippe.top3d.motions.received > n", arg=i)
+        assert visit.page.url == address == server
+    visit.page.mouse.up()
+    until_address(visit, "KJ=")
+    dragged = visit.column("theta", 0, "theta")
+    undo, redo = (visit.page.get_by_role("button", name=name) for name in ("Undo", "Redo"))
+    visit.page.keyboard.press("Control+z")
+    visit.until_column("theta", 0, "theta", before[0])
+    visit.page.wait_for_function("location.search == ''")
+    assert np.array_equal(visit.column("theta", 0, "theta"), before)
+    visit.page.wait_for_function("button => button.disabled", arg=undo.element_handle())
+    redo.click()
+    visit.until_column("theta", 0, "theta", dragged[0])
+    undo.click()
+    visit.until_column("theta", 0, "theta", before[0])
+    visit.page.keyboard.press("Control+Shift+z")
+    visit.until_column("theta", 0, "theta", dragged[0])
+    # in a field of text these keys are the field's own
+    text = visit.page.locator("input[type=text]").nth(0)
+    text.fill("5")
+    text.press("Control+z")
+    visit.page.evaluate("() => new Promise((done) => setTimeout(done, 0))")
+    assert np.array_equal(visit.column("theta", 0, "theta"), dragged)
+
+
+@pytest.mark.parametrize("query", ["?KJ=%3Cscript%3Ealert(1)%3C/script%3E", "?body=" + 9_000 * "Z%3C", "?I3=2&tab=no"],
+                         ids=["script", "long", "impossible"])  # fmt: skip
+def test_a_bad_link_says_so_and_shows_the_first_motion(go, server, query):
+    visit = go(server + query)
+    said = visit.page.get_by_role("alert").first
+    said.wait_for()
+    assert "link" in said.inner_text()
+    scene = Explorer().scene
+    assert np.array_equal(visit.column("plane", 0, "slip_in"), scene.plane.slip.theta_inner)
+    assert np.array_equal(visit.column("theta", 0, "theta"), scene.trajectory.theta[::2])
+
+
+def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
+    visit = go(server + "?v=1&KJ=6.5&mu=.4")
+    scene = solve(Top.paper(), 6.5, 10.0, 0.4, 0.9)
+    visit.page.get_by_role("button", name="Share").click()
+
+    def button(says, label):
+        """The one to the right of these words."""
+        words = visit.page.get_by_text(says, exact=True).bounding_box()
+        for found in visit.page.get_by_role("button", name=label, exact=True).all():
+            box = found.bounding_box()
+            if abs(box["y"] + box["height"] / 2 - words["y"] - words["height"] / 2) < 20:
+                return found
+        raise AssertionError(says)
+
+    def save(says, label):
+        visit.page.get_by_role("button", name=label, exact=True).last.wait_for()
+        with visit.page.expect_download() as download:
+            button(says, label).click()
+        path = tmp_path / download.value.suggested_filename
+        download.value.save_as(path)
+        return path
+
+    table = pd.read_csv(save("The motion, frame by frame", "CSV"), comment="#")
+    assert np.array_equal(table["theta"], scene.trajectory.theta)
+    assert np.array_equal(table["K_J"], scene.K_J)
+    with np.load(save("Both, for NumPy", "NPZ")) as arrays:
+        assert np.array_equal(arrays["slip_theta_inner"], scene.plane.slip.theta_inner)
+    figure = save("Fig. 6: which motions roll", "SVG").read_text(encoding="utf-8")
+    assert "$K_J$ = 6.5" in figure
+    still = Image.open(save("The top in 3-D, as seen now", "PNG"))
+    assert still.width == 2400
+    assert len(still.convert("RGB").resize((240, 160)).getcolors(100_000)) > 500  # not blank
+
+    page = save("One page to mail, 2.4 MB: figures, the top, playback; needs no network", "HTML")
+    assert page.stat().st_size < 3_000_000
+    context = chromium.new_context(offline=True)
+    mailed, asked, errors = context.new_page(), [], []
+    mailed.on("request", lambda request: asked.append(request.url))
+    mailed.on("pageerror", lambda error: errors.append(str(error)))
+    mailed.goto(page.as_uri())
+    mailed.wait_for_function("window.__tippe?.top3d?.pictures > 2 && __tippe.surface3d?.pictures > 0")
+    start = mailed.evaluate("__tippe.top3d.t")
+    mailed.wait_for_function("t => __tippe.top3d.t != t", arg=start)
+    spans = """() => [...Bokeh.documents.flatMap((d) => [...d._all_models.values()])]
+        .filter((m) => m.type == "Span" && m.level == "overlay")"""
+    mailed.get_by_role("button", name="Pause").click()
+    mailed.wait_for_function(f"() => ({spans})().every((m) => Math.abs(m.location - __tippe.top3d.t) < 1e-9)")
+    shown = mailed.evaluate("""() => Array.from([...Bokeh.documents.flatMap((d) => [...d._all_models.values()])]
+        .find((m) => m.name == "theta" && m.renderers).renderers[0].data_source.data.theta)""")
+    assert np.array_equal(shown, scene.trajectory.theta[::2])
+    assert [url for url in asked if not re.match("(file|blob|data):", url)] == [] and errors == []
+    context.close()
