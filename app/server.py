@@ -7,6 +7,7 @@ SECURITY.md say what follows from that.
 """
 
 import asyncio
+import inspect
 import logging
 import os
 import re
@@ -28,6 +29,7 @@ from bokeh.core.validation import silence
 from bokeh.core.validation.warnings import EMPTY_LAYOUT
 from bokeh.protocol.exceptions import MessageError, ProtocolError, ValidationError
 from bokeh.server.server import BaseServer
+from bokeh.server.session import ServerSession, _needs_document_lock
 from bokeh.server.tornado import BokehTornado
 from bokeh.util.token import get_session_id, get_token_payload
 from panel.io.application import build_single_handler_application
@@ -49,9 +51,10 @@ MOST_EVENTS, MOST_PARTS, DEEPEST = 100, 10_000, 16
 KINDS = {"PATCH-DOC", "PULL-DOC-REQ", "SERVER-INFO-REQ"}  # a browser never pushes a document
 EVENTS = {"ModelChanged", "MessageSent"}  # nor adds roots, or streams
 
-LONGEST_MESSAGE = 10.0  # s of the processor for what one message asks for
-SHARE, SAVED = 0.5, 5.0  # of the processor for one connection, and s of it that a quiet one has saved up
-EACH_MESSAGE = 0.002  # s: what the cheapest one costs
+LONGEST_WORK = 3.0  # s of the processor for one thing that a session does
+SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a quiet one has saved up
+EACH_MESSAGE = 0.002  # s: what the cheapest message costs
+LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
 
 FRESH = 120  # s in which a page that was sent may open its session; a session that is there stays open to its page
 TOKEN_LASTS = 24 * 3600
@@ -185,17 +188,46 @@ class Door:
 
 
 class Budget:
-    """A share of the processor: who is over it waits, and while he waits nothing more is read from him."""
+    """A session's share of the processor: who is over it waits, and while he waits nothing is read from him."""
 
     def __init__(self):
-        self.left, self.at, self.told = SAVED, time.monotonic(), False
+        self.left, self.at, self.spent, self.told = SAVED, time.monotonic(), 0.0, False
 
     def spend(self, seconds):
-        """Counts s of the processor; returns s to wait."""
+        """Counts s of the processor."""
         now = time.monotonic()
         self.left = min(SAVED, self.left + SHARE * (now - self.at)) - seconds
-        self.at = now
-        return max(0.0, -self.left / SHARE)
+        self.at, self.spent = now, self.spent + seconds
+
+    def wait(self):
+        """s to wait after a message."""
+        seconds, self.spent = max(0.0, min(-self.left / SHARE, LONGEST_WAIT + self.spent)), 0.0
+        return seconds
+
+    @contextmanager
+    def work(self):
+        """Counts what is done inside, and ends it where it takes too long."""
+        start = time.process_time()
+        try:
+            with at_most(LONGEST_WORK):
+                yield
+        finally:
+            self.spend(time.process_time() - start)
+
+
+def budget(session):
+    """The one of a Bokeh session."""
+    if not hasattr(session, "budget"):
+        session.budget = Budget()
+    return session.budget
+
+
+@_needs_document_lock
+async def with_document_locked(session, function, *arguments, **named):
+    """Bokeh's method through which a session does whatever it does later: Panel answers a changed value there."""
+    with budget(session).work():
+        result = function(*arguments, **named)
+        return await result if inspect.isawaitable(result) else result
 
 
 @contextmanager
@@ -223,7 +255,7 @@ class Refused(ValueError):
     """What a browser running this page never sends. The sentence goes to whoever sent it."""
 
 
-def inspect(message):
+def look_at(message):
     """Raises Refused for what is no message of this page's, whatever its values."""
     if message.msgtype not in KINDS:
         raise Refused(f"A {str(message.msgtype)[:40]!r} message is not for this server.")
@@ -244,6 +276,9 @@ def inspect(message):
         if parts > MOST_PARTS:
             raise Refused(f"A message has at most {MOST_PARTS} parts.")
         level = [part for part in level if isinstance(part, (dict, list))]
+        if any(isinstance(part, dict) and part.get("type") == "bytes" and isinstance(part.get("data"), str)
+               for part in level):  # fmt: skip
+            raise Refused("Bytes come in a buffer: as text they may be packed without end.")
         if not level:
             return
     raise Refused(f"A message is at most {DEEPEST} deep.")
@@ -254,6 +289,16 @@ def ours(error):
     here = str(Path(__file__).parent.parent)
     files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)} - {__file__}
     return any(file.startswith((f"{here}/app/", f"{here}/tippe_core/")) for file in files)
+
+
+def note(error, whose="a session"):
+    """Logs what could not be done, in one line unless it is a bug of ours; returns a sentence for the sender."""
+    if ours(error) and not isinstance(error, TimeoutError):
+        log.error("a bug, met by %s: %s", whose, "".join(traceback.format_exception(error)))
+        return "The server could not do that; what is shown has not changed."
+    name = type(error).__name__
+    log.warning("refused from %s: %s: %.300s", whose, name, " ".join(str(error).split()))
+    return str(error) if isinstance(error, Refused) else f"The server did not take that ({name})."
 
 
 class Socket(WSHandler):
@@ -288,7 +333,6 @@ class Socket(WSHandler):
                 self._refuse(4000, refusal)
                 return
         self.entered = address
-        self.budget = Budget()
         door.enter(address)
         if known:
             await super()._async_open(token)
@@ -330,42 +374,34 @@ class Socket(WSHandler):
             return None
         self.fragments = 0
         await self._answer(message)
-        wait = self.budget.spend(EACH_MESSAGE)
+        if self.connection is None:
+            return None
+        mine = budget(self.connection.session)
+        mine.spend(EACH_MESSAGE)
+        wait = mine.wait()
+        if wait and not mine.told:
+            log.warning("%s sends more than its share; it is read more slowly", self.request.remote_ip)
+        mine.told = wait > 0
         if wait:
-            if not self.budget.told:
-                log.warning("%s sends more than its share; it is read more slowly", self.request.remote_ip)
-            self.budget.told = True
-            await asyncio.sleep(min(wait, 10))
-        else:
-            self.budget.told = False
+            await asyncio.sleep(wait)
 
     async def _answer(self, message):
         """The reply to a message. What cannot be done is said in one line, to the sender and in the log."""
         try:
-            inspect(message)
+            look_at(message)
             if message.msgtype == "PATCH-DOC":
                 message.apply_to_document = self._bounded(message.apply_to_document)
             reply = await self.handler._handlers[message.msgtype](message, self.connection)
         except Exception as error:
-            if ours(error) and not isinstance(error, TimeoutError):
-                log.error("a bug: %s", "".join(traceback.format_exception(error)))
-                sentence = "The server could not do that; what is shown has not changed."
-            else:
-                name = type(error).__name__
-                log.warning("refused from %s: %s: %.300s", self.request.remote_ip, name, " ".join(str(error).split()))
-                sentence = str(error) if isinstance(error, Refused) else f"The server did not take that ({name})."
+            sentence = note(error, self.request.remote_ip)
             reply = self.connection and self._error(message, sentence)
         if reply and self.connection is not None:
             await self.send_message(reply)
 
     def _bounded(self, apply):
         def applied(*arguments):
-            start = time.process_time()
-            try:
-                with at_most(LONGEST_MESSAGE):
-                    apply(*arguments)
-            finally:
-                self.budget.spend(time.process_time() - start)
+            with budget(self.connection.session).work():
+                apply(*arguments)
 
         return applied
 
@@ -508,6 +544,8 @@ def serve(settings, sockets, parent=None):
     """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
     RequestHandler.set_default_headers = set_default_headers
+    ServerSession.with_document_locked = with_document_locked
+    pn.config.exception_handler = note
     bokeh.server.urls.per_app_patterns[:] = [(r"/ws", Socket), (r"/session", Session), (r"/?", Page)]
     static = [(pattern, Component if handler is ComponentResourceHandler else handler, *more)
               for pattern, handler, *more in get_static_routes({})]  # fmt: skip
@@ -644,6 +682,9 @@ def main():
     logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True,
                         format=f"%(asctime)s %(levelname)s {os.uname().nodename} %(process)d %(message)s")  # fmt: skip
     log.setLevel(settings.log.upper())
+    for name in ("bokeh", "panel"):  # their own handlers write to another stream, in another form
+        logging.getLogger(name).handlers.clear()
+        logging.getLogger(name).setLevel("CRITICAL")  # what they say of an error, note() says
     if settings.log == "debug":
         logging.getLogger("tornado.access").setLevel(logging.INFO)
     if not settings.secret:
