@@ -50,74 +50,16 @@ def roll(top, constants, times, start="inner", well=0):
     return Rolling(top, constants, start, well)(times)
 
 
-class Rolling:
-    """The motion without slipping, for any times: arguments as in roll(); it starts at the times[0] of each call.
+class Nutation:
+    """A motion whose c_dot^2 is analytic between two turning points, as a function of time since its start.
 
-    period (of the nutation, in (R/g)^1/2), phi_advance and psi_advance (rad in a period);
-    theta(times) alone, or called with times for the whole Trajectory.
+    Of a kind of motion: top, start (State), _inward (whether theta falls at first), v1, v2, m1, m2 and width of the
+    turning points, _place (as sin(kappa/2), cos(kappa/2) at the start), gaps (d at both poles); _h and _h_exact, that
+    is dt/dkappa; _slopes and _w3, for the rates of phi and psi; _omega; _too_near(), the error to raise; and where a
+    path is carried along, _carried.
     """
 
-    def __init__(self, top, constants, start="inner", well=0):
-        self.top = top
-        with localcontext(EXACT):
-            if isinstance(start, State):
-                curve, (inner, outer), here = _from_state(top, constants, start)
-            else:
-                curve, (inner, outer) = _from_constants(top, constants, start, well)
-                here = inner if start == "inner" else outer
-            exact, self._exact = curve.exact, (curve, inner, outer)
-            self.gaps = tuple(map(float, curve.gaps))
-            self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
-            self.width = float(inner - outer)
-            self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5  # as sin(kappa/2), cos(kappa/2)
-            self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
-        self.start = start if isinstance(start, State) else State(0.0, 0.0, 0.0, 0.0)
-        self._inward = self.start.theta_dot < 0
-
     # ---- one nutation, on nodes in kappa ----
-
-    def _h(self, v, m):
-        """dt/dkappa = Q^-1/2 at v = 1 - c, m = 1 + c."""
-        top, c, c1, c2 = self.top, 1 - v, 1 - self.v1, 1 - self.v2
-        gamma, a = top.I3 / top.I1, top.a
-        # second divided differences over (c1, c2, c), first ones over (c1, c2) and (c2, c), of y = f3,
-        places = (c1, self.v1 * self.m1), (c2, self.v2 * self.m2), (c, v * m)
-        y1, y2, y = (np.sqrt(f3_2(*place, top)) for place in places)
-        y_12 = ((gamma - 1) * (c1 + c2) - 2 * gamma * a) / (y1 + y2)
-        y_2c = ((gamma - 1) * (c2 + c) - 2 * gamma * a) / (y2 + y)
-        y_12c = (gamma - 1 - y_12 * y_2c) / (y1 + y)
-        # of 1/f3,
-        r_12, r_2c = -y_12 / (y1 * y2), -y_2c / (y2 * y)
-        r_12c = -(y_12c / y1 + r_12 * y_2c) / y
-        # of B = K_J - (I3/I1) K_R (c - a)/f3,
-        k = -gamma * self.K_R
-        B_12, B_2c, B_12c = k * ((c1 - a) * r_12 + 1 / y2), k * ((c2 - a) * r_2c + 1 / y), k * ((c1 - a) * r_12c + r_2c)
-        (B1, B2), B = self._bracket_ends, self._bracket(v, m)
-        # of f2^2 B^2, and of s^2 (2E' - 2a(1 - c))
-        F1, F_12, F_12c = f2_2(c1, self.v1 * self.m1, top), (1 - 1 / gamma) * (c1 + c2) - 2 * a, 1 - 1 / gamma
-        kinetic = F1 * (B1 * B_12c + B_12 * B_2c + B_12c * B) + F_12 * B_2c * (B2 + B) + F_12c * B * B
-        potential = -(self.e - 2 * a) - 2 * a * (c1 + c2 + c)
-        Q = (kinetic - potential) / f1_2(c, top)
-        if self.width == 0 and not np.all(Q > 0):
-            return np.ones_like(Q)  # at rest on an unstable steady precession: any rate of kappa will do
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return 1 / np.sqrt(Q)
-
-    def _h_exact(self, ch, sh):
-        """dt/dkappa with the digits of EXACT."""
-        curve, inner, outer = self._exact
-        with localcontext(EXACT):
-            c = [inner - (inner - outer) * Decimal(down) if down < up else outer + (inner - outer) * Decimal(up)
-                 for up, down in zip((ch**2).tolist(), (sh**2).tolist(), strict=True)]  # fmt: skip
-            return np.array([float(((inner - x) * (x - outer) * f1_2(x, curve.top) / curve.D(x)[0]).sqrt()) for x in c])
-
-    def _bracket(self, v, m):
-        d, x, C = near_pole(v, m, self.top, self.K_R, self.gaps)
-        return d + x * C
-
-    @cached_property
-    def _bracket_ends(self):
-        return self._bracket(np.array([self.v1, self.v2]), np.array([self.m1, self.m2]))
 
     @cached_property
     def _map(self):
@@ -223,12 +165,6 @@ class Rolling:
             n *= 2
         raise self._too_near()
 
-    def _too_near(self):
-        E = (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
-        return TopError("E", E, f"an energy whose nutation {_NODES_MOST} nodes resolve",
-                        "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "
-                        "well; change E a little.")  # fmt: skip
-
     @property
     def period(self):
         """Period of the nutation in (R/g)^1/2."""
@@ -255,7 +191,10 @@ class Rolling:
 
     @cached_property
     def _orientation(self):
-        """Mean rates in tau, sine coefficients of sigma_- and sigma_+, Fourier coefficients of the contact velocity."""
+        """Mean rates in tau, sine coefficients of sigma_- and sigma_+, and of a velocity carried along its own.
+
+        Those are the Fourier coefficients forward and backward and the constant, in axes that turn at the mean rate.
+        """
         n = self._time[0]
         while True:
             ch, sh, v, m, h, stretch = self._nodes(n)
@@ -263,55 +202,51 @@ class Rolling:
             good, (h_k, minus, plus) = self._resolved(n, h * stretch, *rates)
             tau = _phase(h_k)
             mean = np.array([minus[0], plus[0]]) / 2  # over eta, and so over tau
-            turn = _integral(minus) + _integral(plus) - mean.sum() * tau
-            # velocity of the contact point, (w2 c - w3 s, -w1) in the turning axes, less the mean turn
-            A = self._pole_factor(ch, sh, 0) * self._pole_factor(ch, sh, 1)
-            w1, w2, w3 = self._omega(ch, sh, v, m, h)
-            s = np.sqrt(v * m)
-            direction = np.where(s > 0, A / np.where(s > 0, s, 1), 1)
-            velocity = direction * np.exp(1j * turn) * (w2 * (1 - v) - w3 * s - 1j * w1)
-            velocity *= h * stretch * 2 / (h_k[0] * n)
+            velocity = self._carried(ch, sh, v, m, h)
+            if velocity is not None:
+                turn = _integral(minus) + _integral(plus) - mean.sum() * tau
+                velocity = velocity * np.exp(1j * turn) * (h * stretch * 2 / (h_k[0] * n))
 
             def coefficients(count, n=n, tau=tau, rates=rates, velocity=velocity):
                 k = np.arange(1, count + 1)
                 wave = np.exp(-1j * np.outer(k, tau))
                 sigma = 2 / n * (wave.real @ rates.T).T / k
+                if velocity is None:
+                    return sigma
                 return np.array([*sigma, (wave @ velocity).real, (wave.conj() @ velocity).real])
 
             series = _converged(coefficients, _most(n, tau)) if good else None
             if series is not None:
-                return mean, *series, velocity.sum().real
+                return mean, *series, None if velocity is None else velocity.sum().real
             if n >= _NODES_MOST:
                 raise self._too_near()
             n *= 2
 
+    def _carried(self, ch, sh, v, m, h):
+        """Of a point carried along, velocity over exp(i sigma_- + i sigma_+) (n,) complex; None: there is none."""
+
     def _sigma_rates(self, v, m, h):
         """d sigma_-+/dkappa: half of phi_dot (1 + c) - w3 and of phi_dot (1 - c) + w3, less the turn at the pole."""
-        w3 = self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
-        (north, south), rates = self.gaps, []
-        gap, nearer, C = near_pole(v, m, self.top, self.K_R, self.gaps)
-        B = gap + nearer * C
-        for x, x1, x2, d, sign in ((v, self.v1, self.v2, north, -1), (m, self.m1, self.m2, south, 1)):
-            near = v <= m if sign < 0 else m <= v
+        w3, rates = self._w3(v, m), []
+        poles = (v, self.v1, self.v2, -1), (m, self.m1, self.m2, 1)
+        for (x, x1, x2, sign), d, slope in zip(poles, self.gaps, self._slopes(v, m), strict=True):
             with np.errstate(invalid="ignore", divide="ignore"):
-                slope = np.where(near, C, (B - d) / x)
                 peak = np.where(x > 0, (h * d - np.copysign(np.sqrt(x1 * x2), d)) / np.where(x > 0, x, 1), 0)
             rates.append((peak + h * (slope + sign * w3)) / 2)
         return np.array(rates)
 
-    def _pole_factor(self, ch, sh, pole):
-        x1, x2 = ((self.v1, self.v2), (self.m1, self.m2))[pole]
-        return x1**0.5 * ch + 1j * np.copysign(x2**0.5, self.gaps[pole]) * sh
-
-    def _omega(self, ch, sh, v, m, h):
-        """omega about 1', 2', 3."""
+    def _w1(self, ch, sh, v, m, h):
+        """theta_dot; where it turns its sign, at a pole, as just after it."""
         with np.errstate(invalid="ignore", divide="ignore"):
             w1 = np.where(self.width > 0, self.width * sh * ch / (h * np.sqrt(v * m)), 0.0)
         at_pole = (v == 0) | (m == 0)
-        if np.any(at_pole):  # theta_dot turns its sign there: as just after the pole
+        if np.any(at_pole):
             w1 = np.where(at_pole, np.where(v == 0, 1, -1) * self.width**0.5 / (h * 2**0.5), w1)
-        w2 = omega2_at(v, m, self.top, self.K_R, self.gaps)
-        return w1, w2, self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
+        return w1
+
+    def _pole_factor(self, ch, sh, pole):
+        x1, x2 = ((self.v1, self.v2), (self.m1, self.m2))[pole]
+        return x1**0.5 * ch + 1j * np.copysign(x2**0.5, self.gaps[pole]) * sh
 
     # ---- at any time ----
 
@@ -363,9 +298,151 @@ class Rolling:
         north, south = (np.copysign(1, d) for d in self.gaps)
         return 2 * np.pi * (self._orientation[0] @ (-1, 1)) + np.pi * (south - north)
 
-    def _motion(self, turns, half, rest):
-        """cos and sin of kappa/2, the parts of sigma_- and sigma_+, and the contact point counted from phase 0."""
-        mean, minus, plus, forward, backward, constant = self._orientation
+    def _motion(self, turns, half, rest, *more):
+        """cos and sin of kappa/2, the parts of sigma_- and sigma_+, and the sums of more sine series."""
+        mean, *series = self._orientation[:3]
+        series = self._kappa, *series, *more
+        sines = np.zeros((len(series), max(map(len, series))))
+        for row, values in zip(sines, series, strict=True):
+            row[: len(values)] = values
+        tau = np.pi * half + rest
+        kappa, minus, plus, *more = _evaluate(half, rest, sines)
+        # whole turns apart: rounded with them, the angles of late periods would not be smooth in time
+        sigma = [(2 * np.pi * _part_turn(turns, mu), mu * tau + series, 2 * np.pi * np.trunc(turns * mu))
+                 for mu, series in zip(mean, (minus, plus), strict=True)]  # fmt: skip
+        return *_half_angle(half, rest, kappa), *sigma, more
+
+    def _posed(self, times):
+        """_state at the start and at the times, the latter turned to the start's phi and psi, and the turn of phi."""
+        start = self.start
+        first = self._state(np.zeros(1), *(np.array([x]) for x in self._start_phase))
+        now = self._state(*self._clock(times))
+        d_phi, d_psi = start.phi - first["phi"][0], start.psi - first["psi"][0]
+        if start.theta_dot * first["omega"][0][0] < 0:  # at a pole, where the motion goes on along -1'
+            d_phi, d_psi = d_phi + np.pi, d_psi + (np.pi if self.m1 < self.v1 else -np.pi)
+        now["phi"], now["psi"] = now["phi"] + d_phi, now["psi"] + d_psi
+        xy, zw = now["xy"] * np.exp(0.5j * (d_phi - d_psi)), now["zw"] * np.exp(0.5j * (d_phi + d_psi))
+        now["quaternion"] = np.stack([xy.real, xy.imag, zw.imag, zw.real], axis=1)
+        return first, now, d_phi
+
+    def _state(self, turns, half, rest, *more):
+        ch, sh, minus, plus, more = self._motion(turns, half, rest, *more)
+        v, m = self._versines(ch, sh)
+        parity = np.where(np.remainder(turns, 2) == 1, -1.0, 1.0)
+        north, south = self._pole_factor(ch, sh, 0), self._pole_factor(ch, sh, 1)
+        # at a pole itself phi is the one just after it
+        angles = [np.where(z == 0, np.copysign(after, d), np.angle(z)) + np.pi * turns * np.copysign(1, d)
+                  for z, d, after in zip((north, south), self.gaps, (np.pi / 2, np.pi), strict=True)]  # fmt: skip
+        minus_exp, plus_exp = (np.exp(1j * whole) * np.exp(1j * part) for whole, part, _ in (minus, plus))
+        minus, plus = sum(minus), sum(plus)
+        return {
+            "theta": 2 * np.arctan2(np.sqrt(v), np.sqrt(m)), "v": v, "m": m,
+            "phi": plus + minus + angles[0] + angles[1], "psi": plus - minus + angles[1] - angles[0],
+            "xy": parity * north * minus_exp * 0.5**0.5, "zw": parity * south * plus_exp * 0.5**0.5,
+            "s_exp_phi": north * south * minus_exp * plus_exp, "more": more,
+            "omega": self._omega(ch, sh, v, m, self._h(v, m))}  # fmt: skip
+
+
+class Rolling(Nutation):
+    """The motion without slipping, for any times: arguments as in roll(); it starts at the times[0] of each call.
+
+    period (of the nutation, in (R/g)^1/2), phi_advance and psi_advance (rad in a period);
+    theta(times) alone, or called with times for the whole Trajectory.
+    """
+
+    def __init__(self, top, constants, start="inner", well=0):
+        self.top = top
+        with localcontext(EXACT):
+            if isinstance(start, State):
+                curve, (inner, outer), here = _from_state(top, constants, start)
+            else:
+                curve, (inner, outer) = _from_constants(top, constants, start, well)
+                here = inner if start == "inner" else outer
+            exact, self._exact = curve.exact, (curve, inner, outer)
+            self.gaps = tuple(map(float, curve.gaps))
+            self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
+            self.width = float(inner - outer)
+            self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5  # as sin(kappa/2), cos(kappa/2)
+            self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
+        self.start = start if isinstance(start, State) else State(0.0, 0.0, 0.0, 0.0)
+        self._inward = self.start.theta_dot < 0
+
+    def _h(self, v, m):
+        """dt/dkappa = Q^-1/2 at v = 1 - c, m = 1 + c."""
+        top, c, c1, c2 = self.top, 1 - v, 1 - self.v1, 1 - self.v2
+        gamma, a = top.I3 / top.I1, top.a
+        # second divided differences over (c1, c2, c), first ones over (c1, c2) and (c2, c), of y = f3,
+        places = (c1, self.v1 * self.m1), (c2, self.v2 * self.m2), (c, v * m)
+        y1, y2, y = (np.sqrt(f3_2(*place, top)) for place in places)
+        y_12 = ((gamma - 1) * (c1 + c2) - 2 * gamma * a) / (y1 + y2)
+        y_2c = ((gamma - 1) * (c2 + c) - 2 * gamma * a) / (y2 + y)
+        y_12c = (gamma - 1 - y_12 * y_2c) / (y1 + y)
+        # of 1/f3,
+        r_12, r_2c = -y_12 / (y1 * y2), -y_2c / (y2 * y)
+        r_12c = -(y_12c / y1 + r_12 * y_2c) / y
+        # of B = K_J - (I3/I1) K_R (c - a)/f3,
+        k = -gamma * self.K_R
+        B_12, B_2c, B_12c = k * ((c1 - a) * r_12 + 1 / y2), k * ((c2 - a) * r_2c + 1 / y), k * ((c1 - a) * r_12c + r_2c)
+        (B1, B2), B = self._bracket_ends, self._bracket(v, m)
+        # of f2^2 B^2, and of s^2 (2E' - 2a(1 - c))
+        F1, F_12, F_12c = f2_2(c1, self.v1 * self.m1, top), (1 - 1 / gamma) * (c1 + c2) - 2 * a, 1 - 1 / gamma
+        kinetic = F1 * (B1 * B_12c + B_12 * B_2c + B_12c * B) + F_12 * B_2c * (B2 + B) + F_12c * B * B
+        potential = -(self.e - 2 * a) - 2 * a * (c1 + c2 + c)
+        Q = (kinetic - potential) / f1_2(c, top)
+        if self.width == 0 and not np.all(Q > 0):
+            return np.ones_like(Q)  # at rest on an unstable steady precession: any rate of kappa will do
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return 1 / np.sqrt(Q)
+
+    def _h_exact(self, ch, sh):
+        """dt/dkappa with the digits of EXACT."""
+        curve, inner, outer = self._exact
+        with localcontext(EXACT):
+            c = [inner - (inner - outer) * Decimal(down) if down < up else outer + (inner - outer) * Decimal(up)
+                 for up, down in zip((ch**2).tolist(), (sh**2).tolist(), strict=True)]  # fmt: skip
+            return np.array([float(((inner - x) * (x - outer) * f1_2(x, curve.top) / curve.D(x)[0]).sqrt()) for x in c])
+
+    def _bracket(self, v, m):
+        d, x, C = near_pole(v, m, self.top, self.K_R, self.gaps)
+        return d + x * C
+
+    @cached_property
+    def _bracket_ends(self):
+        return self._bracket(np.array([self.v1, self.v2]), np.array([self.m1, self.m2]))
+
+    def _too_near(self):
+        E = (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
+        return TopError("E", E, f"an energy whose nutation {_NODES_MOST} nodes resolve",
+                        "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "
+                        "well; change E a little.")  # fmt: skip
+
+    def _slopes(self, v, m):
+        """(w2 s - d)/(1 -+ c) at the poles."""
+        gap, nearer, C = near_pole(v, m, self.top, self.K_R, self.gaps)
+        B = gap + nearer * C
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return [np.where(near, C, (B - d) / x)
+                    for near, x, d in zip((v <= m, m <= v), (v, m), self.gaps, strict=True)]  # fmt: skip
+
+    def _w3(self, v, m):
+        return self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
+
+    def _omega(self, ch, sh, v, m, h):
+        """omega about 1', 2', 3."""
+        w2 = omega2_at(v, m, self.top, self.K_R, self.gaps)
+        return self._w1(ch, sh, v, m, h), w2, self._w3(v, m)
+
+    def _carried(self, ch, sh, v, m, h):
+        """The velocity of the contact point, (w2 c - w3 s, -w1) in the turning axes."""
+        A = self._pole_factor(ch, sh, 0) * self._pole_factor(ch, sh, 1)
+        w1, w2, w3 = self._omega(ch, sh, v, m, h)
+        s = np.sqrt(v * m)
+        direction = np.where(s > 0, A / np.where(s > 0, s, 1), 1)
+        return direction * (w2 * (1 - v) - w3 * s - 1j * w1)
+
+    def _state(self, turns, half, rest):
+        """And the contact point counted from phase 0."""
+        mean, minus, _, forward, backward, constant = self._orientation
         rate = mean.sum()
         k = np.arange(1, len(minus) + 1)
         resonant = -round(rate)
@@ -379,11 +456,8 @@ class Rolling:
             denominators.append(np.where(hit, 0, p / np.where(hit, 1, turning)))
         ahead, back = denominators
         still = 0.0 if resonant == 0 else constant / rate
-        sines = np.zeros((4, max(len(k), len(self._kappa))))
-        sines[0, : len(self._kappa)] = self._kappa
-        sines[1:, : len(k)] = minus, plus, ahead - back
-        tau = np.pi * half + rest
-        kappa, minus_t, plus_t, Y_re = _evaluate(half, rest, sines)
+        now = super()._state(turns, half, rest, ahead - back)
+        tau, (Y_re,) = np.pi * half + rest, now["more"]
         Y_im = _evaluate(half, rest, (ahead + back)[None], cosine=True)[0]
         scale = self.period / (2 * np.pi)
         Y, Y0 = Y_re - 1j * (Y_im + still), -1j * ((ahead + back).sum() + still)
@@ -392,19 +466,12 @@ class Rolling:
         periods = 2 * np.exp(1j * np.pi * part) * np.sin(np.pi * part) / x if x else 2 * np.pi * turns
         along = periods + whole * tau * np.exp(0.5j * x * tau) * np.sinc(x * tau / (2 * np.pi))
         contact = scale * (whole * np.exp(1j * rate * tau) * Y - Y0 + amplitude * along)
-        # whole turns apart: rounded with them, the angles of late periods would not be smooth in time
-        sigma = [(2 * np.pi * _part_turn(turns, mu), mu * tau + series, 2 * np.pi * np.trunc(turns * mu))
-                 for mu, series in zip(mean, (minus_t, plus_t), strict=True)]  # fmt: skip
-        return *_half_angle(half, rest, kappa), *sigma, contact
+        return now | {"contact": contact}
 
     def __call__(self, times):
         """The Trajectory at the times (n,)."""
         top, start, t = self.top, self.start, checked_times(times)
-        first = self._state(np.zeros(1), *(np.array([x]) for x in self._start_phase))
-        now = self._state(*self._clock(t))
-        d_phi, d_psi = start.phi - first["phi"][0], start.psi - first["psi"][0]
-        if start.theta_dot * first["omega"][0][0] < 0:  # at a pole, where the motion goes on along -1'
-            d_phi, d_psi = d_phi + np.pi, d_psi + (np.pi if self.m1 < self.v1 else -np.pi)
+        first, now, d_phi = self._posed(t)
         x, y = start.x, start.y
         lean = 1j * first["s_exp_phi"][0] * np.exp(1j * d_phi) * top.a  # from the contact point to G
         origin = complex(0 if x is None else x - lean.real, 0 if y is None else y - lean.imag)
@@ -412,32 +479,14 @@ class Rolling:
         v, m = now["v"], now["m"]
         w = np.array(now["omega"])
         G = contact + 1j * now["s_exp_phi"] * np.exp(1j * d_phi) * top.a
-        xy, zw = now["xy"] * np.exp(0.5j * (d_phi - d_psi)), now["zw"] * np.exp(0.5j * (d_phi + d_psi))
         force = contact_force(v, m, top, self.K_R, w[0], w[0] ** 2, w[1], w[2])
         return Trajectory(
-            top=top, t=t, theta=now["theta"], phi=now["phi"] + d_phi, psi=now["psi"] + d_psi,
-            quaternion=np.stack([xy.real, xy.imag, zw.imag, zw.real], axis=1),
+            top=top, t=t, theta=now["theta"], phi=now["phi"], psi=now["psi"],
+            quaternion=now["quaternion"],
             contact=np.stack([contact.real, contact.imag], axis=1),
             com=np.stack([G.real, G.imag, 1 - top.a + top.a * v], axis=1),
             omega=w.T.copy(), slip=np.zeros((len(t), 2)), force=np.stack(force, axis=1),
             regime=np.full(len(t), "roll"))  # fmt: skip
-
-    def _state(self, turns, half, rest):
-        ch, sh, minus, plus, contact = self._motion(turns, half, rest)
-        v, m = self._versines(ch, sh)
-        parity = np.where(np.remainder(turns, 2) == 1, -1.0, 1.0)
-        north, south = self._pole_factor(ch, sh, 0), self._pole_factor(ch, sh, 1)
-        # at a pole itself phi is the one just after it
-        angles = [np.where(z == 0, np.copysign(after, d), np.angle(z)) + np.pi * turns * np.copysign(1, d)
-                  for z, d, after in zip((north, south), self.gaps, (np.pi / 2, np.pi), strict=True)]  # fmt: skip
-        minus_exp, plus_exp = (np.exp(1j * whole) * np.exp(1j * part) for whole, part, _ in (minus, plus))
-        minus, plus = sum(minus), sum(plus)
-        return {
-            "theta": 2 * np.arctan2(np.sqrt(v), np.sqrt(m)), "v": v, "m": m,
-            "phi": plus + minus + angles[0] + angles[1], "psi": plus - minus + angles[1] - angles[0],
-            "xy": parity * north * minus_exp * 0.5**0.5, "zw": parity * south * plus_exp * 0.5**0.5,
-            "s_exp_phi": north * south * minus_exp * plus_exp, "contact": contact,
-            "omega": self._omega(ch, sh, v, m, self._h(v, m))}  # fmt: skip
 
 
 def _from_constants(top, constants, start, well):

@@ -23,7 +23,7 @@ from scipy.optimize import brentq
 from .constants import EXACT, State, exact_top, versines
 from .curve import angle, solve
 from .errors import TopError
-from .rolling import Rolling
+from .rolling import Nutation
 from .trajectory import Trajectory, checked_times
 
 
@@ -44,7 +44,7 @@ def glide(top, state, times):
     return moved if lifts > t[-1] - t[0] else replace(moved, events=((float(t[0] + lifts), "lifts off"),))
 
 
-class Gliding(Rolling):
+class Gliding(Nutation):
     """The motion on the smooth plane as a function of time since its start: arguments as in glide().
 
     period (of the nutation), phi_advance, psi_advance, theta(times) as in Rolling; turning_points (2,) in rad;
@@ -73,7 +73,6 @@ class Gliding(Rolling):
             self._Q_outer = float(e + L3 * L3 / t.I1 - 2 * t.a * (1 - inner - 2 * outer))
             self._C = float(L3 / t.I1)
             self.E = float(e + L3 * w3) / 2
-        self.K_R = 0.0
 
     def _h(self, v, m):
         Q = self._Q_outer + 2 * self.top.a * (self.v2 - v)
@@ -82,27 +81,24 @@ class Gliding(Rolling):
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.sqrt((self.top.I1 + self.top.a**2 * v * m) / Q)
 
-    def _h_exact(self, sh):
-        return self._h(*self._versines(np.sqrt(1 - sh**2), sh))  # Q has nothing to cancel
+    def _h_exact(self, ch, sh):
+        return self._h(*self._versines(ch, sh))  # Q has nothing to cancel
 
     def _too_near(self):
         return TopError("E", self.E, "an energy further from that of an unstable steady precession",
                         "So near to it the nutation takes almost for ever; change the start a little.")  # fmt: skip
 
-    def _sigma_rates(self, v, m, h):
-        (north, south), rates = self.gaps, []
-        for x, x1, x2, d, sign in ((v, self.v1, self.v2, north, -1), (m, self.m1, self.m2, south, 1)):
-            with np.errstate(invalid="ignore", divide="ignore"):
-                peak = np.where(x > 0, (h * d - np.copysign(np.sqrt(x1 * x2), d)) / np.where(x > 0, x, 1), 0)
-            rates.append((peak + h * sign * (self.start.omega3 - self._C)) / 2)
-        return np.array(rates)
+    def _slopes(self, v, m):
+        return self._C, -self._C
+
+    def _w3(self, v, m):
+        return self.start.omega3
 
     def _omega(self, ch, sh, v, m, h):
-        w1, _, _ = super()._omega(ch, sh, v, m, h)
         x, d, C = np.minimum(v, m), np.where(v <= m, *self.gaps), np.where(v <= m, self._C, -self._C)
         with np.errstate(invalid="ignore", divide="ignore"):
             w2 = np.where(d == 0, 0.0, d / np.sqrt(v * m)) + np.sqrt(x / (2 - x)) * C
-        return w1, w2, np.full_like(w2, self.start.omega3)
+        return self._w1(ch, sh, v, m, h), w2, np.full_like(w2, self.start.omega3)
 
     def _F_z(self, v, m, w1, w2):
         a, I1, s, c = self.top.a, self.top.I1, np.sqrt(v * m), 1 - v
@@ -122,24 +118,17 @@ class Gliding(Rolling):
     def __call__(self, times):
         """The Trajectory at the times (n,)."""
         top, start, t = self.top, self.start, checked_times(times)
-        first = self._state(np.zeros(1), *(np.array([x]) for x in self._start_phase))
-        now = self._state(*self._clock(t))
-        d_phi, d_psi = start.phi - first["phi"][0], start.psi - first["psi"][0]
-        pole = np.cos(start.theta)
-        if start.theta in (0.0, np.pi) and start.theta_dot * pole < 0:  # 1' turns round as theta does
-            d_phi, d_psi = d_phi + np.pi, d_psi - np.pi * pole
-        phi, psi = now["phi"] + d_phi, now["psi"] + d_psi
+        _, now, d_phi = self._posed(t)
+        phi = now["phi"]
         drift = complex(start.vx or 0.0, start.vy or 0.0) * np.exp(1j * start.phi)
         G = complex(start.x or 0.0, start.y or 0.0) + drift * (t - t[0])
         contact = G - 1j * now["s_exp_phi"] * np.exp(1j * d_phi) * top.a
-        xy, zw = now["xy"] * np.exp(0.5j * (d_phi - d_psi)), now["zw"] * np.exp(0.5j * (d_phi + d_psi))
         v, m, (w1, w2, w3) = now["v"], now["m"], now["omega"]
         s, c, moving = np.sqrt(v * m), 1 - v, drift * np.exp(-1j * phi)
         slip = moving.real - (w2 * (c - top.a) - w3 * s), moving.imag + w1 * (1 - top.a * c)
         F_z, none = self._F_z(v, m, w1, w2), np.zeros(len(t))
         return Trajectory(
-            top=top, t=t, theta=now["theta"], phi=phi, psi=psi,
-            quaternion=np.stack([xy.real, xy.imag, zw.imag, zw.real], axis=1),
+            top=top, t=t, theta=now["theta"], phi=phi, psi=now["psi"], quaternion=now["quaternion"],
             contact=np.stack([contact.real, contact.imag], axis=1),
             com=np.stack([G.real, G.imag, 1 - top.a + top.a * v], axis=1),
             omega=np.stack([w1, w2, w3], axis=1), slip=np.stack(slip, axis=1),
