@@ -91,7 +91,7 @@ class Copy(JSComponent):
     _esm = """
     export function render({model, el}) {
       el.innerHTML = `<style>
-        :host, :host > * { display: block; width: 100% }
+        :host > div { width: 100% }
         .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start }
         textarea { flex: 1 1 0; min-width: 0; font: 13px/1.5 ui-monospace, monospace; padding: 7px 9px;
           border: 1px solid #8a96a3; border-radius: 6px; color: inherit; background: transparent; resize: none;
