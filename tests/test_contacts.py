@@ -242,6 +242,14 @@ def test_stop_at_lift_off_is_as_it_was():
     np.testing.assert_array_equal(stopped.com, flying.com[: len(stopped.t)])
 
 
+def test_a_start_that_leaves_the_table_at_once():
+    state, times = State(2.8, 0.1, -0.5, -9.0), np.linspace(0, 1, 11)
+    stopped = slide(PAPER, state, VISCOUS, times, edge=EDGE)
+    assert stopped.events == ((0.0, "lifts off"),) and list(stopped.regime) == ["air"]
+    flying = slide(PAPER, state, VISCOUS, times, edge=EDGE, landing="plastic")
+    assert flying.regime[0] == "air" and flying.events[0][1].startswith("lands") and len(flying.t) == 11
+
+
 def test_a_loaded_sphere_needs_no_stem():
     times = np.linspace(0, 60, 61)
     whole = slide(LOADED, State(0.1, 0, 0, 4.0), VISCOUS, times)

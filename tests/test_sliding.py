@@ -20,8 +20,11 @@ from tippe_core import (
     TopError,
     Viscous,
     outcome,
+    sensitivity,
     slide,
     sliding,
+    steady_states,
+    thresholds,
     tielines,
 )
 
@@ -202,7 +205,7 @@ def test_sticking_and_slipping(K_J, share, friction):
 def test_grazing_the_limit_of_friction(friction, K_J, over):
     """Rolling that needs hardly more than mu_s F_z slips and sticks in turns, never at one instant.
 
-    Without SLACK six of these sixteen do, one without end: (8, 0.3, mu_s = mu_k).
+    Without SLACK half of these do, one without end: (8, 0.3, mu_s = mu_k).
     """
     moved = slide(PAPER, rolling_start(K_J, 1 + over), friction, np.linspace(0, 1, 11))
     t, what = zip(*moved.events, strict=True)
@@ -309,3 +312,18 @@ def test_bad_input_is_named(name, call):
     with pytest.raises(TopError) as caught:
         call()
     assert caught.value.name == name
+
+
+def test_sensitivity_tells_a_start_on_the_barrier_from_one_below_it():
+    """Between its thresholds the paper's top stands on either end, and a steady precession in between parts the two."""
+    limits = thresholds(PAPER)
+    C_J = PAPER.I3 * (1 - PAPER.a) * (limits.upright.spin + limits.launch) / 2
+    steady = steady_states(PAPER, C_J)
+    theta = steady.theta[1]
+    assert list(steady.stable) == [True, False, True]
+    I_eff = PAPER.I1 * np.sin(theta) ** 2 + PAPER.I3 * (np.cos(theta) - PAPER.a) ** 2
+    turn = C_J / I_eff  # of the whole top, about the vertical through G
+    state = State(theta, 0, turn * np.sin(theta), turn * (np.cos(theta) - PAPER.a))
+    friction, times = Viscous(1.0), np.linspace(0, 5000, 101)
+    on, off = (sensitivity(PAPER, start, friction, times) for start in (state, REFERENCE[0]))
+    assert on > 100 * off

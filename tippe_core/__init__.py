@@ -18,6 +18,7 @@ from .curve import (
 )
 from .errors import NoMotionError, TopError
 from .forces import friction_force, normal_force
+from .friction import Coulomb, SmoothedCoulomb, Viscous
 from .outcome import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
 from .rolling import Rolling, roll
 from .shapes import (
@@ -39,7 +40,7 @@ from .shapes import (
     save_top,
 )
 from .share import allowed_shares
-from .sliding import Coulomb, SmoothedCoulomb, Viscous, slide
+from .sliding import sensitivity, slide
 from .smooth import Gliding, glide
 from .solids import Solid, ball, cylinder, frustum, zone
 from .tielines import Tielines, figures, limit_energy, tielines
@@ -102,6 +103,7 @@ __all__ = [
     "rocking_period",
     "roll",
     "save_top",
+    "sensitivity",
     "slide",
     "steady_precessions",
     "steady_states",

@@ -18,6 +18,7 @@ or grows exponentially in tau and beta is smooth. That is a change of variables,
 tau = t.
 """
 
+from dataclasses import replace
 from math import cos, exp, isfinite, log, sin
 
 import numpy as np
@@ -85,6 +86,18 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     return _Run(top, friction, rtol / 10, _checked_edge(edge), landing == "plastic", progress or _nothing)(state, t)
 
 
+def sensitivity(top, state, friction, times, nudge=1e-6, **how):
+    """How many times a nudge of the start's theta (rad) grows: the largest change of theta by it, over the nudge.
+
+    Arguments as of slide(). Large where the physics is sensitive, whatever the tolerance: a top near the limit of
+    sticking, of lift-off or of a threshold. A nudge that makes other events happen counts by what it does to theta.
+    """
+    beside = replace(state, theta=state.theta + (nudge if state.theta < 1 else -nudge))
+    moved, near = (slide(top, start, friction, times, **how) for start in (state, beside))
+    both = min(len(moved.t), len(near.t))
+    return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / nudge)
+
+
 def _nothing(_):
     pass
 
@@ -138,6 +151,8 @@ class _Run:
                            "The sphere's surface ends there.")  # fmt: skip
         if self.edge and gap(self.edge, np.cos(state.theta), np.sin(state.theta)) < 0:
             y, modes = self.body.settle(self.body.on_edge(y), ("starts", None))
+            if not modes and not self.flies:
+                return _joined(self.top, [self.body.fly(y, times[:1])[0]], ((float(times[0]), "lifts off"),))
         else:
             rolls = self.sticks and np.hypot(*_slip(self.top, y)) < 1e-12 and self._holds(y)
             modes = {SPHERE: "stick" if rolls else "slip"}
