@@ -1,0 +1,79 @@
+"""Both sides of every equation of the paper, by different routes, on ten random motions of ten random tops."""
+
+import numpy as np
+import pytest
+
+from app import derivation
+from app.explorer import Explorer
+from app.text import listed
+from tippe_core import Gliding, State, Top
+
+NUMBERS = [f"({i})" for i in range(1, 40)] + ["(B1)", "(B2)", "(B3)", "(B4)"]
+
+MOTIONLESS = ("(27)", "(28)", "(29)", "(32)", "(34)", "(35)")  # limits and geometry
+
+
+@pytest.fixture(scope="module", params=range(10))
+def motion(request):
+    """A scene and its windows on both planes: a random top and a random state."""
+    rng = np.random.default_rng(1000 + request.param)
+    I1 = rng.uniform(0.2, 1.5)
+    top = {"a": rng.uniform(-1.5, 0.6), "I1": I1, "I3": I1 * rng.uniform(0.3, 1.9)}
+    state = {"theta": rng.uniform(0.3, 2.7), "theta_dot": rng.normal(), "omega2": 2 * rng.normal(),
+             "omega3": 5 * rng.normal(), "phi": rng.uniform(-3, 3), "psi": rng.uniform(-3, 3)}  # fmt: skip
+    explorer = Explorer(**top)
+    explorer.param.update(given="state", **state)
+    assert not explorer.scene.messages and explorer.scene.state.theta == state["theta"]
+    return {"rough": derivation.rolled(explorer.scene), "smooth": derivation.glided(explorer.scene)}
+
+
+def test_every_equation_is_there_with_its_words():
+    assert [line.number for line in derivation.LINES] == NUMBERS
+    for line in derivation.LINES:
+        assert listed("derivation.lines")[line.key]
+        assert set(line.symbols.split()) <= set(derivation.SYMBOLS)
+    assert set(listed("derivation.symbols")) == set(derivation.SYMBOLS)
+
+
+@pytest.mark.parametrize("line", derivation.LINES, ids=NUMBERS)
+def test_both_sides_agree(line, motion):
+    t, left, right = derivation.both_sides(line, motion[line.plane])
+    assert np.isfinite(left).all() and len(t) >= 30
+    assert derivation.difference(left, right).max() < 1e-9
+    assert np.abs(left - right).max() < 1e-9
+
+
+@pytest.mark.parametrize("line", [line for line in derivation.LINES if line.number not in MOTIONLESS])
+def test_a_wrong_motion_is_seen(line, motion):
+    """The sides are not one number twice: of a motion whose velocity, spin, force or place is off they differ."""
+    [first, *_] = motion[line.plane]
+    worst = 0.0
+    for name in ("omega", "force", "velocity", "com", "quaternion"):
+        bad = getattr(first.motion, name) * (1 + 1e-3 * np.sin(3 * first.t))[:, None]
+        moved = type(first.motion)(**{**vars_of(first.motion), name: bad})
+        window = derivation.Window(first.top, moved, first.constants, first.state)
+        _, left, right = derivation.both_sides(line, [window])
+        worst = max(worst, np.nanmax(derivation.difference(left, right)))
+    assert worst > 1e-6
+
+
+def vars_of(motion):
+    return {name: getattr(motion, name) for name in motion.__dataclass_fields__}
+
+
+def test_the_signs_of_22_as_printed_hold_on_no_motion(motion):
+    """The page prints (22) with the signs of its two terms in theta_dot exchanged; here they are as (21) gives them."""
+    [m, *_] = motion["rough"]
+    inner = slice(derivation.EDGE, -derivation.EDGE)
+    left = (m.I3 * m.w3 * m.d(m.w3))[inner]
+    printed = (derivation.falling(m) - ((m.I3 / m.I1 - 1) * m.r3 - m.a) * derivation.tipping(m))[inner]
+    assert np.abs(left - printed).max() > 1e-3 * np.abs(left).max()
+
+
+def test_the_smooth_plane_next_to_an_unstable_precession():
+    """Where the nodes of the nutation are crowded: this start once raised a TypeError."""
+    top = Top(a=-0.36, I1=1.32, I3=0.63)
+    for spin in (1.5, 1.9, 2.3):
+        gliding = Gliding(top, State(0.02, 0.0, 0.01, spin))
+        motion = gliding(np.linspace(0, gliding.period, 40))
+        assert np.ptp(motion.energy) < 1e-12 * (1 + motion.energy[0])
