@@ -5,7 +5,9 @@ import panel as pn
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
 INK = "#22303c"
 # Two rows fill a screen; a phone, where the rows of buttons wrap, needs more.
-HEIGHT_OF_A_CARD = "max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px))"
+HEIGHT_OF_A_CARD = (
+    "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
+)
 TYPE = """
 :host { font: calc(13px * var(--type, 1))/1.4 system-ui, sans-serif; color: var(--ink, #22303c) }
 h2 { font-size: calc(15px * var(--type, 1)); margin: 0; font-weight: 600 }

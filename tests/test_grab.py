@@ -73,8 +73,15 @@ def top_stands_on(visit, state_or_constants, **options):
     )
 
 
-def test_an_end_of_the_tieline_is_the_energy(visit):
+def stop_at_the_start(visit):
+    """There the bead is at the inner end, and in nobody's way."""
     visit.pause()
+    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
+    visit.page.wait_for_function("__tippe.top3d.index == 0")
+
+
+def test_an_end_of_the_tieline_is_the_energy(visit):
+    stop_at_the_start(visit)
     before = selected(visit)
     visit.drag(visit.pixel("plane", before["outer"], 7.0), visit.pixel("plane", 0.86, 6.2))
     after = until_selected(visit, outer=0.86, K_J=7.0)
@@ -89,9 +96,7 @@ def test_an_end_of_the_tieline_is_the_energy(visit):
 
 
 def test_the_tieline_itself_is_K_J(visit):
-    visit.pause()
-    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
-    visit.page.wait_for_function("__tippe.top3d.index == 0")
+    stop_at_the_start(visit)
     visit.drag(visit.pixel("plane", 0.62, 7.0), visit.pixel("plane", 0.62, 5.5))
     after = until_selected(visit, K_J=5.5)
     visit.page.mouse.up()

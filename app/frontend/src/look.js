@@ -1,5 +1,7 @@
 // How the page looks: light or dark, and large for a projector. The page's own type follows by variables of CSS, the
 // widgets by their theme; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
+import { coalesce } from "./data.js";
+
 const LARGER = 1.35;
 const INKS = ["#22303c", "#8a96a3", "#e7ebef", "#ffffff"]; // app/plots.py: ink, faint, grid, paper
 const looks = {
@@ -30,7 +32,15 @@ export function renderLook({ model }) {
       }
       first.set(figurePart, own);
     }
-    const wanted = Object.entries(own).map(([property, value]) => [property, exchange(value, property.endsWith("_color") ? ink : size)]);
+    let wanted = Object.entries(own).map(([property, value]) => [property, exchange(value, property.endsWith("_color") ? ink : size)]);
+    // The theme of the widgets gives these values of its own, whatever the figure was made with.
+    const [text, faint, line] = looks[name], px = `${12 * (model.large ? LARGER : 1)}px`;
+    if (figurePart.type === "Figure") {
+      wanted = [["border_fill_color", null], ["outline_line_color", null]];
+      if (figurePart.background_fill_alpha === 1) wanted.push(["background_fill_color", null]);
+    } else if (figurePart.type.endsWith("Axis")) {
+      wanted = [["major_label_text_color", text], ["major_label_text_font_size", px], ["axis_line_color", faint], ["major_tick_line_color", faint]];
+    } else if (figurePart.type === "Grid") wanted = [["grid_line_color", line]];
     if (wanted.length) figurePart.setv(Object.fromEntries(wanted), { sync: false });
   }
 
@@ -59,14 +69,19 @@ export function renderLook({ model }) {
     dressAll();
   }
 
-  // A tab is made when it is first looked at: then there are more models to dress.
+  // A tab is made when it is first looked at: then there are more models to dress. And the widgets' own dark theme has
+  // inks for figures, which come later.
   const doc = documentOf();
-  const onChange = () => {
-    if (name !== "light" && doc._all_models.size !== seen) dressAll();
+  const again = coalesce(dressAll);
+  const onChange = ({ attr = "" }) => {
+    if (name !== "light" && (doc._all_models.size !== seen || /(_color|font_size)$/.test(attr))) again();
   };
   doc.on_change(onChange);
   model.on("dark", update);
   model.on("large", update);
-  model.on("remove", () => doc.remove_on_change(onChange));
+  model.on("remove", () => {
+    again.cancel();
+    doc.remove_on_change(onChange);
+  });
   if (model.dark || model.large) update();
 }
