@@ -1,6 +1,7 @@
 """Tops of a family side by side: Figs. 5 and 6 of each on common axes, and a map of the share that friction leaves."""
 
 import html
+import time
 from functools import partial
 from itertools import chain
 from threading import Thread
@@ -22,6 +23,7 @@ from tippe_core import TopError
 FAMILIES = {"none": "", "the presets": "presets", "ordinary tops": "pegs", "other a": "a", "other I₃": "I3"}
 FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "8px 12px", "align-items": "center"}
 SMALL = 158  # px: two of them beside each other on a phone
+PICTURE_EVERY = 0.5  # s
 RATIOS = np.linspace(0.6, 1.9, 40)
 SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
 KINDS = {"tippe tops": "tippe", "ordinary tops": "ordinary"}
@@ -65,7 +67,7 @@ def waterfall(shown, end, most):
 
 def small_figure(shown, x_range, y_range):
     """Fig. 6 of one top, a family.Region, with K_J in units of its own K_J(P)."""
-    fig = plain(x_range=x_range, y_range=y_range, title=f"K_J(P) = {shown.pole:.3g}".replace("-", "−"))
+    fig = plain(x_range=x_range, y_range=y_range, title=f"Kⱼ(P) = {shown.pole:.3g}".replace("-", "−"))
     fig.update(sizing_mode=None, width=SMALL, height=200)
     fig.title.text_font_size, fig.title.text_color, fig.title.text_font_style = "12px", INK, "normal"
     fig.xaxis.ticker.desired_num_ticks = 3
@@ -125,7 +127,7 @@ class Compare:
     @staticmethod
     def _buttons(options):
         return pmui.RadioButtonGroup(label="", options=options, value=next(iter(options.values())), size="small",
-                                     margin=0, sx=cards.PLAIN)  # fmt: skip
+                                     margin=0, sx=cards.PLAIN | {"flexWrap": "wrap"})  # fmt: skip
 
     @property
     def figures_view(self):
@@ -221,11 +223,15 @@ class Compare:
         return thread
 
     def _work(self, job, steps, doc):
+        shown = time.monotonic()
         for done, found in chain(steps, [(None, None)]):
             if self._job is not job:
                 return
-            show = partial(self._show_row, job, done, found)
-            doc.add_next_tick_callback(show) if doc else show()
+            # a message now and then: more would queue up on a slow line, and be under way when a page is closed
+            if found is None or found.share.size == done or time.monotonic() > shown + PICTURE_EVERY:
+                shown = time.monotonic()
+                show = partial(self._show_row, job, done, found)
+                doc.add_next_tick_callback(show) if doc else show()
 
     def _show_row(self, span, done, found):
         """The map with a row more; None after the last."""

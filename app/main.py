@@ -27,10 +27,12 @@ def build_view(explorer, roll, builder):
     workshop = Workshop(builder, explorer, sliders)
     roll.followers.append(workshop.show_scene)
     workshop.show_scene(explorer.scene)
+    measure = card("Measure your own", *Measure(builder).view, height="max-content")
+    measure.styles = measure.styles | {"grid-column": "1 / -1"}
     return grid(
         card("The body, cut along its axis; drag its handles", *workshop.section_view, height="max-content"),
         card("Build a top", *workshop.bench_view, height="max-content"),
-        card("Measure your own", *Measure(builder).view, height="max-content"),
+        measure,
     )
 
 

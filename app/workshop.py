@@ -253,7 +253,7 @@ class Pieces:
         self.kind = pmui.Select(label="", options=["ball", "cylinder", "cone"], value="ball", size="small", width=110,
                                 margin=0)  # fmt: skip
         self.entries = {name: field(value, width=58, tags=[f"piece {name}"]) for name, value in self.FIELDS}
-        self.density = field("", width=66, tags=["piece density"])
+        self.density = field("", width=78, tags=["piece density"])
         self.words = words("")
         self.put, self.take, self.undo = (
             pmui.Button(label=label, size="small", variant="outlined", margin=0, sx=PLAIN)
@@ -320,10 +320,13 @@ class Workshop:
         self.families = self._choice("Family", drawn, builder.choose_family)
         self.dimensions = pn.Column(sizing_mode="stretch_width", margin=0)
         self.section.figure.on_event("doubletap", self._tapped_twice)
-        self.parting = self._button("", lambda event: builder.part_densities())
-        self.points = flow(
+        self.parting = self._button("A density for each piece", lambda event: builder.part_densities())
+        buttons = flow(
             self._button("Add a point", lambda event: builder.add_point()),
             self._button("Remove the point held last", self._remove), self.parting)  # fmt: skip
+        twice = "On the section, a double tap adds a point, or takes away the one under it."
+        self.points = pn.Column(words(f'<div class="note">{twice}</div>'), buttons, sizing_mode="stretch_width",
+                                margin=0)  # fmt: skip
         self.pieces = Pieces(builder)
         self.stl = self._download("Save STL, in mm", "top.stl", lambda: builder.stl() or b"")
         self.saved = self._download("Save this top", "top.json", lambda: builder.save().encode())
@@ -514,6 +517,12 @@ class Measure:
 
     def _show(self):
         said = self.builder.draft.messages.get("measured")
+        if self.builder.draft.shape.top.a < 0:
+            self.result.object = (
+                '<div class="note">The body above has G above O and does not rock; choose one like your own that does, '
+                "for its <i>I</i><sub>1</sub>.</div>")  # fmt: skip
+            self.use.disabled = True
+            return
         try:
             rocking, found = self._found()
         except ValueError as error:

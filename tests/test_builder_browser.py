@@ -1,0 +1,143 @@
+"""The builder in Chromium: handles, presets, files and STL, as a person uses them."""
+
+import json
+import struct
+
+import numpy as np
+import pytest
+from visiting import Visit
+
+from tippe_core import PRESETS, TruncatedSphere, load_top, save_top
+
+# Where a point of a figure, in its own coordinates, is on the screen.
+PLACE = """
+([figure, x, y]) => {
+  const queue = [...Bokeh.index.roots]
+  while (queue.length) {
+    const view = queue.pop()
+    if (view.model.name == figure && view.frame) {
+      const {left, top} = view.canvas_view.el.getBoundingClientRect()
+      return [left + view.frame.x_scale.compute(x), top + view.frame.y_scale.compute(y)]
+    }
+    queue.push(...view.child_views ?? [])
+  }
+}
+"""
+# Of the body that the section shows, in mm: its greatest "x" and "z".
+SECTION = """(column) => {
+  const figure = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "section" && m.renderers)
+  return Math.max(...figure.renderers[0].data_source.data[column][0])
+}"""
+# The greatest height above O of the body that is turned in 3-D, in R.
+DRAWN = """() => {
+  const top = [...Bokeh.documents[0]._all_models.values()].find((m) => m.attributes.data?.attributes.profile)
+  const profile = top.data.profile
+  const rows = new Float32Array(profile.buffer ?? profile)
+  return Math.max(...rows.filter((_, i) => i % 2))
+}"""
+
+
+@pytest.fixture(scope="module")
+def bench(server, chromium):
+    page = chromium.new_page(viewport={"width": 1400, "height": 1500})
+    visit = Visit(page, server)
+    page.get_by_role("tab", name="Build a top").click()
+    page.get_by_role("button", name="Save this top").wait_for()
+    page.wait_for_function("Bokeh.documents[0].is_idle")
+    yield visit
+    page.close()
+    assert not visit.errors
+
+
+def choose(visit, preset):
+    """Picks a preset and waits until its numbers stand there."""
+    visit.page.get_by_role("combobox").nth(0).click()
+    visit.page.get_by_role("menuitem", name=preset.name, exact=True).click()
+    shape = preset.shape
+    for text in (f"= {shape.top.a:.4f}".replace("-", "−"), f"= {shape.top.I1:.4f}", f"{1e3 * shape.mass:.4g} g"):
+        visit.page.get_by_text(text).first.wait_for()
+    visit.page.get_by_text(preset.source[:50]).wait_for()
+
+
+def drag(visit, start, end):
+    here, there = (visit.page.evaluate(PLACE, ["section", *place]) for place in (start, end))
+    visit.page.mouse.move(*here)
+    visit.page.mouse.down()
+    for share in (0.3, 0.6, 1.0):
+        visit.page.mouse.move(*(np.array(here) * (1 - share) + np.array(there) * share), steps=3)
+    visit.page.mouse.up()
+
+
+def download(visit, label):
+    with visit.page.expect_download() as waiting:
+        visit.page.get_by_role("button", name=label).click()
+    return waiting.value.path().read_bytes()
+
+
+def load(visit, text):
+    visit.page.locator("input[type=file]").set_input_files(
+        {"name": "top.json", "mimeType": "application/json", "buffer": text.encode()})  # fmt: skip
+
+
+def test_every_preset_shows_its_numbers_and_its_source(bench):
+    for preset in (*PRESETS[1:], PRESETS[0]):
+        choose(bench, preset)
+        assert bench.page.locator("[role=alert]").locator("visible=true").count() == 0
+
+
+def test_a_dragged_handle_changes_number_section_and_the_top_in_3d(bench):
+    choose(bench, PRESETS[1])
+    choose(bench, PRESETS[0])
+    drag(bench, (0, 27.4), (0, 20.2))  # the end of the stem, from l = 19.2 to 12 mm
+    bench.page.wait_for_function(f"() => Math.abs(({SECTION})('z') - 20.2) < 0.5")
+    top = load_top(download(bench, "Save this top"))
+    assert top.l == pytest.approx(0.012, abs=5e-4)
+    assert bench.page.evaluate(SECTION, "z") == pytest.approx(1e3 * (top.c + top.l), abs=1e-9)
+    bench.page.get_by_text(f"= {top.top.a:.4f}").first.wait_for()
+    # the field beside the slider, and the body in 3-D
+    fields = [field.input_value() for field in bench.page.locator("input[type=text]").all()]
+    assert f"{1e3 * top.l:.6g}" in fields
+    bench.page.wait_for_function(f"z => Math.abs(({DRAWN})() - z) < 1e-6", arg=(top.c + top.l) / top.R)
+
+
+def test_a_top_is_saved_and_loaded_back_and_a_bad_file_changes_nothing(bench):
+    choose(bench, PRESETS[4])
+    text = download(bench, "Save this top").decode()
+    assert load_top(text) == PRESETS[4].shape
+    choose(bench, PRESETS[0])
+    document = json.loads(text)
+    document["dimensions"]["t"] = -0.004
+    load(bench, json.dumps(document))
+    bench.page.get_by_text("t = -4 mm is not possible").wait_for()
+    load(bench, "no top at all")
+    bench.page.get_by_text("JSON").wait_for()
+    assert download(bench, "Save this top").decode() == save_top(TruncatedSphere.paper())
+    load(bench, text)
+    bench.page.get_by_text(f"= {PRESETS[4].shape.top.a:.4f}".replace("-", "−")).first.wait_for()
+    assert download(bench, "Save this top").decode() == text
+
+
+def test_the_stl_that_is_saved_is_the_body_in_mm(bench):
+    choose(bench, PRESETS[1])
+    choose(bench, PRESETS[0])
+    data = download(bench, "Save STL")
+    (count,) = struct.unpack("<I", data[80:84])
+    rows = np.frombuffer(data[84:], dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    assert len(rows) == count
+    A, B, C = np.moveaxis(rows["corners"].astype(float), 1, 0)
+    # the divergence theorem; 128 flat faces to a turn are smaller than the round body by 4e-4
+    volume = np.einsum("ij,ij->", A, np.cross(B, C)) / 6 * 1e-9
+    assert volume == pytest.approx(TruncatedSphere.paper().volume, rel=1e-3)
+    assert rows["corners"][..., 2].min() == -16 and rows["corners"][..., 2].max() == pytest.approx(27.4)
+
+
+def test_a_point_of_a_free_profile_is_dragged_and_another_added(bench):
+    preset = next(preset for preset in PRESETS if preset.name == "Free profile")
+    choose(bench, preset)
+    drag(bench, (22, 16), (28, 15))
+    bench.page.wait_for_function(f"() => Math.abs(({SECTION})('x') - 28) < 1")
+    bench.page.get_by_role("button", name="Add a point").click()
+    bench.page.wait_for_function("Bokeh.documents[0].is_idle")
+    points = load_top(download(bench, "Save this top")).points
+    assert len(points) == len(preset.shape.points) + 1
+    assert max(points)[0] == pytest.approx(0.028, abs=1e-3)
