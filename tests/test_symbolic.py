@@ -136,8 +136,13 @@ def test_viscous_friction(top, compare):
     assert stayed >= 3
 
 
-@pytest.mark.parametrize("name", ["paper", "ball"])
-def test_smooth_plane(name, compare):
+@pytest.mark.parametrize("top", TOPS.values(), ids=TOPS.keys())
+def test_smooth_plane(top, compare):
+    stayed = 0
     for state in random_states(23, 6):
         times = window(0.0, 0.1 / (1 + abs(state.omega2) + abs(state.omega3)))
-        assert_same(compare, glide(TOPS[name], state, times), "push")
+        motion = glide(top, state, times)
+        if not motion.events:
+            assert_same(compare, motion, "push")
+            stayed += 1
+    assert stayed >= 3

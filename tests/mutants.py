@@ -1,0 +1,190 @@
+"""Would a wrong formula be noticed? python tests/mutants.py (some hours; --files, --share for less).
+
+In each statement that computes something one sign and one factor are changed, one at a time, in a process of its own,
+and the tests of the core are run until one fails. docs/mutants.md gets the count, and each change no test noticed.
+"""
+
+import argparse
+import ast
+import datetime
+import hashlib
+import importlib.abc
+import importlib.util
+import os
+import signal
+import sys
+from pathlib import Path
+
+TESTS = Path(__file__).parent
+CORE = TESTS.parent / "tippe_core"
+PAGE = TESTS.parent / "docs" / "mutants.md"
+FILES = ["constants", "curve", "forces", "rolling", "smooth", "friction", "contacts", "sliding"]
+# Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
+CONTROL = {"solve", "bisect", "sign_changes", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
+QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
+         "test_forces.py", "test_symbolic.py", "test_paper.py"]  # fmt: skip
+REST = ["test_smooth.py", "test_accuracy.py", "test_rolling.py", "test_sliding.py", "test_claims.py",
+        "test_tielines.py", "test_properties.py"]  # fmt: skip
+ORDER = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_mujoco.py", "test_sliding.py"],
+         "sliding": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py"],
+         "smooth": ["test_equations.py", "test_smooth.py"],
+         "rolling": ["test_equations.py", "test_rolling.py"]}  # fmt: skip
+# What the tests cannot notice, and why: (file, what is written after the change) -> reason.
+EXPLAINED = {}
+
+
+def sites(tree):
+    """(statement, kind, change): change() alters the tree and returns what undoes it."""
+    for function in ast.walk(tree):
+        if not isinstance(function, ast.FunctionDef) or function.name in CONTROL or function.name.startswith("__"):
+            continue
+        for statement in function.body:
+            for inner in ast.walk(statement):
+                if isinstance(inner, ast.FunctionDef) or not isinstance(inner, ast.stmt):
+                    continue
+                yield from changes(inner)
+
+
+def changes(statement):
+    nodes = [statement]
+    while nodes:
+        node = nodes.pop()
+        nodes += [child for child in ast.iter_child_nodes(node) if not isinstance(child, ast.stmt)]
+        if isinstance(node, ast.Subscript):
+            nodes.remove(node.slice)  # an index is no factor
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("range", "TopError", "len"):
+            nodes = [n for n in nodes if n not in node.args]
+        if isinstance(node, ast.BinOp):
+            other = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}.get(type(node.op))
+            if other:
+                kind = "sign" if other in (ast.Add, ast.Sub) else "factor"
+                yield statement, kind, node, "op", other()
+            if isinstance(node.op, ast.Pow) and isinstance(node.right, ast.Constant):
+                yield statement, "factor", node.right, "value", node.right.value + 1
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+            yield statement, "sign", node, "op", ast.UAdd()
+
+
+def mutants(name):
+    """(line, before, after, source) for one sign and one factor of each statement, chosen by the statement's hash."""
+    tree = ast.parse((CORE / f"{name}.py").read_text(encoding="utf-8"))
+    groups = {}
+    for site in sites(tree):
+        groups.setdefault((id(site[0]), site[1]), []).append(site)
+    for group in groups.values():
+        before = ast.unparse(group[0][0])
+        pick = int(hashlib.sha256(before.encode()).hexdigest(), 16) % len(group)
+        statement, _, node, field, value = group[pick]
+        kept = getattr(node, field)
+        setattr(node, field, value)
+        after, source = ast.unparse(statement), ast.unparse(tree)
+        setattr(node, field, kept)
+        pairs = zip(before.splitlines(), after.splitlines(), strict=True)
+        for old, new in ((old.strip(), new.strip()) for old, new in pairs if old != new):
+            yield statement.lineno, old, new, source
+
+
+class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Imports one module of tippe_core from a changed source."""
+
+    def __init__(self, name, source):
+        self.name, self.source = f"tippe_core.{name}", source
+
+    def find_spec(self, name, path, target=None):
+        return importlib.util.spec_from_loader(name, self) if name == self.name else None
+
+    def create_module(self, spec):
+        return None
+
+    def exec_module(self, module):
+        exec(compile(self.source, self.name, "exec"), module.__dict__)
+
+
+def noticed(name, source, tests, seconds):
+    """Whether a test fails with the changed source, in a child of this process, which has the libraries imported."""
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            sink = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(sink, 1)
+            os.dup2(sink, 2)
+            signal.alarm(seconds)  # a motion that never ends is noticed too
+            sys.meta_path.insert(0, Changed(name, source))
+            import pytest
+
+            code = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", *(str(TESTS / test) for test in tests)]))
+        finally:
+            os._exit(code)
+    _, status = os.waitpid(child, 0)
+    return status != 0
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--files", nargs="*", default=FILES)
+    options.add_argument("--share", type=int, default=1, help="every so many mutants only")
+    options.add_argument("--seconds", type=int, default=1800, help="for the tests of one mutant")
+    options.add_argument("--check", action="store_true", help="first run the tests without any change")
+    options.add_argument("--log", help="a file to which results are added, and from which known ones are taken")
+    chosen = options.parse_args()
+    sys.path[:0] = [str(TESTS), str(TESTS.parent)]
+    import hypothesis  # noqa: F401
+    import mpmath  # noqa: F401
+    import mujoco  # noqa: F401
+    import playwright.sync_api  # noqa: F401
+    import pytest  # noqa: F401
+    import scipy.fft
+    import scipy.integrate
+    import scipy.optimize
+    import scipy.stats  # noqa: F401
+    import sympy.physics.mechanics  # noqa: F401
+
+    log = Path(chosen.log) if chosen.log else None
+    known = {}  # (file, before, after) -> whether it was noticed
+    if log and log.exists():
+        known = dict(map(ast.literal_eval, log.read_text(encoding="utf-8").splitlines()))
+    if chosen.check and noticed("forces", (CORE / "forces.py").read_text(encoding="utf-8"), QUICK + REST, 10**5):
+        sys.exit("the tests fail without any change")
+    chosen_ones = [(name, *mutant) for name in chosen.files for mutant in list(mutants(name))[:: chosen.share]]
+    for slow in (False, True):  # the quick tests notice most
+        for name, line, before, after, source in chosen_ones:
+            key, first = (name, before, after), ORDER.get(name, [])
+            tests = [test for test in REST if test not in first] if slow else [*first, *QUICK]
+            if known.get(key) in (True, False) or (slow, known.get(key)) == (False, "quick"):
+                continue
+            seen = noticed(name, source, list(dict.fromkeys(tests)), chosen.seconds)
+            known[key] = True if seen else False if slow else "quick"
+            if log:
+                with log.open("a", encoding="utf-8") as file:
+                    file.write(f"({key!r}, {known[key]!r})\n")
+            print(f"{name}.py:{line} {'' if known[key] is True else 'SURVIVES '}{after}", flush=True)
+    results = {(name, before, after): (known[name, before, after] is True, line)
+               for name, line, before, after, _ in chosen_ones}  # fmt: skip
+    PAGE.write_text("\n".join(page(results)) + "\n", encoding="utf-8")
+
+
+def page(results):
+    yield "# Mutants"
+    yield ""
+    yield ("Would the tests notice a wrong formula? `python tests/mutants.py` changes one sign and one factor (times "
+           "for divided by, a power by one) in each statement that computes something, one at a time, and runs the "
+           "tests of the core until one fails. Left out are iterations and tests of convergence, where a wrong step "
+           f"is slow or refused. Written by that command on {datetime.date.today()}.")  # fmt: skip
+    yield ""
+    yield "| file | changes | noticed | share |"
+    yield "|---|---|---|---|"
+    for name in [*dict.fromkeys(key[0] for key in results), "all"]:
+        rows = [seen for (file, *_), (seen, _) in results.items() if name in (file, "all")]
+        yield f"| {name} | {len(rows)} | {sum(rows)} | {100 * sum(rows) / len(rows):.1f} % |"
+    yield ""
+    yield "## Not noticed"
+    yield ""
+    for (file, before, after), (seen, line) in results.items():
+        if not seen:
+            reason = EXPLAINED.get((file, after), "not explained yet")
+            yield f"- `{file}.py`, line {line}: {reason}\n\n  ```text\n  {before}\n  {after}\n  ```"
+
+
+if __name__ == "__main__":
+    main()
