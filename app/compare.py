@@ -20,7 +20,7 @@ from app.plots import FAINT, INK, plain
 from app.workshop import alert, field, typed, words
 from tippe_core import TopError
 
-FAMILIES = {"none": "", "the presets": "presets", "ordinary tops": "pegs", "other a": "a", "other I₃": "I3"}
+FAMILIES = {"none": "", "presets": "presets", "ordinary": "pegs", "other a": "a", "other I₃": "I3"}
 FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "8px 12px", "align-items": "center"}
 SMALL = 158  # px: two of them beside each other on a phone
 PICTURE_EVERY = 0.5  # s
@@ -127,7 +127,7 @@ class Compare:
     @staticmethod
     def _buttons(options):
         return pmui.RadioButtonGroup(label="", options=options, value=next(iter(options.values())), size="small",
-                                     margin=0, sx=cards.PLAIN | {"flexWrap": "wrap"})  # fmt: skip
+                                     margin=0, sx=cards.PLAIN)  # fmt: skip
 
     @property
     def figures_view(self):
