@@ -263,13 +263,13 @@ THREE, ZED = r"\hat 3", r"\hat z"
 DOT_L, DOT_V, DOT_W, DOT_R = r"\dot{\vec L}", r"\dot{\vec v}", r"\dot{\vec\omega}", r"\dot{\vec r}"
 COS, SIN = r"\cos\theta", r"\sin\theta"
 W1, W2, W3 = r"\omega_{1'}", r"\omega_{2'}", r"\omega_3"
-R3, RP = "r_3", r"r_\perp"
+R3, RP, DI = "r_3", r"r_\perp", r"{\Delta I}"
 LINES = (
     Line("(1)", rf"M{DOT_V}={F}+\vec w", lambda m: (m.v_dot, m.F + m.weight), "M v F w"),
     Line("(2)", rf"{DOT_L}=-{O}\times{F}", lambda m: (m.L_dot, -np.cross(m.r, m.F)), "L r F"),
     Line("(3)", rf"{O}=R{ZED}-a{THREE}", lambda m: (m.r, Z - m.a * m.axis), "r R z a three"),
     Line("(4)", rf"{V}={W}\times{O}", lambda m: (m.d(m.com), np.cross(m.omega, m.r)), "v omega r"),
-    Line("(5)", rf"{L}=I_1{W}+\Delta I\,{W3}{THREE}",
+    Line("(5)", rf"{L}=I_1{W}+{DI}\,{W3}{THREE}",
          lambda m: (m.L, m.I1 * m.omega + m.dI * column(m.w3) * m.axis), "L I1 omega dI w3 three"),
     Line("(6)", rf"\tfrac12\left[I_1+M(R^2+a^2-2Ra{COS})\right]{W1}^2+\tfrac12I_1{W2}^2+\tfrac12M\left[(R{COS}-a){W2}"
          rf"-R{SIN}\,{W3}\right]^2+\tfrac12I_3{W3}^2+Mga(1-{COS})=E",
@@ -281,7 +281,7 @@ LINES = (
     Line("(10)", rf"{L}\cdot{O}=C_J", lambda m: (dot(m.L, m.r), constant(m, m.I1 * m.constants.K_J)), "L r C_J"),
     Line("(11)", rf"{DOT_R}=-a{W}\times{THREE}", lambda m: (m.r_dot, -m.a * np.cross(m.omega, m.axis)),
          "r a omega three"),
-    Line("(12)", rf"{L}\cdot{DOT_R}=-a\left(I_1{W}+\Delta I\,{W3}{THREE}\right)\cdot\left({W}\times{THREE}\right)",
+    Line("(12)", rf"{L}\cdot{DOT_R}=-a\left(I_1{W}+{DI}\,{W3}{THREE}\right)\cdot\left({W}\times{THREE}\right)",
          lambda m: (dot(m.L, m.r_dot),
                     -m.a * dot(m.I1 * m.omega + m.dI * column(m.w3) * m.axis, np.cross(m.omega, m.axis))),
          "L r a omega w3 three"),
@@ -300,14 +300,15 @@ LINES = (
     Line("(18)", rf"{THREE}\times{DOT_V}\cdot{O}={R3}({DOT_W}\cdot{O})-r^2\dot\omega_3+aR{W3}\,{W}\cdot({THREE}\times"
          rf"{ZED})", lambda m: (dot(carried(m), m.r), m.r3 * dot(m.omega_dot, m.r) - dot(m.r, m.r) * m.w3_dot
                                 + m.a * m.along(m.axis) * m.lean), "three v r r3 omega w3 a z"),
-    Line("(19)", rf"{DOT_L}=I_1{DOT_W}+\Delta I\,\dot\omega_3{THREE}+\Delta I\,{W3}\dot{{\hat 3}}",
+    Line("(19)", rf"{DOT_L}=I_1{DOT_W}+{DI}\,\dot\omega_3{THREE}+{DI}\,{W3}\dot{{\hat 3}}",
          lambda m: (m.L_dot, m.I1 * m.omega_dot + m.dI * (column(m.w3_dot) * m.axis
                                                           + column(m.along(m.axis)) * m.d(m.axis))),
          "L I1 omega dI w3 three"),
-    Line("(20)", rf"I_1({DOT_W}\cdot{O})+\Delta I\,{R3}\dot\omega_3+\Delta I\,R{W3}\,{W}\cdot({THREE}\times{ZED})=0",
+    Line("(20)", rf"I_1({DOT_W}\cdot{O})+{DI}\,{R3}\dot\omega_3+{DI}\,R{W3}\,{W}\cdot"
+         rf"({THREE}\times{ZED})=0",
          lambda m: (m.I1 * dot(m.omega_dot, m.r) + m.dI * (m.r3 * m.w3_dot + m.along(m.axis) * m.lean), 0 * m.theta),
          "I1 omega r dI r3 w3 three z"),
-    Line("(21)", rf"I_3\dot\omega_3=-\frac{{\Delta I}}{{I_1}}M{R3}^2\dot\omega_3-\frac{{\Delta I}}{{I_1}}MR{R3}{W3}\,"
+    Line("(21)", rf"I_3\dot\omega_3=-\frac{DI}{{I_1}}M{R3}^2\dot\omega_3-\frac{DI}{{I_1}}MR{R3}{W3}\,"
          rf"{W}\cdot({THREE}\times{ZED})-Mr^2\dot\omega_3+MaR{W3}\,{W}\cdot({THREE}\times{ZED})",
          lambda m: (m.I3 * m.d(m.w3), -(m.dI / m.I1 * m.r3**2 + dot(m.r, m.r)) * m.w3_dot
                     + (m.a - m.dI / m.I1 * m.r3) * m.along(m.axis) * m.lean), "I3 w3 dI I1 r3 omega r a"),
@@ -324,7 +325,7 @@ LINES = (
          rf"{W3}^2\right]=0", lambda m: (m.d(half_f3(m) * m.w3**2), 0 * m.theta), "I3 w3 rp I1 r3"),
     Line("(25)", rf"\tfrac12\left[I_3+MR^2\sin^2\theta+M\frac{{I_3}}{{I_1}}(R{COS}-a)^2\right]{W3}^2=\tfrac12K_R^2",
          lambda m: (half_f3(m) * m.along(m.axis) ** 2, constant(m, m.constants.K_R**2 / 2)), "I3 theta I1 a w3 K_R"),
-    Line("(26)", rf"\left[\Delta I(I_3+MR^2)-I_3Ma^2\right]{W3}^2-2C_JMR\omega_z+I_1MR^2\omega_z^2=C",
+    Line("(26)", rf"\left[{DI}(I_3+MR^2)-I_3Ma^2\right]{W3}^2-2C_JMR\omega_z+I_1MR^2\omega_z^2=C",
          lambda m: (isaeva(m), isaeva_elsewhere(m)), "dI I3 a w3 C_J wz I1"),
     Line("(27)", rf"\left.\frac{{dL_3}}{{dR}}\right|_{{R=0}}=\frac{{Ma{COS}}}{{I_1+Ma^2}}\,L_3",
          lambda m: (m.L3_slope, m.a * m.c / (m.I1 + m.a**2) * m.L3_pointed), "L_3 a theta I1"),

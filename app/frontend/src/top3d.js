@@ -85,6 +85,8 @@ export function renderTop3D({ model, el, view }) {
     momentum: new Arrow(colours.momentum, { radius: 0.055 }),
   };
   for (const arrow of Object.values(arrows)) scene.add(arrow);
+  const pointedAt = new Arrow(0x22303c, { radius: 0.05, through: 0.85 }); // what a text beside points at, alone
+  scene.add(pointedAt);
   const cone = frictionCone();
   scene.add(cone);
   const centre = new THREE.Mesh(
@@ -100,6 +102,7 @@ export function renderTop3D({ model, el, view }) {
     momentum: labels.add("L", "vector"),
     centre: labels.add("G", "vector"),
   };
+  const pointedTip = labels.add("", "vector");
   tips.force.element.style.color = colours.normal;
   tips.omega.element.style.color = "#a8538a"; // the palette's pink, darkened to be read on a light ground
   tips.momentum.element.style.color = "#9a6a00";
@@ -130,6 +133,7 @@ export function renderTop3D({ model, el, view }) {
   let restarted = true;
   let lastFrame;
   let drawn; // what the last drawn picture showed
+  let highlight = null; // of a tippe:highlight
   const suffix = model.clock ? `:${model.clock}` : "";
   const member = { player, stage, echo: false };
   const others = () => (clocks.get(model.clock) ?? []).filter((other) => other !== member);
@@ -191,6 +195,7 @@ export function renderTop3D({ model, el, view }) {
     point("force", moment.contact, moment.force, some && model.show_force);
     point("omega", moment.com, moment.omega, some && model.show_omega);
     point("momentum", moment.com, moment.momentum, some && model.show_momentum);
+    showPointed(some);
     tips.centre.visible = centre.visible;
     tips.centre.at.copy(moment.com);
     tips.centre.shift = [-14, 6];
@@ -219,6 +224,20 @@ export function renderTop3D({ model, el, view }) {
       const detail = { t, index: player.index, playing };
       if (leader() === member) window.dispatchEvent(new CustomEvent(`tippe:clock${suffix}`, { detail }));
     }
+  }
+
+  // A vector along the turning axes 1', y, z, from "com" or "contact": only its direction is true where it is long.
+  function showPointed(some) {
+    const axis = new THREE.Vector3(0, 0, 1).applyQuaternion(moment.quaternion);
+    const first = new THREE.Vector3(-axis.y, axis.x, 0).normalize(); // 1' = z x 3
+    const [x, y, z] = highlight?.vector ?? [0, 0, 0];
+    const along = new THREE.Vector3(first.x * x - first.y * y, first.y * x + first.x * y, z);
+    along.clampLength(0.4, 1.8);
+    pointedAt.point(highlight?.start === "contact" ? moment.contact : moment.com, along.x, along.y, along.z, pointedTip.at);
+    pointedAt.visible = pointedTip.visible = some && Boolean(highlight) && pointedAt.drawable;
+    if (!pointedAt.visible) return;
+    pointedTip.shift = [14, -6];
+    for (const name of Object.keys(arrows)) arrows[name].visible = tips[name].visible = false;
   }
 
   function point(name, from, vector, shown) {
@@ -336,6 +355,12 @@ export function renderTop3D({ model, el, view }) {
   }
   const onSeek = ({ detail: { t, held } }) => player.seek(t, held);
   window.addEventListener(`tippe:seek${suffix}`, onSeek);
+  const onHighlight = ({ detail }) => {
+    highlight = detail;
+    pointedTip.element.textContent = detail?.label ?? "";
+    stage.invalidate();
+  };
+  window.addEventListener(`tippe:highlight${suffix}`, onHighlight);
   if (model.clock) clocks.set(model.clock, [...others(), member]);
 
   newProfile();
@@ -356,6 +381,7 @@ export function renderTop3D({ model, el, view }) {
     get verdict() { return verdict.textContent; },
     get pictures() { return stage.pictures; },
     get motions() { return { received, shown }; },
+    get highlight() { return pointedAt.visible ? highlight.label : ""; },
     photo: (wide) => photo(stage, labels, wide),
   };
   window.__tippe ??= {};
@@ -367,6 +393,7 @@ export function renderTop3D({ model, el, view }) {
     onFrames.cancel();
     clearTimeout(told);
     window.removeEventListener(`tippe:seek${suffix}`, onSeek);
+    window.removeEventListener(`tippe:highlight${suffix}`, onHighlight);
     if (model.clock) clocks.set(model.clock, others());
     if (window.__tippe.top3d === report) delete window.__tippe.top3d;
     stage.dispose();
