@@ -313,6 +313,12 @@ class Socket(WSHandler):
         log.warning("refused a connection to %s by a page of %.100r: TIPPE_ORIGINS", self.request.host, origin)
         return False
 
+    def open(self, *arguments, **named):
+        try:
+            super().open(*arguments, **named)
+        except (ProtocolError, RuntimeError, ValueError, KeyError) as error:
+            self._refuse(1008, str(error))
+
     async def _async_open(self, token):
         try:
             await self._enter(token)
@@ -332,6 +338,7 @@ class Socket(WSHandler):
             if refusal:
                 self._refuse(4000, refusal)
                 return
+        self.set_nodelay(True)  # a message is three writes and more; the second would wait for the first one's receipt
         self.entered = address
         door.enter(address)
         if known:

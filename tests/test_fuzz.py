@@ -1,0 +1,162 @@
+"""Whoever speaks to the server without its page: each message is answered or the connection closed, in words, and
+another visitor notices nothing. `python tests/test_fuzz.py 10000` sends as many messages as it is told."""
+
+import asyncio
+import base64
+import gzip
+import json
+import random
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+from wire import Closed, Visitor, run, served
+
+NUMBERS = (0, -1, 7, 1e308, -1e308, 5e-324, 10**400, 2**63, float("nan"), float("inf"), True)
+STRINGS = ("", "7", "nan", "1e999", "−7", "<script>alert(1)</script>", "../../etc/passwd", "\x00", "\ud800", "9" * 5000)
+SPECIAL = (
+    {"type": "number", "value": "nan"},
+    {"type": "bytes", "data": "!!"},
+    {"type": "bytes", "data": base64.b64encode(gzip.compress(bytes(10**6))).decode()},
+    {"type": "ndarray", "array": [1], "dtype": "float64", "order": "little", "shape": [10**9]},
+    {"type": "ndarray", "array": [1], "dtype": "object", "order": "little", "shape": [1]},
+    {"type": "slice", "start": 0, "stop": 10**12, "step": 1},
+    {"type": "map", "entries": [[[], 1]]},
+    {"type": "set", "entries": [{"type": "map"}]},
+    {"type": "object", "name": "Slider", "id": "new", "attributes": {"value": 3}},
+    {"type": "object", "name": "os.system", "id": "new2"},
+    {"type": "typed_array", "array": {"type": "bytes", "data": "AAAA"}, "dtype": "float32", "order": "big"},
+    {"id": "nobody"},
+)
+EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
+          "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
+HANDS = ("FloatSlider", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Tabs", "Painted", "Top3D",
+         "Surface3D", "Range1d", "ColumnDataSource", "Location", "Button")  # fmt: skip
+
+
+def value(draw):
+    """Something that does not belong there, or does."""
+    pick = draw.random()
+    if pick < 0.35:
+        return draw.choice(NUMBERS)
+    if pick < 0.55:
+        return draw.choice(STRINGS)
+    if pick < 0.75:
+        return draw.choice(SPECIAL)
+    if pick < 0.85:
+        return [value(draw) for _ in range(draw.randrange(4))]
+    if pick < 0.95:
+        return draw.choice((None, {}, [], {"value": 1}, [[[]]], [0.0] * 3000, "x" * 50_000))
+    return draw.choice(([0] * 20_000, deep(40), "x" * 200_000))
+
+
+def deep(levels):
+    """Lists in lists."""
+    whole = []
+    for _ in range(levels):
+        whole = [whole]
+    return whole
+
+
+def event(draw, visitor):
+    """One event, most of them at what a person can set."""
+    hand = [id for id, (name, _) in visitor.models.items() if name.startswith(HANDS)]
+    model = draw.choice(hand if draw.random() < 0.8 else list(visitor.models))
+    own = [*visitor.models[model][1], "value", "value_throttled", "value_input", "filename", "active", "painted"]
+    if draw.random() < 0.15:
+        some = [name for name in ("x", "y", "data") if draw.random() < 0.6]
+        values = [["model", {"id": model}], *([name, value(draw)] for name in some)]
+        return {"kind": "MessageSent", "msg_type": draw.choice(("bokeh_event", "bokeh_event", "other")), "msg_data": {
+            "type": "event", "name": draw.choice(EVENTS), "values": {"type": "map", "entries": values}}}  # fmt: skip
+    if draw.random() < 0.1:
+        return draw.choice((
+            {"kind": "RootRemoved", "model": {"id": model}}, {"kind": "TitleChanged", "title": "mine"}, {"kind": 7},
+            {"kind": "ColumnsStreamed", "model": {"id": model}, "attr": "data", "data": {}, "rollover": 1},
+            {"kind": "ModelChanged"}, {"kind": "ModelChanged", "model": {"id": "nobody"}, "attr": "value", "new": 1},
+            None,
+        ))  # fmt: skip
+    return {"kind": "ModelChanged", "model": {"id": model}, "attr": draw.choice(own), "new": value(draw)}
+
+
+def content(draw, visitor):
+    """(kind, content) of a message; content may be no JSON."""
+    pick = draw.random()
+    if pick < 0.9:
+        return "PATCH-DOC", {"events": [event(draw, visitor) for _ in range(draw.choice((1, 1, 1, 3)))]}
+    return draw.choice((
+        ("PUSH-DOC", {"doc": {}}), ("PULL-DOC-REQ", {}), ("SERVER-INFO-REQ", {}), ("NO-SUCH", {}), ("PATCH-DOC", {}),
+        ("PATCH-DOC", {"events": []}), ("PATCH-DOC", {"events": [{}] * 500}), ("PATCH-DOC", []), ("PATCH-DOC", "no"),
+        ("PATCH-DOC", "[" * 100_000), ("PATCH-DOC", json.dumps("x" * 300_000)), ("PATCH-DOC", "9" * 10_000),
+        ("PATCH-DOC", '{"events": [{"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "value", "new": NaN}]}'),
+    ))  # fmt: skip
+
+
+async def fuzz(url, messages, seed=1):
+    """Sends so many; returns all the sentences that came back."""
+    draw, said, visitor = random.Random(seed), set(), None
+    for _ in range(messages):
+        if visitor is None:
+            visitor = await Visitor.enter(url)
+        kind, body = content(draw, visitor)
+        try:
+            sent = await visitor.say(kind, body)
+            answered, reply = await asyncio.wait_for(visitor.answer(sent), 60)
+            if answered == "ERROR":
+                said.add(reply["text"])
+                assert reply["traceback"] is None
+        except Closed as closed:
+            said.add(f"{closed.args[0]} {closed.args[1]}")
+            visitor = None
+    if visitor:
+        visitor.leave()
+    return said
+
+
+async def among(url, messages):
+    """The fuzzer beside a visitor who moves one slider; returns what the fuzzer was told."""
+    innocent = await Visitor.enter(url)
+    slider = innocent.find("FloatSlider")[0]
+    said = await fuzz(url, messages)
+    answered, _ = await innocent.answer(await innocent.set(slider, "value", 6.5))
+    assert answered == "OK"
+    innocent.leave()
+    return said
+
+
+def check(said, log):
+    """Only words, and no bug."""
+    for text in said:
+        assert "Traceback" not in text and ".py" not in text and "site-packages" not in text, text
+    assert "a bug" not in log and "Traceback" not in log, log[-5000:]
+    assert "refused" in log
+
+
+def test_messages_that_no_page_sends(tmp_path):
+    with served(tmp_path / "log") as server:
+        said = run(among(server.url, 300), 600)
+        check(said, server.log)
+        assert any("deep" in text for text in said) and any("no message" in text for text in said)
+
+
+@pytest.mark.parametrize("piece", ["", "null", "[]", "7", '{"msgid": 1}', '{"msgtype": "PATCH-DOC", "num_buffers": 9}'])
+def test_pieces_that_are_no_message(piece, tmp_path):
+    async def send(url):
+        visitor = await Visitor.enter(url, pull=False)
+        for _ in range(3):
+            await visitor.socket.write_message(piece, binary=isinstance(piece, bytes))
+        await visitor.receive()
+
+    with served(tmp_path / "log") as server:
+        with pytest.raises(Closed, match="1007"):
+            run(send(server.url))
+        check(set(), server.log)
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as folder, served(Path(folder, "log")) as server:
+        heard = run(among(server.url, int(sys.argv[1])), 7200)
+        print(*sorted(heard), sep="\n")
+        lines = server.log.splitlines()
+        print(f"{sys.argv[1]} messages; {sum('refused' in line for line in lines)} lines of refusal in the log")
+        check(heard, server.log)

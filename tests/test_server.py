@@ -1,0 +1,161 @@
+"""`python -m app`: its settings, whom it lets in, what it sends, and how it ends."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from wire import Closed, Visitor, answers, get, run, served, until
+
+from app.server import Budget, Door, Refused, Settings, look_at
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    with served(tmp_path_factory.mktemp("server") / "log", sessions=3, sessions_per_address=2, linger=1) as server:
+        yield server
+
+
+@pytest.mark.parametrize("name, value, says", [
+    ("PORT", "x", "whole number from 1 to 65535"), ("PORT", "65536", "65535"), ("WORKERS", "0", "from 1 to 64"),
+    ("ORIGINS", "a b", "host:port"), ("PREFIX", "/a?b", "a path"), ("LOG", "loud", "debug, info"),
+    ("FRAMES", "*; script-src *", "sources"), ("PROT", "5006", "no setting"),
+])  # fmt: skip
+def test_a_setting_that_cannot_be_is_named(name, value, says):
+    with pytest.raises(ValueError, match=f"TIPPE_{name}") as error:
+        Settings.of({f"TIPPE_{name}": value})
+    assert says in str(error.value) or name == "PROT"
+
+
+def test_a_bad_setting_ends_the_start_with_a_sentence():
+    done = subprocess.run([sys.executable, "-m", "app"], cwd=ROOT, capture_output=True, text=True, timeout=120,
+                          env={**os.environ, "TIPPE_PORT": "no"})  # fmt: skip
+    assert done.returncode == 2 and done.stderr.startswith("TIPPE_PORT is 'no'") and "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("origins, host, lets", [
+    ("", "anything:99", True), ("*", "anything:99", True), ("top.org", "top.org", True),
+    ("top.org", "TOP.org:443", True),
+    ("top.org", "top.org:5006", False), ("top.org:5006", "top.org:5006", True), ("top.org:*", "top.org:1", True),
+    ("top.org", "nottop.org", False), ("top.org", "top.org.evil.com", False), ("*.top.org", "a.top.org", True),
+    ("*.top.org", "top.org.evil.com", False), ("https://top.org/, b.org", "b.org", True),
+    ("[::1]:5006", "[::1]:5006", True),
+])  # fmt: skip
+def test_which_names_the_server_goes_by(origins, host, lets):
+    assert Settings.of({"TIPPE_ORIGINS": origins}).lets(host) is lets
+
+
+def test_sessions_are_made_in_turn_among_addresses():
+    async def asked():
+        import asyncio
+
+        door, order = Door(Settings()), []
+
+        async def one(address):
+            await door.turn(address)
+            order.append(address)
+            door.done(0)
+
+        await asyncio.gather(*(one(address) for address in ["flood"] * 5 + ["b", "c"]))
+        return order
+
+    assert run(asked()) == ["flood", "flood", "b", "c", "flood", "flood", "flood"]
+
+
+def test_who_spends_more_than_a_share_waits_and_not_for_ever():
+    budget = Budget()
+    budget.spend(1.0)
+    assert budget.wait() == 0
+    budget.spend(60.0)
+    assert budget.wait() == 60.25
+    budget.spend(0.01)
+    assert budget.wait() == pytest.approx(0.26)
+
+
+@pytest.mark.parametrize("value", [[[]] * 10_001, [0] * 10_001, {"type": "bytes", "data": "H4sI"}, "deep"])
+def test_what_is_too_much_for_a_message(value):
+    for _ in range(20 if value == "deep" else 0):
+        value = [value]
+
+    class Message:
+        msgtype = "PATCH-DOC"
+        content = {"events": [{"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "value", "new": value}]}  # noqa: RUF012
+
+    with pytest.raises(Refused):
+        look_at(Message)
+
+
+def test_headers_and_no_cookie(server):
+    status, headers, text = get(server.url)
+    policy = headers["Content-Security-Policy"]
+    nonce = policy.split("'nonce-")[1].split("'")[0]
+    assert status == 200 and text.count("<script") == text.count(f'<script nonce="{nonce}"') > 5
+    assert nonce not in get(server.url)[2]
+    assert "default-src 'none'" in policy and "frame-ancestors 'self'" in policy
+    assert headers["X-Content-Type-Options"] == "nosniff" and headers["Cache-Control"] == "no-store"
+    assert "Server" not in headers and "Set-Cookie" not in headers
+
+
+@pytest.mark.parametrize("path, status", [
+    ("/liveness?endpoint=/app", 200), ("/nothing", 404), ("/app/autoload.js?bokeh-autoload-element=1", 404),
+    ("/app/metadata", 404), ("/components/antigravity/a/b/c", 404), ("/components/app.main/../../x/y", 404),
+    ("/app/static/../main.py", 403), ("/app/session?id=x", 200), ("/app?v=1&KJ=%3Cscript%3Ealert(1)%3C/script%3E", 200),
+    ("/app?bokeh-session-id=mine", 200), ("/app?theme=%22%3E%3Cscript%3Ealert(1)%3C/script%3E", 200),
+    ("/app?" + "x" * 12_000, 200),
+])  # fmt: skip
+def test_addresses_that_mean_ill(path, status, server):
+    found, _, text = get(server.root + path)
+    assert found == status
+    assert "alert(1)" not in text and "Traceback" not in text and "mine" not in text
+
+
+def test_a_page_of_another_site_may_not_connect(server):
+    with pytest.raises(Exception, match="403"):
+        run(Visitor.enter(server.url, headers={"Origin": "http://evil.example"}))
+    assert "evil.example" in server.log
+
+
+def test_a_session_needs_a_token_of_this_server(server):
+    with pytest.raises(Closed, match="1008"):
+        run(Visitor.enter(server.url, token="eyJzZXNzaW9uX2lkIjogIm1pbmUiLCAic2Vzc2lvbl9leHBpcnkiOiA5OTk5OTk5OTk5fQ"))
+
+
+def test_no_more_sessions_than_there_are_places(server):
+    async def crowd():
+        inside = [await Visitor.enter(server.url) for _ in range(2)]
+        status, headers, text = get(server.url)
+        assert status == 503 and headers["Retry-After"] and "Too many pages are open from your address." in text
+        for visitor in inside:
+            visitor.leave()
+
+    run(crowd())
+    until(lambda: get(server.url)[0] == 200)
+    assert "Too many pages" in server.log and "Traceback" not in server.log
+
+
+def workers_of(pid):
+    return subprocess.run(["pgrep", "-P", str(pid)], capture_output=True, text=True).stdout.split()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes share a socket by fork")
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
+def test_all_workers_end_with_the_first_process(how, tmp_path):
+    with served(tmp_path / "log", workers=2, prefix="/tops") as server:
+        assert get(server.url)[0] == 200 and server.url.endswith("/tops/app")
+        workers = workers_of(server.process.pid)
+        assert len(workers) == 2
+        os.kill(int(workers[0]), signal.SIGKILL)  # one that is lost is replaced
+        until(lambda: len(workers_of(server.process.pid)) == 2 and workers[0] not in workers_of(server.process.pid))
+        until(lambda: server.log.count("serving") == 3, 60)
+        workers = workers_of(server.process.pid)
+        start = time.monotonic()
+        server.process.send_signal(how)
+        server.process.wait()
+        until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers) and not answers(server.url))
+        assert how == signal.SIGKILL or (server.process.returncode == 0 and "stopping" in server.log)
+        assert time.monotonic() - start < 20

@@ -1,0 +1,186 @@
+"""A visitor without a browser: Bokeh's protocol over a websocket, as a page speaks it, or as somebody who means ill."""
+
+import asyncio
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import Request, urlopen
+
+from tornado.httpclient import AsyncHTTPClient, HTTPRequest
+from tornado.websocket import websocket_connect
+from visiting import free_port
+
+TOKEN = re.compile(r'"token":"([^"]+)"')
+
+
+def get(url, **headers):
+    """(status, headers, text) of a page."""
+    try:
+        with urlopen(Request(url, headers=headers), timeout=60) as answer:
+            return answer.status, answer.headers, answer.read().decode(errors="replace")
+    except OSError as error:  # an answer that is no page is one too
+        if not hasattr(error, "code"):
+            raise
+        return error.code, error.headers, error.read().decode(errors="replace")
+
+
+class Closed(Exception):
+    """The server closed the connection: its code and its words."""
+
+
+@dataclass
+class Visitor:
+    """One page's end of a session. models: {id: (type, attributes)} as they were when it came."""
+
+    socket: object
+    models: dict = field(default_factory=dict)
+    bytes_in: int = 0
+    count: int = 0
+
+    @classmethod
+    async def enter(cls, url, token=None, headers=None, pull=True):
+        """Loads the page and opens its session; raises Closed where it is not let in."""
+        if token is None:
+            page = await AsyncHTTPClient().fetch(HTTPRequest(url, headers=headers or {}, request_timeout=300))
+            token = TOKEN.search(page.body.decode()).group(1)
+            cookies = page.headers.get_list("Set-Cookie")
+            if cookies:
+                headers = {**(headers or {}), "Cookie": "; ".join(cookie.split(";")[0] for cookie in cookies)}
+        parts = urlsplit(url)
+        request = HTTPRequest(f"ws://{parts.netloc}{parts.path}/ws", request_timeout=300, connect_timeout=300,
+                              headers={"Origin": f"http://{parts.netloc}", **(headers or {})})  # fmt: skip
+        visitor = cls(await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**27))
+        kind, _, _ = await visitor.receive()
+        assert kind == "ACK"
+        if pull:
+            _, content, _ = await visitor.ask("PULL-DOC-REQ", {})
+            visitor._note(content["doc"])
+        return visitor
+
+    def _note(self, part):
+        if isinstance(part, list):
+            for each in part:
+                self._note(each)
+        elif isinstance(part, dict):
+            if part.get("type") == "object" and "id" in part:
+                self.models[part["id"]] = (part["name"], part.get("attributes", {}))
+            for each in part.values():
+                self._note(each)
+
+    def find(self, kind, *names):
+        """The ids of the models whose type begins so and that have these attributes, in the order of the document."""
+        return [id for id, (name, attributes) in self.models.items()
+                if name.startswith(kind) and all(each in attributes for each in names)]  # fmt: skip
+
+    async def say(self, kind, content, message=None, buffers=()):
+        """Sends a message; returns its id."""
+        self.count += 1
+        message = message or f"m{self.count}"
+        header = {"msgid": message, "msgtype": kind} | ({"num_buffers": len(buffers)} if buffers else {})
+        for text in (json.dumps(header), "{}", content if isinstance(content, str) else json.dumps(content)):
+            await self.socket.write_message(text)
+        for i, buffer in enumerate(buffers):
+            await self.socket.write_message(json.dumps({"id": f"b{i}"}))
+            await self.socket.write_message(buffer, binary=True)
+        return message
+
+    async def set(self, model, attribute, value):
+        """As if the browser had changed a model; returns the message's id."""
+        event = {"kind": "ModelChanged", "model": {"id": model}, "attr": attribute, "new": value}
+        return await self.say("PATCH-DOC", {"events": [event]})
+
+    async def _fragment(self):
+        fragment = await self.socket.read_message()
+        if fragment is None:
+            raise Closed(self.socket.close_code, self.socket.close_reason)
+        self.bytes_in += len(fragment)
+        return fragment
+
+    async def receive(self):
+        """(kind, content, id of what it answers) of the next message."""
+        header, _, content = json.loads(await self._fragment()), await self._fragment(), await self._fragment()
+        for _ in range(2 * header.get("num_buffers", 0)):
+            await self._fragment()
+        return header["msgtype"], json.loads(content), header.get("reqid")
+
+    async def answer(self, message):
+        """Reads until the answer to a message: (kind, content)."""
+        while True:
+            kind, content, answered = await self.receive()
+            if answered == message:
+                return kind, content
+
+    async def ask(self, kind, content):
+        """Sends a message and reads until its answer: (kind, content, s it took)."""
+        start = time.monotonic()
+        answered = await self.answer(await self.say(kind, content))
+        return *answered, time.monotonic() - start
+
+    def leave(self):
+        """Closes the page."""
+        self.socket.close()
+
+
+def run(coroutine, seconds=120):
+    """Runs it, for so long at most."""
+    return asyncio.run(asyncio.wait_for(coroutine, seconds))
+
+
+@dataclass
+class Served:
+    """A running server: its process, the page's address, and what it wrote."""
+
+    process: subprocess.Popen
+    url: str
+    output: Path
+
+    @property
+    def log(self):
+        """All lines so far."""
+        return self.output.read_text(encoding="utf-8")
+
+    @property
+    def root(self):
+        """The address without the page's path."""
+        return self.url.rsplit("/", 1)[0]
+
+
+@contextmanager
+def served(output, **settings):
+    """`python -m app` with these settings, until the end of the block; output: the file that takes its log."""
+    settings = {"port": free_port(), "address": "127.0.0.1"} | settings
+    environment = {**os.environ, **{f"TIPPE_{name.upper()}": str(value) for name, value in settings.items()}}
+    with output.open("a") as file:
+        process = subprocess.Popen([sys.executable, "-m", "app"], cwd=Path(__file__).parent.parent, env=environment,
+                                   stdout=file, stderr=subprocess.STDOUT)  # fmt: skip
+    root = f"http://127.0.0.1:{settings['port']}"
+    try:
+        until(lambda: process.poll() is not None or answers(root + "/liveness"), 60)
+        assert process.poll() is None, output.read_text(encoding="utf-8")
+        yield Served(process, root + settings.get("prefix", "") + "/app", output)
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def answers(url):
+    """Whether anybody is there."""
+    try:
+        return get(url)[0] == 200
+    except OSError:
+        return False
+
+
+def until(condition, seconds=20):
+    """Waits for a condition."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited too long"
+        time.sleep(0.05)
