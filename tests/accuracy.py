@@ -185,7 +185,8 @@ def errors(n):
 
 def report(n):
     found, said = errors(n)
-    yield f"{n:,} states; the period and what follows it for every {PERIODS}th of them.\n"
+    yield (f"{n:,} states; the period and what follows it for every {PERIODS}th of them, where 1,024 nodes settle the "
+           "reference itself.\n")  # fmt: skip
     yield "| quantity | values | share of itself: median | worst | beyond 1e-9 | share of the terms: median | worst |"
     yield "|---|---|---|---|---|---|---|"
     for name, rows in found.items():

@@ -22,7 +22,7 @@ FILES = ["constants", "curve", "forces", "rolling", "smooth", "friction", "conta
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
 CONTROL = {"solve", "bisect", "sign_changes", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
-         "test_forces.py", "test_symbolic.py", "test_paper.py"]  # fmt: skip
+         "test_forces.py", "test_symbolic.py", "test_paper.py", "test_top.py"]  # fmt: skip
 REST = ["test_smooth.py", "test_accuracy.py", "test_rolling.py", "test_sliding.py", "test_claims.py",
         "test_tielines.py", "test_properties.py"]  # fmt: skip
 ORDER = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_mujoco.py", "test_sliding.py"],

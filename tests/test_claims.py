@@ -32,7 +32,7 @@ MANY_K_J = np.linspace(0.0, P * (1 - 1e-6), 60)
 
 @pytest.fixture(scope="module")
 def turning_over():
-    """physics.md's reference: theta = 0.1, w3 = 8.8, smoothed Coulomb friction mu = 0.3, eps = 1, until inverted."""
+    """The reference inversion: theta = 0.1, w3 = 8.8, smoothed Coulomb friction mu = 0.3, eps = 1, until inverted."""
     return slide(PAPER, State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0), np.linspace(0, 300, 30001), rtol=1e-11)
 
 
@@ -137,7 +137,7 @@ def test_where_the_verge_is(compare):
     K_J = np.array([1.0, 3.0, 5.0, 6.0, 8.0])
     found = tielines(PAPER, K_J, 10.0, 0.5)
     before = (found.theta_outer - found.theta_verge > 1e-3).astype(float)
-    compare("verge off the turning point", before, [1, 1, 1, 0, 0], 0, "physics.md's table")
+    compare("verge off the turning point", before, [1, 1, 1, 0, 0], 0, "the table of test_paper.py")
     for K, E, verge, row in zip(MANY_K_J, slip.E, slip.theta_verge, turning(slip), strict=True):
         theta = np.linspace(*row, 4001)
         share = ratio(theta, Constants(K, 10.0, E))
@@ -169,7 +169,7 @@ def test_friction_leaves_less(compare):
                       [8, 0.0945, 0.7991, 0.1328, 0.5837], [8.3651, 0, 0.7789, 0, 0.4998]])  # fmt: skip
     K = table[:, 0]
     expected = np.trapezoid(table[:, 4] - table[:, 3], K) / np.trapezoid(table[:, 2] - table[:, 1], K)
-    compare("a considerable fraction", areas[0] / areas[1], expected, 0.01, "physics.md's ten tielines")
+    compare("a considerable fraction", areas[0] / areas[1], expected, 0.01, "the ten tielines of test_paper.py")
     assert 0.1 < 1 - areas[0] / areas[1] < 0.5
 
 

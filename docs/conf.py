@@ -1,0 +1,54 @@
+"""The pages: make docs. Nothing is fetched from outside: furo's fonts are the system's, formulas become MathML."""
+
+import re
+from importlib import metadata
+
+import latex2mathml.converter
+import matplotlib
+from docutils import nodes
+
+project = "Tippe top explorer"
+author = copyright = "The tippe top explorer authors"
+release = metadata.version("tippe-top-explorer")
+extensions = ["myst_parser", "sphinx.ext.autodoc", "matplotlib.sphinxext.plot_directive"]
+exclude_patterns = ["_build"]
+html_theme = "furo"
+html_title = project
+html_math_renderer = "mathml"
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 2
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+plot_include_source = True
+plot_html_show_source_link = plot_html_show_formats = False
+plot_formats = ["svg"]
+plot_rcparams = {"figure.figsize": (6.4, 4.2), "svg.hashsalt": "tippe", "axes.grid": True, "grid.alpha": 0.3}
+plot_apply_rcparams = True
+matplotlib.use("svg")
+
+
+def mathml(display):
+    def visit(self, node):
+        self.body.append(latex2mathml.converter.convert(node.astext(), display=display))
+        raise nodes.SkipNode
+
+    return visit
+
+
+def as_written(app, what, name, obj, options, lines):
+    """Docstrings are plain text: nothing in them is markup, and what is indented keeps its lines."""
+    found, block = [], False
+    for line in lines:
+        indented = line.startswith(" ")
+        if indented and not block and line.strip():
+            found += ["", "::", ""]
+        block = indented or (block and not line.strip())
+        if not indented and line.strip() and found and found[-1].startswith(" "):
+            found.append("")
+        found.append("    " + line if indented else re.sub(r"([\\*`|_])", r"\\\1", line))
+    lines[:] = found
+
+
+def setup(app):
+    app.add_html_math_renderer("mathml", (mathml("inline"), None), (mathml("block"), None))
+    app.connect("autodoc-process-docstring", as_written)
