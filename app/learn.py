@@ -3,20 +3,25 @@
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
+import param
 from bokeh.models import ColumnDataSource, CustomJS, Range1d
 
 from app import lesson
 from app.cards import INK, PLAIN, card, grid, swatch, words
 from app.colours import COLOURS
 from app.explorer import axes, outline
+from app.keep import Field, OneOf
+from app.lines import Derivation
 from app.plots import plain
 from app.roll import show_top
 from app.surface3d import pack
+from app.teach import history_view, labels_of, option, prediction, teach_view
 from app.text import listed, say
 from app.top3d import REGIMES, Top3D, pack_frames
 from tippe_core import TopError
 
 CLOCK = "learn"
+SECTIONS = ("lesson", "derivation", "teach", "history")
 CODES = {"roll": REGIMES.index("rolls"), "slip": REGIMES.index("slips"), "air": REGIMES.index("in the air")}
 ROLLING_SPEED, SLIDING_SPEED = 1 / 16, 1 / 4
 MARGIN = 0.06
@@ -62,13 +67,14 @@ draw()
 """.replace("CLOCK", CLOCK)
 
 
+def kept():
+    """What of a Learn a link keeps."""
+    return {"step": Field("step", OneOf(**{name: name for name in lesson.NAMES}), undoable=False),
+            "section": Field("learn", OneOf(**{name: name for name in SECTIONS}), undoable=False)}  # fmt: skip
+
+
 def paragraphs(text):
     return "".join(f"<p style='margin: 0 0 8px'>{part}</p>" for part in text.split("\n"))
-
-
-def option(step, key):
-    """The words of an option; some steps have their own for the same key."""
-    return listed("learn.options").get(step.name, {}).get(key) or say(f"learn.options.{key}")
 
 
 def equation(tex):
@@ -193,16 +199,26 @@ class SectionFigure:
         self.words.object = f'<div class="key">{arms}</div>'
 
 
-class Learn:
-    """The ten steps. explorer, roll: where the runs are set up, by the same requests as the sliders'."""
+class Learn(param.Parameterized):
+    """The ten steps, and beside them the derivation, the teacher's page and the history.
 
-    def __init__(self, explorer, roll, step=lesson.NAMES[0]):
+    explorer, roll: where the runs are set up, by the same requests as the sliders'. What a link keeps: step, section.
+    """
+
+    step = param.Selector(default=lesson.NAMES[0], objects=list(lesson.NAMES))
+    section = param.Selector(default=SECTIONS[0], objects=list(SECTIONS))
+
+    def __init__(self, explorer, roll):
+        super().__init__()
         self._explorer, self._roll = explorer, roll
         self.guesses = {}
-        self._silent = False
         titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
-        self.select = pmui.Select(label=say("learn.page.step"), options=titles, value=step, size="small",
-                                  sizing_mode="stretch_width", margin=(4, 0))  # fmt: skip
+        self.select = pmui.Select.from_param(self.param.step, label=say("learn.page.step"), options=titles,
+                                             size="small", sizing_mode="stretch_width", margin=(4, 0))  # fmt: skip
+        self.sections = pmui.RadioButtonGroup.from_param(
+            self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
+            size="small", sx=PLAIN, margin=(10, 12, 0, 12),
+        )  # fmt: skip
         self.back, self.next = (
             pmui.Button(label=say(f"learn.page.{name}"), size="small", variant="outlined", sx=PLAIN,
                         margin=(10, 0, 0, 8))
@@ -213,40 +229,66 @@ class Learn:
         self.run = pmui.Button(label=say("learn.page.predict"), size="small", variant="contained", sx=PLAIN,
                                margin=(2, 0, 8, 0))  # fmt: skip
         self.equations = pn.Column(sizing_mode="stretch_width", margin=0)
-        self.figure, self.section = StepFigure(), SectionFigure()
+        self.figure, self.fig4 = StepFigure(), SectionFigure()
         self.top = Top3D(clock=CLOCK, height=360, sizing_mode="stretch_width")
         self.picture_card = card(say("learn.page.picture"), *self.figure.view, height="max-content")
-        self.section_card = card(say("learn.page.section"), *self.section.view, height="max-content")
-        self.select.param.watch(lambda event: self._open(), "value")
+        self.section_card = card(say("learn.page.section"), *self.fig4.view, height="max-content")
+        self.derivation = Derivation(CLOCK)
+        self.param.watch(lambda event: self._open(), "step")
+        self.param.watch(lambda event: self._look(), "section")
         self.back.on_click(lambda event: self._go(-1))
         self.next.on_click(lambda event: self._go(1))
         self.run.on_click(lambda event: self._run())
+        self.view = self._build()
         roll.followers.append(self.show_scene)
         self._open()
+        self._look()
 
     @property
-    def step(self):
-        return lesson.STEPS[lesson.NAMES.index(self.select.value)]
+    def now(self):
+        """The Step looked at."""
+        return lesson.STEPS[lesson.NAMES.index(self.step)]
 
-    @property
-    def view(self):
+    def _build(self):
         head = pn.Row(self.select, self.back, self.next, sizing_mode="stretch_width", margin=0)
         promise = words(f'<div class="key">{say("learn.page.promise")}</div>', margin=(8, 0, 0, 0))
         steps = card(say("learn.sections.lesson"), head, self.question, self.prediction, self.run, self.verdict,
                      self.explanation, self.equations, self.sources, promise, height="max-content")  # fmt: skip
         beside = pn.Column(
             card(say("learn.page.top"), self.top, height="max-content"), self.section_card, self.picture_card,
-            sizing_mode="stretch_width", margin=0, styles={"gap": "12px"},
+            sizing_mode="stretch_width", margin=0,
+            styles={"gap": "12px", "position": "sticky", "top": "12px", "align-self": "start"},
         )  # fmt: skip
-        return grid(steps, beside)
+        intro = words("".join(f"<p style='margin: 0 0 6px'>{say(f'derivation.page.{key}')}</p>"
+                              for key in ("intro", "smooth", "vectors")))  # fmt: skip
+        lines = card(say("derivation.page.title"), intro, self.derivation.place, height="max-content")
+        self.places = {"lesson": steps, "derivation": lines}
+        # a hidden Column inside, since a grid that is told how to be laid out cannot be hidden
+        self.pair = pn.Column(grid(steps, lines, beside), sizing_mode="stretch_width", margin=0)
+        self.others = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._made = {}
+        return pn.Column(self.sections, self.pair, self.others, sizing_mode="stretch_width", margin=0)
+
+    def _look(self):
+        """Shows the section; the teacher's page and the history are made when first looked at."""
+        section = self.section
+        makers = {"teach": lambda: teach_view(self._explorer), "history": history_view}
+        if section in makers and section not in self._made:
+            self._made[section] = makers[section]()
+        with pn.io.hold():
+            self.pair.visible = section in self.places
+            for name, place in self.places.items():
+                place.visible = name == section
+            self.others.objects = [self._made[section]] if section in makers else []
+            self.show_scene(self._explorer.scene)
 
     def _go(self, by):
-        place = lesson.NAMES.index(self.select.value) + by
-        self.select.value = lesson.NAMES[min(max(place, 0), len(lesson.NAMES) - 1)]
+        place = lesson.NAMES.index(self.step) + by
+        self.step = lesson.NAMES[min(max(place, 0), len(lesson.NAMES) - 1)]
 
     def _open(self):
         """Asks the question of this step, about the motion that it would set up for the present top."""
-        step, scene = self.step, self._explorer.scene
+        step, scene = self.now, self._explorer.scene
         place = lesson.NAMES.index(step.name)
         self.back.disabled, self.next.disabled = place == 0, place == len(lesson.NAMES) - 1
         try:
@@ -260,7 +302,8 @@ class Learn:
             f"<h2 style='margin: 8px 0 4px'>{say(f'learn.{step.name}.title')}</h2>"
             f"<div style='font-size: 15px'>{say(f'learn.{step.name}.question', **answer.numbers)}</div>"
         )
-        self.prediction.objects = [self._widget(step, asks)]
+        self.widget = prediction(asks, labels_of(step, asks), self.guesses.get(step.name))
+        self.prediction.objects = [self.widget]
         full = [(listed(f"sources.{name}.short"), listed(f"sources.{name}.full")) for name in step.sources]
         self.sources.object = f"<div class='key' style='margin-top: 6px'>{say('learn.page.sources')}</div>" + "".join(
             f"<details><summary style='cursor: pointer; color: #0b5cad'>{short}</summary>{text}</details>"
@@ -268,30 +311,25 @@ class Learn:
         )
         self.show_scene(scene)
 
-    def _widget(self, step, asks):
-        guess = self.guesses.get(step.name)
-        label = say("learn.page.yours")
-        if isinstance(asks, lesson.Choice):
-            options = {option(step, key): key for key in asks.options}
-            self.widget = pmui.RadioBoxGroup(label=label, options=options, value=guess, inline=False, margin=(4, 0))
-        else:
-            value = guess if guess is not None else (asks.low + asks.high) / 2
-            self.widget = pmui.FloatSlider(
-                label=f"{label}{f', {asks.unit}' if asks.unit else ''}", start=asks.low, end=asks.high, step=asks.step,
-                value=value, sizing_mode="stretch_width", margin=(4, 12), size="small",
-            )  # fmt: skip
-        return self.widget
-
     def _run(self):
         if self.widget.value is None:
             self.verdict.object = f'<div role="status">{say("learn.page.choose")}</div>'
             return
-        self.guesses[self.step.name] = self.widget.value
-        self._roll.pacer.request(**self.step.inputs(self._explorer.scene.top))
+        self.guesses[self.step] = self.widget.value
+        self._roll.pacer.request(**self.now.inputs(self._explorer.scene.top))
 
     def show_scene(self, scene):
         """The pictures, and once there is a prediction the verdict, by the motion that runs now."""
-        step = self.step
+        if self.section == "derivation":
+            with pn.io.hold():
+                self.picture_card.visible = self.section_card.visible = False
+                self.top.speed = ROLLING_SPEED
+                show_top(self.top, scene)
+                self.derivation.show(scene)
+            return
+        if self.section != "lesson":
+            return
+        step = self.now
         guess = self.guesses.get(step.name)
         verdict, answer = lesson.judged(step, scene, guess)
         with pn.io.hold():
@@ -300,7 +338,7 @@ class Learn:
             self.picture_card.visible = asked
             self.section_card.visible = step.name == "jellett"
             if self.section_card.visible:
-                self.section.show(scene)
+                self.fig4.show(scene)
             if answer.motion is not None and asked:
                 show_motion(self.top, scene, answer.motion)
             else:

@@ -8,10 +8,11 @@ from app.cards import card, grid
 from app.compare import Compare
 from app.connection import Connection
 from app.keep import Field, OneOf, explorer_of, read
-from app.learn import Learn
+from app.learn import Learn, kept
 from app.planes import Planes
 from app.roll import Roll
 from app.share import Share
+from app.teach import student_page
 from app.three_planes import ThreePlanes
 from app.workshop import Measure, Workshop
 
@@ -53,6 +54,12 @@ def family_view(explorer):
     )
 
 
+def learn_view(explorer, roll, keep):
+    learn = Learn(explorer, roll)
+    keep.add(learn, kept())
+    return learn.view
+
+
 def tabs(views, keep):
     """A header and a place for each view; a view is made when it is first looked at, and then stays. {name: maker}"""
     places = [pn.Column(sizing_mode="stretch_width", margin=0, visible=False) for _ in views]
@@ -79,6 +86,8 @@ def tabs(views, keep):
 
 def page():
     texts, sentence = read(pn.state.location.search)
+    if "vote" in texts:  # a student's link
+        return pmui.Page(title="Tippe top explorer", main=[student_page(texts["vote"])], theme_toggle=False)
     explorer, wrong = explorer_of(texts)
     roll = Roll(explorer)
     builder = Builder(explorer, roll.pacer.request)
@@ -97,7 +106,7 @@ def page():
                     "Three planes": lambda: planes_view(explorer, roll, builder),
                     "Build a top": lambda: build_view(explorer, roll, builder),
                     "Families": lambda: family_view(explorer),
-                    "Learn": lambda: Learn(explorer, roll).view,
+                    "Learn": lambda: learn_view(explorer, roll, share.keep),
                 },
                 share.keep,
             ),

@@ -1,0 +1,227 @@
+"""For teachers: links, plans, what goes wrong, the Olympiad's problem, the toy, and a vote; and the student's page."""
+
+import secrets
+from itertools import pairwise
+from urllib.parse import quote
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+import segno
+from bokeh.models import ColumnDataSource, FactorRange
+
+from app import lesson
+from app.cards import PLAIN, card, grid, words
+from app.classroom import MOST_VOTES, ROOMS, Refused
+from app.colours import COLOURS
+from app.keep import EXPLORER
+from app.plots import plain
+from app.text import listed, say
+from tippe_core import Top
+
+BINS = 12
+LOOK_EVERY = 500  # ms
+QR_MODULE = 4
+
+
+def option(step, key):
+    """The words of an option; some steps have their own for the same key."""
+    return listed("learn.options").get(step.name, {}).get(key) or say(f"learn.options.{key}")
+
+
+def link(step):
+    """The query that opens a step with its motion set up, for the paper's top."""
+    texts = {"tab": "learn", "step": step.name} | {
+        EXPLORER[name].key: EXPLORER[name].codec.text(value)
+        for name, value in step.inputs(Top.paper()).items()
+    }  # fmt: skip
+    return "?" + "&".join(f"{key}={quote(text)}" for key, text in texts.items())
+
+
+def bullets(items, ordered=False):
+    kind = "ol" if ordered else "ul"
+    return f"<{kind} style='margin: 4px 0; padding-left: 20px'>{''.join(f'<li>{item}</li>' for item in items)}</{kind}>"
+
+
+def prediction(asks, labels, value=None, unit=""):
+    """The widget for a Choice or a Guess."""
+    label = say("learn.page.yours")
+    if isinstance(asks, lesson.Choice):
+        options = {labels[key]: key for key in asks.options}
+        return pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
+    start = value if value is not None else (asks.low + asks.high) / 2
+    return pmui.FloatSlider(label=f"{label}, {asks.unit}" if asks.unit else label, start=asks.low, end=asks.high,
+                            step=asks.step, value=start, sizing_mode="stretch_width", margin=(4, 12),
+                            size="small")  # fmt: skip
+
+
+def labels_of(step, asks):
+    return {key: option(step, key) for key in getattr(asks, "options", ())}
+
+
+def page_address():
+    """Of this page, without a query."""
+    location = pn.state.location
+    return f"{location.protocol}//{location.hostname}{f':{location.port}' if location.port else ''}{location.pathname}"
+
+
+class Vote:
+    """The teacher's side of a vote: opens a room about a step on the present top, and shows its histogram."""
+
+    def __init__(self, explorer):
+        self._explorer, self._room, self._callback, self._shown = explorer, None, None, None
+        titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
+        self.which = pmui.Select(label=say("teach.vote.which"), options=titles, value=lesson.NAMES[0], size="small",
+                                 sizing_mode="stretch_width")  # fmt: skip
+        self.open = pmui.Button(label=say("teach.vote.open"), variant="contained", size="small", sx=PLAIN)
+        self.close = pmui.Button(label=say("teach.vote.close"), variant="outlined", size="small", sx=PLAIN,
+                                 visible=False)  # fmt: skip
+        self.answer = pmui.Button(label=say("teach.vote.answer"), variant="outlined", size="small", sx=PLAIN,
+                                  visible=False)  # fmt: skip
+        self.address, self.count, self.truth = words(""), words(say("teach.vote.shut")), words("")
+        self.bars = ColumnDataSource({"x": [], "votes": []})
+        self.range = FactorRange()
+        self.figure = plain(y_range=self.range, name="votes")
+        self.figure.update(sizing_mode="stretch_width", height=220, visible=False)
+        self.figure.hbar(y="x", right="votes", height=0.7, source=self.bars, color=COLOURS["theta"])
+        self.figure.x_range.start = 0
+        self.figure.xaxis.ticker.min_interval = 1
+        self.open.on_click(lambda event: self._open())
+        self.close.on_click(lambda event: self._close())
+        self.answer.on_click(lambda event: self._answer())
+        if pn.state.curdoc:
+            pn.state.curdoc.on_session_destroyed(lambda context: self._forget())
+
+    @property
+    def view(self):
+        return [words(say("teach.vote.explain")), self.which, pn.Row(self.open, self.answer, self.close, margin=0),
+                self.address, self.count, pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0),
+                self.truth]  # fmt: skip
+
+    def _plan(self):
+        step = lesson.STEPS[lesson.NAMES.index(self.which.value)]
+        return step, lesson.planned(step, self._explorer.scene, self._explorer.shape)
+
+    def _open(self):
+        self._close()
+        step, plan = self._plan()
+        answer, asks = step.answer(plan), step.asks(plan)
+        question = say(f"learn.{step.name}.question", **answer.numbers)
+        try:
+            self._room = ROOMS.open(step.name, question, labels_of(step, asks), asks)
+        except Refused as refused:
+            self.count.object = f"<div role='alert'>{say(f'teach.vote.{refused}')}</div>"
+            return
+        self._truth = answer.truth
+        address = f"{page_address()}?vote={self._room.code}"
+        picture = segno.make(address, error="m", micro=False).svg_inline(scale=QR_MODULE, light="white")
+        self.address.object = (
+            f"<div>{say('teach.vote.link')}: <a href='{address}' target='_blank'>{address}</a></div>{picture}"
+        )
+        self.close.visible = self.answer.visible = self.figure.visible = True
+        self._look()
+        self._callback = pn.state.add_periodic_callback(self._look, period=LOOK_EVERY)
+
+    def _look(self):
+        votes = ROOMS.tally(self._room.code)
+        if votes == self._shown:
+            return
+        self._shown, asks = votes, self._room.asks
+        if isinstance(asks, lesson.Choice):
+            names = [self._room.labels[key] for key in asks.options]
+            counts = [votes.count(key) for key in asks.options]
+        else:
+            counts, edges = np.histogram(votes, bins=BINS, range=(asks.low, asks.high))
+            names = [f"{low:.4g} – {high:.4g} {asks.unit}" for low, high in pairwise(edges)]
+        with pn.io.hold():
+            self.range.factors = names[::-1]
+            self.bars.data = {"x": names, "votes": list(map(int, counts))}
+            self.figure.x_range.end = max(4, max(counts) + 1)
+            self.count.object = (
+                f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>"
+            )
+
+    def _answer(self):
+        step = lesson.STEPS[lesson.NAMES.index(self._room.step)]
+        asks, truth = self._room.asks, self._truth
+        said = self._room.labels.get(truth) or (
+            say("learn.verdict.never") if np.isnan(truth) else f"{truth:.4g} {asks.unit}"
+        )
+        self.truth.object = f"<b>{say('teach.vote.said', answer=said)}</b> ({say(f'learn.{step.name}.title')})"
+
+    def _forget(self):
+        if self._room:
+            ROOMS.close(self._room.code)
+        self._room = None
+
+    def _close(self):
+        if self._callback:
+            self._callback.stop()
+        self._forget()
+        self._callback = self._shown = None
+        self.close.visible = self.answer.visible = self.figure.visible = False
+        self.address.object = self.truth.object = ""
+        self.count.object = say("teach.vote.shut")
+
+
+def teach_view(explorer):
+    links = "".join(
+        f"<li><a href='{link(step)}' target='_blank'>{say(f'learn.{step.name}.title')}</a></li>"
+        for step in lesson.STEPS
+    )
+    olympiad = "".join(
+        f"<dt style='margin-top: 6px'>{row['asked']}</dt><dd style='margin: 0 0 0 16px' class='key'>{row['here']}</dd>"
+        for row in listed("teach.olympiad")
+    )
+    return grid(
+        card(say("teach.page.vote"), *Vote(explorer).view, height="max-content"),
+        card(say("teach.page.links"), words(f"<ol style='margin: 4px 0; padding-left: 20px'>{links}</ol>"),
+             height="max-content"),
+        card(say("teach.page.fifteen"), words(bullets(listed("teach.plans.fifteen"), True)), height="max-content"),
+        card(say("teach.page.fifty"), words(bullets(listed("teach.plans.fifty"), True)), height="max-content"),
+        card(say("teach.page.wrong"), words(bullets(listed("teach.plans.wrong"))), height="max-content"),
+        card(say("teach.page.olympiad"), words(f"<dl style='margin: 0'>{olympiad}</dl>"), height="max-content"),
+        card(say("teach.page.toy"), words(bullets(listed("teach.plans.toy"))), height="max-content"),
+    )  # fmt: skip
+
+
+def history_view():
+    parts = "".join(
+        f"<p style='margin: 0 0 4px; font-size: 14px'>{part['text']}</p><p class='key' style='margin: 0 0 12px'>"
+        + " · ".join(listed(f"sources.{name}.short") for name in part["sources"]) + "</p>"
+        for part in listed("history.part")
+    )  # fmt: skip
+    every = "".join(f"<li>{source['full']}</li>" for source in listed_all("sources"))
+    return grid(
+        card(say("history.page.title"), words(parts), height="max-content"),
+        card(say("history.page.list"), words(f"<ol style='margin: 4px 0; padding-left: 22px'>{every}</ol>"),
+             height="max-content"),
+    )  # fmt: skip
+
+
+def listed_all(name):
+    return sorted(listed(name).values(), key=lambda source: source["full"].split(" (")[-1])
+
+
+def student_page(code):
+    """What a student's link opens: one question, one prediction."""
+    room, page = ROOMS.room(code), secrets.token_hex(8)
+    title = f"<h2>{say('teach.student.title')}</h2>"
+    if room is None:
+        return pn.Column(words(f"{title}<div role='alert'>{say('teach.student.gone')}</div>"), margin=16)
+    said = words("")
+    widget = prediction(room.asks, room.labels)
+    send = pmui.Button(label=say("teach.student.send"), variant="contained", sx=PLAIN)
+
+    def vote(event):
+        key = "waiting" if widget.value is None else "sent"
+        if key == "sent":
+            try:
+                ROOMS.vote(code, page, widget.value)
+            except Refused as refused:
+                key = str(refused)
+        said.object = f"<div role='status'>{say(f'teach.student.{key}')}</div>"
+
+    send.on_click(vote)
+    question = words(f"{title}<div style='font-size: 16px'>{room.question}</div>")
+    return pn.Column(question, widget, send, said, sizing_mode="stretch_width", max_width=640, margin=16)
