@@ -471,7 +471,7 @@ class ThreePlanes:
         for top in self._tops.values():
             top.param.watch(lambda event: self._set_speed(event.new), "speed")
         self._figures, self._well = Figures(), Well()
-        self._map = Map(self._pick, builder.choose)
+        self._map = Map(self.pick, builder.choose)
         follow = CustomJS(
             args={"spans": self._figures.spans, "path": self._well.path, "bead": self._well.bead}, code=FOLLOW_CLOCK
         )
@@ -500,7 +500,8 @@ class ThreePlanes:
     def _asked(self, name, value, typed=False):
         self._planes.param.update(**{name: value})
 
-    def _pick(self, a, ratio):
+    def pick(self, a, ratio):
+        """Goes to the top of this a and I1/I3, with I3 as it is."""
         self._request(a=a, I1=ratio * self._planes.picture.settings.top.I3)
 
     def _choose(self, name):

@@ -8,6 +8,7 @@ import pytest
 from app.builder import Builder
 from app.explorer import Explorer
 from app.planes import ENDS, MOST_TURN, PLANES, PRESETS, SLIPS, Planes
+from app.three_planes import ThreePlanes
 from app.top3d import REGIMES
 from tippe_core import PRESETS as BODIES
 from tippe_core import Coulomb, State, Top, glide, roll, slide
@@ -215,3 +216,9 @@ def test_of_many_asked_for_at_once_the_newest_is_shown_and_a_run_can_be_stopped(
     planes.param.update(eps=0.1, seconds=5.0)
     finish()
     assert not planes.picture.messages and planes.picture.settings.seconds == 5.0
+
+
+def test_a_place_on_the_map_keeps_I3(explorer, planes):
+    view = ThreePlanes(planes, Builder(explorer), explorer.param.update)
+    view.pick(0.2, 0.9)
+    assert explorer.scene.top == Top(0.2, 0.9 * 0.408, 0.408)

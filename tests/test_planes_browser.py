@@ -1,0 +1,139 @@
+"""The tab of the three planes in Chromium: what a person switches, picks, stops and types is what is shown."""
+
+import re
+
+import numpy as np
+import pytest
+from visiting import PIXEL, Visit
+
+from app.builder import Builder
+from app.explorer import Explorer
+from app.planes import Planes
+from tippe_core import PRESETS
+
+PATIENCE = 120_000  # ms: three tops drawn by the processor of a busy machine
+TOPS = "__tippe.tops('planes')"
+TOP = "__tippe.tops('planes').find((top) => top.label.includes(plane))"
+MODELS = "[...Bokeh.documents[0]._all_models.values()]"
+# Of a source in the figure of this name that has this column; of those of several planes, in the order of PLANES.
+COLUMN = f"""
+([figure, column]) => {MODELS}.find((m) => m.name == figure && m.renderers).renderers
+    .map((r) => r.data_source.data).filter((d) => column in d).map((d) => Array.from(d[column]))
+"""
+
+
+@pytest.fixture(scope="module")
+def page(server, chromium):
+    """The page with the tab open, the same for all tests here; they fail on an error in it."""
+    visit = Visit(chromium.new_page(viewport={"width": 1400, "height": 900}), server)
+    page = visit.page
+    page.set_default_timeout(PATIENCE)
+    page.get_by_role("tab", name="Three planes").click()
+    page.wait_for_function(f"{TOPS}.some(top => top.count > 0 && top.pictures > 2)")
+    yield page
+    page.close()
+    assert not visit.errors
+
+
+@pytest.fixture(scope="module")
+def first():
+    """The picture of the first look."""
+    explorer = Explorer()
+    return Planes(explorer, Builder(explorer)).picture
+
+
+def field(page, name):
+    """The number to type of a control: the one beside its slider, both by their tags."""
+    title = {"spin": "spin, in rev/s", "tilt": "tilt, in degrees", "seconds": "time computed", "eps": "its slip scale"}
+    row = page.locator(".bk-Row:visible").filter(has_text=title[name]).last
+    return row.locator("input[type=text]")
+
+
+def put(page, name, value):
+    field(page, name).fill(str(value))
+    field(page, name).press("Enter")
+
+
+def choose(page, name):
+    page.get_by_role("button", name=name, exact=True).click()
+
+
+def test_the_first_look_says_that_only_sliding_turns_it_over(page, first):
+    page.get_by_text(re.compile(r"^rough: never turns over: rolling keeps the sign")).wait_for()
+    page.get_by_text(re.compile(r"^smooth: never turns over")).wait_for()
+    page.get_by_text(re.compile(r"^sliding: turns over: past 90° at 2\.\d+ s")).wait_for()
+    page.get_by_text(re.compile("Friction in force: smoothed Coulomb")).wait_for()
+    page.wait_for_function(f"n => {TOPS}.length == 1 && {TOPS}[0].count == n", arg=len(first.motions["sliding"].t))
+    shown = page.evaluate(COLUMN, ["planes-theta", "theta"])
+    for values, motion in zip(shown, first.motions.values(), strict=True):
+        theta = np.degrees(motion.trajectory.theta)
+        assert (min(values), max(values)) == pytest.approx((theta.min(), theta.max()), abs=1e-6)
+
+
+def test_three_tops_side_by_side_go_by_one_clock(page, first):
+    choose(page, "compare all three")
+    page.wait_for_function(f"{TOPS}.length == 3 && {TOPS}.every(top => top.count > 0)")
+    page.locator("button.play:visible").first.click()
+    page.wait_for_function(f"{TOPS}.every(top => !top.playing)")
+    page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek:planes', {detail: {t: 40}}))")
+    page.wait_for_function(f"{TOPS}.every(top => Math.abs(top.t - 40) < 0.1 && top.t == {TOPS}[0].t)")
+    t = page.evaluate(f"{TOPS}[0].t")
+    index = int(np.argmin(np.abs(first.motions["rough"].t - t)))
+    for plane, motion in first.motions.items():
+        page.wait_for_function(f"([plane, i]) => {TOP}.index == i", arg=[plane, index])
+        drawn = np.array(page.evaluate(f"(plane) => {TOP}.quaternion", plane))
+        assert abs(drawn @ motion.trajectory.quaternion[index]) == pytest.approx(1, abs=1e-5)
+    # the bead in the well and the lines over time stand where the sliding top is
+    page.wait_for_function(
+        f"t => {MODELS}.filter((m) => m.type == 'Span' && Math.abs(m.location - t) < 1e-4).length == 6",
+        arg=t * first.settings.scales.time,
+    )
+    bead = page.evaluate(COLUMN, ["planes-well", "E"])[0]
+    assert bead == pytest.approx([first.motions["sliding"].trajectory.energy[index]], abs=1e-4)
+    assert page.evaluate("__tippe.top3d.playing")  # the top of the tab Roll has a clock of its own
+    table = page.locator("table").inner_text()
+    assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
+    choose(page, "rough")
+    page.get_by_text(re.compile("Friction in force: rough plane")).wait_for()
+    choose(page, "sliding")
+
+
+def test_a_preset_sets_the_top_the_start_and_the_law(page):
+    choose(page, "Top S hangs")
+    page.get_by_text(re.compile(r"^sliding: hangs: past 90° at 1\.99 s, 109\.\d° at 25 s")).wait_for()
+    page.get_by_text(re.compile("Friction in force: viscous")).wait_for()
+    page.wait_for_function("field => field.value == '9.5493'", arg=field(page, "spin").element_handle())
+    choose(page, "The paper’s top by hand")
+    page.get_by_text(re.compile("^sliding: turns over")).wait_for()
+
+
+def test_a_bad_value_is_said_and_nothing_is_lost(page):
+    put(page, "tilt", 200)
+    page.get_by_text(re.compile("tilt = 200 is not possible")).wait_for()
+    assert page.get_by_text(re.compile("^sliding: turns over")).count()
+    put(page, "tilt", 10)
+    page.get_by_text(re.compile("tilt = 200 is not possible")).wait_for(state="detached")
+
+
+def test_a_long_run_shows_how_far_it_is_and_can_be_stopped(page):
+    put(page, "seconds", 60)
+    stop = page.get_by_role("button", name="Stop", exact=True)
+    stop.wait_for()
+    assert page.locator(".bk-Row").filter(has=stop).locator("[role=progressbar]").last.is_visible()
+    stop.click()
+    page.get_by_text(re.compile(r"Stopped at \S+ s of the motion")).wait_for()
+    stop.wait_for(state="hidden")
+    assert page.get_by_text(re.compile("^sliding: turns over.* at 5 s")).count()
+    put(page, "seconds", 5)
+    page.get_by_text(re.compile("Stopped at")).wait_for(state="detached")
+
+
+def test_a_click_on_the_map_goes_there(page):
+    page.get_by_text("Which tops can turn over").scroll_into_view_if_needed()
+    body = next(body for body in PRESETS if body.name == "Loaded sphere")
+    page.mouse.click(*page.evaluate(PIXEL, ["planes-map", body.shape.top.a, body.shape.top.I1 / body.shape.top.I3]))
+    here = f"a => ({COLUMN})(['planes-map', 'x']).some((x) => x.length == 1 && Math.abs(x[0] - a) < 0.005)"
+    page.wait_for_function(here, arg=body.shape.top.a)
+    page.mouse.click(*page.evaluate(PIXEL, ["planes-map", 0.5, 0.8]))
+    page.wait_for_function(here, arg=0.5)
+    assert page.evaluate(COLUMN, ["planes-map", "y"])[-1] == pytest.approx([0.8], abs=0.005)
