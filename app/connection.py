@@ -13,7 +13,9 @@ class Connection(JSComponent):
     const FIRST = 500, LONGEST = 8000  // ms between two tries, each half to one and a half times as long
 
     export function render() {
-      const words = document.createElement("div")
+      // A session that goes on sends its whole document again, and this comes anew.
+      const words = document.getElementById("tippe-connection") ?? document.createElement("div")
+      words.id = "tippe-connection"
       words.setAttribute("role", "alert")
       Object.assign(words.style, {
         position: "fixed", inset: "8px 8px auto", margin: "auto", maxWidth: "560px", zIndex: 9999, display: "none",
@@ -23,19 +25,19 @@ class Connection(JSComponent):
       words.textContent = "No connection to the server at the moment. What is shown can still be played, and nothing "
         + "that was set is lost; the page goes on by itself as soon as the server answers."
       document.body.append(words)
-      let trying = false
+      words.trying = false
 
       async function recover(event) {
-        if (trying) return
-        trying = true
+        if (words.trying) return
+        words.trying = true
         words.style.display = "block"
         const id = event.connection.deref()?.id ?? ""
         const address = location.pathname.replace(/[/]$/, "") + "/session?id=" + encodeURIComponent(id)
-        for (let wait = FIRST; trying; wait = Math.min(2 * wait, LONGEST)) {
+        for (let wait = FIRST; words.trying; wait = Math.min(2 * wait, LONGEST)) {
           await new Promise((resolve) => setTimeout(resolve, wait * (0.5 + Math.random())))
           const answer = await fetch(address, {cache: "no-store"}).catch(() => null)
           if (answer?.ok && (await answer.text()) === "here") {
-            trying = false
+            words.trying = false
             event.reconnect()  // where this fails the connection is lost anew
           } else if (answer && answer.status < 500) {
             location.reload()
@@ -44,8 +46,6 @@ class Connection(JSComponent):
         }
       }
 
-      const here = Bokeh.documents[0]
-      here.on_event("connection_lost", (_, event) => recover(event))
-      here.on_event("client_reconnected", () => { words.style.display = "none" })
+      Bokeh.documents[0].on_event("connection_lost", (_, event) => recover(event))
     }
     """
