@@ -66,6 +66,11 @@ LIMITS = {
         -10.432830947523819,
         1.5,
     ),
+    # wells with few points of the grid in them, or none
+    "slips at the inner end of a narrow well": (Top(0.4494736842, 0.399, 0.302402), 1.2959222089, 10.0, 0.5),
+    "slips at the outer end of a narrow well": (Top(0.071, 0.399, 0.57536), 5.508213, 10.0, 0.1),
+    "slips within a narrow well": (Top(-6.905, 50.0, 74.45), 177.63321896, 200.0, 0.5),
+    "slips in a very narrow well": (Top(0.48283419, 0.46147260, 0.42828796), -106.018559438, 193.595652681, 0.3),
     "even the steady precession slips": (PAPER, 1.0, 10.0, 0.01),
     "ball": (BALL, 2.0, 5.0, None),
     "ball, slip": (BALL, 2.0, 5.0, 0.1),

@@ -155,6 +155,7 @@ def _interval(p, B, q, mu, n):
 # ---- the grid, and polynomials through its points ----
 
 _CELLS, _REACH = 256, 3
+_FEW = 8  # points of it that a trajectory needs, or it gets a grid of its own
 h = 1e-60  # f(x + ih) = f(x) + ih f'(x), to all digits
 _STENCIL = np.arange(-_REACH, _REACH + 1)[:, None]
 _FIT = np.linalg.inv(_STENCIL ** np.arange(2 * _REACH + 1.0))  # values on the stencil to coefficients
@@ -295,6 +296,9 @@ class _Wells:
         pairs = [(1.0, 0.0) if mu is None else (float(mu), 1.0) for mu in limits]
         e, verge, normal, broken, U_p = self._limits(pairs)
         ends = self._ends(e)
+        found = [self._narrow(pairs[i], e[i], verge[i], normal[i], ends[i]) for i in range(len(pairs))]
+        if any(found):
+            ends = self._ends(e)
         for i, (_, n) in enumerate(pairs):
             by = np.where((normal[i] > 1e-9) & (n > 0), "slip", "lift-off")
             by = np.where(broken[i], "no motion", np.where(np.isinf(e[i]), "nothing", by))
@@ -308,8 +312,9 @@ class _Wells:
             first = np.where(margin < 0, self.base, np.where(end >= self.base, end, np.inf))
             j = _clip(first.argmin(axis=1), 1, _CELLS - 1)
             i = _clip(j, _REACH, _CELLS - _REACH)
-            found.append((j, i, first[self.k, j], end[self.k, i + _STENCIL], margin[self.k, i + _STENCIL], first))
-        firsts = [f[-1] for f in found]
+            turns = (margin[:, 1:] < 0) != (margin[:, :-1] < 0)
+            about = self.k, i + _STENCIL
+            found.append((j, i, first[self.k, j], end[about], margin[about], first, turns))
         j, i, most, end, margin = (np.concatenate(parts, axis=-1) for parts in list(zip(*found, strict=True))[:5])
         count, shape = len(j), (len(pairs), len(self.k))
         k, r, at = np.tile(self.k, len(pairs)), np.arange(count), j - i + _REACH
@@ -360,6 +365,7 @@ class _Wells:
         good = ~(left & right) & np.where(below, past, falling == outward)
         good = np.where(at_corner, good, (curve > 0) & (ahead > 0))
         sure = (good & (off <= 1) & (e <= most + 1e-12 * np.abs(most))).reshape(shape)
+        sure &= e.reshape(shape) >= U.real[count:] - 1e-12 * np.abs(U.real[count:])
         sure[:, list(self.barriers)] = False
         e, verge = np.where(sure, e.reshape(shape), np.inf), _angle(x, north)[:count].reshape(shape)
         normal = _normal(p, B, np.append(e, U.real[count:]))[:count].real.reshape(shape)
@@ -369,7 +375,8 @@ class _Wells:
         F_y = np.sqrt(p.s2) * (p.A0 + p.A1 * w2**2) + w2 * p.Y
         F_z = p.zc + p.zb * np.sqrt(p.s2) * w2 + p.z1 * w2**2
         broken = np.array([(F_z < 0) | (n * np.abs(F_y) > mu * F_z + 1e-12) for mu, n in pairs])
-        for which, first in enumerate(firsts):
+        done = np.where(at_corner, low + i - _REACH, -1).reshape(shape)  # the cell of the corner in e
+        for which, (*_, first, turns) in enumerate(found):
             # what is in doubt, and where the first energy may fall lower between points of the grid than at them
             rise = first[:, 1:] - first[:, :-1]
             local = (rise[:, :-1] <= 0) & (rise[:, 1:] >= 0)
@@ -378,15 +385,22 @@ class _Wells:
             dip = np.maximum(-rise[rows, cells], rise[rows, cells + 1])
             doubt = (first[rows, cells + 1] - dip < e[which][rows]) | (cells + 1 == found[which][0][rows])
             doubt &= np.isfinite(first[rows, cells + 1]) & ~broken[which][rows]
-            rows, cells = rows[doubt], cells[doubt]
+            rows, begin = rows[doubt], cells[doubt]
+            # and the other turning points where the margin is zero: between them the grid may have one point or none
+            turns &= np.minimum(self.base[:, 1:], self.base[:, :-1]) < e[which][:, None]
+            turns[self.k, done[which]] &= ~sure[which] | (done[which] < 0)
+            turns[broken[which]] = False
+            more, cell = np.nonzero(turns)
+            rows, begin, end = np.append(rows, more), np.append(begin, cell), np.append(begin + 2, cell + 1)
             if len(rows):
-                self._search(pairs[which], rows, cells + 1, e[which], verge[which], normal[which])
+                ends = [(grid[begin], grid[end]) for grid in (GRID, GRID[::-1])]
+                self._search(pairs[which], rows, ends, e[which], verge[which], normal[which])
         verge[~np.isfinite(e) | broken] = np.nan
         return np.where(broken, np.nan, e), verge, normal, broken, p.height + p.f2 * w2**2
 
-    def _search(self, pair, k, j, e, verge, normal):
-        """Closer and closer grids about points j of the grid, for K_J of indices k: writes what is lower than e."""
-        for theta, (p, B, q, base), closer in self._closer(k, j - 1, j + 1):
+    def _search(self, pair, k, ends, e, verge, normal):
+        """Closer and closer grids between ends, for K_J of indices k: writes what is below e."""
+        for theta, (p, B, q, base), closer in self._closer(k, ends):
             end, margin = _interval(p, B, q, *pair)
             first = np.where(margin < 0, base, np.where(end >= base, end, np.inf))
             at = first.argmin(axis=1)
@@ -397,10 +411,28 @@ class _Wells:
             if value < e[i]:
                 e[i], verge[i], normal[i] = value, place, z
 
-    def _closer(self, k, low, high):
-        """Grids that close in, for K_J of indices k, from points low to high of the grid."""
-        share, r = np.arange(33) / 32, np.arange(len(k))
-        ends = [np.array([grid[low], grid[high]]) for grid in (GRID, GRID[::-1])]
+    def _narrow(self, pair, e, verge, normal, ends):
+        """As _search, in those trajectories in which the grid has few points: whether it found less."""
+        count = ((self.base[:, 1:-1] <= e[:, None]) & np.isfinite(e[:, None])).sum(axis=1)
+        k = np.flatnonzero(np.isfinite(e) & (count < _FEW) & (ends[1] > ends[0]))
+        if not k.size:
+            return False
+        share, before = np.linspace(0, 1, _CELLS + 1), e.copy()
+        theta = ends[0][k, None] + (ends[1] - ends[0])[k, None] * share
+        p, B, q, base = self._on(theta, np.pi - theta, k)
+        end, margin = _interval(p, B, q, *pair)
+        first = np.where(margin < 0, base, np.where(end >= base, end, np.inf))
+        cells = (margin[:, 1:] < 0) != (margin[:, :-1] < 0)
+        least = _clip(first.argmin(axis=1), 1, _CELLS - 1)
+        rows, cell = np.nonzero(cells)
+        rows, low, high = np.append(rows, np.arange(len(k))), np.append(cell, least - 1), np.append(cell + 1, least + 1)
+        low, high = theta[rows, low], theta[rows, high]
+        self._search(pair, k[rows], [(low, high), (np.pi - low, np.pi - high)], e, verge, normal)
+        return bool(np.any(e < before))
+
+    def _closer(self, k, ends):
+        """Grids that close in, for K_J of indices k, from both ends (low, high) of theta and of pi - theta."""
+        share, r, ends = np.arange(33) / 32, np.arange(len(k)), [np.array(pair) for pair in ends]
 
         def closer(low, high):
             ends[:] = [np.array([grid[r, low], grid[r, high]]) for grid in (theta, phi)]
@@ -448,7 +480,7 @@ class _Wells:
         high = np.searchsorted(GRID, self.theta_p[k], side="left" if sign > 0 else "right") - (sign < 0)
         if sign < 0:
             low, high = high, low
-        for theta, (_, _, _, base), closer in self._closer(k, low, high):
+        for theta, (_, _, _, base), closer in self._closer(k, [(grid[low], grid[high]) for grid in (GRID, GRID[::-1])]):
             allowed = (base <= e[:, None]) | (sign * (theta - self.theta_p[k, None]) >= 0)
             at = np.where(sign > 0, allowed.argmax(axis=1), theta.shape[1] - allowed[:, ::-1].argmax(axis=1))
             at = _clip(at, 1, theta.shape[1] - 1)
