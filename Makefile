@@ -22,7 +22,7 @@ docs: .venv/docs
 	@echo "docs/_build/index.html"
 
 bench: .venv/bench .venv/test browser
-	$(BIN)/python benchmarks/bench.py
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/bench.py
 
 image:
 	docker build -t tippe-top-explorer .
