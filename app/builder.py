@@ -135,7 +135,6 @@ class Builder(param.Parameterized):
     def __init__(self, explorer, request=None):
         super().__init__()
         self._explorer, self._request = explorer, request or explorer.param.update
-        self.asked = {}  # the inputs last requested
         self._publish(_draft(explorer.shape))
 
     def set(self, name, value):
@@ -251,8 +250,7 @@ class Builder(param.Parameterized):
         self._publish(_draft(shape))
         top = shape.top
         K_J, K_R = (motion or thrown)(shape)
-        self.asked = {"shape": shape, "a": top.a, "I1": top.I1, "I3": top.I3, "K_J": K_J, "K_R": K_R}
-        self._request(**self.asked)
+        self._request(shape=shape, a=top.a, I1=top.I1, I3=top.I3, K_J=K_J, K_R=K_R)
 
     def _publish(self, draft):
         with param.edit_constant(self):

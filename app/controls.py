@@ -2,11 +2,12 @@
 
 import html
 import math
-import time
 
 import panel as pn
 import panel_material_ui as pmui
+import param
 
+from app.bundle import Bundled
 from app.cards import PLAIN
 from app.explorer import Explorer
 from app.pacing import at_once
@@ -68,6 +69,29 @@ NAMES = {
     "eps": "its slip scale, in (<i>gR</i>)<sup>½</sup>",
     "gamma": "viscous friction, in (<i>gR</i>)<sup>−½</sup>",
 }
+# The same for the ear: name and unit.
+ROOT = "root g over R"
+SPOKEN = {
+    "K_J": ("Jellett’s constant", ROOT),
+    "K_R": ("Routh’s constant", f"root M R squared times {ROOT}"),
+    "mu_s": ("coefficient of static friction", ""),
+    "energy": ("energy", "M g R"),
+    "a": ("eccentricity", "R"),
+    "I1": ("inertia across the axis", "M R squared"),
+    "I3": ("inertia about the axis", "M R squared"),
+    "theta": ("tilt", "radians"),
+    "theta_dot": ("rate of the tilt", ROOT),
+    "omega2": ("turn about 2 prime", ROOT),
+    "omega3": ("spin about the axis", ROOT),
+    "spin": ("spin", "revolutions per second"),
+    "tilt": ("tilt", "degrees"),
+    "slip": ("slip, of that with G at rest", ""),
+    "seconds": ("time computed", "seconds"),
+    "mu_k": ("coefficient of sliding friction", ""),
+    "mu": ("coefficient of sliding friction at fast slip", ""),
+    "eps": ("slip scale of the friction", "root g R"),
+    "gamma": ("viscous friction", "one over root g R"),
+}
 # What each symbol is, on hover.
 WORDS = {
     "K_J": "Jellett’s constant: the angular momentum about the line from the contact point to the sphere’s centre, "
@@ -122,14 +146,8 @@ RANGES = {
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
-# s; so long after a value was told it may come back.
-ECHO = 3.0
-FOLLOW_HAND = """
-const text = String(Number(cb_obj.value.toPrecision(6))).replace("-", "−")
-entry.data.setv({value_input: text}, {sync: false})
-"""
 PRINTED = ". The paper prints about 20; its equation (31) gives this."
-ENERGY_MARKS = [{"value": 0, "label": "steady"}, {"value": 1, "label": "slips"}, {"value": 2, "label": "lifts off"}]
+ENERGY_MARKS = [[0, "steady"], [1, "slips"], [2, "lifts off"]]
 
 
 def number(value):
@@ -141,88 +159,65 @@ def named(name):
     return f'<span title="{html.escape(WORDS[name])}">{SYMBOLS[name]}</span>'
 
 
+class Dial(Bundled):
+    """A control in the browser: a name, a slider, a number to type, and words below.
+
+    `told` is Python's alone and `asked` the browser's alone, so neither can come back as the other's wish. The browser
+    counts what it asks; what it is told is for the last it had asked then, and is passed over where it has asked since.
+    """
+
+    title = param.String(constant=True, doc="Its symbol and name, as HTML.")
+    hint = param.String(constant=True, doc="What it is, shown on hover.")
+    spoken = param.String(constant=True, doc="Its name in plain words.")
+    unit = param.String(constant=True, doc="Its unit in plain words.")
+    marks = param.List(constant=True, doc="[value, word] of the places on the slider that have a name.")
+    lines = param.Integer(default=0, constant=True, doc="Lines kept free for the words.")
+    step = param.Number(default=0.01, constant=True, doc="Of the slider and of the arrow keys.")
+    start = param.Number(default=0.0, doc="Of the slider.")
+    end = param.Number(default=1.0, doc="Of the slider.")
+    told = param.List(default=[0, 0.0, "0"], doc="[count, value, text]: for the slider and for the entry.")
+    asked = param.List(default=[], doc="[count, number or text, whether it was typed].")
+    words = param.String(default="", doc="HTML.")
+    wrong = param.Boolean(default=False, doc="Whether what was typed cannot be.")
+
+
 class Control:
-    """One input: its symbol and name, a slider, a number to type, and lines of words below."""
+    """One input of a view-model. request: a function of its name and the number that is wanted, and typed=True where
+    that was typed."""
 
     def __init__(self, name, value, request):
-        self.name, self._request, self._shown = name, request, number(value)
+        self.name, self._request, self._heard, self._shown = name, request, 0, number(value)
         start, end, step = RANGES[name]
-        marked = name == "energy"
-        self.slider = pmui.FloatSlider(
-            value=value,
-            start=min(start, value),
-            end=max(end, value),
+        spoken, unit = SPOKEN[name]
+        self.view = Dial(
+            title=f"{SYMBOLS[name]}&ensp;{NAMES[name]}",
+            hint=WORDS[name],
+            spoken=spoken,
+            unit=unit,
+            marks=ENERGY_MARKS if name == "energy" else [],
+            lines=LINES.get(name, 0),
             step=step,
-            label="",
-            show_value=False,
-            size="small",
-            tooltips=False,
-            marks=ENERGY_MARKS if marked else False,
-            sizing_mode="stretch_width",
-            margin=(-4, 10, 14 if marked else -4, 10),
-            tags=[name],
-            sx={"& .MuiSlider-markLabel": {"fontSize": 12, "top": 22}},
-        )
-        at_once(self.slider, "value", "value_throttled")
-        self.entry = pmui.TextInput(
-            value=number(value),
-            label="",
-            size="small",
-            width=100,
-            margin=0,
-            tags=[name],
-            sx={"& input": {"padding": "4px 8px", "fontSize": "inherit", "textAlign": "right"}},
-        )
-        self.words = pn.pane.HTML(
-            "",
-            stylesheets=[STYLE],
-            sizing_mode="stretch_width",
-            margin=0,
-            styles={"min-height": f"calc({1.35 * 13 * LINES.get(name, 0)}px * var(--type, 1))"},
-        )
-        title = pn.pane.HTML(
-            f'<div class="name" title="{html.escape(WORDS[name])}">{SYMBOLS[name]}&ensp;{NAMES[name]}</div>',
-            stylesheets=[STYLE],
-            margin=(4, 0, 0, 0),
-            sizing_mode="stretch_width",
-        )
-        self.view = pn.Column(
-            pn.Row(title, self.entry, sizing_mode="stretch_width", margin=0),
-            self.slider,
-            self.words,
+            start=start,
+            end=end,
+            told=[0, value, self._shown],
             sizing_mode="stretch_width",
             margin=(0, 14, 8, 16),
         )
-        self._silent, self._value, self._told = False, value, {}
-        # The number goes with the hand: no need to ask the server for it.
-        if not marked:
-            self.slider.jscallback(value=FOLLOW_HAND, args={"entry": self.entry})
-        self.slider.param.watch(self._slid, "value")
-        self.entry.param.watch(self._typed, "value")
+        at_once(self.view, "asked")
+        self.view.param.watch(self._asked, "asked")
 
-    def _slid(self, event):
-        if self._silent or self._is_echo(event.new):
-            return
-        self._value = event.new
-        self._request(self.name, event.new)
-
-    def _is_echo(self, value):
-        """Whether the browser returns what it was told before the last: a late one does, and no person wished it."""
-        if time.monotonic() - self._told.get(value, -ECHO) > ECHO:
-            return False
-        self._silent, self.slider.value, self.entry.value = True, self._value, self._shown
-        self._silent = False
-        return True
-
-    def _typed(self, event):
-        if self._silent or self._is_echo(event.new):
+    def _asked(self, event):
+        count, wish, typed = event.new
+        self._heard = count
+        if not typed:
+            self._request(self.name, float(wish))
             return
         try:
-            value = float(event.new.replace("−", "-").replace(",", "."))
+            value = float(wish.replace("−", "-").replace(",", "."))
             if not math.isfinite(value):
                 raise ValueError
         except ValueError:
-            self._say(html.escape(f"“{event.new}” is not a number. Type one, such as {self._shown}."), "alert")
+            self._say(html.escape(f"“{wish}” is not a number. Type one, such as {self._shown}."), wrong=True)
             return
         self._request(self.name, value, typed=True)
 
@@ -230,29 +225,22 @@ class Control:
         """value: the input as it was solved; shown: the number for the field; bounds of the slider, RANGES if none.
         A message stands in the note's place, and then the field keeps what was typed."""
         if message:
-            self._say(html.escape(message), "alert")
+            self._say(html.escape(message), wrong=True)
             return
         self.follow(value, shown, bounds)
-        self._say(note, "note")
+        self._say(note)
 
     def follow(self, value, shown, bounds=None):
-        """The slider and the number go where something else has put the value."""
-        self._value, self._shown = value, number(shown)
-        self._told = {old: when for old, when in self._told.items() if time.monotonic() - when < ECHO}
-        for widget, new in ((self.slider, value), (self.entry, self._shown)):
-            if widget.value != new:
-                self._told[new] = time.monotonic()
-        self._silent = True
+        """The slider and the number go where the value is."""
         low, high = bounds or RANGES[self.name][:2]
-        self.slider.param.update(start=min(low, value), end=max(high, value), value=value)
-        self.entry.value = self._shown
-        self._silent = False
+        self._shown = number(shown)
+        self.view.param.update(
+            start=float(low), end=float(high), told=[self._heard, float(value), self._shown]
+        )
 
-    def _say(self, words, kind):
-        self.entry.error_state = kind == "alert"
-        text = f'<div class="{kind}" {"role=alert" if kind == "alert" else ""}>{words}</div>' if words else ""
-        if self.words.object != text:
-            self.words.object = text
+    def _say(self, words, wrong=False):
+        kind = 'class="alert" role="alert"' if wrong else 'class="note"'
+        self.view.param.update(wrong=wrong, words=f"<div {kind}>{words}</div>" if words else "")
 
 
 class Controls:

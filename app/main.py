@@ -23,9 +23,7 @@ def on_a_phone():
 
 
 def build_view(explorer, roll, builder):
-    views = roll.controls.views("K_J", "K_R", "a", "I1", "I3")
-    sliders = {slider.tags[0]: slider for view in views for slider in view.select(pmui.FloatSlider)}
-    workshop = Workshop(builder, explorer, sliders)
+    workshop = Workshop(builder, explorer)
     roll.followers.append(workshop.show_scene)
     workshop.show_scene(explorer.scene)
     measure = card("Measure your own", *Measure(builder).view, height="max-content")

@@ -308,10 +308,10 @@ class TopFile(pmui.FileInput):
 
 
 class Workshop:
-    """The builder's cards. sliders: {input of the Explorer: its slider elsewhere}, moved along with the body."""
+    """The builder's cards."""
 
-    def __init__(self, builder, explorer, sliders):
-        self.builder, self._explorer, self._sliders = builder, explorer, sliders
+    def __init__(self, builder, explorer):
+        self.builder = builder
         self._knobs, self._named, self._slid, self._silent = {}, None, None, False
         self.section = Section(self._pull)
         self.derived, self.source, self.file_words = words(""), words(""), words("")
@@ -435,15 +435,8 @@ class Workshop:
         self.stl.disabled = isinstance(draft.shape, BareSphere)
 
     def show_scene(self, scene):
-        """Whether the explorer's numbers are the body's, and its sliders at the numbers that came with the body."""
+        """Whether the explorer's numbers are the body's."""
         self.parted.visible = scene.shape is None
-        explorer, asked = self._explorer, self.builder.asked
-        if asked and all(getattr(explorer, name) == value for name, value in asked.items()):
-            for name, slider in self._sliders.items():
-                value = asked[name]
-                # to the Explorer this is the number it has already
-                slider.param.update(start=min(slider.start, value), end=max(slider.end, value), value=value)
-            self.builder.asked = {}
 
 
 def derived_words(shape):

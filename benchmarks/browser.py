@@ -168,8 +168,8 @@ def main():
             ),
             "ours": (
                 serve([sys.executable, "-m", "panel", "serve", str(root / "app")], "app"),
-                ".MuiSlider-thumb",
-                ".MuiSlider-thumb input",
+                "input[type=range]",
+                "input[type=range]",
             ),
         }
         browser = playwright.chromium.launch(executable_path=options.chromium, args=FLAGS)

@@ -56,7 +56,7 @@ class Active:
 
     def __init__(self, visitor):
         self.visitor, self.moved, self.times, self.lost = visitor, None, [], None
-        self.slider = (visitor.find("FloatSlider") or visitor.find("Slider"))[0]
+        self.dial, self.slider = (visitor.find(kind) for kind in ("Dial", "Slider"))
         self.painted = (visitor.find("Painted") or [None])[0]
         self.reading = asyncio.create_task(self._read())
 
@@ -82,7 +82,10 @@ class Active:
         if self.moved is not None:
             self.times.append(time.monotonic() - self.moved)
         self.moved = time.monotonic()
-        await self.visitor.set(self.slider, "value", value)
+        if self.dial:
+            await self.visitor.set(self.dial[0], "asked", [len(self.times), value, False])
+        else:
+            await self.visitor.set(self.slider[0], "value", value)
 
     async def act(self, seconds, delay):
         """Moves to and fro."""

@@ -13,6 +13,7 @@ from visiting import free_port
 
 from app.bundle import Bundled
 from app.colours import COLOURS
+from app.controls import Control
 from app.surface3d import Surface3D, pack
 from app.top3d import Top3D, pack_frames
 
@@ -61,7 +62,7 @@ def serve(chromium):
     """serve(component) -> the page that shows it; the test fails on an error in it."""
     servers, pages, errors = [], [], []
 
-    def start(component, **context):
+    def start(component, ready="Object.values(window.__tippe ?? {}).some(view => view.pictures > 0)", **context):
         column = pn.Column(component, width=640)
         port = free_port()
         servers.append(pn.serve(column, port=port, threaded=True, show=False))
@@ -70,7 +71,7 @@ def serve(chromium):
         page.on("pageerror", lambda error: errors.append(str(error)))
         page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
         page.goto(f"http://localhost:{port}/")
-        page.wait_for_function("Object.values(window.__tippe ?? {}).some(view => view.pictures > 0)")
+        page.wait_for_function(ready)
         return page, column
 
     yield start
@@ -228,3 +229,33 @@ def test_the_surface_holds_what_was_sent_reads_it_off_and_tells_what_was_picked(
     surface.param.update(K_J=pack(K_J[:5]), theta=pack(theta[:5] + 0.1), heights=pack(height[:5]), energy=pack(K_J[:5]))
     page.wait_for_function("window.__tippe.surface3d.rows === 5")
     np.testing.assert_allclose(page.evaluate("window.__tippe.surface3d.theta"), (theta[:5] + 0.1).ravel(), rtol=1e-6)
+
+
+def test_a_control_is_told_only_what_answers_its_last_wish(serve):
+    asked = []
+    control = Control("K_J", 7.0, lambda name, value, typed=False: asked.append((value, typed)))
+    page, _ = serve(control.view, ready="Bokeh.documents[0]?.is_idle")
+    slider, entry = page.get_by_role("slider", name="Jellett’s constant"), page.get_by_role("textbox")
+    for _ in range(3):
+        slider.press("ArrowLeft")
+    wait(page, lambda: len(asked) == 3)
+    assert asked == [(6.99, False), (6.98, False), (6.97, False)]
+    assert slider.get_attribute("aria-valuetext") == "6.97 root g over R"
+    control.view.told = [1, 6.99, "6.99"]  # an answer to the first, when the hand has gone on
+    control.view.words = "said"
+    page.get_by_text("said").wait_for()
+    assert slider.input_value() == "6.97" and entry.input_value() == "6.97"
+
+    control.follow(6.5, 6.5)  # another hand's doing
+    page.wait_for_function("input => input.value == '6.5'", arg=slider.element_handle())
+    assert entry.input_value() == "6.5"
+    entry.fill("half")
+    control.follow(6.4, 6.4)  # what is being typed stays
+    page.wait_for_function("input => input.value == '6.4'", arg=slider.element_handle())
+    assert entry.input_value() == "half"
+    entry.press("Enter")
+    page.get_by_role("alert").get_by_text("not a number").wait_for()
+    entry.fill("−2,5")
+    entry.press("Enter")
+    wait(page, lambda: len(asked) == 4)
+    assert asked[3] == (-2.5, True)  # and nothing that Python told came back as a wish

@@ -31,7 +31,7 @@ SPECIAL = (
 )
 EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
-HANDS = ("FloatSlider", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Tabs", "Painted", "Top3D",
+HANDS = ("Dial", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Tabs", "Painted", "Top3D",
          "Surface3D", "Range1d", "ColumnDataSource", "Location", "Button")  # fmt: skip
 
 
@@ -116,9 +116,9 @@ async def fuzz(url, messages, seed=1):
 async def among(url, messages):
     """The fuzzer beside a visitor who moves one slider; returns what the fuzzer was told."""
     innocent = await Visitor.enter(url)
-    slider = innocent.find("FloatSlider")[0]
+    slider = innocent.find("Dial")[0]
     said = await fuzz(url, messages)
-    answered, _ = await innocent.answer(await innocent.set(slider, "value", 6.5))
+    answered, _ = await innocent.answer(await innocent.set(slider, "asked", [1, 6.5, False]))
     assert answered == "OK"
     innocent.leave()
     return said

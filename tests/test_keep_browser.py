@@ -40,7 +40,7 @@ def go(chromium):
 
 
 def thumb(visit, place=K_J_FIELD):
-    return visit.page.locator(".MuiSlider-root input[type=range]").nth(place)
+    return visit.page.locator("input[type=range]").nth(place)
 
 
 def until_address(visit, pattern):
@@ -83,8 +83,8 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
 def test_undo_is_one_step_a_gesture(go, server):
     visit = go(server)
     before = visit.column("theta", 0, "theta")
-    box = thumb(visit).locator("xpath=..").bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    box = thumb(visit).bounding_box()
+    x, y = box["x"] + 0.7 * box["width"], box["y"] + box["height"] / 2
     visit.page.mouse.move(x, y)
     visit.page.mouse.down()
     for i in range(1, 6):

@@ -43,10 +43,10 @@ def first():
 
 
 def field(page, name):
-    """The number to type of a control: the one beside its slider, both by their tags."""
-    title = {"spin": "spin, in rev/s", "tilt": "tilt, in degrees", "seconds": "time computed", "eps": "its slip scale"}
-    row = page.locator(".bk-Row:visible").filter(has_text=title[name]).last
-    return row.locator("input[type=text]")
+    """The number to type of a control that is seen."""
+    said = {"spin": "spin, in revolutions per second", "tilt": "tilt, in degrees",
+            "seconds": "time computed, in seconds", "eps": "slip scale of the friction, in root g R"}  # fmt: skip
+    return page.get_by_role("textbox", name=said[name], exact=True).locator("visible=true")
 
 
 def put(page, name, value):

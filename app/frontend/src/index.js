@@ -1,6 +1,7 @@
+import { renderDial } from "./dial.js";
 import { renderLook } from "./look.js";
 import { renderSurface3D } from "./surface3d.js";
 import { renderTop3D } from "./top3d.js";
 
 // Panel looks a component up by its Python class's name.
-export default { Look: { render: renderLook }, Surface3D: { render: renderSurface3D }, Top3D: { render: renderTop3D } };
+export default { Dial: { render: renderDial }, Look: { render: renderLook }, Surface3D: { render: renderSurface3D }, Top3D: { render: renderTop3D } };
