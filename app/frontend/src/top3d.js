@@ -5,6 +5,7 @@ import { Bar } from "./bar.js";
 import { Body } from "./body.js";
 import { colours } from "./colours.js";
 import { coalesce, float32, niceAbove } from "./data.js";
+import { renderFlat } from "./flat.js";
 import { emptyPose } from "./frames.js";
 import { Handle } from "./handle.js";
 import { Labels } from "./labels.js";
@@ -37,7 +38,7 @@ export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const { root, picture } = frameIn(el);
   const stage = tryStage(picture, { label: model.label, fov: 30, tick, fit, shown: () => (shown = drawing) });
-  if (!stage) return;
+  if (!stage) return renderFlat({ model, root, picture, view });
   const { scene, camera, controls, renderer } = stage;
 
   // The table, the light, and the shadow that stands where the top is
