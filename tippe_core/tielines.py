@@ -312,9 +312,8 @@ class _Wells:
             first = np.where(margin < 0, self.base, np.where(end >= self.base, end, np.inf))
             j = _clip(first.argmin(axis=1), 1, _CELLS - 1)
             i = _clip(j, _REACH, _CELLS - _REACH)
-            turns = (margin[:, 1:] < 0) != (margin[:, :-1] < 0)
             about = self.k, i + _STENCIL
-            found.append((j, i, first[self.k, j], end[about], margin[about], first, turns))
+            found.append((j, i, first[self.k, j], end[about], margin[about], first, margin))
         j, i, most, end, margin = (np.concatenate(parts, axis=-1) for parts in list(zip(*found, strict=True))[:5])
         count, shape = len(j), (len(pairs), len(self.k))
         k, r, at = np.tile(self.k, len(pairs)), np.arange(count), j - i + _REACH
@@ -376,7 +375,7 @@ class _Wells:
         F_z = p.zc + p.zb * np.sqrt(p.s2) * w2 + p.z1 * w2**2
         broken = np.array([(F_z < 0) | (n * np.abs(F_y) > mu * F_z + 1e-12) for mu, n in pairs])
         done = np.where(at_corner, low + i - _REACH, -1).reshape(shape)  # the cell of the corner in e
-        for which, (*_, first, turns) in enumerate(found):
+        for which, (*_, first, margin) in enumerate(found):
             # what is in doubt, and where the first energy may fall lower between points of the grid than at them
             rise = first[:, 1:] - first[:, :-1]
             local = (rise[:, :-1] <= 0) & (rise[:, 1:] >= 0)
@@ -387,16 +386,31 @@ class _Wells:
             doubt &= np.isfinite(first[rows, cells + 1]) & ~broken[which][rows]
             rows, begin = rows[doubt], cells[doubt]
             # and the other turning points where the margin is zero: between them the grid may have one point or none
-            turns &= np.minimum(self.base[:, 1:], self.base[:, :-1]) < e[which][:, None]
-            turns[self.k, done[which]] &= ~sure[which] | (done[which] < 0)
-            turns[broken[which]] = False
-            more, cell = np.nonzero(turns)
+            below = np.where(broken[which], -np.inf, e[which])
+            more, cell = self._turns(margin, below, np.where(sure[which], done[which], -1))
             rows, begin, end = np.append(rows, more), np.append(begin, cell), np.append(begin + 2, cell + 1)
             if len(rows):
                 ends = [(grid[begin], grid[end]) for grid in (GRID, GRID[::-1])]
                 self._search(pairs[which], rows, ends, e[which], verge[which], normal[which])
         verge[~np.isfinite(e) | broken] = np.nan
         return np.where(broken, np.nan, e), verge, normal, broken, p.height + p.f2 * w2**2
+
+    def _turns(self, margin, e, done):
+        """Rows and cells of the grid, but for those done, where a turning point below e may be without margin."""
+        over = margin < 0
+        k, cell = np.divmod(np.flatnonzero(over[:, 1:] != over[:, :-1]), _CELLS)
+        below = (np.minimum(self.base[k, cell], self.base[k, cell + 1]) < e[k]) & (cell != done[k])
+        k, cell = k[below], cell[below]
+        if not k.size:
+            return k, cell
+        i = _clip(cell, _REACH, _CELLS - _REACH)
+        about = k, i + _STENCIL
+        t = _crossing(self.place.s2[about[1]] * margin[about], i, cell) - i
+        gap = self.place.s2[about[1]] * (self.base[about] - e[k])
+        above = (_FIT @ gap * t ** np.arange(2 * _REACH + 1)[:, None]).sum(axis=0)
+        clear = (t >= cell - i) & (t <= cell + 1 - i) & (above > 1e-5 * np.abs(np.diff(gap, axis=0)).max(axis=0))
+        clear[np.isin(k, list(self.barriers))] = False
+        return k[~clear], cell[~clear]
 
     def _search(self, pair, k, ends, e, verge, normal):
         """Closer and closer grids between ends, for K_J of indices k: writes what is below e."""
