@@ -234,9 +234,7 @@ class Control:
         """The slider and the number go where the value is."""
         low, high = bounds or RANGES[self.name][:2]
         self._shown = number(shown)
-        self.view.param.update(
-            start=float(low), end=float(high), told=[self._heard, float(value), self._shown]
-        )
+        self.view.param.update(start=float(low), end=float(high), told=[self._heard, float(value), self._shown])
 
     def _say(self, words, wrong=False):
         kind = 'class="alert" role="alert"' if wrong else 'class="note"'
@@ -260,17 +258,17 @@ class Controls:
             margin=(6, 16, 2, 16),
             sx=PLAIN,
         )
-        faces = {
-            face: pn.Column(*self.views(*names), sizing_mode="stretch_width", margin=0, visible=explorer.face == face)
-            for face, names in FACES.items()
-        }
+        faces = {face: pn.Column(sizing_mode="stretch_width", margin=0) for face in FACES}
 
-        def turn(event):
+        def turn(*events):
             for face, column in faces.items():
-                column.visible = face == event.new
+                column.visible = face == explorer.face
+                if column.visible and not column.objects:
+                    column.objects = self.views(*FACES[face])
             self._other.object = self._other_face(explorer.scene)
 
         explorer.param.watch(turn, "face")
+        turn()
         self.motion = [switch, *faces.values(), self._other]
 
     def _request(self, name, value, typed=False):

@@ -15,7 +15,7 @@ from bokeh.settings import settings
 from app.bundle import Bundled
 from app.controls import SYMBOLS
 from app.export import parameters
-from app.plots import PlaneFigure, TimeFigures, follow_clock
+from app.plots import Motion, PlaneFigure, TimeFigures
 from app.roll import show_surface, show_top
 from app.surface3d import Surface3D
 from app.top3d import Top3D
@@ -109,11 +109,12 @@ LABELS = {
 
 def letter(scene, link="", look=None):
     """The page (bytes, UTF-8). look: {parameter of Top3D: value} of what is shown of the top, and when."""
-    plane, times = PlaneFigure(), TimeFigures()
+    motion = Motion()
+    plane, times = PlaneFigure(motion), TimeFigures(motion)
+    motion.show(scene)
     plane.show_selected(scene)
     plane.show_plane(scene)
     times.show(scene)
-    follow_clock(plane, times)
     top, surface = Top3D(**(look or {})), Surface3D()
     show_top(top, scene)
     show_surface(surface, scene)

@@ -43,6 +43,8 @@ class Pacer:
     Functions of a scene: hand draws what the hand moves and is cheap. The pictures follow in turn, each in a message
     of its own once the one before is painted, so that a hand never waits for more than one; a round of them shows
     one scene, the newest at its start. words are for a hand at rest, or for an input that cannot be.
+
+    later: what is not made before the page has come, in turn like the pictures, so that the first of it is soon there.
     """
 
     def __init__(self, explorer, hand, pictures, words):
@@ -51,9 +53,16 @@ class Pacer:
         at_once(self.painted, "painted")
         self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
         self._requested = 0.0
+        self.later, self._begun = [], False
         self._hands, self._drawing = [], []  # (number, when sent) of what the browser has yet to paint
         explorer.param.watch(self._on_scene, "scene")
         self.painted.param.watch(self._on_painted, "painted")
+
+    def begin(self):
+        """The page has come."""
+        self._begun = True
+        self._advance()
+        self._after(ANSWER_WITHIN, self._finish)
 
     def request(self, **inputs):
         """Asks for these inputs of the Explorer; a later request for the same input replaces one still waiting."""
@@ -81,6 +90,8 @@ class Pacer:
                 self._round = [partial(draw, scene) for draw in self._pictures]
             if self._round:
                 self._send(self._round.pop(0), self._drawing)
+            elif self._begun and self.later:
+                self._send(self.later.pop(0), self._drawing)
 
     def _on_scene(self, event):
         self._send(partial(self._hand, event.new), self._hands)
@@ -101,7 +112,7 @@ class Pacer:
     def _finish(self):
         """The pictures of a tab that does not answer come too, late."""
         self._advance()
-        if self._round or self._round_is_due:
+        if self._round or self._round_is_due or (self._begun and self.later):
             self._after(ANSWER_WITHIN, self._finish)
 
     def _send(self, draw, in_flight):

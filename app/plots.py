@@ -23,8 +23,8 @@ from app.explorer import ROLLS, SLIPS
 INK, FAINT, GRID, PAPER = "#22303c", "#8a96a3", "#e7ebef", "#ffffff"
 POINTS_A_CURVE = 640
 
-# Moves the time lines and the bead in the browser; not synced, so playing sends nothing to the server. Run by each new
-# size of a figure, of which the first comes as soon as there is something to move.
+# Moves the bead in the browser; not synced, so playing sends nothing to the server. Run by each new size of a figure,
+# of which the first comes as soon as there is something to move.
 FOLLOW_CLOCK = """
 if (motion.followed) return
 motion.followed = true
@@ -41,9 +41,16 @@ const press = ({offsetX, offsetY}) => { hand.pressed = [offsetX, offsetY] }
 events_el.addEventListener("pointerdown", press, {capture: true})
 window.addEventListener("tippe:clock", ({detail: {t}}) => {
   now = t
-  for (const span of spans) span.setv({location: t}, {sync: false})
   place_bead()
 })
+"""
+# The same for the lines at the clock's time.
+MOVE_LINES = """
+if (spans.followed) return
+spans.followed = true
+const move = (t) => { for (const span of spans) span.setv({location: t}, {sync: false}) }
+window.addEventListener("tippe:clock", ({detail: {t}}) => move(t))
+move(window.__tippe?.top3d?.t ?? 0)
 """
 
 # The clock goes to `time`, and stands there as long as the hand is down.
@@ -161,7 +168,7 @@ def plain(**options):
 class PlaneFigure:
     """Fig. 6: tielines under the friction limit, what friction costs shaded, and the selected motion on top."""
 
-    def __init__(self):
+    def __init__(self, motion):
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane")
         self.limits = ColumnDataSource()
         self.limits.data = {
@@ -262,6 +269,20 @@ class PlaneFigure:
         )
         fig.add_layout(self.sentence)
         self._plane = None
+        self._listen(motion.source)
+
+    def _listen(self, motion):
+        """To the browser's own clock, which moves the bead, and to hands."""
+        fig = self.figure
+        own = {"fig": fig, "hand": self.hand}
+        with_clock = own | {"motion": motion, "selected": self.selected}
+        fig.js_on_change("inner_width", CustomJS(args=with_clock, code=FOLLOW_CLOCK))
+        grab = CustomJS(
+            args=with_clock | {"limits": self.limits, "sentence": self.sentence, "hover": self.hover}, code=GRAB
+        )
+        for event in ("tap", "panstart", "pan", "panend", "mousemove"):
+            fig.js_on_event(event, grab)
+        self.selected.js_on_change("patching", CustomJS(args=own, code="hand.say?.()"))
 
     def show_selected(self, scene):
         inner, outer = scene.turning
@@ -313,15 +334,38 @@ class PlaneFigure:
         self.figure.x_range.update(start=-0.015 * plane.theta_range[1], end=plane.theta_range[1])
 
 
+class Motion:
+    """The motion on display over time, for all figures that follow it."""
+
+    def __init__(self):
+        names = ("t", "theta", "normal", "ratio", "K_J", "K_R", "E")
+        self.source = ColumnDataSource({name: np.zeros(2) for name in names})
+        self._shown = None
+
+    def show(self, scene):
+        if scene.trajectory is self._shown:
+            return
+        self._shown = scene.trajectory
+        t = scene.trajectory.t
+        every = max(1, len(t) // POINTS_A_CURVE)
+        curves = {
+            "t": t,
+            "theta": scene.trajectory.theta,
+            "normal": scene.normal,
+            "ratio": scene.ratio,
+            "K_J": scene.K_J,
+            "K_R": scene.K_R,
+            "E": scene.E,
+        }
+        self.source.data = {name: curve[::every] for name, curve in curves.items()}
+
+
 class TimeFigures:
     """theta, F_z, F_h/F_z and the constants over one time axis, each with a line at the clock's time."""
 
     NAMES = ("theta", "normal", "ratio", "constants")
 
-    def __init__(self):
-        self.motion = ColumnDataSource(
-            {name: np.zeros(2) for name in ("t", "theta", "normal", "ratio", "K_J", "K_R", "E")}
-        )
+    def __init__(self, motion):
         x_range = Range1d(0, 1)
         self.figures = {name: plain(x_range=x_range, y_range=Range1d(0, 1), name=name) for name in self.NAMES}
         curves = {
@@ -333,7 +377,7 @@ class TimeFigures:
         self.spans = []
         for name, fig in self.figures.items():
             for column, colour in curves[name].items():
-                fig.line("t", column, source=self.motion, line_color=colour, line_width=2)
+                fig.line("t", column, source=motion.source, line_color=colour, line_width=2)
             self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
             fig.add_layout(self.spans[-1])
             for event in ("tap", "panstart", "pan", "panend"):
@@ -350,6 +394,8 @@ class TimeFigures:
             BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
         )
 
+        follow = CustomJS(args={"spans": self.spans}, code=MOVE_LINES)
+        self.figures["theta"].js_on_change("inner_width", follow)
         self._shown = None
 
     def show(self, scene):
@@ -357,17 +403,6 @@ class TimeFigures:
             return
         self._shown = (scene.trajectory, scene.mu_s)
         t = scene.trajectory.t
-        every = max(1, len(t) // POINTS_A_CURVE)
-        curves = {
-            "t": t,
-            "theta": scene.trajectory.theta,
-            "normal": scene.normal,
-            "ratio": scene.ratio,
-            "K_J": scene.K_J,
-            "K_R": scene.K_R,
-            "E": scene.E,
-        }
-        self.motion.data = {name: curve[::every] for name, curve in curves.items()}
         self.figures["theta"].x_range.update(start=t[0], end=t[-1])
         self.slips.location = self.beyond.bottom = scene.mu_s
         bounds = {
@@ -382,27 +417,3 @@ class TimeFigures:
         for name, (low, high) in bounds.items():
             pad = 0.08 * (high - low) or 0.05
             self.figures[name].y_range.update(start=low - pad, end=high + pad)
-
-
-def follow_clock(plane, times):
-    """Lets the browser's own clock move the time lines and the bead on the selected tieline."""
-    fig = plane.figure
-    own = {"fig": fig, "hand": plane.hand}
-    follow = CustomJS(
-        args=own | {"spans": times.spans, "motion": times.motion, "selected": plane.selected}, code=FOLLOW_CLOCK
-    )
-    fig.js_on_change("inner_width", follow)
-    grab = CustomJS(
-        args=own
-        | {
-            "selected": plane.selected,
-            "limits": plane.limits,
-            "motion": times.motion,
-            "sentence": plane.sentence,
-            "hover": plane.hover,
-        },
-        code=GRAB,
-    )
-    for event in ("tap", "panstart", "pan", "panend", "mousemove"):
-        fig.js_on_event(event, grab)
-    plane.selected.js_on_change("patching", CustomJS(args=own, code="hand.say?.()"))

@@ -1,5 +1,7 @@
 """The first tab: a top that rolls, as Figs. 5 and 6, over time, and in 3-D."""
 
+from functools import partial
+
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
@@ -10,7 +12,7 @@ from app.controls import SPIN, Controls, named
 from app.explorer import least_energy
 from app.look import Look
 from app.pacing import Pacer, at_once
-from app.plots import PlaneFigure, TimeFigures, follow_clock
+from app.plots import Motion, PlaneFigure, TimeFigures
 from app.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.surface3d import Surface3D, pack
 from app.top3d import Top3D, pack_frames
@@ -18,7 +20,7 @@ from app.top3d import Top3D, pack_frames
 PLANE = f"({named('K_J')}, {named('angle')})"
 
 
-def plane_card(plane):
+def plane_content(plane):
     key = "".join(
         (
             swatch("#8a96a3", "tielines under both limits"),
@@ -29,8 +31,7 @@ def plane_card(plane):
             swatch("#0072B2", "this motion"),
         )
     )
-    return card(
-        f"Which motions roll: the {PLANE} plane, the paper’s Fig. 6",
+    return (
         words(f'<div class="key">{key}</div>'),
         words(f"{named('K_J')} {SPIN}"),
         pn.pane.Bokeh(plane.figure, sizing_mode="stretch_both", margin=0),
@@ -38,7 +39,7 @@ def plane_card(plane):
     )
 
 
-def times_card(times, unit, kept):
+def times_rows(times):
     labels = {
         "theta": f"{named('angle')}<br>rad",
         "normal": f"{named('normal')}<br><i>Mg</i>",
@@ -48,7 +49,7 @@ def times_card(times, unit, kept):
             for name, colour in {"K_J": "jellett", "K_R": "omega", "energy": "energy"}.items()
         ),
     }
-    rows = [
+    return [
         pn.Row(
             words(
                 f'<div class="quantity">{labels[name]}</div>',
@@ -62,12 +63,6 @@ def times_card(times, unit, kept):
         )
         for name, figure in times.figures.items()
     ]
-    return card(
-        "The motion over time; click to look at an instant",
-        *rows,
-        unit,
-        kept,
-    )
 
 
 def unit_words(scene):
@@ -137,6 +132,7 @@ class Switch:
         self._kinds, self._made, self._scene = kinds, {}, None
         self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
         self._says = words("", styles={"min-height": "2.8em"})
+        self.view = card(title)
         self._switch = pmui.RadioButtonGroup(
             options={kind.title: i for i, kind in enumerate(kinds)},
             value=0,
@@ -146,7 +142,9 @@ class Switch:
             sx=PLAIN,
         )
         self._switch.param.watch(lambda event: self._look(event.new), "value")
-        self.view = card(title, self._switch, *self._places, self._says)
+
+    def make(self):
+        self.view.extend([self._switch, *self._places, self._says])
 
     def _look(self, chosen):
         if chosen not in self._made:
@@ -177,31 +175,20 @@ class Roll:
     of a scene, called when a hand rests."""
 
     def __init__(self, explorer):
-        plane, times, top, surface = (
-            PlaneFigure(),
-            TimeFigures(),
-            Top3D(sizing_mode="stretch_both", tiltable=True),
-            Surface3D(sizing_mode="stretch_both"),
-        )
+        motion, top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
+        plane = PlaneFigure(motion)
         tilt = Switch("The tilt <i>θ</i> by itself", Phase, Curve, Potential)
         table = Switch("What the table sees", Track, Ring, Force)
         self.followers = []
         self._grasp, self._held = None, {}
         self._on_picture = False  # whether the hand is on a picture, and the controls are to go with it
+        # What each round of pictures draws; it grows as the cards are made.
+        planes, times, portraits = [motion.show, plane.show_plane, partial(show_top, top)], [], []
 
         def show_hand(scene):
             plane.show_selected(scene)
             if self._on_picture:
                 controls.follow(scene)
-
-        def show_planes(scene):
-            plane.show_plane(scene)
-            show_surface(surface, scene)
-            show_top(top, scene)
-
-        def show_portraits(scene):
-            tilt.show(scene)
-            table.show(scene)
 
         def show_words(scene):
             self._on_picture = False
@@ -211,8 +198,12 @@ class Roll:
                 for follow in self.followers:
                     follow(scene)
 
+        def draw(shows, scene):
+            for show in shows:
+                show(scene)
+
         kept, unit = words(""), words("")
-        pictures = (show_planes, times.show, show_portraits)
+        pictures = [partial(draw, shows) for shows in (planes, times, portraits)]
         self.pacer = pacer = Pacer(explorer, show_hand, pictures, show_words)
         self.controls = controls = Controls(explorer, pacer)
 
@@ -245,14 +236,36 @@ class Roll:
         plane.hand.on_change(
             "data", lambda attr, old, new: grabbed(new["grip"][0], new["theta"][0], new["K_J"][0], 1.0)
         )
-        at_once(surface, "hand")
         at_once(top, "tilted", "time")
-        surface.param.watch(on_surface, "hand")
-        surface.param.watch(on_surface, "picked")
         top.param.watch(tilted, "tilted")
         for show in (show_hand, *pictures, show_words):
             show(explorer.scene)
-        follow_clock(plane, times)
+
+        floor = card(f"{named('height')} over the {PLANE} plane: the paper’s Fig. 5")
+        over_time = card("The motion over time; click to look at an instant")
+
+        def add(shows, show):
+            show(explorer.scene)
+            shows.append(show)
+
+        def make_surface():
+            surface = Surface3D(sizing_mode="stretch_both")
+            at_once(surface, "hand")
+            surface.param.watch(on_surface, ["hand", "picked"])
+            add(planes, partial(show_surface, surface))
+            floor.append(surface)
+
+        def make_times():
+            figures = TimeFigures(motion)
+            add(times, figures.show)
+            over_time.extend([*times_rows(figures), unit, kept])
+
+        def make_portraits(switch):
+            add(portraits, switch.show)
+            switch.make()
+
+        pacer.later = [make_times, make_surface, partial(make_portraits, tilt), partial(make_portraits, table)]
+        pn.state.onload(pacer.begin)
 
         hemisphere = pmui.RadioButtonGroup.from_param(
             explorer.param.upper,
@@ -288,9 +301,9 @@ class Roll:
         ]
         self.main = grid(
             card("The top", top),
-            plane_card(plane),
-            card(f"{named('height')} over the {PLANE} plane: the paper’s Fig. 5", surface),
-            times_card(times, unit, kept),
+            card(f"Which motions roll: the {PLANE} plane, the paper’s Fig. 6", *plane_content(plane)),
+            floor,
+            over_time,
             tilt.view,
             table.view,
         )
