@@ -119,6 +119,8 @@ def test_a_start_with_energy_for_both_ends_says_so():
 @pytest.mark.parametrize(("name", "call"), [
     ("state", lambda: outcome(PAPER, 3)),
     ("C_J", lambda: steady_states(PAPER, np.nan)),
+    ("C_J", lambda: steady_states(PAPER, 1e200)),
+    ("omega3", lambda: outcome(PAPER, State(1.0, 0, 0, 1e160))),
     ("scales", lambda: outcome(PAPER, State(0.1, 0, 0, 1), 3)),
 ])  # fmt: skip
 def test_bad_input_is_named(name, call):

@@ -230,6 +230,23 @@ def test_no_more_events_than_can_be_followed(monkeypatch):
     assert moved.events[4][0] == moved.events[5][0] > moved.t[-1]
 
 
+def test_more_turns_than_can_be_followed_are_said(monkeypatch):
+    monkeypatch.setattr(sliding, "MOST_CALLS", 20)
+    with pytest.raises(TopError, match="times up to t = ") as caught:
+        slide(PAPER, State(1.0, 0, 0, 1e6), Viscous(0.3), [0, 1])
+    assert caught.value.name == "times"
+
+
+def test_a_high_top_lets_go_from_rest():
+    """On the way from no slip the integration's trial steps grow beyond any float."""
+    top, times = Top(-10.0, 120.0, 20.0), np.linspace(0, 2.5, 6)
+    moved = slide(top, State(1.0, 0, 0, 0), Coulomb(0.3), times, rtol=1e-11)
+    assert moved.events == () and np.all(moved.slip[:, 1] > 0)
+    still = np.zeros(3)
+    motion = sb.integrate(top, lambda _: np.array([0, 0.3, 0]), moved.quaternion[0], still, still, moved.com[0], times)
+    np.testing.assert_allclose(moved.com, motion.com, rtol=0, atol=1e-8)
+
+
 def test_events_are_located_to_1e_9():
     """Rolling lets go where the exact motion reaches the limit, slipping ends where the slip of a finer run is 0."""
     friction, state = Coulomb(0.3, 0.5), rolling_start(7.0, 1.3)
@@ -306,6 +323,8 @@ def test_lift_off_ends_the_motion():
     ("friction", lambda: slide(PAPER, REFERENCE[0], 0.3, [0, 1])),
     ("times", lambda: slide(PAPER, *REFERENCE, [1, 0])),
     ("rtol", lambda: slide(PAPER, *REFERENCE, [0, 1], rtol=0)),
+    ("omega3", lambda: slide(PAPER, State(1.0, 0, 0, 1e100), Viscous(1), [0, 1])),
+    ("vx", lambda: State(1.0, 0, 0, 1.0, vx=-1e13)),
     ("mu_k", lambda: slide(ORDINARY, State(1.0, 0, 0, 1.0), Coulomb(9.0), [0, 1])),
 ])  # fmt: skip
 def test_bad_input_is_named(name, call):

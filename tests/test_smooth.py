@@ -112,6 +112,7 @@ def test_lift_off_is_where_sliding_without_friction_puts_it():
 
 
 @pytest.mark.parametrize(("name", "call"), [("state", lambda: glide(PAPER, 3, [0, 1])),
+                                            ("omega3", lambda: glide(PAPER, State(1, 0, 0, 1e60), [0, 1])),
                                             ("times", lambda: glide(PAPER, State(1, 0, 0, 1), [1, 0]))])  # fmt: skip
 def test_bad_input_is_named(name, call):
     with pytest.raises(TopError) as caught:

@@ -12,6 +12,7 @@ from .errors import TopError, finite, numbers
 # in cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34), for which the
 # standard library is enough.
 EXACT = Context(prec=60, Emin=-999999, Emax=999999)
+LARGEST = 1e12  # of a State: no top is as fast or as far by far, and EXACT keeps 36 figures of squares as large
 ExactTop = namedtuple("ExactTop", "a I1 I3")
 
 
@@ -95,8 +96,8 @@ class State:
     G's place x, y in space and its horizontal velocity vx, vy in the axes x, y that turn with phi.
 
     What is left None is unsaid: each plane has its own natural choice (rolling: the contact point starts at the
-    origin, and the velocity is the one of rolling). Raises TopError where a value is not finite or theta not in
-    [0, pi].
+    origin, and the velocity is the one of rolling). Raises TopError where a value is not finite or beyond
+    LARGEST, or theta not in [0, pi].
     """
 
     theta: float
@@ -115,6 +116,8 @@ class State:
             value = getattr(self, field.name)
             if value is not None or field.name not in ("x", "y", "vx", "vy"):
                 object.__setattr__(self, field.name, finite(field.name, value))
+                if abs(getattr(self, field.name)) > LARGEST:
+                    raise TopError(field.name, value, f"at most {LARGEST:g} in size")
         if not 0 <= self.theta <= np.pi:
             raise TopError("theta", self.theta, "0 <= theta <= pi (rad)")
         if self.omega2 and self.theta in (0.0, np.pi):

@@ -101,6 +101,8 @@ def steady_states(top, C_J):
     uniform ball V_J is flat: every tilt is steady and none stable; only the poles are listed.)
     """
     C_J = finite("C_J", C_J)
+    if abs(C_J) > 1e50:
+        raise TopError("C_J", C_J, "at most 1e50 in size")
     a, I1, I3 = top.a, top.I1, top.I3
     I_eff = np.poly1d([I3 - I1, -2 * I3 * a, I1 + I3 * a * a])
     slope = C_J**2 * np.poly1d([I1 - I3, I3 * a]) - a * I_eff**2  # I_eff^2 dV_J/dc

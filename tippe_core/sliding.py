@@ -37,6 +37,9 @@ from .trajectory import Trajectory, checked_times
 # STILL: the last of the slip, which takes far less time than the 1e-9 to which events are located. SLACK (Mg): what
 # rolling may need beyond mu_s F_z before it counts as slipping, above what so small a slip does to the forces.
 STILL, SLACK, MOST_EVENTS = 1e-13, 1e-10, 1000
+# MOST_CALLS of progress, about a millisecond apart: half a minute. LOG_FAST: a trial step faster than that is too long
+# anyway, and its exponential may overflow.
+MOST_CALLS, LOG_FAST = 20_000, 100.0
 
 LOG_STILL = log(STILL)
 
@@ -68,7 +71,8 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     "chatters" where more than 1000 events follow each other.
     regime: "slip", or "roll" where Coulomb's friction holds the top; on the sphere that part is the exact one of
     rolling.py. heat: the work of friction and of impacts.
-    Raises TopError for bad input, and for friction so strong that no normal force balances it (Painleve).
+    Raises TopError for bad input, for friction so strong that no normal force balances it (Painleve), and for more
+    turns of the top than can be followed in about half a minute.
     """
     if not isinstance(state, State):
         raise TopError("state", state, "a State")
@@ -83,7 +87,8 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
         raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
     if landing not in ("stop", "plastic"):
         raise TopError("landing", landing, '"stop" or "plastic"')
-    return _Run(top, friction, rtol / 10, _checked_edge(edge), landing == "plastic", progress or _nothing)(state, t)
+    progress = _Limited(t, progress)
+    return _Run(top, friction, rtol / 10, _checked_edge(edge), landing == "plastic", progress)(state, t)
 
 
 def sensitivity(top, state, friction, times, nudge=1e-6, **how):
@@ -98,8 +103,19 @@ def sensitivity(top, state, friction, times, nudge=1e-6, **how):
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / nudge)
 
 
-def _nothing(_):
-    pass
+class _Limited:
+    """progress, or nothing, until it was called too often."""
+
+    def __init__(self, times, progress):
+        self.times, self.progress, self.calls = times, progress, 0
+
+    def __call__(self, t):
+        self.calls += 1
+        if self.calls > MOST_CALLS:
+            raise TopError("times", float(self.times[-1]), f"times up to t = {t:.6g} for this start",
+                           "It turns too often to be followed further: a shorter time, or a slower top.")  # fmt: skip
+        if self.progress:
+            self.progress(t)
 
 
 def _checked_edge(edge):
@@ -134,7 +150,7 @@ class _Run:
     the unknowns z are the same but for log|u|, beta in place of v_x, v_y.
     """
 
-    def __init__(self, top, friction, tolerance, edge=None, flies=False, progress=_nothing):
+    def __init__(self, top, friction, tolerance, edge, flies, progress):
         self.top, self.friction, self.tolerance, self.edge, self.progress = top, friction, tolerance, edge, progress
         # an edge on the sphere itself is where its surface ends: rim, cos(theta) there
         b, h, q = edge or (0.0, 0.0, 1.0)
@@ -209,7 +225,7 @@ class _Run:
         (ex, ey, ez), (wx, wy, wz), (px, py, pz, pw) = e, w, z[:4]
         a, rz, w3 = top.a, 1 - top.a * ez, L3 / top.I3
         if self.sticks:
-            speed, out_x, out_y = exp(z[8]), cos(z[9]), sin(z[9])
+            speed, out_x, out_y = exp(min(z[8], LOG_FAST)), cos(z[9]), sin(z[9])
             vx, vy = speed * out_x + carried[0], speed * out_y + carried[1]
             push = self.friction.mu_k * out_x, self.friction.mu_k * out_y
         else:
