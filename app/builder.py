@@ -4,7 +4,7 @@ SI, as in tippe_core.shapes. Where a person reads or sets a dimension it is in t
 """
 
 import re
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -66,28 +66,30 @@ def _density(name, words):
 
 
 _MASS = Dimension("M", "mass", "g", 1e3, 0.5, 200, 0.1)
+# of one material: each sets the other
+_WEIGHT = (_MASS, _density("density", "density, sets the mass"))
 
 FAMILIES = {
     TruncatedSphere: ("truncated sphere with a stem", (
         _length("R", "radius of the sphere", 2, 40), _length("c", "height of the cut above O", -20, 40),
-        _length("l", "length of the stem", 0, 60), _length("r", "radius of the stem", 0, 15), _MASS)),
+        _length("l", "length of the stem", 0, 60), _length("r", "radius of the stem", 0, 15), *_WEIGHT)),
     LoadedSphere: ("loaded sphere", (
         _length("R", "radius of the sphere", 2, 40), _length("b", "radius of the core", 0.5, 30),
         _length("d", "depth of the core below O", -30, 30), _density("density", "density of the sphere"),
-        _density("core_density", "density of the core; 0 a cavity"))),
+        _density("core_density", "density of the core; 0 a cavity"), _MASS)),
     OrdinaryTop: ("ordinary top", (
         _length("R", "radius of the peg", 0.5, 20), _length("h", "height of the peg above O", 0, 60),
         _length("r1", "radius of the body below", 0.5, 50), _length("r2", "radius of the body above", 0, 50),
         _length("t", "thickness of the body", 0.5, 60), _length("r", "radius of the stem", 0, 15),
-        _length("l", "length of the stem", 0, 60), _MASS)),
-    Ball: ("uniform ball", (_length("R", "radius", 2, 40), _MASS)),
+        _length("l", "length of the stem", 0, 60), *_WEIGHT)),
+    Ball: ("uniform ball", (_length("R", "radius", 2, 40), *_WEIGHT)),
     BareSphere: ("sphere of unknown inside", (
         _length("R", "radius of the sphere", 2, 40), _MASS,
         Dimension("a", "G below O, in R", "", 1.0, -0.9, 0.9, 0.005),
         Dimension("I1", "inertia across the axis, in MR²", "", 1.0, 0.05, 0.7, 0.001),
         Dimension("I3", "inertia about the axis, in MR²", "", 1.0, 0.05, 0.7, 0.001))),
-    Lathe: ("turned from points", (_length("R", "radius of the peg", 0.5, 40), _density("density", "density"))),
-    Turned: ("turned from pieces", ()),
+    Lathe: ("turned from points", (_length("R", "radius of the peg", 0.5, 40), _density("density", "density"), _MASS)),
+    Turned: ("turned from pieces", (_MASS,)),
 }  # fmt: skip
 
 
@@ -120,7 +122,7 @@ class Draft:
                 if height > last:  # a step is no piece
                     pieces.append(_density(f"density {index}", f"density, {1e3 * last:.4g} to {1e3 * height:.4g} mm"))
                 last = height
-            return (dimensions[0], *pieces)
+            return (dimensions[0], *pieces, _MASS)
         return dimensions
 
 
@@ -319,12 +321,20 @@ class Rocking:
 def value_of(shape, name):
     """The dimension of that name, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
     field, index = _field(name)
+    if name == "M":
+        return shape.mass
     return getattr(shape, field) if index is None else getattr(shape, field)[index]
 
 
 def changed(shape, name, value):
-    """The shape with another value of that dimension."""
+    """The shape with another value of that dimension; a mass where densities are given, or the other way round, keeps
+    the form."""
     field, index = _field(name)
+    given = {one.name: getattr(shape, one.name) for one in fields(shape)}
+    if name == "M" and "M" not in given:
+        return shape.with_mass(value)
+    if name == "density" and "M" in given:
+        return type(shape).from_density(value, **{key: size for key, size in given.items() if key != "M"})
     if index is not None:
         rows = list(getattr(shape, field))
         rows[index] = value

@@ -200,8 +200,24 @@ def test_a_handle_goes_where_the_hand_is(preset):
 def test_every_dimension_is_a_field_within_its_slider():
     for preset in PRESETS:
         for dimension in FAMILIES[type(preset.shape)][1]:
-            shown = getattr(preset.shape, dimension.name) * dimension.factor
+            shown = value_of(preset.shape, dimension.name) * dimension.factor
             assert dimension.low <= shown <= dimension.high, (preset.name, dimension.name)
+
+
+def test_a_density_sets_the_mass_and_a_mass_the_densities(builder):
+    builder.choose("Uniform ball")
+    builder.set("R", 0.02)
+    builder.set("density", 700.0)
+    assert builder.draft.shape.mass == pytest.approx(700 * 4 / 3 * np.pi * 0.02**3, rel=1e-12)
+    builder.choose("Loaded sphere")
+    before = builder.draft.shape
+    builder.set("M", 2 * before.mass)
+    after = builder.draft.shape
+    assert after.density == pytest.approx(2 * before.density) and after.b == before.b
+    assert after.top.I3 == pytest.approx(before.top.I3, rel=1e-12)
+    for name, value in (("density", -1.0), ("M", 0.0)):
+        builder.set(name, value)
+        assert builder.draft.shape == after and name in builder.draft.messages
 
 
 # --- free profiles and pieces ---
@@ -229,7 +245,7 @@ def test_points_come_and_go_with_their_densities(builder):
     # the last piece is a frustum of 4 and 3 mm, 21 mm high: its volume by the school's formula
     stem = np.pi / 3 * 0.021 * (0.004**2 + 0.004 * 0.003 + 0.003**2)
     assert builder.draft.shape.mass - before.mass == pytest.approx(7300 * stem)
-    assert {dimension.name for dimension in builder.draft.dimensions} == {"R", *(f"density {i}" for i in range(6))}
+    assert {dimension.name for dimension in builder.draft.dimensions} == {"R", "M", *(f"density {i}" for i in range(6))}
     builder.add_point()
     assert len(builder.draft.shape.density) == len(builder.draft.shape.points) == 7
     for _ in range(8):
