@@ -4,48 +4,35 @@ from panel.custom import JSComponent
 
 
 class Connection(JSComponent):
-    """Goes on with its session where a server still has it, else loads the page anew: its address holds the state.
+    """Once a server answers, the page is loaded anew: its address holds what was set.
 
-    app.server answers at ./app/session whether it has it; `panel serve` does not, and then the page is loaded anew.
+    (BokehJS 3.9 can also go on with a session, but fails where the document has arrays, or where a message was cut.)
     """
 
     _esm = """
     const FIRST = 500, LONGEST = 8000  // ms between two tries, each half to one and a half times as long
 
     export function render() {
-      // A session that goes on sends its whole document again, and this comes anew.
-      const words = document.getElementById("tippe-connection") ?? document.createElement("div")
-      words.id = "tippe-connection"
+      const words = document.createElement("div")
       words.setAttribute("role", "alert")
       Object.assign(words.style, {
-        position: "fixed", inset: "8px 8px auto", margin: "auto", maxWidth: "560px", zIndex: 9999, display: "none",
+        position: "fixed", inset: "8px 8px auto", margin: "auto", maxWidth: "560px", zIndex: 9999,
         padding: "10px 16px", borderRadius: "8px", background: "#22303c", color: "white", textAlign: "center",
         font: "15px/1.4 system-ui, sans-serif", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)",
       })
       words.textContent = "No connection to the server at the moment. What is shown can still be played, and nothing "
         + "that was set is lost; the page goes on by itself as soon as the server answers."
-      document.body.append(words)
-      words.trying = false
 
-      async function recover(event) {
-        if (words.trying) return
-        words.trying = true
-        words.style.display = "block"
-        const id = event.connection.deref()?.id ?? ""
-        const address = location.pathname.replace(/[/]$/, "") + "/session?id=" + encodeURIComponent(id)
-        for (let wait = FIRST; words.trying; wait = Math.min(2 * wait, LONGEST)) {
+      async function recover() {
+        if (words.isConnected) return
+        document.body.append(words)
+        for (let wait = FIRST; ; wait = Math.min(2 * wait, LONGEST)) {
           await new Promise((resolve) => setTimeout(resolve, wait * (0.5 + Math.random())))
-          const answer = await fetch(address, {cache: "no-store"}).catch(() => null)
-          if (answer?.ok && (await answer.text()) === "here") {
-            words.trying = false
-            event.reconnect()  // where this fails the connection is lost anew
-          } else if (answer && answer.status < 500) {
-            location.reload()
-            return
-          }
+          const answer = await fetch("./favicon.ico", {cache: "no-store"}).catch(() => null)
+          if (answer?.status < 500) return location.reload()
         }
       }
 
-      Bokeh.documents[0].on_event("connection_lost", (_, event) => recover(event))
+      Bokeh.documents[0].on_event("connection_lost", recover)
     }
     """

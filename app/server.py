@@ -57,7 +57,7 @@ SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a 
 EACH_MESSAGE = 0.002  # s: what the cheapest message costs
 LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
 
-FRESH = 120  # s in which a page that was sent may open its session; a session that is there stays open to its page
+FRESH = 120  # s in which a page that was sent may open its session
 TOKEN_LASTS = 24 * 3600
 PING = 20  # s
 GRACE = 3.0  # s from SIGTERM to the end, whatever still runs
@@ -80,7 +80,7 @@ class Settings:
     sessions_per_address: int = field(
         default=250, metadata={"from": 1, "to": 100_000, "says": "at once; a lecture hall may be one address"}
     )
-    linger: int = field(default=30, metadata={"from": 1, "to": 3600, "says": "s that a session waits for its page"})
+    linger: int = field(default=30, metadata={"from": 1, "to": 3600, "says": "s a session outlives its page"})
     proxy: int = field(default=0, metadata={"from": 0, "to": 1, "says": "1: believe X-Forwarded-For and -Proto"})
     secret: str = field(default="", metadata={"says": "signs sessions; empty: a new one at each start"})
     log: str = field(default="info", metadata={"says": "debug, info, warning or error"})
@@ -343,7 +343,8 @@ class Socket(WSHandler):
         self.entered = address
         door.enter(address)
         if known:
-            await super()._async_open(token)
+            # Under the lock nothing that the session has to say comes before the greeting.
+            await context.get_session(get_session_id(token)).with_document_locked(super()._async_open, token)
             return
         await door.turn(address)
         start = time.monotonic()
@@ -509,19 +510,6 @@ class Page(Handler, DocHandler):
         super().write(chunk)
 
 
-class Session(Handler):
-    """Whether a session is "here" or "gone"."""
-
-    def initialize(self, application_context, **_):
-        self.context = application_context
-
-    def get(self):
-        self.set_header("Cache-Control", "no-store")
-        asked = self.get_query_argument("id", "")
-        self.set_header("Content-Type", "text/plain")
-        self.write("here" if any(name.split(".")[0] == asked for name in self.context._sessions) else "gone")
-
-
 class Liveness(Handler):
     """For the health checks of containers, and how full it is."""
 
@@ -554,7 +542,7 @@ def serve(settings, sockets, parent=None):
     RequestHandler.set_default_headers = set_default_headers
     ServerSession.with_document_locked = with_document_locked
     pn.config.exception_handler = note
-    bokeh.server.urls.per_app_patterns[:] = [(r"/ws", Socket), (r"/session", Session), (r"/?", Page)]
+    bokeh.server.urls.per_app_patterns[:] = [(r"/ws", Socket), (r"/?", Page)]
     static = [(pattern, Component if handler is ComponentResourceHandler else handler, *more)
               for pattern, handler, *more in get_static_routes({})]  # fmt: skip
     apps = {"/app": build_single_handler_application(Path(__file__).parent)}

@@ -1,0 +1,180 @@
+"""What a person sees when something breaks, on `python -m app`: a sentence, and after it what had been set."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from visiting import Visit, free_port
+from wire import Visitor, answers, get, run, served, until
+
+LOST = "No connection to the server"
+BACK = 60_000  # ms
+ROOT = Path(__file__).parent.parent
+
+
+class Stay(Visit):
+    """A visit with a hand on its socket."""
+
+    def __init__(self, page, url):
+        self.sockets = []
+        page.route_web_socket(re.compile("/ws"), lambda each: self.sockets.append((each, each.connect_to_server())))
+        super().__init__(page, url)
+
+    def cut(self):
+        """The connection, both ends."""
+        ours, theirs = self.sockets.pop()
+        theirs.close()
+        ours.close(code=1011)
+
+
+def set_K_J(page, text):
+    """Types K_J, waits until the address holds it, and marks the page: a new load wipes the mark out."""
+    field = page.locator("input[type=text]").first
+    field.fill(text)
+    field.press("Enter")
+    page.wait_for_function("text => location.search.includes('KJ=' + text)", arg=text)
+    page.evaluate("window.mark = 1")
+
+
+def has_come_back(page, K_J):
+    """Waits for a new load with this K_J."""
+    page.wait_for_function("!window.mark && window.__tippe?.top3d?.pictures > 2", timeout=BACK)
+    page.wait_for_function("text => location.search.includes('KJ=' + text)", arg=K_J)
+    assert page.locator("input[type=text]").first.input_value() == K_J
+
+
+@pytest.fixture
+def page(chromium):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    yield page
+    page.close()
+
+
+def test_after_a_cut_the_page_is_as_it_was(page, tmp_path):
+    with served(tmp_path / "log") as server:
+        visit = Stay(page, server.url)
+        set_K_J(page, "6.5")
+        visit.cut()
+        page.get_by_text(LOST).wait_for()
+        has_come_back(page, "6.5")
+        assert "Traceback" not in server.log
+
+
+def test_after_the_server_was_lost_the_page_is_as_it_was(page, tmp_path):
+    port = free_port()
+    with served(tmp_path / "log", port=port) as server:
+        Visit(page, server.url)
+        set_K_J(page, "6.5")
+        server.process.kill()
+        page.get_by_text(LOST).wait_for()
+        playing = page.evaluate("__tippe.top3d.t")
+        page.wait_for_function("t => __tippe.top3d.t != t", arg=playing)  # the picture goes on without a server
+    with served(tmp_path / "log", port=port):
+        has_come_back(page, "6.5")
+
+
+def test_a_visitor_who_stops_reading_holds_up_nobody(tmp_path):
+    async def stall(url):
+        deaf, other = await Visitor.enter(url), await Visitor.enter(url)
+        for i in range(200):  # and never reads what comes back
+            await deaf.set(deaf.find("Dial")[0], "asked", [i, 6 + i / 1000, False])
+        answered, _ = await other.answer(await other.set(other.find("Dial")[0], "asked", [1, 6.5, False]))
+        deaf.leave(), other.leave()
+        return answered
+
+    with served(tmp_path / "log") as server:
+        assert run(stall(server.url)) == "OK"
+        assert "Traceback" not in server.log
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")
+def test_a_full_disk_stops_nobody(tmp_path):
+    port = free_port()
+    with open("/dev/full", "w") as full:
+        process = subprocess.Popen([sys.executable, "-m", "app"], cwd=ROOT, stdout=full, stderr=full,
+                                   env={**os.environ, "TIPPE_PORT": str(port), "TMPDIR": "/dev/full"})  # fmt: skip
+    try:
+        until(lambda: answers(f"http://127.0.0.1:{port}/liveness"), 60)
+        visitor = run(Visitor.enter(f"http://127.0.0.1:{port}/app"))
+        assert len(visitor.models) > 100
+    finally:
+        process.terminate()
+        assert process.wait(10) == 0
+
+
+def test_graphics_that_are_taken_away_are_said_and_come_back(page, tmp_path):
+    with served(tmp_path / "log") as server:
+        Visit(page, server.url)
+        page.evaluate("""() => {
+            const canvases = []
+            const look = (root) => { for (const each of root.querySelectorAll("*")) {
+                if (each.localName == "canvas" && each.getContext("webgl2")) canvases.push(each)
+                if (each.shadowRoot) look(each.shadowRoot) } }
+            look(document)
+            window.lost = canvases.map((canvas) => canvas.getContext("webgl2").getExtension("WEBGL_lose_context"))
+            lost.forEach((each) => each.loseContext())
+        }""")
+        page.get_by_text("graphics memory away").first.wait_for()
+        page.evaluate("lost.forEach((each) => each.restoreContext())")
+        page.get_by_text("graphics memory away").first.wait_for(state="detached")
+        pictures = page.evaluate("__tippe.top3d.pictures")
+        page.wait_for_function("n => __tippe.top3d.pictures > n", arg=pictures)
+
+
+@pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the proxy of compose.yaml, is not installed")
+def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_its_own(page, tmp_path):
+    port = free_port()
+    with served(tmp_path / "a", proxy=1, secret="s") as one, served(tmp_path / "b", proxy=1, secret="s") as two:
+        servers = "\n".join(f"    server {name} {each.root[7:]}" for name, each in (("a", one), ("b", two)))
+        text = (ROOT / "deploy/haproxy.cfg").read_text(encoding="utf-8").replace("bind :8080", f"bind 127.0.0.1:{port}")
+        config = tmp_path / "haproxy.cfg"
+        config.write_text(re.sub(r"(?m)^    server-template.*$", servers, text))
+        proxy = subprocess.Popen(["haproxy", "-f", config], stdout=subprocess.DEVNULL)
+        try:
+            url = f"http://127.0.0.1:{port}/app"
+            until(lambda: answers(url))
+            Visit(page, url)
+            page.evaluate("window.mark = 1")
+            mine, other = (one, two) if '"sessions": 1' in get(one.root + "/liveness")[2] else (two, one)
+            other.process.kill()
+            assert page.evaluate("window.mark") == 1
+            set_K_J(page, "6.5")
+            with served(tmp_path / "c", port=int(other.root.rsplit(":", 1)[1]), proxy=1, secret="s"):
+                mine.process.send_signal(signal.SIGKILL)
+                page.get_by_text(LOST).wait_for()
+                has_come_back(page, "6.5")
+        finally:
+            proxy.terminate()
+            proxy.wait()
+
+
+
+def test_without_webgl_the_top_is_drawn_flat(page, server):
+    page.add_init_script("""const real = HTMLCanvasElement.prototype.getContext
+        HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
+            return kind.startsWith("webgl") ? null : real.call(this, kind, ...more) }""")
+    page.goto(server)
+    page.get_by_text("no WebGL, so the top is drawn flat").wait_for(timeout=BACK)
+    start = page.evaluate("__tippe.flat.t")
+    page.wait_for_function("t => __tippe.flat.t != t", arg=start)
+    page.get_by_label("Pause").first.click()
+    page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
+        .filter((m) => m.type == "Span" && m.level == "overlay")
+        .every((m) => Math.abs(m.location - __tippe.flat.t) < 1e-6)""")
+
+
+def test_no_tab_asks_another_machine(page, server):
+    asked = []
+    page.on("request", lambda request: asked.append(request.url))
+    Visit(page, server)
+    for tab in page.locator("[role=tab]").all():
+        tab.click()
+        page.wait_for_function("Bokeh.documents[0].is_idle")
+        page.wait_for_load_state("networkidle")
+    assert len(asked) > 10
+    assert [url for url in asked if not url.startswith((server.rsplit("/", 1)[0], "data:", "blob:"))] == []
