@@ -540,6 +540,10 @@ class ThreePlanes:
 
         views = {name: control.view for name, control in self._controls.items()}
         self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
+        self._numbers = {
+            law: pn.Column(*(views[name] for name in names), sizing_mode="stretch_width", margin=0)
+            for law, names in NUMBERS.items()
+        }
         self._bar = pmui.LinearProgress(value=0, variant="determinate", sizing_mode="stretch_width", margin=(10, 8))
         stop = pmui.Button(label="Stop", name="stop", **BUTTON)
         stop.on_click(lambda event: self._planes.stop())
@@ -558,7 +562,7 @@ class ThreePlanes:
             views["seconds"],
             self._switch("law", {"Coulomb, sticks": "coulomb", "viscous": "viscous", "smoothed": "smoothed"}),
             self._said["law"],
-            *(views[name] for names in NUMBERS.values() for name in names),
+            *self._numbers.values(),
             words(
                 "Where the table would have to pull (<i>F</i><sub>z</sub> = 0); it lands without a bounce:",
                 margin=(6, 14, 0, 16),
@@ -644,9 +648,8 @@ class ThreePlanes:
         """Which controls there are for this way to start and this law."""
         planes = self._planes
         self._starts.visible = planes.by == "spin"
-        for law, names in NUMBERS.items():
-            for name in names:
-                self._controls[name].view.visible = planes.law == law
+        for law, numbers in self._numbers.items():
+            numbers.visible = planes.law == law
 
     def _show(self):
         planes, picture = self._planes, self._planes.picture
