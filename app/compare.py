@@ -20,7 +20,7 @@ from app.plots import FAINT, INK, plain
 from app.workshop import alert, field, typed, words
 from tippe_core import TopError
 
-FAMILIES = {"none": "", "presets": "presets", "ordinary": "pegs", "other a": "a", "other I₃": "I3"}
+FAMILIES = {"presets": "presets", "ordinary": "pegs", "other a": "a", "other I₃": "I3"}
 FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "8px 12px", "align-items": "center"}
 SMALL = 158  # px: two of them beside each other on a phone
 PICTURE_EVERY = 0.5  # s
@@ -87,7 +87,7 @@ def small_figure(shown, x_range, y_range):
 
 
 class Compare:
-    """The tab's content. Nothing is computed before a person asks for it."""
+    """The tab's content; show() and compute() fill it."""
 
     # what a map is made with: name, symbol
     FIELDS = (("I1", "<i>I</i><sub>1</sub>"), ("K_R", "<i>K</i><sub>R</sub>"), ("mu_s", "<i>μ</i><sub>s</sub>"))
@@ -150,23 +150,25 @@ class Compare:
                       styles=FLOW),
             self.bar,
             self.said,
+            words("<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>"),
             pn.pane.Bokeh(self.map, sizing_mode="stretch_width", height=330, margin=0),
+            words('<div style="text-align: center"><i>a</i>/<i>R</i></div>'),
             words('<div class="note">The ring is the explorer’s own top, where its <i>I</i><sub>1</sub> is the '
                   "map’s.</div>"),
         ]  # fmt: skip
 
     def show(self, which):
         """The small figures: of the "presets" or of "pegs", all with one spin, or of this top's neighbours, at this
-        K_R; "" none."""
+        K_R."""
         explorer = self._explorer
-        tops = {"": list, "presets": presets, "pegs": pegs}.get(
+        tops = {"presets": presets, "pegs": pegs}.get(
             which, lambda: [(name, top, explorer.K_R) for name, top in neighbours(explorer.scene.top, which)])()
         shown = [region(name, top, K_R, explorer.mu_s) for name, top, K_R in tops]
         reach = max((np.nanmax(one.lift.theta_outer, initial=0.0) for one in shown), default=0.0)
         end = min(np.pi, max(np.pi / 2, 1.03 * reach))
         most = max((np.nanmax(one.height, initial=0.0) for one in shown), default=0.0) or 1.0
         ranges = Range1d(0, end), Range1d(0, 1.02)
-        self.key.object = key_words(explorer.mu_s) if shown else ""
+        self.key.object = key_words(explorer.mu_s)
         pairs = [pn.Column(_pane(waterfall(one, end, most)), _pane(small_figure(one, *ranges)), width=SMALL, margin=0)
                  for one in shown]  # fmt: skip
         self.rows.objects = [pn.Column(*pairs, sizing_mode="stretch_width", margin=0, styles=FLOW)]

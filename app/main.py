@@ -17,6 +17,26 @@ from app.three_planes import ThreePlanes
 from app.workshop import Measure, Workshop
 
 
+STILL = {"@media (prefers-reduced-motion: reduce)": {"&, & *": {"transition": "none !important",
+                                                                "animation": "none !important"}}}  # fmt: skip
+THEME = {
+    "components": {
+        f"Mui{part}": {"styleOverrides": {"root": STILL}}
+        for part in (
+            "ButtonBase",
+            "TouchRipple",
+            "Switch",
+            "Tabs",
+            "Paper",
+            "Backdrop",
+            "Drawer",
+            "Dialog",
+            "OutlinedInput",
+        )
+    }
+}
+
+
 def on_a_phone():
     """By what the browser says of itself: there the controls cover the pictures, and would have to close first."""
     return "mobi" in pn.state.headers.get("User-Agent", "").lower()
@@ -45,6 +65,8 @@ def planes_view(explorer, roll, builder):
 
 def family_view(explorer):
     compare = Compare(explorer)
+    compare.show(compare.family.value)
+    compare.compute()
     return grid(
         card("Compare tops: Figs. 5 and 6 of a family", *compare.figures_view, height="max-content"),
         card("What friction leaves, of many tops", *compare.map_view, height="max-content"),
@@ -95,7 +117,7 @@ def page():
         title="Tippe top explorer",
         sidebar=[*roll.sidebar, Connection(width=0, height=0, margin=0)],
         sidebar_open=not on_a_phone(),
-        header=share.header,
+        header=[*share.header, roll.guide],
         main=[
             *share.main,
             *tabs(
@@ -110,8 +132,11 @@ def page():
             ),
         ],
         sidebar_width=320,
+        sidebar_resizable=False,
         theme_toggle=False,
+        theme_config={"light": THEME, "dark": THEME},
         busy_indicator=None,
+        stylesheets=[".MuiLinearProgress-root { display: none }"],  # it stays there, and has no name
     )
 
 
