@@ -351,6 +351,11 @@ class Socket(WSHandler):
         try:
             if self.ws_connection is not None and not self.ws_connection.is_closing():
                 await context.create_session_if_needed(get_session_id(token), self.request, token)
+                reason = failure(context.application)
+                if reason:
+                    log.error("a bug: a page could not be made: %s", reason)
+                    self._refuse(4000, "The page could not be made.")
+                    return
                 prepare(context.get_session(get_session_id(token)).document)
                 await super()._async_open(token)
         finally:
@@ -600,6 +605,13 @@ def serve(settings, sockets, parent=None):
     loop.start()
 
 
+def failure(application):
+    """Why the last page could not be made, or None. Panel keeps it, and would show it to all who come after."""
+    runner = application.handlers[0]._main_handler._runner
+    reason, runner._failed, runner._error, runner._error_detail = runner.error_detail, False, None, None
+    return reason
+
+
 def prepare(document):
     """What Panel does to the session that it writes a page from, and a session that is made from a token lacks."""
     document._template_variables["dist_url"] = LOCAL_DIST
@@ -611,8 +623,9 @@ def warm(application, settings):
     """One session that is the template of all pages, made before the first visitor comes."""
     pn.config.reuse_sessions, pn.config.session_key_func = True, lambda request: "page"
     session = generate_session(application)
-    if not session.document.roots:
-        raise SystemExit("The page could not be made; the reason stands above.")
+    reason = failure(application)
+    if reason:
+        raise SystemExit(reason)
     with set_curdoc(session.document):
         pn.state._session_key_funcs[f"{settings.prefix}/app"] = pn.config.session_key_func
         pn.state._sessions["page"] = session

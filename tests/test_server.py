@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -159,3 +160,8 @@ def test_all_workers_end_with_the_first_process(how, tmp_path):
         until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers) and not answers(server.url))
         assert how == signal.SIGKILL or (server.process.returncode == 0 and "stopping" in server.log)
         assert time.monotonic() - start < 20
+
+
+def test_the_docs_list_every_setting():
+    text = (ROOT / "docs/DEPLOY.md").read_text(encoding="utf-8")
+    assert all(f"| TIPPE_{item.name.upper()} |" in text for item in fields(Settings))

@@ -54,7 +54,7 @@ class Visitor:
             if cookies:
                 headers = {**(headers or {}), "Cookie": "; ".join(cookie.split(";")[0] for cookie in cookies)}
         parts = urlsplit(url)
-        request = HTTPRequest(f"ws://{parts.netloc}{parts.path}/ws", request_timeout=300, connect_timeout=300,
+        request = HTTPRequest(f"ws://{parts.netloc}{parts.path}/ws?{parts.query}", request_timeout=300, connect_timeout=300,
                               headers={"Origin": f"http://{parts.netloc}", **(headers or {})})  # fmt: skip
         visitor = cls(await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**27))
         kind, _, _ = await visitor.receive()
