@@ -145,6 +145,7 @@ RANGES = {
 }
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
+WORST = ("rolls all along", "would slip on the way", "would lift off on the way")
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
 PRINTED = ". The paper prints about 20; its equation (31) gives this."
 ENERGY_MARKS = [[0, "steady"], [1, "slips"], [2, "lifts off"]]
@@ -314,7 +315,7 @@ class Controls:
     def _notes(scene):
         spin, marks = scene.upright_spin, scene.marks
         turns = spin * scene.scales.angular_velocity / (2 * math.pi)
-        worst = ("rolls all along", "would slip on the way", "would lift off on the way")[int(scene.regime.max())]
+        worst = WORST[int(scene.regime.max())]
         inner, outer = scene.turning
         said = "".join(f" {html.escape(note)}" for note in scene.notes)
         limits = " · ".join(

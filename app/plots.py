@@ -143,6 +143,29 @@ TOOLTIP = """
 """
 
 
+# To the ear a canvas is a picture with a name.
+NAME_CANVAS = """
+const {el} = Bokeh.index.find_one(fig) ?? {}
+if (!el) return
+el.setAttribute("role", "img")
+el.setAttribute("aria-label", label)
+el.dataset.figure = fig.name
+"""
+LABELS = {
+    "plane": "Figure 6: the tilts and values of Jellett’s constant of the motions that roll",
+    "theta": "The tilt over time",
+    "normal": "The normal force over time",
+    "ratio": "Friction over normal force, over time",
+    "constants": "The three constants over time",
+    "phase": "Phase portrait: the rate of the tilt over the tilt",
+    "f": "The rate of the tilt squared over the tilt",
+    "potential": "Effective potential over the tilt",
+    "track": "The track of the contact point, from above",
+    "ring": "The track, unrolled",
+    "force": "The force of friction in the disc of what the table can hold",
+}
+
+
 def plain(**options):
     """A figure without a frame, in the page's own type; nothing on it is logged or asks the server."""
     fig = figure(
@@ -162,6 +185,9 @@ def plain(**options):
     fig.axis.major_label_text_color = INK
     fig.axis.major_label_text_font_size = "12px"
     fig.axis.major_tick_in = 0
+    if fig.name:
+        label = LABELS.get(fig.name, fig.name.replace("-", " "))
+        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "label": label}, code=NAME_CANVAS))
     return fig
 
 

@@ -8,8 +8,9 @@ import panel_material_ui as pmui
 
 from app.cards import PLAIN, card, grid, section, swatch, words
 from app.colours import COLOURS
-from app.controls import SPIN, Controls, named
+from app.controls import SPIN, WORST, Controls, named
 from app.explorer import least_energy
+from app.guide import Guide
 from app.look import Look
 from app.pacing import Pacer, at_once
 from app.plots import Motion, PlaneFigure, TimeFigures
@@ -79,6 +80,17 @@ def kept_words(scene):
         '<div class="axis key">the three constants, recomputed from the motion, vary by less than '
         f"{max(drift, 1e-16):.0e}"
         "</div>"
+    )
+
+
+def spoken(scene):
+    """What the top does, for the ear."""
+    inner, outer = np.degrees(scene.turning)
+    turns = scene.upright_spin * scene.scales.angular_velocity / (2 * np.pi)
+    slips = f" It slips from an energy of {scene.marks.slip:.4g} M g R." if np.isfinite(scene.marks.slip) else ""
+    return (
+        f"The top {WORST[int(scene.regime.max())]}. It tilts between {inner:.1f} and {outer:.1f} degrees and spins "
+        f"{turns:.1f} times a second. Its energy is {scene.constants.E:.4g} M g R.{slips}"
     )
 
 
@@ -180,6 +192,7 @@ class Roll:
         tilt = Switch("The tilt <i>θ</i> by itself", Phase, Curve, Potential)
         table = Switch("What the table sees", Track, Ring, Force)
         self.followers = []
+        self.guide = Guide(margin=(0, 8))
         self._grasp, self._held = None, {}
         self._on_picture = False  # whether the hand is on a picture, and the controls are to go with it
         # What each round of pictures draws; it grows as the cards are made.
@@ -195,6 +208,7 @@ class Roll:
             with pn.io.hold():
                 controls.show(scene)
                 kept.object, unit.object = kept_words(scene), unit_words(scene)
+                self.guide.param.update(said=spoken(scene), seconds=scene.scales.time)
                 for follow in self.followers:
                     follow(scene)
 
@@ -282,8 +296,12 @@ class Roll:
             sx=PLAIN,
         )
         look = Look(width=0, height=0, margin=0)
-        dark = pmui.Switch.from_param(look.param.dark, label="dark", size="small", margin=(4, 10, 0, 16))
-        large = pmui.Switch.from_param(look.param.large, label="large, for a projector", size="small", margin=(4, 0))
+        dark = pmui.Switch.from_param(
+            look.param.dark, label="dark", description="", size="small", margin=(4, 10, 0, 16)
+        )
+        large = pmui.Switch.from_param(
+            look.param.large, label="large, for a projector", description="", size="small", margin=(4, 0)
+        )
         self.sidebar = [
             section("The motion"),
             *controls.motion,

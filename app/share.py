@@ -207,7 +207,8 @@ class Share:
         self.undo = self._button("↶", "Undo (Ctrl+Z)", lambda event: self.keep.undo())
         self.redo = self._button("↷", "Redo (Ctrl+Shift+Z)", lambda event: self.keep.redo())
         self.share = pmui.Button(
-            label="Share", size="small", variant="outlined", color="light", margin=(0, 4), sx=PLAIN["& button"]
+            label="Share", size="small", variant="outlined", color="light", margin=(0, 4),
+            sx=PLAIN["& button"] | {"color": "#fff"},
         )
         self.share.on_click(self._open)
         self._dialog = pmui.Dialog(title="Share and save", title_variant="h6", show_close_button=True,

@@ -41,7 +41,7 @@ export const style = `
 .bar .shows { display: flex; flex-wrap: wrap; gap: 5px; }
 .bar .shows label { display: inline-flex; align-items: center; gap: 5px; padding: 0 8px; height: 26px; border-radius: 999px; font-size: calc(12px * var(--type, 1));
   border: 1px solid var(--line); cursor: pointer; white-space: nowrap; user-select: none; }
-.bar .shows label:not(:has(input:checked)) { opacity: 0.6; border-style: dashed; }
+.bar .shows label:not(:has(input:checked)) { opacity: 0.75; border-style: dashed; }
 .bar .shows input { position: absolute; opacity: 0; width: 1px; height: 1px; }
 .bar .shows label:has(input:focus-visible) { outline: 2px solid #0072B2; outline-offset: 2px; }
 .bar .swatch { width: 11px; height: 11px; border-radius: 3px; background: var(--swatch); }
@@ -71,3 +71,22 @@ export function frameIn(el) {
   el.replaceChildren(sheet, root);
   return { root, picture };
 }
+
+export const guideStyle = `
+:host { font: calc(14px * var(--type, 1))/1.45 system-ui, sans-serif; display: flex; gap: 4px; align-items: center; }
+[hidden] { display: none !important; }
+button { font: inherit; color: inherit; background: transparent; border: 1px solid currentColor; border-radius: 6px; cursor: pointer;
+  min-width: 34px; height: calc(34px * var(--type, 1)); padding: 0 10px; }
+button:hover { background: color-mix(in srgb, currentColor 12%, transparent); }
+button:focus-visible { outline: 2px solid currentColor; outline-offset: 2px; } h2 { outline: none; }
+.head-button { color: #fff; }
+dialog, .stop { color: var(--ink, #22303c); background: var(--card, #fff); border: 1px solid var(--edge, #7b8794); border-radius: 10px; padding: 14px 18px;
+  box-shadow: 0 6px 24px #0006; box-sizing: border-box; max-width: min(560px, calc(100vw - 28px)); }
+dialog::backdrop { background: #0008; }
+h2 { font-size: 1.1em; margin: 0 0 6px; outline-offset: 4px; }
+table { border-collapse: collapse; margin: 0 0 12px; } th, td { text-align: left; padding: 4px 14px 4px 0; vertical-align: top; font-weight: normal; } th { font-weight: 600; }
+.stop { position: fixed; z-index: 3000; width: min(320px, calc(100vw - 28px)); } .stop p { margin: 0 0 10px; }
+.stop div { display: flex; align-items: center; gap: 8px; } .stop .count { flex: 1; color: var(--faint, #5b6875); }
+.stop .next { background: #0072B2; border-color: #0072B2; color: #fff; }
+.ring { position: fixed; z-index: 2999; border: 3px solid #0072B2; border-radius: 10px; box-sizing: border-box; pointer-events: none; box-shadow: 0 0 0 2px #fff; }
+`;

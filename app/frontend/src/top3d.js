@@ -109,7 +109,6 @@ export function renderTop3D({ model, el, view }) {
   tips.momentum.element.style.color = "#9a6a00";
 
   const verdict = addText(picture, "verdict");
-  verdict.setAttribute("role", "status");
   const scalesText = addText(picture, "scales");
 
   const player = new Player({
@@ -222,7 +221,7 @@ export function renderTop3D({ model, el, view }) {
     const { t, playing } = player;
     if (!drawn || drawn.t !== t || drawn.playing !== playing) {
       drawn = { t, playing, index: player.index };
-      const detail = { t, index: player.index, playing };
+      const detail = { t, index: player.index, playing, verdict: word };
       if (leader() === member) window.dispatchEvent(new CustomEvent(`tippe:clock${suffix}`, { detail }));
     }
   }
@@ -356,6 +355,13 @@ export function renderTop3D({ model, el, view }) {
   }
   const onSeek = ({ detail: { t, held } }) => player.seek(t, held);
   window.addEventListener(`tippe:seek${suffix}`, onSeek);
+  // The page's own keys, for the tops that are on the page as it is.
+  const onCommand = ({ detail: { toggle, step } }) => {
+    if (!picture.clientWidth || leader() !== member) return;
+    if (toggle) player.setPlaying(!player.playing);
+    else player.step(step);
+  };
+  window.addEventListener("tippe:command", onCommand);
   const onHighlight = ({ detail }) => {
     highlight = detail;
     pointedTip.element.textContent = detail?.label ?? "";
@@ -394,6 +400,7 @@ export function renderTop3D({ model, el, view }) {
     onFrames.cancel();
     clearTimeout(told);
     window.removeEventListener(`tippe:seek${suffix}`, onSeek);
+    window.removeEventListener("tippe:command", onCommand);
     window.removeEventListener(`tippe:highlight${suffix}`, onHighlight);
     if (model.clock) clocks.set(model.clock, others());
     if (window.__tippe.top3d === report) delete window.__tippe.top3d;
