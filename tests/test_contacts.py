@@ -122,6 +122,18 @@ def test_rolling_on_the_stem():
     np.testing.assert_allclose((moved.com[i + 1] - 2 * moved.com[i] + moved.com[i - 1]) / h**2, F, rtol=0, atol=5e-3)
 
 
+def test_slip_of_the_stem_goes_through_zero():
+    """Falling in a plane from its edge the stem slips one way, then the other, without a halt."""
+    moved = slide(PAPER, State(2.5, 0.5, 0, 0), Coulomb(0.1), np.linspace(0, 2, 201), rtol=1e-11, edge=EDGE)
+    (t0, what), *_ = moved.events
+    assert what == "slips"
+    along = moved.slip[:, 1]
+    before, after = along[(moved.t > 0) & (moved.t < t0)], along[moved.t > t0]
+    assert np.all(before * before[0] > 0) and np.all(after * before[0] < 0)
+    np.testing.assert_allclose(sum(moved.ledger), moved.energy[0], rtol=0, atol=1e-8)
+    np.testing.assert_allclose(np.abs(moved.force[1:, 1]), 0.1 * moved.force[1:, 2], rtol=1e-9)
+
+
 HANDING = [(State(1.9, 0, 0, -3.0), VISCOUS), (State(1.9, 0, 0, -1.0), Coulomb(0.3, 0.4)),
            (State(1.5, 3.0, 5.0, 3.0), Coulomb(0.3, 0.35)), (State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0)),
            (State(2.5, 0, 0, -9.0), SmoothedCoulomb(0.3, 0.1))]  # fmt: skip

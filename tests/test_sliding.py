@@ -247,6 +247,23 @@ def test_a_high_top_lets_go_from_rest():
     np.testing.assert_allclose(moved.com, motion.com, rtol=0, atol=1e-8)
 
 
+def test_slip_that_goes_through_zero_turns_round():
+    """A lean top falls in a plane: its slip can only turn round through 0, where rolling would need more friction."""
+    top, times = Top(-1.2, 1.5, 0.1), np.linspace(0, 4, 41)
+    moved = slide(top, State(1.0, 0, 0, 0), Coulomb(0.1), times, rtol=1e-11)
+    (t0, what), (t1, again) = moved.events
+    assert what == again == "slips" and 2.7 < t0 < 2.71
+    along = (moved.slip @ [1, 1j] * np.exp(1j * moved.phi)).imag  # in space: the axes turn over at the pole
+    assert np.all(along[(times > 0) & (times < t0)] > 0) and np.all(along[(times > t0) & (times < t1)] < 0)
+    q, still, first, second = moved.quaternion[0], np.zeros(3), times[times < t0], times[(times > t0) & (times < t1)]
+    there = sb.integrate(top, lambda _: sb.UP[[0, 2, 1]] * 0.1, q, still, still, moved.com[0], np.append(first, t0))
+    np.testing.assert_allclose(moved.com[: len(first)], there.com[:-1], rtol=0, atol=1e-8)
+    on = sb.integrate(top, lambda _: sb.UP[[0, 2, 1]] * -0.1, there.quaternion[-1], there.omega[-1],
+                      there.velocity[-1], there.com[-1], np.append(t0, second))  # fmt: skip
+    np.testing.assert_allclose(moved.com[len(first) : len(first) + len(second)], on.com[1:], rtol=0, atol=1e-8)
+    np.testing.assert_allclose(sum(moved.ledger), moved.energy[0], rtol=0, atol=1e-8)
+
+
 def test_events_are_located_to_1e_9():
     """Rolling lets go where the exact motion reaches the limit, slipping ends where the slip of a finer run is 0."""
     friction, state = Coulomb(0.3, 0.5), rolling_start(7.0, 1.3)

@@ -277,8 +277,11 @@ class Body:
                         break
             speeds = self._speeds(y, modes)
             for i, speed in speeds.items():
-                if event is None and speed < min(before[i], 1e5 * self.tolerance) and self._may_stick(y, modes, i):
-                    y, event = self._halted(y, modes, i), ("sticks", i)
+                if event is None and speed < min(before[i], 1e5 * self.tolerance):
+                    if self._may_stick(y, modes, i):
+                        y, event = self._halted(y, modes, i), ("sticks", i)
+                    elif speed < 10 * self.tolerance:  # through 0 without a halt
+                        y, event = self._halted(y, modes, i), ("slips", i)
             count = int(np.searchsorted(times, min(y[12], end), "right"))
             if count > done:
                 rows.append(self._at(times[done:count], dense, modes) if scaled else dense(times[done:count] - begin).T)

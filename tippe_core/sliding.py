@@ -60,7 +60,8 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     or None, a whole sphere. A start tilted further than where it touches stands on the edge.
     progress: called now and then with the time reached; what it raises stops the run and passes through.
 
-    events: (time, what), located to 1e-9: "sticks" and "slips" (Coulomb), "lifts off" and "lands", or "lands on its
+    events: (time, what), located to 1e-9: "sticks" and "slips" (Coulomb; "slips" also where the slip goes through 0
+    without a halt and turns round), "lifts off" and "lands", or "lands on its
     stem"; "stem touches" or "ball touches" (the other carries on), "stem leaves", "stands on its stem" (the ball has
     left), "falls back on its ball". How many of ever smaller bounces between the two are listed depends on rtol. The
     Trajectory ends early, without a sample at the event, with
@@ -310,10 +311,13 @@ class _Run:
                     times = times[times <= z[12]]
             if len(path) % 64 == 0:
                 self.progress(float(z[12]))
-            if event is None and self.sticks and z[8] < min(last[8], LOG_STILL) and self._holds(z):
-                left = exp(z[8]) * (z[12] - last[12]) / (exp(last[8]) - exp(z[8]))  # until u = 0
-                z = z + left * np.array(self._rates(0.0, z)) * (1 + SLOW / exp(z[8]))
-                z[8], event = -np.inf, "sticks"
+            if event is None and self.sticks and z[8] < min(last[8], LOG_STILL):
+                holds, gone = self._holds(z), z[8] < 2 * LOG_STILL  # near the limit of friction it may hold yet
+                if not gone and holds:
+                    left = exp(z[8]) * (z[12] - last[12]) / (exp(last[8]) - exp(z[8]))  # until u = 0
+                    z = z + left * np.array(self._rates(0.0, z)) * (1 + SLOW / exp(z[8]))
+                if gone or holds:
+                    z[8], event = -np.inf, "sticks" if holds else "slips"
             count = int(np.searchsorted(times, z[12], "right"))
             if count > done:
                 rows.append(self._at(times[done:count], dense or solver.dense_output()))
