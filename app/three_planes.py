@@ -44,7 +44,7 @@ EVENTS = {
     "stem touches": "its stem touches",
     "rim touches": "its rim touches",
     "stands upright": "it stands flat on the end of its stem",
-    "chatters": "it chatters, with more than 1000 contacts in a row",
+    "too many events": "1000 events (sticks, slips, hops) have passed, and it is followed no further",
 }
 # Below this a drift is that of the computation; what physics changes changes by more.
 ROUNDING = 1e-7

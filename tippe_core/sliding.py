@@ -69,7 +69,7 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     "rim touches" where the sphere's surface ends before anything else touches (an edge on the sphere, as of a cut ball
     without a stem): what comes then is not computed,
     "stands upright" on a stem within 1e-3 rad of its flat end, where friction is no longer that of a point,
-    "chatters" where more than 1000 events follow each other.
+    "too many events" after 1000 of them: friction at its limit that chatters, or a top that hops on.
     regime: "slip", or "roll" where Coulomb's friction holds the top; on the sphere that part is the exact one of
     rolling.py. heat: the work of friction and of impacts.
     Raises TopError for bad input, for friction so strong that no normal force balances it (Painleve), and for more
@@ -184,7 +184,7 @@ class _Run:
             if event in ("stands upright", "rim touches") or (not now and not self.flies):
                 break
             if len(events) >= MOST_EVENTS:
-                events.append((float(y[12]), "chatters"))
+                events.append((float(y[12]), "too many events"))
                 break
             modes = now
         return _joined(self.top, stretches, tuple(events))
