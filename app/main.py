@@ -16,7 +16,6 @@ from app.teach import student_page
 from app.three_planes import ThreePlanes
 from app.workshop import Measure, Workshop
 
-
 STILL = {"@media (prefers-reduced-motion: reduce)": {"&, & *": {"transition": "none !important",
                                                                 "animation": "none !important"}}}  # fmt: skip
 THEME = {
@@ -136,7 +135,7 @@ def page():
         theme_toggle=False,
         theme_config={"light": THEME, "dark": THEME},
         busy_indicator=None,
-        stylesheets=[".MuiLinearProgress-root { display: none }"],  # it stays there, and has no name
+        stylesheets=[".MuiLinearProgress-root { display: none !important }"],  # it stays there, and has no name
     )
 
 

@@ -549,7 +549,8 @@ class ThreePlanes:
         stop.on_click(lambda event: self._planes.stop())
         self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
         self._stem = pmui.Checkbox.from_param(
-            self._planes.param.stem, label="the stem’s end can touch", size="small", margin=(0, 14, 0, 6)
+            self._planes.param.stem, label="the stem’s end can touch", description="", size="small",
+            margin=(0, 14, 0, 6),
         )
         landing = {"the motion ends": "stop", "it flies and lands": "plastic"}
         controls = card(

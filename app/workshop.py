@@ -25,6 +25,12 @@ FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
 LARGEST_FILE = 65_536
 PLAIN = {"textTransform": "none"}
+UNSEEN_LABEL = {
+    "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
+                             "clipPath": "inset(50%)"},
+    "& legend": {"display": "none"},
+    "& fieldset": {"top": 0},
+}  # fmt: skip
 FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
 
 
@@ -43,7 +49,9 @@ def symbol(name):
 
 
 def field(value, **options):
-    return pmui.TextInput(value=value, label="", size="small", sx=FIELD, **({"width": 84, "margin": 0} | options))
+    """label: for the ear; beside it stands the same to be seen."""
+    options = {"width": 84, "margin": 0, "label": options["tags"][0]} | options
+    return pmui.TextInput(value=value, size="small", sx=FIELD | UNSEEN_LABEL, **options)
 
 
 def grid(*content):
@@ -193,12 +201,13 @@ class Knob:
     def __init__(self, dimension, pull):
         self.dimension, self._pull, self._silent = dimension, pull, False
         self.slider = pmui.FloatSlider(
-            value=dimension.low, start=dimension.low, end=dimension.high, step=dimension.step, label="",
+            value=dimension.low, start=dimension.low, end=dimension.high, step=dimension.step,
+            label=f"{dimension.words}, {dimension.unit}".strip(", "), sx=UNSEEN_LABEL,
             show_value=False, size="small", tooltips=False,
             sizing_mode="stretch_width", margin=(-4, 10, -4, 10), tags=[dimension.name],
         )  # fmt: skip
         at_once(self.slider, "value", "value_throttled")
-        self.entry = field("", tags=[dimension.name])
+        self.entry = field("", label=f"{dimension.words}, {dimension.unit}".strip(", "), tags=[dimension.name])
         self.words = words("")
         unit = f", {dimension.unit}" if dimension.unit else ""
         title = words(
@@ -250,8 +259,8 @@ class Pieces:
 
     def __init__(self, builder):
         self.builder, self._exact = builder, 0.0
-        self.kind = pmui.Select(label="", options=["ball", "cylinder", "cone"], value="ball", size="small", width=110,
-                                margin=0)  # fmt: skip
+        self.kind = pmui.Select(label="kind of piece", sx=UNSEEN_LABEL, options=["ball", "cylinder", "cone"],
+                                value="ball", size="small", width=110, margin=0)  # fmt: skip
         self.entries = {name: field(value, width=58, tags=[f"piece {name}"]) for name, value in self.FIELDS}
         self.density = field("", width=78, tags=["piece density"])
         self.words = words("")

@@ -40,7 +40,7 @@ export function renderGuide({ model, el }) {
   const layer = document.createElement("div"); // over the page, and not within any part of it
   layer.attachShadow({ mode: "open" }).innerHTML = `<style>${guideStyle}</style>
     <dialog class="list" aria-labelledby="title"><h2 id="title">Keys</h2><table>${KEYS.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
-      <button class="close">Close</button></dialog>
+      <button class="close">Close</button> <button class="again">Take the tour</button></dialog>
     <div class="ring" hidden></div>
     <div class="stop" role="dialog" aria-labelledby="name" aria-describedby="what" hidden><h2 id="name" tabindex="-1"></h2><p id="what"></p>
       <div><span class="count"></span><button class="skip">Skip</button><button class="back">Back</button><button class="next">Next</button></div></div>`;
@@ -98,6 +98,10 @@ export function renderGuide({ model, el }) {
   }
   el.querySelector(".keys").onclick = openList;
   part(".close").onclick = () => list.close();
+  part(".again").onclick = () => {
+    list.close();
+    begin(document.activeElement);
+  };
   list.onclick = (event) => event.target === list && list.close();
 
   // The tour
@@ -136,7 +140,7 @@ export function renderGuide({ model, el }) {
   function place() {
     if (stop.hidden) return;
     if (!target?.isConnected) target = find(STOPS[at][0]);
-    const box = target?.getBoundingClientRect(), { offsetWidth: wide, offsetHeight: high } = stop, GAP = 14;
+    const seen = target?.getBoundingClientRect(), box = seen?.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop, GAP = 14;
     ring.hidden = !box;
     if (!box) return Object.assign(stop.style, { left: `${(innerWidth - wide) / 2}px`, top: `${innerHeight - high - GAP}px` });
     Object.assign(ring.style, { left: `${box.left - 6}px`, top: `${box.top - 6}px`, width: `${box.width + 12}px`, height: `${box.height + 12}px` });
