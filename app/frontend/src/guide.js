@@ -7,7 +7,7 @@ const KEYS = [
   ["Tab, Shift+Tab", "to the next control, or the one before"],
   ["← → in a slider", "one step; Page Up, Page Down ten; Home, End to its ends"],
   ["← → on the axis of the paused top", "tilt it"],
-  ["← → ↑ ↓ on a picture in 3-D", "turn it; + and − zoom"],
+  ["Shift and ← → ↑ ↓ on a picture in 3-D", "turn it; + and − zoom"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["?", "this list"],
 ];

@@ -14,6 +14,8 @@ const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
 const MAX_PIXEL_RATIO = 2;
 const SAMPLES = 4;
 const POLL_MS = 8;
+const KEY_TURN = 0.1; // rad
+const KEY_ZOOM = 1.1;
 
 // There, what a person moves on the page comes first: while a hand is on a control, pictures in 3-D are drawn only of what
 // is new, and without what takes long: fine pixels, a new shadow, long wide lines.
@@ -74,6 +76,8 @@ export class Stage {
       { capture: true, passive: true },
     );
 
+    canvas.addEventListener("keydown", (event) => this.key(event));
+
     canvas.addEventListener("webglcontextlost", () => {
       if (this.disposed) return;
       this.lost = true;
@@ -93,6 +97,22 @@ export class Stage {
       this.invalidate();
     });
     this.seeing.observe(holder);
+  }
+
+  // Shift and an arrow turn the picture, + and - zoom: what a drag and the wheel do.
+  key(event) {
+    const { camera, controls } = this, { x, y, z } = camera.position.clone().sub(controls.target);
+    const turn = event.shiftKey && { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    const zoom = { "+": 1 / KEY_ZOOM, "=": 1 / KEY_ZOOM, "-": KEY_ZOOM }[event.key];
+    if (!turn && !zoom) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const [across, down] = turn || [0, 0], far = Math.hypot(x, y, z) * (zoom ?? 1);
+    const azimuth = Math.atan2(y, x) + KEY_TURN * across, from = Math.acos(z / Math.hypot(x, y, z)) + KEY_TURN * down;
+    const polar = Math.min(Math.max(from, 0.05), controls.maxPolarAngle), s = far * Math.sin(polar);
+    camera.position.set(s * Math.cos(azimuth), s * Math.sin(azimuth), far * Math.cos(polar)).add(controls.target);
+    controls.update(); // within its limits
+    this.invalidate();
   }
 
   note(sentence) {
