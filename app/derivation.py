@@ -334,7 +334,7 @@ LINES = (
                     constant(m, -m.a**2 * m.c[0] / (m.I1 + m.a**2) * m.L3_pointed[0])), "L_z a theta I1 L_3"),
     Line("(29)", r"L_{CZ}=C\quad(R\to0)",
          lambda m: (m.Lz_pointed + m.a**2 * (m.Lz_pointed - m.L3_pointed * m.c) / m.I1,
-                    constant(m, -m.a**2 * m.L3_pointed[0] * m.c[0] / m.I1)), "L_z a"),
+                    constant(m, -m.a**2 * m.L3_pointed[0] * m.c[0] / m.I1)), "L_z"),
     Line("(30)", rf"{SIN}\,{W2}+\frac{{I_3}}{{I_1}}({COS}-a){W3}=K_J",
          lambda m: (m.s * m.along(m.e2) + m.I3 / m.I1 * (m.c - m.a) * m.along(m.axis), constant(m, m.constants.K_J)),
          "theta w2 I3 I1 a w3 K_J"),

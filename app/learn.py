@@ -267,7 +267,8 @@ class Learn(param.Parameterized):
         self.pair = pn.Column(grid(steps, lines, beside), sizing_mode="stretch_width", margin=0)
         self.others = pn.Column(sizing_mode="stretch_width", margin=0)
         self._made = {}
-        return pn.Column(self.sections, self.pair, self.others, sizing_mode="stretch_width", margin=0)
+        return pn.Column(self.sections, self.pair, self.others, sizing_mode="stretch_width", margin=0,
+                         css_classes=["learn"])  # fmt: skip
 
     def _look(self):
         """Shows the section; the teacher's page and the history are made when first looked at."""
@@ -275,12 +276,11 @@ class Learn(param.Parameterized):
         makers = {"teach": lambda: teach_view(self._explorer), "history": history_view}
         if section in makers and section not in self._made:
             self._made[section] = makers[section]()
-        with pn.io.hold():
-            self.pair.visible = section in self.places
-            for name, place in self.places.items():
-                place.visible = name == section
-            self.others.objects = [self._made[section]] if section in makers else []
-            self.show_scene(self._explorer.scene)
+        self.pair.visible = section in self.places
+        for name, place in self.places.items():
+            place.visible = name == section
+        self.others.objects = [self._made[section]] if section in makers else []
+        self.show_scene(self._explorer.scene)
 
     def _go(self, by):
         place = lesson.NAMES.index(self.step) + by
@@ -321,36 +321,34 @@ class Learn(param.Parameterized):
     def show_scene(self, scene):
         """The pictures, and once there is a prediction the verdict, by the motion that runs now."""
         if self.section == "derivation":
-            with pn.io.hold():
-                self.picture_card.visible = self.section_card.visible = False
-                self.top.speed = ROLLING_SPEED
-                show_top(self.top, scene)
-                self.derivation.show(scene)
+            self.picture_card.visible = self.section_card.visible = False
+            self.top.speed = ROLLING_SPEED
+            show_top(self.top, scene)
+            self.derivation.show(scene)
             return
         if self.section != "lesson":
             return
         step = self.now
         guess = self.guesses.get(step.name)
         verdict, answer = lesson.judged(step, scene, guess)
-        with pn.io.hold():
-            asked = guess is not None
-            self.run.label = say("learn.page.again" if asked else "learn.page.predict")
-            self.picture_card.visible = asked
-            self.section_card.visible = step.name == "jellett"
-            if self.section_card.visible:
-                self.fig4.show(scene)
-            if answer.motion is not None and asked:
-                show_motion(self.top, scene, answer.motion)
-            else:
-                self.top.speed = ROLLING_SPEED
-                show_top(self.top, scene)
-            self.equations.objects = [equation(tex) for tex in step.tex] if asked else []
-            self.verdict.object = self.explanation.object = ""
-            if asked:
-                said = say(f"learn.verdict.{verdict}")
-                self.verdict.object = f"<div role='status' style='font-size: 15px'><b>{said}</b></div>"
-                self.explanation.object = self._explained(step, answer)
-                self.figure.show(answer.picture)
+        asked = guess is not None
+        self.run.label = say("learn.page.again" if asked else "learn.page.predict")
+        self.picture_card.visible = asked
+        self.section_card.visible = step.name == "jellett"
+        if self.section_card.visible:
+            self.fig4.show(scene)
+        if answer.motion is not None and asked:
+            show_motion(self.top, scene, answer.motion)
+        else:
+            self.top.speed = ROLLING_SPEED
+            show_top(self.top, scene)
+        self.equations.objects = [equation(tex) for tex in step.tex] if asked else []
+        self.verdict.object = self.explanation.object = ""
+        if asked:
+            said = say(f"learn.verdict.{verdict}")
+            self.verdict.object = f"<div role='status' style='font-size: 15px'><b>{said}</b></div>"
+            self.explanation.object = self._explained(step, answer)
+            self.figure.show(answer.picture)
 
     @staticmethod
     def _explained(step, answer):

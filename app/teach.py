@@ -8,7 +8,7 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 import segno
-from bokeh.models import ColumnDataSource, FactorRange
+from bokeh.models import ColumnDataSource, FactorRange, Range1d
 
 from app import lesson
 from app.cards import PLAIN, card, grid, words
@@ -43,12 +43,14 @@ def bullets(items, ordered=False):
     return f"<{kind} style='margin: 4px 0; padding-left: 20px'>{''.join(f'<li>{item}</li>' for item in items)}</{kind}>"
 
 
-def prediction(asks, labels, value=None, unit=""):
+def prediction(asks, labels, value=None):
     """The widget for a Choice or a Guess."""
     label = say("learn.page.yours")
     if isinstance(asks, lesson.Choice):
         options = {labels[key]: key for key in asks.options}
-        return pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
+        group = pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
+        group.value = value  # without one it would take the first by itself
+        return group
     start = value if value is not None else (asks.low + asks.high) / 2
     return pmui.FloatSlider(label=f"{label}, {asks.unit}" if asks.unit else label, start=asks.low, end=asks.high,
                             step=asks.step, value=start, sizing_mode="stretch_width", margin=(4, 12),
@@ -81,10 +83,9 @@ class Vote:
         self.address, self.count, self.truth = words(""), words(say("teach.vote.shut")), words("")
         self.bars = ColumnDataSource({"x": [], "votes": []})
         self.range = FactorRange()
-        self.figure = plain(y_range=self.range, name="votes")
+        self.figure = plain(x_range=Range1d(0, 4), y_range=self.range, name="votes")
         self.figure.update(sizing_mode="stretch_width", height=220, visible=False)
         self.figure.hbar(y="x", right="votes", height=0.7, source=self.bars, color=COLOURS["theta"])
-        self.figure.x_range.start = 0
         self.figure.xaxis.ticker.min_interval = 1
         self.open.on_click(lambda event: self._open())
         self.close.on_click(lambda event: self._close())
@@ -94,9 +95,11 @@ class Vote:
 
     @property
     def view(self):
-        return [words(say("teach.vote.explain")), self.which, pn.Row(self.open, self.answer, self.close, margin=0),
-                self.address, self.count, pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0),
-                self.truth]  # fmt: skip
+        buttons = pn.Row(self.open, self.answer, self.close, sizing_mode="stretch_width", margin=0,
+                         styles={"flex-wrap": "wrap"})  # fmt: skip
+        histogram = pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0)
+        explain = words(say("teach.vote.explain"))
+        return [explain, self.which, buttons, self.address, self.count, histogram, self.truth]
 
     def _plan(self):
         step = lesson.STEPS[lesson.NAMES.index(self.which.value)]
@@ -120,7 +123,7 @@ class Vote:
         )
         self.close.visible = self.answer.visible = self.figure.visible = True
         self._look()
-        self._callback = pn.state.add_periodic_callback(self._look, period=LOOK_EVERY)
+        self._callback = pn.state.curdoc.add_periodic_callback(self._look, LOOK_EVERY)
 
     def _look(self):
         votes = ROOMS.tally(self._room.code)
@@ -133,13 +136,12 @@ class Vote:
         else:
             counts, edges = np.histogram(votes, bins=BINS, range=(asks.low, asks.high))
             names = [f"{low:.4g} – {high:.4g} {asks.unit}" for low, high in pairwise(edges)]
-        with pn.io.hold():
-            self.range.factors = names[::-1]
-            self.bars.data = {"x": names, "votes": list(map(int, counts))}
-            self.figure.x_range.end = max(4, max(counts) + 1)
-            self.count.object = (
-                f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>"
-            )
+        self.range.factors = names[::-1]
+        self.bars.data = {"x": names, "votes": list(map(int, counts))}
+        self.figure.x_range.end = max(4, max(counts) + 1)
+        self.count.object = (
+            f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>"
+        )
 
     def _answer(self):
         step = lesson.STEPS[lesson.NAMES.index(self._room.step)]
@@ -156,7 +158,7 @@ class Vote:
 
     def _close(self):
         if self._callback:
-            self._callback.stop()
+            pn.state.curdoc.remove_periodic_callback(self._callback)
         self._forget()
         self._callback = self._shown = None
         self.close.visible = self.answer.visible = self.figure.visible = False
@@ -224,4 +226,5 @@ def student_page(code):
 
     send.on_click(vote)
     question = words(f"{title}<div style='font-size: 16px'>{room.question}</div>")
-    return pn.Column(question, widget, send, said, sizing_mode="stretch_width", max_width=640, margin=16)
+    return pn.Column(question, widget, send, said, sizing_mode="stretch_width", max_width=640, margin=16,
+                     css_classes=["learn"])  # fmt: skip
