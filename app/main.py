@@ -90,9 +90,16 @@ def tabs(views, keep):
     )
     makers = list(views.values())
 
-    def look(active):
+    def make(active):
         if not places[active].objects:
             places[active].objects = [makers[active]()]
+
+    def look(active):
+        # One that the address names is made when the page is there: what it computes might overtake the page itself.
+        if active and not pn.state.loaded:
+            pn.state.onload(lambda: make(active))
+        else:
+            make(active)
         for i, place in enumerate(places):
             place.visible = i == active
 
