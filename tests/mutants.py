@@ -116,7 +116,7 @@ def noticed(name, source, tests, seconds):
             sink = os.open(os.devnull, os.O_WRONLY)
             os.dup2(sink, 1)
             os.dup2(sink, 2)
-            signal.alarm(seconds)  # a motion that never ends is noticed too
+            signal.setitimer(signal.ITIMER_VIRTUAL, seconds)  # a motion that never ends is noticed too
             sys.meta_path.insert(0, Changed(name, source))
             import pytest
 
@@ -131,7 +131,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--files", nargs="*", default=FILES)
     options.add_argument("--share", type=int, default=1, help="every so many mutants only")
-    options.add_argument("--seconds", type=int, default=900, help="for the tests of one change")
+    options.add_argument("--seconds", type=int, default=900, help="of processor time for the tests of one change")
     options.add_argument("--minutes", type=float, default=float("inf"), help="then write the page with what is known")
     options.add_argument("--check", action="store_true", help="first run the tests without any change")
     options.add_argument("--log", help="a file to which results are added, and from which known ones are taken")
