@@ -8,7 +8,7 @@ import panel as pn
 import panel_material_ui as pmui
 from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Range1d, Span
 
-from app.cards import INK, PLAIN, TYPE, card, grid, swatch, words
+from app.cards import INK, PLAIN, TYPE, card, grid, progress, swatch, words
 from app.colours import COLOURS
 from app.controls import STYLE, Control
 from app.planes import FLIES, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS, SLIPS
@@ -528,6 +528,7 @@ class ThreePlanes:
         self._row = pn.Column(
             sizing_mode="stretch_width", margin=(6, 0, 0, 0),
             styles={"display": "grid", "gap": "10px"},
+            stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
         )  # fmt: skip
         plane = self._switch(
             "plane", {"rough": "rough", "smooth": "smooth", "sliding": "sliding", "compare all three": "compare"},
@@ -544,7 +545,7 @@ class ThreePlanes:
             law: pn.Column(*(views[name] for name in names), sizing_mode="stretch_width", margin=0)
             for law, names in NUMBERS.items()
         }
-        self._bar = pmui.LinearProgress(value=0, variant="determinate", sizing_mode="stretch_width", margin=(10, 8))
+        self._bar = words(progress(0, "of the motion computed"), margin=(10, 8))
         stop = pmui.Button(label="Stop", name="stop", **BUTTON)
         stop.on_click(lambda event: self._planes.stop())
         self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
@@ -642,7 +643,7 @@ class ThreePlanes:
     def _look_at_run(self):
         planes = self._planes
         if planes.elapsed > PATIENCE or self._progress.visible:
-            self._bar.value = int(100 * planes.share)
+            self._bar.object = progress(100 * planes.share, "of the motion computed")
             self._progress.visible = True
 
     def _arrange(self):
