@@ -23,6 +23,12 @@ def words(text, **options):
     return pn.pane.HTML(text, stylesheets=[TYPE], **({"sizing_mode": "stretch_width", "margin": 0} | options))
 
 
+def progress(percent, says):
+    """A bar, filled so far; says: of what, for the ear."""
+    return f'<progress max="100" value="{percent:.0f}" aria-label="{says}" style="width: 100%; accent-color: #0072B2">' \
+        "</progress>"  # fmt: skip
+
+
 def swatch(colour, text, style="solid"):
     return f'<span><span class="swatch" style="border-color: {colour}; border-top-style: {style}"></span>{text}</span>'
 

@@ -14,6 +14,7 @@ from bokeh.palettes import Viridis256
 
 from app import cards
 from app.builder import thrown
+from app.cards import progress
 from app.colours import COLOURS
 from app.family import neighbours, ordinary, pegs, presets, region, share_map
 from app.plots import FAINT, INK, plain
@@ -117,8 +118,7 @@ class Compare:
                                 major_tick_line_color=FAINT), "right")  # fmt: skip
         fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{0.000}, I₃/I₁ $y{0.00}: @share{0.00}"))
         self._show_span()
-        self.bar = pmui.LinearProgress(value=0, variant="determinate", visible=False, sizing_mode="stretch_width",
-                                       margin=(8, 0))  # fmt: skip
+        self.bar = words("", visible=False, margin=(8, 0))
         self.start = pmui.Button(label="Compute the map", **BUTTON)
         self.cancel = pmui.Button(label="Cancel", disabled=True, **BUTTON)
         self.start.on_click(self.compute)
@@ -217,7 +217,7 @@ class Compare:
         self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
         span = self._show_span()
         self.start.disabled, self.cancel.disabled = True, False
-        self.bar.visible, self.bar.value, self.said.object = True, 0, ""
+        self.bar.visible, self.bar.object, self.said.object = True, progress(0, "of the map"), ""
         self._job = span
         steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
         thread = Thread(target=self._work, args=(span, steps, pn.state.curdoc), daemon=True)
@@ -243,7 +243,7 @@ class Compare:
             self._end("")
             return
         self.shares.data = {"share": [found.share], **span}
-        self.bar.value = int(100 * done / found.share.size)
+        self.bar.object = progress(100 * done / found.share.size, "of the map")
 
     def _end(self, text):
         self._job = None
