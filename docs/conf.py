@@ -17,6 +17,7 @@ html_title = project
 html_math_renderer = "mathml"
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 2
+suppress_warnings = ["myst.xref_missing"]  # a page that is also read in the repository links beyond docs
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 plot_include_source = True

@@ -36,6 +36,8 @@ EXPLAINED = {
         "a quotient has the sign of the product",
     ("curve", "constants = f'K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) - 0.0:.10g}'"):
         "the wording of an error, -0 for 0",
+    ("curve", "B = K_J - top.I3 / top.I1 * (c - top.a) * K_R / f3_2(c, s2, top) ** 1.5"):
+        "the float that guesses where the zero with sixty digits lies, and looks for dips between grid points",
     ("curve", "s2 = 1 + c * c"): "a slope of Newton's method: more steps to the same zero, or bisection",
 }
 
