@@ -7,6 +7,7 @@ SECURITY.md say what follows from that.
 """
 
 import asyncio
+import ctypes
 import gc
 import inspect
 import logging
@@ -40,7 +41,7 @@ from panel.io.server import INDEX_HTML, ComponentResourceHandler, DocHandler, WS
 from panel.io.session import generate_session
 from panel.io.state import set_curdoc
 from tornado.httpserver import HTTPServer
-from tornado.ioloop import IOLoop
+from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
 from tornado.web import HTTPError, RequestHandler
 
@@ -60,6 +61,8 @@ LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" co
 FRESH = 120  # s in which a page that was sent may open its session
 TOKEN_LASTS = 24 * 3600
 PING = 20  # s
+TIDY = 10  # s
+LIBC = ctypes.CDLL(None) if os.name == "posix" else None
 GRACE = 3.0  # s from SIGTERM to the end, whatever still runs
 
 
@@ -145,6 +148,7 @@ class Door:
     def __init__(self, settings):
         self.settings, self.sessions = settings, {}  # Bokeh's own, by id
         self.open = Counter()  # sessions and waiting ones, by address
+        self.ended = 0  # since the memory of ended ones was given back
         self._waiting = OrderedDict()  # address -> deque of futures
         self._busy = False
 
@@ -160,6 +164,7 @@ class Door:
         self.open[address] += 1
 
     def leave(self, address):
+        self.ended += 1
         self.open[address] -= 1
         if self.open[address] <= 0:
             del self.open[address]
@@ -600,6 +605,7 @@ def serve(settings, sockets, parent=None):
         signal.signal(name, stop)
     if parent is not None:
         loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), stop()), IOLoop.READ)
+    PeriodicCallback(lambda: tidy(tornado.door), 1000 * TIDY).start()
     server.start()
     log.info("serving http://%s:%d%s/app", settings.address or "localhost", settings.port, settings.prefix)
     loop.start()
@@ -610,6 +616,16 @@ def failure(application):
     runner = application.handlers[0]._main_handler._runner
     reason, runner._failed, runner._error, runner._error_detail = runner.error_detail, False, None, None
     return reason
+
+
+def tidy(door):
+    """Gives the memory of ended sessions back to the system: their models refer to each other, and Python is slow
+    to look through what is old."""
+    if door.ended >= 20 or (door.ended and not door.sessions):
+        door.ended = 0
+        gc.collect()
+        if hasattr(LIBC, "malloc_trim"):  # glibc's
+            LIBC.malloc_trim(0)
 
 
 def prepare(document):

@@ -54,8 +54,9 @@ class Visitor:
             if cookies:
                 headers = {**(headers or {}), "Cookie": "; ".join(cookie.split(";")[0] for cookie in cookies)}
         parts = urlsplit(url)
-        request = HTTPRequest(f"ws://{parts.netloc}{parts.path}/ws?{parts.query}", request_timeout=300, connect_timeout=300,
-                              headers={"Origin": f"http://{parts.netloc}", **(headers or {})})  # fmt: skip
+        headers = {"Origin": f"http://{parts.netloc}", **(headers or {})}
+        request = HTTPRequest(f"ws://{parts.netloc}{parts.path}/ws?{parts.query}", headers=headers,
+                              request_timeout=300, connect_timeout=300)  # fmt: skip
         visitor = cls(await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**27))
         kind, _, _ = await visitor.receive()
         assert kind == "ACK"
@@ -75,9 +76,9 @@ class Visitor:
                 self._note(each)
 
     def find(self, kind, *names):
-        """The ids of the models whose type begins so and that have these attributes, in the order of the document."""
+        """The ids of the models of this type that have these attributes, in the order of the document."""
         return [id for id, (name, attributes) in self.models.items()
-                if name.startswith(kind) and all(each in attributes for each in names)]  # fmt: skip
+                if re.fullmatch(kind + r"\d*", name) and all(each in attributes for each in names)]  # fmt: skip
 
     async def say(self, kind, content, message=None, buffers=()):
         """Sends a message; returns its id."""
