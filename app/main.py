@@ -1,5 +1,7 @@
 """The page, layout only: `panel serve app` finds it here."""
 
+from functools import partial
+
 import panel as pn
 import panel_material_ui as pmui
 
@@ -13,7 +15,7 @@ from app.planes import Planes
 from app.roll import Roll
 from app.share import Share
 from app.teach import student_page
-from app.three_planes import ThreePlanes
+from app.three_planes import KEPT, ThreePlanes
 from app.workshop import Measure, Workshop
 
 STILL = {"@media (prefers-reduced-motion: reduce)": {"&, & *": {"transition": "none !important",
@@ -54,11 +56,12 @@ def build_view(explorer, roll, builder):
     )
 
 
-def planes_view(explorer, roll, builder):
+def planes_view(explorer, roll, builder, keep):
     document = pn.state.curdoc
     planes = Planes(explorer, builder, document.add_next_tick_callback)
     roll.followers.append(planes.follow)
     document.on_session_destroyed(lambda context: planes.stop())
+    keep.add(planes, KEPT)
     return ThreePlanes(planes, builder, roll.pacer.request).main
 
 
@@ -79,8 +82,8 @@ def learn_view(explorer, roll, keep):
     return learn.view
 
 
-def tabs(views, keep):
-    """A header and a place for each view; a view is made when it is first looked at, and then stays. {name: maker}"""
+def tabs(views, keep, soon):
+    """A header and a place for each view; a view is made when it is first looked at, and then stays. {name: maker}; soon: of a Pacer"""
     places = [pn.Column(sizing_mode="stretch_width", margin=0, visible=False) for _ in views]
     header = pmui.Tabs(
         *((name, pn.Spacer(height=0)) for name in views),
@@ -103,7 +106,7 @@ def tabs(views, keep):
         for i, place in enumerate(places):
             place.visible = i == active
 
-    header.param.watch(lambda event: look(event.new), "active")
+    header.param.watch(lambda event: soon(partial(look, event.new)), "active")
     look(header.active)
     known = OneOf(**{name.lower().replace(" ", "-"): i for i, name in enumerate(views)})
     keep.add(header, {"active": Field("tab", known, undoable=False)})
@@ -129,12 +132,13 @@ def page():
             *tabs(
                 {
                     "Roll": lambda: roll.main,
-                    "Three planes": lambda: planes_view(explorer, roll, builder),
+                    "Three planes": lambda: planes_view(explorer, roll, builder, share.keep),
                     "Build a top": lambda: build_view(explorer, roll, builder),
                     "Families": lambda: family_view(explorer),
                     "Learn": lambda: learn_view(explorer, roll, share.keep),
                 },
                 share.keep,
+                roll.pacer.soon,
             ),
         ],
         sidebar_width=320,

@@ -11,7 +11,8 @@ from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Range1d, Spa
 from app.cards import INK, PLAIN, TYPE, card, grid, progress, swatch, words
 from app.colours import COLOURS
 from app.controls import STYLE, Control
-from app.planes import FLIES, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS, SLIPS
+from app.keep import Field, Number, OneOf
+from app.planes import FLIES, LAWS, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS, SLIPS
 from app.plots import FAINT, plain
 from app.surface3d import pack
 from app.top3d import Top3D, pack_frames
@@ -456,6 +457,18 @@ def stem_words(settings):
     if angle is None:
         return "This body has one contact all the way: no stem can touch."
     return f"Past <i>θ</i> = {degrees(angle)} the end of its stem touches the table."
+
+
+KEPT = {
+    "plane": Field("plane", OneOf(**{plane: plane for plane in (*PLANES, "compare")}), undoable=False),
+    "by": Field("by", OneOf(spin="spin", constants="constants")),
+    "law": Field("law", OneOf(**{law: law for law in LAWS})),
+    "landing": Field("land", OneOf(stop="stop", plastic="plastic")),
+    "stem": Field("stem", OneOf(yes=True, no=False)),
+    **{name: Field(name, Number) for name in ("spin", "tilt", "slip", "seconds", "mu_k", "gamma", "mu", "eps")},
+    "mu_s": Field("mu_stick", Number),
+}
+"""What of a Planes a link keeps."""
 
 
 class ThreePlanes:
