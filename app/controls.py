@@ -268,7 +268,7 @@ class Controls:
                     column.objects = self.views(*FACES[face])
             self._other.object = self._other_face(explorer.scene)
 
-        explorer.param.watch(turn, "face")
+        explorer.param.watch(lambda event: pacer.soon(turn), "face")
         turn()
         self.motion = [switch, *faces.values(), self._other]
 

@@ -83,7 +83,10 @@ def learn_view(explorer, roll, keep):
 
 
 def tabs(views, keep, soon):
-    """A header and a place for each view; a view is made when it is first looked at, and then stays. {name: maker}; soon: of a Pacer"""
+    """A header and a place for each view; a view is made when it is first looked at, and then stays.
+
+    views: {name: maker}; soon: of a Pacer.
+    """
     places = [pn.Column(sizing_mode="stretch_width", margin=0, visible=False) for _ in views]
     header = pmui.Tabs(
         *((name, pn.Spacer(height=0)) for name in views),

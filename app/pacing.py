@@ -64,6 +64,16 @@ class Pacer:
         self._advance()
         self._after(ANSWER_WITHIN, self._finish)
 
+    def soon(self, make):
+        """Runs a function that puts something new on the page, next of what waits for its turn: two such messages
+        under way at once may each count on what the other brings."""
+        if not self._begun:
+            make()
+            return
+        self.later.insert(0, make)
+        self._advance()
+        self._after(ANSWER_WITHIN, self._finish)
+
     def request(self, **inputs):
         """Asks for these inputs of the Explorer; a later request for the same input replaces one still waiting."""
         self._wanted.update(inputs)

@@ -140,7 +140,7 @@ def show_surface(surface, scene):
 class Switch:
     """A card whose one picture at a time is chosen; a picture is made when it is first looked at."""
 
-    def __init__(self, title, *kinds):
+    def __init__(self, title, *kinds, soon):
         self._kinds, self._made, self._scene = kinds, {}, None
         self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
         self._says = words("", styles={"min-height": "2.8em"})
@@ -153,7 +153,7 @@ class Switch:
             margin=(6, 0, 2, 0),
             sx=PLAIN,
         )
-        self._switch.param.watch(lambda event: self._look(event.new), "value")
+        self._switch.param.watch(lambda event: soon(partial(self._look, event.new)), "value")
 
     def make(self):
         self.view.extend([self._switch, *self._places, self._says])
@@ -189,8 +189,6 @@ class Roll:
     def __init__(self, explorer):
         motion, top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
         plane = PlaneFigure(motion)
-        tilt = Switch("The tilt <i>θ</i> by itself", Phase, Curve, Potential)
-        table = Switch("What the table sees", Track, Ring, Force)
         self.followers = []
         self.guide = Guide(margin=(0, 8))
         self._grasp, self._held = None, {}
@@ -219,6 +217,8 @@ class Roll:
         kept, unit = words(""), words("")
         pictures = [partial(draw, shows) for shows in (planes, times, portraits)]
         self.pacer = pacer = Pacer(explorer, show_hand, pictures, show_words)
+        tilt = Switch("The tilt <i>θ</i> by itself", Phase, Curve, Potential, soon=pacer.soon)
+        table = Switch("What the table sees", Track, Ring, Force, soon=pacer.soon)
         self.controls = controls = Controls(explorer, pacer)
 
         def grabbed(grip, theta, K_J, limit):
