@@ -656,7 +656,7 @@ def supervise(settings, sockets):
     (panel serve --num-procs forks too, but its first process waits for the others with no signal handler: SIGTERM ends
     that one alone and leaves the workers to the system.)
     """
-    workers, ending = {}, []
+    workers, ending, failed = {}, [], []
     held, ours_ends = os.pipe()
 
     def begin():
@@ -690,13 +690,17 @@ def supervise(settings, sockets):
         lived = time.monotonic() - workers.pop(pid)
         if ending:
             continue
-        log.error("worker %d ended (%s) after %.0f s", pid, os.waitstatus_to_exitcode(status), lived)
-        if lived < 5:
-            log.error("a worker that does not live 5 s is not replaced: stopping")
+        code = os.waitstatus_to_exitcode(status)
+        log.error("worker %d ended (%d) after %.0f s", pid, code, lived)
+        if lived < 5 and code >= 0:  # not one that somebody killed
+            log.error("a worker that ends by itself within 5 s is not replaced: stopping")
+            failed.append(True)
             end()
-        elif not ending:
-            begin()
-    return 0 if ending and lived >= 5 else 1
+        else:
+            time.sleep(min(1.0, 1 / max(lived, 0.1)))
+            if not ending:
+                begin()
+    return 1 if failed else 0
 
 
 def main():
