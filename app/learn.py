@@ -43,17 +43,19 @@ const draw = () => {
     y[k] = 1 + across[k] * s + along[k] * c
   }
   body.change.emit()
-  const G = [a * s, 1 - a * c], foot = [-s * c, 1 - c * c + 0], mark = (k, x0, y0, x1, y1) => {
+  const G = [a * s, 1 - a * c], mark = (k, x0, y0, x1, y1) => {
     Object.assign(lines.data.x0, {[k]: x0}); Object.assign(lines.data.y0, {[k]: y0})
     Object.assign(lines.data.x1, {[k]: x1}); Object.assign(lines.data.y1, {[k]: y1})
   }
-  // the axis 3; the vertical through G; r from C to G; the arm of the torque about z, and that about 3
+  // the axis 3; the verticals through G and C; r from C to G; the arm of the torque about z, above the points, which
+  // are larger than it; that about 3
   const foot3 = [s * c, 1 - c * c]
   mark(0, 1.25 * s, 1 - 1.25 * c, -1.9 * s, 1 + 1.9 * c)
-  mark(1, G[0], 0, G[0], 2.1)
+  mark(1, G[0], 0, G[0], 1.7)
   mark(2, 0, 0, G[0], G[1])
-  mark(3, 0, G[1], G[0], G[1])
+  mark(3, 0, 1.5, G[0], 1.5)
   mark(4, 0, 0, foot3[0], foot3[1])
+  mark(5, 0, 0, 0, 1.7)
   lines.change.emit()
   const at = (k, x, y) => { points.data.x[k] = x; points.data.y[k] = y }
   at(0, 0, 1); at(1, ...G); at(2, 0, 0); at(3, -1.9 * s, 1 + 1.9 * c)
@@ -163,13 +165,14 @@ class SectionFigure:
         fig.grid.visible = fig.axis.visible = False
         self.motion = ColumnDataSource({"t": [0.0, 1.0], "theta": [0.5, 0.5], "push": [1.0, 1.0], "a": [0.07, 0.07]})
         self.body = ColumnDataSource({name: np.zeros(1) for name in ("across", "along", "x", "y")})
-        five = [0.0] * 5
+        five, six = [0.0] * 5, [0.0] * 6
         self.lines = ColumnDataSource(
-            {"x0": five, "y0": list(five), "x1": list(five), "y1": list(five),
-             "colour": ["#8a96a3", "#8a96a3", INK, COLOURS["friction"], COLOURS["theta"]],
-             "dash": ["dashed", "dotted", "solid", "solid", "solid"], "width": [1.5, 1.5, 2, 5, 5]})  # fmt: skip
+            {"x0": six, "y0": list(six), "x1": list(six), "y1": list(six),
+             "colour": ["#8a96a3", "#8a96a3", INK, COLOURS["friction"], COLOURS["theta"], "#8a96a3"],
+             "dash": ["dashed", "dotted", "solid", "solid", "solid", "dotted"],
+             "width": [1.5, 1.5, 2, 8, 5, 1.5]})  # fmt: skip
         self.points = ColumnDataSource(
-            {"x": list(five), "y": list(five), "name": ["O", "G", "C", "3", "F⊙"], "dx": [10, 10, -18, 8, 8],
+            {"x": five, "y": list(five), "name": ["O", "G", "C", "3", "F⊙"], "dx": [10, 10, -18, 8, 8],
              "dy": [-4, 4, 16, 0, 20], "size": [5, 8, 7, 0, 0]})  # fmt: skip
         fig.patch("x", "y", source=self.body, fill_color="#d9b48a", fill_alpha=0.35, line_color="#8a6a42")
         fig.segment(x0=[-2.1], x1=[2.1], y0=[0], y1=[0], line_color=INK, line_width=1.5)
@@ -352,8 +355,7 @@ class Learn(param.Parameterized):
 
     @staticmethod
     def _explained(step, answer):
-        key = "nan" if isinstance(answer.truth, float) and np.isnan(answer.truth) else "explain"
-        told = paragraphs(say(f"learn.{step.name}.{key}", **answer.numbers))
+        told = paragraphs(say(f"learn.{step.name}.{answer.told}", **answer.numbers))
         follows = f'<div class="key">{say("learn.page.follows")}</div>'
         if isinstance(answer.truth, str):
             told = paragraphs(f"{option(step, answer.truth)}.") + told

@@ -13,6 +13,7 @@ import numpy as np
 
 from app.colours import COLOURS
 from app.explorer import solve
+from app.text import say
 from tippe_core import (
     Constants,
     SmoothedCoulomb,
@@ -57,13 +58,14 @@ class Picture:
 class Answer:
     """truth: what the computation says, an option or a number; numbers: for the words of the explanation.
 
-    motion: a Trajectory to show in 3-D in place of the scene's own.
+    motion: a Trajectory to show in 3-D in place of the scene's own; told: which of the step's explanations says it.
     """
 
     truth: str | float
     numbers: dict
     picture: Picture
     motion: Trajectory | None = None
+    told: str = "explain"
 
 
 @dataclass(frozen=True)
@@ -143,6 +145,11 @@ def where(theta):
     return "upright" if theta < SETTLED else "over" if theta > np.pi - SETTLED else "between"
 
 
+def limit_words(E):
+    """An energy that limits a motion: a number, or that there is none, or that it lies below the least."""
+    return say(f"learn.limits.{'energy' if np.isfinite(E) else 'always' if np.isnan(E) else 'never'}", E=E)
+
+
 def revolutions(scene, spin):
     """rev/s of the real top."""
     return spin * scene.scales.angular_velocity / (2 * np.pi)
@@ -186,10 +193,14 @@ def jellett(scene):
     return Answer(slope, numbers, picture)
 
 
-def energy(scene):
+def lifting(scene):
     """What lifting G from upright to inverted costs, in percent of the spin's kinetic energy."""
+    return 100 * 2 * scene.top.a / (scene.top.I3 * scene.upright_spin**2 / 2)
+
+
+def energy(scene):
     top, spin, motion = scene.top, scene.upright_spin, scene.nutation
-    share = 100 * 2 * top.a / (top.I3 * spin**2 / 2)
+    share = lifting(scene)
     ledger, half = motion.ledger, len(motion.t) // 2
     kinetic = ledger.spin + ledger.precession + ledger.nutation + ledger.translation
     numbers = {
@@ -204,12 +215,16 @@ def energy(scene):
     return Answer(share, numbers, Picture("t", "energy", tuple(curves)))
 
 
-def routh(scene):
+def taken(scene):
     """What Routh's constant would take of the spin's kinetic energy on the way from upright to inverted, in percent."""
+    return 100 * (1 - f3_squared(0.0, scene.top) / f3_squared(np.pi, scene.top))
+
+
+def routh(scene):
     top, constants = scene.top, scene.constants
     theta = np.linspace(0, np.pi, 181)
     spin = omega3(theta, top, constants)
-    share = 100 * (1 - f3_squared(0.0, top) / f3_squared(np.pi, top))
+    share = taken(scene)
     motion = scene.trajectory
     numbers = {
         "share": share, "K_R": constants.K_R, "upright": spin[0], "inverted": spin[-1], "drift": np.ptp(scene.K_R),
@@ -257,7 +272,7 @@ def ties(scene):
     numbers = {
         "K_J": K_J, "next": K_J + 0.1 * pole, "pole": pole, "middle": middle[0], "middle_next": middle[1],
         "inner": np.degrees(here.theta_inner[0]), "outer": np.degrees(here.theta_outer[0]), "K_R": K_R,
-        "E": here.E[0],
+        "limit": limit_words(here.E[0]),
     }  # fmt: skip
     return Answer(truth, numbers, Picture("degrees", "K_J", (tied(found, "lift", COLOURS["normal"]), selected(scene))))
 
@@ -278,9 +293,7 @@ def jump(scene):
     """Where on the trajectory F_z first reaches 0 as the energy is raised."""
     top, constants = scene.top, scene.constants
     limit = tielines(top, [constants.K_J], constants.K_R)
-    E, inner, outer, verge = (
-        float(x[0]) for x in (limit.E, limit.theta_inner, limit.theta_outer, limit.theta_verge)
-    )
+    E, inner, outer, verge = (float(x[0]) for x in (limit.E, limit.theta_inner, limit.theta_outer, limit.theta_verge))
     theta = np.linspace(*scene.turning, 121)[1:-1]
     curves = [Curve("motion", COLOURS["theta"], np.degrees(theta), normal_force(theta, top, constants))]
     if not np.isfinite(E):
@@ -297,7 +310,8 @@ def jump(scene):
         "E": E, "now": constants.E, "verge": np.degrees(verge), "inner": np.degrees(inner), "outer": np.degrees(outer),
         "least": scene.normal.min(), "most": scene.normal.max(),
     }  # fmt: skip
-    return Answer(truth, numbers, Picture("degrees", "F_z", tuple(curves)))
+    told = "never" if truth == "never" else "explain"
+    return Answer(truth, numbers, Picture("degrees", "F_z", tuple(curves)), told=told)
 
 
 def slip(scene):
@@ -308,7 +322,7 @@ def slip(scene):
     lift, slips = tielines(top, K, K_R), tielines(top, K, K_R, mu_s)
     numbers = {
         "lost": lost, "left": 100 - lost, "mu_s": mu_s, "ratio": scene.ratio.max(), "K_J": scene.constants.K_J,
-        "E": scene.constants.E, "E_slip": scene.marks.slip, "E_lift": scene.marks.lift,
+        "E": scene.constants.E, "slips": limit_words(scene.marks.slip), "jumps": limit_words(scene.marks.lift),
     }  # fmt: skip
     curves = (tied(lift, "lift", "#e3b394"), tied(slips, "slip", COLOURS["friction"]), selected(scene))
     return Answer(lost, numbers, Picture("degrees", "K_J", curves))
@@ -333,8 +347,9 @@ def proof(scene):
         Curve("by_routh", COLOURS["omega"], np.degrees(theta), omega3(theta, top, start)),
         Curve("slides", COLOURS["friction"], np.degrees(motion.theta[::EVERY]), motion.omega[::EVERY, 2]),
     )
-    points = (Point("jellett_at_pi", 180.0, by_jellett),)
-    return Answer(truth, numbers, Picture("degrees", "omega_3", curves, points))
+    points = (Point("jellett_at_pi", 180.0, by_jellett),) if np.isfinite(by_jellett) else ()
+    told = "explain" if truth == "opposite" else "size" if points else "nan"
+    return Answer(truth, numbers, Picture("degrees", "omega_3", curves, points), told=told)
 
 
 def needed_spin(top):
@@ -368,7 +383,8 @@ def flip(scene):
         Curve(key, colour, run.t[::EVERY], np.degrees(run.theta[::EVERY]))
         for key, colour, run in zip(keys, colours, tried, strict=False)
     )
-    return Answer(revolutions(scene, least), numbers, Picture("t", "degrees", curves), motion)
+    told = "explain" if np.isfinite(least) else "nan"
+    return Answer(revolutions(scene, least), numbers, Picture("t", "degrees", curves), motion, told)
 
 
 # ---- the steps ----
@@ -379,39 +395,57 @@ def of_torque(scene):
     return Guess(-reach if scene.top.a < 0 else 0.0, reach, 0.01, "", 0.15, 0.02)
 
 
-def of_percent(scene):
-    return Guess(-100.0 if scene.top.a < 0 else 0.0, 100.0, 0.5, "%", 0.25, 2.0)
+def decade(least, number):
+    """The first of least, 10 least, 100 least, ... that this number fits in."""
+    return float(least * 10 ** max(0, np.ceil(np.log10(abs(number) / least)))) if number else float(least)
+
+
+def of_percent(share):
+    """Asks for a share that share(scene) gives; the slider's ends are decades, which do not tell it."""
+
+    def asks(scene):
+        found = share(scene)
+        low = 0.0 if scene.top.a >= 0 and found >= 0 else -decade(100, min(found, 0.0))
+        return Guess(low, decade(100, max(found, 0.0)), 0.5, "%", 0.25, 2.0)
+
+    return asks
+
+
+def of_spin(scene):
+    """rev/s."""
+    least = needed_spin(scene.top)
+    return Guess(0.0, decade(60, revolutions(scene, least) if np.isfinite(least) else 0.0), 0.1, "rev/s", 0.2, 0.5)
 
 
 STEPS = (
     Step("free", choice("over", "between", "upright"), near_upright, free,
-         (r"\vec r=R\hat{\vec z}-a\hat{\vec 3}\quad(3)\qquad "
+         (r"\vec r=R\hat z-a\hat 3\quad(3)\qquad "
           r"\vec v=\vec\omega\times\vec r\quad(4)",), ("gray", "perry", "bohr")),
     Step("jellett", of_torque, at(0.8, 0.9), jellett,
          (r"\frac{\tau_z}{\tau_3}=\frac{F_x\,a\sin\theta}{F_x\,R\sin\theta}=\frac aR",
           r"L_z-\frac aR\,L_3=J\quad(13)",
           r"\sin\theta\,\omega_{2'}+\frac{I_3}{I_1}(\cos\theta-a)\,\omega_3=K_J\quad(30)"),
          ("jellett", "routh", "obrien", "leutwyler")),
-    Step("energy", of_percent, at(0.8, 0.9), energy,
-         (r"E=\tfrac12 I_1(\omega_{1'}^2+\omega_{2'}^2)+\tfrac12 I_3\omega_3^2+\tfrac12Mv^2+Mga(1-\cos\theta)"
-          r"\quad(6)",), ("gray", "pliskin")),
-    Step("routh", of_percent, at(0.8, 0.9), routh,
+    Step("energy", of_percent(lifting), at(0.8, 0.9), energy,
+         (r"\begin{aligned}E={}&\tfrac12 I_1(\omega_{1'}^2+\omega_{2'}^2)+\tfrac12 I_3\omega_3^2\\"
+          r"&+\tfrac12Mv^2+Mga(1-\cos\theta)\quad(6)\end{aligned}",), ("gray", "pliskin")),
+    Step("routh", of_percent(taken), at(0.8, 0.9), routh,
          (r"f_3\,\omega_3=K_R\quad(31)",
           r"f_3^2=I_3+\sin^2\theta+\frac{I_3}{I_1}(\cos\theta-a)^2\quad(32)"), ("routh", "isaeva")),
     Step("turning", lambda scene: Guess(0.0, 180.0, 0.5, "°", 0.0, 3.0), at(0.6, 0.95), turning,
-         (r"f_1^2\,\dot\theta^2=2E'-2a(1-\cos\theta)-\frac{f_2^2}{\sin^2\theta}\left[K_J-\frac{I_3}{I_1}"
-          r"(\cos\theta-a)\frac{K_R}{f_3}\right]^2\quad(36)",), ("gray", "arnold")),
+         (r"\begin{aligned}f_1^2\,\dot\theta^2={}&2E'-2a(1-\cos\theta)\\&-\frac{f_2^2}{\sin^2\theta}\left[K_J-"
+          r"\frac{I_3}{I_1}(\cos\theta-a)\frac{K_R}{f_3}\right]^2\quad(36)\end{aligned}",), ("gray", "arnold")),
     Step("ties", choice("down", "stays", "up"), at(0.6, 1.9), ties,
          (r"f(\theta_m)=0\qquad f(\theta_p)=f'(\theta_p)=0",), ("gray",)),
     Step("jump", choice("inner", "between", "outer", "never"), at(0.6, 1.98), jump,
          (r"F_z=1+a\left(\tfrac12\sin\theta\,f'+\cos\theta\,f\right)\quad(37)",), ("gray",)),
-    Step("slip", of_percent, at(0.6, 0.98), slip,
+    Step("slip", lambda scene: Guess(0.0, 100.0, 0.5, "%", 0.25, 2.0), at(0.6, 0.98), slip,
          (r"F_x=-\frac{I_3K_R\,f^{1/2}}{f_3^3}\left(\cos\theta-\frac{I_3}{I_1}(\cos\theta-a)\right)\quad(38)",
           r"\left(F_x^2+F_y^2\right)^{1/2}\le\mu_sF_z"), ("gray", "kane")),
     Step("proof", choice("agree", "size", "opposite"), near_upright, proof,
          (r"\omega_3(\pi)=-\frac{I_1}{I_3}\frac{K_J}{1+a}\quad(30)\qquad "
           r"\omega_3(\pi)=\frac{K_R}{f_3(\pi)}\quad(31)",), ("gray", "routh", "jellett")),
-    Step("flip", lambda scene: Guess(0.0, 60.0, 0.1, "rev/s", 0.2, 0.5), near_upright, flip,
+    Step("flip", of_spin, near_upright, flip,
          (r"\vec v\ne\vec\omega\times\vec r",
           r"\omega^2>\frac{Mga\,(1-\alpha)^2}{I_1-I_3(1-\alpha)}\,,\qquad 1-\alpha<\frac{I_1}{I_3}<1+\alpha\,,"
           r"\qquad\alpha=\frac aR"), ("gallop", "leutwyler", "rauch")),

@@ -51,7 +51,7 @@ def prediction(asks, labels, value=None):
         group = pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
         group.value = value  # without one it would take the first by itself
         return group
-    start = value if value is not None else (asks.low + asks.high) / 2
+    start = min(max(value, asks.low), asks.high) if value is not None else (asks.low + asks.high) / 2
     return pmui.FloatSlider(label=f"{label}, {asks.unit}" if asks.unit else label, start=asks.low, end=asks.high,
                             step=asks.step, value=start, sizing_mode="stretch_width", margin=(4, 12),
                             size="small")  # fmt: skip
@@ -139,16 +139,15 @@ class Vote:
         self.range.factors = names[::-1]
         self.bars.data = {"x": names, "votes": list(map(int, counts))}
         self.figure.x_range.end = max(4, max(counts) + 1)
-        self.count.object = (
-            f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>"
-        )
+        self.count.object = f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>"
 
     def _answer(self):
         step = lesson.STEPS[lesson.NAMES.index(self._room.step)]
         asks, truth = self._room.asks, self._truth
-        said = self._room.labels.get(truth) or (
-            say("learn.verdict.never") if np.isnan(truth) else f"{truth:.4g} {asks.unit}"
-        )
+        if isinstance(truth, str):
+            said = option(step, truth)
+        else:
+            said = say("learn.verdict.never") if np.isnan(truth) else f"{truth:.4g} {asks.unit}"
         self.truth.object = f"<b>{say('teach.vote.said', answer=said)}</b> ({say(f'learn.{step.name}.title')})"
 
     def _forget(self):

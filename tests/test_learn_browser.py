@@ -41,7 +41,7 @@ def explained(step, guess):
     explorer = Explorer()
     explorer.param.update(**step.inputs(explorer.scene.top))
     verdict, answer = lesson.judged(step, explorer.scene, guess)
-    return say(f"learn.verdict.{verdict}"), say(f"learn.{step.name}.explain", **answer.numbers)
+    return say(f"learn.verdict.{verdict}"), say(f"learn.{step.name}.{answer.told}", **answer.numbers)
 
 
 def plain_text(words):
