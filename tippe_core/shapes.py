@@ -24,6 +24,8 @@ from .solids import DENSEST, LARGEST, Frustum, Solid, Zone, ball, cylinder, frus
 from .top import Scales, Top
 
 SMALLEST = 1e-6  # m: no peg is smaller, and no power of it is lost
+LONG = LARGEST / 4  # m: heights that are added stay below LARGEST
+LIGHTEST, THINNEST = 1e-30, 1e-9  # kg, kg/m^3: no product of them is lost
 MOST_POINTS, MOST_PIECES = 400, 64
 SCHEMA, VERSION, LONGEST = "tippe-top-explorer/top", 1, 65_536  # bytes
 
@@ -37,7 +39,7 @@ class Shape:
         for field in fields(self):
             if field.type in (float, "float"):
                 object.__setattr__(self, field.name, finite(field.name, getattr(self, field.name)))
-        _range("R", self.R, SMALLEST, LARGEST, "m")
+        _range("R", self.R, SMALLEST, LONG, "m")
         self._check()
 
     def _check(self):
@@ -122,7 +124,7 @@ class Shape:
 
     def with_mass(self, M):
         """The same body of a material, or materials, so much denser that it weighs M (kg)."""
-        factor = _range("M", finite("M", M), 0, inf, "kg", above=True) / self.mass
+        factor = _mass(finite("M", M)) / self.mass
         return replace(self, **{name: _times(factor, getattr(self, name)) for name in self._weights})
 
     def __add__(self, other):
@@ -141,14 +143,14 @@ class OneMaterial(Shape):
 
     def __post_init__(self):
         super().__post_init__()
-        _range("M", self.M, 0, inf, "kg", above=True)
+        _mass(self.M)
         if not 0 < self.density <= DENSEST:
             raise TopError("M", self.M, f"at most {DENSEST * self.form.volume:g} kg for this body ({DENSEST:g} kg/m^3)")
 
     @classmethod
     def from_density(cls, density, **dimensions):
         """The shape of a material of that density (kg/m^3)."""
-        _range("density", finite("density", density), 0, DENSEST, "kg/m^3", above=True)
+        _range("density", finite("density", density), THINNEST, DENSEST, "kg/m^3")
         body = cls(M=1e-3, **dimensions)
         return replace(body, M=density * body.form.mass)
 
@@ -188,7 +190,7 @@ class TruncatedSphere(OneMaterial):
         _range("c", self.c, -self.R, self.R, "m, the cut goes through the sphere", above=True)
         cut = sqrt((self.R - self.c) * (self.R + self.c))
         _range("r", self.r, 0, cut, "m, the radius of the cut it stands on", remedy="Lower r, or cut lower.")
-        _range("l", self.l, 0, LARGEST, "m")
+        _range("l", self.l, 0, LONG, "m")
         _stem(self.r, self.l)
 
     @cached_property
@@ -225,10 +227,10 @@ class LoadedSphere(Shape):
     _weights = ("density", "core_density")
 
     def _check(self):
-        _range("b", self.b, 0, self.R, "m, inside the ball", above=True, below=True)
+        _range("b", self.b, SMALLEST, self.R, "m, inside the ball", below=True)
         room = self.R - self.b
         _range("d", self.d, -room, room, "m, or the core sticks out", above=True, below=True)
-        _range("density", self.density, 0, DENSEST, "kg/m^3", above=True)
+        _range("density", self.density, THINNEST, DENSEST, "kg/m^3")
         _range("core_density", self.core_density, 0, DENSEST, "kg/m^3, 0 for a cavity")
 
     @cached_property
@@ -258,12 +260,12 @@ class OrdinaryTop(OneMaterial):
     M: float
 
     def _check(self):
-        _range("h", self.h, 0, LARGEST, "m, the peg's rod")
+        _range("h", self.h, 0, LONG, "m, the peg's rod")
         _range("r1", self.r1, 0, LARGEST, "m, or the body hangs on a point", above=True)
         _range("r2", self.r2, 0, LARGEST, "m")
-        _range("t", self.t, 0, LARGEST, "m", above=True)
+        _range("t", self.t, SMALLEST, LONG, "m")
         _range("r", self.r, 0, self.r2, "m, the radius r2 of the face the stem stands on")
-        _range("l", self.l, 0, LARGEST, "m")
+        _range("l", self.l, 0, LONG, "m")
         _stem(self.r, self.l)
 
     @cached_property
@@ -298,13 +300,13 @@ class Lathe(Shape):
             last = height
         object.__setattr__(self, "points", points)
         if np.ndim(self.density) == 0:
-            density = _range("density", finite("density", self.density), 0, DENSEST, "kg/m^3", above=True)
+            density = _range("density", finite("density", self.density), THINNEST, DENSEST, "kg/m^3")
         else:
             if len(self.density) != len(points):
                 raise TopError("density", self.density, f"one number, or as many as points ({len(points)})")
             density = tuple(finite(f"density[{index}]", value) for index, value in enumerate(self.density))
             for index, value in enumerate(density):
-                _range(f"density[{index}]", value, 0, DENSEST, "kg/m^3", above=True)
+                _range(f"density[{index}]", value, THINNEST, DENSEST, "kg/m^3")
         object.__setattr__(self, "density", density)
         _one_piece("points", self.solid)
 
@@ -352,7 +354,7 @@ class BareSphere(Shape):
     _weights = ("M",)
 
     def _check(self):
-        _range("M", self.M, 0, inf, "kg", above=True)
+        _mass(self.M)
         Top(self.a, self.I1, self.I3)
         # int r^2 dm <= M R^2 about O, and it is I1 + I3/2 + a^2
         most = sqrt(max(0.0, 1 - self.I1 - self.I3 / 2))
@@ -389,10 +391,17 @@ class BareSphere(Shape):
 KINDS = {kind.__name__: kind for kind in (TruncatedSphere, LoadedSphere, OrdinaryTop, Lathe, Turned, Ball, BareSphere)}
 
 
+def _mass(M):
+    _range("M", M, 0, inf, "kg", above=True)
+    return _range("M", M, LIGHTEST, inf, "kg")
+
+
 def _stem(r, l):
     if (r == 0) != (l == 0):
         name = "r" if r == 0 else "l"
         raise TopError(name, 0.0, f"{name} > 0 (m)", "A stem has a radius and a length; with both 0 there is none.")
+    if 0 < l < SMALLEST:
+        raise TopError("l", l, f"0, or l >= {SMALLEST:g} (m)")
 
 
 def _range(name, value, low, high, unit, above=False, below=False, remedy=""):

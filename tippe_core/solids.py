@@ -332,7 +332,9 @@ def _crossings(one, other, low, high):
     gap = np.polysub(one.square, other.square)
     if np.abs(np.polyval(gap, np.linspace(low, high, 3))).max() <= SAME * max(one.widest, other.widest) ** 2:
         return []
-    roots = np.roots(gap)
+    # a coefficient that is rounding next to the others only makes a root far away, which may overflow
+    terms = np.abs(gap) * max(abs(low), abs(high)) ** np.arange(len(gap) - 1, -1, -1)
+    roots = np.roots(np.where(terms > 1e-16 * terms.max(), gap, 0.0))
     return [float(z) for z in roots.real[np.abs(roots.imag) == 0] if low < z < high]
 
 
