@@ -1,5 +1,6 @@
 """For teachers: links, plans, what goes wrong, the Olympiad's problem, the toy, and a vote; and the student's page."""
 
+import re
 import secrets
 from itertools import pairwise
 from urllib.parse import quote
@@ -49,7 +50,8 @@ def prediction(asks, labels, value=None):
     if isinstance(asks, lesson.Choice):
         options = {labels[key]: key for key in asks.options}
         group = pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
-        group.value = value  # without one it would take the first by itself
+        group._allows_none = True  # else it takes the first by itself, when made and again, unseen, when drawn
+        group.value = value
         return group
     start = min(max(value, asks.low), asks.high) if value is not None else (asks.low + asks.high) / 2
     return pmui.FloatSlider(label=f"{label}, {asks.unit}" if asks.unit else label, start=asks.low, end=asks.high,
@@ -201,7 +203,9 @@ def history_view():
 
 
 def listed_all(name):
-    return sorted(listed(name).values(), key=lambda source: source["full"].split(" (")[-1])
+    """By year, the first that a source names."""
+    year = re.compile(r"(18|19|20)\d\d")
+    return sorted(listed(name).values(), key=lambda source: year.search(source["short"] + source["full"]).group())
 
 
 def student_page(code):

@@ -87,6 +87,8 @@ def test_nothing_locks(chromium, server):
     """A step left and come back to stands as it was left, with its prediction and verdict."""
     visit = opened(chromium, server, "?tab=learn&step=proof")
     page = visit.page
+    page.get_by_role("button", name=say("learn.page.predict")).click()
+    page.get_by_text(say("learn.page.choose")).wait_for()
     page.get_by_text(say("learn.options.opposite"), exact=True).click()
     page.get_by_role("button", name=say("learn.page.predict")).click()
     page.get_by_role("status").get_by_text(say("learn.verdict.right")).wait_for()
@@ -136,6 +138,8 @@ def test_a_vote(chromium, server):
     address = link.get_attribute("href")
     students = [opened(chromium, address, "", (390, 844)) for _ in range(2)]
     for visit, option in zip(students, ("over", "upright"), strict=True):
+        visit.page.get_by_role("button", name=say("teach.student.send")).click()
+        visit.page.get_by_text(say("teach.student.waiting")).wait_for()
         visit.page.get_by_text(say(f"learn.options.{option}"), exact=True).click()
         visit.page.get_by_role("button", name=say("teach.student.send")).click()
         visit.page.get_by_text(say("teach.student.sent")).wait_for()
