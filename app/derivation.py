@@ -271,8 +271,9 @@ LINES = (
     Line("(4)", rf"{V}={W}\times{O}", lambda m: (m.d(m.com), np.cross(m.omega, m.r)), "v omega r"),
     Line("(5)", rf"{L}=I_1{W}+{DI}\,{W3}{THREE}",
          lambda m: (m.L, m.I1 * m.omega + m.dI * column(m.w3) * m.axis), "L I1 omega dI w3 three"),
-    Line("(6)", rf"\tfrac12\left[I_1+M(R^2+a^2-2Ra{COS})\right]{W1}^2+\tfrac12I_1{W2}^2+\tfrac12M\left[(R{COS}-a){W2}"
-         rf"-R{SIN}\,{W3}\right]^2+\tfrac12I_3{W3}^2+Mga(1-{COS})=E",
+    Line("(6)", rf"\begin{{aligned}}"
+         rf"&\tfrac12\left[I_1+M(R^2+a^2-2Ra{COS})\right]{W1}^2+\tfrac12I_1{W2}^2\\&+\tfrac12M\left[(R{COS}-a)"
+         rf"{W2}-R{SIN}\,{W3}\right]^2+\tfrac12I_3{W3}^2\\&+Mga(1-{COS})=E\end{{aligned}}",
          lambda m: (m.energy, constant(m, m.constants.E)), "I1 theta w1 w2 w3 a I3 E"),
     Line("(7)", rf"{DOT_L}\cdot{O}=0", lambda m: (dot(m.L_dot, m.r), 0 * m.theta), "L r"),
     Line("(8)", rf"{L}\cdot{DOT_R}=0", lambda m: (dot(m.L, m.r_dot), 0 * m.theta), "L r"),
@@ -308,16 +309,18 @@ LINES = (
          rf"({THREE}\times{ZED})=0",
          lambda m: (m.I1 * dot(m.omega_dot, m.r) + m.dI * (m.r3 * m.w3_dot + m.along(m.axis) * m.lean), 0 * m.theta),
          "I1 omega r dI r3 w3 three z"),
-    Line("(21)", rf"I_3\dot\omega_3=-\frac{DI}{{I_1}}M{R3}^2\dot\omega_3-\frac{DI}{{I_1}}MR{R3}{W3}\,"
-         rf"{W}\cdot({THREE}\times{ZED})-Mr^2\dot\omega_3+MaR{W3}\,{W}\cdot({THREE}\times{ZED})",
+    Line("(21)", rf"\begin{{aligned}}I_3\dot\omega_3=&-\frac{DI}{{I_1}}M{R3}^2\dot\omega_3-\frac{DI}{{I_1}}MR{R3}{W3}\,"
+         rf"{W}\cdot({THREE}\times{ZED})\\&-Mr^2\dot\omega_3+MaR{W3}\,{W}\cdot({THREE}\times{ZED})\end{{aligned}}",
          lambda m: (m.I3 * m.d(m.w3), -(m.dI / m.I1 * m.r3**2 + dot(m.r, m.r)) * m.w3_dot
                     + (m.a - m.dI / m.I1 * m.r3) * m.along(m.axis) * m.lean), "I3 w3 dI I1 r3 omega r a"),
-    Line("(22)", rf"I_3{W3}\dot\omega_3=-\frac{{I_3}}{{I_1}}M{R3}^2{W3}\dot\omega_3+\left(\frac{{I_3}}{{I_1}}-1\right)"
-         rf"MR{R3}{W3}^2\dot\theta{SIN}-M{RP}^2{W3}\dot\omega_3-MaR{W3}^2\dot\theta{SIN}",
+    Line("(22)", rf"\begin{{aligned}}"
+         rf"I_3{W3}\dot\omega_3=&-\frac{{I_3}}{{I_1}}M{R3}^2{W3}\dot\omega_3+\left(\frac{{I_3}}{{I_1}}-1\right)"
+         rf"MR{R3}{W3}^2\dot\theta{SIN}\\&-M{RP}^2{W3}\dot\omega_3-MaR{W3}^2\dot\theta{SIN}\end{{aligned}}",
          lambda m: (m.I3 * m.w3 * m.d(m.w3),
                     falling(m) + ((m.I3 / m.I1 - 1) * m.r3 - m.a) * tipping(m)), "I3 w3 I1 r3 theta rp a"),
-    Line("(23)", rf"I_3{W3}\dot\omega_3=-\frac{{I_3}}{{I_1}}M{R3}^2{W3}\dot\omega_3-\frac{{I_3}}{{I_1}}M{R3}\dot r_3"
-         rf"{W3}^2-M{RP}\dot r_\perp{W3}^2-M{RP}^2{W3}\dot\omega_3",
+    Line("(23)", rf"\begin{{aligned}}"
+         rf"I_3{W3}\dot\omega_3=&-\frac{{I_3}}{{I_1}}M{R3}^2{W3}\dot\omega_3-\frac{{I_3}}{{I_1}}M{R3}\dot r_3"
+         rf"{W3}^2\\&-M{RP}\dot r_\perp{W3}^2-M{RP}^2{W3}\dot\omega_3\end{{aligned}}",
          lambda m: (m.I3 * m.w3 * m.d(m.w3),
                     falling(m) - (m.I3 / m.I1 * m.r3 * m.d(m.r3) + m.d(m.r_across**2) / 2) * m.along(m.axis) ** 2),
          "I3 w3 I1 r3 rp"),
@@ -325,7 +328,8 @@ LINES = (
          rf"{W3}^2\right]=0", lambda m: (m.d(half_f3(m) * m.w3**2), 0 * m.theta), "I3 w3 rp I1 r3"),
     Line("(25)", rf"\tfrac12\left[I_3+MR^2\sin^2\theta+M\frac{{I_3}}{{I_1}}(R{COS}-a)^2\right]{W3}^2=\tfrac12K_R^2",
          lambda m: (half_f3(m) * m.along(m.axis) ** 2, constant(m, m.constants.K_R**2 / 2)), "I3 theta I1 a w3 K_R"),
-    Line("(26)", rf"\left[{DI}(I_3+MR^2)-I_3Ma^2\right]{W3}^2-2C_JMR\omega_z+I_1MR^2\omega_z^2=C",
+    Line("(26)", rf"\begin{{aligned}}&\left[{DI}(I_3+MR^2)-I_3Ma^2\right]{W3}^2\\&-2C_JMR\omega_z+I_1MR^2\omega_z^2=C"
+         r"\end{aligned}",
          lambda m: (isaeva(m), isaeva_elsewhere(m)), "dI I3 a w3 C_J wz I1"),
     Line("(27)", rf"\left.\frac{{dL_3}}{{dR}}\right|_{{R=0}}=\frac{{Ma{COS}}}{{I_1+Ma^2}}\,L_3",
          lambda m: (m.L3_slope, m.a * m.c / (m.I1 + m.a**2) * m.L3_pointed), "L_3 a theta I1"),
@@ -350,8 +354,9 @@ LINES = (
          lambda m: (f2_squared(m.theta, m.top), m.I1 + m.I1 / m.I3 * m.r_across**2 + m.r3**2), "f2 I1 I3 theta a"),
     Line("(35)", rf"f_1^2=I_1+1+a^2-2a{COS}",
          lambda m: (f1_squared(m.theta, m.top), m.I1 + dot(m.r, m.r)), "f1 I1 a theta"),
-    Line("(36)", rf"f_1^2\dot\theta^2=2E'-2a(1-{COS})-\frac{{f_2^2}}{{\sin^2\theta}}\left[K_J-\frac{{I_3}}{{I_1}}"
-         rf"({COS}-a)\frac{{K_R}}{{f_3}}\right]^2",
+    Line("(36)", rf"\begin{{aligned}}"
+         rf"f_1^2\dot\theta^2={{}}&2E'-2a(1-{COS})\\&-\frac{{f_2^2}}{{\sin^2\theta}}\left[K_J-\frac{{I_3}}{{I_1}}"
+         rf"({COS}-a)\frac{{K_R}}{{f_3}}\right]^2\end{{aligned}}",
          lambda m: (f1_squared(m.theta, m.top) * m.theta_dot**2, f1_squared(m.theta, m.top) * m.of(f)),
          "f1 theta Ep a f2 K_J I3 I1 K_R f3"),
     Line("(37)", rf"F_z=1+a\left(\tfrac12{SIN}\,f'+{COS}\,f\right)",
