@@ -103,6 +103,11 @@ def test_a_preset_sets_the_top_the_start_and_the_law(page):
     page.get_by_text(re.compile(r"^sliding: hangs: past 90° at 1\.99 s, 109\.\d° at 25 s")).wait_for()
     page.get_by_text(re.compile("Friction in force: viscous")).wait_for()
     page.wait_for_function("field => field.value == '9.5493'", arg=field(page, "spin").element_handle())
+    # and the address follows without another gesture
+    page.wait_for_function("/law=viscous&spin=9.5493&/.test(location.search)")
+    page.keyboard.press("Control+z")
+    page.wait_for_function("!location.search.includes('law=')")
+    page.get_by_text(re.compile("Friction in force: smoothed Coulomb")).wait_for()
     choose(page, "The paper’s top by hand")
     page.get_by_text(re.compile("^sliding: turns over")).wait_for()
 
