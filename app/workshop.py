@@ -24,6 +24,7 @@ WOOD, CORE = "#d9b98c", "#8a96a3"
 FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
 LARGEST_FILE = 65_536
+OWN = "none of these"  # a select has no way to show that nothing is chosen
 PLAIN = {"textTransform": "none"}
 UNSEEN_LABEL = {
     "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
@@ -438,7 +439,8 @@ class Workshop:
             elif not draft.messages:
                 knob.show(draft.shape, under_hand=name == self._slid)
         self._silent = True
-        self.presets.value = draft.name or None
+        own = [] if draft.name else [OWN]
+        self.presets.param.update(options=[*own, *(preset.name for preset in PRESETS)], value=draft.name or OWN)
         self.families.value = draft.family if draft.family in self.families.options else None
         self._silent = False
         self.stl.disabled = isinstance(draft.shape, BareSphere)

@@ -100,6 +100,15 @@ def test_a_dragged_handle_changes_number_section_and_the_top_in_3d(bench):
     bench.page.wait_for_function(f"z => Math.abs(({DRAWN})() - z) < 1e-6", arg=(top.c + top.l) / top.R)
 
 
+def test_a_changed_top_is_no_preset_and_the_preset_can_be_chosen_again(bench):
+    choose(bench, PRESETS[1])
+    choose(bench, PRESETS[0])
+    drag(bench, (0, 27.4), (0, 20.2))
+    bench.page.get_by_role("combobox").nth(0).filter(has_text="none of these").wait_for()
+    choose(bench, PRESETS[0])
+    assert download(bench, "Save this top").decode() == save_top(TruncatedSphere.paper())
+
+
 def test_a_top_is_saved_and_loaded_back_and_a_bad_file_changes_nothing(bench):
     choose(bench, PRESETS[4])
     text = download(bench, "Save this top").decode()
