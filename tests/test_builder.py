@@ -433,3 +433,10 @@ def test_no_number_in_a_field_is_too_small_or_too_large_to_be_answered(builder, 
         if builder.draft.messages:
             assert not builder.draft.messages[name].startswith(("high", "low"))  # no field is called so
             assert builder.draft.shape == preset.shape
+
+
+@pytest.mark.parametrize("given", [{"T": 1e200}, {"D": 1e-300}, {"dT": 1e300}, {"dD": 1e300}])
+def test_a_period_or_diameter_out_of_this_world_is_refused(given):
+    rocking = Rocking(**({"T": 1.08, "dT": 0.01, "D": 0.032, "dD": 1e-4, "M": 0.0115} | given))
+    with pytest.raises(TopError):
+        rocking.a(TruncatedSphere.paper())

@@ -469,10 +469,10 @@ def a_from_rocking(*, T, R, I1, g=9.81, dT=0.0, dR=0.0, dI1=0.0, dg=0.0):
     """
     given = {"T": T, "R": R, "I1": I1, "g": g}
     for name, value in given.items():
-        given[name] = _range(name, finite(name, value), 0, inf, "SI; I1 in MR^2", above=True)
+        given[name] = _range(name, finite(name, value), 1e-9, 1e9, "SI; I1 in MR^2")
     errors = {"T": dT, "R": dR, "I1": dI1, "g": dg}
     for name, value in errors.items():
-        errors[name] = _range(f"d{name}", finite(f"d{name}", value), 0, inf, "SI; I1 in MR^2")
+        errors[name] = _range(f"d{name}", finite(f"d{name}", value), 0, 1e9, "SI; I1 in MR^2")
     T, R, I1, g = given.values()
     q = (T / (2 * pi)) ** 2 * g / R
     # a < 1: at a = 1 the quadratic is I1 - q, so q > I1; and both roots are real
