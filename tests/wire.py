@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -130,8 +131,9 @@ class Visitor:
 
 
 def run(coroutine, seconds=120):
-    """Runs it, for so long at most."""
-    return asyncio.run(asyncio.wait_for(coroutine, seconds))
+    """Runs it, for so long at most; in a thread of its own, for in the tests' own Playwright's loop is running."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, asyncio.wait_for(coroutine, seconds)).result()
 
 
 @dataclass
