@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 import zxingcpp
 from PIL import Image
-from visiting import Visit
+from visiting import WHOLE, Visit
 
 from app.explorer import Explorer, solve
 from tippe_core import Top
@@ -71,7 +71,7 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
     other = go(server)
     other.page.goto(link)
     other.page.wait_for_function("t => window.__tippe?.top3d?.t === t", arg=visit.page.evaluate("__tippe.top3d.t"))
-    other.page.wait_for_function("Bokeh.documents[0].is_idle")
+    other.page.wait_for_function(WHOLE)
     for place in COLUMNS:
         assert np.array_equal(visit.column(*place), other.column(*place))
     assert np.array_equal(visit.page.evaluate(FRAMES), other.page.evaluate(FRAMES))

@@ -35,6 +35,12 @@ PIXEL = """
 """
 
 
+# Whether the last of the cards that are made after the page has come is there.
+WHOLE = """
+() => Bokeh.documents[0].is_idle && [...Bokeh.documents[0]._all_models.values()].some((m) => m.name == "track")
+"""
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
@@ -65,10 +71,7 @@ class Visit:
             page.add_init_script("localStorage.setItem('tippe:tour', '1')")
         page.goto(url)
         page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && __tippe.top3d?.pictures > 2")
-        # the last of the cards that are made after the page has come
-        page.wait_for_function(
-            "[...Bokeh.documents[0]._all_models.values()].some((m) => m.name == 'track') && Bokeh.documents[0].is_idle"
-        )
+        page.wait_for_function(WHOLE)
 
     def column(self, *place):
         return np.array(self.page.evaluate(COLUMN, place))
