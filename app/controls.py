@@ -188,6 +188,7 @@ class Control:
 
     def __init__(self, name, value, request):
         self.name, self._request, self._heard, self._shown = name, request, 0, number(value)
+        self._unread = False  # whether the last that was typed is no number
         start, end, step = RANGES[name]
         spoken, unit = SPOKEN[name]
         self.view = Dial(
@@ -209,7 +210,7 @@ class Control:
 
     def _asked(self, event):
         count, wish, typed = event.new
-        self._heard = count
+        self._heard, self._unread = count, False
         if not typed:
             self._request(self.name, float(wish))
             return
@@ -218,13 +219,18 @@ class Control:
             if not math.isfinite(value):
                 raise ValueError
         except ValueError:
+            self._unread = True
             self._say(html.escape(f"“{wish}” is not a number. Type one, such as {self._shown}."), wrong=True)
             return
         self._request(self.name, value, typed=True)
 
     def show(self, value, shown, note, message, bounds=None):
         """value: the input as it was solved; shown: the number for the field; bounds of the slider, RANGES if none.
-        A message stands in the note's place, and then the field keeps what was typed."""
+        A message stands in the note's place, and then the field keeps what was typed. So does what was said of text
+        that is no number, until the value is another."""
+        if self._unread and (message or number(shown) == self._shown):
+            return
+        self._unread = False
         if message:
             self._say(html.escape(message), wrong=True)
             return

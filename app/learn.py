@@ -292,6 +292,7 @@ class Learn(param.Parameterized):
     def _open(self):
         """Asks the question of this step, about the motion that it would set up for the present top."""
         step, scene = self.now, self._explorer.scene
+        self._asked = scene.top
         place = lesson.NAMES.index(step.name)
         self.back.disabled, self.next.disabled = place == 0, place == len(lesson.NAMES) - 1
         try:
@@ -333,6 +334,9 @@ class Learn(param.Parameterized):
             return
         step = self.now
         guess = self.guesses.get(step.name)
+        if guess is None and scene.top != self._asked:  # the question has the numbers of another top
+            self._open()
+            return
         verdict, answer = lesson.judged(step, scene, guess)
         asked = guess is not None
         self.run.label = say("learn.page.again" if asked else "learn.page.predict")

@@ -338,7 +338,10 @@ export function renderTop3D({ model, el, view }) {
   }
 
   function newProfile() {
+    const was = body.reach ?? 2;
     body.setProfile(float32(model.profile));
+    // A person's own zoom is kept, in terms of the body's size.
+    if (body.reach && body.reach !== was) camera.position.sub(seen).multiplyScalar(body.reach / was).add(seen);
     stage.invalidate();
   }
 
