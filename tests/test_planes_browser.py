@@ -91,7 +91,7 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
     bead = page.evaluate(COLUMN, ["planes-well", "E"])[0]
     assert bead == pytest.approx([first.motions["sliding"].trajectory.energy[index]], abs=1e-4)
     assert page.evaluate("__tippe.top3d.playing")  # the top of the tab Roll has a clock of its own
-    table = page.locator("table").inner_text()
+    table = page.locator("table").first.inner_text()
     assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
     choose(page, "rough")
     page.get_by_text(re.compile("Friction in force: rough plane")).wait_for()
@@ -124,7 +124,7 @@ def test_a_long_run_shows_how_far_it_is_and_can_be_stopped(page):
     put(page, "seconds", 60)
     stop = page.get_by_role("button", name="Stop", exact=True)
     stop.wait_for()
-    assert page.locator(".bk-Row").filter(has=stop).locator("[role=progressbar]").last.is_visible()
+    assert page.locator(".bk-Row").filter(has=stop).locator("progress").last.is_visible()
     stop.click()
     page.get_by_text(re.compile(r"Stopped at \S+ s of the motion")).wait_for()
     stop.wait_for(state="hidden")
