@@ -1,11 +1,19 @@
-"""What the three-dimensional pictures share: the JavaScript that hatch_build.py bundled, three.js included."""
+"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included, its words."""
 
 from pathlib import Path
 
+import param
 from panel.custom import JSComponent
+
+from app.text import listed
 
 
 class Bundled(JSComponent):
     """A component whose JavaScript is in the bundle; one base class, so that a page loads the bundle once."""
 
+    texts = param.Dict(default={}, constant=True, doc="The words it says by itself: those under its name in browser.toml.")
+
     _bundle = Path(__file__).parent / "static" / "tippe.js"
+
+    def __init__(self, **params):
+        super().__init__(**({"texts": listed("browser").get(type(self).__name__, {})} | params))

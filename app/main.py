@@ -1,12 +1,15 @@
 """The page, layout only: `panel serve app` finds it here."""
 
 from functools import partial
+from weakref import WeakKeyDictionary
 
 import panel as pn
 import panel_material_ui as pmui
+import param
 
+from app import text
 from app.builder import Builder
-from app.cards import card, grid
+from app.cards import PLAIN, card, grid
 from app.compare import Compare
 from app.connection import Connection
 from app.keep import Field, OneOf, explorer_of, read
@@ -36,6 +39,30 @@ THEME = {
         )
     }
 }
+
+
+SPEAKS = WeakKeyDictionary()  # document -> its language
+text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT))
+
+
+class Tongue(param.Parameterized):
+    """Which language the page speaks; another one means another page, so it is loaded anew, with its state."""
+
+    lang = param.Selector(default="", objects=["", *text.LANGUAGES], doc='"": the one the browser prefers')
+    KNOWN = {"lang": Field("lang", OneOf(**{name: name for name in text.LANGUAGES}), undoable=False)}  # noqa: RUF012
+
+    def choice(self, share):
+        """The control. share: the Share that keeps the state and the address."""
+        share.keep.add(self, self.KNOWN)
+        select = pmui.RadioButtonGroup(label="", options={name: key for key, name in text.LANGUAGES.items()},
+                                       value=text.spoken(), size="small", margin=(4, 16), sx=PLAIN)  # fmt: skip
+
+        def chosen(event):
+            self.lang = event.new
+            share.reload()
+
+        select.param.watch(chosen, "value")
+        return select
 
 
 def on_a_phone():
@@ -118,6 +145,10 @@ def tabs(views, keep, soon):
 
 def page():
     texts, sentence = read(pn.state.location.search)
+    language = texts.get("lang")
+    if language not in text.LANGUAGES:
+        language = text.preferred(pn.state.headers.get("Accept-Language", ""))
+    SPEAKS[pn.state.curdoc] = language
     if "vote" in texts:  # a student's link
         return pmui.Page(title="Tippe top explorer", main=[student_page(texts["vote"])], theme_toggle=False)
     explorer, wrong = explorer_of(texts)
@@ -127,7 +158,7 @@ def page():
     share.keep.param.watch(lambda event: builder.follow(), "returned")
     return pmui.Page(
         title="Tippe top explorer",
-        sidebar=[*roll.sidebar, Connection(width=0, height=0, margin=0)],
+        sidebar=[*roll.sidebar, Tongue().choice(share), Connection(width=0, height=0, margin=0)],
         sidebar_open=not on_a_phone(),
         header=[*share.header, roll.guide],
         main=[

@@ -47,6 +47,7 @@ class Address(JSComponent):
     gesture = param.Integer(default=0, doc="how many times a hand came down")
     undone = param.Integer(default=0, doc="how often Ctrl+Z was pressed")
     redone = param.Integer(default=0, doc="how often Ctrl+Shift+Z or Ctrl+Y was pressed")
+    reloads = param.Integer(default=0, doc="one more: the page is loaded anew, from its address")
 
     _esm = """
     const writing = (target) => target.isContentEditable || target.matches?.(
@@ -75,6 +76,7 @@ class Address(JSComponent):
       model.on("search", () => {
         history.replaceState(history.state, "", location.pathname + model.search + location.hash)
       })
+      model.on("reloads", () => location.reload())
       model.page = location.origin + location.pathname
       model.on("remove", () => listening.abort())
     }
@@ -228,6 +230,11 @@ class Share:
     def link(self):
         """The address of the page as it is now."""
         return self.address.page + self.keep.query
+
+    def reload(self):
+        """Loads the page anew, with its state."""
+        self.keep.at_rest()
+        self.address.reloads += 1
 
     def _say(self, *events):
         text = self.keep.sentence
