@@ -1,4 +1,4 @@
-"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included, its words."""
+"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included; words."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from app.text import listed
 class Bundled(JSComponent):
     """A component whose JavaScript is in the bundle; one base class, so that a page loads the bundle once."""
 
-    texts = param.Dict(default={}, constant=True, doc="The words it says by itself: those under its name in browser.toml.")
+    texts = param.Dict(default={}, constant=True, doc="What it says by itself: under its name in browser.toml.")
 
     _bundle = Path(__file__).parent / "static" / "tippe.js"
 
