@@ -32,7 +32,9 @@ import datetime
 import math
 import platform
 import statistics
+import sys
 import time
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -41,6 +43,9 @@ from scipy.integrate import solve_ivp
 
 from tippe_core import SmoothedCoulomb, State, Top, slide
 from tippe_core.sliding import _Run
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+from mujoco_sphere import placed
 
 TOP, STATE, FRICTION = Top.paper(), State(0.1, 0.0, 0.0, 8.8), SmoothedCoulomb(0.3, 1.0)
 TIMES = np.linspace(0, 300, 3001)
@@ -57,22 +62,6 @@ def peer(rtol):
     return run._trajectory(y, y).jellett
 
 
-XML = """
-<mujoco>
-  <option timestep="{step}" integrator="{integrator}" gravity="0 0 -1" tolerance="1e-15"/>
-  <default><geom condim="1" solref="-{k} -{damping}" solimp="0.95 0.95 0.001"/></default>
-  <worldbody>
-    <geom type="plane" size="0 0 1"/>
-    <body pos="0 0 1">
-      <freejoint/>
-      <inertial mass="1" pos="0 0 {G}" diaginertia="{I1} {I1} {I3}"/>
-      <geom type="sphere" size="1"/>
-    </body>
-  </worldbody>
-</mujoco>
-"""
-
-
 def friction(model, data):
     """The law of FRICTION at the sphere's lowest point, as MuJoCo's generalised force."""
     (xx, xy, xz, yx, yy, yz, *_), (vx, vy, _, w1, w2, w3) = data.xmat[1].tolist(), data.qvel.tolist()
@@ -85,11 +74,7 @@ def friction(model, data):
 
 def stepped(integrator, step):
     """MuJoCo over the reference inversion: drift of C_J, seconds with the law, without it, cos(theta) at the end."""
-    k = 0.05 / step**2
-    model = mujoco.MjModel.from_xml_string(XML.format(
-        step=step, integrator=integrator, k=k, damping=2 * k**0.5, G=-TOP.a, I1=TOP.I1, I3=TOP.I3))  # fmt: skip
-    data = mujoco.MjData(model)
-    data.qpos[:] = 0, 0, 1 - 0.05 / k, math.cos(STATE.theta / 2), math.sin(STATE.theta / 2), 0, 0
+    model, data = placed(TOP, STATE.theta, step, 0.05 / step**2, integrator=integrator)
     data.qvel[5] = STATE.omega3  # about axis 3, on which both O and G lie at rest
 
     def C_J():

@@ -10,41 +10,21 @@ import mujoco
 import numpy as np
 import pytest
 from cases import LOADED, PAPER
+from mujoco_sphere import placed
 
 from tippe_core import Coulomb, State, Top, Viscous, glide, slide
 
 STIFFNESS = 1e5
 
-XML = """
-<mujoco>
-  <option timestep="{step}" integrator="implicitfast" cone="elliptic" gravity="0 0 -1" tolerance="1e-15"/>
-  <default>
-    <geom friction="{mu} 0 0" condim="{condim}" solref="-{k} -{damping}" solimp="0.95 0.95 0.001"/>
-  </default>
-  <worldbody>
-    <geom type="plane" size="0 0 1"/>
-    <body pos="0 0 1">
-      <freejoint/>
-      <inertial mass="1" pos="0 0 {G}" diaginertia="{I1} {I1} {I3}"/>
-      <geom type="sphere" size="1"/>
-    </body>
-  </worldbody>
-</mujoco>
-"""
-
 
 def moved(top, state, friction, duration, step):
     """theta, G's place and omega_3 after a duration."""
     coulomb = isinstance(friction, Coulomb)
-    model = mujoco.MjModel.from_xml_string(XML.format(
-        step=step, mu=friction.mu_k if coulomb else 0, condim=3 if coulomb else 1, k=STIFFNESS,
-        damping=2 * STIFFNESS**0.5, G=-top.a, I1=top.I1, I3=top.I3))  # fmt: skip
-    data = mujoco.MjData(model)
-    half, s, c = state.theta / 2, np.sin(state.theta), np.cos(state.theta)
+    model, data = placed(top, state.theta, step, STIFFNESS, friction.mu_k if coulomb else None)
+    s, c = np.sin(state.theta), np.cos(state.theta)
     spin = np.array([state.theta_dot, state.omega2, state.omega3])
     turned = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
     O = np.array([state.vx or 0.0, state.vy or 0.0, 0.0]) + np.cross(turned @ spin, top.a * turned[:, 2])
-    data.qpos[:] = 0, 0, 1 - 0.05 / STIFFNESS, np.cos(half), np.sin(half), 0, 0  # pressed in by its own weight
     data.qvel[:] = *O[:2], 0, *spin
     down, contact = np.array([0, 0, -1.0]), np.zeros(6)
     contact[0] = 1

@@ -152,6 +152,12 @@ def _interval(p, B, q, mu, n):
     return p.f1 * end + (p.height - p.drop * B * B), margin
 
 
+def _first(base, end, margin):
+    """2E' at which the limit first breaks where the trajectory passes: base, 2E' of one that turns there, where it is
+    broken at rest; end of _interval, or inf where it has none."""
+    return np.where(margin < 0, base, np.where(end >= base, end, np.inf))
+
+
 # ---- the grid, and polynomials through its points ----
 
 _CELLS, _REACH = 256, 3
@@ -309,7 +315,7 @@ class _Wells:
         found = []
         for mu, n in pairs:
             end, margin = _interval(self.place, self.B, self.q, mu, n)
-            first = np.where(margin < 0, self.base, np.where(end >= self.base, end, np.inf))
+            first = _first(self.base, end, margin)
             j = _clip(first.argmin(axis=1), 1, _CELLS - 1)
             i = _clip(j, _REACH, _CELLS - _REACH)
             about = self.k, i + _STENCIL
@@ -416,7 +422,7 @@ class _Wells:
         """Closer and closer grids between ends, for K_J of indices k: writes what is below e."""
         for theta, (p, B, q, base), closer in self._closer(k, ends):
             end, margin = _interval(p, B, q, *pair)
-            first = np.where(margin < 0, base, np.where(end >= base, end, np.inf))
+            first = _first(base, end, margin)
             at = first.argmin(axis=1)
             closer(np.maximum(at - 1, 0), np.minimum(at + 1, theta.shape[1] - 1))
         r = np.arange(len(k))
@@ -435,7 +441,7 @@ class _Wells:
         theta = ends[0][k, None] + (ends[1] - ends[0])[k, None] * share
         p, B, q, base = self._on(theta, np.pi - theta, k)
         end, margin = _interval(p, B, q, *pair)
-        first = np.where(margin < 0, base, np.where(end >= base, end, np.inf))
+        first = _first(base, end, margin)
         cells = (margin[:, 1:] < 0) != (margin[:, :-1] < 0)
         least = _clip(first.argmin(axis=1), 1, _CELLS - 1)
         rows, cell = np.nonzero(cells)
