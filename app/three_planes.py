@@ -1,38 +1,19 @@
 """The tab of the three planes: why a tippe top turns over, and that it takes sliding friction."""
 
 import html
-from itertools import pairwise
 
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Range1d, Span
 
-from app.cards import INK, PLAIN, TYPE, card, grid, progress, swatch, words
-from app.colours import COLOURS
+from app.cards import PLAIN, TYPE, card, grid, progress, swatch, words
 from app.controls import STYLE, Control
 from app.keep import Field, Number, OneOf
-from app.planes import FLIES, LAWS, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS, SLIPS
-from app.plots import FAINT, plain
+from app.planes import LAWS, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS
+from app.planes_plots import CLOCK, LEDGER, LOOKS, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
 from app.surface3d import pack
 from app.top3d import Top3D, pack_frames
-from tippe_core import PRESETS as BODIES
 
-CLOCK = "planes"
-# A plane's own colour and name, the same in all pictures of this tab.
-LOOKS = {"rough": (COLOURS["normal"], "rough: it rolls"), "smooth": (COLOURS["jellett"], "smooth: it glides"),
-         "sliding": (COLOURS["friction"], "sliding")}  # fmt: skip
-REGIMES = {ROLLS: (COLOURS["normal"], "rolls"), SLIPS: (COLOURS["friction"], "slips"),
-           FLIES: (COLOURS["omega"], "in the air"), LIFTS: ("#8C2D04", "would lift off")}  # fmt: skip
-STOPPED = "#d5dae0"
-LEDGER = {"spin": "#CC79A7", "precession and nutation": "#E69F00", "motion of G": "#8a96a3", "height": "#56B4E9",
-          "heat": "#D55E00"}  # fmt: skip
-QUANTITIES = {
-    "theta": "<i>θ</i><br>°",
-    "omega3": "<i>ω</i><sub>3</sub><br>rev/s",
-    "normal": "<i>F</i><sub>z</sub><br><i>Mg</i>",
-    "slip": "slip<br>cm/s",
-}
 SURVIVES = {
     "J": "Jellett <i>J</i>",
     "Routh": "Routh <i>K</i><sub>R</sub>",
@@ -50,12 +31,8 @@ EVENTS = {
 # Below this a drift is that of the computation; what physics changes changes by more.
 ROUNDING = 1e-7
 NUMBERS = {"coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
-BUCKETS, LEDGER_POINTS, BEAD_POINTS = 500, 500, 4000
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
-MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
-MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
-NEAR = 0.035  # of the map's width: a click so near to a known top is meant for it
 BUTTON = {
     "size": "small",
     "variant": "outlined",
@@ -72,39 +49,6 @@ th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { c
 .line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
 """
 
-# Moves the time lines and the bead in the browser; not synced, so playing sends nothing to the server.
-FOLLOW_CLOCK = """
-if (path.followed) return
-path.followed = true
-let now = 0
-const place_bead = () => {
-  const {t, theta, V, E} = path.data, last = t.length - 1
-  if (last < 1) return
-  let low = 0, high = last
-  while (high - low > 1) {
-    const middle = (low + high) >> 1
-    if (t[middle] <= now) low = middle
-    else high = middle
-  }
-  const share = Math.min(Math.max((now - t[low]) / (t[high] - t[low]), 0), 1)
-  const at = (values) => values[low] + share * (values[high] - values[low])
-  bead.data = {theta: [at(theta)], V: [at(V)], E: [at(E)]}
-}
-const show = () => {
-  for (const span of spans) span.setv({location: now}, {sync: false})
-  place_bead()
-}
-path.properties.data.change.connect(place_bead)
-window.addEventListener("tippe:clock:CLOCK", ({detail: {t}}) => {
-  now = t * path.tags[0]
-  show()
-})
-""".replace("CLOCK", CLOCK)
-SEEK = f"""
-const held = ["panstart", "pan"].includes(cb_obj.event_name)
-window.dispatchEvent(new CustomEvent("tippe:seek:{CLOCK}", {{detail: {{t: cb_obj.x / path.tags[0], held}}}}))
-"""
-
 
 def power(value):
     """A small number as 3·10⁻¹³."""
@@ -114,225 +58,6 @@ def power(value):
 
 def degrees(value):
     return f"{np.degrees(value):.1f}°"
-
-
-class Figures:
-    """Quantities over time, the ledger and the ribbon, each with a line at the clock's time."""
-
-    def __init__(self):
-        self.x_range = Range1d(0, 1)
-        self.spans, self.figures = [], {}
-        for name in (*QUANTITIES, "ledger", "regime"):
-            self.figures[name] = fig = plain(x_range=self.x_range, y_range=Range1d(0, 1), name=f"planes-{name}")
-            fig.min_border_left = 50
-            fig.yaxis.ticker.desired_num_ticks = 3
-            fig.xaxis.visible = name == "regime"
-            self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
-            fig.add_layout(self.spans[-1])
-        self.figures["regime"].yaxis.visible = False
-        self.figures["regime"].grid.visible = False
-        self.figures["normal"].add_layout(
-            BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
-        )
-        columns = [prefix + name for name in QUANTITIES for prefix in ("", "t_")]
-        self.curves = {plane: ColumnDataSource({name: [] for name in columns}) for plane in PLANES}
-        self.lines = {
-            (plane, name): self.figures[name].line(
-                f"t_{name}", name, source=source, line_color=LOOKS[plane][0], line_width=2, name=plane
-            )
-            for plane, source in self.curves.items()
-            for name in QUANTITIES
-        }
-        self.energies = ColumnDataSource({name: [] for name in ("t", *LEDGER)})
-        self.figures["ledger"].varea_stack(list(LEDGER), x="t", color=list(LEDGER.values()), source=self.energies)
-        self.ribbons = ColumnDataSource({name: [] for name in ("start", "end", "low", "high", "colour")})
-        self.figures["regime"].quad(
-            left="start", right="end", bottom="low", top="high", fill_color="colour", line_color=None,
-            source=self.ribbons,
-        )  # fmt: skip
-
-    def show(self, picture):
-        """All curves of a new picture."""
-        scales = picture.settings.scales
-        ribbons = []
-        for plane in PLANES:
-            motion = picture.motions[plane]
-            if motion is None:
-                self.curves[plane].data = {name: [] for name in self.curves[plane].data}
-                continue
-            t, moved = motion.trajectory.t * scales.time, motion.trajectory
-            values = {
-                "theta": np.degrees(moved.theta),
-                "omega3": moved.omega[:, 2] * scales.angular_velocity / (2 * np.pi),
-                "normal": moved.force[:, 2],
-                "slip": 100 * scales.velocity * motion.slip,
-            }
-            data = {}
-            for name, column in values.items():
-                data[f"t_{name}"], data[name] = extremes(t, column)
-            self.curves[plane].data = data
-            ribbons += [(plane, a * scales.time, b * scales.time, which) for a, b, which in motion.stretches]
-        row = [PLANES.index(plane) for plane, *_ in ribbons]
-        self.ribbons.data = {
-            "start": [start for _, start, _, _ in ribbons],
-            "end": [end for _, _, end, _ in ribbons],
-            "low": [i + 0.1 for i in row],
-            "high": [i + 0.9 for i in row],
-            "colour": [REGIMES[which][0] if which in REGIMES else STOPPED for *_, which in ribbons],
-        }
-        self.x_range.update(start=0, end=picture.settings.seconds)
-
-    def look(self, picture, plane):
-        """At one plane, the others faintly where that tells something, or at all."""
-        for (which, name), line in self.lines.items():
-            line.visible = plane in (which, "compare") or name in ("theta", "omega3")
-            line.glyph.line_alpha = 1 if plane in (which, "compare") else 0.3
-            line.glyph.line_width = 2.5 if which == plane else 1.5
-        for name in QUANTITIES:
-            shown = [self.curves[which].data[name] for which in PLANES if self.lines[which, name].visible]
-            shown = np.concatenate([values for values in shown if len(values)] or [np.zeros(1)])
-            low, high = float(shown.min()), float(shown.max())
-            low = min(0.0, low) if name != "omega3" else low
-            if name == "normal":
-                high = max(1.5, high)
-            pad = 0.08 * (high - low) or 0.05 * (1 + abs(high))
-            self.figures[name].y_range.update(start=low - pad, end=high + pad)
-        row = PLANES.index(plane) if plane in PLANES else None
-        self.figures["regime"].y_range.update(start=row or 0, end=len(PLANES) if row is None else row + 1)
-        motion = picture.motions[plane if plane in PLANES else "sliding"]
-        if motion is None:
-            self.energies.data = {name: [] for name in ("t", *LEDGER)}
-            return
-        every = np.unique(np.linspace(0, len(motion.trajectory.t) - 1, LEDGER_POINTS).astype(int))
-        ledger = {name: values[every] for name, values in motion.ledger.items()}
-        self.energies.data = {"t": motion.trajectory.t[every] * picture.settings.scales.time} | ledger
-        self.figures["ledger"].y_range.update(start=0, end=1.05 * float(sum(ledger.values()).max()) or 1.0)
-
-
-def extremes(t, values):
-    """t and values of the least and the largest of each of BUCKETS stretches: a fast swing keeps its width."""
-    if len(t) <= 2 * BUCKETS:
-        return t, values
-    buckets = pairwise(np.linspace(0, len(t), BUCKETS + 1).astype(int))
-    pairs = [sorted((a + values[a:b].argmin(), a + values[a:b].argmax())) for a, b in buckets]
-    rows = np.ravel(pairs)
-    return t[rows], values[rows]
-
-
-class Well:
-    """V_J over theta, its steady states, and the top as a bead in it, with the energy that it has left above."""
-
-    def __init__(self):
-        self.figure = fig = plain(x_range=Range1d(-5, 185), y_range=Range1d(0, 1), name="planes-well")
-        fig.min_border_left = 50
-        fig.xaxis.ticker = [0, 30, 60, 90, 120, 150, 180]
-        self.curve = ColumnDataSource({"theta": [], "V": []})
-        self.steady = ColumnDataSource({"theta": [], "V": [], "fill": []})
-        # what the browser's clock reads, and what it moves
-        self.path = ColumnDataSource({name: [] for name in ("t", "theta", "V", "E")}, tags=[1.0])
-        self.bead = ColumnDataSource({"theta": [], "V": [], "E": []})
-        fig.line("theta", "V", source=self.curve, line_color=COLOURS["theta"], line_width=2.5)
-        fig.scatter(
-            "theta", "V", source=self.steady, size=8, fill_color=INK, fill_alpha="fill", line_color=INK, line_width=1.5
-        )
-        on_top = {"source": self.bead, "level": "overlay"}
-        fig.segment("theta", "V", "theta", "E", line_color=COLOURS["energy"], line_width=2, **on_top)
-        fig.scatter("theta", "E", marker="dash", size=16, line_color=COLOURS["energy"], line_width=3, **on_top)
-        fig.scatter("theta", "V", size=15, fill_color=COLOURS["friction"], line_color="white", line_width=2, **on_top)
-
-    def show(self, picture, plane):
-        motion = picture.motions[plane if plane in PLANES else "sliding"]
-        steady = picture.outcome.steady
-        V_steady = np.interp(steady.theta, picture.theta, picture.V_J)
-        self.curve.data = {"theta": np.degrees(picture.theta), "V": picture.V_J}
-        self.steady.data = {"theta": np.degrees(steady.theta), "V": V_steady,
-                            "fill": steady.stable.astype(float)}  # fmt: skip
-        low, high = float(picture.V_J.min()), float(np.min([picture.V_J.max(), 4 * np.median(picture.V_J)]))
-        if motion is None:
-            self.path.data = {name: [] for name in self.path.data}
-            self.bead.data = {name: [] for name in self.bead.data}
-        else:
-            moved, scales = motion.trajectory, picture.settings.scales
-            every = np.unique(np.linspace(0, len(moved.t) - 1, BEAD_POINTS).astype(int))
-            theta, E = moved.theta[every], moved.energy[every]
-            self.path.tags = [scales.time]
-            V = np.interp(theta, picture.theta, picture.V_J)
-            self.path.data = {"t": moved.t[every] * scales.time, "theta": np.degrees(theta), "V": V, "E": E}
-            high = max(high, float(E.max()))
-        pad = 0.08 * (high - low) or 0.05
-        self.figure.y_range.update(start=low - pad, end=high + pad)
-
-
-def beside(place, name, taken):
-    """(dx, dy) in px and the side on which a name stands free of those in taken, to which it is added."""
-    ends = zip(MAP_PX, place, (MAP_X, MAP_Y), strict=True)
-    x, y = (size * (value - low) / (high - low) for size, value, (low, high) in ends)
-    width = LETTER_PX * len(name)
-    for dy in (0, 14, -14, 28, -28, 42):
-        for dx, align in ((8, "left"), (-8, "right")):
-            start = x + dx - (width if align == "right" else 0)
-            box = start, start + width, y - dy - 6, y - dy + 6
-            if x - width < 0 and align == "right":
-                continue
-            if not any(box[0] < b[1] and b[0] < box[1] and box[2] < b[3] and b[2] < box[3] for b in taken):
-                taken.append(box)
-                return dx, dy, align
-    return 8, 0, "left"
-
-
-class Map:
-    """The three groups over a/R and I1/I3; pick: takes (a, I1/I3) from a click, pick_body the name of a known top."""
-
-    def __init__(self, pick, pick_body):
-        self._pick, self._pick_body = pick, pick_body
-        self.figure = fig = plain(x_range=Range1d(*MAP_X), y_range=Range1d(*MAP_Y), name="planes-map")
-        (left, right), (low, high) = MAP_X, MAP_Y
-        areas = [
-            ((0, 0, right, right), (low, 1, 1 - right, low), (FAINT, 0.3)),
-            ((0, right, right), (1, 1 + right, 1 - right), (COLOURS["friction"], 0.22)),
-            ((0, 0, right, right), (1, high, high, 1 + right), (COLOURS["jellett"], 0.25)),
-            ((left, left, 0, 0), (low, 1 - left, 1, low), (COLOURS["normal"], 0.2)),
-            ((left, left, 0, 0), (1 - left, high, high, 1), (FAINT, 0.15)),
-        ]
-        for x, y, (colour, alpha) in areas:
-            fig.patch(x, y, fill_color=colour, fill_alpha=alpha, line_color=None, level="underlay")
-        says = [(0.33, 0.55, "never rises"), (0.6, 1.2, "can invert"), (0.36, 1.6, "rises part of the way"),
-                (-0.3, 1.15, "can stand upright"), (-0.3, 1.66, "never stands")]  # fmt: skip
-        x, y, groups = zip(*says, strict=True)
-        fig.text(x, y, text=groups, text_align="center", text_color=INK, text_font_size="12px",
-                 text_font_style="italic")  # fmt: skip
-        fig.ygrid.visible = fig.xgrid.visible = False
-        # a top far to the left stands at the edge, with its place beside its name
-        self.known, marks, taken = {}, [], []
-        for body in BODIES:
-            top = body.shape.top
-            inside = top.a > left
-            place = self.known[body.name] = (top.a if inside else left + 0.03, top.I1 / top.I3)
-            name = body.name if inside else f"{body.name} (a/R = {top.a:.0f})"
-            marks.append((*place, name, "circle" if inside else "triangle", *beside(place, name, taken)))
-        names = ("x", "y", "name", "marker", "dx", "dy", "align")
-        known = ColumnDataSource(dict(zip(names, zip(*marks, strict=True), strict=True)))
-        fig.scatter("x", "y", source=known, size=9, marker="marker", fill_color="white", line_color=INK, line_width=1.5)
-        fig.text("x", "y", text="name", x_offset="dx", y_offset="dy", text_align="align", source=known,
-                 text_font_size="12px", text_color=INK, text_baseline="middle")  # fmt: skip
-        self.here = ColumnDataSource({"x": [], "y": []})
-        fig.scatter("x", "y", source=self.here, size=13, fill_color=COLOURS["friction"], line_color="white",
-                    line_width=2, level="overlay")  # fmt: skip
-        fig.on_event("tap", self._tapped)
-
-    def _tapped(self, event):
-        (left, right), (low, high) = MAP_X, MAP_Y
-        away = {name: np.hypot((x - event.x) / (right - left), (y - event.y) / (high - low))
-                for name, (x, y) in self.known.items()}  # fmt: skip
-        nearest = min(away, key=away.get)
-        if away[nearest] < NEAR:
-            self._pick_body(nearest)
-        else:
-            self._pick(round(event.x, 3), round(event.y, 3))
-
-    def show(self, top):
-        ratio = top.I1 / top.I3
-        self.here.data = {"x": [np.clip(top.a, MAP_X[0] + 0.03, MAP_X[1])], "y": [np.clip(ratio, *MAP_Y)]}
 
 
 # ---- words ----
@@ -485,14 +210,7 @@ class ThreePlanes:
             top.param.watch(lambda event: self._set_speed(event.new), "speed")
         self._figures, self._well = Figures(), Well()
         self._map = Map(self.pick, builder.choose)
-        follow = CustomJS(
-            args={"spans": self._figures.spans, "path": self._well.path, "bead": self._well.bead}, code=FOLLOW_CLOCK
-        )
-        self._well.figure.js_on_change("inner_width", follow)
-        for figure in self._figures.figures.values():
-            seek = CustomJS(args={"path": self._well.path}, code=SEEK)
-            for event in ("tap", "panstart", "pan", "panend"):
-                figure.js_on_event(event, seek)
+        follow_clock(self._figures, self._well)
         self._controls = {name: Control(name, getattr(planes, name), self._asked) for name in
                           ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps")}  # fmt: skip
         self._said = {name: says(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
