@@ -19,12 +19,14 @@ class Refused(Exception):
 
 @dataclass(eq=False)
 class Room:
-    """One question to a class: the step asked, what it asks (a lesson.Choice or Guess), the votes by page."""
+    """One question to a class, which each page says in its own language, and the votes by page.
+
+    step: a lesson.Step; numbers: for the words of its question; asks: a lesson.Choice or Guess.
+    """
 
     code: str
-    step: str
-    question: str
-    labels: dict
+    step: object
+    numbers: dict
     asks: object
     born: float
     votes: dict = field(default_factory=dict)
@@ -50,7 +52,7 @@ class Rooms:
         for code in old:
             del self._rooms[code]
 
-    def open(self, step, question, labels, asks):
+    def open(self, step, numbers, asks):
         """A new Room; Refused("full") where there are too many."""
         with self._lock:
             self._forget_old()
@@ -58,7 +60,7 @@ class Rooms:
                 raise Refused("full")
             while (code := "".join(secrets.choice(LETTERS) for _ in range(CODE_LENGTH))) in self._rooms:
                 pass
-            self._rooms[code] = Room(code, step, question, labels, asks, self._clock(), refilled=self._clock())
+            self._rooms[code] = Room(code, step, numbers, asks, self._clock(), refilled=self._clock())
             return self._rooms[code]
 
     def close(self, code):

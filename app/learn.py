@@ -1,5 +1,7 @@
 """The tab "Learn": a question, a prediction, a run, an explanation with this run's numbers."""
 
+from html import escape
+
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
@@ -15,8 +17,8 @@ from app.lines import Derivation
 from app.plots import plain
 from app.roll import show_top
 from app.surface3d import pack
-from app.teach import history_view, labels_of, option, prediction, teach_view
-from app.text import listed, say
+from app.teach import history_view, option, prediction, teach_view
+from app.text import listed, say, told
 from app.top3d import REGIMES, Top3D, pack_frames
 from tippe_core import TopError
 
@@ -298,7 +300,7 @@ class Learn(param.Parameterized):
         try:
             plan = lesson.planned(step, scene, self._explorer.shape)
         except TopError as error:
-            self.question.object = f'<div role="alert">{error}</div>'
+            self.question.object = f'<div role="alert">{escape(told(error))}</div>'
             return
         answer = step.answer(plan)
         asks = step.asks(plan)
@@ -306,7 +308,7 @@ class Learn(param.Parameterized):
             f"<h2 style='margin: 8px 0 4px'>{say(f'learn.{step.name}.title')}</h2>"
             f"<div style='font-size: 15px'>{say(f'learn.{step.name}.question', **answer.numbers)}</div>"
         )
-        self.widget = prediction(asks, labels_of(step, asks), self.guesses.get(step.name))
+        self.widget = prediction(step, asks, self.guesses.get(step.name))
         self.prediction.objects = [self.widget]
         full = [(listed(f"sources.{name}.short"), listed(f"sources.{name}.full")) for name in step.sources]
         self.sources.object = f"<div class='key' style='margin-top: 6px'>{say('learn.page.sources')}</div>" + "".join(
@@ -359,8 +361,8 @@ class Learn(param.Parameterized):
 
     @staticmethod
     def _explained(step, answer):
-        told = paragraphs(say(f"learn.{step.name}.{answer.told}", **answer.numbers))
+        explained = paragraphs(say(f"learn.{step.name}.{answer.told}", **answer.numbers))
         follows = f'<div class="key">{say("learn.page.follows")}</div>'
         if isinstance(answer.truth, str):
-            told = paragraphs(f"{option(step, answer.truth)}.") + told
-        return f"<div style='font-size: 14px'>{told}</div>{follows}"
+            explained = paragraphs(f"{option(step, answer.truth)}.") + explained
+        return f"<div style='font-size: 14px'>{explained}</div>{follows}"

@@ -44,11 +44,11 @@ def bullets(items, ordered=False):
     return f"<{kind} style='margin: 4px 0; padding-left: 20px'>{''.join(f'<li>{item}</li>' for item in items)}</{kind}>"
 
 
-def prediction(asks, labels, value=None):
-    """The widget for a Choice or a Guess."""
+def prediction(step, asks, value=None):
+    """The widget for what a step asks, a Choice or a Guess."""
     label = say("learn.page.yours")
     if isinstance(asks, lesson.Choice):
-        options = {labels[key]: key for key in asks.options}
+        options = {option(step, key): key for key in asks.options}
         group = pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
         group._allows_none = True  # else it takes the first by itself, when made and again, unseen, when drawn
         group.value = value
@@ -57,10 +57,6 @@ def prediction(asks, labels, value=None):
     return pmui.FloatSlider(label=f"{label}, {asks.unit}" if asks.unit else label, start=asks.low, end=asks.high,
                             step=asks.step, value=start, sizing_mode="stretch_width", margin=(4, 12),
                             size="small")  # fmt: skip
-
-
-def labels_of(step, asks):
-    return {key: option(step, key) for key in getattr(asks, "options", ())}
 
 
 def page_address():
@@ -111,9 +107,8 @@ class Vote:
         self._close()
         step, plan = self._plan()
         answer, asks = step.answer(plan), step.asks(plan)
-        question = say(f"learn.{step.name}.question", **answer.numbers)
         try:
-            self._room = ROOMS.open(step.name, question, labels_of(step, asks), asks)
+            self._room = ROOMS.open(step, answer.numbers, asks)
         except Refused as refused:
             self.count.object = f"<div role='alert'>{say(f'teach.vote.{refused}')}</div>"
             return
@@ -133,7 +128,7 @@ class Vote:
             return
         self._shown, asks = votes, self._room.asks
         if isinstance(asks, lesson.Choice):
-            names = [self._room.labels[key] for key in asks.options]
+            names = [option(self._room.step, key) for key in asks.options]
             counts = [votes.count(key) for key in asks.options]
         else:
             counts, edges = np.histogram(votes, bins=BINS, range=(asks.low, asks.high))
@@ -144,8 +139,7 @@ class Vote:
         self.count.object = f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>"
 
     def _answer(self):
-        step = lesson.STEPS[lesson.NAMES.index(self._room.step)]
-        asks, truth = self._room.asks, self._truth
+        step, asks, truth = self._room.step, self._room.asks, self._truth
         if isinstance(truth, str):
             said = option(step, truth)
         else:
@@ -215,7 +209,7 @@ def student_page(code):
     if room is None:
         return pn.Column(words(f"{title}<div role='alert'>{say('teach.student.gone')}</div>"), margin=16)
     said = words("")
-    widget = prediction(room.asks, room.labels)
+    widget = prediction(room.step, room.asks)
     send = pmui.Button(label=say("teach.student.send"), variant="contained", sx=PLAIN)
 
     def vote(event):
@@ -228,6 +222,7 @@ def student_page(code):
         said.object = f"<div role='status'>{say(f'teach.student.{key}')}</div>"
 
     send.on_click(vote)
-    question = words(f"{title}<div style='font-size: 16px'>{room.question}</div>")
+    asked = say(f"learn.{room.step.name}.question", **room.numbers)
+    question = words(f"{title}<div style='font-size: 16px'>{asked}</div>")
     return pn.Column(question, widget, send, said, sizing_mode="stretch_width", max_width=640, margin=16,
                      css_classes=["learn"])  # fmt: skip

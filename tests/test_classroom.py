@@ -5,6 +5,7 @@ import pytest
 from app import lesson
 from app.classroom import BETWEEN, BURST, LASTS, MOST_ROOMS, MOST_VOTES, Refused, Rooms
 
+STEP = lesson.STEPS[0]
 CHOICE, GUESS = lesson.Choice(("over", "between")), lesson.Guess(0.0, 10.0, 0.1, "%", 0.1, 0.1)
 
 
@@ -32,7 +33,7 @@ def refused(call, *args):
 
 
 def test_a_page_has_one_vote_and_may_change_it(rooms, clock):
-    code = rooms.open("free", "?", {}, CHOICE).code
+    code = rooms.open(STEP, {}, CHOICE).code
     rooms.vote(code, "page", "over")
     assert refused(rooms.vote, code, "page", "between") == "fast"
     clock.now += BETWEEN
@@ -42,7 +43,7 @@ def test_a_page_has_one_vote_and_may_change_it(rooms, clock):
 
 
 def test_only_answers_count(rooms):
-    choice, guess = (rooms.open("free", "?", {}, asks).code for asks in (CHOICE, GUESS))
+    choice, guess = (rooms.open(STEP, {}, asks).code for asks in (CHOICE, GUESS))
     for code, value in ((choice, "<script>"), (choice, 3.0), (guess, "over"), (guess, 11.0), (guess, float("nan"))):
         assert refused(rooms.vote, code, "page", value) == "wrong"
     assert refused(rooms.vote, "NOROOM", "page", "over") == "gone"
@@ -51,7 +52,7 @@ def test_only_answers_count(rooms):
 
 
 def test_bounds_on_votes_rooms_and_rate(rooms, clock):
-    code = rooms.open("free", "?", {}, CHOICE).code
+    code = rooms.open(STEP, {}, CHOICE).code
     for page in range(BURST):
         rooms.vote(code, page, "over")
     assert refused(rooms.vote, code, "one more at once", "over") == "fast"
@@ -63,12 +64,12 @@ def test_bounds_on_votes_rooms_and_rate(rooms, clock):
     rooms.vote(code, 0, "between")
     assert len(rooms.tally(code)) == MOST_VOTES
     for _ in range(MOST_ROOMS - 1):
-        rooms.open("free", "?", {}, CHOICE)
-    assert refused(rooms.open, "free", "?", {}, CHOICE) == "full"
+        rooms.open(STEP, {}, CHOICE)
+    assert refused(rooms.open, STEP, {}, CHOICE) == "full"
 
 
 def test_gone_when_closed_and_after_a_while(rooms, clock):
-    first, second = (rooms.open("free", "?", {}, CHOICE).code for _ in range(2))
+    first, second = (rooms.open(STEP, {}, CHOICE).code for _ in range(2))
     rooms.close(first)
     assert rooms.room(first) is None and rooms.tally(first) == []
     clock.now += LASTS + 1
