@@ -10,6 +10,7 @@ from types import MappingProxyType
 import numpy as np
 import param
 
+from app.text import say, told
 from tippe_core import (
     Constants,
     Rolling,
@@ -19,16 +20,14 @@ from tippe_core import (
     Top,
     TopError,
     TruncatedSphere,
-    f,
     figures,
-    friction_force,
-    normal_force,
     omega2,
     omega3,
     pole_constants,
     turning_points,
 )
-from tippe_core.curve import f1_squared, f2_squared
+from tippe_core.curve import f1_squared, f2_squared, rounded_f
+from tippe_core.forces import forces_on_curve
 
 ROLLS, SLIPS, LIFTS = 0, 1, 2
 WORDS = ("rolls", "would slip here", "would lift off here")
@@ -175,7 +174,7 @@ class Scene:
             wells = turning_points(self.top, constants)
             inner, outer = wells[int(np.argmin(np.abs(wells - self.marks.theta_steady).min(axis=1)))]
             theta = between(inner, outer, LEVEL_COLUMNS)
-            theta_dot = np.sqrt(np.maximum(f(theta, self.top, constants), 0))
+            theta_dot = np.sqrt(np.maximum(rounded_f(theta, self.top, constants), 0))
             theta_dot[[0, -1]] = 0
             curves.append((theta, theta_dot))
         return curves
@@ -292,7 +291,7 @@ class Explorer(param.Parameterized):
             if self.scene is None:
                 raise
             control = {"E": "energy"}.get(error.name, error.name)
-            self._follow(scene=replace(self.scene, messages=MappingProxyType({control: str(error)})))
+            self._follow(scene=replace(self.scene, messages=MappingProxyType({control: told(error)})))
             return
         found = {"energy": scene.share} | {name: getattr(scene.constants, name) for name in self.GIVEN["E"]}
         found |= {name: getattr(scene.state, name) for name in self.GIVEN["state"]}
@@ -462,7 +461,7 @@ def between(inner, outer, columns):
 
 def height(theta, top, constants):
     """f1^2 theta_dot^2 of (36), and 0 at the ends of the last axis where they are turning points in (0, pi)."""
-    value = f1_squared(theta, top) * f(theta, top, constants)
+    value = f1_squared(theta, top) * rounded_f(theta, top, constants)
     return np.maximum(value, 0)
 
 
@@ -533,22 +532,21 @@ def everywhere(top, theta, K_J, K_R, E_limit):
     theta, K_J = theta[None, :], K_J[:, None]
     E = np.fmax(least_energy(theta, top, K_J, K_R), np.where(np.isfinite(E_limit), E_limit, np.nan)[:, None])
     constants = Constants(K_J, K_R, E)
-    F_z = normal_force(theta, top, constants)
-    F_x, F_y = friction_force(theta, top, constants)
-    # At the turning point itself rounding may leave f just below 0, and F_x, which vanishes there, without a value.
-    F_h = np.hypot(np.nan_to_num(F_x), F_y)
+    # At the turning point itself rounding may leave f just below 0, where there is no theta_dot.
+    w1_squared = np.maximum(rounded_f(theta, top, constants), 0)
+    F_x, F_y, F_z = forces_on_curve(theta, top, constants, w1_squared)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return E, np.where(F_z > 0, F_h / F_z, np.inf)
+        return E, np.where(F_z > 0, np.hypot(F_x, F_y) / F_z, np.inf)
 
 
 def remarks(marks, shape, theta_outer):
     if shape is None:
-        yield "a, I1 and I3 were set apart from the body: what is drawn stands in for it."
+        yield say("controls.remarks.stand_in")
     elif shape.touch_angle is not None and theta_outer > shape.touch_angle:
-        yield f"Past θ = {np.degrees(shape.touch_angle):.0f}° not only the sphere would touch the table."
+        yield say("controls.remarks.touches", angle=np.degrees(shape.touch_angle))
     if np.isnan(marks.lift):
-        yield "Even the steady precession would lift off."
+        yield say("controls.remarks.lifts")
     elif np.isnan(marks.slip):
-        yield "Even the steady precession would slip on this table."
+        yield say("controls.remarks.slips")
     elif np.isinf(marks.lift) and np.isinf(marks.slip):
-        yield "Nothing limits this motion: it neither slips nor lifts off at any energy."
+        yield say("controls.remarks.unlimited")

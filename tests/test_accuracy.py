@@ -42,6 +42,19 @@ def test_f_at_hard_places(hard, compare):
                 scale=float(size + slope))  # fmt: skip
 
 
+@pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="no float here is longer than a double")
+@pytest.mark.parametrize("share", [1e-4, 1e-6, 1e-8])
+def test_f_and_forces_next_to_a_turning_point(hard, share):
+    """Also where f has lost nearly all figures of its terms, 1e-9 of itself is right."""
+    for theta in inside(hard, (share, 1 - share)):
+        exact = hard.curve.f(mpf(theta))
+        if exact < 1e-9 * hard.curve.U(mpf(theta)):
+            continue  # a few of the last digits of theta itself
+        assert f(theta, hard.top, hard.constants) == pytest.approx(float(exact), rel=1e-9, abs=0)
+        found = friction_force(theta, hard.top, hard.constants)[0]
+        assert found == pytest.approx(float(accuracy.forces(hard.curve, mpf(theta), exact)[0][0]), rel=1e-9, abs=0)
+
+
 @pytest.mark.parametrize("name", POLES)
 def test_f_on_the_way_through_a_pole(name, compare):
     """The float K_J of a pole stands for the pole's own: f next to it against the exact K_J there."""

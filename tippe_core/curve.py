@@ -16,11 +16,12 @@ from decimal import Decimal, localcontext
 import numpy as np
 from scipy.optimize import brentq
 
-from .constants import EXACT, Exact, exact_top, f1_2, f2_2, f3_2, nonzero, versines
+from .constants import EXACT, Constants, Exact, ExactTop, exact_top, f1_2, f2_2, f3_2, nonzero, versines
 from .errors import NoMotionError, finite, numbers
 
 SteadyPrecessions = namedtuple("SteadyPrecessions", "theta stable")
 Well = namedtuple("Well", "inner outer")  # cos(theta) at the turning points, Decimals
+_CANCELLED = 1e-5  # of the terms of (36): a smaller sum of them has lost more than five of sixteen figures
 Station = namedtuple("Station", "c gap bottom")  # cos(theta), e - U there, and whether U is least there
 
 
@@ -59,12 +60,53 @@ def omega2(theta, top, constants):
 def f(theta, top, constants):
     """theta_dot^2 = f(theta), (36), in g/R; negative where no motion is.
 
-    theta in rad; theta and the constants broadcast. -inf at a pole that no motion with this K_J reaches.
+    theta in rad; theta and the constants broadcast. -inf at a pole that no motion with this K_J reaches. Next to its
+    zeros, where the terms of (36) cancel, it is computed in the machine's longest float.
     """
+    value, size = _f(theta, top, constants)
+    cancelled = np.abs(value) < _CANCELLED * size
+    if np.any(cancelled):
+        args = np.broadcast_arrays(theta, constants.K_J, constants.K_R, constants.E)
+        value = np.array(value)
+        value[cancelled] = _long_f(top, *(x[cancelled] for x in args))
+    return value[()]
+
+
+def rounded_f(theta, top, constants):
+    """f in floats all through, which is fast; next to its zeros it has the rounding of the terms of (36)."""
+    return _f(theta, top, constants)[0]
+
+
+def _f(theta, top, constants):
+    """f, and the largest of the terms it is the sum of."""
     v, m = versines(theta)
     w2 = omega2_at(v, m, top, constants.K_R, pole_gaps(top, constants.K_J, constants.K_R))
+    value, size = _sum_36(v, m, top, constants.two_E_prime(top), w2)
+    return value, np.maximum(size, constants.K_R**2 / f1_2(1 - v, top))
+
+
+def _sum_36(v, m, top, e, w2):
+    """(2E' - 2a(1 - c) - f2^2 w2^2)/f1^2, and its largest term."""
     c = 1 - v
-    return (constants.two_E_prime(top) - 2 * top.a * v - f2_2(c, v * m, top) * w2**2) / f1_2(c, top)
+    tilt, turn, f1_sq = 2 * top.a * v, f2_2(c, v * m, top) * w2**2, f1_2(c, top)
+    return (e - tilt - turn) / f1_sq, np.maximum(np.abs(e), np.maximum(np.abs(tilt), turn)) / f1_sq
+
+
+def _long_f(top, theta, K_J, K_R, E):
+    """f with every float taken as exact, in long doubles; arrays of one shape."""
+    long = ExactTop(*map(np.longdouble, (top.a, top.I1, top.I3)))
+    # 2E' is itself a difference of large numbers
+    rows = list(zip(K_J, K_R, E, strict=True))
+    known = {row: np.longdouble(str(Exact.of(Constants(*row), top).e)) for row in set(rows)}
+    e = np.array([known[row] for row in rows])
+    theta, K_J, K_R = (np.asarray(x, dtype=np.longdouble) for x in (theta, K_J, K_R))
+    v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
+    with localcontext(EXACT):
+        ratios = [exact_bracket_term(Decimal(c), Decimal(0), exact_top(top), Decimal(1)) for c in (1, -1)]
+    gaps = [K_J - np.longdouble(str(ratio)) * K_R for ratio in ratios]
+    gaps = [np.where(at_pole(d, K_J.astype(float)), 0, d) for d in gaps]
+    w2 = omega2_at(v, m, long, K_R, gaps)
+    return _sum_36(v, m, long, e, w2)[0]
 
 
 def pole_constants(top, K_R):

@@ -25,9 +25,10 @@ def contact_force(v, m, top, K_R, w1, w1_squared, w2, w3):
     return Fx, Fy, Fz
 
 
-def _on_curve(theta, top, constants):
+def forces_on_curve(theta, top, constants, w1_squared):
+    """(F_x, F_y, F_z) of (37) to (39) for theta_dot > 0, in Mg, where theta_dot^2 is this."""
     v, m = versines(theta)
-    w1_squared, w2, w3 = (function(theta, top, constants) for function in (f, omega2, omega3))
+    w2, w3 = (function(theta, top, constants) for function in (omega2, omega3))
     with np.errstate(invalid="ignore"):
         return contact_force(v, m, top, constants.K_R, np.sqrt(w1_squared), w1_squared, w2, w3)
 
@@ -37,7 +38,7 @@ def normal_force(theta, top, constants):
 
     nan at a pole that no motion with this K_J reaches.
     """
-    return _on_curve(theta, top, constants)[2]
+    return forces_on_curve(theta, top, constants, f(theta, top, constants))[2]
 
 
 def friction_force(theta, top, constants):
@@ -46,4 +47,4 @@ def friction_force(theta, top, constants):
     x along 1' (the line of nodes), y along z cross 1'. theta in rad; theta and the constants broadcast. F_x is nan
     where f < 0.
     """
-    return _on_curve(theta, top, constants)[:2]
+    return forces_on_curve(theta, top, constants, f(theta, top, constants))[:2]
