@@ -24,9 +24,9 @@ FILES = ["constants", "curve", "forces", "rolling", "smooth", "friction", "conta
 CONTROL = {"solve", "bisect", "sign_changes", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
          "test_forces.py", "test_symbolic.py", "test_paper.py", "test_top.py"]  # fmt: skip
-REST = ["test_smooth.py", "test_accuracy.py", "test_rolling.py", "test_sliding.py", "test_claims.py",
-        "test_tielines.py", "test_properties.py"]  # fmt: skip
-ORDER = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_mujoco.py", "test_sliding.py"],
+REST = ["test_smooth.py", "test_accuracy.py", "test_contacts.py", "test_rolling.py", "test_sliding.py",
+        "test_claims.py", "test_tielines.py", "test_properties.py"]  # fmt: skip
+ORDER = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_contacts.py", "test_sliding.py"],
          "sliding": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py"],
          "smooth": ["test_equations.py", "test_smooth.py"],
          "rolling": ["test_symbolic.py", "test_equations.py", "test_rolling.py"]}  # fmt: skip
