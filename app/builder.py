@@ -11,6 +11,7 @@ import numpy as np
 import param
 
 from app.explorer import fits
+from app.text import listed, say, told
 from tippe_core import (
     PRESETS,
     Ball,
@@ -46,51 +47,64 @@ THROWN_TILT = 0.3
 
 @dataclass(frozen=True)
 class Dimension:
-    """A field of a shape as a person reads it: factor is the number of units in one of SI; low to high, the slider."""
+    """A field of a shape as a person reads it: factor is the number of units in one of SI; low to high, the slider.
+
+    key: of its words, in workshop.toml; numbers: what stands in them, (name, value).
+    """
 
     name: str
-    words: str
+    key: str
     unit: str
     factor: float
     low: float
     high: float
     step: float
+    numbers: tuple = ()
+
+    @property
+    def words(self):
+        return say(f"workshop.dimensions.{self.key}", **dict(self.numbers))
 
 
-def _length(name, words, low, high):
-    return Dimension(name, words, "mm", 1e3, low, high, 0.1)
+def _length(name, key, low, high):
+    return Dimension(name, key, "mm", 1e3, low, high, 0.1)
 
 
-def _density(name, words):
-    return Dimension(name, words, "kg/m³", 1.0, 0, 12_000, 10)
+def _density(name, key, **numbers):
+    return Dimension(name, key, "kg/m³", 1.0, 0, 12_000, 10, tuple(numbers.items()))
 
 
 _MASS = Dimension("M", "mass", "g", 1e3, 0.5, 200, 0.1)
 # of one material: each sets the other
-_WEIGHT = (_MASS, _density("density", "density, sets the mass"))
+_WEIGHT = (_MASS, _density("density", "weight"))
 
 FAMILIES = {
     TruncatedSphere: ("truncated sphere with a stem", (
-        _length("R", "radius of the sphere", 2, 40), _length("c", "height of the cut above O", -20, 40),
-        _length("l", "length of the stem", 0, 60), _length("r", "radius of the stem", 0, 15), *_WEIGHT)),
+        _length("R", "sphere", 2, 40), _length("c", "cut", -20, 40),
+        _length("l", "stem", 0, 60), _length("r", "stem_radius", 0, 15), *_WEIGHT)),
     LoadedSphere: ("loaded sphere", (
-        _length("R", "radius of the sphere", 2, 40), _length("b", "radius of the core", 0.5, 30),
-        _length("d", "depth of the core below O", -30, 30), _density("density", "density of the sphere"),
-        _density("core_density", "density of the core; 0 a cavity"), _MASS)),
+        _length("R", "sphere", 2, 40), _length("b", "core", 0.5, 30), _length("d", "depth", -30, 30),
+        _density("density", "sphere_density"), _density("core_density", "core_density"), _MASS)),
     OrdinaryTop: ("ordinary top", (
-        _length("R", "radius of the peg", 0.5, 20), _length("h", "height of the peg above O", 0, 60),
-        _length("r1", "radius of the body below", 0.5, 50), _length("r2", "radius of the body above", 0, 50),
-        _length("t", "thickness of the body", 0.5, 60), _length("r", "radius of the stem", 0, 15),
-        _length("l", "length of the stem", 0, 60), *_WEIGHT)),
+        _length("R", "peg", 0.5, 20), _length("h", "peg_height", 0, 60),
+        _length("r1", "below", 0.5, 50), _length("r2", "above", 0, 50),
+        _length("t", "thickness", 0.5, 60), _length("r", "stem_radius", 0, 15),
+        _length("l", "stem", 0, 60), *_WEIGHT)),
     Ball: ("uniform ball", (_length("R", "radius", 2, 40), *_WEIGHT)),
     BareSphere: ("sphere of unknown inside", (
-        _length("R", "radius of the sphere", 2, 40), _MASS,
-        Dimension("a", "G below O, in R", "", 1.0, -0.9, 0.9, 0.005),
-        Dimension("I1", "inertia across the axis, in MR²", "", 1.0, 0.05, 0.7, 0.001),
-        Dimension("I3", "inertia about the axis, in MR²", "", 1.0, 0.05, 0.7, 0.001))),
-    Lathe: ("turned from points", (_length("R", "radius of the peg", 0.5, 40), _density("density", "density"), _MASS)),
+        _length("R", "sphere", 2, 40), _MASS,
+        Dimension("a", "a", "", 1.0, -0.9, 0.9, 0.005),
+        Dimension("I1", "I1", "", 1.0, 0.05, 0.7, 0.001),
+        Dimension("I3", "I3", "", 1.0, 0.05, 0.7, 0.001))),
+    Lathe: ("turned from points", (_length("R", "peg", 0.5, 40), _density("density", "density"), _MASS)),
     Turned: ("turned from pieces", (_MASS,)),
 }  # fmt: skip
+"""{kind of shape: the name of its family, a key in workshop.toml, and the Dimensions that can be set}."""
+
+
+def named(preset):
+    """What a preset of tippe_core is called on the page."""
+    return listed("workshop.presets")[preset]["name"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,7 +112,7 @@ class Draft:
     """The body as it stands on the bench: all that its views show.
 
     messages: a sentence for each field ("file" and "stl" among them) that was given what cannot be; the shape is then
-    the last good one. name and source: of the preset it is, else empty.
+    the last good one. name and source: of the preset it is, else empty; the name is tippe_core's.
     """
 
     shape: Shape
@@ -108,7 +122,7 @@ class Draft:
 
     @property
     def family(self):
-        """What kind of body it is, in words."""
+        """What kind of body it is: a key in workshop.toml."""
         return FAMILIES[type(self.shape)][0]
 
     @property
@@ -117,10 +131,10 @@ class Draft:
         dimensions = FAMILIES[type(self.shape)][1]
         if isinstance(self.shape, Lathe) and isinstance(self.shape.density, tuple):
             last = self.shape.points[0][1]
-            pieces = [_density("density 0", "density of the peg")]
+            pieces = [_density("density 0", "peg_density")]
             for index, (_, height) in enumerate(self.shape.points[1:], 1):
                 if height > last:  # a step is no piece
-                    pieces.append(_density(f"density {index}", f"density, {1e3 * last:.4g} to {1e3 * height:.4g} mm"))
+                    pieces.append(_density(f"density {index}", "piece_density", low=1e3 * last, high=1e3 * height))
                 last = height
             return (dimensions[0], *pieces, _MASS)
         return dimensions
@@ -283,7 +297,9 @@ def thrown(shape):
 
 def _draft(shape):
     known = next((preset for preset in PRESETS if preset.shape == shape), None)
-    return Draft(shape=shape, name=known.name, source=known.source) if known else Draft(shape=shape)
+    if known is None:
+        return Draft(shape=shape)
+    return Draft(shape=shape, name=known.name, source=listed("workshop.presets")[known.name]["source"])
 
 
 def sentence(error):
@@ -294,9 +310,11 @@ def sentence(error):
             value *= 1e3
             allowed = re.sub(r"(?<![\w./])-?\d+(\.\d+)?(e[+-]?\d+)?(?![\w.])(?! kg/m)", _thousandfold, allowed)
             allowed = re.sub(rf"(\(|\d ){unit}(?=[,)]| for)", rf"\g<1>{smaller}", allowed)
-            return str(TopError(error.name, float(f"{value:.6g}"), allowed, error.remedy)).replace(
-                " is not possible", f" {smaller} is not possible", 1)  # fmt: skip
-    return str(error)
+            value = float(f"{value:.6g}")
+            shown = f"{value:.10g}"  # as in TopError
+            said = told(TopError(error.name, value, allowed, error.remedy))
+            return said.replace(f" = {shown} ", f" = {shown} {smaller} ", 1)
+    return told(error)
 
 
 def _thousandfold(match):
@@ -315,7 +333,15 @@ class Rocking:
 
     def a(self, shape):
         """a/R with its uncertainty, a tippe_core.Measured, for the I1 (in MR^2) of the shape."""
-        return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
+        try:
+            return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
+        except TopError as error:
+            # what was measured is the diameter
+            if error.name == "R":
+                raise TopError(say("workshop.own.diameter"), self.D, "2e-09 to 2e+09 (m)") from None
+            if error.name == "dR":
+                raise TopError(say("workshop.own.diameter_uncertainty"), self.dD, "0 to 2e+09 (m)") from None
+            raise
 
 
 def value_of(shape, name):

@@ -1,6 +1,5 @@
 """Tops of a family side by side: Figs. 5 and 6 of each on common axes, and a map of the share that friction leaves."""
 
-import html
 import time
 from functools import partial
 from itertools import chain
@@ -12,23 +11,19 @@ import panel_material_ui as pmui
 from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d
 from bokeh.palettes import Viridis256
 
-from app import cards
 from app.builder import thrown
-from app.cards import progress
+from app.cards import BUTTON, INK, PLAIN, alert, flow, note, progress, swatch, words
 from app.colours import COLOURS
 from app.family import neighbours, ordinary, pegs, presets, region, share_map
-from app.plots import FAINT, INK, plain
-from app.workshop import alert, field, typed, words
+from app.plots import FAINT, plain
+from app.text import listed, say, told
+from app.workshop import beside, field, typed
 from tippe_core import TopError
 
-FAMILIES = {"presets": "presets", "ordinary": "pegs", "other a": "a", "other I₃": "I3"}
-FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "8px 12px", "align-items": "center"}
 SMALL = 158  # px: two of them beside each other on a phone
 PICTURE_EVERY = 0.5  # s
 RATIOS = np.linspace(0.6, 1.9, 40)
 SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
-KINDS = {"tippe tops": "tippe", "ordinary tops": "ordinary"}
-BUTTON = {"size": "small", "variant": "outlined", "margin": 0, "sx": {"textTransform": "none"}}
 SHEET = "#dcebf6"
 # Fig. 5 as a drawing: K_J runs so far back and up, of the width and the height of the picture
 BACK, UP, HIGH = 0.28, 0.45, 0.5
@@ -96,15 +91,15 @@ class Compare:
     def __init__(self, explorer):
         self._explorer, self._job = explorer, None
         self.rows = pn.Column(sizing_mode="stretch_width", margin=0)
-        self.key = cards.words("")
-        self.family = self._buttons(FAMILIES)
+        self.key = words()
+        self.family = self._buttons("families")
         self.family.param.watch(lambda event: self.show(event.new), "value")
-        self.kind = self._buttons(KINDS)
+        self.kind = self._buttons("kinds")
         self.kind.value = "ordinary" if explorer.scene.top.a < 0 else "tippe"
         self.kind.param.watch(lambda event: self._prefill(), "value")
-        self.entries = {name: field("", tags=[f"map {name}"], width=76) for name, _ in self.FIELDS}
+        self.entries = {name: field("", say("family.map.entry", name=name), width=76) for name, _ in self.FIELDS}
         self._prefill()
-        self.said = words("")
+        self.said = words()
         self.map = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*_sides(RATIOS)), name="map")
         fig.update(sizing_mode="stretch_width", height=330)
         colours = LinearColorMapper(palette=Viridis256, low=0, high=1, nan_color="rgba(0, 0, 0, 0)")
@@ -118,16 +113,17 @@ class Compare:
                                 major_tick_line_color=FAINT), "right")  # fmt: skip
         fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{0.000}, I₃/I₁ $y{0.00}: @share{0.00}"))
         self._show_span()
-        self.bar = words("", visible=False, margin=(8, 0))
-        self.start = pmui.Button(label="Compute the map", **BUTTON)
-        self.cancel = pmui.Button(label="Cancel", disabled=True, **BUTTON)
+        self.bar = words(visible=False, margin=(8, 0))
+        self.start = pmui.Button(label=say("family.map.start"), **BUTTON)
+        self.cancel = pmui.Button(label=say("family.map.cancel"), disabled=True, **BUTTON)
         self.start.on_click(self.compute)
-        self.cancel.on_click(lambda event: self._end("Cancelled; the rest of the map is empty."))
+        self.cancel.on_click(lambda event: self._end(say("family.map.cancelled")))
 
     @staticmethod
-    def _buttons(options):
+    def _buttons(table):
+        options = {says: value for value, says in listed(f"family.{table}").items()}
         return pmui.RadioButtonGroup(label="", options=options, value=next(iter(options.values())), size="small",
-                                     margin=0, sx=cards.PLAIN)  # fmt: skip
+                                     margin=0, sx=PLAIN)  # fmt: skip
 
     @property
     def figures_view(self):
@@ -137,24 +133,17 @@ class Compare:
     @property
     def map_view(self):
         """The map of the share, and what starts and stops it."""
-        says = (
-            "The part of the (<i>K</i><sub>J</sub>, <i>θ</i>) plane, <i>K</i><sub>J</sub> from 0 to P, that friction "
-            "leaves, of what <i>F</i><sub>z</sub> ≥ 0 allows: over <i>a</i>/<i>R</i>, upwards "
-            "<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>, all tops with the same")  # fmt: skip
-        with_these = [pn.Row(words(symbol, sizing_mode=None, margin=(5, 4, 0, 0)), self.entries[name], margin=0)
-                      for name, symbol in self.FIELDS]  # fmt: skip
+        with_these = [beside(symbol, self.entries[name]) for name, symbol in self.FIELDS]
         return [
             self.kind,
-            words(f"<div>{says}</div>", margin=(6, 0)),
-            pn.Column(*with_these, self.start, self.cancel, sizing_mode="stretch_width", margin=(0, 0, 6, 0),
-                      styles=FLOW),
+            words(say("family.map.says"), margin=(6, 0)),
+            flow(*with_these, self.start, self.cancel, margin=(0, 0, 6, 0)),
             self.bar,
             self.said,
             words("<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>"),
             pn.pane.Bokeh(self.map, sizing_mode="stretch_width", height=330, margin=0),
             words('<div style="text-align: center"><i>a</i>/<i>R</i></div>'),
-            words('<div class="note">The ring is the explorer’s own top, where its <i>I</i><sub>1</sub> is the '
-                  "map’s.</div>"),
+            words(note(say("family.map.here"))),
         ]  # fmt: skip
 
     def show(self, which):
@@ -171,7 +160,7 @@ class Compare:
         self.key.object = key_words(explorer.mu_s)
         pairs = [pn.Column(_pane(waterfall(one, end, most)), _pane(small_figure(one, *ranges)), width=SMALL, margin=0)
                  for one in shown]  # fmt: skip
-        self.rows.objects = [pn.Column(*pairs, sizing_mode="stretch_width", margin=0, styles=FLOW)]
+        self.rows.objects = [flow(*pairs, margin=0)]
 
     def _prefill(self):
         """The explorer's own numbers where its top is of this kind, else those of a preset that is."""
@@ -196,7 +185,7 @@ class Compare:
             try:
                 values[name] = typed(entry.value)
             except ValueError:
-                raise ValueError(f"{name}: “{entry.value}” is not a number.") from None
+                raise ValueError(say("family.map.not_a_number", name=name, text=entry.value)) from None
         for name, allowed, good in (("I1", "I1 > 0 (in MR^2)", values["I1"] > 0),
                                     ("mu_s", "mu_s >= 0", values["mu_s"] >= 0)):  # fmt: skip
             if not good:
@@ -210,14 +199,14 @@ class Compare:
         try:
             asked = self._asked()
         except ValueError as error:
-            self.said.object = alert(str(error))
+            self.said.object = alert(told(error) if isinstance(error, TopError) else str(error))
             return None
         top = self._explorer.scene.top
         own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1
         self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
         span = self._show_span()
         self.start.disabled, self.cancel.disabled = True, False
-        self.bar.visible, self.bar.object, self.said.object = True, progress(0, "of the map"), ""
+        self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
         self._job = span
         steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
         thread = Thread(target=self._work, args=(span, steps, pn.state.curdoc), daemon=True)
@@ -243,25 +232,24 @@ class Compare:
             self._end("")
             return
         self.shares.data = {"share": [found.share], **span}
-        self.bar.object = progress(100 * done / found.share.size, "of the map")
+        self.bar.object = _progress(100 * done / found.share.size)
 
     def _end(self, text):
         self._job = None
         self.start.disabled, self.cancel.disabled, self.bar.visible = False, True, False
-        self.said.object = f'<div class="note">{html.escape(text)}</div>' if text else ""
+        self.said.object = note(text)
 
 
 def key_words(mu_s):
     lines = "".join((
-        cards.swatch(INK, "tielines under both limits"), cards.swatch(INK, "steady precession", "dashed"),
-        cards.swatch(COLOURS["normal"], "where <i>F</i><sub>z</sub> = 0"),
-        cards.swatch(COLOURS["friction"], f"verge of slipping, <i>μ</i><sub>s</sub> = {mu_s:g}")))  # fmt: skip
-    return (
-        '<div class="key">Above, Fig. 5: on each tieline stands <i>f</i><sub>1</sub><sup>2</sup><i>θ̇</i><sup>2</sup>, '
-        "in units of <i>K</i><sub>R</sub><sup>2</sup>, at the largest energy for which <i>F</i><sub>z</sub> ≥ 0; "
-        "<i>θ</i> (rad) to the right, <i>K</i><sub>J</sub> from 0 in front to P behind. Below, Fig. 6: "
-        "<i>K</i><sub>J</sub>/<i>K</i><sub>J</sub>(P) over <i>θ</i> (rad), with <i>K</i><sub>J</sub>(P) above. "
-        f"All have the same axes.</div>" f'<div class="key">{lines}</div>')  # fmt: skip
+        swatch(INK, say("family.key.tielines")), swatch(INK, say("family.key.steady"), "dashed"),
+        swatch(COLOURS["normal"], say("family.key.lift")),
+        swatch(COLOURS["friction"], say("family.key.verge", mu_s=mu_s))))  # fmt: skip
+    return f'<div class="key">{say("family.key.figures")}</div><div class="key">{lines}</div>'
+
+
+def _progress(percent):
+    return progress(percent, say("family.map.progress"))
 
 
 def _pane(figure):

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.builder import thrown
+from app.builder import named, thrown
 from tippe_core import PRESETS, Constants, Top, TopError, allowed_shares, f, f1_squared, figures, pole_constants
 
 TIELINES, POINTS = 48, 40
@@ -62,7 +62,7 @@ def share_map(I1, K_R, mu_s, a, ratio):
 
 def presets():
     """[(name, Top, K_R)]: every preset, thrown as a new body is."""
-    return [(preset.name, preset.shape.top, thrown(preset.shape)[1]) for preset in PRESETS]
+    return [(named(preset.name), preset.shape.top, thrown(preset.shape)[1]) for preset in PRESETS]
 
 
 def pegs():

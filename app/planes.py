@@ -1,6 +1,7 @@
 """The view-model of the three planes: a start and a law of friction -> one frozen Picture of one top on all three.
 
 It computes and publishes, and knows no widgets. In units of R, M and g but for what a person sets: rev/s, degrees, s.
+A run is made in a thread, which has no page: it is told in which language to say why there is no motion.
 """
 
 import time
@@ -12,6 +13,7 @@ import numpy as np
 import param
 
 from app.explorer import axes
+from app.text import say, spoken, told
 from tippe_core import (
     Coulomb,
     Outcome,
@@ -39,6 +41,7 @@ MOST_SECONDS = 60.0
 # A frame turns the top by MOST_TURN rad at most, unless that takes more than MOST_FRAMES; by FARTHEST_TURN it may not.
 MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
 LEAST_FRAMES = 600
+THROWN, NEAR_TOUCH = "stem throws it up", 0.02  # rad: so near to the touch angle a lift-off is the touch's
 WELL_POINTS = 361
 
 # A run that a newer one replaces may still finish within this, s; later it is stopped.
@@ -119,7 +122,8 @@ class Motion:
     t (n,) to the end asked for: where the trajectory ends earlier, its last row stands once more at the end. frames:
     the arguments of top3d.pack_frames. stretches: (start, end, place in REGIMES) in turn. drift: of KEPT, the largest
     difference between two instants, over the largest size; alone: the time to which the sphere alone is on the table,
-    what ends that ("" if nothing), and the drift of J until then, which no more than one contact keeps.
+    what ends that ("" if nothing), and the drift of J until then, which no more than one contact keeps. The events have
+    tippe_core's names, but THROWN where the stem's first touch is what lifts it off.
     """
 
     trajectory: object
@@ -175,9 +179,9 @@ class Picture:
     messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
 
 
-def solve(settings, progress=None):
+def solve(settings, progress=None, language=None):
     """The Picture. progress: called with the time reached; what it raises stops the run. Raises TopError, whose name is
-    the input at fault."""
+    the input at fault. language: of the sentences, where it is not the present page's."""
     top, state, friction, times = settings.top, settings.state, settings.friction, settings.times
     runs = {
         "rough": lambda: roll(top, None, times, replace(state, vx=None, vy=None)),
@@ -189,11 +193,11 @@ def solve(settings, progress=None):
     motions, messages = {}, {}
     for plane in PLANES:
         try:
-            motions[plane] = _motion(runs[plane](), times, plane)
+            motions[plane] = _motion(runs[plane](), settings, times, plane)
         except TopError as error:
             if plane == "sliding":
                 raise
-            motions[plane], messages[plane] = None, str(error)
+            motions[plane], messages[plane] = None, told(error, language)
     goes = outcome(top, state, settings.scales)
     theta = np.linspace(0, np.pi, WELL_POINTS)
     return Picture(
@@ -202,7 +206,7 @@ def solve(settings, progress=None):
     )  # fmt: skip
 
 
-def _motion(trajectory, times, plane):
+def _motion(trajectory, settings, times, plane):
     top, F, n = trajectory.top, trajectory.force, len(trajectory.t)
     code = np.array([{"roll": ROLLS, "slip": SLIPS, "air": FLIES}[word] for word in trajectory.regime])
     if plane == "rough":
@@ -221,16 +225,27 @@ def _motion(trajectory, times, plane):
     t, code = frames[0], frames[-1]
     starts = np.flatnonzero(np.diff(code, prepend=-1))
     stretches = zip(t[starts], np.append(t[starts[1:]], t[-1]), code[starts], strict=True)
-    until, event = next(((t, what) for t, what in trajectory.events if what not in ("sticks", "slips")), (t[-1], ""))
+    first = next((event for event in trajectory.events if event[1] not in ("sticks", "slips")), (t[-1], ""))
+    until, event = first
+    if event == "lifts off" and plane == "sliding" and settings.edge and _touches(trajectory, until, settings):
+        event = THROWN
+    last = trajectory.events[-1] if ended and trajectory.events else (t[-1], "")
     return Motion(
         trajectory=trajectory,
-        ended=trajectory.events[-1][1] if ended and trajectory.events else "",
+        ended=event if last == first else last[1],
         t=t,
         frames=tuple(frames),
         stretches=tuple((float(start), float(end), int(which)) for start, end, which in stretches),
         drift=MappingProxyType({name: _drift(getattr(trajectory, field)) for name, field in KEPT.items()}),
         alone=(until, event, _drift(trajectory.jellett[trajectory.t <= until])),
     )
+
+
+def _touches(trajectory, time, settings):
+    """Whether the top is so far tilted at that time, before which it was on its sphere, that the stem touches."""
+    before = max(int(np.searchsorted(trajectory.t, time)) - 1, 0)
+    theta = trajectory.theta[before] + (time - trajectory.t[before]) * trajectory.omega[before, 0]
+    return abs(theta - settings.shape.touch_angle) < NEAR_TOUCH
 
 
 def _drift(values):
@@ -323,7 +338,14 @@ class Planes(param.Parameterized):
         self.follow()
 
     def follow(self, _scene=None):
-        """Runs again if the explorer's top, or the motion chosen there, is another than the one last asked for."""
+        """Runs again if the explorer's top, or the motion chosen there, is another than the one last asked for; when
+        what is set together with it is set too, as by an undo."""
+        if self._post is None:
+            self._follow()
+        else:
+            self._post(self._follow)
+
+    def _follow(self):
         asked, now = self._asked, self._settings()
         same = (asked.top, asked.scales, asked.shape, asked.rolling) == (now.top, now.scales, now.shape, now.rolling)
         if not same:
@@ -373,10 +395,10 @@ class Planes(param.Parameterized):
 
     def _begin(self):
         job, self._wanted = _Job(self._wanted), None
-        self._job = job
+        self._job, language = job, spoken()
 
         def work():
-            result = _result(job.settings, job.progress)
+            result = _result(job.settings, job.progress, language)
             self._post(lambda: self._done(job, result))
 
         with param.edit_constant(self):
@@ -397,10 +419,10 @@ class Planes(param.Parameterized):
     def _publish(self, settings, result, reached=0.0):
         messages = {}
         if isinstance(result, Stopped):
-            messages["run"] = f"Stopped at {reached:.2g} s of the motion. What is shown is the last finished one."
+            messages["run"] = say("planes.run.stopped", reached=reached)
         elif isinstance(result, TopError):
             control = {"theta": "tilt", "omega3": "spin", "times": "seconds", "friction": "law"}
-            messages[control.get(result.name, result.name)] = str(result)
+            messages[control.get(result.name, result.name)] = told(result)
         elif isinstance(result, Exception):
             raise result
         if messages:
@@ -411,9 +433,9 @@ class Planes(param.Parameterized):
             self.picture = result
 
 
-def _result(settings, progress=None):
+def _result(settings, progress=None, language=None):
     """The Picture, or the exception in place of it: it is told on another thread."""
     try:
-        return solve(settings, progress)
+        return solve(settings, progress, language)
     except Exception as error:
         return error

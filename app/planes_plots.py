@@ -5,27 +5,24 @@ from itertools import pairwise
 import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Range1d, Span
 
+from app.builder import named
 from app.cards import INK
 from app.colours import COLOURS
 from app.planes import FLIES, LIFTS, PLANES, ROLLS, SLIPS
 from app.plots import FAINT, plain
+from app.text import listed, say
 from tippe_core import PRESETS as BODIES
 
 CLOCK = "planes"
-# A plane's own colour and name, the same in all pictures of this tab.
-LOOKS = {"rough": (COLOURS["normal"], "rough: it rolls"), "smooth": (COLOURS["jellett"], "smooth: it glides"),
-         "sliding": (COLOURS["friction"], "sliding")}  # fmt: skip
+# A plane's own colour, the same in all pictures of this tab.
+LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": COLOURS["friction"]}
+# Colour, and key in planes.toml.
 REGIMES = {ROLLS: (COLOURS["normal"], "rolls"), SLIPS: (COLOURS["friction"], "slips"),
-           FLIES: (COLOURS["omega"], "in the air"), LIFTS: ("#8C2D04", "would lift off")}  # fmt: skip
+           FLIES: (COLOURS["omega"], "air"), LIFTS: ("#8C2D04", "lifts")}  # fmt: skip
 STOPPED = "#d5dae0"
 LEDGER = {"spin": "#CC79A7", "precession and nutation": "#E69F00", "motion of G": "#8a96a3", "height": "#56B4E9",
           "heat": "#D55E00"}  # fmt: skip
-QUANTITIES = {
-    "theta": "<i>θ</i><br>°",
-    "omega3": "<i>ω</i><sub>3</sub><br>rev/s",
-    "normal": "<i>F</i><sub>z</sub><br><i>Mg</i>",
-    "slip": "slip<br>cm/s",
-}
+QUANTITIES = ("theta", "omega3", "normal", "slip")
 BUCKETS, LEDGER_POINTS, BEAD_POINTS = 500, 500, 4000
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
 MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
@@ -87,7 +84,7 @@ class Figures:
         self.curves = {plane: ColumnDataSource({name: [] for name in columns}) for plane in PLANES}
         self.lines = {
             (plane, name): self.figures[name].line(
-                f"t_{name}", name, source=source, line_color=LOOKS[plane][0], line_width=2, name=plane
+                f"t_{name}", name, source=source, line_color=LOOKS[plane], line_width=2, name=plane
             )
             for plane, source in self.curves.items()
             for name in QUANTITIES
@@ -245,11 +242,11 @@ class Map:
         ]
         for x, y, (colour, alpha) in areas:
             fig.patch(x, y, fill_color=colour, fill_alpha=alpha, line_color=None, level="underlay")
-        says = [(0.33, 0.55, "never rises"), (0.6, 1.2, "can invert"), (0.36, 1.6, "rises part of the way"),
-                (-0.3, 1.15, "can stand upright"), (-0.3, 1.66, "never stands")]  # fmt: skip
-        x, y, groups = zip(*says, strict=True)
-        fig.text(x, y, text=groups, text_align="center", text_color=INK, text_font_size="12px",
-                 text_font_style="italic")  # fmt: skip
+        places = {"never rises": (0.33, 0.55), "can invert": (0.6, 1.2), "rises part of the way": (0.36, 1.6),
+                  "can stand upright": (-0.3, 1.15), "never stands upright": (-0.3, 1.66)}  # fmt: skip
+        x, y = zip(*places.values(), strict=True)
+        fig.text(x, y, text=[listed("planes.groups")[group] for group in places], text_align="center",
+                 text_color=INK, text_font_size="12px", text_font_style="italic")  # fmt: skip
         fig.ygrid.visible = fig.xgrid.visible = False
         # a top far to the left stands at the edge, with its place beside its name
         self.known, marks, taken = {}, [], []
@@ -257,7 +254,9 @@ class Map:
             top = body.shape.top
             inside = top.a > left
             place = self.known[body.name] = (top.a if inside else left + 0.03, top.I1 / top.I3)
-            name = body.name if inside else f"{body.name} (a/R = {top.a:.0f})"
+            name = named(body.name)
+            if not inside:
+                name = say("planes.map.far", name=name, a=f"{top.a:.0f}")
             marks.append((*place, name, "circle" if inside else "triangle", *beside(place, name, taken)))
         names = ("x", "y", "name", "marker", "dx", "dy", "align")
         known = ColumnDataSource(dict(zip(names, zip(*marks, strict=True), strict=True)))

@@ -6,40 +6,23 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.cards import PLAIN, TYPE, card, grid, progress, swatch, words
-from app.controls import STYLE, Control
+from app.cards import BUTTON, PLAIN, alert, card, flow, grid, note, progress, swatch, words
+from app.controls import Control
 from app.keep import Field, Number, OneOf
 from app.planes import LAWS, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS
 from app.planes_plots import CLOCK, LEDGER, LOOKS, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
 from app.surface3d import pack
+from app.text import listed, say
 from app.top3d import Top3D, pack_frames
 
-SURVIVES = {
-    "J": "Jellett <i>J</i>",
-    "Routh": "Routh <i>K</i><sub>R</sub>",
-    "E": "energy <i>E</i>",
-    "L_3": "<i>L</i><sub>3</sub>",
-    "L_z": "<i>L</i><sub>z</sub>",
-}
-EVENTS = {
-    "lifts off": "it leaves the table",
-    "stem touches": "its stem touches",
-    "rim touches": "its rim touches",
-    "stands upright": "it stands flat on the end of its stem",
-    "too many events": "1000 events (sticks, slips, hops) have passed, and it is followed no further",
-}
+SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
 # Below this a drift is that of the computation; what physics changes changes by more.
 ROUNDING = 1e-7
 NUMBERS = {"coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
+CHAOTIC = 20.0  # (g/R)^1/2: with more spin than that, hops that start a little apart end far apart
 POLL = 200  # ms between looks at a run under way
-BUTTON = {
-    "size": "small",
-    "variant": "outlined",
-    "margin": 0,
-    "sx": {"textTransform": "none", "whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0},
-}
-FLOW = {"display": "flex", "flex-flow": "row wrap", "gap": "6px"}
+NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
 # Three bars side by side have room for what matters only.
 SMALL_BAR = [":host .bar .shows, :host .bar .view, :host .bar .back, :host .bar .forward { display: none }"]
 TABLE = """
@@ -63,125 +46,121 @@ def degrees(value):
 # ---- words ----
 
 
-def says(**options):
-    """Words that change with the picture."""
-    return pn.pane.HTML(
-        "", stylesheets=[TYPE, STYLE, TABLE], **({"sizing_mode": "stretch_width", "margin": 0} | options)
-    )
-
-
-def law_words(picture):
-    """The friction law in force, with its numbers."""
-    law, scales = picture.friction, picture.settings.scales
-    kind = picture.settings.law
-    F_z, F_h = "<i>F</i><sub>z</sub>", "<i>F</i><sub>h</sub>"
-    if kind == "coulomb":
-        return (f"Coulomb, true stick and slip: slips with {F_h} = {law.mu_k:g} {F_z}, "
-                f"rolls while {F_h} ≤ {law.mu_s:g} {F_z}")  # fmt: skip
-    if kind == "viscous":
-        if not law.gamma:
-            return f"none: viscous with <i>γ</i> = 0, {F_h} = 0"
-        return (f"viscous: {F_h} = <i>γ</i> {F_z} <i>u</i>, <i>γ</i> = {law.gamma:.4g} (<i>gR</i>)<sup>−½</sup> = "
-                f"{law.gamma / scales.velocity:.3g} s/m; it creeps, and never sticks")  # fmt: skip
-    return (f"smoothed Coulomb: {F_h} = {law.mu:g} {F_z} <i>u</i>/(<i>u</i>² + <i>ε</i>²)<sup>½</sup>, <i>ε</i> = "
-            f"{100 * law.eps * scales.velocity:.2g} cm/s; it creeps, and never sticks")  # fmt: skip
-
-
 def in_force(picture, plane):
-    if plane == "rough":
-        return "rough plane: as much static friction as rolling needs"
-    if plane == "smooth":
-        return "smooth plane: none"
-    return law_words(picture)
+    """The friction law in force, with its numbers."""
+    law, velocity, kind = picture.friction, picture.settings.scales.velocity, picture.settings.law
+    if plane in ("rough", "smooth"):
+        return say(f"planes.force.{plane}")
+    if kind == "coulomb":
+        return say("planes.force.coulomb", mu_k=law.mu_k, mu_s=law.mu_s)
+    if kind == "viscous":
+        return say("planes.force.viscous" if law.gamma else "planes.force.none", gamma=law.gamma,
+                   si=law.gamma / velocity)  # fmt: skip
+    return say("planes.force.smoothed", mu=law.mu, speed=100 * law.eps * velocity)
 
 
 def happens(event):
-    return EVENTS.get(event, f"it {event}")
+    return listed("planes.events")[event]
 
 
 def fate(picture, plane):
     """What became of the top on a plane, in a phrase."""
     motion = picture.motions[plane]
     if motion is None:
-        return html.escape(picture.messages.get(plane, "no such motion"))
+        return html.escape(picture.messages.get(plane, say("planes.fate.nothing")))
     theta, seconds = motion.trajectory.theta, picture.settings.scales.time
-    low, high, end, last = theta.min(), theta.max(), theta[-1], motion.trajectory.t[-1] * seconds
-    between = f"<i>θ</i> between {degrees(low)} and {degrees(high)}"
-    if degrees(low) == degrees(high):
-        between = f"<i>θ</i> stays at {degrees(low)}"
-    lifts = f" It leaves the table at {last:.2f} s." if motion.ended == "lifts off" else ""
+    end, last = theta[-1], motion.trajectory.t[-1] * seconds
     if plane != "sliding":
-        why = ("rolling keeps the sign of <i>ω</i><sub>3</sub>" if plane == "rough"
-               else "nothing takes its energy, <i>ω</i><sub>3</sub> stays")  # fmt: skip
+        low, high = degrees(theta.min()), degrees(theta.max())
+        between = say("planes.fate.stays" if low == high else "planes.fate.between", low=low, high=high)
+        lifts = say("planes.fate.lifts", time=last) if motion.ended == "lifts off" else ""
         if plane == "rough" and any(which == LIFTS for *_, which in motion.stretches):
-            lifts = " (The table would have to pull at times.)"
-        return f"<b>never turns over</b>: {why}; {between}.{lifts}"
-    verdict, at_the_end = picture.outcome.verdict, f"{degrees(end)} at {last:.3g} s"
-    if np.isfinite(motion.overturned):
-        word = "swings past 90°" if end < np.pi / 2 else "hangs" if verdict == "hangs" else "turns over"
-        said = f"<b>{word}</b>: past 90° at {motion.overturned * seconds:.2f} s, {at_the_end}"
+            lifts = say("planes.fate.pulls")
+        return say(f"planes.fate.{plane}", between=between, lifts=lifts)
+    verdict, past = picture.outcome.verdict, motion.overturned
+    if np.isfinite(past):
+        became = "swings" if end < np.pi / 2 else "hangs" if verdict == "hangs" else "turns"
     elif theta[0] < np.pi / 2:
-        rises = verdict == "goes upright" and end < theta[0]
-        said = f"<b>{'goes upright' if rises else 'does not turn over'}</b>: {at_the_end}"
+        became = "upright" if verdict == "goes upright" and end < theta[0] else "not"
     else:
-        said = f"<b>{'comes upright' if end < np.pi / 2 else 'stays inverted'}</b>: {at_the_end}"
+        became = "comes" if end < np.pi / 2 else "inverted"
+    at_the_end = say("planes.fate.end", tilt=degrees(end), time=last)
+    said = say(f"planes.fate.{became}", past=past * seconds, end=at_the_end)
     held = [start for start, _, which in motion.stretches if which == ROLLS]
     if motion.trajectory.regime[-1] == "roll":
-        said += f"; caught rolling since {held[-1] * seconds:.2f} s"
+        said += say("planes.fate.caught", time=held[-1] * seconds)
     until, event, _ = motion.alone
     if event:
-        said += f". At {until * seconds:.2f} s {happens(event)}"
-    stop = f" There the computation stops: {happens(motion.ended)}." if motion.ended else ""
+        said += say("planes.fate.event", time=until * seconds, happens=happens(event))
+    stop = say("planes.fate.stops", happens=happens(motion.ended)) if motion.ended else ""
     return f"{said}.{stop}"
 
 
+def outcome_words(goes, scales):
+    """tippe_core's sentence of an Outcome, in the page's language."""
+    limits, unit = goes.thresholds, scales.angular_velocity / (2 * np.pi)
+
+    def spin(value):
+        return say("planes.outcome.spin", spin=abs(value) * unit)
+
+    upright = say(f"planes.outcome.upright.{limits.upright.stable}", spin=spin(limits.upright.spin))
+    inverted = say(f"planes.outcome.inverted.{limits.inverted.stable}", spin=spin(limits.launch))
+    reason = upright
+    if limits.group == "neutral":
+        reason = say("planes.outcome.neutral")
+    elif limits.group in ("never rises", "can invert", "rises part of the way"):
+        reason = say("planes.outcome.both", upright=upright, inverted=inverted)
+    will = listed("planes.outcome.will")[goes.verdict].format(tilt=np.degrees(goes.theta))
+    return say("planes.outcome.sentence", spin=spin(goes.launch), will=will, reason=reason,
+               doubt="" if goes.certain else say("planes.outcome.doubt"))  # fmt: skip
+
+
 def verdict_words(picture):
-    goes, settings, sliding = picture.outcome, picture.settings, picture.motions["sliding"]
+    settings, sliding = picture.settings, picture.motions["sliding"]
     if settings.law == "viscous" and picture.friction.gamma == 0:
-        says = "Without friction no energy goes: it turns for ever as it started."
+        says = say("planes.verdict.forever")
     else:
-        says = f"{html.escape(goes.sentence)} That is where sliding friction takes it"
+        sentence = html.escape(outcome_words(picture.outcome, settings.scales))
         caught = sliding is not None and sliding.trajectory.regime[-1] == "roll"
-        says += ("; here true stick catches it on the way, and rolling loses nothing: it stays."
-                 if caught else ", given time.")  # fmt: skip
-    lines = [f'<div class="line">{swatch(LOOKS[plane][0], "")}<b>{plane}</b>: {fate(picture, plane)}</div>'
-             for plane in PLANES]  # fmt: skip
+        says = say("planes.verdict.there", sentence=sentence) + say(f"planes.verdict.{'caught' if caught else 'time'}")
+    if sliding is not None and abs(picture.state.omega3) > CHAOTIC and "air" in sliding.trajectory.regime:
+        says += say("planes.verdict.chaos")
+    lines = [f'<div class="line">{swatch(LOOKS[plane], "")}<b>{say(f"planes.plane.{plane}")}</b>: '
+             f"{fate(picture, plane)}</div>" for plane in PLANES]  # fmt: skip
     return "".join(lines) + f'<div class="says">{says}</div>'
 
 
 def table_words(picture):
     """What stays on each plane: the measured drift."""
-    head = "".join(f"<th>{swatch(LOOKS[plane][0], plane)}</th>" for plane in PLANES)
+    head = "".join(f"<th>{swatch(LOOKS[plane], say(f'planes.plane.{plane}'))}</th>" for plane in PLANES)
     rows = []
-    for name, text in SURVIVES.items():
+    for name in SURVIVES:
         cells = []
         for plane in PLANES:
             motion = picture.motions[plane]
-            cells.append(f"<td>{drift_words(name, motion, picture) if motion else 'no motion'}</td>")
-        rows.append(f"<tr><td>{text}</td>{''.join(cells)}</tr>")
-    return (f"<table><tr><th>measured drift</th>{head}</tr>{''.join(rows)}</table>"
-            '<div class="key">largest difference between two instants, over the largest value</div>')  # fmt: skip
+            cells.append(f"<td>{drift_words(name, motion, picture) if motion else say('planes.drift.nothing')}</td>")
+        rows.append(f"<tr><td>{say(f'planes.survives.{name}')}</td>{''.join(cells)}</tr>")
+    return (f"<table><tr><th>{say('planes.drift.measured')}</th>{head}</tr>{''.join(rows)}</table>"
+            f'<div class="key">{say("planes.drift.of")}</div>')  # fmt: skip
 
 
 def drift_words(name, motion, picture):
     drift, (until, event, alone) = motion.drift[name], motion.alone
     if drift < ROUNDING:
-        return f'<span class="kept">stays to {power(drift)}</span>'
-    changes = f"changes by {f'{100 * drift:.3g} %' if drift > 1e-3 else power(drift)}"
+        return f'<span class="kept">{say("planes.drift.stays", power=power(drift))}</span>'
+    changes = say("planes.drift.changes", size=f"{100 * drift:.3g} %" if drift > 1e-3 else power(drift))
     if name == "J" and event and alone < ROUNDING:
-        seconds = until * picture.settings.scales.time
-        return (f'<span class="kept">stays to {power(alone)}</span> to {seconds:.2f} s, where '
-                f"{happens(event)}; in all {changes}")  # fmt: skip
+        then = say("planes.drift.then", time=until * picture.settings.scales.time, happens=happens(event),
+                   changes=changes)  # fmt: skip
+        return f'<span class="kept">{say("planes.drift.stays", power=power(alone))}</span>{then}'
     return changes
 
 
 def stem_words(settings):
     if settings.shape is None:
-        return "<i>a</i>, <i>I</i><sub>1</sub>, <i>I</i><sub>3</sub> are set apart from the body: a whole sphere."
+        return say("planes.stem.apart")
     angle = settings.shape.touch_angle
-    if angle is None:
-        return "This body has one contact all the way: no stem can touch."
-    return f"Past <i>θ</i> = {degrees(angle)} the end of its stem touches the table."
+    return say("planes.stem.never") if angle is None else say("planes.stem.past", angle=degrees(angle))
 
 
 KEPT = {
@@ -202,7 +181,7 @@ class ThreePlanes:
     def __init__(self, planes, builder, request):
         self._planes, self._request, self._poll = planes, request, None
         self._tops = {
-            plane: Top3D(sizing_mode="stretch_both", min_width=250, clock=CLOCK, label=f"The top on the {plane} plane",
+            plane: Top3D(sizing_mode="stretch_both", min_width=250, clock=CLOCK, label=say(f"planes.tops.{plane}"),
                          show_momentum=False, show_cone=False)
             for plane in PLANES
         }  # fmt: skip
@@ -213,10 +192,9 @@ class ThreePlanes:
         follow_clock(self._figures, self._well)
         self._controls = {name: Control(name, getattr(planes, name), self._asked) for name in
                           ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps")}  # fmt: skip
-        self._said = {name: says(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
-        self._verdict = says()
-        self._force = says(styles={"min-height": "36px"})
-        self._table = says()
+        self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
+        self._verdict, self._table = words(style=TABLE), words(style=TABLE)
+        self._force = words(styles={"min-height": "36px"})
         self._build()
         planes.param.watch(lambda event: self._show(), "picture")
         planes.param.watch(lambda event: self._look(), "plane")
@@ -244,30 +222,27 @@ class ThreePlanes:
 
     # ---- the parts ----
 
-    def _switch(self, name, options, **layout):
+    def _switch(self, name, **layout):
         return pmui.RadioButtonGroup.from_param(
-            self._planes.param[name], label="", options=options, size="small", sx=PLAIN,
+            self._planes.param[name], label="", size="small", sx=PLAIN,
+            options={says: value for value, says in listed(f"planes.{name}").items()},
             **({"margin": (2, 14, 6, 16)} | layout),
         )  # fmt: skip
 
     def _build(self):
         buttons = []
         for name in PRESETS:
-            buttons.append(pmui.Button(label=name, name=name, **BUTTON))
+            buttons.append(pmui.Button(label=listed("planes.presets")[name], **NARROW))
             buttons[-1].on_click(lambda event, name=name: self._choose(name))
-        presets = pn.Column(*buttons, sizing_mode="stretch_width", margin=(4, 0, 0, 0), styles=FLOW)
+        presets = flow(*buttons, margin=(4, 0, 0, 0))
         self._row = pn.Column(
             sizing_mode="stretch_width", margin=(6, 0, 0, 0),
             styles={"display": "grid", "gap": "10px"},
             stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
         )  # fmt: skip
-        plane = self._switch(
-            "plane", {"rough": "rough", "smooth": "smooth", "sliding": "sliding", "compare all three": "compare"},
-            margin=(4, 0),
-        )  # fmt: skip
         self._stage = card(
-            "One top, one start, three planes", presets, plane, self._force, self._row, self._verdict, self._table,
-            height="max-content",
+            say("planes.cards.stage"), presets, self._switch("plane", margin=(4, 0)), self._force, self._row,
+            self._verdict, self._table, height="max-content",
         )  # fmt: skip
 
         views = {name: control.view for name, control in self._controls.items()}
@@ -276,39 +251,32 @@ class ThreePlanes:
             law: pn.Column(*(views[name] for name in names), sizing_mode="stretch_width", margin=0)
             for law, names in NUMBERS.items()
         }
-        self._bar = words(progress(0, "of the motion computed"), margin=(10, 8))
-        stop = pmui.Button(label="Stop", name="stop", **BUTTON)
+        self._bar = words(margin=(10, 8))
+        self._show_progress(0)
+        stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
         stop.on_click(lambda event: self._planes.stop())
         self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
         self._stem = pmui.Checkbox.from_param(
-            self._planes.param.stem, label="the stem’s end can touch", description="", size="small",
+            self._planes.param.stem, label=say("planes.stem.can"), description="", size="small",
             margin=(0, 14, 0, 6),
         )
-        landing = {"the motion ends": "stop", "it flies and lands": "plastic"}
         controls = card(
-            "The start, and the friction of the sliding plane",
+            say("planes.cards.start"),
             self._progress,
             self._said["run"],
-            self._switch("by", {"spin, tilt and slip": "spin", "as on the tab Roll": "constants"}),
+            self._switch("by"),
             self._said["by"],
             self._starts,
             views["seconds"],
-            self._switch("law", {"Coulomb, sticks": "coulomb", "viscous": "viscous", "smoothed": "smoothed"}),
+            self._switch("law"),
             self._said["law"],
             *self._numbers.values(),
-            words(
-                "Where the table would have to pull (<i>F</i><sub>z</sub> = 0); it lands without a bounce:",
-                margin=(6, 14, 0, 16),
-            ),
-            self._switch("landing", landing),
+            words(say("planes.keys.lands"), margin=(6, 14, 0, 16)),
+            self._switch("landing"),
             self._stem,
             self._said["stem"],
             height="max-content",
         )
-        well_key = ("The bead is the top; the bar above it is the energy that it has left for nutation. Friction takes "
-                    "it down to a minimum (●); at ○ it would balance.")  # fmt: skip
-        map_key = ("Across <i>a</i>/<i>R</i>, upwards <i>I</i><sub>1</sub>/<i>I</i><sub>3</sub>. The orange dot is "
-                   "this top; click to go elsewhere, or on a known top.")  # fmt: skip
         self._times = self._times_card()
         self.main = grid(
             self._stage,
@@ -316,14 +284,14 @@ class ThreePlanes:
             self._times,
             pn.Column(
                 card(
-                    "The well <i>V</i><sub>J</sub>(<i>θ</i>), in <i>MgR</i>, over the tilt in degrees",
-                    words(f'<div class="key">{well_key}</div>'),
+                    say("planes.cards.well"),
+                    words(f'<div class="key">{say("planes.keys.well")}</div>'),
                     pn.pane.Bokeh(self._well.figure, sizing_mode="stretch_both", margin=0),
                     height="370px",
                 ),
                 card(
-                    "Which tops can turn over",
-                    words(f'<div class="key">{map_key}</div>'),
+                    say("planes.cards.map"),
+                    words(f'<div class="key">{say("planes.keys.map")}</div>'),
                     pn.pane.Bokeh(self._map.figure, sizing_mode="stretch_both", margin=0),
                     height="440px",
                 ),
@@ -345,18 +313,19 @@ class ThreePlanes:
             )
 
         figures = self._figures.figures
-        planes = "".join(swatch(colour, text) for colour, text in LOOKS.values())
-        ledger = "".join(swatch(colour, name) for name, colour in LEDGER.items())
-        regimes = "".join(swatch(colour, name) for colour, name in [*REGIMES.values(), (STOPPED, "ended")])
+        planes = "".join(swatch(colour, say(f"planes.looks.{plane}")) for plane, colour in LOOKS.items())
+        ledger = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
+        regimes = "".join(swatch(colour, say(f"planes.regimes.{name}"))
+                          for colour, name in [*REGIMES.values(), (STOPPED, "ended")])  # fmt: skip
         return card(
-            "The motion over time; click to look at an instant",
+            say("planes.cards.times"),
             words(f'<div class="key">{planes}</div>'),
-            *(row(label, figures[name], 96) for name, label in QUANTITIES.items()),
-            words(f'<div class="key" style="margin-top: 6px">Energy, stacked:{ledger}</div>'),
-            row("energy<br><i>MgR</i>", figures["ledger"], 190),
+            *(row(say(f"planes.quantities.{name}"), figures[name], 96) for name in QUANTITIES),
+            words(f'<div class="key" style="margin-top: 6px">{say("planes.keys.ledger")}{ledger}</div>'),
+            row(say("planes.keys.energy"), figures["ledger"], 190),
             words(f'<div class="key" style="margin-top: 6px">{regimes}</div>'),
             row("", figures["regime"], 56),
-            words('<div class="axis"><i>t</i> in s of the real top</div>'),
+            words(f'<div class="axis">{say("planes.keys.time")}</div>'),
             height="max-content",
         )
 
@@ -374,8 +343,11 @@ class ThreePlanes:
     def _look_at_run(self):
         planes = self._planes
         if planes.elapsed > PATIENCE or self._progress.visible:
-            self._bar.object = progress(100 * planes.share, "of the motion computed")
+            self._show_progress(100 * planes.share)
             self._progress.visible = True
+
+    def _show_progress(self, percent):
+        self._bar.object = progress(percent, say("planes.run.progress"))
 
     def _arrange(self):
         """Which controls there are for this way to start and this law."""
@@ -394,9 +366,8 @@ class ThreePlanes:
                     value = getattr(planes, name)
                     control.show(value, value, self._note(name, picture), messages.get(name))
             for name, said in self._said.items():
-                message = messages.get(name, "")
-                text = f'<div class="alert" role="alert">{html.escape(message)}</div>' if message else ""
-                said.object = text or {"stem": stem_words(settings), "by": self._start_words(picture)}.get(name, "")
+                said.object = alert(messages.get(name, "")) or {
+                    "stem": stem_words(settings), "by": self._start_words(picture)}.get(name, "")  # fmt: skip
             self._stem.disabled = settings.shape is None or settings.shape.touch_angle is None
             if self._shown is not settings:
                 self._figures.show(picture)
@@ -438,7 +409,7 @@ class ThreePlanes:
             row = [top for top in self._tops.values() if top.visible or top in self._row.objects]
             if row != self._row.objects:
                 self._row.objects = row
-            self._force.object = f"Friction in force: <b>{in_force(picture, plane)}</b>"
+            self._force.object = say("planes.force.said", law=in_force(picture, plane))
             self._table.visible = compare
             self._figures.look(picture, plane)
             self._well.show(picture, plane)
@@ -461,8 +432,7 @@ class ThreePlanes:
         if picture.settings.rolling is None:
             return ""
         turns = state.omega3 * scales.angular_velocity / (2 * np.pi)
-        return (f'<div class="note">It starts rolling, as the constants chosen there say: <i>θ</i> = '
-                f"{degrees(state.theta)}, <i>ω</i><sub>3</sub> = {turns:.2f} rev/s.</div>")  # fmt: skip
+        return note(say("planes.notes.start", tilt=degrees(state.theta), spin=turns))
 
     @staticmethod
     def _note(name, picture):
@@ -470,17 +440,17 @@ class ThreePlanes:
         if name == "spin":
             limits = picture.outcome.thresholds
             unit = scales.angular_velocity / (2 * np.pi)
-            holds = {"upright": (limits.upright.stable, limits.upright.spin), "inverted": ("above", limits.launch)}
-            says = [f"{pole} is stable {side} {spin * unit:.3g}" for pole, (side, spin) in holds.items()
+            holds = {f"upright_{limits.upright.stable}": limits.upright.spin, "inverted_above": limits.launch}
+            says = [say(f"planes.notes.{which}", spin=spin * unit) for which, spin in holds.items()
                     if np.isfinite(spin)]  # fmt: skip
-            return "; ".join(says) + (" rev/s" if says else "")
+            return say("planes.notes.spins", stable="; ".join(says)) if says else ""
         if name == "slip":
             s, c = np.sin(state.theta), np.cos(state.theta)
             ux = state.vx - (state.omega2 * (c - top.a) - state.omega3 * s)
             uy = state.vy + state.theta_dot * (1 - top.a * c)
-            return f"the contact point slips at {100 * scales.velocity * np.hypot(ux, uy):.3g} cm/s"
+            return say("planes.notes.slip", speed=100 * scales.velocity * np.hypot(ux, uy))
         if name == "eps":
-            return f"{100 * scales.velocity * picture.settings.eps:.3g} cm/s for this top"
+            return say("planes.notes.eps", speed=100 * scales.velocity * picture.settings.eps)
         if name == "gamma":
-            return f"{picture.settings.gamma / scales.velocity:.3g} s/m for this top"
+            return say("planes.notes.gamma", gamma=picture.settings.gamma / scales.velocity)
         return ""

@@ -11,11 +11,13 @@ import param
 from bokeh.models import ColumnDataSource, HoverTool, Range1d
 
 from app.builder import FAMILIES, Rocking, handles, pulled, sentence, value_of
+from app.cards import BUTTON, INK, alert, flow, note, words
 from app.colours import COLOURS
-from app.controls import STYLE, number
+from app.controls import number
 from app.explorer import body
 from app.pacing import at_once
-from app.plots import FAINT, INK, plain
+from app.plots import FAINT, plain
+from app.text import listed, say
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TopError, Turned
 
 SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
@@ -24,8 +26,7 @@ WOOD, CORE = "#d9b98c", "#8a96a3"
 FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
 LARGEST_FILE = 65_536
-OWN = "none of these"  # a select has no way to show that nothing is chosen
-PLAIN = {"textTransform": "none"}
+OWN = ""  # a select has no way to show that nothing is chosen
 UNSEEN_LABEL = {
     "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
                              "clipPath": "inset(50%)"},
@@ -35,24 +36,16 @@ UNSEEN_LABEL = {
 FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
 
 
-def words(text, **options):
-    return pn.pane.HTML(text, stylesheets=[STYLE], **({"sizing_mode": "stretch_width", "margin": 0} | options))
-
-
-def alert(text):
-    return f'<div class="alert" role="alert">{html.escape(text)}</div>' if text else ""
-
-
 def symbol(name):
     if name.startswith("density "):
         return SYMBOLS["density"]
     return SYMBOLS.get(name, f"<i>{name}</i>")
 
 
-def field(value, **options):
+def field(value, label, **options):
     """label: for the ear; beside it stands the same to be seen."""
-    options = {"width": 84, "margin": 0, "label": options["tags"][0]} | options
-    return pmui.TextInput(value=value, size="small", sx=FIELD | UNSEEN_LABEL, **options)
+    options = {"width": 84, "margin": 0} | options
+    return pmui.TextInput(value=value, label=label, size="small", sx=FIELD | UNSEEN_LABEL, **options)
 
 
 def grid(*content):
@@ -64,10 +57,8 @@ def grid(*content):
     )  # fmt: skip
 
 
-def flow(*content):
-    """In a row, as far as there is room."""
-    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center"}
-    return pn.Column(*content, sizing_mode="stretch_width", margin=(6, 0), styles=styles)
+def beside(label, entry):
+    return pn.Row(words(label, sizing_mode=None, margin=(5, 4, 0, 0)), entry, margin=0)
 
 
 def typed(text):
@@ -174,7 +165,7 @@ class Section:
             "z": [1e3 * z for _, z in at.values()],
             "name": list(at),
             "says": [f"{said[name].words}: {number(value_of(shape, name) * said[name].factor)} {said[name].unit}"
-                     if name in said else f"radius {number(1e3 * x)} mm, height {number(1e3 * z)} mm"
+                     if name in said else say("workshop.bench.point", x=number(1e3 * x), z=number(1e3 * z))
                      for name, (x, z) in at.items()],
         }  # fmt: skip
 
@@ -201,18 +192,18 @@ class Knob:
 
     def __init__(self, dimension, pull):
         self.dimension, self._pull, self._silent = dimension, pull, False
+        says = f"{dimension.words}, {dimension.unit}".strip(", ")
         self.slider = pmui.FloatSlider(
-            value=dimension.low, start=dimension.low, end=dimension.high, step=dimension.step,
-            label=f"{dimension.words}, {dimension.unit}".strip(", "), sx=UNSEEN_LABEL,
+            value=dimension.low, start=dimension.low, end=dimension.high, step=dimension.step, label=says,
+            sx=UNSEEN_LABEL,
             show_value=False, size="small", tooltips=False,
             sizing_mode="stretch_width", margin=(-4, 10, -4, 10), tags=[dimension.name],
         )  # fmt: skip
         at_once(self.slider, "value", "value_throttled")
-        self.entry = field("", label=f"{dimension.words}, {dimension.unit}".strip(", "), tags=[dimension.name])
-        self.words = words("")
-        unit = f", {dimension.unit}" if dimension.unit else ""
+        self.entry = field("", says, tags=[dimension.name])
+        self.words = words()
         title = words(
-            f'<div class="name">{symbol(dimension.name)}&ensp;<span class="note">{dimension.words}{unit}</span></div>',
+            f'<div class="name">{symbol(dimension.name)}&ensp;<span class="note">{says}</span></div>',
             margin=(4, 0, 0, 0),
         )
         self.view = pn.Column(
@@ -232,7 +223,7 @@ class Knob:
         try:
             value = typed(event.new)
         except ValueError:
-            self.say(f"“{event.new}” is not a number. Type one, such as {self.dimension.high:g}.")
+            self.say(say("workshop.bench.not_a_number", text=event.new, number=self.dimension.high))
             return
         self._pull(self.dimension.name, value / self.dimension.factor)
 
@@ -260,22 +251,23 @@ class Pieces:
 
     def __init__(self, builder):
         self.builder, self._exact = builder, 0.0
-        self.kind = pmui.Select(label="kind of piece", sx=UNSEEN_LABEL, options=["ball", "cylinder", "cone"],
-                                value="ball", size="small", width=110, margin=0)  # fmt: skip
-        self.entries = {name: field(value, width=58, tags=[f"piece {name}"]) for name, value in self.FIELDS}
-        self.density = field("", width=78, tags=["piece density"])
-        self.words = words("")
+        kinds = {says: kind for kind, says in listed("workshop.pieces.kinds").items()}
+        self.kind = pmui.Select(label=say("workshop.pieces.kind"), sx=UNSEEN_LABEL, options=kinds, value="ball",
+                                size="small", width=110, margin=0)  # fmt: skip
+        spoken = listed("workshop.pieces.spoken")
+        self.entries = {name: field(value, spoken[name], width=58) for name, value in self.FIELDS}
+        self.density = field("", spoken["density"], width=78)
+        self.words = words()
         self.put, self.take, self.undo = (
-            pmui.Button(label=label, size="small", variant="outlined", margin=0, sx=PLAIN)
-            for label in ("Put on", "Take away", "Undo the last piece"))
+            pmui.Button(label=say(f"workshop.pieces.{does}"), **BUTTON) for does in ("put", "take", "undo"))
         self.put.on_click(lambda event: self._compose(1))
         self.take.on_click(lambda event: self._compose(-1))
         self.undo.on_click(lambda event: builder.take_off())
         self._view = pn.Column(
-            words('<div class="note">A piece more or less: radius and heights above O in mm, density in kg/m³</div>'),
-            flow(self.kind, *(pn.Row(words(label, sizing_mode=None, margin=(5, 4, 0, 0)), entry, margin=0)
-                              for label, entry in (("<i>r</i>", self.entries["r"]), ("from", self.entries["from"]),
-                                                   ("to", self.entries["to"]), ("<i>ρ</i>", self.density))),
+            words(note(say("workshop.pieces.says"))),
+            flow(self.kind, beside("<i>r</i>", self.entries["r"]),
+                 *(beside(say(f"workshop.pieces.{name}"), self.entries[name]) for name in ("from", "to")),
+                 beside("<i>ρ</i>", self.density),
                  self.put, self.take, self.undo),
             self.words, sizing_mode="stretch_width", margin=0)  # fmt: skip
 
@@ -299,7 +291,8 @@ class Pieces:
             try:
                 values[name] = typed(entry.value)
             except ValueError:
-                self.words.object = alert(f"{name}: “{entry.value}” is not a number.")
+                which = say(f"workshop.pieces.names.{name}")
+                self.words.object = alert(say("workshop.pieces.not_a_number", name=which, text=entry.value))
                 return
         density = self._exact if self.density.value == number(self._exact) else values["density"]
         self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
@@ -324,46 +317,39 @@ class Workshop:
         self.builder = builder
         self._knobs, self._named, self._slid, self._silent = {}, None, None, False
         self.section = Section(self._pull)
-        self.derived, self.source, self.file_words = words(""), words(""), words("")
-        self.presets = self._choice("Presets", [preset.name for preset in PRESETS], builder.choose)
-        drawn = list(dict.fromkeys(FAMILIES[type(preset.shape)][0] for preset in PRESETS))
-        self.families = self._choice("Family", drawn, builder.choose_family)
+        self.derived, self.source, self.file_words = words(), words(), words()
+        self.presets = self._choice("presets", builder.choose)
+        self.families = self._choice("family", builder.choose_family)
         self.dimensions = pn.Column(sizing_mode="stretch_width", margin=0)
         self.section.figure.on_event("doubletap", self._tapped_twice)
-        self.parting = self._button("A density for each piece", lambda event: builder.part_densities())
-        buttons = flow(
-            self._button("Add a point", lambda event: builder.add_point()),
-            self._button("Remove the point held last", self._remove), self.parting)  # fmt: skip
-        twice = "On the section, a double tap adds a point, or takes away the one under it."
-        self.points = pn.Column(words(f'<div class="note">{twice}</div>'), buttons, sizing_mode="stretch_width",
+        self.parting = self._button("parts", lambda event: builder.part_densities())
+        buttons = flow(self._button("add", lambda event: builder.add_point()), self._button("remove", self._remove),
+                       self.parting)  # fmt: skip
+        self.points = pn.Column(words(note(say("workshop.bench.twice"))), buttons, sizing_mode="stretch_width",
                                 margin=0)  # fmt: skip
         self.pieces = Pieces(builder)
-        self.stl = self._download("Save STL, in mm", "top.stl", lambda: builder.stl() or b"")
-        self.saved = self._download("Save this top", "top.json", lambda: builder.save().encode())
-        self.file = TopFile(
-            label="Load a top", accept=".json", multiple=False, max_file_size=LARGEST_FILE, size="small",
-            variant="outlined", margin=0, sx=PLAIN,
-        )  # fmt: skip
+        self.stl = self._download("stl", "top.stl", lambda: builder.stl() or b"")
+        self.saved = self._download("save", "top.json", lambda: builder.save().encode())
+        self.file = TopFile(label=say("workshop.bench.load"), accept=".json", multiple=False,
+                            max_file_size=LARGEST_FILE, **BUTTON)  # fmt: skip
         self.file.param.watch(self._loaded, "value", onlychanged=False)
         self.file.param.watch(lambda event: builder.refuse_file(LARGEST_FILE), "refused")
-        self.back = pmui.Button(label="Back to the body’s own", size="small", variant="outlined", margin=0, sx=PLAIN)
-        self.back.on_click(lambda event: builder.attach())
+        self.back = self._button("back", lambda event: builder.attach())
         self.parted = pn.Column(
-            words('<div class="alert">The explorer’s <i>a</i>, <i>I</i><sub>1</sub>, <i>I</i><sub>3</sub> were set '
-                  "apart from this body; a stand-in is drawn.</div>"),
-            self.back, visible=False, sizing_mode="stretch_width", margin=0)  # fmt: skip
+            words(f'<div class="alert">{say("workshop.bench.parted")}</div>'), self.back,
+            visible=False, sizing_mode="stretch_width", margin=0)  # fmt: skip
         builder.param.watch(lambda event: self._show(event.new), "draft")
         self._show(builder.draft)
 
-    def _choice(self, label, options, choose):
-        select = pmui.Select(label=label, options=options, value=None, size="small", margin=(4, 6, 4, 0),
-                             sizing_mode="stretch_width")  # fmt: skip
+    def _choice(self, key, choose):
+        select = pmui.Select(label=say(f"workshop.bench.{key}"), options={}, value=None, size="small",
+                             margin=(4, 6, 4, 0), sizing_mode="stretch_width")  # fmt: skip
         select.param.watch(lambda event: None if self._silent or not event.new else choose(event.new), "value")
         return select
 
     @staticmethod
-    def _button(label, click):
-        button = pmui.Button(label=label, size="small", variant="outlined", margin=0, sx=PLAIN)
+    def _button(key, click):
+        button = pmui.Button(label=say(f"workshop.bench.{key}"), **BUTTON)
         button.on_click(click)
         return button
 
@@ -382,11 +368,9 @@ class Workshop:
                 self.builder.add_point(event.x / 1e3, event.y / 1e3)
 
     @staticmethod
-    def _download(label, filename, content):
-        return pmui.FileDownload(
-            label=label, filename=filename, callback=lambda: io.BytesIO(content()), size="small", variant="outlined",
-            margin=0, sx=PLAIN,
-        )  # fmt: skip
+    def _download(key, filename, content):
+        return pmui.FileDownload(label=say(f"workshop.bench.{key}"), filename=filename,
+                                 callback=lambda: io.BytesIO(content()), **BUTTON)  # fmt: skip
 
     @property
     def section_view(self):
@@ -419,7 +403,7 @@ class Workshop:
                 return
             self.section.show(draft)
             self.derived.object = derived_words(draft.shape)
-            self.source.object = f'<div class="note">{html.escape(draft.source)}</div>'
+            self.source.object = note(html.escape(draft.source))
 
     def _show_fields(self, draft):
         named = [draft.family, *((dimension.name, dimension.words) for dimension in draft.dimensions)]
@@ -430,8 +414,7 @@ class Workshop:
         free = isinstance(draft.shape, Lathe)
         self.points.visible = free
         if free:
-            self.parting.label = (
-                "One density for all" if isinstance(draft.shape.density, tuple) else "A density for each piece")
+            self.parting.label = say(f"workshop.bench.{'one' if isinstance(draft.shape.density, tuple) else 'parts'}")
         self.pieces.show(draft.shape)
         for name, knob in self._knobs.items():
             if name in draft.messages:
@@ -439,9 +422,14 @@ class Workshop:
             elif not draft.messages:
                 knob.show(draft.shape, under_hand=name == self._slid)
         self._silent = True
-        own = [] if draft.name else [OWN]
-        self.presets.param.update(options=[*own, *(preset.name for preset in PRESETS)], value=draft.name or OWN)
-        self.families.value = draft.family if draft.family in self.families.options else None
+        # what is chosen already cannot be chosen: a changed body has an entry of its own, beside those to go back to
+        own = {} if draft.name else {say("workshop.bench.none"): OWN}
+        presets = {named(preset.name): preset.name for preset in PRESETS}
+        self.presets.param.update(options=own | presets, value=draft.name)
+        called = listed("workshop.families")
+        own = {} if draft.name else {say("workshop.bench.changed", family=called[draft.family]): OWN}
+        families = {called[family]: family for family, _ in (FAMILIES[type(preset.shape)] for preset in PRESETS)}
+        self.families.param.update(options=own | families, value=draft.family if draft.name else OWN)
         self._silent = False
         self.stl.disabled = isinstance(draft.shape, BareSphere)
 
@@ -456,35 +444,30 @@ def derived_words(shape):
         ("<i>a</i>/<i>R</i>", f"= {top.a:.4f}".replace("-", "−")),
         ("<i>I</i><sub>1</sub>", f"= {top.I1:.4f} <i>MR</i><sup>2</sup>"),
         ("<i>I</i><sub>3</sub>", f"= {top.I3:.4f} <i>MR</i><sup>2</sup>"),
-        ("mass", f"{1e3 * shape.mass:.4g} g"),
+        (say("workshop.body.mass"), f"{1e3 * shape.mass:.4g} g"),
     ]
     if not isinstance(shape, BareSphere):
         # one number where it is of one material, else the mean
-        rows.append(("density", f"{shape.mass / shape.volume:.0f} kg/m³"))
-    listed = "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
+        rows.append((say("workshop.body.density"), f"{shape.mass / shape.volume:.0f} kg/m³"))
+    numbers = "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
     touch = (
-        "Nothing but the sphere ever touches the table."
-        if angle is None
-        else f"Its stem or its rim touches the table from <i>θ</i> = {math.degrees(angle):.0f}° on."
-    )
-    known = " Where its mass is inside is not known, so there is nothing to print." * isinstance(shape, BareSphere)
-    return f"<div>{listed}</div><div>{touch}{known}</div>"
+        say("workshop.body.never") if angle is None else say("workshop.body.touches", angle=math.degrees(angle)))
+    prints = {BareSphere: "unknown", LoadedSphere: "outside"}.get(type(shape))
+    return f"<div>{numbers}</div><div>{touch}{say(f'workshop.body.{prints}') if prints else ''}</div>"
 
 
 class Measure:
     """A top of one's own: mass, diameter and the period of small rocking at rest -> a/R."""
 
-    # name, words, what stands there at first, and SI in one of the unit
-    FIELDS = (("D", "diameter of the sphere, mm", "32.0", 1e-3), ("dD", "its uncertainty, mm", "0.1", 1e-3),
-              ("T", "period of rocking, s", "1.08", 1.0), ("dT", "its uncertainty, s", "0.01", 1.0),
-              ("M", "mass, g", "11.5", 1e-3))  # fmt: skip
+    # name, what stands there at first, and SI in one of the unit
+    FIELDS = (("D", "32.0", 1e-3), ("dD", "0.1", 1e-3), ("T", "1.08", 1.0), ("dT", "0.01", 1.0), ("M", "11.5", 1e-3))
 
     def __init__(self, builder):
         self.builder = builder
-        self.entries = {name: field(value, tags=[f"own {name}"]) for name, _, value, _ in self.FIELDS}
-        self.result = words("")
-        self.use = pmui.Button(label="Explore a sphere with these numbers", size="small", variant="outlined",
-                               margin=(4, 0), sx=PLAIN)  # fmt: skip
+        spoken = listed("workshop.own.spoken")
+        self.entries = {name: field(value, spoken[name]) for name, value, _ in self.FIELDS}
+        self.result = words()
+        self.use = pmui.Button(label=say("workshop.own.explore"), **BUTTON | {"margin": (4, 0)})
         self.use.on_click(self._use)
         for entry in self.entries.values():
             entry.param.watch(lambda event: self._show(), "value")
@@ -494,37 +477,28 @@ class Measure:
     @property
     def view(self):
         """Fields, formula, answer."""
-        formula = (
-            "Lay the top on a table it does not slip on, tilt it a little, let go without spin, and time it. From<br>"
-            "<i>T</i> = 2π [(<i>I</i><sub>1</sub> + (1 − <i>a</i>)<sup>2</sup>)/<i>a</i>]<sup>½</sup> "
-            "(<i>R</i>/<i>g</i>)<sup>½</sup>&ensp;follows, with "
-            "<i>q</i> = (<i>T</i>/2π)<sup>2</sup> <i>g</i>/<i>R</i>,<br>"
-            "<i>a</i> = 2(1 + <i>I</i><sub>1</sub>)/(2 + <i>q</i> + [(2 + <i>q</i>)<sup>2</sup> − 4(1 + "
-            "<i>I</i><sub>1</sub>)]<sup>½</sup>);&ensp;<i>I</i><sub>1</sub> is that of the body above.")  # fmt: skip
         fields = [
-            pn.Row(words(f'<div class="note">{says}</div>', margin=(5, 6, 0, 0)), self.entries[name],
-                   sizing_mode="stretch_width", margin=(2, 0))
-            for name, says, _, _ in self.FIELDS]  # fmt: skip
-        return [words(formula), grid(*fields), self.result, self.use]
+            pn.Row(words(note(says), margin=(5, 6, 0, 0)), self.entries[name], sizing_mode="stretch_width",
+                   margin=(2, 0))
+            for name, says in listed("workshop.own.fields").items()]  # fmt: skip
+        return [words(say("workshop.own.says")), grid(*fields), self.result, self.use]
 
     def _found(self):
         """(Rocking, Measured); raises TopError, ValueError."""
         values = {}
-        for name, _, _, unit in self.FIELDS:
+        for name, _, unit in self.FIELDS:
             entry = self.entries[name]
             try:
                 values[name] = typed(entry.value) * unit
             except ValueError:
-                raise ValueError(f"“{entry.value}” is not a number.") from None
+                raise ValueError(say("workshop.own.not_a_number", text=entry.value)) from None
         rocking = Rocking(**values)
         return rocking, rocking.a(self.builder.draft.shape)
 
     def _show(self):
         said = self.builder.draft.messages.get("measured")
         if self.builder.draft.shape.top.a < 0:
-            self.result.object = (
-                '<div class="note">The body above has G above O and does not rock; choose one like your own that does, '
-                "for its <i>I</i><sub>1</sub>.</div>")  # fmt: skip
+            self.result.object = note(say("workshop.own.cannot"))
             self.use.disabled = True
             return
         try:
@@ -534,14 +508,10 @@ class Measure:
             self.use.disabled = True
             return
         self.use.disabled = False
-        parts = " and ".join(
-            f"{share:.2g} from the {word}"
-            for word, share in (("period", found.shares["T"]), ("diameter", found.shares["R"]))
-        )
-        self.result.object = alert(said) or (
-            f"<div><b><i>a</i>/<i>R</i> = {found.value:.4f} ± {found.uncertainty:.2g}</b> ({parts}), so G is "
-            f"{found.value * rocking.D / 2 * 1e3:.2f} mm below O; <i>I</i><sub>1</sub> = "
-            f"{self.builder.draft.shape.top.I1:.4f} <i>MR</i><sup>2</sup>.</div>")  # fmt: skip
+        self.result.object = alert(said) or say(
+            "workshop.own.found", a=found.value, uncertainty=found.uncertainty, period=found.shares["T"],
+            diameter=found.shares["R"], below=found.value * rocking.D / 2 * 1e3,
+            I1=self.builder.draft.shape.top.I1)  # fmt: skip
 
     def _use(self, event):
         rocking, found = self._found()
