@@ -13,3 +13,5 @@ COLOURS = {
     "jellett": "#56B4E9",
     "energy": "#8C6D00",
 }
+GREY = "#7a8794"
+"""Of what is no quantity, seen on a light and on a dark page."""

@@ -9,8 +9,8 @@ import param
 from bokeh.models import ColumnDataSource, CustomJS, Range1d
 
 from app import lesson
-from app.cards import INK, PLAIN, card, grid, swatch, words
-from app.colours import COLOURS
+from app.cards import INK, PLAIN, card, grid, px, swatch, words
+from app.colours import COLOURS, GREY
 from app.explorer import axes, outline
 from app.keep import Field, OneOf
 from app.lines import Derivation
@@ -85,7 +85,7 @@ def equation(tex):
     """The paper's equation, typeset by KaTeX; on a narrow screen it scrolls by itself."""
     return pn.pane.LaTeX(
         f"$\\displaystyle {tex}$", sizing_mode="stretch_width", margin=(2, 0, 8, 0),
-        styles={"font-size": "15px", "overflow-x": "auto", "overflow-y": "hidden", "padding": "4px 0 6px"},
+        styles={"font-size": px(15), "overflow-x": "auto", "overflow-y": "hidden", "padding": "4px 0 6px"},
         stylesheets=[MATHS],
     )  # fmt: skip
 
@@ -170,7 +170,7 @@ class SectionFigure:
         five, six = [0.0] * 5, [0.0] * 6
         self.lines = ColumnDataSource(
             {"x0": six, "y0": list(six), "x1": list(six), "y1": list(six),
-             "colour": ["#8a96a3", "#8a96a3", INK, COLOURS["friction"], COLOURS["theta"], "#8a96a3"],
+             "colour": ["#8a96a3", "#8a96a3", GREY, COLOURS["friction"], COLOURS["theta"], "#8a96a3"],
              "dash": ["dashed", "dotted", "solid", "solid", "solid", "dotted"],
              "width": [1.5, 1.5, 2, 8, 5, 1.5]})  # fmt: skip
         self.points = ColumnDataSource(
@@ -219,14 +219,15 @@ class Learn(param.Parameterized):
         self.guesses = {}
         titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
         self.select = pmui.Select.from_param(self.param.step, label=say("learn.page.step"), options=titles,
-                                             size="small", sizing_mode="stretch_width", margin=(4, 0))  # fmt: skip
+                                             size="small", sizing_mode="stretch_width", min_width=250,
+                                             margin=(4, 0))  # fmt: skip
         self.sections = pmui.RadioButtonGroup.from_param(
             self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
             size="small", sx=PLAIN, margin=(10, 12, 0, 12),
         )  # fmt: skip
         self.back, self.next = (
             pmui.Button(label=say(f"learn.page.{name}"), size="small", variant="outlined", sx=PLAIN,
-                        margin=(10, 0, 0, 8))
+                        margin=(4, 0, 0, 8))
             for name in ("back", "next")
         )  # fmt: skip
         self.question, self.verdict, self.explanation, self.sources = (words("") for _ in range(4))
@@ -255,7 +256,8 @@ class Learn(param.Parameterized):
         return lesson.STEPS[lesson.NAMES.index(self.step)]
 
     def _build(self):
-        head = pn.Row(self.select, self.back, self.next, sizing_mode="stretch_width", margin=0)
+        head = pn.Row(self.select, pn.Row(self.back, self.next, margin=0), sizing_mode="stretch_width", margin=0,
+                      styles={"flex-wrap": "wrap"})  # fmt: skip
         promise = words(f'<div class="key">{say("learn.page.promise")}</div>', margin=(8, 0, 0, 0))
         steps = card(say("learn.sections.lesson"), head, self.question, self.prediction, self.run, self.verdict,
                      self.explanation, self.equations, self.sources, promise, height="max-content")  # fmt: skip
@@ -306,13 +308,13 @@ class Learn(param.Parameterized):
         asks = step.asks(plan)
         self.question.object = (
             f"<h2 style='margin: 8px 0 4px'>{say(f'learn.{step.name}.title')}</h2>"
-            f"<div style='font-size: 15px'>{say(f'learn.{step.name}.question', **answer.numbers)}</div>"
+            f"<div style='font-size: {px(15)}'>{say(f'learn.{step.name}.question', **answer.numbers)}</div>"
         )
         self.widget = prediction(step, asks, self.guesses.get(step.name))
         self.prediction.objects = [self.widget]
         full = [(listed(f"sources.{name}.short"), listed(f"sources.{name}.full")) for name in step.sources]
         self.sources.object = f"<div class='key' style='margin-top: 6px'>{say('learn.page.sources')}</div>" + "".join(
-            f"<details><summary style='cursor: pointer; color: #0b5cad'>{short}</summary>{text}</details>"
+            f"<details><summary>{short}</summary>{text}</details>"
             for short, text in full
         )
         self.show_scene(scene)
@@ -355,7 +357,7 @@ class Learn(param.Parameterized):
         self.verdict.object = self.explanation.object = ""
         if asked:
             said = say(f"learn.verdict.{verdict}")
-            self.verdict.object = f"<div role='status' style='font-size: 15px'><b>{said}</b></div>"
+            self.verdict.object = f"<div role='status' style='font-size: {px(15)}'><b>{said}</b></div>"
             self.explanation.object = self._explained(step, answer)
             self.figure.show(answer.picture)
 
@@ -365,4 +367,4 @@ class Learn(param.Parameterized):
         follows = f'<div class="key">{say("learn.page.follows")}</div>'
         if isinstance(answer.truth, str):
             explained = paragraphs(f"{option(step, answer.truth)}.") + explained
-        return f"<div style='font-size: 14px'>{explained}</div>{follows}"
+        return f"<div style='font-size: {px(14)}'>{explained}</div>{follows}"

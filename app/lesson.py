@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.colours import COLOURS
+from app.colours import COLOURS, GREY
 from app.explorer import solve
 from app.text import say
 from tippe_core import (
@@ -254,7 +254,7 @@ def turning(scene):
     }  # fmt: skip
     curves = (
         Curve("curve", COLOURS["theta"], np.degrees(theta), height),
-        level("zero", "#5b6875", np.degrees(theta), 0.0, "solid"),
+        level("zero", GREY, np.degrees(theta), 0.0, "solid"),
     )
     points = (Point("inner", inner, 0.0), Point("outer", outer, 0.0))
     return Answer(float(outer), numbers, Picture("degrees", "height", curves, points))
@@ -305,7 +305,7 @@ def jump(scene):
         F_z = normal_force(on, top, Constants(constants.K_J, constants.K_R, E))
         curves.append(Curve("limit", COLOURS["normal"], np.degrees(on), F_z, "dashed"))
     span = np.concatenate([curve.x for curve in curves])
-    curves.append(level("zero", "#5b6875", np.array([span.min(), span.max()]), 0.0, "solid"))
+    curves.append(level("zero", GREY, np.array([span.min(), span.max()]), 0.0, "solid"))
     numbers = {
         "E": E, "now": constants.E, "verge": np.degrees(verge), "inner": np.degrees(inner), "outer": np.degrees(outer),
         "least": scene.normal.min(), "most": scene.normal.max(),

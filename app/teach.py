@@ -12,7 +12,7 @@ import segno
 from bokeh.models import ColumnDataSource, FactorRange, Range1d
 
 from app import lesson
-from app.cards import PLAIN, card, grid, words
+from app.cards import PLAIN, card, grid, px, words
 from app.classroom import MOST_VOTES, ROOMS, Refused
 from app.colours import COLOURS
 from app.keep import EXPLORER
@@ -170,21 +170,31 @@ def teach_view(explorer):
         f"<dt style='margin-top: 6px'>{row['asked']}</dt><dd style='margin: 0 0 0 16px' class='key'>{row['here']}</dd>"
         for row in listed("teach.olympiad")
     )
+
+    def tall(*cards):
+        return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles={"gap": "12px"})
+
+    def told(key, content):
+        return card(say(f"teach.page.{key}"), words(content), height="max-content")
+
     return grid(
-        card(say("teach.page.vote"), *Vote(explorer).view, height="max-content"),
-        card(say("teach.page.links"), words(f"<ol style='margin: 4px 0; padding-left: 20px'>{links}</ol>"),
-             height="max-content"),
-        card(say("teach.page.fifteen"), words(bullets(listed("teach.plans.fifteen"), True)), height="max-content"),
-        card(say("teach.page.fifty"), words(bullets(listed("teach.plans.fifty"), True)), height="max-content"),
-        card(say("teach.page.wrong"), words(bullets(listed("teach.plans.wrong"))), height="max-content"),
-        card(say("teach.page.olympiad"), words(f"<dl style='margin: 0'>{olympiad}</dl>"), height="max-content"),
-        card(say("teach.page.toy"), words(bullets(listed("teach.plans.toy"))), height="max-content"),
-    )  # fmt: skip
+        tall(
+            card(say("teach.page.vote"), *Vote(explorer).view, height="max-content"),
+            told("fifteen", bullets(listed("teach.plans.fifteen"), True)),
+            told("wrong", bullets(listed("teach.plans.wrong"))),
+            told("toy", bullets(listed("teach.plans.toy"))),
+        ),
+        tall(
+            told("links", f"<ol style='margin: 4px 0; padding-left: 20px'>{links}</ol>"),
+            told("fifty", bullets(listed("teach.plans.fifty"), True)),
+            told("olympiad", f"<dl style='margin: 0'>{olympiad}</dl>"),
+        ),
+    )
 
 
 def history_view():
     parts = "".join(
-        f"<p style='margin: 0 0 4px; font-size: 14px'>{part['text']}</p><p class='key' style='margin: 0 0 12px'>"
+        f"<p style='margin: 0 0 4px; font-size: {px(14)}'>{part['text']}</p><p class='key' style='margin: 0 0 12px'>"
         + " · ".join(listed(f"sources.{name}.short") for name in part["sources"]) + "</p>"
         for part in listed("history.part")
     )  # fmt: skip
@@ -223,6 +233,6 @@ def student_page(code):
 
     send.on_click(vote)
     asked = say(f"learn.{room.step.name}.question", **room.numbers)
-    question = words(f"{title}<div style='font-size: 16px'>{asked}</div>")
+    question = words(f"{title}<div style='font-size: {px(16)}'>{asked}</div>")
     return pn.Column(question, widget, send, said, sizing_mode="stretch_width", max_width=640, margin=16,
                      css_classes=["learn"])  # fmt: skip
