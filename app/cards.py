@@ -1,5 +1,7 @@
 """The page's building blocks: cards, words in the page's own type, a grid that fits a phone."""
 
+import html
+
 import panel as pn
 
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
@@ -9,6 +11,13 @@ LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light a
 HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
 )
+# A name, a note, and what is wrong, wherever they stand.
+NOTES = """
+.name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
+.name sub { font-size: 0.8em } .note { color: var(--faint, #5b6875) } .alert { color: var(--alert, #b3261e);
+  font-weight: 500 } .note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
+.name[title], .note [title] { cursor: help }
+"""
 TYPE = """
 :host { font: calc(13px * var(--type, 1))/1.4 system-ui, sans-serif; color: var(--ink, #22303c) }
 h2 { font-size: calc(15px * var(--type, 1)); margin: 0; font-weight: 600 }
@@ -18,7 +27,8 @@ i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height:
 .quantity { font-size: calc(14px * var(--type, 1)); text-align: right }
 .swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
 a, summary { color: LINK } summary { cursor: pointer }
-""".replace("LINK", LINK)
+""".replace("LINK", LINK) + NOTES  # fmt: skip
+BUTTON = {"size": "small", "variant": "outlined", "margin": 0, "sx": {"textTransform": "none"}}
 
 
 def px(size):
@@ -26,8 +36,18 @@ def px(size):
     return f"calc({size}px * var(--type, 1))"
 
 
-def words(text, **options):
-    return pn.pane.HTML(text, stylesheets=[TYPE], **({"sizing_mode": "stretch_width", "margin": 0} | options))
+def words(text="", style="", **options):
+    """style: CSS of its own, beyond the page's."""
+    return pn.pane.HTML(text, stylesheets=[TYPE + style], **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+def alert(text):
+    """Plain text that says what is wrong."""
+    return f'<div class="alert" role="alert">{html.escape(text)}</div>' if text else ""
+
+
+def note(text):
+    return f'<div class="note">{text}</div>' if text else ""
 
 
 def progress(percent, says):
@@ -56,6 +76,12 @@ def card(title, *content, height=HEIGHT_OF_A_CARD):
             "overflow": "hidden",
         },
     )
+
+
+def flow(*content, margin=(6, 0)):
+    """In a row, as far as there is room."""
+    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center"}
+    return pn.Column(*content, sizing_mode="stretch_width", margin=margin, styles=styles)
 
 
 def section(title):
