@@ -7,6 +7,8 @@ files that are saved. English is complete by definition, and the tests compare e
 import re
 import string
 import tomllib
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from pathlib import Path
 
@@ -26,6 +28,7 @@ def _file(language, name):
 
 
 _ask = [lambda: DEFAULT]
+_inside = ContextVar("language", default=None)
 
 
 def ask(language):
@@ -35,19 +38,32 @@ def ask(language):
 
 def spoken():
     """The language of the page that is being served now, a key of LANGUAGES."""
-    return _ask[0]()
+    return _inside.get() or _ask[0]()
+
+
+@contextmanager
+def speaking(language):
+    """Inside, spoken() is this language: for a thread of its own, which serves no page."""
+    before = _inside.set(language)
+    try:
+        yield
+    finally:
+        _inside.reset(before)
+
+
+_WISH = re.compile(r"\s*([a-z]{1,8}|\*)(?:-[a-z\d-]+)?\s*(?:;\s*q=(0(?:\.\d{0,3})?|1(?:\.0{0,3})?)\s*)?", re.I | re.A)
 
 
 def preferred(header):
-    """The first of a browser's languages, as in its Accept-Language, that is one of LANGUAGES."""
-    wishes = []
+    """The one of LANGUAGES that a browser likes best, by its Accept-Language (RFC 9110); de-AT is as good as de."""
+    likes = {}  # "de" or "*" -> (weight, the earlier the larger)
     for place, wish in enumerate(header.split(",")[:20]):
-        tag, _, weight = wish.strip().partition(";q=")
-        try:
-            wishes.append((-float(weight or 1), place, tag.split("-")[0].lower()))
-        except ValueError:
-            continue
-    return next((tag for weight, _, tag in sorted(wishes) if weight < 0 and tag in LANGUAGES), DEFAULT)
+        if found := _WISH.fullmatch(wish):
+            tag, weight = found[1].lower(), float(found[2] or 1)
+            likes[tag] = max(likes.get(tag, (0.0, 0)), (weight, -place))
+    others = likes.get("*", (0.0, 0))
+    best = max(LANGUAGES, key=lambda language: likes.get(language, others))
+    return best if likes.get(best, others)[0] > 0 else DEFAULT
 
 
 def listed(key, language=None):
@@ -69,8 +85,10 @@ def told(error, language=None):
     language = language or spoken()
     if language == DEFAULT:
         return str(error)
-    shown = f"{error.value:.10g}" if isinstance(error.value, float) else str(error.value)
-    said = say("core.sentence", language, name=error.name, shown=shown, allowed=translated(error.allowed, language))
+    value = error.value
+    shown = f"{value:.10g}" if isinstance(value, float) else translated(str(value), language)
+    parts = {"name": translated(error.name, language), "allowed": translated(error.allowed, language)}
+    said = say("core.sentence", language, shown=shown, **parts)
     return said + (f" {translated(error.remedy, language)}" if error.remedy else "")
 
 

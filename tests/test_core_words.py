@@ -1,0 +1,126 @@
+"""What the core says in English has words on the page: every event, verdict, preset and sentence, in every language."""
+
+import ast
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.builder import FAMILIES, Builder, sentence
+from app.explorer import Explorer
+from app.planes import PRESETS as STARTS
+from app.planes import THROWN
+from app.text import LANGUAGES, _patterns, listed, say
+from app.three_planes import outcome_words
+from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide
+from tippe_core.contacts import change
+
+CORE = [*Path("tippe_core").glob("*.py"), Path("app/planes.py"), Path("app/explorer.py"), Path("app/builder.py")]
+# What no person writes, but only who calls tippe_core, and what is the same in all languages.
+CODE = r"\b(theta|theta_dot|omega\d|mu_s|mu_k|gamma|rtol|turning_points|Constants|State|Scales|Zone|Frustum)\b"
+
+
+def quoted(function, start, end):
+    """The words in quotation marks in a part of a docstring."""
+    part = function.__doc__[function.__doc__.index(start) : function.__doc__.index(end)]
+    return {" ".join(words.split()) for words in re.findall(r'"([^"]+)"', part)}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_event_has_words(language):
+    names = quoted(slide, "events: ", "regime: ")
+    contacts = [(), (0,), (1,), (0, 1)]
+    for before in contacts:
+        for after in contacts:
+            for event in [(kind, i) for kind in ("sticks", "slips", "touches", "leaves", "lands") for i in (0, 1)]:
+                try:
+                    names.add(change(before, after, event))
+                except KeyError:  # no such change
+                    continue
+    assert len(names) >= 13
+    assert {*listed("planes.events", language)} == names | {THROWN}
+
+
+STARTS_OF_ALL_KINDS = [
+    (Top(a, I1, I3), State(theta, 0.0, omega2, omega3))
+    for a, I1, I3 in [(0.07, 0.399, 0.408), (0.3, 131 / 350, 0.4), (0.3, 0.25, 0.4), (0.3, 0.6, 0.4), (0.0, 0.4, 0.4),
+                      (-1.2, 0.9, 0.5), (-1.2, 2.0, 0.5)]
+    for theta in (0.1, 1.5, 3.0)
+    for omega2, omega3 in ((0.0, 0.0), (0.0, 2.0), (1.0, -3.0), (0.0, 12.0))
+]  # fmt: skip
+
+
+def test_the_outcome_is_said_as_the_core_says_it():
+    scales, verdicts = Scales(R=0.02, M=0.02), set()
+    for top, state in STARTS_OF_ALL_KINDS:
+        goes = outcome(top, state, scales)
+        verdicts.add(goes.verdict)
+        assert outcome_words(goes, scales) == goes.sentence
+    assert verdicts == quoted(outcome.__globals__["Outcome"], "verdict ", "\n    theta ")
+    for language in LANGUAGES:
+        assert {*listed("planes.outcome.will", language)} == verdicts
+        assert {*listed("planes.groups", language)} == quoted(
+            outcome.__globals__["Thresholds"], "group ", "upright, inverted") - {"neutral"}  # fmt: skip
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_body_and_start_has_a_name(language):
+    bodies = listed("workshop.presets", language)
+    assert [*bodies] == [preset.name for preset in PRESETS]
+    assert [*listed("workshop.families", language)] == [name for name, _ in FAMILIES.values()]
+    assert [*listed("planes.presets", language)] == [*STARTS]
+    # a choice is by its name: no two alike
+    for names in ([body["name"] for body in bodies.values()], listed("planes.presets", language).values()):
+        assert len({*names}) == len(PRESETS)
+    if language == "en":
+        assert [(name, body["source"]) for name, body in bodies.items()] == [
+            (preset.name, preset.source) for preset in PRESETS]  # fmt: skip
+    for kind, dimensions in FAMILIES.values():
+        assert all(say(f"workshop.dimensions.{each.key}", language) for each in dimensions), kind
+
+
+def sentences():
+    """(where, text) of all that errors say, with a 7 for each number."""
+
+    def texts(node):
+        if isinstance(node, ast.IfExp):
+            return texts(node.body) + texts(node.orelse)
+        if isinstance(node, ast.JoinedStr):
+            return ["".join(str(part.value) if isinstance(part, ast.Constant) else "7" for part in node.values)]
+        return [node.value] if isinstance(node, ast.Constant) and isinstance(node.value, str) else []
+
+    for file in CORE:
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            name = getattr(node.func, "id", "") if isinstance(node, ast.Call) else ""
+            said = []
+            if name in ("TopError", "NoMotionError"):
+                said = [text for part in node.args[1:] for text in texts(part)]
+            elif name == "_range":
+                said = [f"7 <= x <= 7 ({text})" for text in texts(node.args[4])]
+                said += [text for part in node.keywords if part.arg == "remedy" for text in texts(part.value)]
+            said = [text.replace("this top, 7", "this top, K_J = 7 and K_R = 7") for text in said]
+            yield from (pytest.param(text, id=f"{file.stem}-{node.lineno}-{text[:20]}") for text in said)
+
+
+@pytest.mark.parametrize("text", [*dict.fromkeys(sentences())])
+def test_every_sentence_of_an_error_is_translated(text):
+    words = re.findall(r"[A-Za-z]{4,}|\b(?:to|or|no|the|and)\b", re.sub(CODE, "", text))
+    for language in {*LANGUAGES} - {"en"}:
+        if words and text != "BareSphere":
+            assert any(pattern.fullmatch(text) for pattern, _ in _patterns(language))
+
+
+def test_an_error_is_told_in_german_with_the_units_of_the_sliders(monkeypatch):
+    monkeypatch.setattr("app.text._ask", [lambda: "de"])
+    builder = Builder(Explorer())
+    builder.set("c", 0.5)
+    said = builder.draft.messages["c"]
+    assert said.startswith("c = 500 mm ist nicht möglich: erlaubt ist") and "(mm, der Schnitt geht" in said
+    builder.load("no top at all")
+    assert "JSON-Dokument" in builder.draft.messages["file"] and "Zeile 1" in builder.draft.messages["file"]
+    with pytest.raises(TopError) as error:
+        load_top('{"schema": 1}')
+    assert "fehlt" in sentence(error.value)
+    goes = outcome(Top.paper(), State(np.radians(10), 0.0, 0.0, 5.0), Scales.paper())
+    assert re.fullmatch(r"Mit [\d.]+ U/s angedreht, kippt er um: .*", outcome_words(goes, Scales.paper()))
