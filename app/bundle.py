@@ -11,9 +11,13 @@ from app.text import listed
 class Bundled(JSComponent):
     """A component whose JavaScript is in the bundle; one base class, so that a page loads the bundle once."""
 
-    texts = param.Dict(default={}, constant=True, doc="What it says by itself: under its name in browser.toml.")
+    texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")
+    SAYS = ()  # the tables of its words, beside the one of its own name
 
     _bundle = Path(__file__).parent / "static" / "tippe.js"
 
     def __init__(self, **params):
-        super().__init__(**({"texts": listed("browser").get(type(self).__name__, {})} | params))
+        known, texts = listed("browser"), {}
+        for name in (*self.SAYS, type(self).__name__):
+            texts |= known.get(name, {})
+        super().__init__(**({"texts": texts} | params))

@@ -1,5 +1,6 @@
 """What the page does when the server is gone: it says so, waits, and comes back to what the person had set."""
 
+import param
 from panel.custom import JSComponent
 
 
@@ -9,10 +10,12 @@ class Connection(JSComponent):
     (BokehJS 3.9 can also go on with a session, but fails where the document has arrays, or where a message was cut.)
     """
 
+    words = param.String(constant=True, doc="What it says.")
+
     _esm = """
     const FIRST = 500, LONGEST = 8000  // ms between two tries, each half to one and a half times as long
 
-    export function render() {
+    export function render({model}) {
       const words = document.createElement("div")
       words.setAttribute("role", "alert")
       Object.assign(words.style, {
@@ -20,8 +23,7 @@ class Connection(JSComponent):
         padding: "10px 16px", borderRadius: "8px", background: "#22303c", color: "white", textAlign: "center",
         font: "15px/1.4 system-ui, sans-serif", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)",
       })
-      words.textContent = "No connection to the server at the moment. What is shown can still be played, and nothing "
-        + "that was set is lost; the page goes on by itself as soon as the server answers."
+      words.textContent = model.words
 
       async function recover() {
         if (words.isConnected) return

@@ -11,6 +11,7 @@ from app.bundle import Bundled
 from app.cards import PLAIN
 from app.explorer import Explorer
 from app.pacing import at_once
+from app.text import listed, say
 from tippe_core import Top
 
 STYLE = """
@@ -48,79 +49,6 @@ SYMBOLS = {
     "time": "<i>t</i>",
 }
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
-NAMES = {
-    "K_J": "Jellett’s constant",
-    "K_R": "Routh’s constant",
-    "mu_s": "friction",
-    "energy": "energy",
-    "a": "eccentricity, in <i>R</i>",
-    "I1": "inertia across, in <i>MR</i><sup>2</sup>",
-    "I3": "inertia about, in <i>MR</i><sup>2</sup>",
-    "theta": "tilt, in rad",
-    "theta_dot": f"its rate, in {SPIN}",
-    "omega2": f"turn, in {SPIN}",
-    "omega3": f"spin, in {SPIN}",
-    "spin": "spin, in rev/s",
-    "tilt": "tilt, in degrees",
-    "slip": "slip, of that with <i>G</i> at rest",
-    "seconds": "time computed, in s",
-    "mu_k": "sliding friction",
-    "mu": "sliding friction",
-    "eps": "its slip scale, in (<i>gR</i>)<sup>½</sup>",
-    "gamma": "viscous friction, in (<i>gR</i>)<sup>−½</sup>",
-}
-# The same for the ear: name and unit.
-ROOT = "root g over R"
-SPOKEN = {
-    "K_J": ("Jellett’s constant", ROOT),
-    "K_R": ("Routh’s constant", f"root M R squared times {ROOT}"),
-    "mu_s": ("coefficient of static friction", ""),
-    "energy": ("energy", "M g R"),
-    "a": ("eccentricity", "R"),
-    "I1": ("inertia across the axis", "M R squared"),
-    "I3": ("inertia about the axis", "M R squared"),
-    "theta": ("tilt", "radians"),
-    "theta_dot": ("rate of the tilt", ROOT),
-    "omega2": ("turn about 2 prime", ROOT),
-    "omega3": ("spin about the axis", ROOT),
-    "spin": ("spin", "revolutions per second"),
-    "tilt": ("tilt", "degrees"),
-    "slip": ("slip, of that with G at rest", ""),
-    "seconds": ("time computed", "seconds"),
-    "mu_k": ("coefficient of sliding friction", ""),
-    "mu": ("coefficient of sliding friction at fast slip", ""),
-    "eps": ("slip scale of the friction", "root g R"),
-    "gamma": ("viscous friction", "one over root g R"),
-}
-# What each symbol is, on hover.
-WORDS = {
-    "K_J": "Jellett’s constant: the angular momentum about the line from the contact point to the sphere’s centre, "
-    "over I₁. Friction at the contact cannot change it.",
-    "K_R": "Routh’s constant: f₃ω₃. It stays while the top rolls without slipping.",
-    "mu_s": "Coefficient of static friction: the top rolls while the friction is at most this times the normal force.",
-    "energy": "Energy of the motion, kinetic and potential, in MgR.",
-    "a": "How far the centre of mass G lies below the centre O of the sphere, in radii R.",
-    "I1": "Moment of inertia about an axis through G across the axis of symmetry, in MR².",
-    "I3": "Moment of inertia about the axis of symmetry, in MR².",
-    "theta": "The tilt: the angle between the vertical and the axis of symmetry when the motion starts.",
-    "theta_dot": "How fast the tilt grows when the motion starts.",
-    "omega2": "Angular velocity about 2′, the axis across the axis of symmetry in the upright plane of the tilt, "
-    "when the motion starts.",
-    "omega3": "Spin: angular velocity about the axis of symmetry when the motion starts.",
-    "spin": "Angular velocity about the axis of symmetry at the start. There is no precession then.",
-    "tilt": "The angle between the vertical and the axis of symmetry at the start.",
-    "slip": "How fast the contact point slips at the start: 1, the centre of mass G is at rest; 0, the top rolls.",
-    "seconds": "For how long the motion is computed, in seconds of the real top.",
-    "mu_k": "Coefficient of sliding friction: the friction while it slips, over the normal force.",
-    "mu": "Coefficient of friction at fast slip: the friction over the normal force.",
-    "eps": "The slip speed at which the smoothed friction is 0.7 of its full size.",
-    "gamma": "Friction over the normal force and the slip speed.",
-    "normal": "Normal force: how hard the table pushes the top up, in weights Mg. Below 0 it would have to pull.",
-    "ratio": "Friction over normal force: where it passes μₛ the top would slip.",
-    "height": "The rate of tilting squared, times f₁²: the energy that is left for tilting, doubled, in MgR.",
-    "angle": "The tilt: the angle between the vertical and the axis of symmetry.",
-    "time": "Time, in units of the square root of R over g.",
-}
 # start, end and step of each slider; a typed number may lie outside.
 RANGES = {
     "K_J": (0, 9, 0.01),
@@ -145,10 +73,7 @@ RANGES = {
 }
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
-WORST = ("rolls all along", "would slip on the way", "would lift off on the way")
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
-PRINTED = ". The paper prints about 20; its equation (31) gives this."
-ENERGY_MARKS = [[0, "steady"], [1, "slips"], [2, "lifts off"]]
 
 
 def number(value):
@@ -157,7 +82,12 @@ def number(value):
 
 def named(name):
     """A symbol, with its word on hover."""
-    return f'<span title="{html.escape(WORDS[name])}">{SYMBOLS[name]}</span>'
+    return f'<span title="{html.escape(say(f"controls.hints.{name}"))}">{SYMBOLS[name]}</span>'
+
+
+def worst(scene):
+    """What the motion does, in the words of its worst instant."""
+    return listed("controls.worst")[int(scene.regime.max())]
 
 
 class Dial(Bundled):
@@ -167,6 +97,7 @@ class Dial(Bundled):
     counts what it asks; what it is told is for the last it had asked then, and is passed over where it has asked since.
     """
 
+    input = param.String(constant=True, doc="Which input it is of.")
     title = param.String(constant=True, doc="Its symbol and name, as HTML.")
     hint = param.String(constant=True, doc="What it is, shown on hover.")
     spoken = param.String(constant=True, doc="Its name in plain words.")
@@ -190,13 +121,14 @@ class Control:
         self.name, self._request, self._heard, self._shown = name, request, 0, number(value)
         self._unread = False  # whether the last that was typed is no number
         start, end, step = RANGES[name]
-        spoken, unit = SPOKEN[name]
+        spoken, unit = listed(f"controls.spoken.{name}")
         self.view = Dial(
-            title=f"{SYMBOLS[name]}&ensp;{NAMES[name]}",
-            hint=WORDS[name],
+            input=name,
+            title=f"{SYMBOLS[name]}&ensp;{say(f'controls.names.{name}')}",
+            hint=say(f"controls.hints.{name}"),
             spoken=spoken,
             unit=unit,
-            marks=ENERGY_MARKS if name == "energy" else [],
+            marks=[list(mark) for mark in enumerate(listed("controls.marks"))] if name == "energy" else [],
             lines=LINES.get(name, 0),
             step=step,
             start=start,
@@ -220,7 +152,7 @@ class Control:
                 raise ValueError
         except ValueError:
             self._unread = True
-            self._say(html.escape(f"“{wish}” is not a number. Type one, such as {self._shown}."), wrong=True)
+            self._say(html.escape(say("controls.not_a_number", text=wish, shown=self._shown)), wrong=True)
             return
         self._request(self.name, value, typed=True)
 
@@ -260,7 +192,7 @@ class Controls:
         switch = pmui.RadioButtonGroup.from_param(
             explorer.param.face,
             label="",
-            options={"constants": "constants", "initial state": "state"},
+            options={say(f"controls.faces.{face}"): face for face in FACES},
             size="small",
             margin=(6, 16, 2, 16),
             sx=PLAIN,
@@ -307,38 +239,35 @@ class Controls:
 
     def _other_face(self, scene):
         """The face that is not on the sliders."""
-        if self._explorer.face == "constants":
+        other = "state" if self._explorer.face == "constants" else "constants"
+        if other == "state":
             values = {name: getattr(scene.state, name) for name in FACES["state"]}
-            begins = "starts at "
         else:
             constants = scene.constants
             values = {"K_J": constants.K_J, "K_R": constants.K_R, "energy": constants.E}
-            begins = "its constants: "
         said = ", ".join(f"{named(name)} = {value:.4g}".replace("-", "−") for name, value in values.items())
-        return f'<div class="note">{begins}{said}</div>'
+        return f'<div class="note">{say(f"controls.other.{other}", values=said)}</div>'
 
     @staticmethod
     def _notes(scene):
         spin, marks = scene.upright_spin, scene.marks
         turns = spin * scene.scales.angular_velocity / (2 * math.pi)
-        worst = WORST[int(scene.regime.max())]
         inner, outer = scene.turning
-        said = "".join(f" {html.escape(note)}" for note in scene.notes)
         limits = " · ".join(
-            f"{word} {number(round(E, 4))}"
-            for word, E in (("steady", marks.steady), ("slips from", marks.slip), ("lifts off from", marks.lift))
+            say(f"controls.notes.{name}", E=number(round(E, 4)))
+            for name, E in (("steady", marks.steady), ("slip", marks.slip), ("lift", marks.lift))
             if math.isfinite(E)
         )
-        motion = (
-            f"<b>{worst}.</b>{said}<br>{named('theta')} from {inner:.3f} to {outer:.3f} rad "
-            f"({math.degrees(inner):.1f}° to {math.degrees(outer):.1f}°)"
-        )
+        motion = say(
+            "controls.notes.motion", worst=worst(scene), notes="".join(f" {html.escape(note)}" for note in scene.notes),
+            theta=named("theta"), inner=inner, outer=outer, inner_degrees=math.degrees(inner),
+            outer_degrees=math.degrees(outer),
+        )  # fmt: skip
+        printed = scene.constants.K_R == 10 and scene.top == Top.paper()
         return {
             "omega3": motion,
-            "K_J": f"(<i>g</i>/<i>R</i>)<sup>½</sup>; the point P is at {number(round(scene.plane.pole, 4))}",
-            "K_R": f"<i>ω</i><sub>3</sub> = {spin:.2f} (<i>g</i>/<i>R</i>)<sup>½</sup> = {turns:.1f} rev/s near "
-            f"<i>θ</i> = 0, for <i>R</i> = {100 * scene.scales.R:.3g} cm"
-            + PRINTED
-            * (scene.constants.K_R == 10 and scene.top == Top.paper()),
-            "energy": f"{motion}<br>in <i>MgR</i>: {limits}",
+            "K_J": say("controls.notes.K_J", pole=number(round(scene.plane.pole, 4))),
+            "K_R": say("controls.notes.K_R", spin=spin, turns=turns, R=100 * scene.scales.R)
+            + say("controls.notes.printed") * printed,
+            "energy": f"{motion}<br>{say('controls.notes.energy', limits=limits)}",
         }

@@ -15,6 +15,7 @@ from urllib.parse import parse_qsl, quote
 import param
 
 from app.explorer import Explorer
+from app.text import say, told
 from tippe_core import TopError, load_top, save_top
 from tippe_core.shapes import KINDS, LONGEST
 
@@ -25,7 +26,6 @@ MOST_NAMES = 60
 LONGEST_NUMBER = 32
 STEPS = 100
 
-UNKNOWN = "This link was made by a newer version of the explorer; what this one knows of it is shown."
 NUMBER = re.compile(r"-?(\d+\.?\d*|\.\d+)(e-?\d+)?", re.ASCII)
 
 
@@ -42,7 +42,7 @@ class Number:
     def value(text):
         """Of what text() wrote; else a ValueError."""
         if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text) or abs(float(text)) == float("inf"):
-            raise ValueError("a finite number")
+            raise ValueError(say("share.link.number"))
         return float(text)
 
 
@@ -59,7 +59,7 @@ class OneOf:
     def value(self, text):
         """The value of a word; else a ValueError."""
         if text not in self._words:
-            raise ValueError("one of " + ", ".join(self._words))
+            raise ValueError(say("share.link.one_of", words=", ".join(self._words)))
         return self._words[text]
 
 
@@ -85,7 +85,7 @@ class Body:
             name, *dimensions = text.split("_")
             kind = KINDS.get(name)
             if kind is None or len(dimensions) != len(fields(kind)):
-                raise ValueError("a body: its kind and its dimensions")
+                raise ValueError(say("share.link.body"))
             names = (field.name for field in fields(kind))
             shape = kind(**{name: Number.value(size) for name, size in zip(names, dimensions, strict=True)})
         shape.top  # noqa: B018  (a body may be sound and still stand on no peg)
@@ -97,7 +97,7 @@ class Body:
         try:
             document = unpack.decompress(base64.urlsafe_b64decode(text + "=" * (-len(text) % 4)), LONGEST)
         except (binascii.Error, zlib.error, ValueError):
-            raise ValueError("a body's file, packed") from None
+            raise ValueError(say("share.link.file")) from None
         return load_top(document)
 
 
@@ -138,13 +138,13 @@ def read(query):
     """(texts, sentence): the names and texts of a query, {} and a sentence where it cannot be one. Never raises."""
     query = query.removeprefix("?")
     if len(query) > LONGEST_QUERY:
-        return {}, f"This link is too long to be one of the explorer’s ({len(query)} letters)."
+        return {}, say("share.link.too_long", letters=len(query))
     try:
         texts = dict(parse_qsl(query, keep_blank_values=True, max_num_fields=MOST_NAMES))
     except ValueError:
-        return {}, "This link has more in it than one of the explorer’s can have."
+        return {}, say("share.link.too_many")
     version = texts.pop("v", str(VERSION))
-    return texts, "" if version == str(VERSION) else UNKNOWN
+    return texts, "" if version == str(VERSION) else say("share.link.newer")
 
 
 def values(texts, known, skip=()):
@@ -156,9 +156,9 @@ def values(texts, known, skip=()):
         try:
             found[name] = field.codec.value(texts[field.key])
         except ValueError as error:
-            wrong.append(str(error) if isinstance(error, TopError) else f"{field.key} is to be {error}.")
-    sentence = f"Part of this link cannot be read, and is left at its default: {' '.join(wrong)}" if wrong else ""
-    return found, sentence
+            impossible = isinstance(error, TopError)
+            wrong.append(told(error) if impossible else say("share.link.to_be", name=field.key, what=error))
+    return found, say("share.link.unreadable", wrong=" ".join(wrong)) if wrong else ""
 
 
 def explorer_of(texts):
@@ -171,8 +171,8 @@ def explorer_of(texts):
         return Explorer(**asked), sentence
     # what the solver says of numbers whose squares or reciprocals are no numbers
     except (ValueError, ArithmeticError) as error:
-        said = str(error) if isinstance(error, TopError) else "its numbers are too large or too small."
-        return Explorer(), f"This link asks for what cannot be, so the first motion is shown: {said}"
+        why = told(error) if isinstance(error, TopError) else say("share.link.extreme")
+        return Explorer(), say("share.link.impossible", why=why)
 
 
 def usual(explorer):

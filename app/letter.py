@@ -18,12 +18,13 @@ from app.export import parameters
 from app.plots import Motion, PlaneFigure, TimeFigures
 from app.roll import show_surface, show_top
 from app.surface3d import Surface3D
+from app.text import say, spoken
 from app.top3d import Top3D
 
 PAGE = Template("""<!doctype html>
 <!-- $notices -->
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>Tippe top explorer: $title</title>
+<html lang="$lang"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>$title</title>
 <style>
 body { margin: 0; background: #eef1f5; color: #22303c; font: 14px/1.45 system-ui, sans-serif }
 header { background: #0072B2; color: white; padding: 10px 20px; font-size: 19px }
@@ -39,18 +40,17 @@ h2 { font-size: 15px; margin: 0 } i, sub { font-family: Georgia, serif } sub, su
 .axis { text-align: center; flex: none !important } p { margin: 4px 0; overflow-wrap: anywhere }
 </style>
 </head><body>
-<header>Tippe top explorer</header>
+<header>$explorer</header>
 <main>
-<section><h2>The top</h2><div id="Top3D"></div></section>
-<section><h2>Which motions roll: the (<i>K</i><sub>J</sub>, <i>θ</i>) plane, the paper’s Fig. 6</h2>
+<section><h2>$card_top</h2><div id="Top3D"></div></section>
+<section><h2>$card_plane</h2>
 <div><i>K</i><sub>J</sub></div><div class="figure">$plane</div><div class="axis"><i>θ</i> (rad)</div></section>
-<section><h2>$height over the (<i>K</i><sub>J</sub>, <i>θ</i>) plane: the paper’s Fig. 5</h2>
+<section><h2>$card_floor</h2>
 <div id="Surface3D"></div></section>
-<section><h2>The motion over time; click to look at an instant</h2><div class="times">$times
-<div class="axis"><i>t</i> in (<i>R</i>/<i>g</i>)<sup>½</sup>, $unit ms of the real top</div></div></section>
-<section class="said"><h2>This motion</h2><div><p>$parameters</p>$link
-<p>After C. G. Gray and B. G. Nickel, Am. J. Phys. 68, 821 (2000). This file needs no network; it contains three.js
-(MIT) and Bokeh (BSD-3-Clause).</p></div></section>
+<section><h2>$card_times</h2><div class="times">$times
+<div class="axis">$unit</div></div></section>
+<section class="said"><h2>$this</h2><div><p>$parameters</p>$link
+<p>$source</p></div></section>
 </main>
 $bokeh
 $figures
@@ -83,8 +83,8 @@ for (const [name, values] of Object.entries(models)) {
 </script>
 </body></html>
 """)
-SYMBOLS_OF_FIG_5 = "<i>f</i><sub>1</sub><sup>2</sup>&hairsp;<i>θ̇</i>&hairsp;<sup>2</sup>"
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
+PLANE = f"({SYMBOLS['K_J']}, {SYMBOLS['angle']})"
 TYPESET = {
     "a": (SYMBOLS["a"], "<i>R</i>"),
     "I1": (SYMBOLS["I1"], "<i>MR</i><sup>2</sup>"),
@@ -93,8 +93,8 @@ TYPESET = {
     "K_J": (SYMBOLS["K_J"], SPIN),
     "K_R": (SYMBOLS["K_R"], f"(<i>MR</i><sup>2</sup>)<sup>½</sup> {SPIN}"),
     "E": (SYMBOLS["energy"], "<i>MgR</i>"),
-    "theta_inner": ("least <i>θ</i>", "rad"),
-    "theta_outer": ("largest <i>θ</i>", "rad"),
+    "theta_inner": ("", "rad"),
+    "theta_outer": ("", "rad"),
     "R": ("<i>R</i>", "m"),
     "M": ("<i>M</i>", "kg"),
 }
@@ -108,7 +108,10 @@ LABELS = {
 
 
 def letter(scene, link="", look=None):
-    """The page (bytes, UTF-8). look: {parameter of Top3D: value} of what is shown of the top, and when."""
+    """The page (bytes, UTF-8). look: {parameter of Top3D: value} of what is shown of the top, and when.
+
+    In the language of text.spoken(): in a thread of its own, inside text.speaking().
+    """
     motion = Motion()
     plane, times = PlaneFigure(motion), TimeFigures(motion)
     motion.show(scene)
@@ -129,14 +132,21 @@ def letter(scene, link="", look=None):
         "models": {type(part).__name__: dict(_values(part)) for part in (top, surface)},
     }
     return PAGE.substitute(
-        title=f"K_J = {scene.constants.K_J:.4g}, K_R = {scene.constants.K_R:.4g}",
+        lang=spoken(),
+        title=say("share.letter.title", K_J=scene.constants.K_J, K_R=scene.constants.K_R),
+        explorer=say("main.title"),
         notices=(Bundled._bundle.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),
         plane=plane_div,
-        height=SYMBOLS_OF_FIG_5,
+        card_top=say("roll.cards.top"),
+        card_plane=say("roll.cards.plane", plane=PLANE),
+        card_floor=say("roll.cards.floor", height=SYMBOLS["height"], plane=PLANE),
+        card_times=say("roll.cards.times"),
         times=rows,
-        unit=f"{1e3 * scene.scales.time:.1f}",
+        unit=say("roll.says.unit", time=SYMBOLS["time"], milliseconds=1e3 * scene.scales.time),
+        this=say("share.letter.motion"),
+        source=say("share.letter.source"),
         parameters=", ".join(_said(scene)),
-        link=f'<p>To change it: <a href="{shown}">{shown}</a></p>' if link else "",
+        link=f'<p>{say("share.letter.change")} <a href="{shown}">{shown}</a></p>' if link else "",
         bokeh=f"<script>{(settings.bokehjs_path() / 'js' / 'bokeh.min.js').read_text(encoding='utf-8')}</script>",
         figures=script,
         # no end of a script, and no comment, inside a script
@@ -146,12 +156,13 @@ def letter(scene, link="", look=None):
 
 def _said(scene):
     known = parameters(scene)
+    tilts = {"theta_inner": say("share.letter.least"), "theta_outer": say("share.letter.largest")}
     for name, (symbol, unit) in TYPESET.items():
-        yield f"{symbol} = {known[name][0]:.6g} {unit}".rstrip().replace("-", "−")
+        yield f"{tilts.get(name, symbol)} = {known[name][0]:.6g} {unit}".rstrip().replace("-", "−")
 
 
 def _values(part):
-    for name in set(type(part).param) - set(Bundled.param):
+    for name in set(type(part).param) - set(Bundled.param) | {"texts"}:
         value = getattr(part, name)
         if isinstance(value, bytes):
             value = {"base64": base64.b64encode(value).decode()}

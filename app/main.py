@@ -18,6 +18,7 @@ from app.planes import Planes
 from app.roll import Roll
 from app.share import Share
 from app.teach import student_page
+from app.text import say
 from app.three_planes import KEPT, ThreePlanes
 from app.workshop import Measure, Workshop
 
@@ -42,7 +43,7 @@ THEME = {
 
 
 SPEAKS = WeakKeyDictionary()  # document -> its language
-text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT))
+text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc else text.DEFAULT)
 
 
 class Tongue(param.Parameterized):
@@ -74,11 +75,11 @@ def build_view(explorer, roll, builder):
     workshop = Workshop(builder, explorer)
     roll.followers.append(workshop.show_scene)
     workshop.show_scene(explorer.scene)
-    measure = card("Measure your own", *Measure(builder).view, height="max-content")
+    measure = card(say("main.cards.measure"), *Measure(builder).view, height="max-content")
     measure.styles = measure.styles | {"grid-column": "1 / -1"}
     return grid(
-        card("The body, cut along its axis; drag its handles", *workshop.section_view, height="max-content"),
-        card("Build a top", *workshop.bench_view, height="max-content"),
+        card(say("main.cards.section"), *workshop.section_view, height="max-content"),
+        card(say("main.cards.bench"), *workshop.bench_view, height="max-content"),
         measure,
     )
 
@@ -97,8 +98,8 @@ def family_view(explorer):
     compare.show(compare.family.value)
     compare.compute()
     return grid(
-        card("Compare tops: Figs. 5 and 6 of a family", *compare.figures_view, height="max-content"),
-        card("What friction leaves, of many tops", *compare.map_view, height="max-content"),
+        card(say("main.cards.compare"), *compare.figures_view, height="max-content"),
+        card(say("main.cards.map"), *compare.map_view, height="max-content"),
         narrowest=1000,
     )
 
@@ -112,11 +113,11 @@ def learn_view(explorer, roll, keep):
 def tabs(views, keep, soon):
     """A header and a place for each view; a view is made when it is first looked at, and then stays.
 
-    views: {name: maker}; soon: of a Pacer.
+    views: {name in the address: maker}; soon: of a Pacer.
     """
     places = [pn.Column(sizing_mode="stretch_width", margin=0, visible=False) for _ in views]
     header = pmui.Tabs(
-        *((name, pn.Spacer(height=0)) for name in views),
+        *((say(f"main.tabs.{name}"), pn.Spacer(height=0)) for name in views),
         sizing_mode="stretch_width",
         margin=0,
         sx={"& .MuiTab-root": {"textTransform": "none", "minHeight": 40, "padding": "8px 16px"}},
@@ -138,38 +139,42 @@ def tabs(views, keep, soon):
 
     header.param.watch(lambda event: soon(partial(look, event.new)), "active")
     look(header.active)
-    known = OneOf(**{name.lower().replace(" ", "-"): i for i, name in enumerate(views)})
+    known = OneOf(**{name: i for i, name in enumerate(views)})
     keep.add(header, {"active": Field("tab", known, undoable=False)})
     return [header, *places]
 
 
 def page():
-    texts, sentence = read(pn.state.location.search)
-    language = texts.get("lang")
-    if language not in text.LANGUAGES:
-        language = text.preferred(pn.state.headers.get("Accept-Language", ""))
-    SPEAKS[pn.state.curdoc] = language
+    search = pn.state.location.search
+    asked = read(search)[0].get("lang")
+    accepted = text.preferred(pn.state.headers.get("Accept-Language", ""))
+    SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
+    texts, sentence = read(search)  # what it says is in that language
     if "vote" in texts:  # a student's link
-        return pmui.Page(title="Tippe top explorer", main=[student_page(texts["vote"])], theme_toggle=False)
+        return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"])], theme_toggle=False)
     explorer, wrong = explorer_of(texts)
     roll = Roll(explorer)
     builder = Builder(explorer, roll.pacer.request)
     share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))))
     share.keep.param.watch(lambda event: builder.follow(), "returned")
     return pmui.Page(
-        title="Tippe top explorer",
-        sidebar=[*roll.sidebar, Tongue().choice(share), Connection(width=0, height=0, margin=0)],
+        title=say("main.title"),
+        sidebar=[
+            *roll.sidebar,
+            Tongue().choice(share),
+            Connection(words=say("main.lost"), width=0, height=0, margin=0),
+        ],
         sidebar_open=not on_a_phone(),
         header=[*share.header, roll.guide],
         main=[
             *share.main,
             *tabs(
                 {
-                    "Roll": lambda: roll.main,
-                    "Three planes": lambda: planes_view(explorer, roll, builder, share.keep),
-                    "Build a top": lambda: build_view(explorer, roll, builder),
-                    "Families": lambda: family_view(explorer),
-                    "Learn": lambda: learn_view(explorer, roll, share.keep),
+                    "roll": lambda: roll.main,
+                    "three-planes": lambda: planes_view(explorer, roll, builder, share.keep),
+                    "build-a-top": lambda: build_view(explorer, roll, builder),
+                    "families": lambda: family_view(explorer),
+                    "learn": lambda: learn_view(explorer, roll, share.keep),
                 },
                 share.keep,
                 roll.pacer.soon,

@@ -19,6 +19,7 @@ from bokeh.plotting import figure
 
 from app.colours import COLOURS
 from app.explorer import ROLLS, SLIPS
+from app.text import listed, say
 
 INK, FAINT, GRID, PAPER = "#22303c", "#8a96a3", "#e7ebef", "#ffffff"
 POINTS_A_CURVE = 640
@@ -108,7 +109,7 @@ if (taken == "bead" || event_name == "tap" && taken == "line") {
 }
 // why not, where the hand is
 const say = () => {
-  const text = [" ", "It would slip on the way: F_h/F_z passes μ_s.", "It would lift off on the way: F_z < 0."]
+  const text = [" ", slips, lifts]
   const worst = selected.data.worst[0], right = x > (fig.x_range.start + fig.x_range.end) / 2
   const visible = !!hand.grip && hand.grip != "bead" && worst > 0
   if (!visible && !sentence.visible) return
@@ -126,14 +127,11 @@ const nearest = K_J.reduce((best, _, j) => away(j) < away(best) ? j : best, 0)
 if (format == "K_J") return K_J[nearest].toFixed(3)
 if (format == "theta") return `${special_vars.x.toFixed(3)} rad = ${(special_vars.x * 180 / Math.PI).toFixed(1)}°`
 if (format == "E") return `${value.toFixed(4)} MgR`
-if (format == "ratio") return Number.isFinite(value) ? value.toFixed(3) : "no contact"
-const why = {slip: "would slip on the way", "lift-off": "would lift off on the way, F_z < 0"}
-if (!(value > slip_E[nearest])) {
-  if (slip_by[nearest] == "no motion") return "Even the steady precession cannot roll."
-  if (slip_by[nearest] == "nothing") return "Rolls; nothing limits it."
-  return `Rolls; with more energy it ${why[slip_by[nearest]]}.`
-}
-return `Not by rolling: it ${why[value > lift_E[nearest] ? lift_by[nearest] : slip_by[nearest]] ?? "cannot"}.`
+if (format == "ratio") return Number.isFinite(value) ? value.toFixed(3) : no_contact
+const limits_it = {slip: then_slip, "lift-off": then_lift, "no motion": steady_cannot, nothing: unlimited}
+if (!(value > slip_E[nearest])) return limits_it[slip_by[nearest]]
+const why = {slip: not_slip, "lift-off": not_lift}
+return why[value > lift_E[nearest] ? lift_by[nearest] : slip_by[nearest]] ?? not_at_all
 """
 
 TOOLTIP = """
@@ -151,19 +149,6 @@ el.setAttribute("role", "img")
 el.setAttribute("aria-label", label)
 el.dataset.figure = fig.name
 """
-LABELS = {
-    "plane": "Figure 6: the tilts and values of Jellett’s constant of the motions that roll",
-    "theta": "The tilt over time",
-    "normal": "The normal force over time",
-    "ratio": "Friction over normal force, over time",
-    "constants": "The three constants over time",
-    "phase": "Phase portrait: the rate of the tilt over the tilt",
-    "f": "The rate of the tilt squared over the tilt",
-    "potential": "Effective potential over the tilt",
-    "track": "The track of the contact point, from above",
-    "ring": "The track, unrolled",
-    "force": "The force of friction in the disc of what the table can hold",
-}
 
 
 def plain(**options):
@@ -186,7 +171,7 @@ def plain(**options):
     fig.axis.major_label_text_font_size = "12px"
     fig.axis.major_tick_in = 0
     if fig.name:
-        label = LABELS.get(fig.name, fig.name.replace("-", " "))
+        label = say(f"roll.figures.{fig.name}")
         fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "label": label}, code=NAME_CANVAS))
     return fig
 
@@ -260,7 +245,7 @@ class PlaneFigure:
         )
 
         everywhere = fig.image("E", x="x", y="y", dw="w", dh="h", source=self.field, global_alpha=0, level="overlay")
-        read = CustomJSHover(args={"limits": self.limits}, code=READ_PLANE)
+        read = CustomJSHover(args={"limits": self.limits} | listed("roll.plane"), code=READ_PLANE)
         self.hover = HoverTool(
             renderers=[everywhere],
             tooltips=TOOLTIP,
@@ -304,7 +289,10 @@ class PlaneFigure:
         with_clock = own | {"motion": motion, "selected": self.selected}
         fig.js_on_change("inner_width", CustomJS(args=with_clock, code=FOLLOW_CLOCK))
         grab = CustomJS(
-            args=with_clock | {"limits": self.limits, "sentence": self.sentence, "hover": self.hover}, code=GRAB
+            args=with_clock
+            | {"limits": self.limits, "sentence": self.sentence, "hover": self.hover}
+            | listed("roll.pull"),
+            code=GRAB,
         )
         for event in ("tap", "panstart", "pan", "panend", "mousemove"):
             fig.js_on_event(event, grab)

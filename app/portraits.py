@@ -8,6 +8,7 @@ from bokeh.models import ColumnDataSource, CustomJS, DataRange1d, Range1d, Span
 
 from app.colours import COLOURS
 from app.plots import FAINT, INK, PAPER, SEEK_BY_HAND, plain
+from app.text import say
 
 POINTS_OF_A_TRACK = 480
 POINTS_OF_A_CIRCLE = 73
@@ -55,14 +56,15 @@ const time = found
 class Portrait:
     """A curve that the motion runs along, with a bead at the clock's time. whole: of all frames, not one nutation."""
 
+    name = ""  # in roll.toml, and of the figure
     whole = False
     aspect = None
 
-    def __init__(self, name, colour):
+    def __init__(self, colour):
         ranges = {"x_range": Range1d(0, 1), "y_range": Range1d(0, 1)}
         if self.aspect:
             ranges = {"x_range": DataRange1d(), "y_range": DataRange1d(), "match_aspect": True}
-        self.figure = fig = plain(name=name, **ranges)
+        self.figure = fig = plain(name=self.name, **ranges)
         self.curve = ColumnDataSource({"t": np.zeros(2), "x": np.zeros(2), "y": np.zeros(2)})
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
         self.below()
@@ -92,7 +94,7 @@ class Portrait:
             self.draw(scene)
 
     def words(self, scene):
-        return self.says
+        return say(f"roll.portraits.{self.name}.says")
 
     def put(self, motion, x, y):
         self.curve.data = {"t": motion.t, "x": x, "y": y}
@@ -106,12 +108,11 @@ class Portrait:
 
 
 class Curve(Portrait):
-    title = "f(θ)"
+    name = "f"
     axes = "<i>θ</i> (rad)", "<i>θ̇</i><sup>2</sup> (<i>g</i>/<i>R</i>)"
-    says = "The motion is one-dimensional: the tilt goes to and fro where <i>f</i> is not negative."
 
     def __init__(self):
-        super().__init__("f", COLOURS["theta"])
+        super().__init__(COLOURS["theta"])
 
     def below(self):
         self.figure.add_layout(Span(location=0, dimension="width", line_color=FAINT))
@@ -124,13 +125,12 @@ class Curve(Portrait):
 
 
 class Phase(Portrait):
-    title = "phase portrait"
+    name = "phase"
     axes = "<i>θ</i> (rad)", "<i>θ̇</i> (<i>g</i>/<i>R</i>)<sup>½</sup>"
-    says = "This motion, and paler its neighbours of other energies; dashed, those at the limits."
 
     def __init__(self):
         self.levels = ColumnDataSource({"x": [], "y": [], "colour": [], "dash": []})
-        super().__init__("phase", COLOURS["theta"])
+        super().__init__(COLOURS["theta"])
 
     def below(self):
         self.figure.multi_line(
@@ -152,13 +152,12 @@ class Phase(Portrait):
 
 
 class Potential(Portrait):
-    title = "effective potential"
+    name = "potential"
     axes = "<i>θ</i> (rad)", "<i>E</i> (<i>MgR</i>)"
-    says = "The least energy at each tilt, and the energy of this motion: it turns where they meet."
 
     def __init__(self):
         self.potential = ColumnDataSource({"theta": [], "E": []})
-        super().__init__("potential", COLOURS["energy"])
+        super().__init__(COLOURS["energy"])
 
     def below(self):
         self.figure.line("theta", "E", source=self.potential, line_color=INK, line_width=2)
@@ -182,14 +181,14 @@ class Potential(Portrait):
 
 
 class Track(Portrait):
-    title = "track from above"
+    name = "track"
     axes = "<i>x</i> (<i>R</i>)", "<i>y</i> (<i>R</i>)"
     whole = True
     aspect = 1
 
     def __init__(self):
         self.circles = ColumnDataSource({"x": [], "y": []})
-        super().__init__("track", COLOURS["theta"])
+        super().__init__(COLOURS["theta"])
 
     def below(self):
         self.figure.multi_line("x", "y", source=self.circles, line_color=FAINT, line_dash=[6, 4], line_width=1.5)
@@ -216,20 +215,23 @@ class Track(Portrait):
 
     def words(self, scene):
         if scene.rosette is None:
-            return "Each nutation turns by whole turns: the track goes straight on and on."
+            return say("roll.portraits.track.straight")
         _, _, nearest, farthest = scene.rosette
-        return f"A rosette: it stays in the ring between circles of radius {nearest:.6g} and {farthest:.6g} <i>R</i>."
+        return say("roll.portraits.track.says", nearest=nearest, farthest=farthest)
 
 
 class Ring(Portrait):
     """The rosette of a large circle is too thin to be seen from above: here it is unrolled."""
 
-    title = "unrolled"
-    axes = "along the ring (<i>R</i>)", "across it (<i>R</i>)"
+    name = "ring"
     whole = True
 
     def __init__(self):
-        super().__init__("ring", COLOURS["theta"])
+        super().__init__(COLOURS["theta"])
+
+    @property
+    def axes(self):
+        return say("roll.portraits.ring.across"), say("roll.portraits.ring.up")
 
     def below(self):
         self.edges = [
@@ -254,19 +256,15 @@ class Ring(Portrait):
         self.curve.data = {"t": motion.t[::every], "x": along, "y": across}
         self.frame(along, [0, width])
 
-    def words(self, scene):
-        return "The same track, as if the ring it stays in were straight, and stretched across."
-
 
 class Force(Portrait):
-    title = "force in its disc"
+    name = "force"
     axes = "<i>F</i><sub>x</sub>/<i>F</i><sub>z</sub>", "<i>F</i><sub>y</sub>/<i>F</i><sub>z</sub>"
-    says = "Outside the disc of radius <i>μ</i><sub>s</sub> the table’s friction cannot hold the top: it would slip."
     aspect = 1
 
     def __init__(self):
         self.disc = ColumnDataSource({"x": [], "y": []})
-        super().__init__("force", COLOURS["friction"])
+        super().__init__(COLOURS["friction"])
 
     def below(self):
         self.figure.background_fill_color, self.figure.background_fill_alpha = COLOURS["friction"], 0.12

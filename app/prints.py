@@ -10,21 +10,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from app.colours import COLOURS
+from app.text import listed, say
 
 INK, FAINT = "#22303c", "#8a96a3"
 # 89 and 183 mm are what journals print: one column and two. 600 dpi is what they ask of lines.
 WIDTH = 183 / 25.4
 DPI = 600
-FIGURES = {
-    "plane": "Fig. 6: which motions roll",
-    "surface": "Fig. 5: the surface over the plane",
-    "motion": "The motion over time",
-    "phase": "Phase portrait",
-    "f": "f(θ)",
-    "potential": "Effective potential",
-    "track": "Track from above",
-    "force": "Force in its disc",
-}
+FIGURES = ("plane", "surface", "motion", "phase", "f", "potential", "track", "force")
 FONT = {"font.size": 9, "font.family": "DejaVu Sans", "mathtext.fontset": "dejavuserif", "axes.linewidth": 0.8,
         "axes.edgecolor": INK, "svg.fonttype": "path", "svg.hashsalt": "tippe top"}  # fmt: skip
 
@@ -37,7 +29,7 @@ def caption(scene):
         f"$a$ = {top.a:.6g} $R$,  $I_1$ = {top.I1:.6g} $MR^2$,  $I_3$ = {top.I3:.6g} $MR^2$,  "
         rf"$\mu_s$ = {scene.mu_s:.6g};  $R$ = {1e3 * scales.R:.4g} mm,  $M$ = {1e3 * scales.M:.4g} g",
         f"$K_R$ = {constants.K_R:.6g} $(MR^2)^{{1/2}}(g/R)^{{1/2}}$,  $K_J$ = {constants.K_J:.6g} $(g/R)^{{1/2}}$,  "
-        rf"$E$ = {constants.E:.6g} $MgR$;  $\theta$ from {inner:.4f} to {outer:.4f} rad",
+        f"$E$ = {constants.E:.6g} $MgR$;  {say('prints.tilts', inner=inner, outer=outer)}",
     )
 
 
@@ -47,7 +39,7 @@ def draw(scene, name, kind):
         figure = DRAWN[name](scene)
         file = io.BytesIO()
         # a date would make two files of one figure differ
-        metadata = {"Title": "Tippe top explorer"} | ({"Date": None} if kind == "svg" else {})
+        metadata = {"Title": say("main.title")} | ({"Date": None} if kind == "svg" else {})
         figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
     return file.getvalue()
 
@@ -65,17 +57,17 @@ def _page(scene, height, title):
 def _plane(scene):
     plane = scene.plane
     lift, slip, K_J = plane.lift, plane.slip, plane.K_J
-    figure = _page(scene, 5.0, r"Tielines on the $(K_J, \theta)$ plane (Fig. 6)")
-    axes = figure.add_subplot()
+    figure = _page(scene, 5.0, say("prints.titles.plane"))
+    axes, named = figure.add_subplot(), listed("prints.curves")
     lost = {"color": COLOURS["friction"], "alpha": 0.16, "linewidth": 0}
-    axes.fill_betweenx(K_J, lift.theta_inner, slip.theta_inner, label="lost to slipping", **lost)
+    axes.fill_betweenx(K_J, lift.theta_inner, slip.theta_inner, label=named["lost"], **lost)
     axes.fill_betweenx(K_J, slip.theta_outer, lift.theta_outer, **lost)
-    axes.hlines(K_J, slip.theta_inner, slip.theta_outer, color=FAINT, linewidth=0.5, label="tielines under both limits")
+    axes.hlines(K_J, slip.theta_inner, slip.theta_outer, color=FAINT, linewidth=0.5, label=named["tielines"])
     axes.plot(lift.theta_inner, K_J, color=FAINT, linewidth=0.8)
     axes.plot(lift.theta_verge, K_J, color=COLOURS["normal"], linewidth=1.4, label=r"$F_z = 0$")
-    axes.plot(slip.theta_verge, K_J, color=COLOURS["friction"], linewidth=1.4, label="verge of slipping")
-    axes.plot(lift.theta_steady, K_J, "--", color=INK, linewidth=1, label="steady precession")
-    axes.plot(scene.turning, [scene.constants.K_J] * 2, color=COLOURS["theta"], linewidth=3, label="this motion",
+    axes.plot(slip.theta_verge, K_J, color=COLOURS["friction"], linewidth=1.4, label=named["verge"])
+    axes.plot(lift.theta_steady, K_J, "--", color=INK, linewidth=1, label=named["steady"])
+    axes.plot(scene.turning, [scene.constants.K_J] * 2, color=COLOURS["theta"], linewidth=3, label=named["motion"],
               solid_capstyle="round", zorder=3)  # fmt: skip
     axes.plot(0, plane.pole, "o", color=INK, markersize=4, clip_on=False)
     axes.annotate("$P$", (0, plane.pole), xytext=(4, 4), textcoords="offset points")
@@ -89,8 +81,8 @@ def _plane(scene):
 def _surface(scene):
     plane = scene.plane
     limit = "$F_z = 0$" if plane.limit == "lift-off" else r"$F_h = \mu_s F_z$"
-    figure = _page(scene, 5.6, rf"$f_1^2\,\dot\theta^2$ at the largest energy, limited by {limit} (Fig. 5)")
-    axes = figure.add_subplot(projection="3d", computed_zorder=False)
+    figure = _page(scene, 5.6, say("prints.titles.surface", limit=limit))
+    axes, named = figure.add_subplot(projection="3d", computed_zorder=False), listed("prints.curves")
     rows = np.isfinite(plane.height).all(axis=1)
     theta, K_J, height = plane.theta[rows], plane.K_J[rows], plane.height[rows]
     if rows.sum() > 1:
@@ -103,9 +95,9 @@ def _surface(scene):
     colour = COLOURS["normal" if plane.limit == "lift-off" else "friction"]
     axes.plot(verge, plane.K_J, np.zeros(len(plane.K_J)), color=colour, linewidth=1.4, zorder=0, label=limit)
     axes.plot(lift.theta_steady, plane.K_J, np.zeros(len(plane.K_J)), "--", color=INK, linewidth=1, zorder=0,
-              label="steady precession")  # fmt: skip
+              label=named["steady"])  # fmt: skip
     axes.plot(scene.curve[:, 0], [scene.constants.K_J] * len(scene.curve), scene.curve[:, 1], color=COLOURS["theta"],
-              linewidth=2.5, zorder=4, label="this motion")  # fmt: skip
+              linewidth=2.5, zorder=4, label=named["motion"])  # fmt: skip
     axes.set(xlim=plane.theta_range, ylim=plane.K_J_range, xlabel=r"$\theta$ (rad)", ylabel="$K_J$ $((g/R)^{1/2})$",
              zlabel=r"$f_1^2\,\dot\theta^2$ ($MgR$)")  # fmt: skip
     axes.set_zlim(bottom=0)
@@ -117,13 +109,13 @@ def _surface(scene):
 
 def _motion(scene):
     motion = scene.trajectory
-    figure = _page(scene, 6.4, "The motion over time")
+    figure, named = _page(scene, 6.4, say("prints.titles.motion")), listed("prints.curves")
     rows = figure.subplots(4, sharex=True)
     curves = (
         (r"$\theta$ (rad)", {"": (motion.theta, COLOURS["theta"])}),
         ("$F_z$ ($Mg$)", {"": (scene.normal, COLOURS["normal"])}),
         ("$F_h/F_z$", {"": (scene.ratio, COLOURS["friction"])}),
-        ("constants", {"$K_J$": (scene.K_J, COLOURS["jellett"]), "$K_R$": (scene.K_R, COLOURS["omega"]),
+        (named["constants"], {"$K_J$": (scene.K_J, COLOURS["jellett"]), "$K_R$": (scene.K_R, COLOURS["omega"]),
                        "$E$": (scene.E, COLOURS["energy"])}),
     )  # fmt: skip
     for axes, (label, drawn) in zip(rows, curves, strict=True):
@@ -135,7 +127,7 @@ def _motion(scene):
     force, ratio, kept = rows[1:]
     force.set_ylim(bottom=min(0, force.get_ylim()[0]))
     ratio.set_ylim(0, max(1.4 * scene.mu_s, min(scene.ratio.max(), 4 * scene.mu_s + 1)))
-    ratio.axhline(scene.mu_s, color=INK, linestyle="--", linewidth=1, label=r"$\mu_s$: would slip above")
+    ratio.axhline(scene.mu_s, color=INK, linestyle="--", linewidth=1, label=named["slips"])
     ratio.legend(loc="upper right", fontsize=7, frameon=False)
     kept.legend(loc="center right", fontsize=7, frameon=False, ncols=3)
     kept.set_xlabel(rf"$t$ ($(R/g)^{{1/2}}$ = {1e3 * scene.scales.time:.4g} ms)")
@@ -143,48 +135,48 @@ def _motion(scene):
     return figure
 
 
-def _portrait(scene, title, xlabel, ylabel, equal=False):
-    figure = _page(scene, 5.0, title)
+def _portrait(scene, name, xlabel, ylabel, equal=False):
+    figure = _page(scene, 5.0, say(f"prints.titles.{name}"))
     axes = figure.add_subplot(xlabel=xlabel, ylabel=ylabel)
     axes.grid(color="#e7ebef", linewidth=0.6)
     if equal:
         axes.set_aspect("equal", adjustable="datalim")
-    return figure, axes
+    return figure, axes, listed("prints.curves")
 
 
 def _phase(scene):
     rate = r"$\dot\theta$ $((g/R)^{1/2})$"
-    figure, axes = _portrait(scene, "Phase portrait", r"$\theta$ (rad)", rate)
+    figure, axes, named = _portrait(scene, "phase", r"$\theta$ (rad)", rate)
     *inside, slip, lift = scene.levels
     for theta, rate in inside:
         axes.plot([*theta, *theta[::-1]], [*rate, *-rate[::-1]], color=FAINT, linewidth=0.8)
-    for (theta, rate), colour, name in ((slip, "friction", "verge of slipping"), (lift, "normal", "$F_z = 0$")):
+    for (theta, rate), colour, name in ((slip, "friction", named["verge"]), (lift, "normal", "$F_z = 0$")):
         axes.plot([*theta, *theta[::-1]], [*rate, *-rate[::-1]], "--", color=COLOURS[colour], linewidth=1, label=name)
     motion = scene.nutation
-    axes.plot(motion.theta, motion.omega[:, 0], color=COLOURS["theta"], linewidth=2, label="this motion")
+    axes.plot(motion.theta, motion.omega[:, 0], color=COLOURS["theta"], linewidth=2, label=named["motion"])
     axes.legend(fontsize=8, loc="upper right")
     return figure
 
 
 def _f(scene):
     square = r"$\dot\theta^2 = f(\theta)$ $(g/R)$"
-    figure, axes = _portrait(scene, r"$f(\theta)$ of this motion", r"$\theta$ (rad)", square)
+    figure, axes, _ = _portrait(scene, "f", r"$\theta$ (rad)", square)
     axes.plot(scene.nutation.theta, scene.nutation.omega[:, 0] ** 2, color=COLOURS["theta"], linewidth=2)
     axes.axhline(0, color=FAINT, linewidth=0.8)
     return figure
 
 
 def _potential(scene):
-    figure, axes = _portrait(scene, "Effective potential", r"$\theta$ (rad)", "$E$ ($MgR$)")
+    figure, axes, named = _portrait(scene, "potential", r"$\theta$ (rad)", "$E$ ($MgR$)")
     theta, least = scene.potential
     marks, E = scene.marks, scene.constants.E
-    limits = {"slips from": (marks.slip, "friction"), "lifts off from": (marks.lift, "normal")}
+    limits = {named["slips_from"]: (marks.slip, "friction"), named["lifts_from"]: (marks.lift, "normal")}
     top = max([E + 0.05, *(limit for limit, _ in limits.values() if np.isfinite(limit))])
-    axes.plot(theta, least, color=INK, linewidth=1.4, label="least energy at this tilt")
+    axes.plot(theta, least, color=INK, linewidth=1.4, label=named["least"])
     for name, (limit, colour) in limits.items():
         if np.isfinite(limit):
             axes.axhline(limit, color=COLOURS[colour], linestyle="--", linewidth=1, label=name)
-    axes.plot(scene.turning, [E, E], color=COLOURS["energy"], linewidth=2.5, label="this motion")
+    axes.plot(scene.turning, [E, E], color=COLOURS["energy"], linewidth=2.5, label=named["motion"])
     pad = 0.1 * (top - marks.steady)
     axes.set(xlim=(theta[0], theta[-1]), ylim=(marks.steady - pad, top + pad))
     axes.legend(fontsize=8, loc="best")
@@ -192,7 +184,7 @@ def _potential(scene):
 
 
 def _track(scene):
-    figure, axes = _portrait(scene, "Track of the point of contact, from above", "$x$ ($R$)", "$y$ ($R$)", equal=True)
+    figure, axes, _ = _portrait(scene, "track", "$x$ ($R$)", "$y$ ($R$)", equal=True)
     x, y = scene.trajectory.contact.T
     axes.plot(x, y, color=COLOURS["theta"], linewidth=1.2)
     if scene.rosette:
@@ -207,13 +199,13 @@ def _track(scene):
 
 
 def _force(scene):
-    figure, axes = _portrait(scene, "Force of the table in the friction disc", "$F_x/F_z$", "$F_y/F_z$", equal=True)
+    figure, axes, named = _portrait(scene, "force", "$F_x/F_z$", "$F_y/F_z$", equal=True)
     F_x, F_y, F_z = np.where(scene.nutation.force[:, 2:] > 1e-3, scene.nutation.force, np.nan).T
     around = np.linspace(0, 2 * np.pi, 361)
     disc = scene.mu_s * np.cos(around), scene.mu_s * np.sin(around)
     axes.fill(*disc, color=COLOURS["friction"], alpha=0.1, linewidth=0)
     axes.plot(*disc, "--", color=INK, linewidth=1, label=r"$F_h = \mu_s F_z$")
-    axes.plot(F_x / F_z, F_y / F_z, color=COLOURS["friction"], linewidth=2, label="this motion")
+    axes.plot(F_x / F_z, F_y / F_z, color=COLOURS["friction"], linewidth=2, label=named["motion"])
     axes.legend(fontsize=8, loc="upper right")
     return figure
 

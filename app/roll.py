@@ -8,7 +8,7 @@ import panel_material_ui as pmui
 
 from app.cards import PLAIN, card, grid, section, swatch, words
 from app.colours import COLOURS
-from app.controls import SPIN, WORST, Controls, named
+from app.controls import SPIN, Controls, named, worst
 from app.explorer import least_energy
 from app.guide import Guide
 from app.look import Look
@@ -16,20 +16,23 @@ from app.pacing import Pacer, at_once
 from app.plots import Motion, PlaneFigure, TimeFigures
 from app.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.surface3d import Surface3D, pack
+from app.text import say
 from app.top3d import Top3D, pack_frames
 
-PLANE = f"({named('K_J')}, {named('angle')})"
+
+def plane_symbols():
+    return f"({named('K_J')}, {named('angle')})"
 
 
 def plane_content(plane):
     key = "".join(
         (
-            swatch("#8a96a3", "tielines under both limits"),
-            swatch("#D55E00", "verge of slipping"),
+            swatch("#8a96a3", say("roll.key.tielines")),
+            swatch("#D55E00", say("roll.key.verge")),
             swatch("#009E73", f"{named('normal')} = 0"),
-            swatch("var(--ink, #22303c)", "steady precession", "dashed"),
-            swatch("#fbe3d5", "lost to slipping"),
-            swatch("#0072B2", "this motion"),
+            swatch("var(--ink, #22303c)", say("roll.key.steady"), "dashed"),
+            swatch("#fbe3d5", say("roll.key.lost")),
+            swatch("#0072B2", say("roll.key.motion")),
         )
     )
     return (
@@ -67,31 +70,23 @@ def times_rows(times):
 
 
 def unit_words(scene):
-    return (
-        '<div class="axis">' + named("time") + " in (<i>R</i>/<i>g</i>)<sup>½</sup>, "
-        f"{scene.scales.time * 1e3:.1f} ms of the real top</div>"
-    )
+    said = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
+    return f'<div class="axis">{said}</div>'
 
 
 def kept_words(scene):
     """How well the constants, recomputed from the motion, stay what they are."""
     drift = max(np.ptp(values) / max(1, np.abs(values).max()) for values in (scene.K_J, scene.K_R, scene.E))
-    return (
-        '<div class="axis key">the three constants, recomputed from the motion, vary by less than '
-        f"{max(drift, 1e-16):.0e}"
-        "</div>"
-    )
+    return f'<div class="axis key">{say("roll.says.kept", drift=max(drift, 1e-16))}</div>'
 
 
 def spoken(scene):
     """What the top does, for the ear."""
     inner, outer = np.degrees(scene.turning)
     turns = scene.upright_spin * scene.scales.angular_velocity / (2 * np.pi)
-    slips = f" It slips from an energy of {scene.marks.slip:.4g} M g R." if np.isfinite(scene.marks.slip) else ""
-    return (
-        f"The top {WORST[int(scene.regime.max())]}. It tilts between {inner:.1f} and {outer:.1f} degrees and spins "
-        f"{turns:.1f} times a second. Its energy is {scene.constants.E:.4g} M g R.{slips}"
-    )
+    slips = say("roll.says.slip", E=scene.marks.slip) if np.isfinite(scene.marks.slip) else ""
+    motion = say("roll.says.motion", worst=worst(scene), inner=inner, outer=outer, turns=turns, E=scene.constants.E)
+    return motion + slips
 
 
 def show_top(top, scene):
@@ -146,7 +141,7 @@ class Switch:
         self._says = words("", styles={"min-height": "2.8em"})
         self.view = card(title)
         self._switch = pmui.RadioButtonGroup(
-            options={kind.title: i for i, kind in enumerate(kinds)},
+            options={say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)},
             value=0,
             label="",
             size="small",
@@ -162,7 +157,7 @@ class Switch:
         if chosen not in self._made:
             kind = self._kinds[chosen]
             portrait = self._made[chosen] = kind()
-            across, up = kind.axes
+            across, up = portrait.axes
             self._places[chosen].objects = [
                 words(up),
                 pn.pane.Bokeh(portrait.figure, sizing_mode="stretch_both", margin=0),
@@ -217,8 +212,8 @@ class Roll:
         kept, unit = words(""), words("")
         pictures = [partial(draw, shows) for shows in (planes, times, portraits)]
         self.pacer = pacer = Pacer(explorer, show_hand, pictures, show_words)
-        tilt = Switch("The tilt <i>θ</i> by itself", Phase, Curve, Potential, soon=pacer.soon)
-        table = Switch("What the table sees", Track, Ring, Force, soon=pacer.soon)
+        tilt = Switch(say("roll.cards.tilt"), Phase, Curve, Potential, soon=pacer.soon)
+        table = Switch(say("roll.cards.table"), Track, Ring, Force, soon=pacer.soon)
         self.controls = controls = Controls(explorer, pacer)
 
         def grabbed(grip, theta, K_J, limit):
@@ -255,8 +250,8 @@ class Roll:
         for show in (show_hand, *pictures, show_words):
             show(explorer.scene)
 
-        floor = card(f"{named('height')} over the {PLANE} plane: the paper’s Fig. 5")
-        over_time = card("The motion over time; click to look at an instant")
+        floor = card(say("roll.cards.floor", height=named("height"), plane=plane_symbols()))
+        over_time = card(say("roll.cards.times"))
 
         def add(shows, show):
             show(explorer.scene)
@@ -284,42 +279,42 @@ class Roll:
         hemisphere = pmui.RadioButtonGroup.from_param(
             explorer.param.upper,
             label="",
-            options={"upper hemisphere": True, "all of (0, π)": False},
+            options={say("roll.switches.upper"): True, say("roll.switches.all"): False},
             size="small",
             sx=PLAIN,
         )
         limit = pmui.RadioButtonGroup.from_param(
             explorer.param.limit,
             label="",
-            options={"Fig. 5 at lift-off": "lift-off", "at slipping": "slip"},
+            options={say("roll.switches.lift"): "lift-off", say("roll.switches.slip"): "slip"},
             size="small",
             sx=PLAIN,
         )
         look = Look(width=0, height=0, margin=0)
         dark = pmui.Switch.from_param(
-            look.param.dark, label="dark", description="", size="small", margin=(4, 10, 0, 16)
+            look.param.dark, label=say("roll.switches.dark"), description="", size="small", margin=(4, 10, 0, 16)
         )
         large = pmui.Switch.from_param(
-            look.param.large, label="large, for a projector", description="", size="small", margin=(4, 0)
+            look.param.large, label=say("roll.switches.large"), description="", size="small", margin=(4, 0)
         )
         self.sidebar = [
-            section("The motion"),
+            section(say("roll.sections.motion")),
             *controls.motion,
-            section("The table"),
+            section(say("roll.sections.table")),
             *controls.views("mu_s"),
-            section("The top"),
+            section(say("roll.sections.top")),
             *controls.views("a", "I1", "I3"),
-            section("The pictures"),
+            section(say("roll.sections.pictures")),
             hemisphere,
             limit,
-            section("The page"),
+            section(say("roll.sections.page")),
             pn.Row(dark, large, margin=0),
             look,
             pacer.painted,
         ]
         self.main = grid(
-            card("The top", top),
-            card(f"Which motions roll: the {PLANE} plane, the paper’s Fig. 6", *plane_content(plane)),
+            card(say("roll.cards.top"), top),
+            card(say("roll.cards.plane", plane=plane_symbols()), *plane_content(plane)),
             floor,
             over_time,
             tilt.view,

@@ -21,6 +21,7 @@ from app.keep import EXPLORER, Field, Keep, Number, OneOf, usual
 from app.letter import letter
 from app.pacing import at_once
 from app.prints import FIGURES, caption, draw
+from app.text import listed, say, speaking, spoken
 from app.top3d import Top3D
 
 # Nothing may move for so long before the address of the page is changed and a step is made, s.
@@ -89,6 +90,7 @@ class Copy(JSComponent):
     text = param.String(default="")
     label = param.String(default="")
     rows = param.Integer(default=1)
+    says = param.List(default=[], doc="what its button says, and what it says once that is done")
 
     _esm = """
     export function render({model, el}) {
@@ -101,8 +103,10 @@ class Copy(JSComponent):
         button { font: 500 13px system-ui, sans-serif; padding: 7px 12px; border: 1px solid #0072B2; border-radius: 6px;
           background: transparent; color: #0072B2; cursor: pointer; white-space: nowrap; min-width: 72px }
         button:hover { background: #0072B214 } :focus-visible { outline: 2px solid #0072B2; outline-offset: 2px }
-        </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button>Copy</button></div>`
+        </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button></button></div>`
       const area = el.querySelector("textarea"), button = el.querySelector("button")
+      const [copy, copied] = model.says
+      button.textContent = copy
       const show = () => {
         area.value = model.text
         area.rows = model.rows
@@ -114,8 +118,8 @@ class Copy(JSComponent):
       button.onclick = async () => {
         area.select()
         try { await navigator.clipboard.writeText(model.text) } catch { document.execCommand("copy") }
-        button.textContent = "Copied"
-        setTimeout(() => { button.textContent = "Copy" }, 1500)
+        button.textContent = copied
+        setTimeout(() => { button.textContent = copy }, 1500)
       }
       for (const name of ["text", "label", "rows"]) model.on(name, show)
       show()
@@ -206,14 +210,14 @@ class Share:
         self.keep.param.watch(self._kept, ["query", "can_undo", "can_redo"])
         self.address.param.watch(lambda event: self.keep.undo(), "undone")
         self.address.param.watch(lambda event: self.keep.redo(), "redone")
-        self.undo = self._button("↶", "Undo (Ctrl+Z)", lambda event: self.keep.undo())
-        self.redo = self._button("↷", "Redo (Ctrl+Shift+Z)", lambda event: self.keep.redo())
+        self.undo = self._button("↶", say("share.undo"), lambda event: self.keep.undo())
+        self.redo = self._button("↷", say("share.redo"), lambda event: self.keep.redo())
         self.share = pmui.Button(
-            label="Share", size="small", variant="outlined", color="light", margin=(0, 4),
+            label=say("share.share"), size="small", variant="outlined", color="light", margin=(0, 4),
             sx=PLAIN["& button"] | {"color": "#fff"},
         )
         self.share.on_click(self._open)
-        self._dialog = pmui.Dialog(title="Share and save", title_variant="h6", show_close_button=True,
+        self._dialog = pmui.Dialog(title=say("share.dialog.title"), title_variant="h6", show_close_button=True,
                                    close_on_click=True, width_option="md", sizing_mode="stretch_width")  # fmt: skip
         self.header = [pn.Spacer(sizing_mode="stretch_width"), self.undo, self.redo, self.share]
         self.main = [self._notice, self.address, self._dialog]
@@ -274,54 +278,61 @@ class Share:
         try:
             code = segno.make(link, error="m", micro=False)
             side, squares = code.symbol_size(scale=MODULE)[0], code.symbol_size(border=0)[0]
-            picture = code.svg_inline(scale=MODULE, dark="#22303c", light="white", title="QR code of the link")
+            picture = code.svg_inline(scale=MODULE, dark="#22303c", light="white", title=say("share.dialog.code"))
             self._code.object = f'<div style="width: min({side}px, 100%)">{picture}</div>'
-            self._length.object = f"{len(link)} letters, {squares} × {squares} squares."
+            self._length.object = say("share.dialog.length", letters=len(link), squares=squares)
         except segno.DataOverflowError:
             self._code.object = ""
-            self._length.object = f"{len(link)} letters: too long for a QR code, the link itself works."
+            self._length.object = say("share.dialog.too_long", letters=len(link))
         self._photo.caption = list(plain_caption(self._explorer.scene))
         self._show_python()
         self._dialog.open = True
 
     def _make(self):
-        self._link = Copy(label="Link to what is shown", sizing_mode="stretch_width", margin=(4, 0))
+        text = {"says": listed("share.copy"), "sizing_mode": "stretch_width", "margin": (4, 0)}
+        self._link = Copy(label=say("share.dialog.link_label"), **text)
         self._code, self._length = words(""), words("", margin=(4, 0))
         self._photo = Photo(margin=0)
-        self._python = Copy(label="Python", rows=13, sizing_mode="stretch_width", margin=(4, 0))
-        self._which = pmui.RadioButtonGroup(options=list(export.PYTHON), value=next(iter(export.PYTHON)), label="",
+        self._python = Copy(label="Python", rows=13, **text)
+        shown = listed("share.python")
+        codes = {shown[name]: name for name in export.PYTHON}
+        self._which = pmui.RadioButtonGroup(options=codes, value=next(iter(export.PYTHON)), label="",
                                             size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
         self._which.param.watch(lambda event: self._show_python(), "value")
         figures = [
-            _row(title, *(self._download(kind.upper(), f"tippe-top-{name}.{kind}", _print(name, kind))
-                               for kind in ("png", "svg")))
-            for name, title in FIGURES.items()
+            _row(say(f"prints.figures.{name}"), *(
+                self._download(kind.upper(), f"tippe-top-{name}.{kind}", _print(name, kind)) for kind in ("png", "svg")
+            ))
+            for name in FIGURES
         ]  # fmt: skip
         self._dialog.objects = [
-            words("<h2>A link to what is shown</h2>"),
+            _heading("link"),
             self._link,
             self._code,
             self._length,
-            words("<h2>Figures for print, with the parameters in the caption</h2>", margin=(14, 0, 4, 0)),
+            _heading("figures", margin=(14, 0, 4, 0)),
             *figures,
-            _row("The top in 3-D, as seen now", self._photo),
-            words("<h2>Numbers, with their units and the constants</h2>", margin=(14, 0, 4, 0)),
+            _row(say("share.dialog.photo"), self._photo),
+            _heading("numbers", margin=(14, 0, 4, 0)),
             _row(
-                "The motion, frame by frame",
+                say("share.dialog.motion"),
                 self._download("CSV", "tippe-top-motion.csv", export.motion_csv),
             ),
-            _row("The tielines of Fig. 6", self._download("CSV", "tippe-top-tielines.csv", export.tielines_csv)),
-            _row("Both, for NumPy", self._download("NPZ", "tippe-top.npz", export.arrays_npz)),
-            words("<h2>To look at without the explorer</h2>", margin=(14, 0, 4, 0)),
             _row(
-                "One page to mail, 2.4 MB: figures, the top, playback; needs no network",
+                say("share.dialog.tielines"),
+                self._download("CSV", "tippe-top-tielines.csv", export.tielines_csv),
+            ),
+            _row(say("share.dialog.arrays"), self._download("NPZ", "tippe-top.npz", export.arrays_npz)),
+            _heading("without", margin=(14, 0, 4, 0)),
+            _row(
+                say("share.dialog.letter"),
                 self._download("HTML", "tippe-top.html", self._letter),
             ),
             _row(
-                "The motion as a glTF animation, for 3-D programs and slides",
+                say("share.dialog.animation"),
                 self._download("GLB", "tippe-top.glb", lambda scene, link: export.animation_glb(scene, self._slower)),
             ),
-            words("<h2>The Python that gives these numbers</h2>", margin=(14, 0, 4, 0)),
+            _heading("python", margin=(14, 0, 4, 0)),
             self._which,
             self._python,
         ]
@@ -339,8 +350,13 @@ class Share:
 
     def _download(self, label, filename, make):
         async def content():
-            scene, link = self._explorer.scene, self.link
-            return io.BytesIO(await asyncio.get_running_loop().run_in_executor(BENCH, make, scene, link))
+            scene, link, language = self._explorer.scene, self.link, spoken()
+
+            def made():
+                with speaking(language):
+                    return make(scene, link)
+
+            return io.BytesIO(await asyncio.get_running_loop().run_in_executor(BENCH, made))
 
         return pmui.FileDownload(label=label, filename=filename, callback=content, size="small", variant="outlined",
                                  margin=0, sx=PLAIN)  # fmt: skip
@@ -348,6 +364,10 @@ class Share:
 
 def _print(name, kind):
     return lambda scene, link: draw(scene, name, kind)
+
+
+def _heading(name, **options):
+    return words(f"<h2>{say(f'share.dialog.{name}')}</h2>", **options)
 
 
 def _row(says, *buttons):

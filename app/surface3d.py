@@ -17,6 +17,8 @@ class Surface3D(Bundled):
     All bytes are float32, from `pack`. n rows, m points a row.
     """
 
+    SAYS = ("Stage",)
+
     K_J = param.Bytes(default=b"", doc="(n,) ascending")
     theta = param.Bytes(default=b"", doc="(n, m) in rad")
     heights = param.Bytes(default=b"", doc="(n, m) f1^2 theta_dot^2, 0 at both ends")

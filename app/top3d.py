@@ -6,7 +6,7 @@ import param
 from app.bundle import Bundled
 
 REGIMES = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "the motion ends here")
-"""What the codes 0 to 5 in the last column of the frames mean."""
+"""What the codes 0 to 5 in the last column of the frames mean; browser.toml says it."""
 
 
 def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
@@ -36,6 +36,8 @@ class Top3D(Bundled):
     same stretch of time, and their events are `tippe:clock:<clock>` and `tippe:seek:<clock>`.
     """
 
+    SAYS = ("Stage",)
+
     frames = param.Bytes(default=b"", doc="The motion, from `pack_frames`; empty where there is none.")
     profile = param.Bytes(
         default=b"", doc="The body's outline: float32 rows (radius, height above O along axis 3), in R."
@@ -45,7 +47,7 @@ class Top3D(Bundled):
     time = param.Number(
         default=0.0, doc="The cursor. The browser writes it when a person moves it, not while it plays."
     )
-    label = param.String(default="The top, rolling on a table", constant=True, doc="Its name.")
+    label = param.String(default="", constant=True, doc="Its name; empty: the one of the rolling top.")
     clock = param.String(default="", constant=True, doc="The name of the clock that several tops share.")
     a = param.Number(
         default=None,

@@ -12,7 +12,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from app.explorer import Explorer
-from app.keep import EXPLORER, LONGEST_QUERY, STEPS, UNKNOWN, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
+from app.keep import EXPLORER, LONGEST_QUERY, STEPS, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
+from app.text import say
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
 
 # Version 1 of the links: a default or a name that is not as here makes old links mean something else.
@@ -139,7 +140,7 @@ def test_what_is_not_known_is_passed_over_and_the_rest_obeyed():
     explorer, sentence = opened("?v=1&utm_source=mail&KJ=6.5&colour=blue")
     assert sentence == "" and explorer.K_J == 6.5
     explorer, sentence = opened("?v=7&KJ=6.5")
-    assert sentence == UNKNOWN and explorer.K_J == 6.5
+    assert sentence == say("share.link.newer") and explorer.K_J == 6.5
     explorer, sentence = opened("?KJ=6.5&mu=many")
     assert "mu" in sentence and (explorer.K_J, explorer.mu_s) == (6.5, 0.5)
 

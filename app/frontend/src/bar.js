@@ -1,5 +1,6 @@
 // The playback bar: buttons, scrubber, speed, what is shown. It reads and drives a player; it draws nothing itself.
 import { colours } from "./colours.js";
+import { fill } from "./data.js";
 
 const icons = {
   play: '<svg viewBox="0 0 24 24" aria-hidden="true"><path d="M8 5v14l11-7z"/></svg>',
@@ -10,33 +11,30 @@ const icons = {
 };
 const speeds = [1, 2, 4, 8, 16, 32, 64];
 
-// What can be shown or hidden: the parameter's name, what the chip says, its colour, and at length.
-export const shows = [
-  ["show_track", "track", colours.theta, "The path of the point of contact"],
-  ["show_com_path", "<i>G</i>", "#1d2733", "The centre of mass and its path"],
-  ["show_force", "<i>F</i>", colours.normal, "The table's force on the top, at the contact"],
-  ["show_cone", "cone", colours.friction, "The friction cone: where the force leaves it, the top would slip"],
-  ["show_omega", "<i>ω</i>", colours.omega, "The angular velocity"],
-  ["show_momentum", "<i>L</i>", colours.momentum, "The angular momentum about G"],
-  ["follow", "follow", "#7a8694", "Move the camera along with the top"],
-];
+// What can be shown or hidden: the parameter's name, and the colour of its chip.
+const shows = {
+  show_track: colours.theta, show_com_path: "#1d2733", show_force: colours.normal, show_cone: colours.friction,
+  show_omega: colours.omega, show_momentum: colours.momentum, follow: "#7a8694",
+};
 
 export class Bar {
   constructor(root, picture, model, player, resetView) {
     this.player = player;
+    const texts = (this.texts = model.texts);
     const bar = document.createElement("div");
     bar.className = "bar";
     bar.innerHTML = `
-      <button class="back" title="One frame back (←)" aria-label="One frame back">${icons.back}</button>
-      <button class="play" title="Play or pause (space)"></button>
-      <button class="forward" title="One frame forward (→)" aria-label="One frame forward">${icons.forward}</button>
-      <input class="scrub" type="range" min="0" max="0" step="1" value="0" aria-label="Time">
-      <select class="speed" title="Speed, against the real top's" aria-label="Speed">${speeds
-        .map((n) => `<option value="${1 / n}">${n === 1 ? "real speed" : `1/${n} speed`}</option>`)
+      <button class="back" title="${texts.back_hint}" aria-label="${texts.back}">${icons.back}</button>
+      <button class="play" title="${texts.play_hint}"></button>
+      <button class="forward" title="${texts.forward_hint}" aria-label="${texts.forward}">${icons.forward}</button>
+      <input class="scrub" type="range" min="0" max="0" step="1" value="0" aria-label="${texts.time}">
+      <select class="speed" title="${texts.speed_hint}" aria-label="${texts.speed}">${speeds
+        .map((n) => `<option value="${1 / n}">${n === 1 ? texts.real_speed : fill(texts.slower, { times: n })}</option>`)
         .join("")}</select>
-      <button class="view" title="Back to the first view" aria-label="Back to the first view">${icons.view}</button>
-      <span class="shows">${shows
-        .map(([name, text, colour, title]) =>
+      <button class="view" title="${texts.view}" aria-label="${texts.view}">${icons.view}</button>
+      <span class="shows">${Object.entries(shows)
+        .map(([name, colour]) => [name, colour, ...texts.shows[name]])
+        .map(([name, colour, text, title]) =>
           `<label title="${title}" style="--swatch: ${colour}"><input type="checkbox" name="${name}" aria-label="${title}"><span class="swatch"></span><span>${text}</span></label>`)
         .join("")}</span>`;
     root.append(bar);
@@ -68,7 +66,7 @@ export class Bar {
     }
     const speed = () => {
       // A speed that is not in the list is nobody's choice here, but Python may set it: add it rather than lie.
-      if (!speeds.some((n) => 1 / n === model.speed)) this.speed.append(new Option(`${model.speed}× speed`, model.speed));
+      if (!speeds.some((n) => 1 / n === model.speed)) this.speed.append(new Option(fill(texts.faster, { times: model.speed }), model.speed));
       this.speed.value = String(model.speed);
     };
     model.on("speed", speed);
@@ -81,12 +79,12 @@ export class Bar {
     if (this.shownPlaying !== playing) {
       this.shownPlaying = playing;
       this.play.innerHTML = playing ? icons.pause : icons.play;
-      this.play.setAttribute("aria-label", playing ? "Pause" : "Play");
+      this.play.setAttribute("aria-label", playing ? this.texts.pause : this.texts.play);
     }
     this.scrub.max = Math.max(frames.count - 1, 0);
     this.scrub.value = this.player.place;
     const seconds = (t * secondsPerUnit).toFixed(4), units = t.toFixed(3);
     this.time.innerHTML = `<b>${seconds} s</b> = ${units} (<i>R</i>/<i>g</i>)<sup>½</sup>`;
-    this.scrub.setAttribute("aria-valuetext", `${seconds} seconds`);
+    this.scrub.setAttribute("aria-valuetext", fill(this.texts.seconds, { seconds }));
   }
 }

@@ -14,6 +14,9 @@ export function niceAbove(x) {
   return decade * [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((digits) => digits * decade >= x * (1 - 1e-9));
 }
 
+// A text of browser.toml with its numbers put in.
+export const fill = (text, values) => text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
+
 // Calls run once before the next paint, however often it was asked for in between.
 export function coalesce(run) {
   let asked = 0;

@@ -1,3 +1,5 @@
+import { fill } from "./data.js";
+
 // One control: its name, a slider, a number to type, words below. What a person does goes to Python as a numbered
 // request, and what Python tells is taken only if it had heard the last of them: nothing late moves a hand back.
 const style = `
@@ -36,8 +38,9 @@ export function renderDial({ model, el }) {
 
   name.innerHTML = model.title;
   name.title = model.hint;
+  slider.dataset.input = model.input;
   slider.setAttribute("aria-label", model.spoken);
-  entry.setAttribute("aria-label", model.unit ? `${model.spoken}, in ${model.unit}` : model.spoken);
+  entry.setAttribute("aria-label", model.unit ? fill(model.texts.entry, { name: model.spoken, unit: model.unit }) : model.spoken);
   for (const input of [slider, entry]) input.setAttribute("aria-describedby", words.id);
 
   const written = (number) => String(Number(number.toPrecision(6))).replace("-", "−");
@@ -53,9 +56,10 @@ export function renderDial({ model, el }) {
   function spoken() {
     if (!model.marks.length) return `${written(value)} ${model.unit}`;
     const after = model.marks.findIndex(([at]) => at > value), [from, to] = [model.marks.at(after - 1), model.marks[after]];
-    if (!to) return `${value > from[0] ? "beyond " : ""}${from[1]}`;
+    if (!to) return value > from[0] ? fill(model.texts.beyond, { mark: from[1] }) : from[1];
     if (value === from[0]) return from[1];
-    return `${Math.round((100 * (value - from[0])) / (to[0] - from[0]))} percent of the way from ${from[1]} to ${to[1]}`;
+    const percent = Math.round((100 * (value - from[0])) / (to[0] - from[0]));
+    return fill(model.texts.between, { percent, from: from[1], to: to[1] });
   }
   function ask(wish, typed) {
     count += 1;

@@ -11,10 +11,10 @@ export function renderFlat({ model, root, picture, view }) {
   const canvas = document.createElement("canvas");
   canvas.style.cursor = "default";
   canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", model.label ?? "The top, seen from the side");
+  canvas.setAttribute("aria-label", model.label || model.texts.label);
   picture.prepend(canvas);
   const words = picture.querySelector(".note");
-  words.textContent = "This browser offers no WebGL, so the top is drawn flat, from the side; its tilt is to scale.";
+  words.textContent = model.texts.flat;
   Object.assign(words.style, { position: "static", marginTop: "6px" });
   const pen = canvas.getContext("2d");
   const pose = emptyPose();

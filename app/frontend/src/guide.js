@@ -1,23 +1,14 @@
 // The page by keyboard and by ear: keys for the clock, the list of them, what the top does in words, and the tour.
+import { fill } from "./data.js";
 import { guideStyle } from "./style.js";
 
-const KEYS = [
-  ["Space", "play or pause"],
-  ["← →", "one frame back or forward"],
-  ["Tab, Shift+Tab", "to the next control, or the one before"],
-  ["← → in a slider", "one step; Page Up, Page Down ten; Home, End to its ends"],
-  ["← → on the axis of the paused top", "tilt it"],
-  ["Shift and ← → ↑ ↓ on a picture in 3-D", "turn it; + and − zoom"],
-  ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
-  ["?", "this list"],
-];
-// A name of the place, and what to do there.
+// The places that the tour shows, in the order of their words.
 const STOPS = [
-  [".picture canvas[aria-label^='The top']", "The top", "It rolls as the paper computes. Drag to turn the view. Pause it, and you can drag its axis to another tilt."],
-  ["input[type=range][aria-label^='Jellett']", "The constants", "Three numbers fix the motion: Jellett’s, Routh’s and the energy. Slide one, and everything on the page follows."],
-  ["[data-figure=plane]", "Which motions roll", "Each line is a motion, from its least to its largest tilt. Click another line, or pull the blue one by its ends."],
-  ["canvas[aria-label^='Figure 5']", "The same in 3-D", "Fig. 5 of the paper. Turn it, read values off it, or pull the blue line on its floor."],
-  ["[role=tab] >> Three planes", "And further", "Let the table slip, build your own top, compare families, or take the lesson. “Share” keeps what you found."],
+  "[data-picture=top] canvas",
+  "input[data-input=K_J]",
+  "[data-figure=plane]",
+  "[data-picture=surface] canvas",
+  "[role=tab]:nth-of-type(2)",
 ];
 const SEEN = "tippe:tour";
 const SAY_MS = 400; // words wait until they stay
@@ -25,9 +16,8 @@ const writing = "input, textarea, select, button, a[href], summary, [contentedit
 
 // Elements lie in the shadow roots of many components.
 function find(selector, root = document) {
-  const [css, text] = selector.split(" >> ");
   for (const element of root.querySelectorAll("*")) {
-    if (element.matches(css) && element.getClientRects().length && (!text || element.textContent.includes(text))) return element;
+    if (element.matches(selector) && element.getClientRects().length) return element;
     const inside = element.shadowRoot && find(selector, element.shadowRoot);
     if (inside) return inside;
   }
@@ -35,19 +25,20 @@ function find(selector, root = document) {
 }
 
 export function renderGuide({ model, el }) {
-  el.innerHTML = `<style>${guideStyle}</style><button class="head-button tour">Tour</button><button class="head-button keys" aria-label="Keys" title="Keys (?)">?</button>`;
+  const { texts } = model;
+  el.innerHTML = `<style>${guideStyle}</style><button class="head-button tour">${texts.tour}</button><button class="head-button keys" aria-label="${texts.keys}" title="${texts.keys_hint}">?</button>`;
   const listening = new AbortController(), { signal } = listening;
   const layer = document.createElement("div"); // over the page, and not within any part of it
   layer.attachShadow({ mode: "open" }).innerHTML = `<style>${guideStyle}</style>
-    <dialog class="list" aria-labelledby="title"><h2 id="title">Keys</h2><table>${KEYS.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
-      <button class="close">Close</button> <button class="again">Take the tour</button></dialog>
+    <dialog class="list" aria-labelledby="title"><h2 id="title">${texts.keys}</h2><table>${texts.list.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
+      <button class="close">${texts.close}</button> <button class="again">${texts.again}</button></dialog>
     <div class="ring" hidden></div>
     <div class="stop" role="dialog" aria-labelledby="name" aria-describedby="what" hidden><h2 id="name" tabindex="-1"></h2><p id="what"></p>
-      <div><span class="count"></span><button class="skip">Skip</button><button class="back">Back</button><button class="next">Next</button></div></div>`;
+      <div><span class="count"></span><button class="skip">${texts.skip}</button><button class="back">${texts.back}</button><button class="next"></button></div></div>`;
   // A live region is only heard where it was before its words came.
   const live = document.createElement("div");
   live.setAttribute("role", "status");
-  live.setAttribute("aria-label", "What the top does now");
+  live.setAttribute("aria-label", texts.now);
   live.style.cssText = "position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap";
   (find("[role=main], main") ?? document.body).append(live);
   document.body.append(layer);
@@ -62,14 +53,17 @@ export function renderGuide({ model, el }) {
       if (live.textContent !== words) live.textContent = words;
     }, SAY_MS);
   };
-  const now = () => `${playing ? "Playing. " : "Paused. "}${model.said}`;
+  const now = () => fill(playing ? texts.playing : texts.paused, { said: model.said });
   window.addEventListener(
     "tippe:clock",
     ({ detail }) => {
       const changed = playing !== undefined && playing !== detail.playing;
       playing = detail.playing;
       if (changed) say(now());
-      else if (!playing) say(`${(detail.t * model.seconds).toFixed(4)} seconds, ${detail.verdict}. ${model.said}`);
+      else if (!playing) {
+        const seconds = (detail.t * model.seconds).toFixed(4);
+        say(fill(texts.instant, { seconds, verdict: detail.verdict, said: model.said }));
+      }
     },
     { signal },
   );
@@ -121,13 +115,13 @@ export function renderGuide({ model, el }) {
   function go(to) {
     if (to >= STOPS.length) return end();
     at = Math.max(to, 0);
-    const [selector, name, what] = STOPS[at];
+    const [name, what] = texts.stops[at];
     part("#name").textContent = name;
     part("#what").textContent = what;
-    part(".count").textContent = `${at + 1} of ${STOPS.length}`;
+    part(".count").textContent = fill(texts.count, { at: at + 1, all: STOPS.length });
     part(".back").hidden = at === 0;
-    part(".next").textContent = at === STOPS.length - 1 ? "Done" : "Next";
-    target = find(selector);
+    part(".next").textContent = at === STOPS.length - 1 ? texts.done : texts.next;
+    target = find(STOPS[at]);
     if (!isWhole(target)) target?.scrollIntoView({ block: "center" });
     place();
     if (from) part("#name").focus({ preventScroll: true }); // who asked for none keeps the focus
@@ -139,7 +133,7 @@ export function renderGuide({ model, el }) {
   // Beside what it shows where there is room, else at the end of the window that is farther from it.
   function place() {
     if (stop.hidden) return;
-    if (!target?.isConnected) target = find(STOPS[at][0]);
+    if (!target?.isConnected) target = find(STOPS[at]);
     const seen = target?.getBoundingClientRect(), box = seen?.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop, GAP = 14;
     ring.hidden = !box;
     if (!box) return Object.assign(stop.style, { left: `${(innerWidth - wide) / 2}px`, top: `${innerHeight - high - GAP}px` });
@@ -163,7 +157,7 @@ export function renderGuide({ model, el }) {
   // Offered once, and only where nobody follows a link to something particular.
   if (!localStorage.getItem(SEEN) && !location.search) {
     const first = () => {
-      if (find(STOPS[0][0])) begin();
+      if (find(STOPS[0])) begin();
     };
     window.addEventListener("tippe:clock", () => setTimeout(first), { once: true, signal });
   }

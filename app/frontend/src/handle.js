@@ -14,10 +14,10 @@ export class Handle {
     element.tabIndex = 0;
     element.removeAttribute("aria-hidden");
     element.setAttribute("role", "slider");
-    element.setAttribute("aria-label", "Tilt of the axis, in rad");
+    element.setAttribute("aria-label", model.texts.handle);
     element.setAttribute("aria-valuemin", "0");
     element.setAttribute("aria-valuemax", "3.14");
-    element.title = "Drag the axis: the motion starts anew at that tilt";
+    element.title = model.texts.handle_hint;
     element.addEventListener("pointerdown", (event) => {
       event.preventDefault();
       element.focus({ preventScroll: true });

@@ -35,7 +35,7 @@ for (const type of ["pointerdown", "pointermove", "keydown"]) window.addEventLis
 export class Stage {
   // tick(now, held) runs before each drawn frame and says whether another one is to follow, held while a hand is on a
   // control and the picture is to stand still; fit(aspect) runs after a new size; shown() when a picture came out.
-  constructor(holder, { label, fov, tick = () => false, fit = () => {}, shown = () => {} }) {
+  constructor(holder, { label, texts, fov, tick = () => false, fit = () => {}, shown = () => {} }) {
     this.holder = holder;
     this.tick = tick;
     this.fit = fit;
@@ -60,7 +60,7 @@ export class Stage {
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", label);
-    canvas.title = "Drag to turn. Click, then use the wheel to zoom.";
+    canvas.title = texts.hint;
     holder.append(canvas);
 
     this.controls = new OrbitControls(this.camera, canvas);
@@ -82,7 +82,7 @@ export class Stage {
       if (this.disposed) return;
       this.lost = true;
       this.forget();
-      this.note("The browser took this picture's graphics memory away. It comes back by itself, or reload the page.");
+      this.note(texts.lost);
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.lost = false;
@@ -305,7 +305,7 @@ export function tryStage(holder, options) {
   } catch {
     const note = document.createElement("p");
     note.className = "note";
-    note.textContent = "This picture needs WebGL, which this browser does not offer: turn on hardware acceleration, or try another.";
+    note.textContent = options.texts.no_webgl;
     holder.append(note);
     return null;
   }

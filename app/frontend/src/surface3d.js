@@ -18,27 +18,21 @@ const ramp = ["#f8f2dd", "#eed8a8", "#e5bb76", "#da9f4a", "#cc8325", "#b8690f", 
 
 const data = ["K_J", "theta", "heights", "energy", "verge", "steady", "P", "theta_max", "limit"];
 const QUANTITY = "<i>f</i><sub>1</sub><sup>2</sup> <i>θ̇</i><sup>2</sup>";
+// why: the word of model.texts for what cannot be
 const limits = {
-  "lift-off": {
-    colour: colours.normal, text: "<i>F</i><sub>z</sub> = 0",
-    why: "No motion that keeps to the table gets here:<br><i>F</i><sub>z</sub> &lt; 0, the table would have to pull.",
-  },
+  "lift-off": { colour: colours.normal, text: "<i>F</i><sub>z</sub> = 0", why: "above_lift" },
   slip: {
-    colour: colours.friction, text: "<i>F</i><sub>h</sub> = <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>",
-    why: "No motion that rolls gets here:<br>it would slip, <i>F</i><sub>h</sub> &gt; <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>.",
+    colour: colours.friction, text: "<i>F</i><sub>h</sub> = <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>", why: "above_slip",
   },
 };
-const worsts = [
-  { colour: colours.theta },
-  { colour: colours.friction, why: "It would slip on the way:<br><i>F</i><sub>h</sub> passes <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>." },
-  { colour: colours.normal, why: "It would lift off on the way: <i>F</i><sub>z</sub> &lt; 0." },
-];
+const worsts = [{ colour: colours.theta }, { colour: colours.friction, why: "slips" }, { colour: colours.normal, why: "lifts" }];
 const GRIP_PX = 14;
 
 export function renderSurface3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
-  const { picture } = frameIn(el);
-  const stage = tryStage(picture, { label: "Figure 5: a surface over theta and K_J", fov: 26, fit, tick, shown: () => (shown = drawing) });
+  const { picture } = frameIn(el), { texts } = model;
+  picture.dataset.picture = "surface";
+  const stage = tryStage(picture, { label: texts.label, texts, fov: 26, fit, tick, shown: () => (shown = drawing) });
   if (!stage) return;
   const { scene, camera, controls, renderer } = stage;
   scene.background = new THREE.Color(GROUND);
@@ -208,7 +202,7 @@ export function renderSurface3D({ model, el, view }) {
     for (const line of floor.verge) line.material.color.set(limit.colour);
     key.innerHTML =
       `<span style="--swatch: ${limit.colour}">${limit.text}</span>` +
-      `<span style="--swatch: #1d2733">steady precession</span><span style="--swatch: ${colours.theta}">this motion</span>`;
+      `<span style="--swatch: #1d2733">${texts.steady}</span><span style="--swatch: ${colours.theta}">${texts.motion}</span>`;
 
     const [poleTheta, poleK, poleHeight] = float32(model.P);
     pole.visible = poleLabel.visible = Number.isFinite(poleHeight) && poleK >= y.low && poleK <= y.high;
@@ -222,7 +216,7 @@ export function renderSurface3D({ model, el, view }) {
     const [chosen, inner, outer, worst = 0] = float32(model.selected), curve = float32(model.selected_curve);
     selected = chosen;
     ends = [inner, outer];
-    why = worsts[worst].why;
+    why = texts[worsts[worst].why];
     for (const line of [...floor.selected, ...selectedCurves]) line.material.color.set(worsts[worst].colour);
     if (gripped) say();
     const inBox = Number.isFinite(chosen) && chosen >= y.low && chosen <= y.high;
@@ -288,7 +282,7 @@ export function renderSurface3D({ model, el, view }) {
     if (!place) return leave();
     marker.visible = false;
     readout.innerHTML =
-      `<i>θ</i> = ${place[0].toFixed(3)} rad, <i>K</i><sub>J</sub> = ${place[1].toFixed(3)}<br>${limits[model.limit].why}`;
+      `<i>θ</i> = ${place[0].toFixed(3)} rad, <i>K</i><sub>J</sub> = ${place[1].toFixed(3)}<br>${texts[limits[model.limit].why]}`;
     placeReadout();
     stage.invalidate();
   }

@@ -24,20 +24,15 @@ const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the tabl
 const FOLLOW_MS = 160; // the camera follows the top's drift, not each of its small turns
 const TELL_MS = 80; // how often a scrub is told to Python
 const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
-const verdicts = [
-  ["rolls", colours.normal],
-  ["would slip here", colours.friction],
-  ["would lift off here", colours.omega],
-  ["slips", colours.friction],
-  ["in the air", colours.omega],
-  ["the motion ends here", colours.omega],
-];
+// of the regimes in app/top3d.py
+const regimeColours = [colours.normal, colours.friction, colours.omega, colours.friction, colours.omega, colours.omega];
 const clocks = new Map(); // the tops that go together, by the name of their clock
 
 export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
-  const { root, picture } = frameIn(el);
-  const stage = tryStage(picture, { label: model.label, fov: 30, tick, fit, shown: () => (shown = drawing) });
+  const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
+  if (!model.clock) picture.dataset.picture = "top";
+  const stage = tryStage(picture, { label, texts, fov: 30, tick, fit, shown: () => (shown = drawing) });
   if (!stage) return renderFlat({ model, root, picture, view });
   const { scene, camera, controls, renderer } = stage;
 
@@ -190,7 +185,7 @@ export function renderTop3D({ model, el, view }) {
       sun.target.position.copy(place);
       sun.position.set(place.x - 3.2, place.y - 3.4, 8.2);
       table.position.set(Math.round(place.x / 5) * 5, Math.round(place.y / 5) * 5, 0); // the grid repeats each 5 R
-      arrows.force.colour = verdicts[moment.regime][1];
+      arrows.force.colour = regimeColours[moment.regime];
     }
     point("force", moment.contact, moment.force, some && model.show_force);
     point("omega", moment.com, moment.omega, some && model.show_omega);
@@ -212,7 +207,7 @@ export function renderTop3D({ model, el, view }) {
     show(track, model.show_track, passed, frames.count);
     show(comPath, model.show_com_path, passed, frames.count);
 
-    const [word, colour] = some ? verdicts[moment.regime] : ["no motion to show", "#7a8694"];
+    const [word, colour] = some ? [texts.verdicts[moment.regime], regimeColours[moment.regime]] : [texts.no_motion, "#7a8694"];
     if (verdict.textContent !== word) {
       verdict.textContent = word;
       verdict.style.setProperty("--verdict", colour);
@@ -325,7 +320,7 @@ export function renderTop3D({ model, el, view }) {
     for (const name of Object.keys(LONGEST)) scales[name] = 1 / niceAbove(most[name] / LONGEST[name]);
     const perR = (name) => tidy(1 / scales[name]);
     scalesText.innerHTML =
-      `<i>R</i> of arrow:<br><i>F</i> ${perR("force")} <i>Mg</i><br><i>ω</i> ${perR("omega")} (<i>g</i>/<i>R</i>)<sup>½</sup><br>` +
+      `${texts.scales}<br><i>F</i> ${perR("force")} <i>Mg</i><br><i>ω</i> ${perR("omega")} (<i>g</i>/<i>R</i>)<sup>½</sup><br>` +
       `<i>L</i> ${perR("momentum")} <i>MR</i>²(<i>g</i>/<i>R</i>)<sup>½</sup>`;
     for (const line of Object.values(track)) line.setPath(frames.count, (i) => frames.contact(i), ABOVE_TABLE);
     for (const line of Object.values(comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
@@ -387,7 +382,7 @@ export function renderTop3D({ model, el, view }) {
     get playing() { return player.playing; },
     get position() { return body.position.toArray(); },
     get quaternion() { return body.quaternion.toArray(); },
-    get label() { return model.label; },
+    get label() { return label; },
     get verdict() { return verdict.textContent; },
     get pictures() { return stage.pictures; },
     get motions() { return { received, shown }; },
