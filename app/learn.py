@@ -85,7 +85,8 @@ def equation(tex):
     """The paper's equation, typeset by KaTeX; on a narrow screen it scrolls by itself."""
     return pn.pane.LaTeX(
         f"$\\displaystyle {tex}$", sizing_mode="stretch_width", margin=(2, 0, 8, 0),
-        styles={"font-size": px(15), "overflow-x": "auto", "overflow-y": "hidden", "padding": "4px 0 6px"},
+        # of this size the longest fits at 1400 px, large
+        styles={"font-size": px(14.4), "overflow-x": "auto", "overflow-y": "hidden", "padding": "4px 0 6px"},
         stylesheets=[MATHS],
     )  # fmt: skip
 

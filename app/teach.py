@@ -30,6 +30,11 @@ def option(step, key):
     return listed("learn.options").get(step.name, {}).get(key) or say(f"learn.options.{key}")
 
 
+def unit(asks):
+    """Of a Guess, as it is written here."""
+    return listed("learn.units").get(asks.unit, asks.unit)
+
+
 def link(step):
     """The query that opens a step with its motion set up, for the paper's top."""
     texts = {"tab": "learn", "step": step.name} | {
@@ -54,7 +59,7 @@ def prediction(step, asks, value=None):
         group.value = value
         return group
     start = min(max(value, asks.low), asks.high) if value is not None else (asks.low + asks.high) / 2
-    return pmui.FloatSlider(label=f"{label}, {asks.unit}" if asks.unit else label, start=asks.low, end=asks.high,
+    return pmui.FloatSlider(label=f"{label}, {unit(asks)}" if asks.unit else label, start=asks.low, end=asks.high,
                             step=asks.step, value=start, sizing_mode="stretch_width", margin=(4, 12),
                             size="small")  # fmt: skip
 
@@ -132,7 +137,7 @@ class Vote:
             counts = [votes.count(key) for key in asks.options]
         else:
             counts, edges = np.histogram(votes, bins=BINS, range=(asks.low, asks.high))
-            names = [f"{low:.4g} – {high:.4g} {asks.unit}" for low, high in pairwise(edges)]
+            names = [f"{low:.4g} – {high:.4g} {unit(asks)}" for low, high in pairwise(edges)]
         self.range.factors = names[::-1]
         self.bars.data = {"x": names, "votes": list(map(int, counts))}
         self.figure.x_range.end = max(4, max(counts) + 1)
@@ -143,7 +148,7 @@ class Vote:
         if isinstance(truth, str):
             said = option(step, truth)
         else:
-            said = say("learn.verdict.never") if np.isnan(truth) else f"{truth:.4g} {asks.unit}"
+            said = say("learn.verdict.never") if np.isnan(truth) else f"{truth:.4g} {unit(asks)}"
         self.truth.object = f"<b>{say('teach.vote.said', answer=said)}</b> ({say(f'learn.{step.name}.title')})"
 
     def _forget(self):
