@@ -10,7 +10,7 @@ import panel_material_ui as pmui
 import param
 from bokeh.models import ColumnDataSource, HoverTool, Range1d
 
-from app.builder import FAMILIES, Rocking, handles, pulled, sentence, value_of
+from app.builder import FAMILIES, Rocking, handles, named, pulled, sentence, value_of
 from app.cards import BUTTON, INK, alert, flow, note, words
 from app.colours import COLOURS
 from app.controls import number
@@ -315,7 +315,7 @@ class Workshop:
 
     def __init__(self, builder, explorer):
         self.builder = builder
-        self._knobs, self._named, self._slid, self._silent = {}, None, None, False
+        self._knobs, self._shown, self._slid, self._silent = {}, None, None, False
         self.section = Section(self._pull)
         self.derived, self.source, self.file_words = words(), words(), words()
         self.presets = self._choice("presets", builder.choose)
@@ -406,9 +406,9 @@ class Workshop:
             self.source.object = note(html.escape(draft.source))
 
     def _show_fields(self, draft):
-        named = [draft.family, *((dimension.name, dimension.words) for dimension in draft.dimensions)]
-        if named != self._named:
-            self._named = named
+        now = [draft.family, *((dimension.name, dimension.words) for dimension in draft.dimensions)]
+        if now != self._shown:
+            self._shown = now
             self._knobs = {dimension.name: Knob(dimension, self._pull) for dimension in draft.dimensions}
             self.dimensions.objects = [grid(*(knob.view for knob in self._knobs.values()))]
         free = isinstance(draft.shape, Lathe)
