@@ -26,7 +26,7 @@ i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height:
 .axis { text-align: center } b { font-weight: 600 }
 .quantity { font-size: calc(14px * var(--type, 1)); text-align: right }
 .swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
-a, summary { color: LINK } summary { cursor: pointer }
+a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
 """.replace("LINK", LINK) + NOTES  # fmt: skip
 BUTTON = {"size": "small", "variant": "outlined", "margin": 0, "sx": {"textTransform": "none"}}
 

@@ -14,6 +14,7 @@ from app.compare import Compare
 from app.connection import Connection
 from app.keep import Field, OneOf, explorer_of, read
 from app.learn import Learn, kept
+from app.look import widgets
 from app.planes import Planes
 from app.roll import Roll
 from app.share import Share
@@ -38,6 +39,11 @@ THEME = {
             "Dialog",
             "OutlinedInput",
         )
+    }
+    | widgets()
+    | {
+        "MuiMenuItem": {"defaultProps": {"role": "option"}},  # all menus here are of a Select
+        "MuiTabs": {"styleOverrides": {"indicator": {"backgroundColor": "var(--mui-palette-primary-main) !important"}}},
     }
 }
 
@@ -185,7 +191,10 @@ def page():
         theme_toggle=False,
         theme_config={"light": THEME, "dark": THEME},
         busy_indicator=None,
-        stylesheets=[".MuiLinearProgress-root { display: none !important }"],  # it stays there, and has no name
+        stylesheets=[
+            ".MuiLinearProgress-root { display: none !important }",  # it stays there, and has no name
+            "main { background: var(--mui-palette-background-default) !important }",  # it would keep the first theme's
+        ],
     )
 
 

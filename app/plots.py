@@ -159,8 +159,8 @@ def plain(**options):
         tools="",
         outline_line_color=None,
         min_border=4,
-        background_fill_color=None,
-        border_fill_color=None,
+        background_fill_alpha=0,  # the theme of the widgets would give another colour than none
+        border_fill_alpha=0,
         lod_threshold=None,
         **options,
     )

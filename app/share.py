@@ -100,9 +100,9 @@ class Copy(JSComponent):
         textarea { flex: 1 1 0; min-width: 0; font: 13px/1.5 ui-monospace, monospace; padding: 7px 9px;
           border: 1px solid #8a96a3; border-radius: 6px; color: inherit; background: transparent; resize: none;
           box-sizing: border-box }
-        button { font: 500 13px system-ui, sans-serif; padding: 7px 12px; border: 1px solid #0072B2; border-radius: 6px;
-          background: transparent; color: #0072B2; cursor: pointer; white-space: nowrap; min-width: 72px }
-        button:hover { background: #0072B214 } :focus-visible { outline: 2px solid #0072B2; outline-offset: 2px }
+        button { font: 500 13px system-ui, sans-serif; padding: 7px 12px; border: 1px solid; border-radius: 6px;
+          background: transparent; color: var(--link, #0072B2); cursor: pointer; white-space: nowrap; min-width: 72px }
+        button:hover { background: #0072B214 } :focus-visible { outline: 2px solid; outline-offset: 2px }
         </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button></button></div>`
       const area = el.querySelector("textarea"), button = el.querySelector("button")
       const [copy, copied] = model.says
@@ -136,8 +136,9 @@ class Photo(JSComponent):
     _esm = """
     export function render({model, el}) {
       el.innerHTML = `<style>button { font: 500 13px system-ui, sans-serif; padding: 4px 10px; height: 31px;
-        border: 1px solid #0072B280; border-radius: 4px; background: transparent; color: #0072B2; cursor: pointer }
-        button:hover { background: #0072B214 } :focus-visible { outline: 2px solid #0072B2; outline-offset: 2px }
+        border: 1px solid; border-radius: 4px; background: transparent; color: var(--link, #0072B2);
+        cursor: pointer }
+        button:hover { background: #0072B214 } :focus-visible { outline: 2px solid; outline-offset: 2px }
         </style><button>PNG</button>`
       el.querySelector("button").onclick = async () => {
         const picture = await window.__tippe?.top3d?.photo(model.wide)

@@ -50,6 +50,11 @@ export class Axes {
     this.names = Object.fromEntries(Object.entries(names).map(([axis, html]) => [axis, labels.add(html, "axis")]));
   }
 
+  dress({ walls, edges }) {
+    Object.assign(this, { walls, edges });
+    this.place(true);
+  }
+
   // Puts the walls behind and the numbers in front, as seen now.
   place(force) {
     const { camera, controls } = this.stage;
@@ -67,7 +72,7 @@ export class Axes {
       points.push(...ends);
       for (let i = 0; i < 2; i++) colours.push(grey, grey, grey * 1.04);
     };
-    const GRID = 0.68, EDGE = 0.3;
+    const { walls: GRID, edges: EDGE } = this;
     for (const value of x.ticks) {
       const at = x.at(value);
       line(GRID, at, y.from, 0, at, y.to, 0);

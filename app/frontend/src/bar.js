@@ -13,7 +13,7 @@ const speeds = [1, 2, 4, 8, 16, 32, 64];
 
 // What can be shown or hidden: the parameter's name, and the colour of its chip.
 const shows = {
-  show_track: colours.theta, show_com_path: "#1d2733", show_force: colours.normal, show_cone: colours.friction,
+  show_track: colours.theta, show_com_path: "var(--scene-ink, #1d2733)", show_force: colours.normal, show_cone: colours.friction,
   show_omega: colours.omega, show_momentum: colours.momentum, follow: "#7a8694",
 };
 

@@ -4,6 +4,7 @@ import { colours } from "./colours.js";
 import { coalesce, float32 } from "./data.js";
 import { emptyPose } from "./frames.js";
 import { Player } from "./player.js";
+import { followLook } from "./scene.js";
 
 const LEAST_REACH = 1.6, BELOW = 0.6; // from O upwards, and below the table, in R
 
@@ -19,7 +20,8 @@ export function renderFlat({ model, root, picture, view }) {
   const pen = canvas.getContext("2d");
   const pose = emptyPose();
   const suffix = model.clock ? `:${model.clock}` : "";
-  let pictures = 0, reach = LEAST_REACH;
+  let pictures = 0, reach = LEAST_REACH, look;
+  const hex = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
 
   const player = new Player({
     changed: () => draw(),
@@ -39,7 +41,7 @@ export function renderFlat({ model, root, picture, view }) {
     canvas.height = height * devicePixelRatio;
     pen.scale(devicePixelRatio, devicePixelRatio);
     const R = height / (reach + 1.3 + BELOW), table = height - BELOW * R;
-    pen.fillStyle = "#f6f1e9";
+    pen.fillStyle = hex(look.table);
     pen.fillRect(0, table, width, height - table);
     if (player.frames.count) {
       player.frames.read(player.place, pose);
@@ -66,7 +68,7 @@ export function renderFlat({ model, root, picture, view }) {
     for (let i = n - 1; i >= 0; i--) pen.lineTo(-R * profile[2 * i], -R * profile[2 * i + 1]);
     pen.closePath();
     pen.fillStyle = "#e3b981";
-    pen.strokeStyle = "#5a3312";
+    pen.strokeStyle = hex(look.edge);
     pen.lineWidth = 2;
     pen.fill();
     pen.stroke();
@@ -83,7 +85,7 @@ export function renderFlat({ model, root, picture, view }) {
       pen.fill();
     }
     pen.restore();
-    pen.fillStyle = "#22303c";
+    pen.fillStyle = hex(look.ink);
     pen.font = "600 15px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.fillText(`θ = ${((180 * tilt) / Math.PI).toFixed(1)}°`, x, 24);
@@ -108,7 +110,12 @@ export function renderFlat({ model, root, picture, view }) {
   player.setPlaying(model.playing);
 
   (window.__tippe ??= {}).flat = { get pictures() { return pictures; }, get t() { return player.t; } };
+  const unfollow = followLook((now) => {
+    look = now;
+    draw();
+  });
   const dispose = () => {
+    unfollow();
     draw.cancel();
     resizing.disconnect();
     window.removeEventListener(`tippe:seek${suffix}`, onSeek);

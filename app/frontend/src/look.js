@@ -1,6 +1,7 @@
-// How the page looks: light or dark, and large for a projector. The page's own type follows by variables of CSS, the
-// widgets by their theme; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
+// How the page looks: light or dark, and large for a projector. The page's own type and the widgets follow by variables
+// of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
 import { coalesce } from "./data.js";
+import { words } from "./scene.js";
 
 const LARGER = 1.35;
 const INKS = ["#22303c", "#8a96a3", "#e7ebef", "#ffffff"]; // app/plots.py: ink, faint, grid, paper
@@ -36,10 +37,7 @@ export function renderLook({ model }) {
     let wanted = Object.entries(own).map(([property, value]) => [property, exchange(value, property.endsWith("_color") ? ink : size)]);
     // The theme of the widgets gives these values of its own, whatever the figure was made with.
     const [text, faint, line] = looks[name], px = `${12 * (model.large ? LARGER : 1)}px`;
-    if (figurePart.type === "Figure") {
-      wanted = [["border_fill_color", null], ["outline_line_color", null]];
-      if (figurePart.background_fill_alpha === 1) wanted.push(["background_fill_color", null]);
-    } else if (figurePart.type.endsWith("Axis")) {
+    if (figurePart.type.endsWith("Axis")) {
       wanted = [["major_label_text_color", text], ["major_label_text_font_size", px], ["axis_line_color", faint], ["major_tick_line_color", faint]];
     } else if (figurePart.type === "Grid") wanted = [["grid_line_color", line]];
     if (wanted.length) figurePart.setv(Object.fromEntries(wanted), { sync: false });
@@ -52,7 +50,6 @@ export function renderLook({ model }) {
     seen = all.length;
     for (const part of all) {
       if (part.type?.startsWith("panel.") || !part.attributes) continue;
-      if ("dark_theme" in part.attributes && "sidebar_width" in part.attributes) part.setv({ dark_theme: model.dark }, { sync: false }); // Python would put a theme of its own on the figures
       dress(part);
     }
   }
@@ -62,11 +59,23 @@ export function renderLook({ model }) {
     const [inkNow, , line, paper] = looks[name], root = document.documentElement;
     const values = {
       "--ink": inkNow, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper, "--alert": model.dark ? "#ffb4ab" : "#b3261e",
-      "--type": model.large ? LARGER : 1,
+      "--focus": model.dark ? "#56b4e9" : "#0072b2", "--link": model.dark ? "#8ec7f5" : "#0b5cad",
+      "--type": model.large ? LARGER : 1, ...words[model.dark ? "dark" : "light"],
     };
     for (const [property, value] of Object.entries(values)) root.style.setProperty(property, String(value));
+    for (const [property, value] of Object.entries(model.on_dark)) {
+      // what the widgets read, and what the page itself has
+      for (const prefix of ["--look-", "--mui-palette-"]) {
+        if (model.dark) root.style.setProperty(prefix + property, value);
+        else root.style.removeProperty(prefix + property);
+      }
+    }
+    root.style.colorScheme = model.dark ? "dark" : "light"; // of what the browser draws
+    root.style.setProperty("--look-scheme", root.style.colorScheme);
+    root.style.setProperty("--panel-on-background-color", inkNow);
     root.style.fontSize = model.large ? `${100 * LARGER}%` : "";
     root.dataset.look = name;
+    window.dispatchEvent(new CustomEvent("tippe:look"));
     dressAll();
   }
 

@@ -12,10 +12,10 @@ export function photo(stage, labels, wide) {
   for (const { element } of labels.all) {
     if (element.style.display === "none") continue;
     const box = element.getBoundingClientRect();
-    const { fontStyle, fontWeight, fontFamily, fontSize, color } = getComputedStyle(element);
+    const { fontStyle, fontWeight, fontFamily, fontSize, color, textShadow } = getComputedStyle(element);
     ink.font = `${fontStyle} ${fontWeight} ${scale * parseFloat(fontSize)}px ${fontFamily}`;
     const at = [scale * (box.x - holder.x + box.width / 2), scale * (box.y - holder.y + box.height / 2)];
-    ink.strokeStyle = "white";
+    ink.strokeStyle = textShadow.match(/^rgba?\([^)]*\)/)?.[0] ?? "white";
     ink.lineWidth = 3 * scale;
     ink.strokeText(element.textContent, ...at);
     ink.fillStyle = color;

@@ -3,39 +3,39 @@ export const style = `
 :host { --line: color-mix(in srgb, currentColor 18%, transparent); }
 .tippe { display: flex; flex-direction: column; width: 100%; height: 100%; min-height: 300px; box-sizing: border-box;
   font: calc(13px * var(--type, 1))/1.35 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif; }
-.picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: #eef1f5; }
+.picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: var(--scene, #eef1f5); }
 .picture canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline: none; cursor: grab; }
 .picture canvas:active { cursor: grabbing; }
-.picture canvas:focus-visible { outline: 2px solid #0072B2; outline-offset: -2px; }
-.labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: #1d2733; }
+.picture canvas:focus-visible { outline: 2px solid var(--focus, #0072B2); outline-offset: -2px; }
+.labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: var(--scene-ink, #1d2733); }
 .labels span { position: absolute; left: 0; top: 0; white-space: nowrap; will-change: transform; }
 .labels .vector { font: italic 600 calc(17px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif;
-  text-shadow: 0 0 3px #fff, 0 0 3px #fff, 0 0 5px #fff; }
-.labels .tick { font-size: calc(11px * var(--type, 1)); font-variant-numeric: tabular-nums; color: #4a5563; }
+  text-shadow: 0 0 3px var(--halo, #fff), 0 0 3px var(--halo, #fff), 0 0 5px var(--halo, #fff); }
+.labels .tick { font-size: calc(11px * var(--type, 1)); font-variant-numeric: tabular-nums; color: var(--scene-faint, #4a5563); }
 .labels .axis { font: calc(15px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; }
 .labels .axis sub, .labels .axis sup, .readout sub, .readout sup { font-size: 70%; line-height: 0; }
-.labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px #fff, 0 0 4px #fff; }
+.labels .point { font: 600 calc(15px * var(--type, 1))/1 Georgia, serif; text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
 .labels .handle { width: 22px; height: 22px; border-radius: 50%; box-sizing: border-box; background: #fff; border: 5px solid #0072B2;
   box-shadow: 0 1px 4px #0006; cursor: grab; pointer-events: auto; touch-action: none; }
 .labels .handle:active { cursor: grabbing; }
-.labels .handle:focus-visible { outline: 3px solid #1d2733; outline-offset: 2px; }
+.labels .handle:focus-visible { outline: 3px solid var(--scene-ink, #1d2733); outline-offset: 2px; }
 .note { position: absolute; inset: auto 12px 12px; margin: 0; padding: 8px 12px; border-radius: 8px; background: #fff4e5;
   color: #5c3b00; box-shadow: 0 1px 4px #0003; }
 .verdict { position: absolute; left: 12px; top: 12px; display: flex; align-items: center; gap: 7px; padding: 5px 12px 5px 9px;
-  border-radius: 999px; font-weight: 600; background: #ffffffd9; color: #1d2733; box-shadow: 0 1px 3px #0002; pointer-events: none; }
+  border-radius: 999px; font-weight: 600; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733); box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .verdict::before { content: ""; width: 10px; height: 10px; border-radius: 50%; background: var(--verdict); }
-.scales { position: absolute; right: 12px; top: 12px; text-align: right; line-height: 1.5; font-size: calc(11px * var(--type, 1)); color: #4a5563; pointer-events: none; }
+.scales { position: absolute; right: 12px; top: 12px; text-align: right; line-height: 1.5; font-size: calc(11px * var(--type, 1)); color: var(--scene-faint, #4a5563); pointer-events: none; }
 .bar { flex: none; display: flex; flex-wrap: wrap; align-items: center; gap: 6px 8px; padding: 8px 2px 0; }
 .bar button, .bar select { font: inherit; color: inherit; background: transparent; border: 1px solid var(--line); border-radius: 8px;
   height: 34px; min-width: 34px; padding: 0 6px; cursor: pointer; display: inline-flex; align-items: center; justify-content: center; }
-.bar select option { color: #1d2733; background: #fff; }
+.bar select option { color: var(--scene-ink, #1d2733); background: var(--card, #fff); }
 .bar button:hover, .bar select:hover { background: color-mix(in srgb, currentColor 8%, transparent); }
 .bar button.play { background: #0072B2; border-color: #0072B2; color: #fff; min-width: 44px; }
 .bar button.play:hover { background: #005f95; }
-.bar :is(button, select, input):focus-visible { outline: 2px solid #0072B2; outline-offset: 2px; }
+.bar :is(button, select, input):focus-visible { outline: 2px solid var(--focus, #0072B2); outline-offset: 2px; }
 .bar svg { width: 18px; height: 18px; fill: currentColor; display: block; }
-.bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: #0072B2; height: 34px; margin: 0; cursor: pointer; }
-.time { position: absolute; left: 12px; bottom: 10px; padding: 4px 11px; border-radius: 999px; background: #ffffffd9; color: #1d2733;
+.bar .scrub { flex: 1 1 160px; min-width: 120px; accent-color: var(--focus, #0072B2); height: 34px; margin: 0; cursor: pointer; }
+.time { position: absolute; left: 12px; bottom: 10px; padding: 4px 11px; border-radius: 999px; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733);
   font-variant-numeric: tabular-nums; white-space: nowrap; box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .time sup, .scales sup { font-size: 75%; line-height: 0; }
 .bar .shows { display: flex; flex-wrap: wrap; gap: 5px; }
@@ -43,13 +43,13 @@ export const style = `
   border: 1px solid var(--line); cursor: pointer; white-space: nowrap; user-select: none; }
 .bar .shows label:not(:has(input:checked)) { opacity: 0.75; border-style: dashed; }
 .bar .shows input { position: absolute; opacity: 0; width: 1px; height: 1px; }
-.bar .shows label:has(input:focus-visible) { outline: 2px solid #0072B2; outline-offset: 2px; }
+.bar .shows label:has(input:focus-visible) { outline: 2px solid var(--focus, #0072B2); outline-offset: 2px; }
 .bar .swatch { width: 11px; height: 11px; border-radius: 3px; background: var(--swatch); }
 .bar .shows label:not(:has(input:checked)) .swatch { background: transparent; box-shadow: inset 0 0 0 2px var(--swatch); }
-.readout { position: absolute; left: 0; top: 0; padding: 6px 10px; border-radius: 8px; background: #ffffffee; color: #1d2733;
+.readout { position: absolute; left: 0; top: 0; padding: 6px 10px; border-radius: 8px; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733);
   box-shadow: 0 1px 6px #0003; pointer-events: none; white-space: nowrap; font-size: calc(12px * var(--type, 1)); font-variant-numeric: tabular-nums; }
 .readout i { font-family: "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; font-size: calc(14px * var(--type, 1)); }
-.key { position: absolute; left: 12px; bottom: 10px; display: flex; flex-wrap: wrap; gap: 2px 14px; font-size: calc(12px * var(--type, 1)); color: #3a4552;
+.key { position: absolute; left: 12px; bottom: 10px; display: flex; flex-wrap: wrap; gap: 2px 14px; font-size: calc(12px * var(--type, 1)); color: var(--scene-faint, #3a4552);
   pointer-events: none; }
 .key span::before { content: ""; display: inline-block; width: 16px; height: 3px; margin: 0 6px 3px 0; vertical-align: middle;
   background: var(--swatch); }

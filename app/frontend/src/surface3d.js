@@ -5,11 +5,11 @@ import { colours } from "./colours.js";
 import { coalesce, float32 } from "./data.js";
 import { Labels } from "./labels.js";
 import { WideLine } from "./lines.js";
+import { followLook } from "./scene.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "./style.js";
 
-const GROUND = 0xf7f8fa;
-const INK = 0x1d2733;
+const INK = 0x1d2733; // on the surface itself, which is pale on every page
 const CURVES = 26; // about so many of the rows have their curve and their tieline drawn
 const CLICK_PX = 4; // a press that moves less than this is a click, not a turn
 
@@ -35,7 +35,7 @@ export function renderSurface3D({ model, el, view }) {
   const stage = tryStage(picture, { label: texts.label, texts, fov: 26, fit, tick, shown: () => (shown = drawing) });
   if (!stage) return;
   const { scene, camera, controls, renderer } = stage;
-  scene.background = new THREE.Color(GROUND);
+  scene.background = new THREE.Color();
   scene.add(new THREE.HemisphereLight(0xffffff, 0xcfd4dc, 2.5));
   const lamp = new THREE.DirectionalLight(0xffffff, 1.3);
   lamp.position.set(-2, -3, 5);
@@ -69,9 +69,9 @@ export function renderSurface3D({ model, el, view }) {
     });
   const curves = new WideLine({ color: INK, linewidth: 1, transparent: true, opacity: 0.6, clippingPlanes });
   const floor = {
-    tielines: [wide(0x6b7a88, 1.2), through(INK, 1.2)],
+    tielines: [wide(0, 1.2), through(INK, 1.2)],
     verge: [wide(colours.normal, 2.6), through(colours.normal, 2.6)],
-    steady: [wide(INK, 2.2), through(INK, 2.2)],
+    steady: [wide(0, 2.2), through(INK, 2.2)],
     selected: [wide(colours.theta, 4.5), through(colours.theta, 4.5, 0.6)],
   };
   const selectedCurves = [wide(colours.theta, 4.5), through(colours.theta, 4.5, 0.6)];
@@ -83,11 +83,19 @@ export function renderSurface3D({ model, el, view }) {
     scene.add(sphere);
     return sphere;
   };
-  const pole = dot(INK, 0.028);
+  const pole = dot(0, 0.028);
   const poleLabel = labels.add("<i>P</i>", "point");
   poleLabel.shift = [12, -12];
   const marker = dot(colours.theta, 0.024);
   scene.add(mesh, curves, ...pairs.flat());
+
+  const unfollow = followLook((look) => {
+    scene.background.set(look.ground);
+    floor.tielines[0].material.color.set(look.lines);
+    for (const { material } of [floor.steady[0], pole]) material.color.set(look.ink);
+    axes.dress(look);
+    stage.invalidate();
+  });
 
   const readout = document.createElement("div");
   readout.className = "readout";
@@ -202,7 +210,7 @@ export function renderSurface3D({ model, el, view }) {
     for (const line of floor.verge) line.material.color.set(limit.colour);
     key.innerHTML =
       `<span style="--swatch: ${limit.colour}">${limit.text}</span>` +
-      `<span style="--swatch: #1d2733">${texts.steady}</span><span style="--swatch: ${colours.theta}">${texts.motion}</span>`;
+      `<span style="--swatch: var(--scene-ink, #1d2733)">${texts.steady}</span><span style="--swatch: ${colours.theta}">${texts.motion}</span>`;
 
     const [poleTheta, poleK, poleHeight] = float32(model.P);
     pole.visible = poleLabel.visible = Number.isFinite(poleHeight) && poleK >= y.low && poleK <= y.high;
@@ -417,6 +425,7 @@ export function renderSurface3D({ model, el, view }) {
     hover.cancel();
     pull.cancel();
     if (window.__tippe.surface3d === report) delete window.__tippe.surface3d;
+    unfollow();
     stage.dispose();
   };
   view.tippe = { dispose };

@@ -13,11 +13,10 @@ import { WideLine } from "./lines.js";
 import { photo } from "./photo.js";
 import { Player } from "./player.js";
 import { Ribbon, Thread } from "./ribbon.js";
+import { followLook } from "./scene.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "./style.js";
 
-const SKY = 0xeef1f5;
-const WOOD = 0xf6f1e9;
 const TABLE = 26; // the table's radius, in R: by there it has faded into the sky
 const SHADE = 4.5; // half the side of the square that can be in shadow
 const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
@@ -39,8 +38,8 @@ export function renderTop3D({ model, el, view }) {
   // The table, the light, and the shadow that stands where the top is
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
-  scene.background = new THREE.Color(SKY);
-  scene.fog = new THREE.Fog(SKY, 9, TABLE - 2);
+  scene.background = new THREE.Color();
+  scene.fog = new THREE.Fog(0, 9, TABLE - 2);
   const table = makeTable();
   const shade = new THREE.Mesh(
     new THREE.PlaneGeometry(2 * SHADE, 2 * SHADE),
@@ -69,8 +68,8 @@ export function renderTop3D({ model, el, view }) {
     passed: new Ribbon(0.045, { color: colours.theta, opacity: 0.95 }),
   };
   const comPath = {
-    whole: new Thread({ color: 0x1d2733, opacity: 0.3 }),
-    passed: new Thread({ color: 0x1d2733, opacity: 0.9 }),
+    whole: new Thread({ opacity: 0.3 }),
+    passed: new Thread({ opacity: 0.9 }),
   };
   for (const line of [...Object.values(track), ...Object.values(comPath)]) scene.add(line);
 
@@ -81,13 +80,13 @@ export function renderTop3D({ model, el, view }) {
     momentum: new Arrow(colours.momentum, { radius: 0.055 }),
   };
   for (const arrow of Object.values(arrows)) scene.add(arrow);
-  const pointedAt = new Arrow(0x22303c, { radius: 0.05, through: 0.85 }); // what a text beside points at, alone
+  const pointedAt = new Arrow(0, { radius: 0.05, through: 0.85 }); // what a text beside points at, alone
   scene.add(pointedAt);
   const cone = frictionCone();
   scene.add(cone);
   const centre = new THREE.Mesh(
     new THREE.SphereGeometry(0.045, 16, 12),
-    new THREE.MeshBasicMaterial({ color: 0x1d2733, depthTest: false, transparent: true }),
+    new THREE.MeshBasicMaterial({ depthTest: false, transparent: true }),
   );
   centre.renderOrder = 4;
   scene.add(centre);
@@ -99,9 +98,15 @@ export function renderTop3D({ model, el, view }) {
     centre: labels.add("G", "vector"),
   };
   const pointedTip = labels.add("", "vector");
-  tips.force.element.style.color = colours.normal;
-  tips.omega.element.style.color = "#a8538a"; // the palette's pink, darkened to be read on a light ground
-  tips.momentum.element.style.color = "#9a6a00";
+  const unfollow = followLook((look) => {
+    for (const colour of [scene.background, scene.fog.color]) colour.set(look.sky);
+    dressTable(table, look);
+    for (const { material } of [comPath.whole, comPath.passed, centre]) material.color.set(look.ink);
+    shade.material.color.set(look.shade);
+    pointedAt.colour = look.ink;
+    for (const name of ["force", "omega", "momentum"]) tips[name].element.style.color = look[name];
+    stage.invalidate();
+  });
 
   const verdict = addText(picture, "verdict");
   const scalesText = addText(picture, "scales");
@@ -402,6 +407,7 @@ export function renderTop3D({ model, el, view }) {
     window.removeEventListener(`tippe:highlight${suffix}`, onHighlight);
     if (model.clock) clocks.set(model.clock, others());
     if (window.__tippe.top3d === report) delete window.__tippe.top3d;
+    unfollow();
     stage.dispose();
   };
   view.tippe = { dispose };
@@ -423,9 +429,7 @@ function tidy(number) {
 // a texture, or light worked out for each pixel of it, would cost more than all the rest of the picture.
 function makeTable() {
   const disc = new THREE.CircleGeometry(TABLE, 48);
-  const colour = new THREE.Color(), rgb = [];
-  for (let i = 0; i < disc.attributes.position.count; i++) rgb.push(...colour.set(i ? SKY : WOOD).toArray());
-  disc.setAttribute("color", new THREE.Float32BufferAttribute(rgb, 3));
+  disc.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(3 * disc.attributes.position.count), 3));
   const table = new THREE.Mesh(
     disc,
     // The ground of everything, never seen from below: painted first, and then everything over it.
@@ -442,14 +446,18 @@ function makeTable() {
     }
     const lines = new THREE.BufferGeometry();
     lines.setAttribute("position", new THREE.Float32BufferAttribute(ends, 3));
-    const grid = new THREE.LineSegments(
-      lines,
-      new THREE.LineBasicMaterial({ color: strong ? 0xa9b0b8 : 0xd6d5d1, depthTest: false, depthWrite: false }),
-    );
+    const grid = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ depthTest: false, depthWrite: false }));
     grid.renderOrder = -2;
     table.add(grid);
   }
   return table;
+}
+
+function dressTable(table, look) {
+  const { color } = table.geometry.attributes, colour = new THREE.Color();
+  for (let i = 0; i < color.count; i++) color.setXYZ(i, ...colour.set(i ? look.sky : look.table).toArray());
+  color.needsUpdate = true;
+  table.children.forEach((grid, strong) => grid.material.color.set(strong ? look.strong : look.grid));
 }
 
 // The soft dark spot where a round thing meets a table: the shadow map alone leaves the contact floating.
