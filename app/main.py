@@ -165,15 +165,13 @@ def page():
     share.keep.param.watch(lambda event: builder.follow(), "returned")
     return pmui.Page(
         title=say("main.title"),
-        sidebar=[
-            *roll.sidebar,
-            Tongue().choice(share),
-            Connection(words=say("main.lost"), width=0, height=0, margin=0),
-        ],
+        sidebar=[*roll.sidebar, Tongue().choice(share)],
         sidebar_open=not on_a_phone(),
         header=[*share.header, roll.guide],
         main=[
             *share.main,
+            *roll.hidden,
+            Connection(words=say("main.lost"), width=0, height=0, margin=0),
             *tabs(
                 {
                     "roll": lambda: roll.main,
@@ -193,6 +191,8 @@ def page():
         busy_indicator=None,
         stylesheets=[
             ".MuiLinearProgress-root { display: none !important }",  # it stays there, and has no name
+            ".MuiTooltip-popper { display: none !important }",  # in English; guide.js has ours
+            "@media (max-width: 600px) { h3.title { font-size: 18px } }",
             "main { background: var(--mui-palette-background-default) !important }",  # it would keep the first theme's
         ],
     )

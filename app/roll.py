@@ -178,8 +178,8 @@ class Switch:
 
 
 class Roll:
-    """sidebar: the controls; main: the pictures. pacer and controls serve the other tabs too; followers: functions
-    of a scene, called when a hand rests."""
+    """sidebar: the controls; main: the pictures; hidden: parts that show nothing. pacer and controls serve the other
+    tabs too; followers: functions of a scene, called when a hand rests."""
 
     def __init__(self, explorer):
         motion, top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
@@ -309,9 +309,9 @@ class Roll:
             limit,
             section(say("roll.sections.page")),
             pn.Row(dark, large, margin=0),
-            look,
-            pacer.painted,
         ]
+        # Not in the sidebar: what lies there is drawn anew each time that it opens on a phone, and first then.
+        self.hidden = [look, pacer.painted]
         self.main = grid(
             card(say("roll.cards.top"), top),
             card(say("roll.cards.plane", plane=plane_symbols()), *plane_content(plane)),

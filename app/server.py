@@ -10,6 +10,7 @@ import asyncio
 import ctypes
 import gc
 import inspect
+import json
 import logging
 import os
 import re
@@ -44,6 +45,8 @@ from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
 from tornado.web import HTTPError, RequestHandler
+
+from app import text
 
 log = logging.getLogger("tippe")
 
@@ -142,6 +145,10 @@ class Settings:
 # --- who may come in
 
 
+def in_english(refusal):
+    return text.say(f"main.server.{refusal}", text.DEFAULT)
+
+
 class Door:
     """Counts sessions, and has them made one at a time, in turn among the addresses that ask."""
 
@@ -153,11 +160,11 @@ class Door:
         self._busy = False
 
     def refusal(self, address):
-        """A sentence, or None where there is room."""
+        """Why not, a key of [server] in main.toml; None where there is room."""
         if len(self.sessions) + sum(map(len, self._waiting.values())) >= self.settings.sessions:
-            return "All places are taken at the moment."
+            return "full"
         if self.open[address] >= self.settings.sessions_per_address:
-            return "Too many pages are open from your address."
+            return "crowded"
         return None
 
     def enter(self, address):
@@ -337,12 +344,12 @@ class Socket(WSHandler):
         known = get_session_id(token) in context._sessions
         if not known:
             age = TOKEN_LASTS - (payload["session_expiry"] - time.time())
-            refusal = "That session has ended; load the page again." if age > FRESH else door.refusal(address)
-            if refusal == "All places are taken at the moment.":
+            refusal = "ended" if age > FRESH else door.refusal(address)
+            if refusal == "full":
                 await context._cleanup_sessions(0)  # those whose page has gone
                 refusal = door.refusal(address)
             if refusal:
-                self._refuse(4000, refusal)
+                self._refuse(4000, in_english(refusal))
                 return
         self.set_nodelay(True)  # a message is three writes and more; the second would wait for the first one's receipt
         self.entered = address
@@ -453,18 +460,18 @@ font:16px/1.5 system-ui,sans-serif;color:#22303c"></div>
   const words = document.getElementById("waiting")
   const say = (text) => { words.textContent = text; words.style.display = "block" }
   const here = () => window.Bokeh?.documents?.length > 0
-  setTimeout(() => here() || say("Your page is being made; many may have come at once."), 3000)
+  setTimeout(() => here() || say(MADE), 3000)
   addEventListener("unhandledrejection", () => {
     if (here()) return
-    say("The server is full or busy. This page tries again by itself in a few seconds.")
+    say(BUSY)
     setTimeout(() => location.reload(), 5000 + 5000 * Math.random())
   })
   const look = setInterval(() => { if (here()) { words.remove(); clearInterval(look) } }, 200)
 })()
 </script>
 """
-PLAIN = """<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>Tippe top explorer</title>{again}
+PLAIN = """<!doctype html><html lang="{lang}"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>{title}</title>{again}
 <p style="font: 18px/1.5 system-ui, sans-serif; margin: 20vh 10vw; color: #22303c">{sentence}</p></html>"""
 
 
@@ -481,6 +488,15 @@ class Handler(RequestHandler):
     def tippe(self):
         return self.application.tippe
 
+    @property
+    def language(self):
+        """The one of the address, else the one that this browser prefers."""
+        asked = self.request.query_arguments.get("lang", [b""])[-1].decode(errors="replace")
+        return asked if asked in text.LANGUAGES else text.preferred(self.request.headers.get("Accept-Language", ""))
+
+    def words(self, name):
+        return text.say(f"main.server.{name}", self.language)
+
     def say(self, status, sentence, again=0):
         """A page with one sentence."""
         self.set_status(status)
@@ -490,7 +506,8 @@ class Handler(RequestHandler):
         if again:
             self.set_header("Retry-After", str(again))
         refresh = f'<meta http-equiv="refresh" content="{again}">' if again else ""
-        self.finish(PLAIN.format(sentence=sentence, again=refresh))
+        title = text.say("main.title", self.language)
+        self.finish(PLAIN.format(lang=self.language, title=title, sentence=sentence, again=refresh))
 
 
 class Page(Handler, DocHandler):
@@ -502,12 +519,12 @@ class Page(Handler, DocHandler):
             return
         if not self.tippe.lets(self.request.host):
             log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
-            self.say(403, "This server does not go by the name in your address bar; TIPPE_ORIGINS lists its names.")
+            self.say(403, self.words("stranger"))
             return
         refusal = self.application.door.refusal(self.request.remote_ip)
         if refusal:
-            log.warning("refused %s a page: %s", self.request.remote_ip, refusal)
-            self.say(503, f"{refusal} This page tries again by itself.", again=10)
+            log.warning("refused %s a page: %s", self.request.remote_ip, in_english(refusal))
+            self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
             return
         self.nonce = secrets.token_urlsafe(16)
         self.set_header("Content-Security-Policy", policy(self.request, self.tippe, self.nonce))
@@ -516,7 +533,10 @@ class Page(Handler, DocHandler):
     def write(self, chunk):
         if isinstance(chunk, str) and "</body>" in chunk:
             before, after = chunk.rsplit("</body>", 1)
-            chunk = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.nonce}"', f"{before}{WAITING}</body>{after}")
+            waiting = WAITING
+            for name in ("made", "busy"):
+                waiting = waiting.replace(name.upper(), json.dumps(self.words(name)))
+            chunk = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.nonce}"', f"{before}{waiting}</body>{after}")
         super().write(chunk)
 
 

@@ -237,7 +237,9 @@ class Share:
         return self.address.page + self.keep.query
 
     def reload(self):
-        """Loads the page anew, with its state."""
+        """Loads the page anew, with its state; where that cannot be, with the last that could."""
+        if self._explorer.scene.messages:
+            self.keep.undo()
         self.keep.at_rest()
         self.address.reloads += 1
 

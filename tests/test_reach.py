@@ -1,10 +1,44 @@
-"""The page without a mouse, without eyes, without patience: by keyboard, as axe-core sees it, and on a first visit."""
+"""The page without a mouse, without eyes, without patience, without English: by keyboard, as axe-core sees it, on a
+first visit, and in German."""
+
+import re
+from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from visiting import Visit
 
+from app.text import listed
+
 RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]}
+
+# All that the page says now, to the eye and to the ear, piece by piece.
+SAID = """
+() => {
+  const said = [], spoken = ["aria-label", "aria-valuetext", "title", "placeholder", "alt"]
+  const read = (root) => {
+    for (const element of root.querySelectorAll(":not(style, script)")) {
+      for (const {nodeType, textContent} of element.childNodes) if (nodeType == 3) said.push(textContent.trim())
+      for (const name of spoken) said.push(element.getAttribute(name)?.trim())
+      if (element.shadowRoot) read(element.shadowRoot)
+    }
+  }
+  read(document)
+  return said.filter((words) => words)
+}
+"""
+
+
+def words_of(language):
+    """The pieces of all words of a language between elements and numbers."""
+
+    def pieces(found):
+        if isinstance(found, str):
+            return {piece.strip() for piece in re.split(r"<[^>]*>|{[^}]*}|\n", found)}
+        return set().union(*map(pieces, found.values() if isinstance(found, dict) else found))
+
+    folder = Path(__file__).parent.parent / "app/text" / language
+    return set().union(*(pieces(listed(path.stem, language)) for path in folder.glob("*.toml")))
 
 
 def violations(page):
@@ -72,6 +106,9 @@ def test_the_tour_comes_once_covers_nothing_it_shows_and_can_be_skipped(first):
     page.get_by_role("button", name="Take the tour").click()
     page.get_by_role("button", name="Skip").click()
     page.locator(".stop").wait_for(state="hidden")
+    if page.viewport_size["width"] < 900:  # the controls are there for who asks
+        page.get_by_role("button", name="Show the controls").click()
+        page.get_by_role("slider", name="Jellett’s constant").click()
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
@@ -92,3 +129,41 @@ def test_axe_finds_nothing_on_the_first_tab(chromium, server, dark):
     page.get_by_role("dialog", name="Keys").wait_for()
     assert violations(page) == []
     page.context.close()
+
+
+def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_changes_the_language(chromium, server):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    visit = Visit(page, f"{server}?lang=de")
+    assert page.evaluate("document.documentElement.lang") == "de"
+    page.get_by_role("slider", name="Jellett-Konstante").press("ArrowLeft")
+    page.wait_for_url("**?v=1&KJ=6.99&lang=de")
+    inertia = page.get_by_label("Trägheitsmoment um die Achse, in M R Quadrat")
+    inertia.fill("2")
+    inertia.press("Enter")
+    page.get_by_text("I3 = 2 ist nicht möglich: erlaubt ist 0 < I3 <= 2 I1 = 0.798.").wait_for()
+    inertia.fill("viel")
+    inertia.press("Enter")
+    page.get_by_text("„viel“ ist keine Zahl.").wait_for()
+    page.get_by_role("button", name="Rundgang").click()
+    said = []
+    for i in range(1, 6):
+        page.get_by_role("dialog").filter(has_text=f"{i} von 5").wait_for()
+        said += page.evaluate(SAID)
+        page.locator(".stop .next").click()
+    page.get_by_role("button", name="Teilen").click()
+    page.wait_for_function("box => box.value", arg=page.get_by_label("Link zu dem, was").element_handle())
+    page.get_by_role("button", name="Schließen", exact=True).wait_for()
+    said += page.evaluate(SAID)
+    german = words_of("de")
+    english = {words for words in words_of("en") - german if re.search("[A-Za-z]{3}", words)}
+    assert "Die Konstanten" in said and "Teilen und speichern" in said
+    assert english & set(said) == set()
+    long = [words for words in english if len(words) > 11]
+    assert [words for words in long if any(words in each for each in said)] == []
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="English").click()
+    page.wait_for_function("document.documentElement.lang == 'en' && window.__tippe?.top3d?.pictures > 0")
+    assert page.url.endswith("?v=1&KJ=6.99&lang=en")
+    assert page.get_by_role("slider", name="Jellett’s constant").input_value() == "6.99"
+    page.close()
+    assert not visit.errors

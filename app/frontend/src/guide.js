@@ -12,6 +12,7 @@ const STOPS = [
 ];
 const SEEN = "tippe:tour";
 const SAY_MS = 400; // words wait until they stay
+const RENAME_MS = 100; // by then the library has drawn what opened
 const writing = "input, textarea, select, button, a[href], summary, [contenteditable=true], [role=slider], [role=tab], [role=option]";
 
 // Elements lie in the shadow roots of many components.
@@ -44,6 +45,18 @@ export function renderGuide({ model, el }) {
   document.body.append(layer);
   const part = (selector) => layer.shadowRoot.querySelector(selector);
   const [list, ring, stop] = [".list", ".ring", ".stop"].map(part);
+
+  // The widgets' own library names its buttons in English, and names them anew when a drawer or dialog opens or closes.
+  const rename = () => {
+    for (const [name, ours] of Object.entries(texts.library)) {
+      const button = find(`button[aria-label="${name}"]`);
+      for (const as of ["aria-label", "title"]) button?.setAttribute(as, ours);
+    }
+  };
+  const onOpen = ({ attr = "" }) => ["open", "sidebar_open"].includes(attr) && setTimeout(rename, RENAME_MS);
+  const doc = Bokeh.documents[0];
+  doc.on_change(onOpen);
+  setTimeout(rename, RENAME_MS);
 
   // What the top does now
   let later, playing;
@@ -164,6 +177,7 @@ export function renderGuide({ model, el }) {
 
   model.on("remove", () => {
     listening.abort();
+    doc.remove_on_change(onOpen);
     clearTimeout(later);
     clearInterval(watching);
     layer.remove();
