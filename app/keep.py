@@ -46,6 +46,25 @@ class Number:
         return float(text)
 
 
+class Numbers:
+    """So many floats in a list, or none."""
+
+    def __init__(self, count):
+        self._count = count
+
+    @staticmethod
+    def text(value):
+        """Of finite numbers."""
+        return "_".join(map(Number.text, value))
+
+    def value(self, text):
+        """Of what text() wrote; else a ValueError."""
+        parts = text.split("_") if text else []
+        if len(parts) not in (0, self._count):
+            raise ValueError(say("share.link.numbers", count=self._count))
+        return [Number.value(part) for part in parts]
+
+
 class OneOf:
     """One of a few values, each by its word."""
 

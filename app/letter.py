@@ -16,6 +16,7 @@ from app.bundle import Bundled
 from app.controls import SYMBOLS
 from app.export import parameters
 from app.plots import Motion, PlaneFigure, TimeFigures
+from app.portraits import Curve, Force, Phase, Potential, Track
 from app.roll import show_surface, show_top
 from app.surface3d import Surface3D
 from app.text import say, spoken
@@ -49,6 +50,7 @@ h2 { font-size: 15px; margin: 0 } i, sub { font-family: Georgia, serif } sub, su
 <div id="Surface3D"></div></section>
 <section><h2>$card_times</h2><div class="times">$times
 <div class="axis">$unit</div></div></section>
+$portraits
 <section class="said"><h2>$this</h2><div><p>$parameters</p>$link
 <p>$source</p></div></section>
 </main>
@@ -121,10 +123,21 @@ def letter(scene, link="", look=None):
     top, surface = Top3D(**(look or {})), Surface3D()
     show_top(top, scene)
     show_surface(surface, scene)
-    script, (plane_div, *time_divs) = components((plane.figure, *times.figures.values()), wrap_script=True)
+    portraits = [kind() for kind in (Phase, Curve, Potential, Track, Force)]
+    for portrait in portraits:
+        portrait.show(scene)
+    figures = (plane.figure, *times.figures.values(), *(portrait.figure for portrait in portraits))
+    script, (plane_div, *divs) = components(figures, wrap_script=True)
+    time_divs, portrait_divs = divs[: len(times.figures)], divs[len(times.figures) :]
     rows = "".join(
         f'<div class="row"><div>{LABELS[name]}</div><div class="figure">{div}</div></div>'
         for name, div in zip(times.figures, time_divs, strict=True)
+    )
+    pictures = "".join(
+        f'<section><h2>{say(f"roll.portraits.{portrait.name}.title")}</h2><div>{portrait.axes[1]}</div>'
+        f'<div class="figure">{div}</div><div class="axis">{portrait.axes[0]}</div>'
+        f'<p class="axis">{portrait.words(scene)}</p></section>'
+        for portrait, div in zip(portraits, portrait_divs, strict=True)
     )
     shown = html.escape(link)
     data = {
@@ -142,6 +155,7 @@ def letter(scene, link="", look=None):
         card_floor=say("roll.cards.floor", height=SYMBOLS["height"], plane=PLANE),
         card_times=say("roll.cards.times"),
         times=rows,
+        portraits=pictures,
         unit=say("roll.says.unit", time=SYMBOLS["time"], milliseconds=1e3 * scene.scales.time),
         this=say("share.letter.motion"),
         source=say("share.letter.source"),

@@ -42,6 +42,7 @@ THEME = {
     }
     | widgets()
     | {
+        "MuiToggleButtonGroup": {"styleOverrides": {"root": {"flexWrap": "wrap"}}},
         "MuiMenuItem": {"defaultProps": {"role": "option"}},  # all menus here are of a Select
         "MuiTabs": {"styleOverrides": {"indicator": {"backgroundColor": "var(--mui-palette-primary-main) !important"}}},
     }

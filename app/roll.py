@@ -290,7 +290,7 @@ class Roll:
             size="small",
             sx=PLAIN,
         )
-        look = Look(width=0, height=0, margin=0)
+        look = self.look = Look(width=0, height=0, margin=0)
         dark = pmui.Switch.from_param(
             look.param.dark, label=say("roll.switches.dark"), description="", size="small", margin=(4, 10, 0, 16)
         )
@@ -308,7 +308,7 @@ class Roll:
             hemisphere,
             limit,
             section(say("roll.sections.page")),
-            pn.Row(dark, large, margin=0),
+            pn.Row(dark, large, margin=0, sizing_mode="stretch_width", styles={"flex-wrap": "wrap"}),
         ]
         # Not in the sidebar: what lies there is drawn anew each time that it opens on a phone, and first then.
         self.hidden = [look, pacer.painted]

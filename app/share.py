@@ -17,7 +17,7 @@ from panel.custom import JSComponent
 
 from app import export
 from app.cards import PLAIN, words
-from app.keep import EXPLORER, Field, Keep, Number, OneOf, usual
+from app.keep import EXPLORER, Field, Keep, Number, Numbers, OneOf, usual
 from app.letter import letter
 from app.pacing import at_once
 from app.prints import FIGURES, caption, draw
@@ -31,7 +31,8 @@ SHOWS = {"show_track": "track", "show_com_path": "G", "show_force": "F", "show_c
          "show_momentum": "L", "follow": "follow"}  # fmt: skip
 TOP = {"speed": Field("slow", OneOf(**SPEEDS), undoable=False)} | {
     name: Field(key, OneOf(yes=True, no=False), undoable=False) for name, key in SHOWS.items()
-}
+} | {"camera": Field("view", Numbers(3), undoable=False)}
+LOOK = {name: Field(name, OneOf(yes=True, no=False), undoable=False) for name in ("dark", "large")}
 # A phone at arm's length reads modules of this size, px.
 MODULE = 4
 
@@ -201,6 +202,7 @@ class Share:
         self.keep.add(explorer, EXPLORER, usual, opened=True)
         self.keep.add(Clock(self._top), Clock.KNOWN)
         self.keep.add(self._top, TOP)
+        self.keep.add(roll.look, LOOK)
         self.address = Address(search=self.keep.query, width=0, height=0, margin=0)
         at_once(self.address, "held", "gesture", "undone", "redone", "page")
         self._notice = pn.Column(sizing_mode="stretch_width", margin=0)
@@ -345,7 +347,7 @@ class Share:
         return 1 / self._top.speed
 
     def _letter(self, scene, link):
-        names = ("time", "playing", "speed", *SHOWS)
+        names = ("time", "playing", "speed", "camera", *SHOWS)
         return letter(scene, link, {name: getattr(self._top, name) for name in names})
 
     def _show_python(self):

@@ -69,4 +69,9 @@ class Top3D(Bundled):
     show_cone = param.Boolean(default=True, doc="The friction cone at the contact.")
     show_omega = param.Boolean(default=True, doc="The angular velocity.")
     show_momentum = param.Boolean(default=True, doc="The angular momentum about G.")
+    camera = param.List(
+        default=[],
+        doc="[azimuth, height, distance] of a view that a person chose, in rad and in terms of the first view's; the "
+        "browser writes it; empty: the first view.",
+    )
     follow = param.Boolean(default=True, doc="Whether the camera goes along with the top.")

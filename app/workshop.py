@@ -381,7 +381,7 @@ class Workshop:
     def bench_view(self):
         """What a person sets."""
         files = flow(self.saved, self.file, self.stl)
-        choices = pn.Row(self.presets, self.families, sizing_mode="stretch_width", margin=0)
+        choices = grid(self.presets, self.families)
         return [choices, self.source, self.dimensions, self.points, *self.pieces.view, files, self.file_words]
 
     def _pull(self, name, value, slid=False):

@@ -99,6 +99,16 @@ def test_the_python_gives_the_same_numbers(inputs, tmp_path, monkeypatch):
     for column in ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "force"):
         assert np.array_equal(getattr(names["motion"], column), getattr(trajectory, column))
     assert np.array_equal(names["ratio"], scene.ratio)
+    one = scene.nutation
+    F_z = np.where(one.force[:, 2] > 1e-3, one.force[:, 2], np.nan)
+    for name, x, y in (("phase", one.theta, one.omega[:, 0]), ("f", one.theta, one.omega[:, 0] ** 2),
+                       ("track", *trajectory.contact.T), ("force", *(one.force[:, :2].T / F_z))):  # fmt: skip
+        names, there = run(name), np.isfinite(x)
+        assert np.array_equal(names["x"][there], x[there]) and np.array_equal(names["y"][there], y[there])
+    names = run("potential")
+    theta, E = scene.potential
+    assert np.array_equal(names["x"], theta)
+    assert names["y"] == pytest.approx(E, rel=1e-11)
     limited = np.isfinite(plane.surface.E)
     if limited.any():
         names = run("Fig. 5")

@@ -59,11 +59,15 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
     visit.page.get_by_role("button", name="Pause").click()
     until_address(visit, "[?&]t=")
     assert visit.page.evaluate("history.length") == steps  # replaced, not added to
+    visit.page.get_by_label("dark", exact=True).click()
+    for key in ("Shift+ArrowRight", "Shift+ArrowUp", "-"):
+        visit.page.locator("canvas[aria-label^='The top']").press(key)
+    until_address(visit, "view=.*dark=yes")
     visit.page.get_by_role("button", name="Share").click()
     box = visit.page.get_by_label("Link to what is shown")
     visit.page.wait_for_function("box => box.value", arg=box.element_handle())
     link = box.input_value()
-    assert link == visit.page.url and len(link) < 120
+    assert link == visit.page.url and len(link) < 150
     code = visit.page.locator("svg:has(title:text-is('QR code of the link'))")
     found = zxingcpp.read_barcodes(Image.open(io.BytesIO(code.screenshot())))
     assert [code.text for code in found] == [link]
@@ -76,6 +80,9 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
         assert np.array_equal(visit.column(*place), other.column(*place))
     assert np.array_equal(visit.page.evaluate(FRAMES), other.page.evaluate(FRAMES))
     assert not other.page.evaluate("__tippe.top3d.playing")
+    eye = visit.page.evaluate("__tippe.top3d.eye")
+    assert other.page.evaluate("__tippe.top3d.eye") == pytest.approx(eye, abs=1e-3)
+    assert other.page.evaluate("document.documentElement.dataset.look") == "dark"
     assert other.page.get_by_label("Speed").input_value() == str(1 / 4)
     assert thumb(other).input_value() == slider.input_value()
 

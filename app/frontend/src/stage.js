@@ -35,11 +35,12 @@ for (const type of ["pointerdown", "pointermove", "keydown"]) window.addEventLis
 export class Stage {
   // tick(now, held) runs before each drawn frame and says whether another one is to follow, held while a hand is on a
   // control and the picture is to stand still; fit(aspect) runs after a new size; shown() when a picture came out.
-  constructor(holder, { label, texts, fov, tick = () => false, fit = () => {}, shown = () => {} }) {
+  constructor(holder, { label, texts, fov, tick = () => false, fit = () => {}, shown = () => {}, turned = () => {} }) {
     this.holder = holder;
     this.tick = tick;
     this.fit = fit;
     this.shown = shown;
+    this.turned = turned;
     this.inView = true;
     this.cost = 0; // ms until a drawn picture is out, a running mean
     this.coarse = 1;
@@ -67,6 +68,7 @@ export class Stage {
     this.controls.enablePan = false;
     canvas.style.touchAction = "pan-y"; // a finger moving up or down scrolls the page, as it does everywhere else
     this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("end", () => this.turned());
     // The wheel scrolls the page until a person has clicked the picture.
     holder.addEventListener(
       "wheel",
@@ -113,6 +115,7 @@ export class Stage {
     camera.position.set(s * Math.cos(azimuth), s * Math.sin(azimuth), far * Math.cos(polar)).add(controls.target);
     controls.update(); // within its limits
     this.invalidate();
+    this.turned();
   }
 
   note(sentence) {

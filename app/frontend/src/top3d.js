@@ -21,6 +21,7 @@ const TABLE = 26; // the table's radius, in R: by there it has faded into the sk
 const SHADE = 4.5; // half the side of the square that can be in shadow
 const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
 const FOLLOW_MS = 160; // the camera follows the top's drift, not each of its small turns
+const FIRST_VIEW = [-1.12, 0.3, 1];
 const TELL_MS = 80; // how often a scrub is told to Python
 const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
 // of the regimes in app/top3d.py
@@ -31,7 +32,7 @@ export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
   if (!model.clock) picture.dataset.picture = "top";
-  const stage = tryStage(picture, { label, texts, fov: 30, tick, fit, shown: () => (shown = drawing) });
+  const stage = tryStage(picture, { label, texts, fov: 30, tick, fit, turned, shown: () => (shown = drawing) });
   if (!stage) return renderFlat({ model, root, picture, view });
   const { scene, camera, controls, renderer } = stage;
 
@@ -121,6 +122,7 @@ export function renderTop3D({ model, el, view }) {
   });
   const handle = model.tiltable ? new Handle(stage, labels, model, player) : null;
   const bar = new Bar(root, picture, model, player, () => {
+    model.camera = [];
     firstView();
     stage.invalidate();
   });
@@ -278,7 +280,7 @@ export function renderTop3D({ model, el, view }) {
 
   function firstView() {
     seen.set(place.x, place.y, 1.25);
-    const far = distance(), azimuth = -1.12, height = 0.3;
+    const [azimuth, height, times] = model.camera.length ? model.camera : FIRST_VIEW, far = distance() * times;
     camera.position.set(
       seen.x + far * Math.cos(height) * Math.cos(azimuth),
       seen.y + far * Math.cos(height) * Math.sin(azimuth),
@@ -289,6 +291,12 @@ export function renderTop3D({ model, el, view }) {
     controls.maxDistance = 22;
     controls.maxPolarAngle = Math.PI / 2 - 0.02; // never from below the table
     controls.update();
+  }
+
+  // A person has turned or zoomed: as seen from what the camera looks at.
+  function turned() {
+    const { x, y, z } = camera.position.clone().sub(seen), far = Math.hypot(x, y, z);
+    model.camera = [Math.atan2(y, x), Math.asin(z / far), far / distance()].map((value) => Number(value.toFixed(3)));
   }
 
   let aspect;
@@ -387,6 +395,7 @@ export function renderTop3D({ model, el, view }) {
     get playing() { return player.playing; },
     get position() { return body.position.toArray(); },
     get quaternion() { return body.quaternion.toArray(); },
+    get eye() { return camera.position.clone().sub(seen).normalize().toArray(); },
     get label() { return label; },
     get verdict() { return verdict.textContent; },
     get pictures() { return stage.pictures; },
