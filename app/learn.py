@@ -9,8 +9,8 @@ import param
 from bokeh.models import ColumnDataSource, CustomJS, Range1d
 
 from app import lesson
-from app.cards import INK, PLAIN, card, grid, px, swatch, words
-from app.colours import COLOURS, GREY
+from app.cards import PLAIN, card, grid, px, swatch, words
+from app.colours import COLOURS, GREY, INK
 from app.explorer import axes, outline
 from app.keep import Field, OneOf
 from app.lines import Derivation
@@ -224,7 +224,7 @@ class Learn(param.Parameterized):
                                              margin=(4, 0))  # fmt: skip
         self.sections = pmui.RadioButtonGroup.from_param(
             self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
-            size="small", sx=PLAIN, margin=(10, 12, 0, 12),
+            size="small", sx=PLAIN | {"flexWrap": "wrap"}, margin=(10, 12, 0, 12), sizing_mode="stretch_width",
         )  # fmt: skip
         self.back, self.next = (
             pmui.Button(label=say(f"learn.page.{name}"), size="small", variant="outlined", sx=PLAIN,
@@ -315,8 +315,7 @@ class Learn(param.Parameterized):
         self.prediction.objects = [self.widget]
         full = [(listed(f"sources.{name}.short"), listed(f"sources.{name}.full")) for name in step.sources]
         self.sources.object = f"<div class='key' style='margin-top: 6px'>{say('learn.page.sources')}</div>" + "".join(
-            f"<details><summary>{short}</summary>{text}</details>"
-            for short, text in full
+            f"<details><summary>{short}</summary>{text}</details>" for short, text in full
         )
         self.show_scene(scene)
 

@@ -68,7 +68,7 @@ class Lines(JSComponent):
       tip.className = "tip"
       tip.hidden = true
       const tables = {}
-      let now = 0, shown = 0, pointed = null
+      let now = 0, shown = 0, due = null, pointed = null
 
       const read = () => ["rough", "smooth"].forEach((plane, i) => {
         const bytes = model[plane]
@@ -182,15 +182,20 @@ class Lines(JSComponent):
       }
       const tick = ({detail: {t}}) => {
         now = t
-        if (performance.now() - shown < 200 || !root.isConnected || !root.offsetParent) return
-        shown = performance.now()
-        draw()
+        due ??= setTimeout(() => {  // so that the last instant before a pause is shown too
+          due = null
+          shown = performance.now()
+          if (root.isConnected && root.offsetParent) draw()
+        }, Math.max(0, 200 - (performance.now() - shown)))
       }
       read()
       draw()
       model.on("periods", () => { read(); draw() })  // the last of what is sent together
       window.addEventListener(`tippe:clock:${model.clock}`, tick)
-      model.on("remove", () => window.removeEventListener(`tippe:clock:${model.clock}`, tick))
+      model.on("remove", () => {
+        clearTimeout(due)
+        window.removeEventListener(`tippe:clock:${model.clock}`, tick)
+      })
     }
     """
 

@@ -271,7 +271,7 @@ NOT_SAID = {
     "learn.py": {"in the air": "REGIMES of top3d.py"},
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
-    "server.py": {"": "said to the operator, to a program that is no browser, or before there is a page"},
+    "server.py": {"": "said to the operator, or to a program that is no browser"},
     "top3d.py": {"would": "REGIMES", "in the air": "REGIMES", "the motion ends here": "REGIMES"},
     "look.js": {"dark large": "a key"},
 }  # fmt: skip

@@ -54,8 +54,8 @@ def launch(playwright):
 class Visit:
     """A page that is open, and what it asked for, said and sent."""
 
-    def __init__(self, page, url, first=False):
-        """first: a visit of somebody who was never here, and gets the tour."""
+    def __init__(self, page, url, first=False, whole=True):
+        """first: a visit of somebody who was never here, and gets the tour. whole: wait for all of the first tab."""
         self.page, self.requests, self.errors, self.sent = page, [], [], []
         page.set_default_timeout(PATIENCE)
         page.on("request", lambda request: self.requests.append(request.url))
@@ -70,6 +70,8 @@ class Visit:
         if not first:
             page.add_init_script("localStorage.setItem('tippe:tour', '1')")
         page.goto(url)
+        if not whole:
+            return
         page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && __tippe.top3d?.pictures > 2")
         page.wait_for_function(WHOLE)
 
