@@ -17,7 +17,12 @@ class Bundled(JSComponent):
     _bundle = Path(__file__).parent / "static" / "tippe.js"
 
     def __init__(self, **params):
-        known, texts = listed("browser"), {}
-        for name in (*self.SAYS, type(self).__name__):
+        super().__init__(**({"texts": self.says()} | params))
+
+    @classmethod
+    def says(cls, language=None):
+        """Its texts in a language, the page's own where none is given."""
+        known, texts = listed("browser", language), {}
+        for name in (*cls.SAYS, cls.__name__):
             texts |= known.get(name, {})
-        super().__init__(**({"texts": texts} | params))
+        return texts

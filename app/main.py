@@ -7,7 +7,7 @@ import panel as pn
 import panel_material_ui as pmui
 import param
 
-from app import text
+from app import first, text
 from app.builder import Builder
 from app.cards import PLAIN, card, grid
 from app.compare import Compare
@@ -164,7 +164,11 @@ def page():
     builder = Builder(explorer, roll.pacer.request)
     share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))))
     share.keep.param.watch(lambda event: builder.follow(), "returned")
+    pn.state.curdoc.template_variables.update(
+        first.variables(None if "tab" in texts else roll.top, pn.state.location.search)
+    )
     return pmui.Page(
+        template=first.PAGE,
         title=say("main.title"),
         sidebar=[*roll.sidebar, Tongue().choice(share)],
         sidebar_open=not on_a_phone(),

@@ -184,7 +184,7 @@ class Roll:
     def __init__(self, explorer):
         motion, top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
         plane = PlaneFigure(motion)
-        self.followers = []
+        self.top, self.followers = top, []
         self.guide = Guide(margin=(0, 8))
         self._grasp, self._held = None, {}
         self._on_picture = False  # whether the hand is on a picture, and the controls are to go with it

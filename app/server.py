@@ -453,8 +453,8 @@ POLICY = (
 )
 # While the page waits for its turn, and where it is not let in.
 WAITING = """
-<div id="waiting" role="status" style="display:none;position:fixed;inset:30% 10% auto;text-align:center;z-index:9999;
-font:16px/1.5 system-ui,sans-serif;color:#22303c"></div>
+<div id="waiting" role="status" style="display:none;position:fixed;inset:auto 10% 24px;text-align:center;z-index:9999;
+font:16px/1.5 system-ui,sans-serif;color:#22303c;background:white;border-radius:8px;padding:8px"></div>
 <script>
 (() => {
   const words = document.getElementById("waiting")

@@ -1,9 +1,15 @@
-"""How fast the page follows the hand: from slider input to paint, against a bare Bokeh server app in the same run.
+"""How fast the page comes and follows the hand, in Chromium, against a bare Bokeh server app in the same run.
 
-    python benchmarks/browser.py [--chromium PATH]
+    python benchmarks/browser.py [first] [hand]
 
-The bare app redraws one line of 400 points when a Bokeh slider moves. Both get the same input from Chromium itself,
-while the top plays:
+first: a visit with nothing cached, from the request until something is there to see, and to take hold of:
+
+    top    the third picture of a top that moves; of the bare app its one figure
+    hand   the slider of Jellett's constant, or the bare app's, answers
+    page   all that the first view shows
+
+hand: from input to paint. The bare app redraws one line of 400 points when a Bokeh slider moves. Both get the same
+input from Chromium itself, while the top plays:
 
     steps  STEPS arrow keys on the slider, the next one when the page shows the last
     drag   the mouse pulls the slider to and fro, RATE moves a second
@@ -24,11 +30,15 @@ import time
 import urllib.request
 from importlib.metadata import version
 from pathlib import Path
-from socket import socket
 
 import numpy as np
 from playwright.sync_api import sync_playwright
 
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+from visiting import WHOLE, free_port, launch  # noqa: E402
+
+VISITS = 6
 STEPS, MOVES, RATE, ROUNDS = 60, 90, 30, 3
 
 BARE = """
@@ -52,11 +62,13 @@ WATCH = """
 (ours) => {
   const bench = window.bench = {inputs: [], figure: [], page: []}
   const models = [...Bokeh.documents[0]._all_models.values()]
-  const hand = models.find((m) => m.type.includes("Slider") && m.value == 7)
+  const dial = models.find((m) => m.data?.attributes?.spoken && m.data.told?.[1] == 7)?.data
+  const slider = models.find((m) => m.type.includes("Slider") && m.value == 7)
+  const hand = ours ? dial.properties.asked : slider.properties.value
+  const value = () => ours ? dial.asked[1] : slider.value
   const view = (name) => Bokeh.index.find_one(models.find((m) => m.name == name && m.renderers))
   const plane = view("plane")
-  hand.properties.value.change.connect(() =>
-    bench.inputs.push([window.event?.timeStamp ?? performance.now(), hand.value]))
+  hand.change.connect(() => bench.inputs.push([window.event?.timeStamp ?? performance.now(), value()]))
   const painted = (part, value) => {
     const channel = new MessageChannel()
     channel.port2.onmessage = () => bench[part].push([performance.now(), value])
@@ -85,28 +97,65 @@ WATCH = """
 }
 """
 
-FLAGS = [
-    "--no-sandbox",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
+
+# When each part of a first visit was there, ms after the request, in window.came.
+ARRIVALS = """
+(() => {
+  const came = window.came = {}
+  const models = () => [...(window.Bokeh?.documents?.[0]?._all_models?.values() ?? [])]
+  const parts = Object.entries(PARTS)
+  const look = setInterval(() => {
+    for (const [part, is] of parts) if (!came[part] && is(models)) came[part] = performance.now()
+    if (came.page) clearInterval(look)
+  }, 5)
+})()
+"""
+FIGURE = "() => window.Bokeh?.documents?.[0]?.is_idle"
+ARRIVED = {
+    "bare": f"{{top: {FIGURE}, hand: {FIGURE}, page: {FIGURE}}}",
+    "ours": f"""{{
+      top: () => window.__tippe?.top3d?.pictures > 2 && __tippe.top3d.playing,
+      hand: (models) => window.Bokeh?.index && models().some((m) => m.data?.told
+          && Bokeh.index.find_one(m)?.shadow_el?.querySelector("input[type=range]")),
+      page: () => window.__tippe?.surface3d?.pictures > 0 && ({WHOLE})(),
+    }}""",
+}
 
 
-def serve(command, path):
-    with socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    server = subprocess.Popen([*command, "--port", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+def visit(browser, url, kind):
+    """Arrivals in ms, and the browser's s of the processor until the whole page was there."""
+    context = browser.new_context(viewport={"width": 1400, "height": 900})
+    page = context.new_page()
+    page.add_init_script(ARRIVALS.replace("PARTS", ARRIVED[kind]))
+    session = browser.new_browser_cdp_session()
+
+    def used():
+        return sum(process["cpuTime"] for process in session.send("SystemInfo.getProcessInfo")["processInfo"])
+
+    before = used()
+    page.goto(url, wait_until="commit")
+    page.wait_for_function("window.came?.page", timeout=120_000)
+    came = page.evaluate("came") | {"cpu": 1e3 * (used() - before)}
+    context.close()
+    return came
+
+
+def serve(*command, path="app", **environment):
+    """A server's process and address. A first visitor came before: what it then imports is not the visit's."""
+    port = free_port()
+    if not environment:
+        command = (*command, "--port", str(port))
+    environment = {name: value.format(port=port) for name, value in environment.items()}
+    server = subprocess.Popen([sys.executable, "-m", *command], cwd=ROOT, env=os.environ | environment,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
     url = f"http://localhost:{port}/{path}"
-    for _ in range(200):
+    for _ in range(600):
         try:
-            urllib.request.urlopen(url, timeout=60)
+            urllib.request.urlopen(url, timeout=60).read()
             return server, url
         except OSError:
             time.sleep(0.1)
+    server.terminate()
     raise RuntimeError(f"{command} does not answer on {url}")
 
 
@@ -152,61 +201,74 @@ def delays(page):
     return found
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--chromium", default=os.environ.get("CHROMIUM"), help="default: playwright's own")
-    options = parser.parse_args()
-    root = Path(__file__).resolve().parents[1]
-    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
-        bare = Path(folder, "bare.py")
-        bare.write_text(BARE)
-        apps = {
-            "bare": (
-                serve([sys.executable, "-m", "bokeh", "serve", str(bare)], "bare"),
-                ".noUi-handle",
-                ".noUi-handle",
-            ),
-            "ours": (
-                serve([sys.executable, "-m", "panel", "serve", str(root / "app")], "app"),
-                "input[type=range]",
-                "input[type=range]",
-            ),
-        }
-        browser = playwright.chromium.launch(executable_path=options.chromium, args=FLAGS)
-        results = {}
-        try:
-            for _ in range(ROUNDS):  # in turn, so that both see the same machine
-                for name, ((_, url), handle, focus) in apps.items():
-                    page = browser.new_page(viewport={"width": 1400, "height": 900})
-                    page.goto(url)
-                    page.wait_for_function("window.Bokeh?.documents[0]?.is_idle")
-                    page.locator(handle).first.wait_for()
-                    if name == "ours":
-                        page.wait_for_function("window.__tippe?.surface3d?.pictures && __tippe.top3d?.pictures > 5")
-                    page.evaluate(WATCH, name == "ours")
-                    for way, use, place in (("steps", step, focus), ("drag", drag, handle)):
-                        page.evaluate("() => { for (const list of Object.values(bench)) list.length = 0 }")
-                        use(page, place)
-                        for part, found in zip(("figure", "page"), delays(page), strict=True):
-                            results.setdefault((way, part), {}).setdefault(name, []).extend(found)
-                    page.close()
-        finally:
-            browser_version = browser.version
+def visits(playwright, servers):
+    found = {}
+    for _ in range(VISITS):  # in turn, so that all see the same machine
+        for name, (_, url) in servers.items():
+            browser = launch(playwright)  # no shader and no script is kept from the visit before
+            for part, ms in visit(browser, url, "bare" if name == "bare" else "ours").items():
+                found.setdefault(part, {}).setdefault(name, []).append(ms)
             browser.close()
-            for (server, _), *_ in apps.values():
-                server.terminate()
-    print(
-        f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
-        f"panel {version('panel')}, bokeh {version('bokeh')}, Chromium {browser_version}"
-    )
+    for part, ms in found.items():
+        least = min(ms["bare"])
+        for name, mine in ms.items():
+            print(f"first {part:5} {name:14} n = {len(mine):3}  least {min(mine):5.0f} ms  "
+                  f"median {np.median(mine):5.0f} ms  {min(mine) / least:5.2f} times bare's least")  # fmt: skip
+
+
+def hands(playwright, servers):
+    browser, results = launch(playwright), {}
+    for _ in range(ROUNDS):
+        for name, handle in {"bare": ".noUi-handle", "panel serve": "input[aria-label='Jellett’s constant']"}.items():
+            page = browser.new_page(viewport={"width": 1400, "height": 900}, locale="en")
+            page.set_default_timeout(120_000)
+            page.add_init_script("localStorage.setItem('tippe:tour', '1')")
+            page.goto(servers[name][1])
+            page.wait_for_function(FIGURE)
+            page.locator(handle).first.wait_for()
+            if name != "bare":
+                page.wait_for_function("window.__tippe?.surface3d?.pictures && __tippe.top3d?.pictures > 5")
+                page.wait_for_function(WHOLE)
+            page.evaluate(WATCH, name != "bare")
+            for way, use in {"steps": step, "drag": drag}.items():
+                page.evaluate("() => { for (const list of Object.values(bench)) list.length = 0 }")
+                use(page, handle)
+                for part, found in zip(("figure", "page"), delays(page), strict=True):
+                    results.setdefault((way, part), {}).setdefault(name, []).extend(found)
+            page.close()
+    browser.close()
     for (way, part), found in results.items():
         base = np.percentile(found["bare"], 95)
         for name, delay in found.items():
             p50, p95 = np.percentile(delay, (50, 95))
-            print(
-                f"{way:5} {part:6} {name}  n = {len(delay):4}  p50 {p50:5.0f} ms  p95 {p95:5.0f} ms  "
-                f"{p95 / base:5.2f} times bare"
-            )
+            print(f"{way:5} {part:6} {name:11} n = {len(delay):4}  p50 {p50:5.0f} ms  p95 {p95:5.0f} ms  "
+                  f"{p95 / base:5.2f} times bare")  # fmt: skip
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("what", nargs="*", choices=["first", "hand", []], help="both where none is named")
+    what = parser.parse_args().what or ["first", "hand"]
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        bare = Path(folder, "bare.py")
+        bare.write_text(BARE)
+        servers = {}
+        try:
+            servers["bare"] = serve("bokeh", "serve", str(bare), path="bare")
+            servers["panel serve"] = serve("panel", "serve", "app")
+            if "first" in what:
+                servers["python -m app"] = serve("app", TIPPE_PORT="{port}")
+            browser = launch(playwright)
+            print(f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, "
+                  f"load {os.getloadavg()[0]:.1f}, Python {platform.python_version()}, "
+                  f"panel {version('panel')}, bokeh {version('bokeh')}, Chromium {browser.version}")  # fmt: skip
+            browser.close()
+            for part, measure in {"first": visits, "hand": hands}.items():
+                if part in what:
+                    measure(playwright, servers)
+        finally:
+            for server, _ in servers.values():
+                server.terminate()
 
 
 if __name__ == "__main__":

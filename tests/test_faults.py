@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from visiting import Visit, free_port
+from visiting import WHOLE, Visit, free_port
 from wire import Visitor, answers, get, run, served, until
 
 LOST = "No connection to the server"
@@ -162,6 +162,7 @@ def test_without_webgl_the_top_is_drawn_flat(page, server):
     page.get_by_text("no WebGL, so the top is drawn flat").wait_for(timeout=BACK)
     start = page.evaluate("__tippe.flat.t")
     page.wait_for_function("t => __tippe.flat.t != t", arg=start)
+    page.wait_for_function(WHOLE, timeout=BACK)
     page.get_by_label("Pause").first.click()
     page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
         .filter((m) => m.type == "Span" && m.level == "overlay")

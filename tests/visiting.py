@@ -37,7 +37,8 @@ PIXEL = """
 
 # Whether the last of the cards that are made after the page has come is there.
 WHOLE = """
-() => Bokeh.documents[0].is_idle && [...Bokeh.documents[0]._all_models.values()].some((m) => m.name == "track")
+() => window.Bokeh?.documents?.[0]?.is_idle
+  && [...Bokeh.documents[0]._all_models.values()].some((m) => m.name == "track")
 """
 
 

@@ -5,7 +5,8 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 // Where WebGL is drawn by the processor, moving pictures get coarser until they come quickly enough; a picture at rest is
 // always drawn fine.
 const SLOW_MS = 24; // a picture that takes longer than this to come out
-const REST = 1.2; // is followed by the next one after this many times as long
+export const REST = 1.2; // is followed by the next one after this many times as long
+export const pace = { rest: REST };
 const COARSER_MS = 34;
 const FINER_MS = 14;
 const STEP = 0.8;
@@ -137,6 +138,7 @@ export class Stage {
     this.camera.aspect = width / height;
     this.fit(this.camera.aspect);
     this.camera.updateProjectionMatrix();
+    if (!this.pictures) return this.invalidate();
     this.draw(); // now, not at the next frame: a new size empties the canvas
     this.present();
   }
@@ -162,11 +164,25 @@ export class Stage {
 
   isHeld = (now) => slow && now - inputAt < HAND_MS;
 
+  // The first picture's shaders are made beside the page: one that has to be there at once holds up everything.
+  isPrepared() {
+    if (this.prepared) return true;
+    const { renderer, scene, camera, target } = this;
+    if (!this.compiling) {
+      renderer.setRenderTarget(target);
+      renderer.compile(scene, camera);
+      renderer.setRenderTarget(null);
+      this.compiling = true;
+    }
+    return (this.prepared = renderer.info.programs.every((program) => program.isReady()));
+  }
+
   isReady(now) {
+    if (this.width && !this.isPrepared()) return false;
     if (this.fence) return this.isDrawn();
     if (inWork) return false;
     if (this.isHeld(now)) return this.asked; // once more, and fine, when the hand lets go
-    const early = this.moving && this.cost > SLOW_MS && now - this.drawnAt < REST * this.cost;
+    const early = this.moving && this.cost > SLOW_MS && now - this.drawnAt < pace.rest * this.cost;
     return !early && (this.asked || this.moving || (this.simple && this.inView));
   }
 
