@@ -42,7 +42,11 @@ THEME = {
     }
     | widgets()
     | {
-        "MuiToggleButtonGroup": {"styleOverrides": {"root": {"flexWrap": "wrap"}}},
+        "MuiToggleButtonGroup": {
+            "styleOverrides": {
+                "root": {"flexWrap": "wrap", "& .MuiToggleButton-root": {"width": "auto", "flex": "1 1 auto"}}
+            }
+        },
         "MuiMenuItem": {"defaultProps": {"role": "option"}},  # all menus here are of a Select
         "MuiTabs": {"styleOverrides": {"indicator": {"backgroundColor": "var(--mui-palette-primary-main) !important"}}},
     }

@@ -292,10 +292,10 @@ class Roll:
         )
         look = self.look = Look(width=0, height=0, margin=0)
         dark = pmui.Switch.from_param(
-            look.param.dark, label=say("roll.switches.dark"), description="", size="small", margin=(4, 10, 0, 16)
+            look.param.dark, label=say("roll.switches.dark"), description="", size="small", margin=(4, 0, 0, 16)
         )
         large = pmui.Switch.from_param(
-            look.param.large, label=say("roll.switches.large"), description="", size="small", margin=(4, 0)
+            look.param.large, label=say("roll.switches.large"), description="", size="small", margin=(4, 0, 0, 16)
         )
         self.sidebar = [
             section(say("roll.sections.motion")),
