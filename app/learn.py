@@ -224,7 +224,7 @@ class Learn(param.Parameterized):
                                              margin=(4, 0))  # fmt: skip
         self.sections = pmui.RadioButtonGroup.from_param(
             self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
-            size="small", sx=PLAIN | {"flexWrap": "wrap"}, margin=(10, 12, 0, 12), sizing_mode="stretch_width",
+            size="small", sx=PLAIN, margin=(10, 12, 0, 12), styles={"max-width": "calc(100% - 24px)"},
         )  # fmt: skip
         self.back, self.next = (
             pmui.Button(label=say(f"learn.page.{name}"), size="small", variant="outlined", sx=PLAIN,
