@@ -385,7 +385,7 @@ def energy_marks(top, K_J, K_R, mu_s):
     for E in (E_slip, E_lift):
         if np.isnan(E):
             E = nodes[-1]
-        elif np.isinf(E):
+        elif not E < steady + LARGEST * (1 + abs(steady)):  # no limit, or one that no top ever reaches
             E = nodes[-1] + UNLIMITED * (1 + abs(steady))
         nodes.append(E)
     if nodes[2] == nodes[0]:

@@ -1,16 +1,18 @@
 """The view-model without a browser: one solve and one event a change, and a Scene whose numbers are tippe_core's."""
 
 import dataclasses
+import time
 
 import numpy as np
 import pytest
 
 import app.explorer
-from app.explorer import LIFTS, ROLLS, SLIPS, Explorer
+from app.explorer import LIFTS, ROLLS, SLIPS, Explorer, solve
 from tippe_core import (
     Constants,
     State,
     Top,
+    TopError,
     limit_energy,
     omega2,
     omega3,
@@ -252,3 +254,22 @@ def test_the_track_stays_between_two_circles(explorer):
         away = np.hypot(*(explorer.scene.trajectory.contact - (x, y)).T)
         # The circles are touched between two frames.
         assert nearest - 1e-9 <= away.min() < nearest + 1e-3 and farthest - 1e-3 < away.max() <= farthest + 1e-3
+
+
+@pytest.mark.parametrize("top, K_J, K_R", [
+    ((1e-300, 0.399, 0.408), 7, 10), ((1e-300, 0.4, 0.4), 7, 10), ((1e-18, 0.4, 0.4), 7, 10),
+    ((-1e-12, 0.4, 0.4), 7, 10),
+    ((0, 4849, 32), 0, 0), ((0, 4849, 32), 1e-9, 1e-9), ((0, 0.4, 0.4), 0, 0), ((0.07, 0.399, 0.408), 1e5, 1e5),
+    ((-3.2307207395080297e-186, 5.5806048614695545, 0.28808290121391705), -172.95825185713196, 1.8838881546812526e-05),
+])  # fmt: skip
+def test_a_top_at_the_edge_of_what_can_be_is_answered_soon(top, K_J, K_R):
+    start = time.process_time()
+    try:
+        scene = solve(Top(*top), K_J, K_R, 0.5, 0.9)
+    except TopError as error:
+        assert error.name == "E"  # no such motion, or none that can be resolved, and it says so
+    else:
+        assert np.ptp(scene.E) < 1e-9 * (1 + abs(scene.constants.E))
+        assert scene.turning[0] <= scene.trajectory.theta.min() + 1e-9
+        assert scene.trajectory.theta.max() <= scene.turning[1] + 1e-9
+    assert time.process_time() - start < 2  # 0.5 s where nothing else runs; it was up to 9

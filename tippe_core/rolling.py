@@ -35,6 +35,7 @@ from .forces import contact_force
 from .trajectory import Trajectory, checked_times
 
 _NODES_LEAST, _NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that of a merging
+_FEW, _MANY = 64, 512  # harmonics: up to so many each by itself; at once
 
 
 def roll(top, constants, times, start="inner", well=0):
@@ -176,9 +177,8 @@ class Nutation:
         n, _, tau, stretch, _ = self._time
         while True:
 
-            def coefficients(count, n=n, tau=tau, stretch=stretch):
-                k = np.arange(1, count + 1)
-                return (2 / (n * k) * (np.cos(np.outer(k, tau)) @ stretch))[None]
+            def coefficients(k, n=n, tau=tau, stretch=stretch):
+                return (2 / (n * k) * (_wave(k, tau).real @ stretch))[None]
 
             series = _converged(coefficients, _most(n, tau))
             if series is not None:
@@ -207,13 +207,12 @@ class Nutation:
                 turn = _integral(minus) + _integral(plus) - mean.sum() * tau
                 velocity = velocity * np.exp(1j * turn) * (h * stretch * 2 / (h_k[0] * n))
 
-            def coefficients(count, n=n, tau=tau, rates=rates, velocity=velocity):
-                k = np.arange(1, count + 1)
-                wave = np.exp(-1j * np.outer(k, tau))
-                sigma = 2 / n * (wave.real @ rates.T).T / k
-                if velocity is None:
-                    return sigma
-                return np.array([*sigma, (wave @ velocity).real, (wave.conj() @ velocity).real])
+            waves = rates if velocity is None else np.array([*rates, velocity, velocity.conj()])
+
+            def coefficients(k, n=n, tau=tau, waves=waves):
+                sums = (_wave(k, tau) @ waves.T).real.T
+                sums[:2] *= 2 / n / k
+                return sums
 
             series = _converged(coefficients, _most(n, tau)) if good else None
             if series is not None:
@@ -556,15 +555,25 @@ def _most(n, tau):
     return int(n / (np.diff(tau).max() * n / np.pi))
 
 
+def _wave(k, tau):
+    """exp(-i k tau) for consecutive k, (len(k), len(tau)); where they are many, as products of few."""
+    if len(k) <= _FEW:
+        return np.exp(-1j * np.outer(k, tau))
+    near, far = np.exp(-1j * np.outer(k[:_FEW] - k[0], tau)), np.exp(-1j * np.outer(k[::_FEW], tau))
+    return (far[:, None] * near).reshape(-1, len(tau))[: len(k)]
+
+
 def _converged(coefficients, most):
-    """coefficients(count) (rows, count), with count doubled until all rows have ended; None if that takes over `most`.
+    """coefficients(k) (rows, len(k)) for k = 1, 2, ..., doubled until all rows have ended; None if that takes over
+    `most`.
 
     A row has ended where its last quarter is rounding: below 1e-16 of the sum of its sizes, or small and not falling.
     """
-    count = 8
+    count, done = 8, []
     while count < most:
-        count = min(2 * count, most)
-        size = np.abs(rows := coefficients(count))
+        first, count = sum(part.shape[1] for part in done), min(2 * count, most)
+        done += [coefficients(np.arange(k, min(k + _MANY, count + 1))) for k in range(first + 1, count + 1, _MANY)]
+        size = np.abs(rows := np.hstack(done))
         scale = np.maximum(1, size.sum(axis=1))
         last, before = (part.max(axis=1) for part in (size[:, 3 * count // 4 :], size[:, count // 2 : 3 * count // 4]))
         if np.all((last < 1e-16 * scale) | ((last < 1e-12 * scale) & (last > before / 4))):

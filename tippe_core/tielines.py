@@ -289,7 +289,8 @@ class _Wells:
                 theta[at], astray[at] = pole, False
         for i in np.flatnonzero(astray):
             found = [s for s in find_stations(ExactCurve.of(self.top, self.K_J[i], self.K_R)) if s.bottom]
-            theta[i] = angle(max(found, key=lambda s: s.gap).c)
+            # flat to the last digit, as at rest with G in O: any tilt is as low
+            theta[i] = angle(max(found, key=lambda s: s.gap).c) if found else GRID[self.lowest[i]]
         return theta
 
     def _barriers(self, i):
