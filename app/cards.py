@@ -5,7 +5,6 @@ import html
 import panel as pn
 
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
-INK = "#22303c"
 LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light and on dark
 # Two rows fill a screen; a phone, where the rows of buttons wrap, needs more.
 HEIGHT_OF_A_CARD = (

@@ -13,5 +13,6 @@ COLOURS = {
     "jellett": "#56B4E9",
     "energy": "#8C6D00",
 }
+INK, FAINT = "#22303c", "#8a96a3"
 GREY = "#7a8794"
 """Of what is no quantity, seen on a light and on a dark page."""

@@ -12,10 +12,10 @@ from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMappe
 from bokeh.palettes import Viridis256
 
 from app.builder import thrown
-from app.cards import BUTTON, INK, PLAIN, alert, flow, note, progress, swatch, words
-from app.colours import COLOURS
+from app.cards import BUTTON, PLAIN, alert, flow, note, progress, swatch, words
+from app.colours import COLOURS, FAINT, INK
 from app.family import neighbours, ordinary, pegs, presets, region, share_map
-from app.plots import FAINT, plain
+from app.plots import plain
 from app.text import listed, say, told
 from app.workshop import beside, field, typed
 from tippe_core import TopError

@@ -8,7 +8,7 @@ import panel_material_ui as pmui
 import param
 
 from app.bundle import Bundled
-from app.cards import PLAIN
+from app.cards import NOTES, PLAIN
 from app.explorer import Explorer
 from app.pacing import at_once
 from app.text import listed, say
@@ -16,11 +16,7 @@ from tippe_core import Top
 
 STYLE = """
 :host { font: calc(13px * var(--type, 1))/1.35 system-ui, sans-serif; color: var(--ink, #22303c); }
-.name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
-.name sub { font-size: 0.8em } .note { color: var(--faint, #5b6875) } .alert { color: var(--alert, #b3261e);
-  font-weight: 500 } .note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
-.name[title], .note [title] { cursor: help }
-"""
+""" + NOTES  # fmt: skip
 
 SYMBOLS = {
     "K_J": "<i>K</i><sub>J</sub>",

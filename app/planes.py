@@ -13,7 +13,7 @@ import numpy as np
 import param
 
 from app.explorer import axes
-from app.text import say, spoken, told
+from app.text import say, speaking, spoken, told
 from tippe_core import (
     Coulomb,
     Outcome,
@@ -179,9 +179,9 @@ class Picture:
     messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
 
 
-def solve(settings, progress=None, language=None):
+def solve(settings, progress=None):
     """The Picture. progress: called with the time reached; what it raises stops the run. Raises TopError, whose name is
-    the input at fault. language: of the sentences, where it is not the present page's."""
+    the input at fault."""
     top, state, friction, times = settings.top, settings.state, settings.friction, settings.times
     runs = {
         "rough": lambda: roll(top, None, times, replace(state, vx=None, vy=None)),
@@ -197,7 +197,7 @@ def solve(settings, progress=None, language=None):
         except TopError as error:
             if plane == "sliding":
                 raise
-            motions[plane], messages[plane] = None, told(error, language)
+            motions[plane], messages[plane] = None, told(error)
     goes = outcome(top, state, settings.scales)
     theta = np.linspace(0, np.pi, WELL_POINTS)
     return Picture(
@@ -398,7 +398,8 @@ class Planes(param.Parameterized):
         self._job, language = job, spoken()
 
         def work():
-            result = _result(job.settings, job.progress, language)
+            with speaking(language):
+                result = _result(job.settings, job.progress)
             self._post(lambda: self._done(job, result))
 
         with param.edit_constant(self):
@@ -433,9 +434,9 @@ class Planes(param.Parameterized):
             self.picture = result
 
 
-def _result(settings, progress=None, language=None):
+def _result(settings, progress=None):
     """The Picture, or the exception in place of it: it is told on another thread."""
     try:
-        return solve(settings, progress, language)
+        return solve(settings, progress)
     except Exception as error:
         return error

@@ -6,10 +6,9 @@ import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Range1d, Span
 
 from app.builder import named
-from app.cards import INK
-from app.colours import COLOURS
+from app.colours import COLOURS, FAINT, INK
 from app.planes import FLIES, LIFTS, PLANES, ROLLS, SLIPS
-from app.plots import FAINT, plain
+from app.plots import plain
 from app.text import listed, say
 from tippe_core import PRESETS as BODIES
 

@@ -17,11 +17,11 @@ from bokeh.models import (
 )
 from bokeh.plotting import figure
 
-from app.colours import COLOURS
+from app.colours import COLOURS, FAINT, INK
 from app.explorer import ROLLS, SLIPS
 from app.text import listed, say
 
-INK, FAINT, GRID, PAPER = "#22303c", "#8a96a3", "#e7ebef", "#ffffff"
+GRID, PAPER = "#e7ebef", "#ffffff"
 POINTS_A_CURVE = 640
 
 # Moves the bead in the browser; not synced, so playing sends nothing to the server. Run by each new size of a figure,

@@ -6,8 +6,8 @@ One Portrait is drawn at a time in each card; the beads go with the browser's cl
 import numpy as np
 from bokeh.models import ColumnDataSource, CustomJS, DataRange1d, Range1d, Span
 
-from app.colours import COLOURS
-from app.plots import FAINT, INK, PAPER, SEEK_BY_HAND, plain
+from app.colours import COLOURS, FAINT, INK
+from app.plots import PAPER, SEEK_BY_HAND, plain
 from app.text import say
 
 POINTS_OF_A_TRACK = 480

@@ -9,10 +9,9 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from app.colours import COLOURS
+from app.colours import COLOURS, FAINT, INK
 from app.text import listed, say
 
-INK, FAINT = "#22303c", "#8a96a3"
 # 89 and 183 mm are what journals print: one column and two. 600 dpi is what they ask of lines.
 WIDTH = 183 / 25.4
 DPI = 600

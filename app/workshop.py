@@ -11,12 +11,12 @@ import param
 from bokeh.models import ColumnDataSource, HoverTool, Range1d
 
 from app.builder import FAMILIES, Rocking, handles, named, pulled, sentence, value_of
-from app.cards import BUTTON, INK, alert, flow, note, words
-from app.colours import COLOURS
+from app.cards import BUTTON, alert, flow, note, words
+from app.colours import COLOURS, FAINT, INK
 from app.controls import number
 from app.explorer import body
 from app.pacing import at_once
-from app.plots import FAINT, plain
+from app.plots import plain
 from app.text import listed, say
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TopError, Turned
 
@@ -252,8 +252,8 @@ class Pieces:
     def __init__(self, builder):
         self.builder, self._exact = builder, 0.0
         kinds = {says: kind for kind, says in listed("workshop.pieces.kinds").items()}
-        self.kind = pmui.Select(label=say("workshop.pieces.kind"), sx=UNSEEN_LABEL, options=kinds, value="ball",
-                                size="small", width=110, margin=0)  # fmt: skip
+        self.kind = pmui.Select(label=say("workshop.pieces.kind"), options=kinds, value="ball", size="small",
+                                width=120, margin=(8, 0, 0, 0))  # fmt: skip
         spoken = listed("workshop.pieces.spoken")
         self.entries = {name: field(value, spoken[name], width=58) for name, value in self.FIELDS}
         self.density = field("", spoken["density"], width=78)
@@ -343,7 +343,7 @@ class Workshop:
 
     def _choice(self, key, choose):
         select = pmui.Select(label=say(f"workshop.bench.{key}"), options={}, value=None, size="small",
-                             margin=(4, 6, 4, 0), sizing_mode="stretch_width")  # fmt: skip
+                             margin=(10, 6, 4, 0), sizing_mode="stretch_width")  # fmt: skip
         select.param.watch(lambda event: None if self._silent or not event.new else choose(event.new), "value")
         return select
 
@@ -452,7 +452,9 @@ def derived_words(shape):
     numbers = "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
     touch = (
         say("workshop.body.never") if angle is None else say("workshop.body.touches", angle=math.degrees(angle)))
-    prints = {BareSphere: "unknown", LoadedSphere: "outside"}.get(type(shape))
+    prints = "unknown" if isinstance(shape, BareSphere) else ""
+    if isinstance(shape, LoadedSphere) and shape.core_density:  # a cavity is in it
+        prints = "outside"
     return f"<div>{numbers}</div><div>{touch}{say(f'workshop.body.{prints}') if prints else ''}</div>"
 
 

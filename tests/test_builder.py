@@ -11,6 +11,7 @@ from app.builder import FAMILIES, Builder, Rocking, changed, handles, pulled, se
 from app.compare import Compare
 from app.explorer import Explorer
 from app.family import neighbours, pegs, region, share_map
+from app.workshop import Workshop
 from tippe_core import (
     PRESETS,
     Ball,
@@ -291,6 +292,22 @@ def test_sentences_are_in_the_units_of_the_sliders(make, says):
     with pytest.raises(TopError) as error:
         make()
     assert says in sentence(error.value)
+
+
+def test_a_diameter_that_cannot_be_is_called_a_diameter():
+    with pytest.raises(TopError) as error:
+        Rocking(T=1.08, dT=0.01, D=0.0, dD=1e-4, M=0.0115).a(TruncatedSphere.paper())
+    assert sentence(error.value).startswith("the diameter = 0 mm is not possible")
+
+
+def test_the_bench_says_what_is_printed_and_goes_back_to_a_preset(builder, explorer):
+    bench = Workshop(builder, explorer)
+    bench.families.value = "loaded sphere"
+    assert bench.presets.value == "Loaded sphere" and "the core is not in it" in bench.derived.object
+    builder.set("core_density", 0.0)  # a cavity is
+    assert "STL" not in bench.derived.object and bench.families.value != "loaded sphere"
+    bench.families.value = "loaded sphere"
+    assert builder.draft.name == "Loaded sphere"
 
 
 # --- families ---

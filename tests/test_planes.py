@@ -1,5 +1,6 @@
 """The three planes without a browser: the motions are tippe_core's, and do what physics.md and the paper say."""
 
+from dataclasses import replace
 from queue import Queue
 
 import numpy as np
@@ -7,8 +8,8 @@ import pytest
 
 from app.builder import Builder
 from app.explorer import Explorer
-from app.planes import ENDS, MOST_TURN, PLANES, PRESETS, SLIPS, Planes
-from app.three_planes import ThreePlanes
+from app.planes import ENDS, MOST_TURN, PLANES, PRESETS, SLIPS, THROWN, Planes, solve
+from app.three_planes import ThreePlanes, fate, verdict_words
 from app.top3d import REGIMES
 from tippe_core import PRESETS as BODIES
 from tippe_core import Coulomb, State, Top, glide, roll, slide
@@ -144,6 +145,27 @@ def test_a_motion_that_stops_early_stands_still_to_the_end(planes):
     assert not flies.ended and "in the air" in {REGIMES[which] for *_, which in flies.stretches}
 
 
+def test_a_stem_that_throws_the_top_up_is_not_the_table_that_lets_it_go(planes):
+    """slide() calls both "lifts off"; where it is the stem's first touch, the tilt then is that of the touch."""
+    shape = planes.picture.settings.shape
+    for omega3, event in ((5.0, THROWN), (15.0, "lifts off")):
+        start = State(shape.touch_angle - 0.2, 3.0, 0.0, omega3, vx=0.0, vy=0.0)
+        picture = solve(replace(planes.picture.settings, rolling=start, seconds=0.02))
+        until, found, _ = picture.motions["sliding"].alone
+        assert found == event
+        moved = slide(shape.top, start, picture.friction, np.linspace(0, until, 400), edge=shape.edge)
+        assert (abs(moved.theta[-1] - shape.touch_angle) < 1e-3) == (event == THROWN)
+        assert ("its stem touches and throws it up" in fate(picture, "sliding")) == (event == THROWN)
+
+
+def test_hops_at_much_spin_are_said_to_be_chaotic(planes):
+    for omega3, chaotic in ((22.0, True), (15.0, False)):
+        start = State(1.9, 3.0, 0.0, omega3, vx=0.0, vy=0.0)
+        picture = solve(replace(planes.picture.settings, rolling=start, seconds=0.02))
+        assert "air" in picture.motions["sliding"].trajectory.regime
+        assert ("chaotic" in verdict_words(picture)) == chaotic
+
+
 @pytest.mark.parametrize("name", [HAND, "Top S fast"])
 def test_no_frame_turns_the_top_far(planes, name):
     for motion in chosen(planes, name).motions.values():
@@ -207,6 +229,13 @@ def test_of_many_asked_for_at_once_the_newest_is_shown_and_a_run_can_be_stopped(
         planes.tilt = tilt
     finish()
     assert [picture.settings.tilt for picture in shown] == [11.0, 14.0]
+
+    # an undo puts back the body first, then the inputs: one run, of both
+    explorer.param.update(a=0.08)
+    planes.follow(explorer.scene)
+    planes.tilt = 15.0
+    finish()
+    assert [(picture.settings.top.a, picture.settings.tilt) for picture in shown[2:]] == [(0.08, 15.0)]
 
     last = planes.picture
     planes.param.update(eps=1e-4, seconds=60.0)
