@@ -3,12 +3,12 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
 
-.PHONY: serve test validation docs bench image browser
+.PHONY: serve test validation docs bench image browser proxy
 
 serve: .venv/serve
-	$(BIN)/panel serve app --port 5006 --show
+	TIPPE_ADDRESS=localhost TIPPE_SHOW=1 $(BIN)/python -m app
 
-test: .venv/test browser
+test: .venv/test browser proxy
 	$(BIN)/ruff check .
 	$(BIN)/lint-imports
 	$(BIN)/pytest
@@ -32,6 +32,12 @@ browser: .venv/test
 	@command -v chromium >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium; } \
 	|| $(BIN)/playwright install chromium
+
+# HAProxy for its test, which skips where there is none.
+proxy:
+	@command -v haproxy >/dev/null \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq haproxy; } \
+	|| echo "haproxy is not installed: the test of deploy/haproxy.cfg will skip"
 
 .venv/serve: $(BUNDLED)
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv

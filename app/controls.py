@@ -116,6 +116,7 @@ class Control:
     def __init__(self, name, value, request):
         self.name, self._request, self._heard, self._shown = name, request, 0, number(value)
         self._unread = False  # whether the last that was typed is no number
+        self._stands = None  # what show() was last asked for, as long as it stands
         start, end, step = RANGES[name]
         spoken, unit = listed(f"controls.spoken.{name}")
         self.view = Dial(
@@ -158,20 +159,25 @@ class Control:
         that is no number, until the value is another."""
         if self._unread and (message or number(shown) == self._shown):
             return
+        asked = (self._heard, value, shown, note, message, bounds)
+        if asked == self._stands:
+            return
         self._unread = False
         if message:
             self._say(html.escape(message), wrong=True)
             return
         self.follow(value, shown, bounds)
         self._say(note)
+        self._stands = asked
 
     def follow(self, value, shown, bounds=None):
         """The slider and the number go where the value is."""
         low, high = bounds or RANGES[self.name][:2]
-        self._shown = number(shown)
+        self._shown, self._stands = number(shown), None
         self.view.param.update(start=float(low), end=float(high), told=[self._heard, float(value), self._shown])
 
     def _say(self, words, wrong=False):
+        self._stands = None
         kind = 'class="alert" role="alert"' if wrong else 'class="note"'
         self.view.param.update(wrong=wrong, words=f"<div {kind}>{words}</div>" if words else "")
 

@@ -155,6 +155,12 @@ def tabs(views, keep, soon):
     return [header, *places]
 
 
+def alone(page):
+    """The page, no longer told whether any page of this server is busy, which kept it and all it shows for ever."""
+    page.param._update_ref("busy", False)
+    return page
+
+
 def page():
     search = pn.state.location.search
     asked = read(search)[0].get("lang")
@@ -208,4 +214,4 @@ def page():
 
 
 pn.extension("katex", respect_explicit_sizing=True)
-page().servable()
+alone(page()).servable()

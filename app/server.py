@@ -17,13 +17,14 @@ import re
 import secrets
 import signal
 import sys
-import threading
 import time
 import traceback
+import webbrowser
 from collections import Counter, OrderedDict, deque
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
+from types import SimpleNamespace
 from urllib.parse import urlsplit
 
 import bokeh.server.urls
@@ -36,7 +37,7 @@ from bokeh.server.session import ServerSession, _needs_document_lock
 from bokeh.server.tornado import BokehTornado
 from bokeh.util.token import get_session_id, get_token_payload
 from panel.io.application import build_single_handler_application
-from panel.io.document import _cleanup_doc
+from panel.io.document import _cleanup_doc, dispatch_tornado
 from panel.io.resources import LOCAL_DIST, patch_model_css
 from panel.io.server import INDEX_HTML, ComponentResourceHandler, DocHandler, WSHandler, get_static_routes
 from panel.io.session import generate_session
@@ -45,8 +46,9 @@ from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
 from tornado.web import HTTPError, RequestHandler
+from tornado.websocket import WebSocketClosedError
 
-from app import text
+from app import text, thrift
 
 log = logging.getLogger("tippe")
 
@@ -57,13 +59,14 @@ KINDS = {"PATCH-DOC", "PULL-DOC-REQ", "SERVER-INFO-REQ"}  # a browser never push
 EVENTS = {"ModelChanged", "MessageSent"}  # nor adds roots, or streams
 
 LONGEST_WORK = 3.0  # s of the processor for one thing that a session does
+LOOK = 0.1  # s of it between two looks at whether that is over
 SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a quiet one has saved up
 EACH_MESSAGE = 0.002  # s: what the cheapest message costs
 LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
 
 FRESH = 120  # s in which a page that was sent may open its session
 TOKEN_LASTS = 24 * 3600
-PING = 20  # s
+PING = 45  # s
 TIDY = 10  # s
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
 GRACE = 3.0  # s from SIGTERM to the end, whatever still runs
@@ -88,6 +91,7 @@ class Settings:
     )
     linger: int = field(default=30, metadata={"from": 1, "to": 3600, "says": "s a session outlives its page"})
     proxy: int = field(default=0, metadata={"from": 0, "to": 1, "says": "1: believe X-Forwarded-For and -Proto"})
+    show: int = field(default=0, metadata={"from": 0, "to": 1, "says": "1: open the page in this machine's browser"})
     secret: str = field(default="", metadata={"says": "signs sessions; empty: a new one at each start"})
     log: str = field(default="info", metadata={"says": "debug, info, warning or error"})
 
@@ -221,10 +225,11 @@ class Budget:
     def work(self):
         """Counts what is done inside, and ends it where it takes too long."""
         start = time.process_time()
+        WATCH.ends = start + LONGEST_WORK
         try:
-            with at_most(LONGEST_WORK):
-                yield
+            yield
         finally:
+            WATCH.ends = None
             self.spend(time.process_time() - start)
 
 
@@ -243,22 +248,26 @@ async def with_document_locked(session, function, *arguments, **named):
         return await result if inspect.isawaitable(result) else result
 
 
-@contextmanager
-def at_most(seconds):
-    """Ends what runs inside with TimeoutError after so many s of the processor, where there are signals for it."""
-    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
-        yield
-        return
+class Watch:
+    """Ends work that takes too long. One timer looks at it now and then: one for each piece of work cost more than
+    most pieces."""
 
-    def end(*_):
-        raise TimeoutError(f"took more than {seconds:g} s of the processor")
+    def __init__(self):
+        self.ends = None  # when what runs now is to end, in s of the processor
 
-    signal.signal(signal.SIGPROF, end)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
+    def start(self):
+        """In the main thread, where there are signals for it."""
+        if hasattr(signal, "setitimer"):
+            signal.signal(signal.SIGPROF, self._look)
+            signal.setitimer(signal.ITIMER_PROF, LOOK, LOOK)
+
+    def _look(self, *_):
+        if self.ends is not None and time.process_time() > self.ends:
+            self.ends = None
+            raise TimeoutError(f"took more than {LONGEST_WORK:g} s of the processor")
+
+
+WATCH = Watch()
 
 
 # --- what may come in
@@ -300,7 +309,7 @@ def look_at(message):
 def ours(error):
     """Whether an error came out of this project's own code, and so is a bug of its."""
     here = str(Path(__file__).parent.parent)
-    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)} - {__file__}
+    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)} - {__file__, thrift.__file__}
     return any(file.startswith((f"{here}/app/", f"{here}/tippe_core/")) for file in files)
 
 
@@ -327,6 +336,7 @@ class Socket(WSHandler):
         return False
 
     def open(self, *arguments, **named):
+        self.ws_connection.stream = thrift.Gathered(self.ws_connection.stream)
         try:
             super().open(*arguments, **named)
         except (ProtocolError, RuntimeError, ValueError, KeyError) as error:
@@ -423,6 +433,11 @@ class Socket(WSHandler):
             reply = self.connection and self._error(message, sentence)
         if reply and self.connection is not None:
             await self.send_message(reply)
+
+    async def send_message(self, message):
+        """All pieces at once: Bokeh's waits for each to be out."""
+        with await self.write_lock.acquire(), suppress(WebSocketClosedError):
+            await asyncio.gather(*dispatch_tornado(SimpleNamespace(_socket=self), msg=message))
 
     def _bounded(self, apply):
         def applied(*arguments):
@@ -568,6 +583,7 @@ def set_default_headers(handler):
 
 def serve(settings, sockets, parent=None):
     """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
+    thrift.save()
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
     RequestHandler.set_default_headers = set_default_headers
     ServerSession.with_document_locked = with_document_locked
@@ -625,9 +641,13 @@ def serve(settings, sockets, parent=None):
         signal.signal(name, stop)
     if parent is not None:
         loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), stop()), IOLoop.READ)
+    WATCH.start()
     PeriodicCallback(lambda: tidy(tornado.door), 1000 * TIDY).start()
+    loop.add_callback(pn.state._schedule_busy_cleanup)  # the first session's would keep that session
     server.start()
     log.info("serving http://%s:%d%s/app", settings.address or "localhost", settings.port, settings.prefix)
+    if settings.show and parent is None:
+        loop.run_in_executor(None, webbrowser.open, f"http://localhost:{settings.port}{settings.prefix}/app")
     loop.start()
 
 

@@ -96,10 +96,8 @@ def content(draw, visitor):
 
 async def fuzz(url, messages, seed=1):
     """Sends so many; returns all the sentences that came back."""
-    draw, said, visitor = random.Random(seed), set(), None
+    draw, said, visitor = random.Random(seed), set(), await Visitor.enter(url)
     for _ in range(messages):
-        if visitor is None:
-            visitor = await Visitor.enter(url)
         kind, body = content(draw, visitor)
         try:
             sent = await visitor.say(kind, body)
@@ -109,9 +107,10 @@ async def fuzz(url, messages, seed=1):
                 assert reply["traceback"] is None
         except Closed as closed:
             said.add(f"{closed.args[0]} {closed.args[1]}")
-            visitor = None
-    if visitor:
-        visitor.leave()
+            models = visitor.models
+            visitor = await Visitor.enter(url, visitor.token, pull=False)  # to the same session, which goes on
+            visitor.models = models
+    visitor.leave()
     return said
 
 
@@ -134,15 +133,20 @@ def check(said, log):
     assert "refused" in log
 
 
-def test_messages_that_no_page_sends(tmp_path):
-    with served(tmp_path / "log") as server:
-        said = run(among(server.url, 300), 600)
-        check(said, server.log)
-        assert any("deep" in text for text in said) and any("no message" in text for text in said)
+@pytest.fixture(scope="module")
+def attacked(tmp_path_factory):
+    with served(tmp_path_factory.mktemp("fuzz") / "log") as server:
+        yield server
+
+
+def test_messages_that_no_page_sends(attacked):
+    said = run(among(attacked.url, 300), 600)
+    check(said, attacked.log)
+    assert any("deep" in text for text in said) and any("no message" in text for text in said)
 
 
 @pytest.mark.parametrize("piece", ["", "null", "[]", "7", '{"msgid": 1}', '{"msgtype": "PATCH-DOC", "num_buffers": 9}'])
-def test_pieces_that_are_no_message(piece, tmp_path):
+def test_pieces_that_are_no_message(piece, attacked):
     async def send(url):
         visitor = await Visitor.enter(url, pull=False)
         with suppress(WebSocketClosedError):
@@ -150,10 +154,9 @@ def test_pieces_that_are_no_message(piece, tmp_path):
                 await visitor.socket.write_message(piece)
         await visitor.receive()
 
-    with served(tmp_path / "log") as server:
-        with pytest.raises(Closed, match="1007"):
-            run(send(server.url))
-        check(set(), server.log)
+    with pytest.raises(Closed, match="1007"):
+        run(send(attacked.url))
+    check(set(), attacked.log)
 
 
 if __name__ == "__main__":

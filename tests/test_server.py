@@ -1,16 +1,24 @@
 """`python -m app`: its settings, whom it lets in, what it sends, and how it ends."""
 
+import asyncio
 import os
+import re
 import signal
 import subprocess
 import sys
 from dataclasses import fields
 from pathlib import Path
 
+import numpy as np
 import pytest
+import yaml
+from bokeh.document import Document
+from bokeh.models import Column, ColumnDataSource, CustomJS, Div, Slider
+from bokeh.protocol.messages.patch_doc import patch_doc
 from wire import Closed, Visitor, answers, get, run, served, until
 
 from app.server import Budget, Door, Refused, Settings, look_at
+from app.thrift import Gathered, Patch
 
 ROOT = Path(__file__).parent.parent
 
@@ -52,8 +60,6 @@ def test_which_names_the_server_goes_by(origins, host, lets):
 
 def test_sessions_are_made_in_turn_among_addresses():
     async def asked():
-        import asyncio
-
         door, order = Door(Settings()), []
 
         async def one(address):
@@ -138,6 +144,55 @@ def test_no_more_sessions_than_there_are_places(server):
     assert "Too many pages" in server.log and "Traceback" not in server.log
 
 
+def test_what_is_sent_is_what_bokeh_would_send():
+    def events():
+        source, slider = ColumnDataSource({"x": np.arange(3.0)}), Slider(start=0, end=1, value=0.5)
+        column, document, events = Column(slider), Document(), []
+        document.add_root(column)
+        document.models.flush_synced()
+        document.on_change(events.append)
+        column.children = [slider, Div(text="new")]
+        slider.value = 0.25
+        slider.js_on_change("value", CustomJS(args={"source": source}, code=""))
+        source.data = {"x": np.arange(4.0)}
+        return events
+
+    def sent(kind):
+        message, order = kind.create(events()), {}
+        name = re.compile(r'"id": ?"([^"]+)"')
+        text = name.sub(lambda found: str(order.setdefault(found[1], len(order))), message.content_json)
+        return text, len(message.buffers)
+
+    assert sent(Patch) == sent(patch_doc)
+    assert sent(Patch)[1] > 0
+
+
+def test_pieces_go_out_in_order_as_one():
+    class Stream:
+        out, error = [], None
+
+        def closed(self):
+            return False
+
+        def write(self, data):
+            self.out.append(data)
+            done = asyncio.get_running_loop().create_future()
+            done.set_result(None)
+            return done
+
+        def close(self):
+            self.out.append("closed")
+
+    async def write():
+        stream = Gathered(Stream())
+        await asyncio.gather(*(stream.write(piece) for piece in (b"a", b"b", b"c")))
+        stream.write(b"d")
+        stream.close()
+        return Stream.out
+
+    assert run(write()) == [b"abc", b"d", "closed"]
+
+
 def workers_of(pid):
     return subprocess.run(["pgrep", "-P", str(pid)], capture_output=True, text=True).stdout.split()
 
@@ -166,6 +221,19 @@ def test_all_workers_end_with_the_first_process(how, tmp_path):
         until(lambda: not any(map(lives, workers)), 60)
         assert not answers(server.url)
         assert how == signal.SIGKILL or (server.process.returncode == 0 and "stopping" in server.log)
+
+
+def test_the_files_for_many_replicas_set_what_there_is():
+    compose = yaml.safe_load((ROOT / "compose.yaml").read_text(encoding="utf-8"))
+    app, proxy = compose["services"]["app"], compose["services"]["proxy"]
+    values = {name: re.sub(r"\$\{\w+:-(.*)\}", r"\1", str(value)) for name, value in app["environment"].items()}
+    assert Settings.of(values).proxy == 1 and app["read_only"] and set(app["networks"]) <= set(compose["networks"])
+    assert (ROOT / proxy["volumes"][0].split(":")[0]).is_file()
+
+    first, *others = yaml.safe_load_all((ROOT / "deploy/kubernetes.yaml").read_text(encoding="utf-8"))
+    [pod] = first["spec"]["template"]["spec"]["containers"]
+    assert Settings.of({each["name"]: each.get("value", "") for each in pod["env"]}).proxy == 1
+    assert [each["kind"] for each in others] == ["Service", "Ingress", "PodDisruptionBudget", "NetworkPolicy"]
 
 
 def test_the_docs_list_every_setting():

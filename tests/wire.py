@@ -41,9 +41,11 @@ class Visitor:
     """One page's end of a session. models: {id: (type, attributes)} as they were when it came."""
 
     socket: object
+    token: str
     models: dict = field(default_factory=dict)
     bytes_in: int = 0
     count: int = 0
+    turn: asyncio.Lock = field(default_factory=asyncio.Lock)  # the pieces of two messages must not mix
 
     @classmethod
     async def enter(cls, url, token=None, headers=None, pull=True):
@@ -58,7 +60,9 @@ class Visitor:
         headers = {"Origin": f"http://{parts.netloc}", **(headers or {})}
         request = HTTPRequest(f"ws://{parts.netloc}{parts.path}/ws?{parts.query}", headers=headers,
                               request_timeout=300, connect_timeout=300)  # fmt: skip
-        visitor = cls(await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**27))
+        socket = await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**27)
+        visitor = cls(socket, token)
+        visitor.socket.protocol.set_nodelay(True)  # as a browser does: a message is several writes
         kind, _, _ = await visitor.receive()
         assert kind == "ACK"
         if pull:
@@ -86,17 +90,25 @@ class Visitor:
         self.count += 1
         message = message or f"m{self.count}"
         header = {"msgid": message, "msgtype": kind} | ({"num_buffers": len(buffers)} if buffers else {})
-        for text in (json.dumps(header), "{}", content if isinstance(content, str) else json.dumps(content)):
-            await self.socket.write_message(text)
-        for i, buffer in enumerate(buffers):
-            await self.socket.write_message(json.dumps({"id": f"b{i}"}))
-            await self.socket.write_message(buffer, binary=True)
+        async with self.turn:
+            for text in (json.dumps(header), "{}", content if isinstance(content, str) else json.dumps(content)):
+                await self.socket.write_message(text)
+            for i, buffer in enumerate(buffers):
+                await self.socket.write_message(json.dumps({"id": f"b{i}"}))
+                await self.socket.write_message(buffer, binary=True)
         return message
 
     async def set(self, model, attribute, value):
         """As if the browser had changed a model; returns the message's id."""
         event = {"kind": "ModelChanged", "model": {"id": model}, "attr": attribute, "new": value}
         return await self.say("PATCH-DOC", {"events": [event]})
+
+    async def ready(self):
+        """Says what a browser says when the page is there: what is made after the page then comes."""
+        event = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
+        await self.say("PATCH-DOC", {"events": [
+            {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
+        ]})  # fmt: skip
 
     async def _fragment(self):
         fragment = await self.socket.read_message()
@@ -156,8 +168,9 @@ class Served:
 
 
 @contextmanager
-def served(output, **settings):
-    """`python -m app` with these settings, until the end of the block; output: the file that takes its log."""
+def served(output, wait=True, **settings):
+    """`python -m app` with these settings, until the end of the block; output: the file that takes its log. It answers
+    by then, or, without wait, soon."""
     settings = {"port": free_port(), "address": "127.0.0.1"} | settings
     environment = {**os.environ, **{f"TIPPE_{name.upper()}": str(value) for name, value in settings.items()}}
     with output.open("a") as file:
@@ -165,8 +178,9 @@ def served(output, **settings):
                                    stdout=file, stderr=subprocess.STDOUT)  # fmt: skip
     root = f"http://127.0.0.1:{settings['port']}"
     try:
-        until(lambda: process.poll() is not None or answers(root + "/liveness"), 60)
-        assert process.poll() is None, output.read_text(encoding="utf-8")
+        if wait:
+            until(lambda: process.poll() is not None or answers(root + "/liveness"), 60)
+            assert process.poll() is None, output.read_text(encoding="utf-8")
         yield Served(process, root + settings.get("prefix", "") + "/app", output)
     finally:
         process.terminate()
