@@ -139,4 +139,3 @@ class Gathered:
         """After what was written."""
         self._write()
         self._stream.close(*reason)
-

@@ -1,15 +1,16 @@
 """How many visitors one server bears, beside a bare Bokeh app under the same load; on this machine alone, and bounded.
 
-    python benchmarks/load.py [--quick] [--only NAME ...]
+    python benchmarks/load.py [--quick] [--only NAME ...]      at most 15 minutes where nothing else runs
 
 Visitors speak Bokeh's protocol without a browser (tests/wire.py), and answer what a browser answers. A reply is the
-first picture that comes after a slider moved. The generator runs beside, on the same cores.
+first picture that comes after a slider moved. The generator runs beside, on the same cores. To one server process
+("one"), to two ("two"), and to the bare app ("bare") come
 
     class     100 sessions, each moves a slider every 2 s, for 120 s
     lecture   200 sessions, of which 20 move one
-    memory    of the server, MB: a session that came and looks, one that moves a slider, and after all have left
-    leak      visitors who come, move a slider 5 times and go, many times over
-    breaks    more and more who move a slider every 2 s, until p95 is over 1 s or something fails
+    breaks    more and more of them move one, until p95 is over 1 s or something fails
+    memory    MB of the server: a session that came and looks, one that moves a slider, and after all have left
+    leak      an hour of visitors (120) without its pauses: they come, move a slider 5 times and go; MB after each 20
 
 Results of runs are kept below.
 """
@@ -112,6 +113,7 @@ async def come(urls, count):
             start = time.monotonic()
             visitor = await Visitor.enter(urls[i % len(urls)])
             waited.append(time.monotonic() - start)
+            await visitor.ready()
             return Active(visitor)
 
     return await asyncio.gather(*(one(i) for i in range(count))), waited
@@ -123,77 +125,102 @@ def summary(times):
     return f"p50 {middle:.0f}, p95 {late:.0f}, most {most:.0f} ms"
 
 
-async def load(servers, sessions, active, seconds):
-    """Some sit, some move; returns (sentence, times, all went well)."""
-    before = [server.seconds() for server in servers]
-    visitors, waited = await come([server.url for server in servers], sessions)
-    made = [server.seconds() for server in servers]
-    moving = visitors[:active]
-    await asyncio.gather(*(each.act(seconds, EVERY * i / active) for i, each in enumerate(moving)))
-    await asyncio.sleep(1)
-    times = [t for each in moving for t in each.times]
-    lost = [each.lost for each in visitors if each.lost]
-    used = sum(server.seconds() for server in servers) - sum(made)
-    for each in visitors:
-        await each.leave()
-    each_move, each_page = 1e3 * used / max(len(times), 1), (sum(made) - sum(before)) / sessions
-    words = (f"{sessions} sessions, {active} active for {seconds} s: {summary(times)} of {len(times)} moves; "
-             f"{each_move:.1f} ms of processor a move; lost {len(lost)} {lost[:1] or ''}; "
-             f"page after {summary(waited)}, {each_page:.2f} s of processor each")  # fmt: skip
-    return words, times, not lost
+class Run:
+    """Visits to some servers, in the order in which visitors come and go."""
+
+    def __init__(self, servers):
+        self.servers, self.visitors = servers, []
+
+    def seconds(self):
+        """Of the processor."""
+        return sum(server.seconds() for server in self.servers)
+
+    def megabytes(self):
+        return sum(server.megabytes() for server in self.servers)
+
+    async def quiet(self):
+        """Waits until what comes after a page has come."""
+        before = self.seconds()
+        for _ in range(60):
+            await asyncio.sleep(1)
+            now = self.seconds()
+            if now - before < 0.05 * len(self.servers):
+                return
+            before = now
+
+    async def come(self, count):
+        """So many more."""
+        before = self.seconds()
+        visitors, waited = await come([server.url for server in self.servers], count)
+        self.visitors += visitors
+        await self.quiet()
+        print(f"    {count} more come: page after {summary(waited)}; {(self.seconds() - before) / count:.2f} s of "
+              "processor each")  # fmt: skip
+
+    async def move(self, active, seconds):
+        """Some of them move a slider; returns p95 in s, inf where a session was lost."""
+        before, moving = self.seconds(), self.visitors[:active]
+        for each in moving:
+            each.times.clear()
+        await asyncio.gather(*(each.act(seconds, EVERY * i / active) for i, each in enumerate(moving)))
+        await asyncio.sleep(1)
+        times = [t for each in moving for t in each.times]
+        lost = [each.lost for each in self.visitors if each.lost]
+        print(f"    {active} of {len(self.visitors)} move for {seconds} s: {summary(times)} of {len(times)} moves; "
+              f"{1e3 * (self.seconds() - before) / max(len(times), 1):.1f} ms of processor a move; "
+              f"lost {len(lost)} {lost[:1] or ''}", flush=True)  # fmt: skip
+        return np.inf if lost or not times else np.percentile(times, 95)
+
+    async def leave(self):
+        """All of them."""
+        for each in self.visitors:
+            await each.leave()
+        self.visitors = []
+        await asyncio.sleep(20)  # until they count as gone, and what was theirs as free
 
 
-async def memory(servers, sessions, seconds):
-    """MB of idle and active sessions, and what is left of them."""
-    def total():
-        return sum(server.megabytes() for server in servers)
-
-    urls = [server.url for server in servers]
-    first, _ = await come(urls, 5)
-    for each in first:
-        await each.leave()
-    await asyncio.sleep(8)
-    start = total()
-    visitors, _ = await come(urls, sessions)
-    idle = total()
-    await asyncio.gather(*(each.act(seconds, EVERY * i / sessions) for i, each in enumerate(visitors)))
-    active = total()
-    for each in visitors:
-        await each.leave()
-    await asyncio.sleep(25)
-    left = total()
-    return (f"{start:.0f} MB with none; {(idle - start) / sessions:.2f} MB an idle session of {sessions}, "
-            f"{(active - start) / sessions:.2f} an active one; {left:.0f} MB after they left "
-            f"({100 * (left - start) / (active - start):.0f} % of what they took)")  # fmt: skip
-
-
-async def leak(servers, rounds, each_round):
-    """MB after each round of visitors who come, move and go."""
-    sizes = []
-    for _ in range(rounds):
-        visitors, _ = await come([server.url for server in servers], each_round)
-        for i in range(5):
-            await asyncio.gather(*(visitor.move(6 + 0.1 * i) for visitor in visitors))
-            await asyncio.sleep(0.3)
-        for visitor in visitors:
-            await visitor.leave()
-        await asyncio.sleep(8)
-        sizes.append(sum(server.megabytes() for server in servers))
-    slope = np.polyfit(np.arange(rounds), sizes, 1)[0] / each_round if rounds > 1 else np.nan
-    listed = " ".join(f"{size:.0f}" for size in sizes)
-    return f"{rounds * each_round} visitors: {listed} MB; {1e3 * slope:+.0f} kB a visitor"
-
-
-async def breaks(servers, seconds, most):
-    """Where p95 goes over 1 s."""
-    told = []
-    for sessions in range(50, most + 1, 50):
-        _, times, well = await load(servers, sessions, sessions, seconds)
-        p95 = np.percentile(np.array(times or [np.inf]), 95)
-        told.append(f"{sessions}: {1e3 * p95:.0f} ms{'' if well else ', and sessions were lost'}")
-        if p95 > 1 or not well:
+async def visits(servers, few, long):
+    """All scenarios on one set of servers; few divides the numbers of people, and of seconds."""
+    run = Run(servers)
+    await run.come(5)
+    await run.leave()
+    none = run.megabytes()
+    await run.come(100 // few)
+    idle = run.megabytes()
+    late = await run.move(100 // few, 120 // few)
+    active = run.megabytes()
+    if late < 1:
+        await run.come(100 // few)
+        await run.move(20 // few, 40 // few)
+    steps = (150, 200) if late < 1 else (75, 50, 25)
+    for some in steps:
+        late = await run.move(some // few, 15)
+        if (late > 1) == (some > 100):
             break
-    return "p95 of so many: " + "; ".join(told)
+    full = run.megabytes()
+    people = len(run.visitors)
+    await run.leave()
+    left = run.megabytes()
+    print(f"    memory: {none:.0f} MB with none; {(idle - none) * few / 100:.2f} MB an idle session, "
+          f"{(active - none) * few / 100:.2f} an active one; {full:.0f} MB with {people}, {left:.0f} MB after they "
+          f"left ({100 * (left - none) / (full - none):.0f} % of what they took)", flush=True)  # fmt: skip
+    if long:
+        sizes = []
+        for _ in range(6):
+            await leak(run, 20 // few)
+            sizes.append(run.megabytes())
+        slope = np.polyfit(np.arange(6), sizes, 1)[0] / (20 // few)
+        listed = " ".join(f"{size:.0f}" for size in sizes)
+        print(f"    {6 * 20 // few} visitors, one lot after another: {listed} MB; {1e3 * slope:+.0f} kB a visitor")
+
+
+async def leak(run, count):
+    """Visitors who come, move and go."""
+    run.visitors, _ = await come([server.url for server in run.servers], count)
+    for i in range(5):
+        await asyncio.gather(*(visitor.move(6 + 0.1 * i) for visitor in run.visitors))
+        await asyncio.sleep(0.3)
+    await run.leave()
 
 
 class Process:
@@ -242,29 +269,18 @@ def bare(folder):
 
 
 def main():
-    """All scenarios, ours with one and two replicas and the bare app."""
+    """All of it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="a tenth of it, to see that it runs")
-    parser.add_argument("--only", nargs="*", choices=("class", "lecture", "memory", "leak", "breaks"))
+    parser.add_argument("--only", nargs="*", choices=("one", "two", "bare"), default=("one", "two", "bare"))
     options = parser.parse_args()
-    few = 10 if options.quick else 1
-    scenarios = {
-        "class": lambda servers: load(servers, 100 // few, 100 // few, 120 // few),
-        "lecture": lambda servers: load(servers, 200 // few, 20 // few, 60 // few),
-        "memory": lambda servers: memory(servers, 50 // few, 20 // few),
-        "leak": lambda servers: leak(servers, 10 // (few // 4 or 1), 30 // few),
-        "breaks": lambda servers: breaks(servers, 20 // few, 50 if options.quick else 400),
-    }
-    print(datetime.date.today(), f"{platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f} before,",
-          f"Python {platform.python_version()}, panel {version('panel')}, bokeh {version('bokeh')}")  # fmt: skip
-    for name in options.only or scenarios:
-        print(name)
-        with tempfile.TemporaryDirectory() as folder:
-            kinds = {"1 replica": lambda f: ours(f, 1), "2 replicas": lambda f: ours(f, 2), "bare Bokeh": bare}
-            for words, start in kinds.items():
-                with start(folder) as servers:
-                    found = asyncio.run(asyncio.wait_for(scenarios[name](servers), 1800))
-                print(f"  {words}: {found[0] if isinstance(found, tuple) else found}", flush=True)
+    print(datetime.date.today(), f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()},",
+          f"panel {version('panel')}, bokeh {version('bokeh')}")  # fmt: skip
+    kinds = {"one": lambda folder: ours(folder, 1), "two": lambda folder: ours(folder, 2), "bare": bare}
+    for name in options.only:
+        print(f"  {name}, load {os.getloadavg()[0]:.1f} before")
+        with tempfile.TemporaryDirectory() as folder, kinds[name](folder) as servers:
+            asyncio.run(asyncio.wait_for(visits(servers, 10 if options.quick else 1, name == "one"), 900))
 
 
 if __name__ == "__main__":

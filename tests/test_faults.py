@@ -55,14 +55,34 @@ def page(chromium):
     page.close()
 
 
-def test_after_a_cut_the_page_is_as_it_was(page, tmp_path):
-    with served(tmp_path / "log") as server:
-        visit = Stay(page, server.url)
-        set_K_J(page, "6.5")
-        visit.cut()
-        page.get_by_text(LOST).wait_for()
-        has_come_back(page, "6.5")
+@pytest.fixture(scope="module")
+def steady(tmp_path_factory):
+    with served(tmp_path_factory.mktemp("steady") / "log") as server:
+        yield server
         assert "Traceback" not in server.log
+
+
+def test_graphics_that_are_taken_away_come_back_and_after_a_cut_the_page_is_as_it_was(page, steady):
+    visit = Stay(page, steady.url)
+    page.evaluate("""() => {
+        const canvases = []
+        const look = (root) => { for (const each of root.querySelectorAll("*")) {
+            if (each.localName == "canvas" && each.getContext("webgl2")) canvases.push(each)
+            if (each.shadowRoot) look(each.shadowRoot) } }
+        look(document)
+        window.lost = canvases.map((canvas) => canvas.getContext("webgl2").getExtension("WEBGL_lose_context"))
+        lost.forEach((each) => each.loseContext())
+    }""")
+    page.get_by_text("graphics memory away").first.wait_for()
+    page.evaluate("lost.forEach((each) => each.restoreContext())")
+    page.get_by_text("graphics memory away").first.wait_for(state="detached")
+    pictures = page.evaluate("__tippe.top3d.pictures")
+    page.wait_for_function("n => __tippe.top3d.pictures > n", arg=pictures)
+
+    set_K_J(page, "6.5")
+    visit.cut()
+    page.get_by_text(LOST).wait_for()
+    has_come_back(page, "6.5")
 
 
 def test_after_the_server_was_lost_the_page_is_as_it_was(page, tmp_path):
@@ -78,7 +98,7 @@ def test_after_the_server_was_lost_the_page_is_as_it_was(page, tmp_path):
         has_come_back(page, "6.5")
 
 
-def test_a_visitor_who_stops_reading_holds_up_nobody(tmp_path):
+def test_a_visitor_who_stops_reading_holds_up_nobody(steady):
     async def stall(url):
         deaf, other = await Visitor.enter(url), await Visitor.enter(url)
         for i in range(200):  # and never reads what comes back
@@ -87,9 +107,7 @@ def test_a_visitor_who_stops_reading_holds_up_nobody(tmp_path):
         deaf.leave(), other.leave()
         return answered
 
-    with served(tmp_path / "log") as server:
-        assert run(stall(server.url)) == "OK"
-        assert "Traceback" not in server.log
+    assert run(stall(steady.url)) == "OK"
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")
@@ -107,29 +125,12 @@ def test_a_full_disk_stops_nobody(tmp_path):
         assert process.wait(10) == 0
 
 
-def test_graphics_that_are_taken_away_are_said_and_come_back(page, tmp_path):
-    with served(tmp_path / "log") as server:
-        Visit(page, server.url)
-        page.evaluate("""() => {
-            const canvases = []
-            const look = (root) => { for (const each of root.querySelectorAll("*")) {
-                if (each.localName == "canvas" && each.getContext("webgl2")) canvases.push(each)
-                if (each.shadowRoot) look(each.shadowRoot) } }
-            look(document)
-            window.lost = canvases.map((canvas) => canvas.getContext("webgl2").getExtension("WEBGL_lose_context"))
-            lost.forEach((each) => each.loseContext())
-        }""")
-        page.get_by_text("graphics memory away").first.wait_for()
-        page.evaluate("lost.forEach((each) => each.restoreContext())")
-        page.get_by_text("graphics memory away").first.wait_for(state="detached")
-        pictures = page.evaluate("__tippe.top3d.pictures")
-        page.wait_for_function("n => __tippe.top3d.pictures > n", arg=pictures)
-
-
 @pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the proxy of compose.yaml, is not installed")
 def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_its_own(page, tmp_path):
     port = free_port()
-    with served(tmp_path / "a", proxy=1, secret="s") as one, served(tmp_path / "b", proxy=1, secret="s") as two:
+    common = {"proxy": 1, "secret": "s", "wait": False}
+    with served(tmp_path / "a", **common) as one, served(tmp_path / "b", **common) as two:
+        until(lambda: all(answers(each.root + "/liveness") for each in (one, two)), 60)
         servers = "\n".join(f"    server {name} {each.root[7:]}" for name, each in (("a", one), ("b", two)))
         text = (ROOT / "deploy/haproxy.cfg").read_text(encoding="utf-8").replace("bind :8080", f"bind 127.0.0.1:{port}")
         config = tmp_path / "haproxy.cfg"
@@ -144,14 +145,13 @@ def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_it
             other.process.kill()
             assert page.evaluate("window.mark") == 1
             set_K_J(page, "6.5")
-            with served(tmp_path / "c", port=int(other.root.rsplit(":", 1)[1]), proxy=1, secret="s"):
+            with served(tmp_path / "c", port=int(other.root.rsplit(":", 1)[1]), **common):
                 mine.process.send_signal(signal.SIGKILL)
                 page.get_by_text(LOST).wait_for()
                 has_come_back(page, "6.5")
         finally:
             proxy.terminate()
             proxy.wait()
-
 
 
 def test_without_webgl_the_top_is_drawn_flat(page, server):
