@@ -286,3 +286,12 @@ if __name__ == "__main__":
 # drag  figure ours  p50 109 ms  p95 201 ms   3.01 times bare
 # drag  page   ours  p50 330 ms  p95 451 ms   6.76 times bare
 # Under other work (load average 3 to 8) the drag's ratios were 6 to 10 and 8 to 14.
+#
+# 2026-11-21, the same machine under other people's work, load average 15 to 20: only ratios in one run count.
+# Two visits each in turn, 60 moves; before: figures that ask the style sheets for each stroke; after: first.html.
+# drag  figure before  p95 2.84 times bare   after 1.89
+# drag  page   before  p95 6.94 times bare   after 4.67
+# A figure's painting alone, least of 40: Fig. 6 20.4 -> 3.1 ms, theta over time 8.3 -> 0.8 ms, the track 16.5 -> 1.5 ms
+# First visit to `python -m app`, four each in turn, least: a moving top 8.0 s before, 2.6 s after, with 4.6 s and 1.8 s
+# of the processor; the whole page 11.5 s and 13.1 s (medians 16.1 and 15.2). At load 2.4 it was 3.4 s before.
+# First visits after, load 10 to 15, least: bare 1.03 s; moving top 3.0 times that (panel serve), 3.1 (python -m app).
