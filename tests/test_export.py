@@ -4,6 +4,7 @@ import io
 import json
 import re
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -151,6 +152,57 @@ def test_gltf_is_the_body_and_its_motion(preset):
     seen = {"Top S": 4 / 3 * np.pi * R**3, "Hollow tippe top": TruncatedSphere.paper().volume}
     assert volume == pytest.approx(seen.get(preset.name, preset.shape.volume), rel=0.01)
     assert gltf.asset.extras["slower than the real top by"] == 16
+
+
+THREE = Path(__file__).parent.parent / "app/frontend/node_modules/three"
+READER = """<script type="importmap">{"imports": {"three": "./build/three.module.js"}}</script><script type="module">
+import * as THREE from "three"
+import { GLTFLoader } from "./examples/jsm/loaders/GLTFLoader.js"
+window.read = async (bytes, seconds, points) => {
+  const { scene, animations } = await new GLTFLoader().parseAsync(Uint8Array.from(bytes).buffer, "")
+  const mixer = new THREE.AnimationMixer(scene), top = scene.getObjectByName("top")
+  mixer.clipAction(animations[0]).play()
+  return seconds.map((time) => {
+    mixer.setTime(time)
+    scene.updateMatrixWorld(true)
+    return points.map((point) => new THREE.Vector3(...point).applyMatrix4(top.matrixWorld).toArray())
+  })
+}
+</script>"""
+
+
+@pytest.mark.skipif(not THREE.is_dir(), reason="three.js is here where the bundle was built")
+def test_three_js_reads_the_gltf_and_moves_the_body_as_computed(scene, chromium):
+    page = chromium.new_page()
+    asked = []
+
+    def answer(route):
+        name = route.request.url.removeprefix("http://three.test/")
+        asked.append(name)
+        if name:
+            route.fulfill(path=THREE / name, content_type="text/javascript")
+        else:
+            route.fulfill(body=READER, content_type="text/html")
+
+    page.route("**", answer)
+    page.goto("http://three.test/")
+    page.wait_for_function("typeof read == 'function'")
+    motion, scales, top = scene.trajectory, scene.scales, scene.top
+    at = [0, 7, len(motion.t) // 2, len(motion.t) - 2]
+    # G, and G moved by R along axes 3 and 1 of the body
+    points = scales.R * np.array([[0, 0, -top.a], [0, 0, 1 - top.a], [1, 0, -top.a]])
+    seconds = 16 * scales.time * motion.t[at]
+    file = list(export.animation_glb(scene, slower=16))
+    found = page.evaluate("(all) => read(...all)", [file, seconds.tolist(), points.tolist()])
+    page.close()
+    x, y, z, w = motion.quaternion[at].T
+    third = np.column_stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+    first = np.column_stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)])
+    com = motion.com[at]
+    expected = scales.R * np.stack([com, com + third, com + first], axis=1)
+    found = np.array(found)[..., [0, 2, 1]] * [1, -1, 1]  # there y is up
+    assert found == pytest.approx(expected, abs=1e-4 * scales.R)
+    assert "examples/jsm/loaders/GLTFLoader.js" in asked
 
 
 @pytest.mark.parametrize("name", prints.FIGURES)
