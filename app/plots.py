@@ -38,8 +38,19 @@ const place_bead = () => {
 }
 motion.properties.data.change.connect(place_bead)
 const {events_el} = Bokeh.index.find_one(fig).canvas_view
-const press = ({offsetX, offsetY}) => { hand.pressed = [offsetX, offsetY] }
+const onTieline = ({clientX, clientY}) => {
+  const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame, {left, top} = events_el.getBoundingClientRect()
+  const {K_J: [K_J], inner: [inner], outer: [outer]} = selected.data, x = clientX - left, y = clientY - top
+  return Math.hypot(Math.max(x_scale.compute(inner) - x, 0, x - x_scale.compute(outer)), y_scale.compute(K_J) - y) < 14
+}
+const press = (event) => {
+  hand.pressed = [event.offsetX, event.offsetY]
+  hand.scrolls = event.pointerType == "touch" && !onTieline(event)
+}
 events_el.addEventListener("pointerdown", press, {capture: true})
+// A finger pulls the tieline on display, and scrolls the page from everywhere else.
+const keep = (event) => { if (event.touches.length == 1 && onTieline(event.touches[0])) event.preventDefault() }
+events_el.addEventListener("touchstart", keep, {passive: false})
 window.addEventListener("tippe:clock", ({detail: {t}}) => {
   now = t
   place_bead()
@@ -84,7 +95,7 @@ if (event_name == "mousemove") {
   return
 }
 // a quick hand is elsewhere by the time it counts as dragging
-if (event_name == "panstart") hand.grip = hand.pressed ? grip(...hand.pressed) : over()
+if (event_name == "panstart") hand.grip = hand.scrolls ? null : hand.pressed ? grip(...hand.pressed) : over()
 if (event_name == "tap") hand.grip = over()
 const taken = hand.grip, done = event_name == "tap" || event_name == "panend"
 if (done) hand.grip = null

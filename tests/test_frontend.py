@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import panel as pn
 import pytest
-from visiting import free_port
+from visiting import free_port, wait
 
 from app.bundle import Bundled
 from app.colours import COLOURS
@@ -84,15 +84,6 @@ def serve(chromium):
 
 def drawn(page, name):
     return page.evaluate(f"window.__tippe.top3d.{name}")
-
-
-def wait(page, ready):
-    """Until Python has it."""
-    for _ in range(200):
-        if ready():
-            return
-        page.wait_for_timeout(25)
-    raise AssertionError("what the browser did has not reached Python")
 
 
 def assert_pose(page, quaternion, contact, index):

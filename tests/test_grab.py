@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from visiting import COLUMN
+from visiting import COLUMN, PIXEL, WHOLE, Visit, wait
 
 from app.explorer import least_energy, solve
 from tippe_core import Constants, Top, roll, tielines, turning_points
@@ -159,11 +159,8 @@ def test_the_axis_of_a_paused_top_is_the_initial_tilt(visit):
         }""",
         arg=[COLUMN, handle.element_handle(), tilt],
     )
-    for _ in range(400):  # both may still be on their way
-        if field(visit, STATE_FIELDS["theta"]) == float(f"{visit.column('theta', 0, 'theta')[0]:.6g}"):
-            return
-        visit.page.wait_for_timeout(50)
-    raise AssertionError("the field is not where the curve starts")
+    theta = STATE_FIELDS["theta"]
+    wait(visit.page, lambda: field(visit, theta) == float(f"{visit.column('theta', 0, 'theta')[0]:.6g}"))
 
 
 def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(visit):
@@ -202,20 +199,53 @@ def test_the_floor_of_fig_5_can_be_pulled_and_says_why_not(visit):
     visit.page.mouse.up()
 
 
-@pytest.mark.parametrize("name, figure", [
-    ("phase portrait", "phase"), ("f(θ)", "f"), ("effective potential", "potential"), ("unrolled", "ring"),
-    ("force in its disc", "force")])
-def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(visit, name, figure):
+PORTRAITS = {"phase portrait": "phase", "f(θ)": "f", "effective potential": "potential", "unrolled": "ring",
+             "force in its disc": "force"}  # fmt: skip
+
+
+def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(visit):
     visit.pause()
-    visit.page.get_by_role("button", name=name).click()
-    visit.page.wait_for_function(
-        "name => { const m = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == name && m.renderers);"
-        " return m && Bokeh.index.find_one(m)?.frame?.bbox.width > 50 }", arg=figure)
-    line = {"phase": 1, "force": 1, "potential": 1}.get(figure, 0)
-    t, x, y = (visit.column(figure, line, column).tolist() for column in "txy")
-    visit.page.get_by_role("button", name=name).scroll_into_view_if_needed()
-    i = len(t) // 3
-    visit.page.mouse.click(*visit.pixel(figure, x[i], y[i]))
-    visit.page.wait_for_function(
-        """([name, column, renderer, x]) => Math.abs(eval(column)([name, renderer, "x"])[0] - x) < 0.02""",
-        arg=[figure, COLUMN, line + 1, x[i]])
+    for name, figure in PORTRAITS.items():
+        visit.page.get_by_role("button", name=name).click()
+        visit.page.wait_for_function(
+            """name => {
+                const m = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == name && m.renderers)
+                return m && Bokeh.index.find_one(m)?.frame?.bbox.width > 50
+            }""", arg=figure)  # fmt: skip
+        line = {"phase": 1, "force": 1, "potential": 1}.get(figure, 0)
+        t, x, y = (visit.column(figure, line, column).tolist() for column in "txy")
+        visit.page.get_by_role("button", name=name).scroll_into_view_if_needed()
+        i = len(t) // 3
+        visit.page.mouse.click(*visit.pixel(figure, x[i], y[i]))
+        visit.page.wait_for_function(
+            """([name, column, renderer, x]) => Math.abs(eval(column)([name, renderer, "x"])[0] - x) < 0.02""",
+            arg=[figure, COLUMN, line + 1, x[i]])  # fmt: skip
+
+
+def test_a_finger_pulls_the_tieline_and_scrolls_the_page_from_elsewhere(chromium, server):
+    phone = chromium.new_context(viewport={"width": 390, "height": 844}, is_mobile=True, has_touch=True,
+                                 reduced_motion="reduce", user_agent="Android Mobile")  # fmt: skip
+    visit = Visit(phone.new_page(), server, whole=False)
+    page, touch = visit.page, phone.new_cdp_session(visit.page)
+    page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
+    assert not page.evaluate("__tippe.top3d.playing")  # as somebody wants it who prefers less motion
+
+    def drag(x, y, by):
+        for kind, at in (("touchStart", y), *(("touchMove", y + by * i / 8) for i in range(1, 9)), ("touchEnd", None)):
+            points = [] if at is None else [{"x": x, "y": at}]
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    top = "() => document.body.getClientRects().length && (" + PIXEL + ")(['plane', 0.62, 7])[1]"
+    page.locator("[data-figure=plane]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
+    place = page.evaluate(top)
+    x, y = visit.pixel("plane", 0.62, 7.0)
+    drag(x, y, 60)
+    page.wait_for_function("/KJ=/.test(location.search)")  # once all is at rest
+    K_J = selected(visit)["K_J"]
+    assert K_J < 6
+    assert page.evaluate(top) == pytest.approx(place, abs=1)
+    drag(*visit.pixel("plane", 1.4, 8.0), -120)
+    page.wait_for_function(f"place => ({top})() < place - 40", arg=place)
+    assert selected(visit)["K_J"] == K_J
+    phone.close()
+    assert not visit.errors

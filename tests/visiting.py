@@ -52,6 +52,15 @@ def launch(playwright):
     return playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
 
 
+def wait(page, ready):
+    """Until it is so, of what only Python can tell, or what is read in two steps."""
+    for _ in range(800):
+        if ready():
+            return
+        page.wait_for_timeout(25)
+    raise AssertionError("waited too long")
+
+
 class Visit:
     """A page that is open, and what it asked for, said and sent."""
 

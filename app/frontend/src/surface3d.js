@@ -343,6 +343,13 @@ export function renderSurface3D({ model, el, view }) {
     { capture: true },
   );
 
+  // A finger that pulls does not scroll the page.
+  picture.addEventListener(
+    "touchstart",
+    (event) => event.touches.length === 1 && gripUnder(event.touches[0]) && event.preventDefault(),
+    { passive: false },
+  );
+
   function leave() {
     hover.cancel();
     if (readout.hidden) return;
