@@ -242,9 +242,12 @@ class Roll:
                 self._held = {"theta_dot": w1, "omega2": w2, "omega3": w3, "phi": motion.phi[1], "psi": motion.psi[1]}
             pacer.request(theta=theta, **self._held, given="state")
 
-        plane.hand.on_change(
-            "data", lambda attr, old, new: grabbed(new["grip"][0], new["theta"][0], new["K_J"][0], 1.0)
-        )
+        def on_plane(attr, old, new):
+            match new:  # whoever speaks past the page may send anything
+                case {"grip": [str() as grip], "theta": [int() | float() as theta], "K_J": [int() | float() as K_J]}:
+                    grabbed(grip, theta, K_J, 1.0)
+
+        plane.hand.on_change("data", on_plane)
         at_once(top, "tilted", "time")
         top.param.watch(tilted, "tilted")
         for show in (show_hand, *pictures, show_words):

@@ -750,6 +750,7 @@ def main():
     except ValueError as error:
         print(error, file=sys.stderr)
         return 2
+    sys.stdout.reconfigure(errors="backslashreplace")  # half a character, sent by somebody, is no reason not to log
     logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True,
                         format=f"%(asctime)s %(levelname)s {os.uname().nodename} %(process)d %(message)s")  # fmt: skip
     log.setLevel(settings.log.upper())
