@@ -52,6 +52,13 @@ THEME = {
     }
 }
 
+STYLE = [
+    ".MuiLinearProgress-root { display: none !important }",  # it stays there, and has no name
+    ".MuiTooltip-popper { display: none !important }",  # in English; guide.js has ours
+    "@media (max-width: 600px) { h3.title { font-size: 18px } }",
+    "main { background: var(--mui-palette-background-default) !important }",  # it would keep the first theme's
+]
+
 
 SPEAKS = WeakKeyDictionary()  # document -> its language
 text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc else text.DEFAULT)
@@ -168,7 +175,8 @@ def page():
     SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
     texts, sentence = read(search)  # what it says is in that language
     if "vote" in texts:  # a student's link
-        return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"])], theme_toggle=False)
+        return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"])], theme_toggle=False,
+                         busy_indicator=None, stylesheets=STYLE)  # fmt: skip
     explorer, wrong = explorer_of(texts)
     roll = Roll(explorer)
     builder = Builder(explorer, roll.pacer.request)
@@ -204,12 +212,7 @@ def page():
         theme_toggle=False,
         theme_config={"light": THEME, "dark": THEME},
         busy_indicator=None,
-        stylesheets=[
-            ".MuiLinearProgress-root { display: none !important }",  # it stays there, and has no name
-            ".MuiTooltip-popper { display: none !important }",  # in English; guide.js has ours
-            "@media (max-width: 600px) { h3.title { font-size: 18px } }",
-            "main { background: var(--mui-palette-background-default) !important }",  # it would keep the first theme's
-        ],
+        stylesheets=STYLE,
     )
 
 

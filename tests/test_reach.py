@@ -1,16 +1,13 @@
-"""The page without a mouse, without eyes, without patience, without English: by keyboard, as axe-core sees it, on a
-first visit, and in German."""
+"""The page without a mouse, without eyes, without patience, without English: by keyboard, on a first
+visit, and in German."""
 
 import re
 from pathlib import Path
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from visiting import Visit
 
 from app.text import listed
-
-RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]}
 
 # All that the page says now, to the eye and to the ear, piece by piece.
 SAID = """
@@ -39,11 +36,6 @@ def words_of(language):
 
     folder = Path(__file__).parent.parent / "app/text" / language
     return set().union(*(pieces(listed(path.stem, language)) for path in folder.glob("*.toml")))
-
-
-def violations(page):
-    found = Axe().run(page, options=RULES).response["violations"]
-    return [(each["id"], node["target"], node["html"][:200]) for each in found for node in each["nodes"]]
 
 
 def test_keys_of_the_page(visit):
@@ -109,23 +101,6 @@ def test_the_tour_comes_once_covers_nothing_it_shows_and_can_be_skipped(first):
     if page.viewport_size["width"] < 900:  # the controls are there for who asks
         page.get_by_role("button", name="Show the controls").click()
         page.get_by_role("slider", name="Jellett’s constant").click()
-
-
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-def test_axe_finds_nothing_on_the_first_tab(chromium, server, dark):
-    page = chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce").new_page()
-    page.add_init_script("localStorage.setItem('tippe:tour', '1')")
-    page.goto(server)
-    page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && Bokeh.documents[0].is_idle")
-    assert not page.evaluate("__tippe.top3d.playing")
-    if dark:
-        page.get_by_label("dark", exact=True).click()
-        page.wait_for_function("document.documentElement.dataset.look == 'dark'")
-    assert violations(page) == []
-    page.locator("body").press("?")
-    page.get_by_role("dialog", name="Keys").wait_for()
-    assert violations(page) == []
-    page.context.close()
 
 
 def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_changes_the_language(chromium, server):

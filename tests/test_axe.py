@@ -1,0 +1,150 @@
+"""The page as axe-core sees it, by WCAG 2.2 A and AA: every tab and what is in it, in every look, and on a phone."""
+
+from axe_playwright_python.base import AXE_SCRIPT
+from visiting import PATIENCE, WHOLE
+
+RULES = {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]}
+CONTRAST = {"type": "rule", "values": ["color-contrast"]}
+AXE = """async (options) => {
+    const {violations} = await axe.run(document, {resultTypes: ["violations"], preload: false, ...options})
+    return violations.flatMap(({id, nodes}) => nodes.map(({target, html, any}) =>
+        `${id}: ${target} ${html.slice(0, 200)} ${any[0]?.message ?? ""}`))
+}"""
+
+
+def violations(page, rules=RULES, but=()):
+    """What axe-core, which page has already, finds on it; but: rules left out."""
+    return page.evaluate(AXE, {"runOnly": rules, "rules": {rule: {"enabled": False} for rule in but}})
+
+
+# A look is the browser's alone: once it is set there, the page has it.
+LOOK = """([dark, large]) => [...Bokeh.documents[0]._all_models.values()]
+    .find((m) => m.data?.attributes && "on_dark" in m.data.attributes).data.setv({dark, large})"""
+
+
+def click(role, name):
+    return lambda page: page.get_by_role(role, name=name, exact=True).first.click()
+
+
+def awaited(selector):
+    return lambda page: page.locator(selector).first.wait_for()
+
+
+def press(key):
+    return lambda page: page.locator("body").press(key)
+
+
+def escape(page):
+    page.keyboard.press("Escape")
+    page.locator("[role=dialog]:visible, [role=listbox]:visible").wait_for(state="hidden")
+
+
+def high(page):
+    """All of a long tab at once; the cards of Roll would grow with the window."""
+    page.set_viewport_size({"width": page.viewport_size["width"], "height": 3000})
+
+
+def an_error(page):
+    page.locator(":text('its rate'):visible").wait_for()
+    entry = page.locator("input[type=text]:visible").first
+    entry.fill("half")
+    entry.press("Enter")
+    page.locator("[role=alert]:visible").first.wait_for()
+
+
+def below(page):
+    page.get_by_role("button", name="unrolled").scroll_into_view_if_needed()
+
+
+# What a person does on one visit, one after the other, and what axe-core then looks at; with a star in the large looks
+# too.
+STEPS = {
+    "Roll *": [click("button", "effective potential"), click("button", "unrolled")],
+    "Roll, below": [below],
+    "the keys": [press("?"), awaited("dialog[open]")],
+    "the tour": [click("button", "Take the tour"), awaited(".stop")],
+    "Share": [click("button", "Skip"), click("button", "Share"),
+                awaited("svg:has(title:text-is('QR code of the link'))")],
+    "an error": [escape, click("button", "initial state"), an_error],
+    "Three planes *": [high, click("tab", "Three planes"), click("button", "compare all three"),
+                       click("button", "viscous")],
+    "Three planes otherwise": [click("button", "smooth"), click("button", "smoothed"),
+                               click("button", "as on the tab Roll")],
+    "Build a top": [click("tab", "Build a top"), awaited("button:text-is('Put on')")],
+    "a list": [lambda page: page.get_by_label("Presets").first.click(), awaited("[role=listbox]")],
+    "Families": [escape, click("tab", "Families"), awaited("button:text-is('Compute the map')")],
+    "Learn *": [click("tab", "Learn"), click("radio", "It stays upright"), click("button", "Predict, and run it"),
+                awaited("math")],
+    "Derivation": [click("button", "Derivation"), awaited(".line .sides b"),
+                   lambda page: page.locator(".line button").first.click()],
+    "Teachers": [click("button", "Teachers"), click("button", "Open the vote"), awaited("a[href*='?vote=']")],
+    "History": [click("button", "History"), awaited("ol >> nth=0")],
+}  # fmt: skip
+LIGHT, DARK, LARGE, DARK_LARGE = (False, False), (True, False), (False, True), (True, True)
+
+
+def test_axe_finds_nothing_anywhere_in_any_look(chromium, server):
+    page = chromium.new_context(viewport={"width": 1400, "height": 1000}, reduced_motion="reduce").new_page()
+    page.set_default_timeout(PATIENCE)
+    page.add_init_script("localStorage.setItem('tippe:tour', '1')")
+    page.goto(server)
+    page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && Bokeh.documents[0].is_idle")
+    assert not page.evaluate("__tippe.top3d.playing")
+    page.evaluate(AXE_SCRIPT)
+    vote = None
+    for name, steps in STEPS.items():
+        for step in steps:
+            step(page)
+        page.wait_for_function("Bokeh.documents[0].is_idle")
+        found = {"light": violations(page)}
+        for look in (LARGE, DARK_LARGE, DARK) if name.endswith("*") else (DARK,):
+            page.evaluate(LOOK, look)
+            found[look] = violations(page, CONTRAST)
+        page.evaluate(LOOK, LIGHT)
+        assert not any(found.values()), (name, found)
+        if name.startswith("Teachers"):
+            vote = page.locator("a[href*='?vote=']").get_attribute("href")
+    page.goto(vote)
+    page.get_by_role("radio").first.wait_for()
+    page.evaluate(AXE_SCRIPT)
+    assert violations(page) == []
+    page.context.close()
+
+
+def test_axe_finds_nothing_on_a_phone(chromium, server):
+    phone = chromium.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce", is_mobile=True,
+                                 has_touch=True, user_agent="Mozilla/5.0 (Linux; Android 14) Mobile")  # fmt: skip
+    page = phone.new_page()
+    page.set_default_timeout(PATIENCE)
+    page.add_init_script("localStorage.setItem('tippe:tour', '1')")
+    page.goto(server)
+    page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
+    page.evaluate(AXE_SCRIPT)
+    page.get_by_role("button", name="Show the controls").click()
+    assert violations(page) == [], "the drawer"
+    page.keyboard.press("Escape")
+    page.locator(".MuiBackdrop-root:visible").wait_for(state="hidden")
+    for name, ready in {"Roll": "canvas", "Three planes": "canvas", "Build a top": "button:text-is('Put on')",
+                        "Families": "button:text-is('Compute the map')", "Learn": "main"}.items():  # fmt: skip
+        click("tab", name)(page)
+        awaited(ready)(page)
+        page.wait_for_function("Bokeh.documents[0].is_idle")
+        assert violations(page, but=["color-contrast"]) == [], name  # which does not go by the width
+    phone.close()
+
+
+def test_the_widgets_go_dark_at_once(visit):
+    """In the very frame in which the page does: they are not made anew one by one."""
+    colour = """() => {
+        const all = (root) => [...root.querySelectorAll("*")]
+            .flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
+        const kinds = "[role=tab][aria-selected=false], .MuiToggleButton-root:not(.Mui-selected), label"
+        const widgets = all(document).filter((e) => e.matches(kinds) && e.offsetParent)
+        return widgets.map((e) => getComputedStyle(e).color.match(/[\\d.]+/g).slice(0, 3).map(Number))
+            .map(([r, g, b]) => r + g + b)
+    }"""
+    light = visit.page.evaluate(colour)
+    visit.page.evaluate(LOOK, DARK)
+    dark = visit.page.evaluate(colour)
+    assert len(light) == len(dark) > 10
+    assert max(light) < 300 < 450 < min(dark)
