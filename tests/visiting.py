@@ -42,6 +42,10 @@ WHOLE = """
 """
 
 
+# Whether both pictures in 3-D are drawn; on a phone the second one is below the window, and waits to come in view.
+DRAWN = "window.__tippe?.top3d?.pictures > 2 && (innerWidth < 600 || window.__tippe.surface3d?.pictures > 0)"
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
@@ -82,7 +86,7 @@ class Visit:
         page.goto(url)
         if not whole:
             return
-        page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && __tippe.top3d?.pictures > 2")
+        page.wait_for_function(DRAWN)
         page.wait_for_function(WHOLE)
 
     def column(self, *place):
