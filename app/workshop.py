@@ -204,7 +204,7 @@ class Knob:
         self.words = words()
         title = words(
             f'<div class="name">{symbol(dimension.name)}&ensp;<span class="note">{says}</span></div>',
-            margin=(4, 0, 0, 0),
+            margin=(4, 6, 0, 0),
         )
         self.view = pn.Column(
             pn.Row(title, self.entry, sizing_mode="stretch_width", margin=0), self.slider, self.words,

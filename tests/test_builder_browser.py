@@ -52,7 +52,7 @@ def bench(server, chromium):
 def choose(visit, preset):
     """Picks a preset and waits until its numbers stand there."""
     visit.page.get_by_role("combobox").nth(0).click()
-    visit.page.get_by_role("menuitem", name=preset.name, exact=True).click()
+    visit.page.get_by_role("option", name=preset.name, exact=True).click()
     shape = preset.shape
     for text in (f"= {shape.top.a:.4f}".replace("-", "−"), f"= {shape.top.I1:.4f}", f"{1e3 * shape.mass:.4g} g"):
         visit.page.get_by_text(text).first.wait_for()
