@@ -35,6 +35,7 @@ from bokeh.protocol.exceptions import MessageError, ProtocolError, ValidationErr
 from bokeh.server.server import BaseServer
 from bokeh.server.session import ServerSession, _needs_document_lock
 from bokeh.server.tornado import BokehTornado
+from bokeh.settings import settings as bokeh_settings
 from bokeh.util.token import get_session_id, get_token_payload
 from panel.io.application import build_single_handler_application
 from panel.io.document import _cleanup_doc, dispatch_tornado
@@ -48,7 +49,7 @@ from tornado.netutil import bind_sockets
 from tornado.web import HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError
 
-from app import text, thrift
+from app import text
 
 log = logging.getLogger("tippe")
 
@@ -309,7 +310,7 @@ def look_at(message):
 def ours(error):
     """Whether an error came out of this project's own code, and so is a bug of its."""
     here = str(Path(__file__).parent.parent)
-    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)} - {__file__, thrift.__file__}
+    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)} - {__file__}
     return any(file.startswith((f"{here}/app/", f"{here}/tippe_core/")) for file in files)
 
 
@@ -336,7 +337,7 @@ class Socket(WSHandler):
         return False
 
     def open(self, *arguments, **named):
-        self.ws_connection.stream = thrift.Gathered(self.ws_connection.stream)
+        self.set_nodelay(True)  # a message is three pieces and more; none is to wait for the other end
         try:
             super().open(*arguments, **named)
         except (ProtocolError, RuntimeError, ValueError, KeyError) as error:
@@ -583,7 +584,7 @@ def set_default_headers(handler):
 
 def serve(settings, sockets, parent=None):
     """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
-    thrift.save()
+    bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
     RequestHandler.set_default_headers = set_default_headers
     ServerSession.with_document_locked = with_document_locked

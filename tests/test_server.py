@@ -9,16 +9,11 @@ import sys
 from dataclasses import fields
 from pathlib import Path
 
-import numpy as np
 import pytest
 import yaml
-from bokeh.document import Document
-from bokeh.models import Column, ColumnDataSource, CustomJS, Div, Slider
-from bokeh.protocol.messages.patch_doc import patch_doc
 from wire import Closed, Visitor, answers, get, run, served, until
 
 from app.server import Budget, Door, Refused, Settings, look_at
-from app.thrift import Gathered, Patch
 
 ROOT = Path(__file__).parent.parent
 
@@ -142,55 +137,6 @@ def test_no_more_sessions_than_there_are_places(server):
     run(crowd())
     until(lambda: get(server.url)[0] == 200)
     assert "Too many pages" in server.log and "Traceback" not in server.log
-
-
-def test_what_is_sent_is_what_bokeh_would_send():
-    def events():
-        source, slider = ColumnDataSource({"x": np.arange(3.0)}), Slider(start=0, end=1, value=0.5)
-        column, document, events = Column(slider), Document(), []
-        document.add_root(column)
-        document.models.flush_synced()
-        document.on_change(events.append)
-        column.children = [slider, Div(text="new")]
-        slider.value = 0.25
-        slider.js_on_change("value", CustomJS(args={"source": source}, code=""))
-        source.data = {"x": np.arange(4.0)}
-        return events
-
-    def sent(kind):
-        message, order = kind.create(events()), {}
-        name = re.compile(r'"id": ?"([^"]+)"')
-        text = name.sub(lambda found: str(order.setdefault(found[1], len(order))), message.content_json)
-        return text, len(message.buffers)
-
-    assert sent(Patch) == sent(patch_doc)
-    assert sent(Patch)[1] > 0
-
-
-def test_pieces_go_out_in_order_as_one():
-    class Stream:
-        out, error = [], None
-
-        def closed(self):
-            return False
-
-        def write(self, data):
-            self.out.append(data)
-            done = asyncio.get_running_loop().create_future()
-            done.set_result(None)
-            return done
-
-        def close(self):
-            self.out.append("closed")
-
-    async def write():
-        stream = Gathered(Stream())
-        await asyncio.gather(*(stream.write(piece) for piece in (b"a", b"b", b"c")))
-        stream.write(b"d")
-        stream.close()
-        return Stream.out
-
-    assert run(write()) == [b"abc", b"d", "closed"]
 
 
 def workers_of(pid):
