@@ -5,7 +5,7 @@ import struct
 
 import numpy as np
 import pytest
-from visiting import Visit
+from visiting import Visit, wait
 
 from tippe_core import PRESETS, TruncatedSphere, load_top, save_top
 
@@ -60,7 +60,11 @@ def choose(visit, preset):
 
 
 def drag(visit, start, end):
-    here, there = (visit.page.evaluate(PLACE, ["section", *place]) for place in (start, end))
+    def places():
+        return [visit.page.evaluate(PLACE, ["section", *place]) for place in (start, end)]
+
+    wait(visit.page, lambda: places() == places())  # another body has another scale, which comes a moment later
+    here, there = places()
     visit.page.mouse.move(*here)
     visit.page.mouse.down()
     for share in (0.3, 0.6, 1.0):

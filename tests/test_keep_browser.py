@@ -62,7 +62,7 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
     visit.page.get_by_label("dark", exact=True).click()
     for key in ("Shift+ArrowRight", "Shift+ArrowUp", "-"):
         visit.page.locator("canvas[aria-label^='The top']").press(key)
-    until_address(visit, "view=.*dark=yes")
+    until_address(visit, "view=[^&]*_1\\.1&dark=yes")  # after the last of them
     visit.page.get_by_role("button", name="Share").click()
     box = visit.page.get_by_label("Link to what is shown")
     visit.page.wait_for_function("box => box.value", arg=box.element_handle())

@@ -158,6 +158,7 @@ def test_all_workers_end_with_the_first_process(how, tmp_path):
         assert get(server.url)[0] == 200 and server.url.endswith("/tops/app")
         workers = workers_of(server.process.pid)
         assert len(workers) == 2
+        until(lambda: server.log.count("serving") == 2, 60)
         os.kill(int(workers[0]), signal.SIGKILL)  # one that is lost is replaced
         until(lambda: len(workers_of(server.process.pid)) == 2 and workers[0] not in workers_of(server.process.pid))
         until(lambda: server.log.count("serving") == 3, 60)
