@@ -8,7 +8,7 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 import param
-from bokeh.models import ColumnDataSource, HoverTool, Range1d
+from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d
 
 from app.builder import FAMILIES, Rocking, handles, named, pulled, sentence, value_of
 from app.cards import BUTTON, alert, flow, note, words
@@ -33,6 +33,14 @@ UNSEEN_LABEL = {
     "& legend": {"display": "none"},
     "& fieldset": {"top": 0},
 }  # fmt: skip
+# Where a hand goes down: a quick one is elsewhere by the time it counts as dragging.
+PRESS = """
+if (pressed.followed) return
+pressed.followed = true
+const {canvas_view: {events_el}, frame: {x_scale, y_scale}} = Bokeh.index.find_one(fig)
+const press = ({offsetX, offsetY}) => { pressed.data = {x: [x_scale.invert(offsetX)], z: [y_scale.invert(offsetY)]} }
+events_el.addEventListener("pointerdown", press, {capture: true})
+"""
 FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
 
 
@@ -92,12 +100,15 @@ class Section:
         knobs = fig.scatter("x", "z", source=self.handles, size=14, fill_color="white", line_color=COLOURS["theta"],
                             line_width=3)  # fmt: skip
         fig.add_tools(HoverTool(renderers=[knobs], tooltips="@says", point_policy="snap_to_data"))
+        self.pressed = ColumnDataSource({"x": [], "z": []})
+        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "pressed": self.pressed}, code=PRESS))
         fig.on_event("panstart", self._take)
         fig.on_event("pan", self._drag)
         fig.on_event("panend", self._let_go)
 
     def _take(self, event):
-        self._held = self.handle_at(event.x, event.y)
+        pressed = self.pressed.data
+        self._held = self.handle_at(pressed["x"][0], pressed["z"][0]) if len(pressed["x"]) else None
         if self._held and self._held.startswith("point "):
             self.last_point = int(self._held[6:])
 
