@@ -42,9 +42,11 @@ def test_keys_of_the_page(visit):
     page = visit.page
     page.locator("body").press("Space")
     page.wait_for_function("!__tippe.top3d.playing")
-    index = page.evaluate("__tippe.top3d.index")
+    # near the start, where another motion has its frames at the same times
+    page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
+    page.wait_for_function("__tippe.top3d.index == 0")
     page.locator("body").press("ArrowRight")
-    page.wait_for_function("i => __tippe.top3d.index == i", arg=index + 1)
+    page.wait_for_function("__tippe.top3d.index == 1")
     page.get_by_role("status", name="What the top does now").filter(has_text="The top rolls all along").wait_for(
         state="attached"
     )
@@ -55,7 +57,7 @@ def test_keys_of_the_page(visit):
     slider = page.get_by_role("slider", name="Jellett’s constant")
     slider.press("ArrowRight")  # the control's own there
     assert slider.get_attribute("aria-valuetext") == "7.01 root g over R"
-    assert page.evaluate("__tippe.top3d.index") == index + 1
+    assert page.evaluate("__tippe.top3d.index") == 1
     page.locator("body").press("Space")
     assert not page.evaluate("__tippe.top3d.playing")
 
