@@ -104,18 +104,8 @@ class Pacer:
                 self._send(self.later.pop(0), self._drawing)
 
     def _on_scene(self, event):
-        scene = event.new
-        if self._drawing or self._round:
-            self._send(partial(self._hand, scene), self._hands)
-            self._round_is_due = True
-        else:  # the first picture of a round goes with the hand, in one message
-
-            def both(first=self._pictures[0]):
-                self._hand(scene)
-                first(scene)
-
-            self._send(both, self._hands, self._drawing)
-            self._round, self._round_is_due = [partial(draw, scene) for draw in self._pictures[1:]], False
+        self._send(partial(self._hand, event.new), self._hands)
+        self._round_is_due = True
         if self._resting or event.new.messages or event.old.messages:
             self._words(event.new)
 
@@ -138,12 +128,11 @@ class Pacer:
         self._advance()
         self._see_to_it()
 
-    def _send(self, draw, *in_flight):
+    def _send(self, draw, in_flight):
         with pn.io.hold():  # one message, in order, so that the answer comes after the picture
             draw()
             self.painted.sent += 1
-        for each in in_flight:
-            each.append((self.painted.sent, time.monotonic()))
+        in_flight.append((self.painted.sent, time.monotonic()))
 
     def _on_painted(self, event):
         self._hands = [sent for sent in self._hands if sent[0] > event.new]
