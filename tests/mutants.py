@@ -38,6 +38,12 @@ EXPLAINED = {
         "the wording of an error, -0 for 0",
     ("curve", "B = K_J - top.I3 / top.I1 * (c - top.a) * K_R / f3_2(c, s2, top) ** 1.5"):
         "the float that guesses where the zero with sixty digits lies, and looks for dips between grid points",
+    ("curve", "cancelled = np.abs(value) < _CANCELLED / size"): "where the longest float is used, not what is computed",
+    ("curve", "return (value, np.maximum(size, constants.K_R ** 3 / f1_2(1 - v, top)))"): "the same",
+    ("curve", "return (value, np.maximum(size, constants.K_R ** 2 / f1_2(1 + v, top)))"): "the same",
+    ("curve", "return ((e - tilt - turn) / f1_sq, np.maximum(np.abs(e), np.maximum(np.abs(tilt), turn)) * f1_sq)"):
+        "the same",
+    ("smooth", "if slope == 0 or (abs(here) == 1 and slope / here > 0):"): "a quotient has the sign of the product",
     ("curve", "s2 = 1 + c * c"): "a slope of Newton's method: more steps to the same zero, or bisection",
 }
 
