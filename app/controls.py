@@ -8,7 +8,7 @@ import panel_material_ui as pmui
 import param
 
 from app.bundle import Bundled
-from app.cards import NOTES, PLAIN
+from app.cards import NOTES, PLAIN, alert, note
 from app.explorer import Explorer
 from app.pacing import at_once
 from app.text import listed, say
@@ -149,7 +149,7 @@ class Control:
                 raise ValueError
         except ValueError:
             self._unread = True
-            self._say(html.escape(say("controls.not_a_number", text=wish, shown=self._shown)), wrong=True)
+            self._say(say("controls.not_a_number", text=wish, shown=self._shown), wrong=True)
             return
         self._request(self.name, value, typed=True)
 
@@ -164,7 +164,7 @@ class Control:
             return
         self._unread = False
         if message:
-            self._say(html.escape(message), wrong=True)
+            self._say(message, wrong=True)
             return
         self.follow(value, shown, bounds)
         self._say(note)
@@ -177,9 +177,9 @@ class Control:
         self.view.param.update(start=float(low), end=float(high), told=[self._heard, float(value), self._shown])
 
     def _say(self, words, wrong=False):
+        """words: HTML; plain text where something is wrong."""
         self._stands = None
-        kind = 'class="alert" role="alert"' if wrong else 'class="note"'
-        self.view.param.update(wrong=wrong, words=f"<div {kind}>{words}</div>" if words else "")
+        self.view.param.update(wrong=wrong, words=alert(words) if wrong else note(words))
 
 
 class Controls:
@@ -248,7 +248,7 @@ class Controls:
             constants = scene.constants
             values = {"K_J": constants.K_J, "K_R": constants.K_R, "energy": constants.E}
         said = ", ".join(f"{named(name)} = {value:.4g}".replace("-", "−") for name, value in values.items())
-        return f'<div class="note">{say(f"controls.other.{other}", values=said)}</div>'
+        return note(say(f"controls.other.{other}", values=said))
 
     @staticmethod
     def _notes(scene):

@@ -337,7 +337,6 @@ class Socket(WSHandler):
         return False
 
     def open(self, *arguments, **named):
-        self.set_nodelay(True)  # a message is three pieces and more; none is to wait for the other end
         try:
             super().open(*arguments, **named)
         except (ProtocolError, RuntimeError, ValueError, KeyError) as error:

@@ -101,9 +101,7 @@ def _long_f(top, theta, K_J, K_R, E):
     e = np.array([known[row] for row in rows])
     theta, K_J, K_R = (np.asarray(x, dtype=np.longdouble) for x in (theta, K_J, K_R))
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
-    with localcontext(EXACT):
-        ratios = [exact_bracket_term(Decimal(c), Decimal(0), exact_top(top), Decimal(1)) for c in (1, -1)]
-    gaps = [K_J - np.longdouble(str(ratio)) * K_R for ratio in ratios]
+    gaps = [K_J - np.longdouble(str(ratio)) * K_R for ratio in pole_ratios(top)]
     gaps = [np.where(at_pole(d, K_J.astype(float)), 0, d) for d in gaps]
     w2 = omega2_at(v, m, long, K_R, gaps)
     return _sum_36(v, m, long, e, w2)[0]
@@ -123,12 +121,16 @@ def pole_constants(top, K_R):
         return tuple(float(exact_bracket_term(Decimal(c), Decimal(0), t, K_R)) for c in (1, -1))
 
 
+def pole_ratios(top):
+    """K_J/K_R at P and at the inverted pole, Decimals."""
+    with localcontext(EXACT):
+        return [exact_bracket_term(Decimal(c), Decimal(0), exact_top(top), Decimal(1)) for c in (1, -1)]
+
+
 def pole_gaps(top, K_J, K_R):
     """d = K_J - K_J(P), and the same at the inverted pole, without the rounding of K_J(P)."""
     gaps = []
-    with localcontext(EXACT):
-        ratios = [exact_bracket_term(Decimal(c), Decimal(0), exact_top(top), Decimal(1)) for c in (1, -1)]
-    for ratio in ratios:
+    for ratio in pole_ratios(top):
         high = float(ratio)
         low = float(ratio - Decimal(high))
         K = high * K_R
