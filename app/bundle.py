@@ -13,6 +13,7 @@ class Bundled(JSComponent):
 
     texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")
     SAYS = ()  # the tables of its words, beside the one of its own name
+    shown = None  # what was last put into it; for those who would put it there again
 
     _bundle = Path(__file__).parent / "static" / "tippe.js"
 

@@ -93,9 +93,9 @@ def equation(tex):
 
 def show_motion(view, scene, motion):
     """A Trajectory of its own in place of the scene's: of a ball, since a stem would touch the table on the way."""
-    if view.tags == [id(motion)]:
+    if view.shown is motion:
         return
-    view.tags = [id(motion)]
+    view.shown = motion
     nodal, across, axis, towards = axes(motion.theta, motion.phi)
     w1, w2, w3 = (component[:, None] for component in motion.omega.T)
     F_x, F_y, F_z = (component[:, None] for component in motion.force.T)

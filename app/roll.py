@@ -91,10 +91,10 @@ def spoken(scene):
 
 def show_top(top, scene):
     motion = scene.trajectory
-    if top.tags == [id(motion)]:
+    if top.shown is motion:
         top.mu_s = scene.mu_s
         return
-    top.tags = [id(motion)]
+    top.shown = motion
     top.param.update(
         mu_s=scene.mu_s,
         profile=pack(scene.profile),
@@ -114,8 +114,8 @@ def show_top(top, scene):
 
 def show_surface(surface, scene):
     plane, motion = scene.plane, scene.constants
-    if surface.tags != [id(plane)]:
-        surface.tags = [id(plane)]
+    if surface.shown is not plane:
+        surface.shown = plane
         surface.param.update(
             K_J=pack(plane.K_J),
             theta=pack(plane.theta),

@@ -416,11 +416,10 @@ class ThreePlanes:
 
     def _show_top(self, top, picture, plane):
         motion = picture.motions[plane]
-        if top.tags == [id(picture.settings)]:
+        if top.shown is picture.settings:
             return
-        settings = picture.settings
+        settings = top.shown = picture.settings
         top.param.update(
-            tags=[id(settings)],
             profile=pack(settings.profile),
             seconds=settings.scales.time,
             a=settings.top.a,
