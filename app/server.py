@@ -328,6 +328,7 @@ class Socket(WSHandler):
     """Bokeh's, with a limit at each place where a browser could ask for more than its share."""
 
     entered = None
+    ending = False  # by this class's own wish, not by the protocol's
 
     def check_origin(self, origin):
         host = urlsplit(origin).netloc.lower()
@@ -383,6 +384,16 @@ class Socket(WSHandler):
         finally:
             door.done(time.monotonic() - start)
 
+    def close(self, *arguments, **named):
+        self.ending = True
+        super().close(*arguments, **named)
+
+    def on_ws_connection_close(self, *reason):
+        if self.ws_connection is not None and self.ws_connection.server_terminated and not self.ending:
+            log.warning("ended the connection of %s: a piece over %d KiB, no websocket frame, or no answer to pings",
+                        self.request.remote_ip, LARGEST_FRAGMENT // 1024)  # fmt: skip
+        super().on_ws_connection_close(*reason)
+
     def on_close(self):
         if self.entered is not None:
             self.application.door.leave(self.entered)
@@ -435,9 +446,11 @@ class Socket(WSHandler):
             await self.send_message(reply)
 
     async def send_message(self, message):
-        """All pieces at once: Bokeh's waits for each to be out."""
-        with await self.write_lock.acquire(), suppress(WebSocketClosedError):
-            await asyncio.gather(*dispatch_tornado(SimpleNamespace(_socket=self), msg=message))
+        """All pieces at once: Bokeh's waits for each to be out, and Panel's messages, meanwhile, for it."""
+        with await self.write_lock.acquire():
+            pieces = dispatch_tornado(SimpleNamespace(_socket=self), msg=message)
+        with suppress(WebSocketClosedError):
+            await asyncio.gather(*pieces)
 
     def _bounded(self, apply):
         def applied(*arguments):

@@ -5,6 +5,7 @@ import asyncio
 import base64
 import gzip
 import json
+import os
 import random
 import sys
 import tempfile
@@ -12,6 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
 from wire import Closed, Visitor, run, served
 
@@ -158,6 +160,28 @@ def test_pieces_that_are_no_message(piece, attacked):
     with pytest.raises(Closed, match="1007"):
         run(send(attacked.url))
     check(set(), attacked.log)
+
+
+def test_a_message_of_100_MB_is_not_read(attacked):
+    resident = Path(f"/proc/{attacked.process.pid}/statm")
+
+    def megabytes():
+        return int(resident.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+    async def send(url):
+        visitor, innocent = await Visitor.enter(url, pull=False), await Visitor.enter(url)
+        before = megabytes()
+        with suppress(WebSocketClosedError, StreamClosedError):
+            await visitor.socket.write_message(b"x" * 100_000_000, binary=True)
+        with pytest.raises(Closed):
+            await visitor.receive()
+        answered, _ = await innocent.answer(await innocent.set(innocent.find("Dial")[0], "asked", [1, 6.5, False]))
+        innocent.leave()
+        return answered, megabytes() - before
+
+    answered, more = run(send(attacked.url))
+    assert answered == "OK" and more < 50
+    assert "256 KiB" in attacked.log
 
 
 if __name__ == "__main__":
