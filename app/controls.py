@@ -109,6 +109,11 @@ class Dial(Bundled):
     wrong = param.Boolean(default=False, doc="Whether what was typed cannot be.")
 
 
+def spoken(words, wrong=False):
+    """Of a Dial: words are HTML; plain text where something is wrong."""
+    return {"wrong": wrong, "words": alert(words) if wrong else note(words)}
+
+
 class Control:
     """One input of a view-model. request: a function of its name and the number that is wanted, and typed=True where
     that was typed."""
@@ -166,20 +171,19 @@ class Control:
         if message:
             self._say(message, wrong=True)
             return
-        self.follow(value, shown, bounds)
-        self._say(note)
+        self.follow(value, shown, bounds, **spoken(note))
         self._stands = asked
 
-    def follow(self, value, shown, bounds=None):
-        """The slider and the number go where the value is."""
+    def follow(self, value, shown, bounds=None, **more):
+        """The slider and the number go where the value is. more: of the Dial's, at the same time."""
         low, high = bounds or RANGES[self.name][:2]
         self._shown, self._stands = number(shown), None
-        self.view.param.update(start=float(low), end=float(high), told=[self._heard, float(value), self._shown])
+        told = [self._heard, float(value), self._shown]
+        self.view.param.update(start=float(low), end=float(high), told=told, **more)
 
     def _say(self, words, wrong=False):
-        """words: HTML; plain text where something is wrong."""
         self._stands = None
-        self.view.param.update(wrong=wrong, words=alert(words) if wrong else note(words))
+        self.view.param.update(**spoken(words, wrong))
 
 
 class Controls:

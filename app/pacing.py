@@ -42,7 +42,8 @@ class Pacer:
 
     Functions of a scene: hand draws what the hand moves and is cheap. The pictures follow in turn, each in a message
     of its own once the one before is painted, so that a hand never waits for more than one; a round of them shows
-    one scene, the newest at its start. words are for a hand at rest, or for an input that cannot be.
+    one scene, the newest at its start. words are for a hand at rest, or for an input that cannot be. After a single
+    step pictures and words come in one message: each costs the server more than what is in it.
 
     later: what is not made before the page has come, in turn like the pictures, so that the first of it is soon there.
     """
@@ -52,6 +53,8 @@ class Pacer:
         self.painted = Painted(width=0, height=0, margin=0)
         at_once(self.painted, "painted")
         self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
+        self._single = True  # whether the hand was at rest before the last request
+        self._said = None  # the scene whose words were shown since then
         self._requested = 0.0
         self.later, self._begun = [], False
         self._hands, self._drawing = [], []  # (number, when sent) of what the browser has yet to paint
@@ -78,6 +81,7 @@ class Pacer:
         """Asks for these inputs of the Explorer; a later request for the same input replaces one still waiting."""
         self._wanted.update(inputs)
         self._requested = time.monotonic()
+        self._single, self._said = self._resting, None  # what is asked for is answered, also where nothing changes
         if self._resting:
             self._resting = False
             self._after(REST_AFTER, self._rest)
@@ -98,16 +102,28 @@ class Pacer:
             if not self._round and self._round_is_due:
                 scene, self._round_is_due = self.explorer.scene, False
                 self._round = [partial(draw, scene) for draw in self._pictures]
+                if self._single:
+                    self._round = [partial(self._all, scene)]
             if self._round:
                 self._send(self._round.pop(0), self._drawing)
             elif self._begun and self.later:
                 self._send(self.later.pop(0), self._drawing)
 
+    def _all(self, scene):
+        for draw in self._pictures:
+            draw(scene)
+        self._say(scene)
+
+    def _say(self, scene):
+        if scene is not self._said:
+            self._said = scene
+            self._words(scene)
+
     def _on_scene(self, event):
         self._send(partial(self._hand, event.new), self._hands)
         self._round_is_due = True
         if self._resting or event.new.messages or event.old.messages:
-            self._words(event.new)
+            self._say(event.new)
 
     def _rest(self):
         self._advance()  # a hidden tab answers nothing that could do it
@@ -116,7 +132,7 @@ class Pacer:
             self._after(left, self._rest)
             return
         self._resting = True
-        self._words(self.explorer.scene)
+        self._say(self.explorer.scene)
         self._see_to_it()
 
     def _see_to_it(self):

@@ -139,11 +139,14 @@ class Phase(Portrait):
 
     def draw(self, scene):
         motion, loops = scene.nutation, scene.levels
+        closed = [np.append(np.concatenate([(theta, rate), (theta[::-1], -rate[::-1])], axis=1), [[np.nan]] * 2, axis=1)
+                  for theta, rate in loops]  # fmt: skip
+        x, y = zip(np.concatenate(closed[:-2], axis=1), *closed[-2:], strict=True)  # few arrays are sent faster
         self.levels.data = {
-            "x": [np.concatenate([theta, theta[::-1]]) for theta, _ in loops],
-            "y": [np.concatenate([rate, -rate[::-1]]) for _, rate in loops],
-            "colour": [FAINT] * (len(loops) - 2) + [COLOURS["friction"], COLOURS["normal"]],
-            "dash": ["solid"] * (len(loops) - 2) + ["dashed", "dashed"],
+            "x": list(x),
+            "y": list(y),
+            "colour": [FAINT, COLOURS["friction"], COLOURS["normal"]],
+            "dash": ["solid", "dashed", "dashed"],
         }
         self.put(motion, motion.theta, motion.omega[:, 0])
         outermost, fastest = loops[-1]

@@ -20,6 +20,7 @@ import asyncio
 import datetime
 import os
 import platform
+import random
 import subprocess
 import sys
 import tempfile
@@ -162,7 +163,8 @@ class Run:
         before, moving = self.seconds(), self.visitors[:active]
         for each in moving:
             each.times.clear()
-        await asyncio.gather(*(each.act(seconds, EVERY * i / active) for i, each in enumerate(moving)))
+        dice = random.Random(1)
+        await asyncio.gather(*(each.act(seconds, EVERY * dice.random()) for each in moving))
         await asyncio.sleep(1)
         times = [t for each in moving for t in each.times]
         lost = [each.lost for each in self.visitors if each.lost]
