@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from visiting import Visit
+from visiting import Visit, wait
 
 from app.explorer import solve
 from tippe_core import Top
@@ -97,6 +97,8 @@ def test_nothing_moves_while_a_slider_is_dragged(shared):
     page.wait_for_function("field => Number(field.value) < 2.5", arg=field.element_handle())
     assert len(before) > 20 and page.evaluate(PLACES) == before
     page.mouse.up()
+    # all pictures of the drag have come, so that none comes after what is typed next
+    wait(page, lambda: abs(shared.column("constants", 0, "K_J")[0] - float(field.input_value())) < 1e-4)
     page.wait_for_function("Bokeh.documents[0].is_idle")
     assert page.evaluate(PLACES) == before
     field.fill("6.7")

@@ -130,6 +130,20 @@ def test_a_top_is_saved_and_loaded_back_and_a_bad_file_changes_nothing(bench):
     assert download(bench, "Save this top").decode() == text
 
 
+def test_a_file_far_too_large_stays_where_it_is(bench, tmp_path):
+    choose(bench, PRESETS[1])
+    choose(bench, PRESETS[0])
+    path = tmp_path / "top.json"
+    with path.open("wb") as file:
+        file.truncate(100_000_000)
+    sent = len(bench.sent)
+    bench.page.locator("input[type=file]").set_input_files(path)
+    bench.page.get_by_text("allowed is at most 65536 bytes").wait_for()
+    bench.errors[:] = [text for text in bench.errors if "exceeds maximum file size" not in text]  # the library's
+    assert sum(map(len, bench.sent[sent:])) < 100_000
+    assert download(bench, "Save this top").decode() == save_top(TruncatedSphere.paper())
+
+
 def test_the_stl_that_is_saved_is_the_body_in_mm(bench):
     choose(bench, PRESETS[1])
     choose(bench, PRESETS[0])

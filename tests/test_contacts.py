@@ -305,8 +305,13 @@ def test_the_surface_of_a_cut_ball_ends():
     ("edge", {"edge": (-1.0, 2.0)}),
     ("edge", {"edge": (1.0, np.nan)}),
     ("edge", {"edge": 3.0}),
+    ("edge", {"edge": (0.5, 0.7, 0.05)}),  # inside the sphere that rolls
 ])  # fmt: skip
 def test_bad_input_is_named(name, more):
     with pytest.raises(TopError) as caught:
         slide(PAPER, State(0.1, 0, 0, 1.0), VISCOUS, [0, 1], **more)
     assert caught.value.name == name
+
+
+def test_an_edge_may_reach_out_of_the_sphere_by_its_rounding():
+    assert len(slide(PAPER, State(0.1, 0, 0, 1.0), VISCOUS, [0, 1], edge=(0.5, 0.8, 0.1)).t) == 2

@@ -52,6 +52,9 @@ def test_constants_of_the_poles(top, pole):
     curve = Curve(top, 0, 7)
     expected = -curve.bracket(mp.pi * pole)
     assert pole_constants(top, 7.0)[pole] == pytest.approx(float(expected), rel=2e-16 * 4)
+    np.testing.assert_allclose(
+        pole_constants(top, [-7.0, 0.0, 14.0])[pole], float(expected) * np.array([-1, 0, 2]), rtol=1e-15
+    )
 
 
 @pytest.mark.parametrize("distance", [1e-3, 1e-6, 1e-9, 1e-12])
@@ -64,7 +67,7 @@ def test_inner_turning_point_next_to_P(distance):
     assert case.curve.f(low) < 0 < case.curve.f(high)
 
 
-@pytest.mark.parametrize("rise", [1e-4, 1e-8, 1e-11])
+@pytest.mark.parametrize("rise", [1e-4, 1e-8, 1e-11, 3e-13])
 @pytest.mark.parametrize("name", ["K_J = 7", "shallow well", "ordinary"])
 def test_narrow_well(name, rise):
     """Close above the steady precession the interval is short as the root of the energy; both ends keep 1e-12."""

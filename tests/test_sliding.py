@@ -316,6 +316,18 @@ def test_a_start_that_rolls_is_the_exact_rolling_motion():
         np.testing.assert_allclose(getattr(moved, name), expected, rtol=0, atol=1e-10)
 
 
+@pytest.mark.parametrize("state", [State(0.0, 0.8, 0, 5.0, vx=0, vy=-0.8 * 0.93),
+                                   State(np.pi, 0.5, 0, 3.0, vx=0, vy=-0.5 * 1.07)])  # fmt: skip
+def test_a_start_that_rolls_through_a_pole(state):
+    times = np.linspace(0, 5, 51)
+    moved, rolled = slide(PAPER, state, Coulomb(0.5, 100.0), times), Rolling(PAPER, None, state)(times)
+    assert set(moved.regime) == {"roll"}
+    away = rolled.com[0] * (1, 1, 0)
+    np.testing.assert_allclose(moved.com, rolled.com - away, rtol=0, atol=1e-10)
+    sign = np.sign((moved.quaternion * rolled.quaternion).sum(axis=1))[:, None]
+    np.testing.assert_allclose(moved.quaternion, sign * rolled.quaternion, rtol=0, atol=1e-10)
+
+
 def test_lift_off_ends_the_motion():
     state = State(0.8, 9.0, 0, 3.0)
     times = np.linspace(0, 5, 5001)

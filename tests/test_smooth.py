@@ -49,6 +49,11 @@ def test_against_the_rigid_body(name):
     np.testing.assert_allclose(moved.jellett[off], moved.jellett[off][0], rtol=1e-12, atol=1e-13)
 
 
+def test_a_motion_through_a_pole_turns_there():
+    for name, end in (("through the pole", 0), ("through the inverted pole", 1)):
+        assert Gliding(*STARTS[name]).turning_points[end] == np.pi * end
+
+
 @pytest.mark.parametrize("name", ["slow", "rising", "ordinary"])
 def test_period_and_turning_points(name):
     """Appendix B's theta_dot^2 vanishes at the turning points; its quadrature between them is the period."""
