@@ -98,7 +98,7 @@ class Pacer:
         if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
             inputs, self._wanted = self._wanted, {}
             self.explorer.param.update(**inputs)
-        if not self._drawing:
+        if not self._drawing and not (self._single and self._hands):
             if not self._round and self._round_is_due:
                 scene, self._round_is_due = self.explorer.scene, False
                 self._round = [partial(draw, scene) for draw in self._pictures]

@@ -219,7 +219,8 @@ def visits(playwright, servers):
 def hands(playwright, servers):
     browser, results = launch(playwright), {}
     for _ in range(ROUNDS):
-        for name, handle in {"bare": ".noUi-handle", "panel serve": "input[aria-label='Jellett’s constant']"}.items():
+        for name in servers:
+            handle = ".noUi-handle" if name == "bare" else "input[aria-label='Jellett’s constant']"
             page = browser.new_page(viewport={"width": 1400, "height": 900}, locale="en")
             page.set_default_timeout(120_000)
             page.add_init_script("localStorage.setItem('tippe:tour', '1')")
@@ -241,7 +242,7 @@ def hands(playwright, servers):
         base = np.percentile(found["bare"], 95)
         for name, delay in found.items():
             p50, p95 = np.percentile(delay, (50, 95))
-            print(f"{way:5} {part:6} {name:11} n = {len(delay):4}  p50 {p50:5.0f} ms  p95 {p95:5.0f} ms  "
+            print(f"{way:5} {part:6} {name:13} n = {len(delay):4}  p50 {p50:5.0f} ms  p95 {p95:5.0f} ms  "
                   f"{p95 / base:5.2f} times bare")  # fmt: skip
 
 
@@ -256,8 +257,7 @@ def main():
         try:
             servers["bare"] = serve("bokeh", "serve", str(bare), path="bare")
             servers["panel serve"] = serve("panel", "serve", "app")
-            if "first" in what:
-                servers["python -m app"] = serve("app", TIPPE_PORT="{port}")
+            servers["python -m app"] = serve("app", TIPPE_PORT="{port}")
             browser = launch(playwright)
             print(f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, "
                   f"load {os.getloadavg()[0]:.1f}, Python {platform.python_version()}, "
