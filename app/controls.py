@@ -210,7 +210,7 @@ class Controls:
                 column.visible = face == explorer.face
                 if column.visible and not column.objects:
                     column.objects = self.views(*FACES[face])
-            self._other.object = self._other_face(explorer.scene)
+            self.show(explorer.scene)
 
         explorer.param.watch(lambda event: pacer.soon(turn), "face")
         turn()
@@ -230,8 +230,12 @@ class Controls:
         return [self._controls[name].view for name in names]
 
     def show(self, scene):
+        """On all controls but those of the face that is not looked at."""
         notes = self._notes(scene)
+        hidden = {name for face, names in FACES.items() if face != self._explorer.face for name in names}
         for name, control in self._controls.items():
+            if name in hidden and not scene.messages:
+                continue
             value = getattr(self._explorer, name)
             shown = scene.constants.E if name == "energy" else value
             bounds = scene.plane.K_J_range if name == "K_J" else None

@@ -256,12 +256,10 @@ class Explorer(param.Parameterized):
             return
         changed = {event.name for event in events}
         if "given" not in changed:
-            if changed & set(self.GIVEN["state"]):
-                self._follow(given="state")
-            elif "E" in changed:
-                self._follow(given="E")
-            elif changed & set(self.GIVEN["share"]):
-                self._follow(given="share")
+            by = (("state", self.GIVEN["state"]), ("E", ("E",)), ("share", self.GIVEN["share"]))
+            given = next((given for given, names in by if changed & set(names)), self.given)
+            if given != self.given:
+                self._follow(given=given)
         self._solve()
 
     def _follow(self, **values):

@@ -160,6 +160,7 @@ class Run:
 
     async def move(self, active, seconds):
         """Some of them move a slider; returns p95 in s, inf where a session was lost."""
+        await self.quiet()  # until what was left undone before is done
         before, moving = self.seconds(), self.visitors[:active]
         for each in moving:
             each.times.clear()
