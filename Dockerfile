@@ -21,7 +21,10 @@ RUN python3 -m venv /opt/venv \
 
 FROM python:3.12-slim
 COPY --from=build /opt/venv /opt/venv
-ENV PATH=/opt/venv/bin:$PATH PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 PYTHONSAFEPATH=1
+# matplotlib keeps its list of fonts in memory, the only thing that is written at all, when the first figure is printed.
+# With the system's malloc the memory of closed pages is given back; Python's own, an eighth faster, keeps it for others.
+ENV PATH=/opt/venv/bin:$PATH PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 PYTHONSAFEPATH=1 \
+    PYTHONMALLOC=malloc MPLCONFIGDIR=/dev/shm/matplotlib
 USER 65534:65534
 EXPOSE 5006
 HEALTHCHECK --interval=30s --timeout=5s --start-period=30s CMD ["python", "-c", \

@@ -97,7 +97,8 @@ class Compare:
         self.kind = self._buttons("kinds")
         self.kind.value = "ordinary" if explorer.scene.top.a < 0 else "tippe"
         self.kind.param.watch(lambda event: self._prefill(), "value")
-        self.entries = {name: field("", say("family.map.entry", name=name), width=76) for name, _ in self.FIELDS}
+        spoken = {name: listed(f"controls.spoken.{name}")[0] for name, _ in self.FIELDS}
+        self.entries = {name: field("", say("family.map.entry", name=spoken[name]), width=76) for name in spoken}
         self._prefill()
         self.said = words()
         self.map = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*_sides(RATIOS)), name="map")

@@ -1,13 +1,12 @@
 """The figures for print, PNG and SVG: drawn by matplotlib from a Scene, with the parameters in the caption.
 
 The same colours as on the page. Nothing is shared with a screen, so it may run in a thread beside the server.
+matplotlib is imported when a figure is asked for: it wants a place to write, which the page does without.
 """
 
 import io
 
-import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
 
 from app.colours import COLOURS, FAINT, INK
 from app.text import listed, say
@@ -34,6 +33,8 @@ def caption(scene):
 
 def draw(scene, name, kind):
     """One of FIGURES as the bytes of a "png" or "svg" file."""
+    import matplotlib
+
     with matplotlib.rc_context(FONT):
         figure = DRAWN[name](scene)
         file = io.BytesIO()
@@ -45,6 +46,8 @@ def draw(scene, name, kind):
 
 def _page(scene, height, title):
     """A figure of that height in inches, its title above and its caption below."""
+    from matplotlib.figure import Figure
+
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     figure.get_layout_engine().set(rect=(0, 0.62 / height, 1, 1 - 0.95 / height))
     figure.text(0.5, 1 - 0.1 / height, title, ha="center", va="top", color=INK)

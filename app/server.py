@@ -45,6 +45,7 @@ from panel.io.session import generate_session
 from panel.io.state import set_curdoc
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
+from tornado.iostream import StreamClosedError
 from tornado.netutil import bind_sockets
 from tornado.web import HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError
@@ -160,7 +161,7 @@ class Door:
     def __init__(self, settings):
         self.settings, self.sessions = settings, {}  # Bokeh's own, by id
         self.open = Counter()  # sessions and waiting ones, by address
-        self.ended = 0  # since the memory of ended ones was given back
+        self.known, self.gone = set(), 0  # ids of the sessions that tidy() saw, and how many went since it tidied
         self._waiting = OrderedDict()  # address -> deque of futures
         self._busy = False
 
@@ -176,7 +177,6 @@ class Door:
         self.open[address] += 1
 
     def leave(self, address):
-        self.ended += 1
         self.open[address] -= 1
         if self.open[address] <= 0:
             del self.open[address]
@@ -633,6 +633,7 @@ def serve(settings, sockets, parent=None):
                       max_header_size=32 * 1024, idle_connection_timeout=60)  # fmt: skip
     http.add_sockets(sockets)
     loop = IOLoop.current()
+    loop.asyncio_loop.set_exception_handler(unheard)
     server = BaseServer(loop, tornado, http)
 
     def stop(*_):
@@ -664,6 +665,12 @@ def serve(settings, sockets, parent=None):
     loop.start()
 
 
+def unheard(loop, context):
+    """What nobody waits for: that a page has closed while something was on its way to it is no error."""
+    if not isinstance(context.get("exception"), (WebSocketClosedError, StreamClosedError)):
+        loop.default_exception_handler(context)
+
+
 def failure(application):
     """Why the last page could not be made, or None. Panel keeps it, and would show it to all who come after."""
     runner = application.handlers[0]._main_handler._runner
@@ -672,13 +679,18 @@ def failure(application):
 
 
 def tidy(door):
-    """Gives the memory of ended sessions back to the system: their models refer to each other, and Python is slow
-    to look through what is old."""
-    if door.ended >= 20 or (door.ended and not door.sessions):
-        door.ended = 0
+    """Gives the memory of ended sessions back to the system: their models refer to each other. What lives is frozen:
+    else Python looks through all of it now and then, which is a second for 100 sessions, and finds nothing."""
+    made, gone = len(set(door.sessions) - door.known), len(door.known - set(door.sessions))
+    door.known, door.gone = set(door.sessions), door.gone + gone
+    if door.gone >= 20 or (door.gone and not door.sessions):
+        door.gone, made = 0, True
+        gc.unfreeze()
         gc.collect()
         if hasattr(LIBC, "malloc_trim"):  # glibc's
             LIBC.malloc_trim(0)
+    if made:
+        gc.freeze()
 
 
 def prepare(document):

@@ -1,6 +1,6 @@
 """How many visitors one server bears, beside a bare Bokeh app under the same load; on this machine alone, and bounded.
 
-    python benchmarks/load.py [--quick] [--only NAME ...]      at most 15 minutes where nothing else runs
+    python benchmarks/load.py [--quick] [--only NAME ...]      some 20 minutes where nothing else runs
 
 Visitors speak Bokeh's protocol without a browser (tests/wire.py), and answer what a browser answers. A reply is the
 first picture that comes after a slider moved. The generator runs beside, on the same cores. To one server process
@@ -10,6 +10,10 @@ first picture that comes after a slider moved. The generator runs beside, on the
     lecture   200 sessions, of which 20 move one
     breaks    more and more of them move one, until p95 is over 1 s or something fails
     memory    MB of the server: a session that came and looks, one that moves a slider, and after all have left
+
+and to one with the image's PYTHONMALLOC=malloc ("image")
+
+    memory    as above
     leak      an hour of visitors (120) without its pauses: they come, move a slider 5 times and go; MB after each 20
 
 Results of runs are kept below.
@@ -179,24 +183,23 @@ class Run:
         for each in self.visitors:
             await each.leave()
         self.visitors = []
-        await asyncio.sleep(20)  # until they count as gone, and what was theirs as free
+        await asyncio.sleep(25)  # until they count as gone, and what was theirs as free
 
 
 async def visits(servers, few, long):
-    """All scenarios on one set of servers; few divides the numbers of people, and of seconds."""
+    """All scenarios on one set of servers; few divides the numbers of people, and of seconds. long: of memory alone."""
     run = Run(servers)
     await run.come(5)
     await run.leave()
     none = run.megabytes()
     await run.come(100 // few)
     idle = run.megabytes()
-    late = await run.move(100 // few, 120 // few)
+    late = await run.move(100 // few, (15 if long else 120) // few)
     active = run.megabytes()
-    if late < 1:
+    if late < 1 and not long:
         await run.come(100 // few)
         await run.move(20 // few, 40 // few)
-    steps = (150, 200) if late < 1 else (75, 50, 25)
-    for some in steps:
+    for some in () if long else (150, 200) if late < 1 else (75, 50, 25):
         late = await run.move(some // few, 15)
         if (late > 1) == (some > 100):
             break
@@ -243,8 +246,9 @@ class Process:
 
 
 @contextmanager
-def ours(folder, replicas):
-    """So many servers of one worker each."""
+def ours(folder, replicas, malloc="pymalloc"):
+    """So many servers of one worker each. malloc: Python's allocator."""
+    os.environ["PYTHONMALLOC"] = malloc
     with ExitStack() as stack:
         limits = {"sessions": 1000, "sessions_per_address": 1000, "linger": 3}
         servers = [stack.enter_context(served(Path(folder, f"log{i}"), **limits)) for i in range(replicas)]
@@ -271,29 +275,24 @@ def bare(folder):
         process.wait()
 
 
+KINDS = {"one": lambda folder: ours(folder, 1), "two": lambda folder: ours(folder, 2), "bare": bare,
+         "image": lambda folder: ours(folder, 1, "malloc")}  # fmt: skip
+
+
 def main():
     """All of it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="a tenth of it, to see that it runs")
-    parser.add_argument("--only", nargs="*", choices=("one", "two", "bare"), default=("one", "two", "bare"))
+    parser.add_argument("--only", nargs="*", choices=KINDS, default=list(KINDS))
     options = parser.parse_args()
     print(datetime.date.today(), f"{platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()},",
           f"panel {version('panel')}, bokeh {version('bokeh')}")  # fmt: skip
-    kinds = {"one": lambda folder: ours(folder, 1), "two": lambda folder: ours(folder, 2), "bare": bare}
     for name in options.only:
         print(f"  {name}, load {os.getloadavg()[0]:.1f} before")
-        with tempfile.TemporaryDirectory() as folder, kinds[name](folder) as servers:
-            asyncio.run(asyncio.wait_for(visits(servers, 10 if options.quick else 1, name == "one"), 900))
+        with tempfile.TemporaryDirectory() as folder, KINDS[name](folder) as servers:
+            asyncio.run(asyncio.wait_for(visits(servers, 10 if options.quick else 1, name == "image"), 900))
 
 
 if __name__ == "__main__":
     main()
 
-
-# Short runs (--quick) while others used the machine (load 8 on 2 cores): only the processor's seconds mean something.
-#
-# 2026-11-21, x86_64, 2 cores, Python 3.11.7, panel 1.9.4, bokeh 3.9.2
-#   1 replica: 10 sessions, 10 active: 26.3 ms of processor a move, a page 0.56 s of processor, lost 0
-#   2 replicas: the same 26.5 ms and 0.56 s; p95 324 ms where one replica had 2210 ms
-#   bare Bokeh: 3.7 ms a move, 0.04 s a page
-#   3.6 MB a session, idle or active; 203 MB with none

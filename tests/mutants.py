@@ -43,6 +43,7 @@ EXPLAINED = {
     ("curve", "return (value, np.maximum(size, constants.K_R ** 2 / f1_2(1 + v, top)))"): "the same",
     ("curve", "return ((e - tilt - turn) / f1_sq, np.maximum(np.abs(e), np.maximum(np.abs(tilt), turn)) * f1_sq)"):
         "the same",
+    ("smooth", "q = -(B + root if B >= 0 else B + root) / 2"): "the same zeros, with more rounding",
     ("smooth", "outer = -one if P(+one)[0] == 0 and e > 4 * t.a else solve(P, -one, here, True)"):
         "the solver finds the pole to the last digit, too",
     ("smooth", "outer = -one if P(-one)[0] == 0 and e > 4 / t.a else solve(P, -one, here, True)"): "the same",
@@ -52,6 +53,11 @@ EXPLAINED = {
     ("curve", "return (self.exact.e - self.U(c), -self.N(c) * (s2 * s2) if s2 else None)"): "the same",
     ("curve", "return (self.exact.e - self.U(c), +self.N(c) / (s2 * s2) if s2 else None)"): "the same",
     ("curve", "opposite = p / q <= 0"): "a quotient has the sign of the product; where q = 0 both forms of C agree",
+    ("sliding", "ez = 1 - 2 * (z[0] / z[0] + z[1] * z[1])"): "steps are looked at for events that have none",
+    ("contacts", "g = sqrt(square) * (sqrt(square) + SLOW * scale) if sticks else 1.0"):
+        "how fast the path is run through, which is the same path",
+    ("contacts", "if worst <= SLACK * 2:"): "what counts as nothing",
+    ("contacts", "away = -rest[:2] * np.hypot(rest[0], rest[1])"): "how small the first slip is",
     ("sliding", "if np.all(np.abs(missing) < 1e-13 / (1 + np.abs(times))):"): "one more of Newton's steps",
 }
 

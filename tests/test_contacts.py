@@ -9,6 +9,7 @@ from cases import LOADED, PAPER
 from test_sliding import in_space
 
 from tippe_core import (
+    PRESETS,
     Ball,
     Coulomb,
     OrdinaryTop,
@@ -19,7 +20,7 @@ from tippe_core import (
     Viscous,
     slide,
 )
-from tippe_core.contacts import impact
+from tippe_core.contacts import gap, impact
 
 STEM = TruncatedSphere.paper()
 EDGE = STEM.edge
@@ -49,7 +50,7 @@ def first_instant(moved):
 
 
 @pytest.mark.parametrize("shape", [STEM, OrdinaryTop(R=2e-3, h=6e-3, r1=2e-2, r2=2e-2, t=5e-3, r=2e-3, l=1e-2, M=0.02),
-                                   Ball(R=0.01, M=0.01)])  # fmt: skip
+                                   Ball(R=0.01, M=0.01), *(preset.shape for preset in PRESETS)])  # fmt: skip
 def test_the_edge_of_a_shape_is_what_touches(shape):
     """Its lowest point comes to the table at touch_angle, and is above it before."""
     if shape.touch_angle is None:
@@ -61,6 +62,7 @@ def test_the_edge_of_a_shape_is_what_touches(shape):
         theta = shape.touch_angle + tilt
         lowest = (1 + height * np.cos(theta) + radius * np.sin(theta) * np.cos(beta)).min() - rounding
         assert abs(lowest) < 1e-12 if sign == 0 else lowest * sign > 1e-7
+        assert gap(shape.edge, np.cos(theta), np.sin(theta)) == pytest.approx(lowest, abs=1e-12)
 
 
 # ---- on the stem, and on both ----
@@ -120,6 +122,15 @@ def test_rolling_on_the_stem():
     turn = np.exp(1j * moved.phi[i]) * (moved.force[i, 0] + 1j * moved.force[i, 1])
     F = np.stack([turn.real, turn.imag, moved.force[i, 2] - 1], axis=1)
     np.testing.assert_allclose((moved.com[i + 1] - 2 * moved.com[i] + moved.com[i - 1]) / h**2, F, rtol=0, atol=5e-3)
+
+
+    # from there on it rolls again, without an event
+    k = i[50]
+    state = State(moved.theta[k], *moved.omega[k], moved.phi[k], moved.psi[k], *moved.com[k, :2],
+                  *moved.velocity[k, :2])  # fmt: skip
+    again = slide(PAPER, state, friction, moved.t[k : k + 101], rtol=1e-12, edge=EDGE)
+    assert again.events == () and set(again.regime) == {"roll"}
+    np.testing.assert_allclose(again.com, moved.com[k : k + 101], rtol=0, atol=1e-9)
 
 
 def test_slip_of_the_stem_goes_through_zero():

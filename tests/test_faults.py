@@ -125,6 +125,17 @@ def test_a_full_disk_stops_nobody(tmp_path):
         assert process.wait(10) == 0
 
 
+def test_the_page_needs_no_place_to_write():
+    """matplotlib does, for its list of fonts: it waits until a figure is printed."""
+    code = """
+import contextlib, sys
+with contextlib.suppress(AttributeError):  # the page itself is made for a visitor, and here is none
+    import app.main
+print("matplotlib" in sys.modules, "app.prints" in sys.modules)"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=120)
+    assert done.stdout.split()[-2:] == ["False", "True"], done.stderr[-2000:]
+
+
 @pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the proxy of compose.yaml, is not installed")
 def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_its_own(page, tmp_path):
     port = free_port()

@@ -328,8 +328,8 @@ def test_a_start_that_rolls_through_a_pole(state):
     np.testing.assert_allclose(moved.quaternion, sign * rolled.quaternion, rtol=0, atol=1e-10)
 
 
-def test_lift_off_ends_the_motion():
-    state = State(0.8, 9.0, 0, 3.0)
+@pytest.mark.parametrize("state", [State(0.8, 9.0, 0, 3.0), State(0.8, 9.0, 0, 3.0, 1.7, vx=1.5, vy=-0.8)])
+def test_lift_off_ends_the_motion(state):
     times = np.linspace(0, 5, 5001)
     moved = slide(PAPER, state, Viscous(0.3), times, rtol=1e-11)
     (t, what), = moved.events
