@@ -13,6 +13,7 @@ kept in benchmarks/results.md.
               rigid body of tests/rigid_body.py over 400 nutations, beyond that against Rolling, whose phase the tests
               hold against fifty digits
     roll()    full poses, track and forces at 10,000 times
+    slide()   against MuJoCo at equal drift of C_J (sliding.py)
 """
 
 import argparse
@@ -35,6 +36,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 import rigid_body as rb
+import sliding
 
 from tippe_core import (
     Constants,
@@ -302,6 +304,8 @@ def run(repetitions, port):
                       ("roll(), 10,000 samples", lambda: roll(TOP, MOTION, times[::100])),
                       ("roll(), 1,000,000 samples", lambda: roll(TOP, MOTION, times))):  # fmt: skip
         yield f"peak of memory, {what}", f"{peak(job):.3g} MB", "", "", ""
+
+    yield from sliding.rows()
 
     spent = statistics.median(fresh(IMPORT) for _ in range(7))
     yield ("import tippe_core beyond numpy and scipy", f"{spent:.3f} s", "", "",

@@ -298,22 +298,22 @@ if __name__ == "__main__":
 
 
 # 2026-11-22, Xeon, 2 cores, nothing else running, generator beside; Python 3.11.7, panel 1.9.4, bokeh 3.9.2. Each row:
-# p50, p95 and longest ms from a move to its first picture, and ms of the server's processor a move. No session was lost.
+# p50, p95 and longest ms from a move to its first picture, and ms of the server's processor a move. No session lost.
 #
 #                                     one worker          two workers         bare Bokeh
 #   100 of 100 move for 120 s     304  963 2001  20.5   26   82  172  27.5    3   43   49  1.1
 #   20 of 200 move for 40 s        13   29   49  32.0   12   22   40  31.6    2    8   45  1.5
 #   150 of 200 move for 15 s      749 2000 2110  15.8  539 1521 2002  28.0    2   44   47  1.1
-#   200 of 200                                                                2   44   48  1.0
+#   200 of 200 move for 15 s                                                  2   44   48  1.0
 #   60 of 60 move for 30 s          9   11   35  26.3   (moves evenly spaced)
 #   a page, 100 at once        0.82 s of the processor  0.84 s                0.03 s
 #
 # One worker breaks between 60 and 100 sessions that all move: 50 moves a second at 27 ms are more than a core, and the
-# pictures of a slower hand are left out (20 ms a move). A second worker on the second core carries them.
-# Two break between 100 and 150.
-# Aims: 100 moving, p95 at most 250 ms: two workers 82, one 963. 200 open, 20 moving, at most 150 ms: one worker 29.
+# pictures of a slower hand are left out (20 ms a move). A second worker on the second core carries them; two break
+# between 100 and 150. Aims: 100 moving, p95 at most 250 ms: two workers 82, one 963. 200 open, 20 moving, at most 150
+# ms: one worker 29.
 #
-# Memory, MB: one worker 208 with none, 6.7 an idle session and 7.3 an active one; after 200 left in a hurry 1210 of 1661
-# still there after 25 s (their sessions had not all ended). Image (malloc): 189 with none, 8.0 and 8.6 a session, 1044 with 100,
-# 196 after they left; an hour of 120 visitors 195 194 195 194 194 193. Bare: 69, 0.26 a session; gives nothing back.
-# While two mutation runs and a validation used the machine: the figures of the image (memory only).
+# Memory, MB: one worker 208 with none, 6.7 an idle session and 7.3 an active one; 25 s after 200 left in a hurry 1210
+# of 1661 still there (their sessions had not all ended). Image (malloc): 189 with none, 8.0 and 8.6 a session, 1044
+# with 100, 196 after they left; an hour of 120 visitors 195 194 195 194 194 193; two mutation runs and a validation
+# ran beside it. Bare Bokeh: 69, 0.26 a session, and gives nothing back.
