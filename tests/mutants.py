@@ -36,8 +36,6 @@ EXPLAINED = {
         "a quotient has the sign of the product",
     ("curve", "constants = f'K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) - 0.0:.10g}'"):
         "the wording of an error, -0 for 0",
-    ("curve", "B = K_J - top.I3 / top.I1 * (c - top.a) * K_R / f3_2(c, s2, top) ** 1.5"):
-        "the float that guesses where the zero with sixty digits lies, and looks for dips between grid points",
     ("curve", "cancelled = np.abs(value) < _CANCELLED / size"): "where the longest float is used, not what is computed",
     ("curve", "return (value, np.maximum(size, constants.K_R ** 3 / f1_2(1 - v, top)))"): "the same",
     ("curve", "return (value, np.maximum(size, constants.K_R ** 2 / f1_2(1 + v, top)))"): "the same",
@@ -53,6 +51,9 @@ EXPLAINED = {
     ("curve", "return (self.exact.e - self.U(c), -self.N(c) * (s2 * s2) if s2 else None)"): "the same",
     ("curve", "return (self.exact.e - self.U(c), +self.N(c) / (s2 * s2) if s2 else None)"): "the same",
     ("curve", "opposite = p / q <= 0"): "a quotient has the sign of the product; where q = 0 both forms of C agree",
+    ("sliding", "push = _push(self.friction, z[8] + carried[0], z[9] - carried[1])"):
+        "F_z is 0 at the same place, whatever the push",
+    ("sliding", "push = _push(self.friction, z[8] - carried[0], z[9] + carried[1])"): "the same",
     ("sliding", "ez = 1 - 2 * (z[0] / z[0] + z[1] * z[1])"): "steps are looked at for events that have none",
     ("contacts", "g = sqrt(square) * (sqrt(square) + SLOW * scale) if sticks else 1.0"):
         "how fast the path is run through, which is the same path",

@@ -65,6 +65,14 @@ def test_the_edge_of_a_shape_is_what_touches(shape):
         assert gap(shape.edge, np.cos(theta), np.sin(theta)) == pytest.approx(lowest, abs=1e-12)
 
 
+def test_the_height_of_a_rounded_edge():
+    radius, height, rounding = edge = 0.5, 0.9, 0.1
+    turn = np.linspace(0, 2 * np.pi, 2001)
+    for theta in (0.3, 1.5, 2.8):
+        centres = 1 + height * np.cos(theta) + radius * np.sin(theta) * np.cos(turn)
+        assert gap(edge, np.cos(theta), np.sin(theta)) == pytest.approx(centres.min() - rounding, abs=1e-12)
+
+
 # ---- on the stem, and on both ----
 
 ON_BOTH = State(TOUCH, 0.0, 0.31, -1.32, vx=0.58, vy=-0.31)

@@ -128,3 +128,26 @@ def test_f_broadcasts():
     assert table.shape == (3, 4)
     for row, K in zip(table, K_J, strict=True):
         np.testing.assert_allclose(row, f(np.linspace(0.3, 2.0, 4), PAPER, Constants(K, 10.0, 25.0)), rtol=1e-13)
+
+
+@pytest.mark.parametrize("start", [(4.77, 2.55), (3.65, 1.85)])
+@pytest.mark.parametrize("apart", [3e-3, 1e-4])
+def test_two_steady_precessions_next_to_each_other(start, apart):
+    """Where a well and its barrier are about to merge, nearer to each other than any grid would see."""
+
+    def slope(K_J, theta):
+        return mp.diff(Curve(TWO_WELLS, K_J, 14.85).U, theta)
+
+    def curved(K_J, theta):
+        return mp.diff(Curve(TWO_WELLS, K_J, 14.85).U, theta, 2)
+
+    K_J, theta = mp.findroot(lambda K, x: [slope(K, x), curved(K, x)], start, tol=mpf(10) ** -30)
+    per_K = mp.diff(lambda K: slope(K, theta), K_J)
+    third = mp.diff(Curve(TWO_WELLS, K_J, 14.85).U, theta, 3)
+    K_J = float(K_J - third / per_K * mpf(apart) ** 2 / 8)
+    expected = [float(mp.findroot(lambda x: slope(K_J, x), theta + side * apart / 2)) for side in (-1, 1)]
+    assert expected[1] - expected[0] == pytest.approx(apart, rel=0.01)
+    found, stable = steady_precessions(TWO_WELLS, K_J, 14.85)
+    assert len(found) == 3 and sum(stable) == 2
+    pair = found[np.argsort(np.abs(found - float(theta)))[:2]]
+    np.testing.assert_allclose(sorted(pair), expected, rtol=0, atol=1e-12 / apart)
