@@ -23,6 +23,7 @@ import webbrowser
 from collections import Counter, OrderedDict, deque
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from urllib.parse import urlsplit
@@ -328,7 +329,6 @@ class Socket(WSHandler):
     """Bokeh's, with a limit at each place where a browser could ask for more than its share."""
 
     entered = None
-    ending = False  # by this class's own wish, not by the protocol's
 
     def check_origin(self, origin):
         host = urlsplit(origin).netloc.lower()
@@ -384,15 +384,17 @@ class Socket(WSHandler):
         finally:
             door.done(time.monotonic() - start)
 
-    def close(self, *arguments, **named):
-        self.ending = True
-        super().close(*arguments, **named)
+    def get_websocket_protocol(self):
+        """Tornado's, which ends a connection over too large a piece without a word in the log."""
+        protocol = super().get_websocket_protocol()
+        if protocol is not None:
+            protocol.close = partial(self._closing, protocol.close)
+        return protocol
 
-    def on_ws_connection_close(self, *reason):
-        if self.ws_connection is not None and self.ws_connection.server_terminated and not self.ending:
-            log.warning("ended the connection of %s: a piece over %d KiB, no websocket frame, or no answer to pings",
-                        self.request.remote_ip, LARGEST_FRAGMENT // 1024)  # fmt: skip
-        super().on_ws_connection_close(*reason)
+    def _closing(self, close, code=None, reason=None):
+        if code == 1009:
+            log.warning("refused %s: a piece over %d KiB", self.request.remote_ip, LARGEST_FRAGMENT // 1024)
+        close(code, reason)
 
     def on_close(self):
         if self.entered is not None:
