@@ -1,9 +1,9 @@
 """Tops of a family side by side: Figs. 5 and 6 of each on common axes, and a map of the share that friction leaves."""
 
 import time
+from concurrent.futures import Future
 from functools import partial
 from itertools import chain
-from threading import Thread
 
 import numpy as np
 import panel as pn
@@ -15,6 +15,7 @@ from app.builder import thrown
 from app.cards import BUTTON, PLAIN, alert, flow, note, progress, swatch, words
 from app.colours import COLOURS, FAINT, INK
 from app.family import neighbours, ordinary, pegs, presets, region, share_map
+from app.planes import RUNS
 from app.plots import plain
 from app.text import listed, say, told
 from app.workshop import beside, field, typed
@@ -194,8 +195,8 @@ class Compare:
         return values
 
     def compute(self, event=None):
-        """The map, in a thread of its own, so that this page and all others stay served; the Thread, None where there
-        can be no map, and then a sentence says why."""
+        """The map, beside the server, so that this page and all others stay served; the Future, None where there can be
+        no map, and then a sentence says why."""
         a = SPANS[self.kind.value]
         try:
             asked = self._asked()
@@ -210,9 +211,9 @@ class Compare:
         self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
         self._job = span
         steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
-        thread = Thread(target=self._work, args=(span, steps, pn.state.curdoc), daemon=True)
-        thread.start()
-        return thread
+        future = RUNS.submit(self._work, span, steps, pn.state.curdoc)
+        future.add_done_callback(Future.result)  # an error is logged
+        return future
 
     def _work(self, job, steps, doc):
         shown = time.monotonic()

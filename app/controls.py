@@ -191,6 +191,7 @@ class Controls:
 
     def __init__(self, explorer, pacer):
         self._explorer, self._pacer = explorer, pacer
+        self._asked = None  # the control that was used last: there it is said if what follows from it cannot be
         names = (*Explorer.INPUTS, *FACES["state"])
         self._controls = {name: Control(name, getattr(explorer, name), self._request) for name in names}
         self._other = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=(2, 14, 0, 16),
@@ -217,6 +218,7 @@ class Controls:
         self.motion = [switch, *faces.values(), self._other]
 
     def _request(self, name, value, typed=False):
+        self._asked = name
         if name in FACES["state"]:
             self._pacer.request(**{name: value}, given="state")
         elif name == "energy" and typed:
@@ -233,13 +235,15 @@ class Controls:
         """On all controls but those of the face that is not looked at."""
         notes = self._notes(scene)
         hidden = {name for face, names in FACES.items() if face != self._explorer.face for name in names}
+        near = FACES[self._explorer.face][0] if self._asked in {None, *hidden} else self._asked
+        messages = {near if name in hidden else name: said for name, said in scene.messages.items()}
         for name, control in self._controls.items():
-            if name in hidden and not scene.messages:
+            if name in hidden:
                 continue
             value = getattr(self._explorer, name)
             shown = scene.constants.E if name == "energy" else value
             bounds = scene.plane.K_J_range if name == "K_J" else None
-            control.show(value, shown, notes.get(name, ""), scene.messages.get(name), bounds)
+            control.show(value, shown, notes.get(name, ""), messages.get(name), bounds)
         self._other.object = self._other_face(scene)
 
     def follow(self, scene):

@@ -1,6 +1,7 @@
 """Keeps the picture under the hand: of a stream of requests only the newest is solved, once the last was painted."""
 
 import time
+from contextlib import ExitStack
 from functools import partial
 
 import panel as pn
@@ -110,9 +111,9 @@ class Pacer:
                 self._send(self.later.pop(0), self._drawing)
 
     def _all(self, scene):
-        for draw in self._pictures:
-            draw(scene)
-        self._say(scene)
+        with ExitStack() as others:  # drawn too where one of them fails
+            for draw in (self._say, *reversed(self._pictures)):
+                others.callback(draw, scene)
 
     def _say(self, scene):
         if scene is not self._said:
@@ -126,12 +127,15 @@ class Pacer:
             self._say(event.new)
 
     def _rest(self):
-        self._advance()  # a hidden tab answers nothing that could do it
-        left = self._requested + REST_AFTER - time.monotonic()
-        if left > 0 or self._wanted:
-            self._after(left, self._rest)
+        try:
+            self._advance()  # a hidden tab answers nothing that could do it
+        finally:
+            left = self._requested + REST_AFTER - time.monotonic()
+            self._resting = not (left > 0 or self._wanted)
+            if not self._resting:
+                self._after(left, self._rest)
+        if not self._resting:
             return
-        self._resting = True
         self._say(self.explorer.scene)
         self._see_to_it()
 

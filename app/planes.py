@@ -5,8 +5,8 @@ A run is made in a thread, which has no page: it is told in which language to sa
 """
 
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
-from threading import Thread
 from types import MappingProxyType
 
 import numpy as np
@@ -276,6 +276,10 @@ PRESETS = {
 """{name: the body, one of tippe_core.PRESETS, and inputs of Planes}."""
 
 
+# Beside the server, shared by all pages: who asks while all are busy waits, and sees that nothing is done yet.
+RUNS = ThreadPoolExecutor(4, thread_name_prefix="run")
+
+
 class Stopped(Exception):
     """Raised within a run that is to end."""
 
@@ -404,7 +408,7 @@ class Planes(param.Parameterized):
 
         with param.edit_constant(self):
             self.busy = True
-        Thread(target=work, daemon=True).start()
+        RUNS.submit(work)
 
     def _done(self, job, result):
         self._job = None

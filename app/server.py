@@ -67,6 +67,7 @@ SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a 
 EACH_MESSAGE = 0.002  # s: what the cheapest message costs
 LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
 
+SOCKETS = 3  # of one session: its page's, and what is left of one that was lost
 FRESH = 120  # s in which a page that was sent may open its session
 TOKEN_LASTS = 24 * 3600
 PING = 45  # s
@@ -226,13 +227,13 @@ class Budget:
     @contextmanager
     def work(self):
         """Counts what is done inside, and ends it where it takes too long."""
-        start = time.process_time()
+        start = time.thread_time()  # of this thread: runs beside it are others'
         WATCH.ends = start + LONGEST_WORK
         try:
             yield
         finally:
             WATCH.ends = None
-            self.spend(time.process_time() - start)
+            self.spend(time.thread_time() - start)
 
 
 def budget(session):
@@ -264,7 +265,7 @@ class Watch:
             signal.setitimer(signal.ITIMER_PROF, LOOK, LOOK)
 
     def _look(self, *_):
-        if self.ends is not None and time.process_time() > self.ends:
+        if self.ends is not None and time.thread_time() > self.ends:
             self.ends = None
             raise TimeoutError(f"took more than {LONGEST_WORK:g} s of the processor")
 
@@ -362,6 +363,9 @@ class Socket(WSHandler):
             if refusal:
                 self._refuse(4000, in_english(refusal))
                 return
+        if known and context.get_session(get_session_id(token)).connection_count >= SOCKETS:
+            self._refuse(4000, in_english("crowded"))
+            return
         self.set_nodelay(True)  # a message is three writes and more; the second would wait for the first one's receipt
         self.entered = address
         door.enter(address)

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import app.explorer
+from app.controls import Controls
 from app.explorer import LIFTS, ROLLS, SLIPS, Explorer, solve
+from app.pacing import Pacer
 from tippe_core import (
     Constants,
     State,
@@ -273,3 +275,54 @@ def test_a_top_at_the_edge_of_what_can_be_is_answered_soon(top, K_J, K_R):
         assert scene.turning[0] <= scene.trajectory.theta.min() + 1e-9
         assert scene.trajectory.theta.max() <= scene.turning[1] + 1e-9
     assert time.process_time() - start < 2  # 0.5 s where nothing else runs; it was up to 9
+
+
+@pytest.fixture
+def pacer(explorer, monkeypatch):
+    """With three pictures, of which the second fails; drawn lists what was drawn."""
+    monkeypatch.setattr(Pacer, "_after", lambda self, seconds, then: self.timers.append(then))
+    drawn = []
+
+    def fails(scene):
+        raise ZeroDivisionError
+
+    pictures = [lambda scene: drawn.append("first"), fails, lambda scene: drawn.append("last")]
+    pacer = Pacer(explorer, lambda scene: drawn.append("hand"), pictures, lambda scene: drawn.append("words"))
+    pacer.timers, pacer.drawn = [], drawn
+    return pacer
+
+
+def test_a_picture_that_fails_keeps_no_other_back(pacer):
+    pacer.request(K_J=6.5)
+    with pytest.raises(ZeroDivisionError):
+        pacer.painted.painted = pacer.painted.sent
+    assert pacer.drawn == ["hand", "first", "last", "words"]
+
+
+def test_a_hand_comes_to_rest_also_where_a_picture_fails(pacer):
+    for K_J in (6.5, 6.6, 6.7):
+        pacer.request(K_J=K_J)
+    pacer._requested -= 1  # it is long ago
+    pacer._hands.clear()
+    with pytest.raises(ZeroDivisionError):
+        while pacer.timers:
+            pacer.timers.pop()()
+            pacer._drawing.clear()
+    pacer.drawn.clear()
+    pacer._drawing.clear()
+    pacer.request(K_J=6.8)
+    assert pacer._single and pacer.drawn[0] == "hand"
+
+
+def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, pacer):
+    explorer.face = "state"
+    controls = Controls(explorer, pacer)
+    for name in ("omega3", "theta_dot"):
+        before = explorer.scene
+        controls._request(name, 9e6, typed=True)
+        controls.show(explorer.scene)
+        assert explorer.scene.messages and explorer.scene.rolling is before.rolling
+        assert [kind for kind, control in controls._controls.items() if control.view.wrong] == [name]
+        controls._request(name, 0.5, typed=True)
+        pacer._hands.clear()
+        controls.show(explorer.scene)

@@ -126,6 +126,19 @@ def test_a_session_needs_a_token_of_this_server(server):
         run(Visitor.enter(server.url, token="eyJzZXNzaW9uX2lkIjogIm1pbmUiLCAic2Vzc2lvbl9leHBpcnkiOiA5OTk5OTk5OTk5fQ"))
 
 
+def test_a_session_has_few_sockets(server):
+    async def crowd():
+        mine = [await Visitor.enter(server.url)]
+        mine += [await Visitor.enter(server.url, mine[0].token, pull=False) for _ in range(2)]
+        with pytest.raises(Closed, match="4000"):
+            await Visitor.enter(server.url, mine[0].token, pull=False)
+        for visitor in mine:
+            visitor.leave()
+
+    run(crowd())
+    until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
+
+
 def test_no_more_sessions_than_there_are_places(server):
     async def crowd():
         inside = [await Visitor.enter(server.url) for _ in range(2)]
@@ -176,6 +189,10 @@ def test_the_files_for_many_replicas_set_what_there_is():
     values = {name: re.sub(r"\$\{\w+:-(.*)\}", r"\1", str(value)) for name, value in app["environment"].items()}
     assert Settings.of(values).proxy == 1 and app["read_only"] and set(app["networks"]) <= set(compose["networks"])
     assert (ROOT / proxy["volumes"][0].split(":")[0]).is_file()
+
+    proxy = (ROOT / "deploy/haproxy.cfg").read_text(encoding="utf-8")
+    for believed in ("X-Real-IP", "X-Scheme"):  # by tornado, before the other two
+        assert f"http-request del-header {believed}" in proxy
 
     first, *others = yaml.safe_load_all((ROOT / "deploy/kubernetes.yaml").read_text(encoding="utf-8"))
     [pod] = first["spec"]["template"]["spec"]["containers"]
