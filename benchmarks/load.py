@@ -297,7 +297,7 @@ if __name__ == "__main__":
     main()
 
 
-# 2026-11-22, Xeon, 2 cores, nothing else running, generator beside; Python 3.11.7, panel 1.9.4, bokeh 3.9.2. Each row:
+# 2026-11-22, Xeon, 2 cores, nothing else running but for the image; Python 3.11.7, panel 1.9.4, bokeh 3.9.2. Each row:
 # p50, p95 and longest ms from a move to its first picture, and ms of the server's processor a move. No session lost.
 #
 #                                     one worker          two workers         bare Bokeh
@@ -310,8 +310,9 @@ if __name__ == "__main__":
 #
 # One worker breaks between 60 and 100 sessions that all move: 50 moves a second at 27 ms are more than a core, and the
 # pictures of a slower hand are left out (20 ms a move). A second worker on the second core carries them; two break
-# between 100 and 150. Aims: 100 moving, p95 at most 250 ms: two workers 82, one 963. 200 open, 20 moving, at most 150
-# ms: one worker 29.
+# between 100 and 150. A picture that came late for the move before counts as the reply, so where it breaks the figures
+# are lower bounds. Aims: 100 moving, p95 at most 250 ms: two workers 82, one 963. 200 open, 20 moving, at most 150 ms:
+# one worker 29.
 #
 # Memory, MB: one worker 208 with none, 6.7 an idle session and 7.3 an active one; 25 s after 200 left in a hurry 1210
 # of 1661 still there (their sessions had not all ended). Image (malloc): 189 with none, 8.0 and 8.6 a session, 1044
