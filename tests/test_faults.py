@@ -190,3 +190,28 @@ def test_no_tab_asks_another_machine(page, server):
         page.wait_for_load_state("networkidle")
     assert len(asked) > 10
     assert [url for url in asked if not url.startswith((server.rsplit("/", 1)[0], "data:", "blob:"))] == []
+
+
+LISTENS_IN = """
+import sys
+def heard(event, arguments):
+    if event in ("socket.connect", "socket.getaddrinfo", "socket.gethostbyname"):
+        print("CALLS", event, arguments[event == "socket.connect"], flush=True)
+sys.addaudithook(heard)
+"""
+
+
+def test_the_server_calls_nobody(tmp_path, monkeypatch):
+    (tmp_path / "sitecustomize.py").write_text(LISTENS_IN)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+
+    async def visit(url):
+        visitor = await Visitor.enter(url)
+        answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
+        visitor.leave()
+        return answered
+
+    with served(tmp_path / "log", address="127.0.0.1") as server:
+        assert run(visit(server.url)) == "OK"
+        calls = [line for line in server.log.splitlines() if line.startswith("CALLS")]
+    assert calls == ["CALLS socket.getaddrinfo 127.0.0.1"]  # its own address, to listen on
