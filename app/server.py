@@ -453,9 +453,9 @@ class Socket(WSHandler):
 
     async def send_message(self, message):
         """All pieces at once: Bokeh's waits for each to be out, and Panel's messages, meanwhile, for it."""
-        with await self.write_lock.acquire():
-            pieces = dispatch_tornado(SimpleNamespace(_socket=self), msg=message)
         with suppress(WebSocketClosedError):
+            with await self.write_lock.acquire():
+                pieces = dispatch_tornado(SimpleNamespace(_socket=self), msg=message)
             await asyncio.gather(*pieces)
 
     def _bounded(self, apply):
