@@ -220,7 +220,7 @@ def page(results, chosen):
         rows = [(seen is True, (file, after) in EXPLAINED)
                 for (file, _, after), (seen, _) in results.items() if name in (file, "all")]  # fmt: skip
         noticed, explained = sum(seen for seen, _ in rows), sum(not seen and known for seen, known in rows)
-        share = 100 * noticed / len(rows)
+        share = 100 * noticed / max(len(rows), 1)
         yield f"| {name} | {len(rows)} | {noticed} ({share:.0f} %) | {explained} | {len(rows) - noticed - explained} |"
     yield ""
     yield "## Not noticed"
