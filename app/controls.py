@@ -109,7 +109,7 @@ class Dial(Bundled):
     wrong = param.Boolean(default=False, doc="Whether what was typed cannot be.")
 
 
-def spoken(words, wrong=False):
+def wording(words, wrong=False):
     """Of a Dial: words are HTML; plain text where something is wrong."""
     return {"wrong": wrong, "words": alert(words) if wrong else note(words)}
 
@@ -171,7 +171,7 @@ class Control:
         if message:
             self._say(message, wrong=True)
             return
-        self.follow(value, shown, bounds, **spoken(note))
+        self.follow(value, shown, bounds, **wording(note))
         self._stands = asked
 
     def follow(self, value, shown, bounds=None, **more):
@@ -183,7 +183,7 @@ class Control:
 
     def _say(self, words, wrong=False):
         self._stands = None
-        self.view.param.update(**spoken(words, wrong))
+        self.view.param.update(**wording(words, wrong))
 
 
 class Controls:

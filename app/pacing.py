@@ -102,9 +102,7 @@ class Pacer:
         if not self._drawing and not (self._single and self._hands):
             if not self._round and self._round_is_due:
                 scene, self._round_is_due = self.explorer.scene, False
-                self._round = [partial(draw, scene) for draw in self._pictures]
-                if self._single:
-                    self._round = [partial(self._all, scene)]
+                self._round = [partial(draw, scene) for draw in ([self._all] if self._single else self._pictures)]
             if self._round:
                 self._send(self._round.pop(0), self._drawing)
             elif self._begun and self.later:

@@ -353,37 +353,37 @@ class Socket(WSHandler):
     async def _enter(self, token):
         payload = get_token_payload(token)
         context, door, address = self.application_context, self.application.door, self.request.remote_ip
-        known = get_session_id(token) in context._sessions
-        if not known:
+        session_id = get_session_id(token)
+        known = session_id in context._sessions
+        if known:
+            refusal = "crowded" if context.get_session(session_id).connection_count >= SOCKETS else None
+        else:
             age = TOKEN_LASTS - (payload["session_expiry"] - time.time())
             refusal = "ended" if age > FRESH else door.refusal(address)
             if refusal == "full":
                 await context._cleanup_sessions(0)  # those whose page has gone
                 refusal = door.refusal(address)
-            if refusal:
-                self._refuse(4000, in_english(refusal))
-                return
-        if known and context.get_session(get_session_id(token)).connection_count >= SOCKETS:
-            self._refuse(4000, in_english("crowded"))
+        if refusal:
+            self._refuse(4000, in_english(refusal))
             return
         self.set_nodelay(True)  # a message is three writes and more; the second would wait for the first one's receipt
         self.entered = address
         door.enter(address)
         if known:
             # Under the lock nothing that the session has to say comes before the greeting.
-            await context.get_session(get_session_id(token)).with_document_locked(super()._async_open, token)
+            await context.get_session(session_id).with_document_locked(super()._async_open, token)
             return
         await door.turn(address)
         start = time.monotonic()
         try:
             if self.ws_connection is not None and not self.ws_connection.is_closing():
-                await context.create_session_if_needed(get_session_id(token), self.request, token)
+                await context.create_session_if_needed(session_id, self.request, token)
                 reason = failure(context.application)
                 if reason:
                     log.error("a bug: a page could not be made: %s", reason)
                     self._refuse(4000, "The page could not be made.")
                     return
-                prepare(context.get_session(get_session_id(token)).document)
+                prepare(context.get_session(session_id).document)
                 await super()._async_open(token)
         finally:
             door.done(time.monotonic() - start)
@@ -687,15 +687,16 @@ def failure(application):
 def tidy(door):
     """Gives the memory of ended sessions back to the system: their models refer to each other. What lives is frozen:
     else Python looks through all of it now and then, which is a second for 100 sessions, and finds nothing."""
-    made, gone = len(set(door.sessions) - door.known), len(door.known - set(door.sessions))
-    door.known, door.gone = set(door.sessions), door.gone + gone
-    if door.gone >= 20 or (door.gone and not door.sessions):
-        door.gone, made = 0, True
+    now = set(door.sessions)
+    made, door.gone = now - door.known, door.gone + len(door.known - now)
+    door.known, ended = now, door.gone >= 20 or (door.gone and not now)
+    if ended:
+        door.gone = 0
         gc.unfreeze()
         gc.collect()
         if hasattr(LIBC, "malloc_trim"):  # glibc's
             LIBC.malloc_trim(0)
-    if made:
+    if made or ended:
         gc.freeze()
 
 

@@ -37,7 +37,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from visiting import free_port
-from wire import Closed, Visitor, answers, served, until
+from wire import Closed, Visitor, answers, megabytes, served, until
 
 BARE = """
 import numpy as np
@@ -186,20 +186,20 @@ class Run:
         await asyncio.sleep(25)  # until they count as gone, and what was theirs as free
 
 
-async def visits(servers, few, long):
-    """All scenarios on one set of servers; few divides the numbers of people, and of seconds. long: of memory alone."""
+async def visits(servers, few, memory_alone):
+    """All scenarios on one set of servers; few divides the numbers of people, and of seconds."""
     run = Run(servers)
     await run.come(5)
     await run.leave()
     none = run.megabytes()
     await run.come(100 // few)
     idle = run.megabytes()
-    late = await run.move(100 // few, (15 if long else 120) // few)
+    late = await run.move(100 // few, (15 if memory_alone else 120) // few)
     active = run.megabytes()
-    if late < 1 and not long:
+    if late < 1 and not memory_alone:
         await run.come(100 // few)
         await run.move(20 // few, 40 // few)
-    for some in () if long else (150, 200) if late < 1 else (75, 50, 25):
+    for some in () if memory_alone else (150, 200) if late < 1 else (75, 50, 25):
         late = await run.move(some // few, 15)
         if (late > 1) == (some > 100):
             break
@@ -210,7 +210,7 @@ async def visits(servers, few, long):
     print(f"    memory: {none:.0f} MB with none; {(idle - none) * few / 100:.2f} MB an idle session, "
           f"{(active - none) * few / 100:.2f} an active one; {full:.0f} MB with {people}, {left:.0f} MB after they "
           f"left ({100 * (left - none) / (full - none):.0f} % of what they took)", flush=True)  # fmt: skip
-    if long:
+    if memory_alone:
         sizes = []
         for _ in range(6):
             await leak(run, 20 // few)
@@ -242,7 +242,7 @@ class Process:
 
     def megabytes(self):
         """Resident."""
-        return int(Path(f"/proc/{self.pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+        return megabytes(self.pid)
 
 
 @contextmanager

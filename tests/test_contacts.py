@@ -49,6 +49,13 @@ def first_instant(moved):
     return moved.quaternion[0], i, momenta(moved)[1][0], moved.com[0]
 
 
+def lowest(edge, theta):
+    """Height of the lowest point of all of a rounded circle's, while the sphere stands on the table."""
+    radius, height, rounding = edge
+    turn = np.linspace(0, 2 * np.pi, 2001)
+    return (1 + height * np.cos(theta) + radius * np.sin(theta) * np.cos(turn)).min() - rounding
+
+
 @pytest.mark.parametrize("shape", [STEM, OrdinaryTop(R=2e-3, h=6e-3, r1=2e-2, r2=2e-2, t=5e-3, r=2e-3, l=1e-2, M=0.02),
                                    Ball(R=0.01, M=0.01), *(preset.shape for preset in PRESETS)])  # fmt: skip
 def test_the_edge_of_a_shape_is_what_touches(shape):
@@ -56,21 +63,17 @@ def test_the_edge_of_a_shape_is_what_touches(shape):
     if shape.touch_angle is None:
         assert shape.edge is None
         return
-    radius, height, rounding = shape.edge
-    beta = np.linspace(0, 2 * np.pi, 2001)
     for tilt, sign in ((0, 0), (-1e-3, 1), (1e-3, -1)):
         theta = shape.touch_angle + tilt
-        lowest = (1 + height * np.cos(theta) + radius * np.sin(theta) * np.cos(beta)).min() - rounding
-        assert abs(lowest) < 1e-12 if sign == 0 else lowest * sign > 1e-7
-        assert gap(shape.edge, np.cos(theta), np.sin(theta)) == pytest.approx(lowest, abs=1e-12)
+        height = lowest(shape.edge, theta)
+        assert abs(height) < 1e-12 if sign == 0 else height * sign > 1e-7
+        assert gap(shape.edge, np.cos(theta), np.sin(theta)) == pytest.approx(height, abs=1e-12)
 
 
 def test_the_height_of_a_rounded_edge():
-    radius, height, rounding = edge = 0.5, 0.9, 0.1
-    turn = np.linspace(0, 2 * np.pi, 2001)
+    edge = 0.5, 0.9, 0.1
     for theta in (0.3, 1.5, 2.8):
-        centres = 1 + height * np.cos(theta) + radius * np.sin(theta) * np.cos(turn)
-        assert gap(edge, np.cos(theta), np.sin(theta)) == pytest.approx(centres.min() - rounding, abs=1e-12)
+        assert gap(edge, np.cos(theta), np.sin(theta)) == pytest.approx(lowest(edge, theta), abs=1e-12)
 
 
 # ---- on the stem, and on both ----
@@ -130,7 +133,6 @@ def test_rolling_on_the_stem():
     turn = np.exp(1j * moved.phi[i]) * (moved.force[i, 0] + 1j * moved.force[i, 1])
     F = np.stack([turn.real, turn.imag, moved.force[i, 2] - 1], axis=1)
     np.testing.assert_allclose((moved.com[i + 1] - 2 * moved.com[i] + moved.com[i - 1]) / h**2, F, rtol=0, atol=5e-3)
-
 
     # from there on it rolls again, without an event
     k = i[50]

@@ -5,7 +5,6 @@ import asyncio
 import base64
 import gzip
 import json
-import os
 import random
 import sys
 import tempfile
@@ -15,7 +14,7 @@ from pathlib import Path
 import pytest
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
-from wire import Closed, Visitor, run, served
+from wire import Closed, Visitor, megabytes, run, served
 
 NUMBERS = (0, -1, 7, 1e308, -1e308, 5e-324, 10**400, 2**63, float("nan"), float("inf"), True)
 STRINGS = ("", "7", "nan", "1e999", "−7", "<script>alert(1)</script>", "../../etc/passwd", "\x00", "\ud800", "9" * 5000)
@@ -163,21 +162,16 @@ def test_pieces_that_are_no_message(piece, attacked):
 
 
 def test_a_message_of_100_MB_is_not_read(attacked):
-    resident = Path(f"/proc/{attacked.process.pid}/statm")
-
-    def megabytes():
-        return int(resident.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
-
     async def send(url):
         visitor, innocent = await Visitor.enter(url, pull=False), await Visitor.enter(url)
-        before = megabytes()
+        before = megabytes(attacked.process.pid)
         with suppress(WebSocketClosedError, StreamClosedError):
             await visitor.socket.write_message(b"x" * 100_000_000, binary=True)
         with pytest.raises(Closed):
             await visitor.receive()
         answered, _ = await innocent.answer(await innocent.set(innocent.find("Dial")[0], "asked", [1, 6.5, False]))
         innocent.leave()
-        return answered, megabytes() - before
+        return answered, megabytes(attacked.process.pid) - before
 
     said = attacked.log.count("a piece over 256 KiB")
     answered, more = run(send(attacked.url))

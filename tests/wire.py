@@ -187,6 +187,11 @@ def served(output, wait=True, **settings):
         process.wait()
 
 
+def megabytes(pid):
+    """Resident, of a process."""
+    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
 def answers(url):
     """Whether anybody is there."""
     try:
