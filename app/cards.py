@@ -49,6 +49,19 @@ def note(text):
     return f'<div class="note">{text}</div>' if text else ""
 
 
+def on_click(button, act):
+    """Calls act(event) when the button is clicked; all that it changes on the page is sent as one message.
+
+    (Panel may call it without the document's lock, and then refuses what changes a figure.)
+    """
+
+    def clicked(event):
+        with pn.io.hold():
+            act(event)
+
+    button.on_click(clicked)
+
+
 def progress(percent, says):
     """A bar, filled so far; says: of what, for the ear."""
     style = "width: 100%; accent-color: #0072B2"

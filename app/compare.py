@@ -1,9 +1,7 @@
 """Tops of a family side by side: Figs. 5 and 6 of each on common axes, and a map of the share that friction leaves."""
 
 import time
-from concurrent.futures import Future
 from functools import partial
-from itertools import chain
 
 import numpy as np
 import panel as pn
@@ -12,11 +10,11 @@ from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMappe
 from bokeh.palettes import Viridis256
 
 from app.builder import thrown
-from app.cards import BUTTON, PLAIN, alert, flow, note, progress, swatch, words
+from app.cards import BUTTON, PLAIN, alert, flow, note, on_click, progress, swatch, words
 from app.colours import COLOURS, FAINT, INK
 from app.family import neighbours, ordinary, pegs, presets, region, share_map
-from app.planes import RUNS
 from app.plots import plain
+from app.runs import Run, Runs, Stopped
 from app.text import listed, say, told
 from app.workshop import beside, field, typed
 from tippe_core import TopError
@@ -84,13 +82,13 @@ def small_figure(shown, x_range, y_range):
 
 
 class Compare:
-    """The tab's content; show() and compute() fill it."""
+    """The tab's content; show() and compute() fill it. runs: the page's Runs."""
 
     # what a map is made with: name, symbol
     FIELDS = (("I1", "<i>I</i><sub>1</sub>"), ("K_R", "<i>K</i><sub>R</sub>"), ("mu_s", "<i>μ</i><sub>s</sub>"))
 
-    def __init__(self, explorer):
-        self._explorer, self._job = explorer, None
+    def __init__(self, explorer, runs=None):
+        self._explorer, self._runs, self._run = explorer, runs or Runs(), None
         self.rows = pn.Column(sizing_mode="stretch_width", margin=0)
         self.key = words()
         self.family = self._buttons("families")
@@ -118,8 +116,8 @@ class Compare:
         self.bar = words(visible=False, margin=(8, 0))
         self.start = pmui.Button(label=say("family.map.start"), **BUTTON)
         self.cancel = pmui.Button(label=say("family.map.cancel"), disabled=True, **BUTTON)
-        self.start.on_click(self.compute)
-        self.cancel.on_click(lambda event: self._end(say("family.map.cancelled")))
+        on_click(self.start, self.compute)
+        on_click(self.cancel, lambda event: self._run.stop())
 
     @staticmethod
     def _buttons(table):
@@ -195,51 +193,45 @@ class Compare:
         return values
 
     def compute(self, event=None):
-        """The map, beside the server, so that this page and all others stay served; the Future, None where there can be
-        no map, and then a sentence says why."""
+        """The map, beside the server, so that this page and all others stay served. Where there can be none, a sentence
+        says why."""
         a = SPANS[self.kind.value]
         try:
             asked = self._asked()
         except ValueError as error:
             self.said.object = alert(told(error) if isinstance(error, TopError) else str(error))
-            return None
+            return
         top = self._explorer.scene.top
         own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1
         self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
         span = self._show_span()
         self.start.disabled, self.cancel.disabled = True, False
         self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
-        self._job = span
         steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
-        future = RUNS.submit(self._work, span, steps, pn.state.curdoc)
-        future.add_done_callback(Future.result)  # an error is logged
-        return future
+        self._run = Run(partial(self._work, steps, span), self._done)
+        self._runs.begin(self._run)
 
-    def _work(self, job, steps, doc):
+    def _work(self, steps, span, run):
         shown = time.monotonic()
-        for done, found in chain(steps, [(None, None)]):
-            if self._job is not job:
-                return
+        for done, found in steps:
+            run.look()
             # a message now and then: more would queue up on a slow line, and be under way when a page is closed
-            if found is None or found.share.size == done or time.monotonic() > shown + PICTURE_EVERY:
+            if found.share.size == done or time.monotonic() > shown + PICTURE_EVERY:
                 shown = time.monotonic()
-                show = partial(self._show_row, job, done, found)
-                doc.add_next_tick_callback(show) if doc else show()
+                self._runs.post(partial(self._show_rows, run, done, found, span))
 
-    def _show_row(self, span, done, found):
-        """The map with a row more; None after the last."""
-        if self._job is not span:
-            return
-        if found is None:
-            self._end("")
-            return
-        self.shares.data = {"share": [found.share], **span}
-        self.bar.object = _progress(100 * done / found.share.size)
+    def _show_rows(self, run, done, found, span):
+        """The map as far as it is."""
+        if not run.stopped:
+            self.shares.data = {"share": [found.share], **span}
+            self.bar.object = _progress(100 * done / found.share.size)
 
-    def _end(self, text):
-        self._job = None
+    def _done(self, result):
+        stopped = isinstance(result, Stopped)
         self.start.disabled, self.cancel.disabled, self.bar.visible = False, True, False
-        self.said.object = note(text)
+        self.said.object = note(say("family.map.cancelled")) if stopped else ""
+        if isinstance(result, Exception) and not stopped:
+            raise result
 
 
 def key_words(mu_s):

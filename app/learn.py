@@ -9,13 +9,14 @@ import param
 from bokeh.models import ColumnDataSource, CustomJS, Range1d
 
 from app import lesson
-from app.cards import PLAIN, card, grid, px, swatch, words
+from app.cards import PLAIN, alert, card, grid, note, on_click, px, swatch, words
 from app.colours import COLOURS, GREY, INK
 from app.explorer import axes, outline
 from app.keep import Field, OneOf
 from app.lines import Derivation
 from app.plots import plain
 from app.roll import show_top
+from app.runs import Run, Runs
 from app.surface3d import pack
 from app.teach import history_view, option, prediction, teach_view
 from app.text import listed, say, told
@@ -208,15 +209,16 @@ class SectionFigure:
 class Learn(param.Parameterized):
     """The ten steps, and beside them the derivation, the teacher's page and the history.
 
-    explorer, roll: where the runs are set up, by the same requests as the sliders'. What a link keeps: step, section.
+    explorer, roll: where the runs are set up, by the same requests as the sliders'; runs: the page's Runs. What a link
+    keeps: step, section.
     """
 
     step = param.Selector(default=lesson.NAMES[0], objects=list(lesson.NAMES))
     section = param.Selector(default=SECTIONS[0], objects=list(SECTIONS))
 
-    def __init__(self, explorer, roll):
+    def __init__(self, explorer, roll, runs=None):
         super().__init__()
-        self._explorer, self._roll = explorer, roll
+        self._explorer, self._roll, self._runs, self._judging = explorer, roll, runs or Runs(), None
         self.guesses = {}
         titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
         self.select = pmui.Select.from_param(self.param.step, label=say("learn.page.step"), options=titles,
@@ -243,9 +245,9 @@ class Learn(param.Parameterized):
         self.derivation = Derivation(CLOCK)
         self.param.watch(lambda event: self._open(), "step")
         self.param.watch(lambda event: self._look(), "section")
-        self.back.on_click(lambda event: self._go(-1))
-        self.next.on_click(lambda event: self._go(1))
-        self.run.on_click(lambda event: self._run())
+        on_click(self.back, lambda event: self._go(-1))
+        on_click(self.next, lambda event: self._go(1))
+        on_click(self.run, lambda event: self._run())
         self.view = self._build()
         roll.followers.append(self.show_scene)
         self._open()
@@ -281,7 +283,7 @@ class Learn(param.Parameterized):
     def _look(self):
         """Shows the section; the teacher's page and the history are made when first looked at."""
         section = self.section
-        makers = {"teach": lambda: teach_view(self._explorer), "history": history_view}
+        makers = {"teach": lambda: teach_view(self._explorer, self._runs), "history": history_view}
         if section in makers and section not in self._made:
             self._made[section] = makers[section]()
         self.pair.visible = section in self.places
@@ -305,11 +307,10 @@ class Learn(param.Parameterized):
         except TopError as error:
             self.question.object = f'<div role="alert">{escape(told(error))}</div>'
             return
-        answer = step.answer(plan)
         asks = step.asks(plan)
         self.question.object = (
             f"<h2 style='margin: 8px 0 4px'>{say(f'learn.{step.name}.title')}</h2>"
-            f"<div style='font-size: {px(15)}'>{say(f'learn.{step.name}.question', **answer.numbers)}</div>"
+            f"<div style='font-size: {px(15)}'>{say(f'learn.{step.name}.question', **step.question(plan))}</div>"
         )
         self.widget = prediction(step, asks, self.guesses.get(step.name))
         self.prediction.objects = [self.widget]
@@ -328,6 +329,8 @@ class Learn(param.Parameterized):
 
     def show_scene(self, scene):
         """The pictures, and once there is a prediction the verdict, by the motion that runs now."""
+        if self._judging:
+            self._judging.stop()
         if self.section == "derivation":
             self.picture_card.visible = self.section_card.visible = False
             self.top.speed = ROLLING_SPEED
@@ -341,25 +344,48 @@ class Learn(param.Parameterized):
         if guess is None and scene.top != self._asked:  # the question has the numbers of another top
             self._open()
             return
-        verdict, answer = lesson.judged(step, scene, guess)
-        asked = guess is not None
-        self.run.label = say("learn.page.again" if asked else "learn.page.predict")
-        self.picture_card.visible = asked
-        self.section_card.visible = step.name == "jellett"
-        if self.section_card.visible:
-            self.fig4.show(scene)
-        if answer.motion is not None and asked:
-            show_motion(self.top, scene, answer.motion)
+        if guess is None:
+            self._show(scene, step)
+        elif not step.slides:
+            self._show(scene, step, *lesson.judged(step, scene, guess))
         else:
-            self.top.speed = ROLLING_SPEED
-            show_top(self.top, scene)
-        self.equations.objects = [equation(tex) for tex in step.tex] if asked else []
-        self.verdict.object = self.explanation.object = ""
-        if asked:
-            said = say(f"learn.verdict.{verdict}")
-            self.verdict.object = f"<div role='status' style='font-size: {px(15)}'><b>{said}</b></div>"
-            self.explanation.object = self._explained(step, answer)
-            self.figure.show(answer.picture)
+            self._show(scene, step, waits=note(say("learn.page.wait")))
+
+            def answered(result):
+                if not run.stopped:  # another answer is asked for by now
+                    self._judged(scene, step, result)
+
+            run = self._judging = Run(lambda run: lesson.judged(step, scene, guess), answered)
+            self._runs.begin(run)
+
+    def _judged(self, scene, step, result):
+        self.verdict.object = alert(told(result)) if isinstance(result, TopError) else ""
+        if not isinstance(result, Exception):
+            self._show(scene, step, *result)
+        elif not isinstance(result, TopError):
+            raise result
+
+    def _show(self, scene, step, verdict=None, answer=None, waits=""):
+        """The step by this scene: asked where there is no answer yet, else answered. waits: words while it is found."""
+        with pn.io.hold():
+            guessed = step.name in self.guesses
+            self.run.label = say("learn.page.again" if guessed else "learn.page.predict")
+            self.picture_card.visible = answer is not None
+            self.section_card.visible = step.name == "jellett"
+            if self.section_card.visible:
+                self.fig4.show(scene)
+            if answer is not None and answer.motion is not None:
+                show_motion(self.top, scene, answer.motion)
+            else:
+                self.top.speed = ROLLING_SPEED
+                show_top(self.top, scene)
+            self.equations.objects = [equation(tex) for tex in step.tex] if guessed else []
+            self.verdict.object, self.explanation.object = waits, ""
+            if answer is not None:
+                said = say(f"learn.verdict.{verdict}")
+                self.explanation.object = self._explained(step, answer)
+                self.verdict.object = f"<div role='status' style='font-size: {px(15)}'><b>{said}</b></div>"
+                self.figure.show(answer.picture)
 
     @staticmethod
     def _explained(step, answer):

@@ -13,6 +13,7 @@ import numpy as np
 
 from app.colours import COLOURS, GREY
 from app.explorer import solve
+from app.runs import look
 from app.text import say
 from tippe_core import (
     Constants,
@@ -100,7 +101,8 @@ class Guess:
 class Step:
     """A step: the prediction asked for, the Explorer's inputs for a top, and the answer of a scene.
 
-    tex: the paper's equations, and their numbers; sources: names in sources.toml.
+    tex: the paper's equations, and their numbers; sources: names in sources.toml. slides: whether the answer is read
+    from runs with friction, which may take long; its question then has the numbers of start() alone.
     """
 
     name: str
@@ -109,6 +111,11 @@ class Step:
     answer: Callable
     tex: tuple
     sources: tuple
+    slides: bool = False
+
+    def question(self, scene):
+        """The numbers in the words of its question."""
+        return start(scene) if self.slides else self.answer(scene).numbers
 
 
 def at(K_J_share, energy, mu_s=0.5):
@@ -138,7 +145,7 @@ def choice(*options):
 @lru_cache(maxsize=16)
 def slid(top, spin):
     """The Trajectory of a top let go at TILT with this spin on a table that is not rough enough."""
-    return slide(top, State(TILT, 0.0, 0.0, spin), FRICTION, WHILE, rtol=1e-8)
+    return slide(top, State(TILT, 0.0, 0.0, spin), FRICTION, WHILE, rtol=1e-8, progress=look)
 
 
 def where(theta):
@@ -159,13 +166,18 @@ def level(key, colour, x, y, dash="dashed"):
     return Curve(key, colour, np.array([x[0], x[-1]]), np.array([y, y]), dash)
 
 
+def start(scene):
+    """How the top is let go, near upright."""
+    return {"spin": revolutions(scene, scene.upright_spin), "tilt": np.degrees(TILT)}
+
+
 def free(scene):
     top, spin = scene.top, scene.upright_spin
     motion = slid(top, spin)
     end = float(motion.theta[-1])
     inner, outer = np.degrees(turning_points(top, Constants.from_state(top, TILT, 0.0, 0.0, spin))[0])
-    numbers = {
-        "spin": revolutions(scene, spin), "tilt": np.degrees(TILT), "end": np.degrees(end), "mu": FRICTION.mu,
+    numbers = start(scene) | {
+        "end": np.degrees(end), "mu": FRICTION.mu,
         "seconds": motion.t[-1] * scene.scales.time, "inner": inner, "outer": outer,
         "spin_end": revolutions(scene, motion.omega[-1, 2]),
     }  # fmt: skip
@@ -420,7 +432,7 @@ def of_spin(scene):
 STEPS = (
     Step("free", choice("over", "between", "upright"), near_upright, free,
          (r"\vec r=R\hat z-a\hat 3\quad(3)\qquad "
-          r"\vec v=\vec\omega\times\vec r\quad(4)",), ("gray", "perry", "bohr")),
+          r"\vec v=\vec\omega\times\vec r\quad(4)",), ("gray", "perry", "bohr"), slides=True),
     Step("jellett", of_torque, at(0.8, 0.9), jellett,
          (r"\frac{\tau_z}{\tau_3}=\frac{F_x\,a\sin\theta}{F_x\,R\sin\theta}=\frac aR",
           r"L_z-\frac aR\,L_3=J\quad(13)",
@@ -444,11 +456,11 @@ STEPS = (
           r"\left(F_x^2+F_y^2\right)^{1/2}\le\mu_sF_z"), ("gray", "kane")),
     Step("proof", choice("agree", "size", "opposite"), near_upright, proof,
          (r"\omega_3(\pi)=-\frac{I_1}{I_3}\frac{K_J}{1+a}\quad(30)\qquad "
-          r"\omega_3(\pi)=\frac{K_R}{f_3(\pi)}\quad(31)",), ("gray", "routh", "jellett")),
+          r"\omega_3(\pi)=\frac{K_R}{f_3(\pi)}\quad(31)",), ("gray", "routh", "jellett"), slides=True),
     Step("flip", of_spin, near_upright, flip,
          (r"\vec v\ne\vec\omega\times\vec r",
           r"\omega^2>\frac{Mga\,(1-\alpha)^2}{I_1-I_3(1-\alpha)}\,,\qquad 1-\alpha<\frac{I_1}{I_3}<1+\alpha\,,"
-          r"\qquad\alpha=\frac aR"), ("gallop", "leutwyler", "rauch")),
+          r"\qquad\alpha=\frac aR"), ("gallop", "leutwyler", "rauch"), slides=True),
 )  # fmt: skip
 NAMES = tuple(step.name for step in STEPS)
 

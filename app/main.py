@@ -17,6 +17,7 @@ from app.learn import Learn, kept
 from app.look import widgets
 from app.planes import Planes
 from app.roll import Roll
+from app.runs import Runs
 from app.share import Share
 from app.teach import student_page
 from app.text import say
@@ -102,17 +103,15 @@ def build_view(explorer, roll, builder):
     )
 
 
-def planes_view(explorer, roll, builder, keep):
-    document = pn.state.curdoc
-    planes = Planes(explorer, builder, document.add_next_tick_callback)
+def planes_view(explorer, roll, builder, keep, runs):
+    planes = Planes(explorer, builder, runs)
     roll.followers.append(planes.follow)
-    document.on_session_destroyed(lambda context: planes.stop())
     keep.add(planes, KEPT)
     return ThreePlanes(planes, builder, roll.pacer.request).main
 
 
-def family_view(explorer):
-    compare = Compare(explorer)
+def family_view(explorer, runs):
+    compare = Compare(explorer, runs)
     compare.show(compare.family.value)
     compare.compute()
     return grid(
@@ -122,8 +121,8 @@ def family_view(explorer):
     )
 
 
-def learn_view(explorer, roll, keep):
-    learn = Learn(explorer, roll)
+def learn_view(explorer, roll, keep, runs):
+    learn = Learn(explorer, roll, runs)
     keep.add(learn, kept())
     return learn.view
 
@@ -180,6 +179,8 @@ def page():
     explorer, wrong = explorer_of(texts)
     roll = Roll(explorer)
     builder = Builder(explorer, roll.pacer.request)
+    runs = Runs(pn.state.curdoc.add_next_tick_callback)
+    pn.state.curdoc.on_session_destroyed(lambda context: runs.leave())
     share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))))
     share.keep.param.watch(lambda event: builder.follow(), "returned")
     pn.state.curdoc.template_variables.update(
@@ -198,10 +199,10 @@ def page():
             *tabs(
                 {
                     "roll": lambda: roll.main,
-                    "three-planes": lambda: planes_view(explorer, roll, builder, share.keep),
+                    "three-planes": lambda: planes_view(explorer, roll, builder, share.keep, runs),
                     "build-a-top": lambda: build_view(explorer, roll, builder),
-                    "families": lambda: family_view(explorer),
-                    "learn": lambda: learn_view(explorer, roll, share.keep),
+                    "families": lambda: family_view(explorer, runs),
+                    "learn": lambda: learn_view(explorer, roll, share.keep, runs),
                 },
                 share.keep,
                 roll.pacer.soon,

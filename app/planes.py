@@ -4,16 +4,16 @@ It computes and publishes, and knows no widgets. In units of R, M and g but for 
 A run is made in a thread, which has no page: it is told in which language to say why there is no motion.
 """
 
-import time
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from functools import partial
 from types import MappingProxyType
 
 import numpy as np
 import param
 
 from app.explorer import axes
-from app.text import say, speaking, spoken, told
+from app.runs import Run, Runs, Stopped
+from app.text import say, told
 from tippe_core import (
     Coulomb,
     Outcome,
@@ -46,8 +46,6 @@ WELL_POINTS = 361
 
 # A run that a newer one replaces may still finish within this, s; later it is stopped.
 PATIENCE = 0.5
-# The run rests for NAP after each TURN, s, so that the server gets to its other visitors.
-TURN, NAP = 0.01, 0.001
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -276,37 +274,11 @@ PRESETS = {
 """{name: the body, one of tippe_core.PRESETS, and inputs of Planes}."""
 
 
-# Beside the server, shared by all pages: who asks while all are busy waits, and sees that nothing is done yet.
-RUNS = ThreadPoolExecutor(4, thread_name_prefix="run")
-
-
-class Stopped(Exception):
-    """Raised within a run that is to end."""
-
-
-class _Job:
-    def __init__(self, settings):
-        self.settings, self.begun, self.reached, self.stop, self.said = settings, time.monotonic(), 0.0, False, False
-        self._rested = self.begun
-
-    def progress(self, t):
-        self.reached = t
-        if self.stop:
-            raise Stopped
-        if time.monotonic() - self._rested > TURN:
-            time.sleep(NAP)
-            self._rested = time.monotonic()
-
-    @property
-    def elapsed(self):
-        return time.monotonic() - self.begun
-
-
 class Planes(param.Parameterized):
     """The controls. Several set in one `param.update` make one run, and one `picture` event when it is done.
 
-    builder: a Builder of the explorer. post: takes a function and calls it on the session's own thread; runs are then
-    made beside it, and of several asked for meanwhile only the newest. None: every run is made at once.
+    builder: a Builder of the explorer. runs: the page's Runs; of several asked for while one is under way only the
+    newest is made.
     """
 
     plane = param.Selector(default="sliding", objects=[*PLANES, "compare"], doc="what is looked at; computes nothing")
@@ -329,9 +301,10 @@ class Planes(param.Parameterized):
     FRICTION = ("law", "mu_k", "mu_s", "gamma", "mu", "eps")
     INPUTS = ("by", "spin", "tilt", "slip", *FRICTION, "landing", "stem", "seconds")
 
-    def __init__(self, explorer, builder, post=None):
-        self._explorer, self._builder, self._post = explorer, builder, post
-        self._job = self._wanted = None
+    def __init__(self, explorer, builder, runs=None):
+        self._explorer, self._builder, self._runs = explorer, builder, runs or Runs()
+        self._run = self._wanted = None
+        self._told_to_stop = False
         super().__init__()
 
     def choose(self, name):
@@ -344,33 +317,35 @@ class Planes(param.Parameterized):
     def follow(self, _scene=None):
         """Runs again if the explorer's top, or the motion chosen there, is another than the one last asked for; when
         what is set together with it is set too, as by an undo."""
-        if self._post is None:
-            self._follow()
-        else:
-            self._post(self._follow)
+        self._runs.post(self._follow)
 
     def _follow(self):
         asked, now = self._asked, self._settings()
         same = (asked.top, asked.scales, asked.shape, asked.rolling) == (now.top, now.scales, now.shape, now.rolling)
         if not same:
-            self._run()
+            self._ask()
 
     @property
     def elapsed(self):
         """How long the present run has taken, s; 0 without one."""
-        return self._job.elapsed if self._job else 0.0
+        return self._run.elapsed if self._run else 0.0
 
     @property
     def share(self):
         """How much of the present run is done, 0 to 1."""
-        job = self._job
-        return min(1.0, job.reached * job.settings.scales.time / job.settings.seconds) if job else 1.0
+        return min(1.0, self._reached / self._running.seconds) if self._run else 1.0
+
+    @property
+    def _reached(self):
+        """s of the real top."""
+        return self._run.reached * self._running.scales.time
 
     def stop(self):
         """Ends the present run; the last picture stays, with a sentence."""
         self._wanted = None
-        if self._job:
-            self._job.stop = self._job.said = True
+        if self._run:
+            self._told_to_stop = True
+            self._run.stop()
 
     def _settings(self):
         scene = self._explorer.scene
@@ -386,40 +361,36 @@ class Planes(param.Parameterized):
         )
 
     @param.depends(*INPUTS, watch=True, on_init=True)
-    def _run(self):
+    def _ask(self):
         self._asked = settings = self._settings()
-        if self._post is None:
-            self._publish(settings, _result(settings))
+        if not self._runs.beside:
+            self._runs.begin(Run(lambda run: solve(settings), partial(self._publish, settings)))
             return
         self._wanted = settings
-        if self._job is None:
+        if self._run is None:
             self._begin()
-        elif self._job.elapsed > PATIENCE:
-            self._job.stop = True
+        elif self._run.elapsed > PATIENCE:
+            self._run.stop()
 
     def _begin(self):
-        job, self._wanted = _Job(self._wanted), None
-        self._job, language = job, spoken()
-
-        def work():
-            with speaking(language):
-                result = _result(job.settings, job.progress)
-            self._post(lambda: self._done(job, result))
-
+        self._running, self._wanted, self._told_to_stop = self._wanted, None, False
+        settings = self._running
         with param.edit_constant(self):
             self.busy = True
-        RUNS.submit(work)
+        self._run = Run(lambda run: solve(settings, run.look), self._done)
+        self._runs.begin(self._run)
 
-    def _done(self, job, result):
-        self._job = None
+    def _done(self, result):
+        settings, reached, told_to_stop = self._running, self._reached, self._told_to_stop
+        self._run = None
         if self._wanted is not None:
             self._begin()
         else:
             with param.edit_constant(self):
                 self.busy = False
-        if isinstance(result, Stopped) and not job.said:
+        if isinstance(result, Stopped) and not told_to_stop:
             return
-        self._publish(job.settings, result, job.reached * job.settings.scales.time)
+        self._publish(settings, result, reached)
 
     def _publish(self, settings, result, reached=0.0):
         messages = {}
@@ -436,11 +407,3 @@ class Planes(param.Parameterized):
             result = replace(self.picture, messages=MappingProxyType(messages))
         with param.edit_constant(self):
             self.picture = result
-
-
-def _result(settings, progress=None):
-    """The Picture, or the exception in place of it: it is told on another thread."""
-    try:
-        return solve(settings, progress)
-    except Exception as error:
-        return error

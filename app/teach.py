@@ -12,13 +12,14 @@ import segno
 from bokeh.models import ColumnDataSource, FactorRange, Range1d
 
 from app import lesson
-from app.cards import PLAIN, card, grid, px, words
+from app.cards import PLAIN, alert, card, grid, note, on_click, px, words
 from app.classroom import MOST_VOTES, ROOMS, Refused
 from app.colours import COLOURS
 from app.keep import EXPLORER
 from app.plots import plain
-from app.text import listed, say
-from tippe_core import Top
+from app.runs import Run
+from app.text import listed, say, told
+from tippe_core import Top, TopError
 
 BINS = 12
 LOOK_EVERY = 500  # ms
@@ -73,8 +74,8 @@ def page_address():
 class Vote:
     """The teacher's side of a vote: opens a room about a step on the present top, and shows its histogram."""
 
-    def __init__(self, explorer):
-        self._explorer, self._room, self._callback, self._shown = explorer, None, None, None
+    def __init__(self, explorer, runs):
+        self._explorer, self._runs, self._room, self._callback, self._shown = explorer, runs, None, None, None
         titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
         self.which = pmui.Select(label=say("teach.vote.which"), options=titles, value=lesson.NAMES[0], size="small",
                                  sizing_mode="stretch_width")  # fmt: skip
@@ -90,9 +91,9 @@ class Vote:
         self.figure.update(sizing_mode="stretch_width", height=220, visible=False)
         self.figure.hbar(y="x", right="votes", height=0.7, source=self.bars, color=COLOURS["theta"])
         self.figure.xaxis.ticker.min_interval = 1
-        self.open.on_click(lambda event: self._open())
-        self.close.on_click(lambda event: self._close())
-        self.answer.on_click(lambda event: self._answer())
+        on_click(self.open, lambda event: self._open())
+        on_click(self.close, lambda event: self._close())
+        on_click(self.answer, lambda event: self._answer())
         if pn.state.curdoc:
             pn.state.curdoc.on_session_destroyed(lambda context: self._forget())
 
@@ -110,14 +111,13 @@ class Vote:
 
     def _open(self):
         self._close()
-        step, plan = self._plan()
-        answer, asks = step.answer(plan), step.asks(plan)
+        step, self._planned = self._plan()
+        asks = step.asks(self._planned)
         try:
-            self._room = ROOMS.open(step, answer.numbers, asks)
+            self._room = ROOMS.open(step, step.question(self._planned), asks)
         except Refused as refused:
             self.count.object = f"<div role='alert'>{say(f'teach.vote.{refused}')}</div>"
             return
-        self._truth = answer.truth
         address = f"{page_address()}?vote={self._room.code}"
         picture = segno.make(address, error="m", micro=False).svg_inline(scale=QR_MODULE, light="white")
         self.address.object = (
@@ -144,7 +144,19 @@ class Vote:
         self.count.object = f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>"
 
     def _answer(self):
-        step, asks, truth = self._room.step, self._room.asks, self._truth
+        room, planned = self._room, self._planned
+        self.truth.object = note(say("learn.page.wait"))
+        self._runs.begin(Run(lambda run: room.step.answer(planned).truth, lambda truth: self._reveal(room, truth)))
+
+    def _reveal(self, room, truth):
+        step, asks = room.step, room.asks
+        if room is not self._room:
+            return
+        if isinstance(truth, Exception):
+            self.truth.object = alert(told(truth)) if isinstance(truth, TopError) else ""
+            if not isinstance(truth, TopError):
+                raise truth
+            return
         if isinstance(truth, str):
             said = option(step, truth)
         else:
@@ -166,7 +178,7 @@ class Vote:
         self.count.object = say("teach.vote.shut")
 
 
-def teach_view(explorer):
+def teach_view(explorer, runs):
     links = "".join(
         f"<li><a href='{link(step)}' target='_blank'>{say(f'learn.{step.name}.title')}</a></li>"
         for step in lesson.STEPS
@@ -179,20 +191,20 @@ def teach_view(explorer):
     def tall(*cards):
         return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles={"gap": "12px"})
 
-    def told(key, content):
+    def carded(key, content):
         return card(say(f"teach.page.{key}"), words(content), height="max-content")
 
     return grid(
         tall(
-            card(say("teach.page.vote"), *Vote(explorer).view, height="max-content"),
-            told("fifteen", bullets(listed("teach.plans.fifteen"), True)),
-            told("wrong", bullets(listed("teach.plans.wrong"))),
-            told("toy", bullets(listed("teach.plans.toy"))),
+            card(say("teach.page.vote"), *Vote(explorer, runs).view, height="max-content"),
+            carded("fifteen", bullets(listed("teach.plans.fifteen"), True)),
+            carded("wrong", bullets(listed("teach.plans.wrong"))),
+            carded("toy", bullets(listed("teach.plans.toy"))),
         ),
         tall(
-            told("links", f"<ol style='margin: 4px 0; padding-left: 20px'>{links}</ol>"),
-            told("fifty", bullets(listed("teach.plans.fifty"), True)),
-            told("olympiad", f"<dl style='margin: 0'>{olympiad}</dl>"),
+            carded("links", f"<ol style='margin: 4px 0; padding-left: 20px'>{links}</ol>"),
+            carded("fifty", bullets(listed("teach.plans.fifty"), True)),
+            carded("olympiad", f"<dl style='margin: 0'>{olympiad}</dl>"),
         ),
     )
 
@@ -236,7 +248,7 @@ def student_page(code):
                 key = str(refused)
         said.object = f"<div role='status'>{say(f'teach.student.{key}')}</div>"
 
-    send.on_click(vote)
+    on_click(send, vote)
     asked = say(f"learn.{room.step.name}.question", **room.numbers)
     question = words(f"{title}<div style='font-size: {px(16)}'>{asked}</div>")
     return pn.Column(question, widget, send, said, sizing_mode="stretch_width", max_width=640, margin=16,

@@ -413,7 +413,7 @@ def test_a_map_of_either_kind_fills_and_shows_this_top(explorer, monkeypatch):
     compare = Compare(explorer)
     for kind, own in (("tippe", 1), ("ordinary", 0)):
         compare.kind.value = kind
-        compare.compute().result()
+        compare.compute()
         assert np.all((compare.shares.data["share"][0] > 0) & (compare.shares.data["share"][0] < 1))
         assert len(compare.here.data["a"]) == own
         assert compare.cancel.disabled and not compare.start.disabled
@@ -431,12 +431,12 @@ def test_a_map_stops_when_told_and_refuses_what_cannot_be(explorer, monkeypatch)
     share_map_of_nothing = next(share_map(0.4, 10.0, 0.5, np.array([0.07]), np.array([1.0, 1.1])))[1]
     monkeypatch.setattr("app.compare.share_map", slowly)
     compare = Compare(explorer)
-    compare.compute().result()
+    compare.compute()
     assert not asked and "Cancelled" in compare.said.object and not compare.start.disabled
     for name, text in (("mu_s", "-1"), ("I1", "0"), ("K_R", "fast")):
         compare = Compare(explorer)
         compare.entries[name].value = text
-        assert compare.compute() is None
+        compare.compute()
         assert name in compare.said.object and not compare.start.disabled
 
 

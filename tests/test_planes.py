@@ -9,6 +9,7 @@ import pytest
 from app.builder import Builder
 from app.explorer import Explorer
 from app.planes import ENDS, MOST_TURN, PLANES, PRESETS, SLIPS, THROWN, Planes, solve
+from app.runs import Runs
 from app.three_planes import ThreePlanes, fate, verdict_words
 from app.top3d import REGIMES
 from tippe_core import PRESETS as BODIES
@@ -217,7 +218,7 @@ def test_a_preset_brings_its_body(explorer, planes):
 
 def test_of_many_asked_for_at_once_the_newest_is_shown_and_a_run_can_be_stopped(explorer):
     posted, shown = Queue(), []
-    planes = Planes(explorer, Builder(explorer), posted.put)
+    planes = Planes(explorer, Builder(explorer), Runs(posted.put))
 
     def finish():
         while planes.busy:
