@@ -5,13 +5,20 @@ import os
 import signal
 import sys
 
+from app.settings import Settings
+
 
 def run():
     # In a container nobody else ends the first process, and what is imported here takes its time.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    try:
+        settings = Settings.of(os.environ, sys.argv[1:])
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
     from app.server import main
 
-    code = main()
+    code = main(settings)
     logging.shutdown()
     os._exit(code)  # nothing is left to save, and taking all modules apart takes seconds
 

@@ -53,8 +53,8 @@ POTENTIAL_COLUMNS = 160
 ROUNDED = 5e-4
 OUTLINE_POINTS = 96
 
-# Beyond this the squares of what follows leave a float's range, or its digits the motion.
-LARGEST = 1e6
+# Beyond these the squares of what follows leave a float's range, or its digits the motion, and solving takes seconds.
+LARGEST, LEAST_INERTIA = 1e6, 1e-12
 
 # A limit that is never reached still needs a place on the energy slider: this share of the energy above the last one.
 UNLIMITED = 0.25
@@ -312,6 +312,9 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None, 
     for name, value in {"K_J": K_J, "K_R": K_R, "mu_s": mu_s, "E": share if E is None else E}.items():
         if not abs(value) <= LARGEST:
             raise TopError(name, value, f"at most {LARGEST:g} either way", "No top is ever so fast, no table so rough.")
+    for name, least, unit in (("a", -LARGEST, "R"), ("I1", LEAST_INERTIA, "MR^2"), ("I3", LEAST_INERTIA, "MR^2")):
+        if not least <= (value := getattr(top, name)) <= LARGEST:
+            raise TopError(name, value, f"{least:g} to {LARGEST:g} ({unit})", "No body is so thin, or so wide.")
     marks = energy_marks(top, K_J, K_R, mu_s)
     if state is not None:
         share = max(marks.share(E), 0.0)  # rounding may leave a steady precession below itself

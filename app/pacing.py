@@ -59,6 +59,7 @@ class Pacer:
         self._requested = 0.0
         self.later, self._begun = [], False
         self._hands, self._drawing = [], []  # (number, when sent) of what the browser has yet to paint
+        self._sent = 0  # the last number
         explorer.param.watch(self._on_scene, "scene")
         self.painted.param.watch(self._on_painted, "painted")
 
@@ -147,10 +148,18 @@ class Pacer:
         self._see_to_it()
 
     def _send(self, draw, in_flight):
-        with pn.io.hold():  # one message, in order, so that the answer comes after the picture
+        self._sent = number = self._sent + 1
+
+        def sent():
             draw()
-            self.painted.sent += 1
-        in_flight.append((self.painted.sent, time.monotonic()))
+            self.painted.sent = number
+
+        if self._begun or not pn.state.curdoc:
+            with pn.io.hold():  # one message, in order, so that the answer comes after the picture
+                sent()
+        else:  # until the page says that it is there only Bokeh sends anything, what is done under its lock
+            pn.state.curdoc.add_next_tick_callback(sent)
+        in_flight.append((number, time.monotonic()))
 
     def _on_painted(self, event):
         self._hands = [sent for sent in self._hands if sent[0] > event.new]

@@ -13,16 +13,19 @@ import inspect
 import json
 import logging
 import os
+import platform
 import re
 import secrets
 import signal
 import sys
+import threading
 import time
 import traceback
+import types
 import webbrowser
 from collections import Counter, OrderedDict, deque
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -34,14 +37,14 @@ from bokeh.core.validation import silence
 from bokeh.core.validation.warnings import EMPTY_LAYOUT
 from bokeh.protocol.exceptions import MessageError, ProtocolError, ValidationError
 from bokeh.server.server import BaseServer
-from bokeh.server.session import ServerSession, _needs_document_lock
+from bokeh.server.session import ServerSession
 from bokeh.server.tornado import BokehTornado
 from bokeh.settings import settings as bokeh_settings
 from bokeh.util.token import get_session_id, get_token_payload
 from panel.io.application import build_single_handler_application
 from panel.io.document import _cleanup_doc, dispatch_tornado
 from panel.io.resources import LOCAL_DIST, patch_model_css
-from panel.io.server import INDEX_HTML, ComponentResourceHandler, DocHandler, WSHandler, get_static_routes
+from panel.io.server import ComponentResourceHandler, DocHandler, WSHandler, get_static_routes
 from panel.io.session import generate_session
 from panel.io.state import set_curdoc
 from tornado.httpserver import HTTPServer
@@ -52,6 +55,7 @@ from tornado.web import HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from app import text
+from app.arrivals import Arrivals, most_files
 
 log = logging.getLogger("tippe")
 
@@ -61,93 +65,18 @@ MOST_EVENTS, MOST_PARTS, DEEPEST = 100, 10_000, 16
 KINDS = {"PATCH-DOC", "PULL-DOC-REQ", "SERVER-INFO-REQ"}  # a browser never pushes a document
 EVENTS = {"ModelChanged", "MessageSent"}  # nor adds roots, or streams
 
-LONGEST_WORK = 3.0  # s of the processor for one thing that a session does
-LOOK = 0.1  # s of it between two looks at whether that is over
 SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a quiet one has saved up
 EACH_MESSAGE = 0.002  # s: what the cheapest message costs
 LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
 
 SOCKETS = 3  # of one session: its page's, and what is left of one that was lost
+IDLE = 5  # s after which a connection on which nothing is asked is closed: a browser keeps six open for minutes
 FRESH = 120  # s in which a page that was sent may open its session
 TOKEN_LASTS = 24 * 3600
 PING = 45  # s
 TIDY = 10  # s
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
 GRACE = 3.0  # s from SIGTERM to the end, whatever still runs
-
-
-# --- settings
-
-
-@dataclass(frozen=True, kw_only=True)
-class Settings:
-    """What an operator sets: each field is the environment variable TIPPE_ and its name in capitals."""
-
-    port: int = field(default=5006, metadata={"from": 1, "to": 65535, "says": "to listen on"})
-    address: str = field(default="", metadata={"says": "to listen on; empty: all of this machine's"})
-    prefix: str = field(default="", metadata={"says": "before /app in the address, for a proxy that keeps it"})
-    origins: str = field(default="", metadata={"says": "host:port, by commas, that the page goes by; empty: any"})
-    frames: str = field(default="'self'", metadata={"says": "pages that may show this one in a frame, as in a CSP"})
-    workers: int = field(default=1, metadata={"from": 1, "to": 64, "says": "processes on this one port"})
-    sessions: int = field(default=250, metadata={"from": 1, "to": 100_000, "says": "at once, in each worker"})
-    sessions_per_address: int = field(
-        default=250, metadata={"from": 1, "to": 100_000, "says": "at once; a lecture hall may be one address"}
-    )
-    linger: int = field(default=30, metadata={"from": 1, "to": 3600, "says": "s a session outlives its page"})
-    proxy: int = field(default=0, metadata={"from": 0, "to": 1, "says": "1: believe X-Forwarded-For and -Proto"})
-    show: int = field(default=0, metadata={"from": 0, "to": 1, "says": "1: open the page in this machine's browser"})
-    secret: str = field(default="", metadata={"says": "signs sessions; empty: a new one at each start"})
-    log: str = field(default="info", metadata={"says": "debug, info, warning or error"})
-
-    @classmethod
-    def of(cls, environment):
-        """From os.environ; raises ValueError naming the variable, its value and what is allowed."""
-        known = {f"TIPPE_{item.name.upper()}": item for item in fields(cls)}
-        for name in environment:
-            if name.startswith("TIPPE_") and name not in known:
-                raise ValueError(f"{name} is no setting. There are {', '.join(known)}.")
-        values = {}
-        for name, item in known.items():
-            text = environment.get(name, "").strip()
-            if not text:
-                continue
-            values[item.name] = text
-            if item.type is int:
-                low, high = item.metadata["from"], item.metadata["to"]
-                if not re.fullmatch(r"\d{1,9}", text) or not low <= int(text) <= high:
-                    raise ValueError(f"{name} is {text!r}; allowed is a whole number from {low} to {high}.")
-                values[item.name] = int(text)
-        settings = cls(**values)
-        for host in settings.hosts:
-            if not re.fullmatch(r"[\w.*-]+(:(\d{1,5}|\*))?|\[[\da-fA-F:]+\](:\d{1,5})?", host):
-                raise ValueError(f"TIPPE_ORIGINS has {host!r}; allowed is host or host:port, such as top.example.org.")
-        if settings.prefix and not re.fullmatch(r"(/?[\w.~-]+)+/?", settings.prefix):
-            raise ValueError(f"TIPPE_PREFIX is {settings.prefix!r}; allowed is a path, such as /tops.")
-        if settings.log not in ("debug", "info", "warning", "error"):
-            raise ValueError(f"TIPPE_LOG is {settings.log!r}; allowed is debug, info, warning or error.")
-        if any(mark in settings.frames for mark in ";,\r\n"):
-            raise ValueError(f"TIPPE_FRAMES is {settings.frames!r}; allowed are sources of a CSP, by spaces.")
-        return settings
-
-    @property
-    def hosts(self):
-        """The origins as host or host:port."""
-        return [re.sub(r"^\w+://", "", host.strip()).rstrip("/").lower() for host in self.origins.split(",") if host]
-
-    def lets(self, host):
-        """Whether the server goes by this name, as in the Host header; a listed one without port is at 80 and 443."""
-
-        def apart(text):
-            name, port = re.fullmatch(r"(.*?)(?::(\d+|\*))?", text).groups()
-            return name, port or ""
-
-        name, port = apart(host.lower())
-        for listed in self.hosts:
-            listed_name, listed_port = apart(listed)
-            same = listed_name in ("*", name) or (listed_name.startswith("*.") and name.endswith(listed_name[1:]))
-            if same and (listed_name == "*" or listed_port in (port, "*") or {listed_port, port} <= {"", "80", "443"}):
-                return True
-        return not self.hosts
 
 
 # --- who may come in
@@ -226,14 +155,30 @@ class Budget:
 
     @contextmanager
     def work(self):
-        """Counts what is done inside, and ends it where it takes too long."""
+        """Counts what is done inside."""
         start = time.thread_time()  # of this thread: runs beside it are others'
-        WATCH.ends = start + LONGEST_WORK
         try:
             yield
         finally:
-            WATCH.ends = None
             self.spend(time.thread_time() - start)
+
+    @types.coroutine
+    def steps(self, coroutine):
+        """Awaits a coroutine and counts its own steps, not what others do between them."""
+        step, value = coroutine.send, None
+        while True:
+            try:
+                with self.work():
+                    awaited = step(value)
+            except StopIteration as end:
+                return end.value
+            try:
+                step, value = coroutine.send, (yield awaited)
+            except GeneratorExit:
+                coroutine.close()
+                raise
+            except BaseException as error:
+                step, value = coroutine.throw, error
 
 
 def budget(session):
@@ -243,34 +188,21 @@ def budget(session):
     return session.budget
 
 
-@_needs_document_lock
-async def with_document_locked(session, function, *arguments, **named):
-    """Bokeh's method through which a session does whatever it does later: Panel answers a changed value there."""
-    with budget(session).work():
-        result = function(*arguments, **named)
-        return await result if inspect.isawaitable(result) else result
+def counted(with_document_locked):
+    """Bokeh's method through which a session does whatever it does later, Panel's answers to changed values among it:
+    with what that costs put on the session's budget."""
 
+    async def with_document_locked_and_counted(session, function, *arguments, **named):
+        mine = budget(session)
 
-class Watch:
-    """Ends work that takes too long. One timer looks at it now and then: one for each piece of work cost more than
-    most pieces."""
+        def work():
+            with mine.work():
+                result = function(*arguments, **named)
+            return mine.steps(result) if inspect.iscoroutine(result) else result
 
-    def __init__(self):
-        self.ends = None  # when what runs now is to end, in s of the processor
+        return await with_document_locked(session, work)
 
-    def start(self):
-        """In the main thread, where there are signals for it."""
-        if hasattr(signal, "setitimer"):
-            signal.signal(signal.SIGPROF, self._look)
-            signal.setitimer(signal.ITIMER_PROF, LOOK, LOOK)
-
-    def _look(self, *_):
-        if self.ends is not None and time.thread_time() > self.ends:
-            self.ends = None
-            raise TimeoutError(f"took more than {LONGEST_WORK:g} s of the processor")
-
-
-WATCH = Watch()
+    return with_document_locked_and_counted
 
 
 # --- what may come in
@@ -312,13 +244,14 @@ def look_at(message):
 def ours(error):
     """Whether an error came out of this project's own code, and so is a bug of its."""
     here = str(Path(__file__).parent.parent)
-    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)} - {__file__}
+    through = {__file__, str(Path(__file__).with_name("app_hooks.py"))}  # where others' code is only called
+    files = {frame.filename for frame in traceback.extract_tb(error.__traceback__)} - through
     return any(file.startswith((f"{here}/app/", f"{here}/tippe_core/")) for file in files)
 
 
 def note(error, whose="a session"):
     """Logs what could not be done, in one line unless it is a bug of ours; returns a sentence for the sender."""
-    if ours(error) and not isinstance(error, TimeoutError):
+    if ours(error):
         log.error("a bug, met by %s: %s", whose, "".join(traceback.format_exception(error)))
         return "The server could not do that; what is shown has not changed."
     name = type(error).__name__
@@ -549,7 +482,7 @@ class Page(Handler, DocHandler):
 
     async def get(self, *arguments, **named):
         if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
-            self.redirect(f"{self.tippe.prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
+            Root.get(self)
             return
         if not self.tippe.lets(self.request.host):
             log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
@@ -572,6 +505,13 @@ class Page(Handler, DocHandler):
                 waiting = waiting.replace(name.upper(), json.dumps(self.words(name)))
             chunk = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.nonce}"', f"{before}{waiting}</body>{after}")
         super().write(chunk)
+
+
+class Root(Handler):
+    """Where the page is, for who asks for the server alone."""
+
+    def get(self):
+        self.redirect(f"{self.tippe.prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
 
 
 class Liveness(Handler):
@@ -600,12 +540,12 @@ def set_default_headers(handler):
 # --- the server
 
 
-def serve(settings, sockets, parent=None):
-    """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
+def serve(settings, sockets, files, parent=None):
+    """Serves until SIGTERM, or until the other end of the pipe parent is closed. files: as of most_files()."""
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
     RequestHandler.set_default_headers = set_default_headers
-    ServerSession.with_document_locked = with_document_locked
+    ServerSession.with_document_locked = counted(ServerSession.with_document_locked)
     pn.config.exception_handler = note
     bokeh.server.urls.per_app_patterns[:] = [(r"/ws", Socket), (r"/?", Page)]
     static = [(pattern, Component if handler is ComponentResourceHandler else handler, *more)
@@ -617,8 +557,7 @@ def serve(settings, sockets, parent=None):
     tornado = BokehTornado(
         apps,
         prefix=settings.prefix,
-        extra_patterns=static,
-        index=INDEX_HTML,
+        extra_patterns=[(r"/?", Root), *static],
         secret_key=settings.secret.encode(),
         sign_sessions=True,
         keep_alive_milliseconds=0,  # tornado's own pings end connections that do not answer
@@ -631,13 +570,13 @@ def serve(settings, sockets, parent=None):
         include_headers=["User-Agent", "Accept-Language", "Host"],
         include_cookies=[],
     )
-    tornado.add_handlers(r".*", [(r"/liveness", Liveness)])  # at one place, whatever the prefix
+    tornado.add_handlers(r".*", [(r"/liveness", Liveness), (r"/", Root)])  # there, whatever the prefix
     context = tornado.applications["/app"]
     tornado.tippe, tornado.door = settings, Door(settings)
     tornado.door.sessions = context._sessions
     http = HTTPServer(tornado, xheaders=bool(settings.proxy), max_body_size=LARGEST_FRAGMENT,
-                      max_header_size=32 * 1024, idle_connection_timeout=60)  # fmt: skip
-    http.add_sockets(sockets)
+                      max_header_size=32 * 1024, idle_connection_timeout=IDLE, body_timeout=IDLE)  # fmt: skip
+    arrivals = Arrivals(http, sockets, files)
     loop = IOLoop.current()
     loop.asyncio_loop.set_exception_handler(unheard)
     server = BaseServer(loop, tornado, http)
@@ -650,7 +589,9 @@ def serve(settings, sockets, parent=None):
         loop.add_callback_from_signal(close)
 
     async def close():
-        http.stop()
+        arrivals.stop()
+        for each in sockets:
+            each.close()
         for connection in list(tornado._clients):
             connection._socket.close(1001, "The server is stopping.")
         await asyncio.sleep(0.2)
@@ -661,13 +602,14 @@ def serve(settings, sockets, parent=None):
         signal.signal(name, stop)
     if parent is not None:
         loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), stop()), IOLoop.READ)
-    WATCH.start()
     PeriodicCallback(lambda: tidy(tornado.door), 1000 * TIDY).start()
     loop.add_callback(pn.state._schedule_busy_cleanup)  # the first session's would keep that session
     server.start()
+    arrivals.start()
     log.info("serving http://%s:%d%s/app", settings.address or "localhost", settings.port, settings.prefix)
     if settings.show and parent is None:
-        loop.run_in_executor(None, webbrowser.open, f"http://localhost:{settings.port}{settings.prefix}/app")
+        address = f"http://localhost:{settings.port}{settings.prefix}/app"
+        threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
     loop.start()
 
 
@@ -722,7 +664,7 @@ def warm(application, settings):
     _cleanup_doc(session.document, destroy=False)
 
 
-def supervise(settings, sockets):
+def supervise(settings, sockets, files):
     """Keeps so many workers on the same sockets; one that ends is replaced, and all end with this one, however it ends.
 
     (panel serve --num-procs forks too, but its first process waits for the others with no signal handler: SIGTERM ends
@@ -741,7 +683,7 @@ def supervise(settings, sockets):
             os.close(ours_ends)
             for name in (signal.SIGTERM, signal.SIGINT, signal.SIGALRM):
                 signal.signal(name, signal.SIG_DFL)
-            serve(settings, sockets, parent=held)
+            serve(settings, sockets, files, parent=held)
             code = 0
         except BaseException:
             traceback.print_exc()
@@ -775,16 +717,11 @@ def supervise(settings, sockets):
     return 1 if failed else 0
 
 
-def main():
-    """Reads the settings, listens, serves; returns the exit code."""
-    try:
-        settings = Settings.of(os.environ)
-    except ValueError as error:
-        print(error, file=sys.stderr)
-        return 2
+def main(settings):
+    """Listens and serves; returns the exit code."""
     sys.stdout.reconfigure(errors="backslashreplace")  # half a character, sent by somebody, is no reason not to log
     logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True,
-                        format=f"%(asctime)s %(levelname)s {os.uname().nodename} %(process)d %(message)s")  # fmt: skip
+                        format=f"%(asctime)s %(levelname)s {platform.node()} %(process)d %(message)s")  # fmt: skip
     log.setLevel(settings.log.upper())
     for name in ("bokeh", "panel"):  # their own handlers write to another stream, in another form
         logging.getLogger(name).handlers.clear()
@@ -799,7 +736,8 @@ def main():
     except OSError as error:
         print(f"TIPPE_PORT {settings.port}, TIPPE_ADDRESS {settings.address!r}: {error.strerror}", file=sys.stderr)
         return 1
+    files = most_files()
     if settings.workers > 1:
-        return supervise(settings, sockets)
-    serve(settings, sockets)
+        return supervise(settings, sockets, files)
+    serve(settings, sockets, files)
     return 0

@@ -16,7 +16,7 @@ import segno
 from panel.custom import JSComponent
 
 from app import export
-from app.cards import PLAIN, words
+from app.cards import PLAIN, on_click, words
 from app.keep import EXPLORER, Field, Keep, Number, Numbers, OneOf, usual
 from app.letter import letter
 from app.pacing import at_once
@@ -219,7 +219,7 @@ class Share:
             label=say("share.share"), size="small", variant="outlined", color="light", margin=(0, 4),
             sx=PLAIN["& button"] | {"color": "#fff"},
         )
-        self.share.on_click(self._open)
+        on_click(self.share, self._open)
         self._dialog = pmui.Dialog(title=say("share.dialog.title"), title_variant="h6", show_close_button=True,
                                    close_on_click=True, width_option="md", sizing_mode="stretch_width")  # fmt: skip
         self.header = [pn.Spacer(sizing_mode="stretch_width"), self.undo, self.redo, self.share]
@@ -230,7 +230,7 @@ class Share:
     def _button(sign, says, act):
         button = pmui.Button(label=sign, description=says, size="small", variant="text", color="light", margin=0,
                              sx={"minWidth": 36, "fontSize": 20, "lineHeight": 1})  # fmt: skip
-        button.on_click(act)
+        on_click(button, act)
         return button
 
     @property

@@ -6,7 +6,7 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.cards import BUTTON, PLAIN, alert, card, flow, grid, note, progress, swatch, words
+from app.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_click, progress, swatch, words
 from app.controls import Control
 from app.keep import Field, Number, OneOf
 from app.planes import LAWS, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS
@@ -233,7 +233,7 @@ class ThreePlanes:
         buttons = []
         for name in PRESETS:
             buttons.append(pmui.Button(label=listed("planes.presets")[name], **NARROW))
-            buttons[-1].on_click(lambda event, name=name: self._choose(name))
+            on_click(buttons[-1], lambda event, name=name: self._choose(name))
         presets = flow(*buttons, margin=(4, 0, 0, 0))
         self._row = pn.Column(
             sizing_mode="stretch_width", margin=(6, 0, 0, 0),
@@ -254,7 +254,7 @@ class ThreePlanes:
         self._bar = words(margin=(10, 8))
         self._show_progress(0)
         stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
-        stop.on_click(lambda event: self._planes.stop())
+        on_click(stop, lambda event: self._planes.stop())
         self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
         self._stem = pmui.Checkbox.from_param(
             self._planes.param.stem, label=say("planes.stem.can"), description="", size="small",

@@ -11,7 +11,7 @@ import param
 from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d
 
 from app.builder import FAMILIES, Rocking, handles, named, pulled, sentence, value_of
-from app.cards import BUTTON, alert, flow, note, words
+from app.cards import BUTTON, alert, flow, note, on_click, words
 from app.colours import COLOURS, FAINT, INK
 from app.controls import number
 from app.explorer import body
@@ -22,7 +22,7 @@ from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TopError, Turne
 
 SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
            "I3": "<i>I</i><sub>3</sub>", "density": "<i>ρ</i>", "core_density": "<i>ρ</i><sub>core</sub>"}  # fmt: skip
-WOOD, CORE = "#d9b98c", "#8a96a3"
+PARTS = {"body": "#d9b98c", "hollow": "white", "core": "#8a96a3"}  # of the section, in the order they are drawn
 FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
 LARGEST_FILE = 65_536
@@ -86,12 +86,14 @@ class Section:
         self.figure = fig = plain(x_range=Range1d(-1, 1), y_range=Range1d(-1, 1), name="section")
         fig.update(sizing_mode=None, width=FRAME + 50, height=FRAME + 30, frame_width=FRAME, frame_height=FRAME)
         fig.xaxis.ticker.desired_num_ticks = fig.yaxis.ticker.desired_num_ticks = 5
-        self.solid = ColumnDataSource({"x": [], "z": [], "colour": []})
+        # A patch each: of patches Bokeh 3.10 may draw as many as there were before.
+        self.parts = {part: ColumnDataSource({"x": [], "z": []}) for part in PARTS}
         self.lines = ColumnDataSource({"x": [], "z": [], "colour": [], "dash": [], "width": []})
         self.points = ColumnDataSource({"x": [], "z": [], "colour": []})
         self.letters = ColumnDataSource({"x": [], "z": [], "text": [], "dx": [], "dy": [], "style": []})
         self.handles = ColumnDataSource({"x": [], "z": [], "name": [], "says": []})
-        fig.patches("x", "z", source=self.solid, fill_color="colour", line_color=INK, line_width=1.5)
+        for part, colour in PARTS.items():
+            fig.patch("x", "z", source=self.parts[part], fill_color=colour, line_color=INK, line_width=1.5)
         fig.multi_line("x", "z", source=self.lines, line_color="colour", line_dash="dash", line_width="width")
         fig.scatter("x", "z", source=self.points, size=7, color="colour")
         fig.text("x", "z", text="text", source=self.letters, x_offset="dx", y_offset="dy", text_color=INK,
@@ -134,19 +136,14 @@ class Section:
         if not self._held:
             self._frame()
         span = self._span
-        solids = [(profile, WOOD)] + [(1e3 * rows, "white") for rows in _cavities(shape)]
-        self.solid.data = {
-            "x": [np.concatenate([rows[:, 0], -rows[::-1, 0]]) for rows, _ in solids],
-            "z": [np.concatenate([rows[:, 1], rows[::-1, 1]]) for rows, _ in solids],
-            "colour": [colour for _, colour in solids],
-        }
-        turn = np.linspace(0, 2 * np.pi, 73)
-        circles = [(R * np.sin(turn), R * np.cos(turn), FAINT, [2, 4], 1)]
+        parts = {"body": [profile], "hollow": [1e3 * rows for rows in _cavities(shape)], "core": []}
+        turn = np.linspace(0, np.pi, 37)
         if isinstance(shape, LoadedSphere):
-            b = 1e3 * shape.b
-            circles.append((b * np.sin(turn), b * np.cos(turn) - 1e3 * shape.d, INK, [], 1.5))
-            self.solid.stream({"x": [circles[1][0]], "z": [circles[1][1]],
-                               "colour": [CORE if shape.core_density else "white"]})  # fmt: skip
+            core = np.column_stack([shape.b * np.sin(turn), shape.b * np.cos(turn) - shape.d])
+            parts["core" if shape.core_density else "hollow"].append(1e3 * core)
+        for part, outlines in parts.items():
+            x, z = _closed(outlines)
+            self.parts[part].data = {"x": x, "z": z}
         low, high = min(-R, profile[:, 1].min()), profile[:, 1].max()
         wide = profile[:, 0].max()
         aside = wide + 0.05 * span
@@ -159,7 +156,8 @@ class Section:
             ((0, aside), (0, 0), COLOURS["friction"], [2, 3], 1),
             ((0, aside), (height, height), COLOURS["friction"], [2, 3], 1),
         ]
-        x, z, colour, dash, thick = zip(*circles, *straight, strict=True)
+        sphere = (R * np.sin(2 * turn), R * np.cos(2 * turn), FAINT, [2, 4], 1)
+        x, z, colour, dash, thick = zip(sphere, *straight, strict=True)
         self.lines.data = {"x": list(x), "z": list(z), "colour": colour, "dash": list(dash), "width": thick}
         self.points.data = {"x": [0, 0, 0], "z": [0, height, -R], "colour": [INK, COLOURS["friction"], INK]}
         letters = [
@@ -189,6 +187,12 @@ class Section:
         middle = (low + high) / 2
         for axis, centre in ((self.figure.x_range, 0.0), (self.figure.y_range, middle)):
             axis.update(start=centre - span / 2, end=centre + span / 2)
+
+
+def _closed(outlines):
+    """x and z of a Patch of outlines (k, 2) of bodies of revolution, gaps between them."""
+    rows = [np.vstack([half, half[::-1] * (-1, 1), [[np.nan, np.nan]]]) for half in outlines]
+    return np.vstack(rows)[:-1].T if rows else np.empty((2, 0))
 
 
 def _cavities(shape):
@@ -271,9 +275,9 @@ class Pieces:
         self.words = words()
         self.put, self.take, self.undo = (
             pmui.Button(label=say(f"workshop.pieces.{does}"), **BUTTON) for does in ("put", "take", "undo"))
-        self.put.on_click(lambda event: self._compose(1))
-        self.take.on_click(lambda event: self._compose(-1))
-        self.undo.on_click(lambda event: builder.take_off())
+        on_click(self.put, lambda event: self._compose(1))
+        on_click(self.take, lambda event: self._compose(-1))
+        on_click(self.undo, lambda event: builder.take_off())
         self._view = pn.Column(
             words(note(say("workshop.pieces.says"))),
             flow(self.kind, beside("<i>r</i>", self.entries["r"]),
@@ -361,7 +365,7 @@ class Workshop:
     @staticmethod
     def _button(key, click):
         button = pmui.Button(label=say(f"workshop.bench.{key}"), **BUTTON)
-        button.on_click(click)
+        on_click(button, click)
         return button
 
     def _remove(self, event):
@@ -481,7 +485,7 @@ class Measure:
         self.entries = {name: field(value, spoken[name]) for name, value, _ in self.FIELDS}
         self.result = words()
         self.use = pmui.Button(label=say("workshop.own.explore"), **BUTTON | {"margin": (4, 0)})
-        self.use.on_click(self._use)
+        on_click(self.use, self._use)
         for entry in self.entries.values():
             entry.param.watch(lambda event: self._show(), "value")
         builder.param.watch(lambda event: self._show(), "draft")

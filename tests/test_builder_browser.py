@@ -26,7 +26,7 @@ PLACE = """
 # Of the body that the section shows, in mm: its greatest "x" and "z".
 SECTION = """(column) => {
   const figure = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "section" && m.renderers)
-  return Math.max(...figure.renderers[0].data_source.data[column][0])
+  return Math.max(...figure.renderers[0].data_source.data[column])
 }"""
 # The greatest height above O of the body that is turned in 3-D, in R.
 DRAWN = """() => {
@@ -57,6 +57,7 @@ def choose(visit, preset):
     for text in (f"= {shape.top.a:.4f}".replace("-", "−"), f"= {shape.top.I1:.4f}", f"{1e3 * shape.mass:.4g} g"):
         visit.page.get_by_text(text).first.wait_for()
     visit.page.get_by_text(preset.source[:50]).wait_for()
+    visit.page.wait_for_function(f"z => Math.abs(({SECTION})('z') - z) < 0.1", arg=1e3 * shape.profile(96)[:, 1].max())
 
 
 def drag(visit, start, end):

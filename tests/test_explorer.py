@@ -277,6 +277,16 @@ def test_a_top_at_the_edge_of_what_can_be_is_answered_soon(top, K_J, K_R):
     assert time.process_time() - start < 2  # 0.5 s where nothing else runs; it was up to 9
 
 
+@pytest.mark.parametrize("name, top", [
+    ("I3", (-7.66, 1.919, 1e-300)), ("I1", (-1e6, 5e-324, 1e-323)), ("I3", (-8.55, 0.0124, 5e-324)),
+    ("I3", (-1.891, 3.1e-11, 1e-13)), ("a", (-1e7, 1.0, 1.0)), ("I1", (0.07, 1e7, 1e7)),
+])  # fmt: skip
+def test_a_top_that_no_body_is_is_refused_at_once(name, top):
+    with pytest.raises(TopError, match=f"^{name} = ") as error:
+        solve(Top(*top), 7.0, 10.0, 0.5, 0.9)
+    assert "allowed is" in str(error.value) and "thin" in str(error.value)
+
+
 @pytest.fixture
 def pacer(explorer, monkeypatch):
     """With three pictures, of which the second fails; drawn lists what was drawn."""

@@ -6,14 +6,19 @@ import re
 import signal
 import subprocess
 import sys
+import time
+from contextlib import suppress
 from dataclasses import fields
 from pathlib import Path
+from urllib.request import urlopen
 
 import pytest
 import yaml
+from visiting import free_port
 from wire import Closed, Visitor, answers, get, run, served, until
 
-from app.server import Budget, Door, Refused, Settings, look_at
+from app.server import Budget, Door, Refused, look_at
+from app.settings import Settings
 
 ROOT = Path(__file__).parent.parent
 
@@ -35,10 +40,95 @@ def test_a_setting_that_cannot_be_is_named(name, value, says):
     assert says in str(error.value) or name == "PROT"
 
 
-def test_a_bad_setting_ends_the_start_with_a_sentence():
-    done = subprocess.run([sys.executable, "-m", "app"], cwd=ROOT, capture_output=True, text=True, timeout=120,
-                          env={**os.environ, "TIPPE_PORT": "no"})  # fmt: skip
-    assert done.returncode == 2 and done.stderr.startswith("TIPPE_PORT is 'no'") and "Traceback" not in done.stderr
+def started(*arguments, **settings):
+    """`python -m app` that ends by itself."""
+    environment = {**os.environ, **{f"TIPPE_{name.upper()}": value for name, value in settings.items()}}
+    return subprocess.run([sys.executable, "-m", "app", *arguments], cwd=ROOT, capture_output=True, text=True,
+                          timeout=120, env=environment)  # fmt: skip
+
+
+@pytest.mark.parametrize("arguments, settings, says", [
+    ((), {"port": "no"}, "TIPPE_PORT is 'no'; allowed is a whole number from 1 to 65535"),
+    (("--port", "no"), {"port": "5006"}, "--port is 'no'; allowed is a whole number from 1 to 65535"),
+    (("--sessions-per-address=0",), {}, "--sessions-per-address is '0'; allowed is a whole number from 1"),
+    (("--prot", "8765"), {}, "unrecognized arguments: --prot 8765"), (("8765",), {}, "unrecognized arguments: 8765"),
+    (("--port",), {}, "argument --port: expected one argument"),
+])  # fmt: skip
+def test_a_bad_setting_ends_the_start_with_a_sentence(arguments, settings, says):
+    done = started(*arguments, **settings)
+    assert done.returncode == 2 and says in done.stderr and "Traceback" not in done.stderr
+
+
+def test_help_names_every_setting():
+    done = started("--help")
+    assert done.returncode == 0 and "TIPPE_PORT=8765" in done.stdout
+    for item in fields(Settings):
+        assert f"--{item.name.replace('_', '-')} " in done.stdout
+
+
+def test_the_command_line_goes_before_the_environment():
+    settings = Settings.of({"TIPPE_PORT": "1", "TIPPE_LOG": "debug"}, ["--port=8765", "--show", "--proxy", "0"])
+    assert (settings.port, settings.show, settings.proxy, settings.log) == (8765, 1, 0, "debug")
+
+
+def test_options_are_served_under_a_prefix_and_every_way_leads_to_the_page(tmp_path):
+    port = free_port()
+    with served(tmp_path / "log", port=port, arguments=["--prefix", "tops", "--sessions", "7"]) as server:
+        assert f"http://127.0.0.1:{port}/tops/app" in server.log
+        for path in ("", "/", "/tops", "/tops/", "/tops/app/"):
+            with urlopen(f"http://127.0.0.1:{port}{path}?KJ=6.5") as answer:
+                assert answer.status == 200 and answer.url == f"http://127.0.0.1:{port}/tops/app?KJ=6.5"
+
+
+# What Windows, or its Python, has not; 14 is what SIGALRM is elsewhere.
+LACKS = """
+import os, runpy, signal, sys
+import bokeh.server.server, numpy, panel, scipy  # which do not ask for it there
+for module, names in ((os, "uname fork getuid geteuid getloadavg"), (signal, "setitimer alarm SIGALRM SIGPROF")):
+    for name in names.split():
+        delattr(module, name)
+sys.modules.update(resource=None, fcntl=None, termios=None)
+sys.argv[1:] = sys.argv[4:]
+runpy.run_module("app", run_name="__main__", alter_sys=True)
+"""
+
+
+def test_it_starts_and_serves_where_the_system_lacks_what_windows_lacks(tmp_path):
+    with served(tmp_path / "log", before=[sys.executable, "-c", LACKS]) as server:
+        visitor = run(Visitor.enter(server.url))
+        assert len(visitor.models) > 100
+    assert "Traceback" not in server.log
+    done = subprocess.run([sys.executable, "-c", LACKS, "", "", "", "--workers=2"], cwd=ROOT, capture_output=True,
+                          text=True, timeout=120)  # fmt: skip
+    assert done.returncode == 2 and "--workers is 2; allowed is 1 on this system" in done.stderr
+
+
+def test_what_a_coroutine_does_itself_is_counted_and_not_what_others_do_while_it_waits():
+    """In s of the processor: its own two pieces, and none of the one between them, which is twice as long."""
+    budget, pieces = Budget(), []
+
+    def work(seconds):
+        begun = time.thread_time()
+        while time.thread_time() < begun + seconds:
+            pass
+        pieces.append(time.thread_time() - begun)
+
+    async def mine():
+        work(0.05)
+        with suppress(ZeroDivisionError):
+            await asyncio.gather(asyncio.sleep(0.05), others())
+        work(0.05)
+        return "done"
+
+    async def others():
+        work(0.2)
+        raise ZeroDivisionError
+
+    async def both():
+        return await budget.steps(mine())
+
+    assert run(both()) == "done"
+    assert budget.spent == pytest.approx(pieces[0] + pieces[2], abs=0.02)
 
 
 @pytest.mark.parametrize("origins, host, lets", [

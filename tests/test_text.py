@@ -271,7 +271,8 @@ NOT_SAID = {
     "learn.py": {"in the air": "REGIMES of top3d.py"},
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
-    "server.py": {"": "said to the operator, or to a program that is no browser"},
+    **{name: {"": "said to the operator, or to a program that is no browser"}
+       for name in ("server.py", "arrivals.py", "settings.py")},
     "top3d.py": {"would": "REGIMES", "in the air": "REGIMES", "the motion ends here": "REGIMES"},
     "look.js": {"dark large": "a key"},
 }  # fmt: skip

@@ -142,6 +142,56 @@ class Visitor:
         self.socket.close()
 
 
+class Page:
+    """A Visitor who reads all the time and answers as a page does. lost: why he reads no more, else None."""
+
+    def __init__(self, visitor):
+        self.visitor, self.lost = visitor, None
+        [self._painted] = visitor.find("Painted") or [None]
+        self._replies, self._heard = {}, asyncio.Condition()
+        self.reading = asyncio.create_task(self._read())
+
+    async def _read(self):
+        try:
+            while True:
+                kind, content, answered = await self.visitor.receive()
+                if kind == "ERROR":
+                    raise RuntimeError(content["text"])
+                if kind == "PATCH-DOC":
+                    self.heard()
+                    self.visitor._note(content)
+                    for event in content["events"]:
+                        if event.get("attr") == "sent":
+                            await self.visitor.set(self._painted, "painted", event["new"])
+                async with self._heard:
+                    self._replies[answered] = kind
+                    self._heard.notify_all()
+        except (Closed, RuntimeError) as error:
+            self.lost = error
+            async with self._heard:
+                self._heard.notify_all()
+
+    def heard(self):
+        """Something new to show has come."""
+
+    async def until(self, condition):
+        """Waits until something that the server says makes it so; raises what ended the reading."""
+        async with self._heard:
+            await self._heard.wait_for(lambda: self.lost or condition())
+        if self.lost:
+            raise self.lost
+
+    async def set(self, model, attribute, value):
+        """As if the browser had changed a model, and waits for the answer."""
+        message = await self.visitor.set(model, attribute, value)
+        await self.until(lambda: message in self._replies)
+
+    async def leave(self):
+        """Closes the page."""
+        self.reading.cancel()
+        self.visitor.leave()
+
+
 def run(coroutine, seconds=120):
     """Runs it, for so long at most; in a thread of its own, for in the tests' own Playwright's loop is running."""
     with ThreadPoolExecutor(1) as thread:
@@ -168,14 +218,14 @@ class Served:
 
 
 @contextmanager
-def served(output, wait=True, **settings):
+def served(output, wait=True, before=(), arguments=(), **settings):
     """`python -m app` with these settings, until the end of the block; output: the file that takes its log. It answers
-    by then, or, without wait, soon."""
+    by then, or, without wait, soon. before: a command that starts the rest of its arguments."""
     settings = {"port": free_port(), "address": "127.0.0.1"} | settings
     environment = {**os.environ, **{f"TIPPE_{name.upper()}": str(value) for name, value in settings.items()}}
     with output.open("a") as file:
-        process = subprocess.Popen([sys.executable, "-m", "app"], cwd=Path(__file__).parent.parent, env=environment,
-                                   stdout=file, stderr=subprocess.STDOUT)  # fmt: skip
+        process = subprocess.Popen([*before, sys.executable, "-m", "app", *arguments], env=environment, stdout=file,
+                                   cwd=Path(__file__).parent.parent, stderr=subprocess.STDOUT)  # fmt: skip
     root = f"http://127.0.0.1:{settings['port']}"
     try:
         if wait:

@@ -1,0 +1,98 @@
+"""Connections are taken while there is room for them, and wait outside while there is not.
+
+To the system each is an open file, of which a process may have only so many (ulimit -n). At the limit no connection can
+be taken, and a server that asks for the next one all the same does nothing else any more.
+"""
+
+import logging
+import os
+import time
+
+from tornado.ioloop import IOLoop
+from tornado.iostream import IOStream
+
+try:
+    import resource
+except ImportError:  # Windows, where connections are not counted with the files
+    resource = None
+
+log = logging.getLogger("tippe")
+
+FILES = (65_536, 10_240, 4_096)  # as many as we ask for; macOS gives 10,240 whatever it says
+OTHERS = 64  # of them are not for connections, or a quarter where there are few
+LOOK_AGAIN = 0.25  # s
+SAY_AGAIN = 60.0  # s
+AT_ONCE = 64  # connections, before the others are served
+
+
+def most_files():
+    """Raises the limit of open files as far as the system lets us; returns it, None where there is none."""
+    if resource is None:
+        return None
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    unlimited = resource.RLIM_INFINITY
+    for files in FILES if hard == unlimited else (min(files, hard) for files in FILES):
+        if soft == unlimited or soft >= files:
+            break
+        try:
+            resource.setrlimit(resource.RLIMIT_NOFILE, (files, hard))
+            return files
+        except (OSError, ValueError):
+            continue
+    return None if soft == unlimited else soft
+
+
+class Arrivals:
+    """Takes what comes to listening sockets, and gives it to an HTTPServer. files: as of most_files()."""
+
+    def __init__(self, http, sockets, files):
+        self._http, self._sockets, self._files = http, sockets, files
+        self._last = None if files is None else files - min(OTHERS, files // 4)
+        self._said = -SAY_AGAIN
+
+    def start(self):
+        """From now on they are taken."""
+        for each in self._sockets:
+            IOLoop.current().add_handler(each, self._arrived, IOLoop.READ)
+
+    def stop(self):
+        """From now on nobody is taken; the sockets stay open."""
+        for each in self._sockets:
+            IOLoop.current().remove_handler(each)
+
+    def _arrived(self, listening, _events):
+        for _ in range(AT_ONCE):
+            try:
+                connection, address = listening.accept()
+            except (BlockingIOError, ConnectionAbortedError):
+                return
+            except OSError as error:  # no room, whatever the reason
+                self._wait(error.strerror)
+                return
+            stream = IOStream(connection, max_buffer_size=self._http.max_buffer_size,
+                              read_chunk_size=self._http.read_chunk_size)  # fmt: skip
+            self._http.handle_stream(stream, address)
+            # The system gives each file the least number that is free: all below are open.
+            if self._last is not None and connection.fileno() >= self._last:
+                self._wait(f"{connection.fileno() + 1} of {self._files} files are open")
+                return
+
+    def _wait(self, reason):
+        self.stop()
+        if time.monotonic() - self._said > SAY_AGAIN:
+            self._said = time.monotonic()
+            log.warning("no more connections for now: %s (ulimit -n); who comes waits until others leave", reason)
+        IOLoop.current().call_later(LOOK_AGAIN, self._look)
+
+    def _look(self):
+        """Whether there is room again."""
+        try:
+            probe = os.open(os.devnull, os.O_RDONLY)
+        except OSError:
+            probe = None
+        else:
+            os.close(probe)
+        if probe is None or (self._last is not None and probe >= self._last):
+            IOLoop.current().call_later(LOOK_AGAIN, self._look)
+        else:
+            self.start()

@@ -1,0 +1,83 @@
+"""More connections than the system gives files: they wait, one line says so, and those that ask nothing are let go."""
+
+import asyncio
+import resource
+import socket
+import sys
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+from wire import Visitor, get, run, served, until
+
+from app import arrivals
+
+FEW = 96  # open files
+UNDER = ["sh", "-c", f'ulimit -n {FEW} && exec "$@"', "sh"]
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there, sockets are not counted with the files")
+
+
+def crowd(url, count):
+    """So many connections that ask nothing."""
+    place = urlsplit(url)
+    return [socket.create_connection((place.hostname, place.port), timeout=60) for _ in range(count)]
+
+
+def closed(connection):
+    """Whether the server has closed it."""
+    connection.setblocking(False)
+    try:
+        return connection.recv(1) == b""
+    except BlockingIOError:
+        return False
+
+
+def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
+    async def crowded(server):
+        inside = await Visitor.enter(server.url)
+        connections = await asyncio.to_thread(crowd, server.url, 3 * FEW)
+        await asyncio.to_thread(until, lambda: "no more connections for now" in server.log)
+        answered, _ = await inside.answer(await inside.set(inside.find("Dial")[0], "asked", [1, 6.5, False]))
+        inside.leave()
+        return answered, connections
+
+    with served(tmp_path / "log", before=UNDER) as server:
+        answered, connections = run(crowded(server))
+        assert answered == "OK"
+        # those that wait outside are taken when the first have gone, and all are let go in the end
+        until(lambda: all(map(closed, connections)), 60)
+        assert get(server.url)[0] == 200
+        assert len(run(Visitor.enter(server.url)).models) > 100
+        assert server.log.count("no more connections") == 1 and len(server.log.splitlines()) < 10
+        for each in connections:
+            each.close()
+
+
+def test_as_many_files_are_asked_for_as_may_be(monkeypatch):
+    unlimited = resource.RLIM_INFINITY
+    for soft, hard, refuses, found in (
+        (256, 4096, None, 4096), (256, unlimited, 10_241, 10_240),  # macOS
+        (1024, 1 << 20, None, 65_536), (1024, 20_000, None, 20_000), (1 << 20, 1 << 20, None, 1 << 20),
+        (64, 64, None, 64), (unlimited, unlimited, None, None),
+    ):  # fmt: skip
+        limit = [soft, hard]
+
+        def raised(_, wanted, limit=limit, refuses=refuses):
+            if refuses and wanted[0] >= refuses:
+                raise ValueError("not allowed")
+            limit[:] = wanted
+
+        monkeypatch.setattr(arrivals.resource, "getrlimit", lambda _, limit=limit: tuple(limit))
+        monkeypatch.setattr(arrivals.resource, "setrlimit", raised)
+        assert arrivals.most_files() == found
+        assert limit[1] == hard and (found is None or limit[0] == found)
+
+
+@pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="reads Linux's list of limits")
+def test_the_server_raises_its_limit(tmp_path):
+    hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
+    with served(tmp_path / "log", before=["sh", "-c", 'ulimit -S -n 256 && exec "$@"', "sh"]) as server:
+        [line] = [line for line in Path(f"/proc/{server.process.pid}/limits").read_text().splitlines()
+                  if line.startswith("Max open files")]  # fmt: skip
+        assert int(line.split()[3]) == min(hard, 65_536)

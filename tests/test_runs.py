@@ -1,0 +1,185 @@
+"""Long work: beside the server, ended where nobody wants it any more, and each run as if it were alone."""
+
+import asyncio
+import sys
+import threading
+from functools import partial
+from pathlib import Path
+from queue import Queue
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from panel.io.application import build_single_handler_application
+from wire import run as run_async
+
+from app import lesson
+from app.explorer import Explorer
+from app.learn import Learn
+from app.runs import THREADS, Run, Runs, Stopped, look
+from app.text import say, speaking, spoken
+from tippe_core import SmoothedCoulomb, State, Top, slide
+
+PATIENCE = 60  # s
+
+
+class Page:
+    """A page's Runs, and what they have posted to its session."""
+
+    def __init__(self):
+        self.posted = Queue()
+        self.runs = Runs(self.posted.put)
+
+    def next(self):
+        """Does what was posted first, as a session does."""
+        self.posted.get(timeout=PATIENCE)()
+
+
+@pytest.fixture
+def page():
+    page = Page()
+    yield page
+    page.runs.leave()
+
+
+def told(results):
+    """What is called when a run is done."""
+    return results.append
+
+
+def test_a_run_is_done_elsewhere_in_the_language_of_its_page_and_told_to_its_session(page):
+    results = []
+    with speaking("de"):
+        page.runs.begin(Run(lambda run: (spoken(), threading.get_ident()), told(results)))
+    assert results == []
+    page.next()
+    [(language, thread)] = results
+    assert language == "de" and thread != threading.get_ident()
+
+
+def test_a_run_ends_at_its_next_look(page):
+    results, begun = [], threading.Event()
+
+    def work(run):
+        begun.set()
+        while True:
+            look(1.5)  # of the run that this thread does
+
+    run = Run(work, told(results))
+    page.runs.begin(run)
+    assert begun.wait(PATIENCE)
+    run.stop()
+    page.next()
+    assert isinstance(results[0], Stopped) and run.reached == 1.5
+
+
+def test_a_run_that_waits_for_a_thread_ends_at_once(page):
+    go, results = threading.Event(), []
+    for _ in range(THREADS._max_workers):
+        page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None))
+    waiting = Run(lambda run: results.append("worked"), told(results))
+    page.runs.begin(waiting)
+    waiting.stop()
+    page.next()
+    go.set()
+    assert isinstance(results[0], Stopped) and len(results) == 1
+
+
+def test_what_a_page_has_under_way_ends_when_it_leaves_and_nothing_is_told(page):
+    begun, ended = threading.Event(), threading.Event()
+
+    def work(run):
+        begun.set()
+        try:
+            while True:
+                run.look()
+        finally:
+            ended.set()
+
+    page.runs.begin(Run(work, lambda result: pytest.fail("the page has gone")))
+    assert begun.wait(PATIENCE)
+    page.runs.leave()
+    assert ended.wait(PATIENCE)
+    page.runs.begin(Run(lambda run: None, lambda result: pytest.fail("the page has gone")))
+    assert page.posted.empty()
+
+
+def test_an_error_is_told_too(page):
+    results = []
+    page.runs.begin(Run(lambda run: 1 / 0, told(results)))
+    page.next()
+    assert isinstance(results[0], ZeroDivisionError)
+
+
+def test_without_a_session_a_run_is_done_at_once():
+    results = []
+    Runs().begin(Run(lambda run: threading.get_ident(), told(results)))
+    assert results == [threading.get_ident()]
+
+
+def test_two_runs_at_a_time_are_each_as_it_is_alone():
+    """Two visitors: of scipy before 1.17 only one could have an integrator."""
+    times = np.linspace(0, 60, 200)
+
+    def moved(tilt):
+        return slide(Top.paper(), State(tilt, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0), times, progress=look).theta
+
+    tilts = (0.1, 0.2, 0.3, 0.4)
+    alone, beside, page = [moved(tilt) for tilt in tilts], {}, Page()
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1e-5)
+    try:
+        for tilt in tilts:
+            page.runs.begin(Run(lambda run, tilt=tilt: moved(tilt), partial(beside.__setitem__, tilt)))
+        for _ in tilts:
+            page.next()
+    finally:
+        sys.setswitchinterval(before)
+    for tilt, theta in zip(tilts, alone, strict=True):
+        assert np.array_equal(beside[tilt], theta)
+
+
+def test_sessions_work_in_the_servers_own_thread():
+    """Bokeh from 3.10 on gives their work to the loop's executor, beside what Panel does in the loop meanwhile."""
+    hooks = build_single_handler_application(Path(__file__).parent.parent / "app")
+
+    async def where():
+        hooks.on_server_loaded(None)
+        with pytest.raises(ZeroDivisionError):
+            await asyncio.to_thread(lambda: 1 / 0)
+        return await asyncio.to_thread(threading.get_ident), threading.get_ident()
+
+    there, here = run_async(where())
+    assert there == here
+
+
+@pytest.mark.parametrize("name", ["free", "proof", "flip"])
+def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch, name):
+    """The page is there while it is computed, and says so; what is asked for meanwhile ends it."""
+    go, moves = threading.Event(), []
+
+    def slowly(*arguments, progress, **named):
+        moves.append("begun")
+        while not go.is_set():
+            progress(0.0)
+        return slide(*arguments, progress=progress, **named)
+
+    monkeypatch.setattr(lesson, "slide", slowly)
+    lesson.slid.cache_clear()
+    explorer = Explorer()
+    learn = Learn(explorer, SimpleNamespace(followers=[]), page.runs)
+    learn.step = name
+    assert not moves, "a question needs no run"
+    learn.guesses[name] = {"free": "over", "proof": "agree", "flip": 3.0}[name]
+    explorer.param.update(**learn.now.inputs(explorer.scene.top))
+    learn.show_scene(explorer.scene)
+    assert say("learn.page.wait") in learn.verdict.object and not learn.explanation.object
+    learn.show_scene(explorer.scene)  # again: the one before ends, and is not told
+    page.next()
+    assert say("learn.page.wait") in learn.verdict.object
+    go.set()
+    page.next()
+    verdict, answer = lesson.judged(learn.now, explorer.scene, learn.guesses[name])
+    assert say(f"learn.verdict.{verdict}") in learn.verdict.object
+    assert say(f"learn.{name}.{answer.told}", **answer.numbers).split("\n")[0] in learn.explanation.object
+    lesson.slid.cache_clear()
