@@ -4,10 +4,15 @@
 FROM python:3.12-slim AS build
 WORKDIR /src
 COPY . .
-# Node.js, which the bundle is built with, lives and dies in pip's build environment. Then what nothing here loads goes:
-# tests, source maps, scripts that are there minified too, and Panel's copies of libraries for panes that the page has not.
-RUN python3 -m venv /opt/venv \
-    && /opt/venv/bin/pip install --no-cache-dir . \
+# What is installed is what was tested: locks/. Node.js, which the bundle is built with, stays behind in /opt/build. Then
+# what nothing here loads goes: tests, source maps, scripts that are there minified too, and Panel's copies of libraries
+# for panes that the page has not.
+RUN python3 -m venv /opt/build \
+    && /opt/build/bin/pip install --no-cache-dir --require-hashes -r locks/build.txt \
+    && /opt/build/bin/pip wheel --no-deps --no-build-isolation --wheel-dir /opt/wheel . \
+    && python3 -m venv /opt/venv \
+    && /opt/venv/bin/pip install --no-cache-dir --require-hashes -r locks/run.txt \
+    && /opt/venv/bin/pip install --no-deps /opt/wheel/*.whl \
     && /opt/venv/bin/pip uninstall --yes pip \
     && cd /opt/venv/lib/python3*/site-packages \
     && find . -type d -name tests -prune -exec rm -r {} + \

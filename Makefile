@@ -3,15 +3,31 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
 
-.PHONY: serve test validation docs bench image browser proxy
+.PHONY: serve test pythons lock validation docs bench image browser proxy
 
 serve: .venv/serve
-	TIPPE_ADDRESS=localhost TIPPE_SHOW=1 $(BIN)/python -m app
+	$(BIN)/python -m app --address localhost --show
 
 test: .venv/test browser proxy
 	$(BIN)/ruff check .
 	$(BIN)/lint-imports
 	$(BIN)/pytest
+
+# Installs without the lock on every Python there is, and on the first with the lowest libraries; lets visitors in.
+pythons: .venv/test browser
+	$(BIN)/python tests/pythons.py
+
+# Remakes locks/ with the newest that the bounds in pyproject.toml allow. uv.lock names the index it came from, so it goes.
+EXPORT = $(BIN)/uv export --quiet --frozen --no-emit-project --no-default-groups --no-annotate --no-header
+lock:
+	$(BIN)/pip install --quiet 'uv>=0.9,<1'
+	$(BIN)/uv lock --quiet --upgrade
+	$(EXPORT) --output-file locks/run.txt
+	$(EXPORT) --output-file locks/build.txt --only-group build
+	for extra in test docs bench; do $(EXPORT) --output-file locks/$$extra.txt --extra $$extra; done
+	rm uv.lock
+	$(BIN)/uv pip compile --quiet --no-annotate --no-header --python-version 3.11 --resolution lowest-direct \
+		--output-file locks/lowest.txt pyproject.toml
 
 # Writes docs/validation.md from the results of the tests, with the whole accuracy map: some ten minutes.
 validation: .venv/test
@@ -39,11 +55,13 @@ proxy:
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq haproxy; } \
 	|| echo "haproxy is not installed: the test of deploy/haproxy.cfg will skip"
 
-.venv/serve: $(BUNDLED)
+# From the lock, whose files have to be those that were tested.
+.venv/serve: $(BUNDLED) locks/run.txt locks/build.txt
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
-	$(BIN)/pip install --quiet --editable .
+	$(BIN)/pip install --quiet --require-hashes -r locks/build.txt -r locks/run.txt
+	$(BIN)/pip install --quiet --no-deps --no-build-isolation --editable .
 	touch $@
 
-.venv/test .venv/docs .venv/bench: .venv/%: .venv/serve
-	$(BIN)/pip install --quiet --editable '.[$*]'
+.venv/test .venv/docs .venv/bench: .venv/%: .venv/serve locks/%.txt
+	$(BIN)/pip install --quiet --require-hashes -r locks/$*.txt
 	touch $@

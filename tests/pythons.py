@@ -1,0 +1,150 @@
+"""Every Python of this machine from 3.11 on: the project is installed as people install it, without the lock and with
+the newest libraries that its bounds allow, and visitors come, by websocket and in Chromium. On 3.11 once more with the
+lowest libraries.
+
+    python tests/pythons.py [3.12 ...]            these alone
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+
+import visitors
+from visiting import PATIENCE, Visit, free_port, launch
+from wire import answers, until
+
+ROOT = Path(__file__).parent.parent
+FIRST, LAST = 11, 14  # of Python 3; of these it is said where there is none
+SHOWN = ("panel", "bokeh", "param", "panel-material-ui", "numpy", "scipy", "tornado", "matplotlib", "segno")
+VISITORS = 4
+
+
+def pythons():
+    """{(3, minor): the program}, the newest of each on the PATH or among pyenv's."""
+    places = [Path(folder) for folder in os.environ.get("PATH", "").split(os.pathsep)]
+    if shutil.which("pyenv"):
+        root = Path(subprocess.run(["pyenv", "root"], capture_output=True, text=True).stdout.strip())
+        places += [path / "bin" for path in (root / "versions").glob("*")]
+    found = {}
+    for program in (path for place in places for path in [*place.glob("python3.*"), *place.glob("python.exe")]):
+        if not re.fullmatch(r"python(3\.\d+)?(\.exe)?", program.name):
+            continue
+        asked = subprocess.run([program, "-c", "import sys, venv; print(*sys.version_info[:3])"], capture_output=True,
+                               text=True)  # fmt: skip
+        if asked.returncode == 0:  # a shim of pyenv may stand for none
+            version = tuple(map(int, asked.stdout.split()))
+            if version[:2] >= (3, FIRST):
+                found[version[:2]] = max(found.get(version[:2], ((), None)), (version, str(program)))
+    return {minor: program for minor, (_, program) in sorted(found.items())}
+
+
+def installed(python, folder, constraints=None):
+    """The Python of an environment in which the project is; raises RuntimeError with what pip said."""
+    subprocess.run([python, "-m", "venv", folder], check=True)
+    inside = folder / ("Scripts" if os.name == "nt" else "bin") / "python"
+    bounds = ["--constraint", constraints] if constraints else []
+    pip = [inside, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    done = subprocess.run([*pip, ROOT, *bounds], capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(done.stderr)
+    return inside
+
+
+@contextmanager
+def serving(command, log, folder):
+    """Starts a server, elsewhere than in the repository; the page's address."""
+    port = free_port()
+    with log.open("w") as file:
+        process = subprocess.Popen([*command, "--port", str(port), "--address", "localhost"], cwd=folder, stdout=file,
+                                   stderr=subprocess.STDOUT)  # fmt: skip
+    url = f"http://localhost:{port}/app"
+    try:
+        until(lambda: process.poll() is not None or answers(url), 120)
+        yield url
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def look(url, browser):
+    """Opens every tab in Chromium; what the page says of errors."""
+    page = browser.new_page(viewport={"width": 1400, "height": 900})
+    try:
+        visit = Visit(page, url)
+        tabs = page.get_by_role("tab").all()
+        for tab in tabs[1:]:
+            known = page.evaluate("Bokeh.documents[0]._all_models.size")
+            tab.click()
+            page.wait_for_function("n => Bokeh.documents[0]._all_models.size > n && Bokeh.documents[0].is_idle",
+                                   arg=known + visitors.A_TAB, timeout=PATIENCE)  # fmt: skip
+        print(f"    Chromium: {len(tabs)} tabs opened, {len(visit.errors)} errors in the page", *visit.errors)
+        return visit.errors
+    finally:
+        page.close()
+
+
+def tried(name, python, browser, constraints=None):
+    """Whether all went well; prints what happened."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        try:
+            inside = installed(python, folder / "venv", constraints)
+        except RuntimeError as error:
+            print(f"{name}: cannot be installed by {python}: {error}")
+            return False
+        asked = ("import importlib.metadata as m, platform as p, app; print(p.python_version(), app.__path__[0], "
+                 f"*(f'{{name}} {{m.version(name)}}' for name in {SHOWN}), sep=', ')")  # fmt: skip
+        said = subprocess.run([inside, "-c", asked], cwd=folder, capture_output=True, text=True, check=True).stdout
+        version, app, versions = said.strip().split(", ", 2)
+        print(f"{name}: Python {version}, {versions}", flush=True)
+        good = True
+        for command in (["-m", "app"], ["-m", "panel", "serve", app]):
+            print("  python", *command[:3], flush=True)
+            log = folder / "log"
+            with serving([inside, *command], log, folder) as url:
+                came = visitors.main(url, VISITORS) == 0
+                fine = came and not (browser and look(url, browser))
+            wrong = [line for line in log.read_text().splitlines() if re.search("ERROR|Traceback|a bug|Error:", line)]
+            if wrong or not fine:
+                print(*log.read_text().splitlines()[-40:], sep="\n")
+            good = good and fine and not wrong
+        return good
+
+
+def main(only):
+    """Prints a table; returns the exit code."""
+    found = pythons()
+    for minor in range(FIRST, LAST + 1):
+        if (3, minor) not in found:
+            print(f"Python 3.{minor}: there is none on this machine")
+    chosen = {version: program for version, program in found.items() if not only or "{}.{}".format(*version) in only}
+    with chromium() as browser:
+        good = [tried("newest libraries", program, browser) for program in chosen.values()]
+        if (3, FIRST) in chosen:
+            good.append(tried("lowest libraries", chosen[3, FIRST], browser, ROOT / "locks/lowest.txt"))
+    return 0 if good and all(good) else 1
+
+
+@contextmanager
+def chromium():
+    """A browser, or None where Playwright is not installed."""
+    if find_spec("playwright") is None:
+        print("Playwright is not installed: nobody comes in Chromium")
+        yield None
+        return
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = launch(playwright)
+        yield browser
+        browser.close()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,106 @@
+"""What is installed: bounds that are kept, a lock that is theirs, and a source archive that can be worked with."""
+
+import ast
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import tomllib
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+
+ROOT = Path(__file__).parent.parent
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+BOUNDS = {each.name: each for each in map(Requirement, PROJECT["project"]["dependencies"])}
+LOCKS = sorted((ROOT / "locks").glob("*.txt"))
+PYTHONS = ("3.11.0", "3.12.0", "3.13.0", "3.14.0")
+
+
+def pins(path, python=None):
+    """{name: version} of a lock, as it is on a Linux with this Python; all of them in one list without."""
+    lines = re.findall(r"(?m)^([A-Za-z0-9][\w.-]*==.*?) *\\?$", path.read_text(encoding="utf-8"))
+    requirements = map(Requirement, lines)
+    system = {"sys_platform": "linux", "platform_machine": "x86_64", "os_name": "posix"}
+    if python:
+        system |= {"python_full_version": python, "python_version": python.rpartition(".")[0]}
+        requirements = [each for each in requirements if not each.marker or each.marker.evaluate(system)]
+    return [(each.name, next(iter(each.specifier)).version) for each in requirements]
+
+
+@pytest.mark.parametrize("name", BOUNDS)
+def test_every_dependency_has_a_lower_and_an_upper_bound(name):
+    assert {each.operator for each in BOUNDS[name].specifier} == {">=", "<"}
+
+
+def test_what_is_imported_at_run_time_is_declared():
+    """By the name of its package: pip may bring along today what it will not tomorrow."""
+    files = [path for part in ("app", "tippe_core") for path in (ROOT / part).rglob("*.py")]
+    nodes = [node for path in files if "node_modules" not in path.parts
+             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))]  # fmt: skip
+    names = [each.name for node in nodes if isinstance(node, ast.Import) for each in node.names]
+    names += [node.module for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
+    others = {name.partition(".")[0] for name in names} - sys.stdlib_module_names - {"app", "tippe_core"}
+    assert {name.replace("_", "-") for name in others} == set(BOUNDS)
+
+
+@pytest.mark.parametrize("python", PYTHONS)
+@pytest.mark.parametrize("lock", ["run", "test"])
+def test_the_lock_is_within_the_bounds_on_every_python(lock, python):
+    locked = dict(pins(ROOT / f"locks/{lock}.txt", python))
+    for name, bound in BOUNDS.items():
+        assert bound.specifier.contains(locked[name]), name
+
+
+def test_the_lowest_libraries_are_those_that_the_bounds_allow():
+    lowest = dict(pins(ROOT / "locks/lowest.txt"))
+    for name, bound in BOUNDS.items():
+        [least] = [each.version for each in bound.specifier if each.operator == ">="]
+        assert Requirement(f"x=={least}").specifier.contains(lowest[name]), name
+
+
+@pytest.mark.parametrize("path", LOCKS, ids=lambda path: path.stem)
+def test_a_lock_names_no_place_and_the_files_that_were_locked(path):
+    text = path.read_text(encoding="utf-8")
+    assert "://" not in text and "--index" not in text and "--find" not in text
+    if path.stem != "lowest":
+        # every pin is followed by the hashes of its files
+        assert len(re.findall(r"==.*\\\n    --hash=sha256:", text)) == len(pins(path)) > 3
+
+
+def test_the_image_and_the_tests_are_installed_from_the_lock():
+    for name in ("Dockerfile", "Makefile"):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        assert "--require-hashes -r locks/build.txt" in text and "-r locks/run.txt" in text
+        # whatever else is installed brings nothing along, but for the program that makes the locks
+        for line in re.findall(r"pip install (.*)", text):
+            assert "--require-hashes" in line or "--no-deps" in line or "'uv" in line, line
+
+
+@pytest.fixture(scope="module")
+def unpacked(tmp_path_factory):
+    """The source archive, unpacked."""
+    folder = tmp_path_factory.mktemp("sdist")
+    subprocess.run([sys.executable, "-m", "hatchling", "build", "-t", "sdist", "-d", folder], cwd=ROOT, check=True,
+                   capture_output=True)  # fmt: skip
+    with tarfile.open(next(folder.glob("*.tar.gz"))) as archive:
+        archive.extractall(folder, filter="data")
+    [path] = [path for path in folder.iterdir() if path.is_dir()]
+    return path
+
+
+@pytest.mark.skipif(not (ROOT / ".git").exists() or not shutil.which("git"), reason="compares with what git has")
+def test_the_source_archive_has_all_that_git_has(unpacked):
+    known = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\n")
+    assert [path for path in known if path and (ROOT / path).exists() and not (unpacked / path).exists()] == []
+
+
+def test_the_source_archive_passes_its_tests_of_files(unpacked):
+    """Those that read what is not a program: the proxy's and the cluster's settings, the docs, the readme."""
+    done = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_readme.py",
+                           "tests/test_server.py", "tests/test_package.py", "-k",
+                           "(files or docs or readme or lock) and not archive"],
+                          cwd=unpacked, capture_output=True, text=True)  # fmt: skip
+    assert done.returncode == 0, done.stdout[-3000:]
