@@ -37,7 +37,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
 from visiting import free_port
-from wire import Closed, Visitor, answers, megabytes, served, until
+from wire import Page, Visitor, answers, megabytes, served, until
 
 BARE = """
 import numpy as np
@@ -57,31 +57,18 @@ EVERY = 2.0  # s between two moves of a slider
 COMING = 8  # who come at the same time
 
 
-class Active:
-    """A visitor who reads all the time, answers as a page does, and times the replies."""
+class Active(Page):
+    """A Page that times the pictures that follow its moves."""
 
     def __init__(self, visitor):
-        self.visitor, self.moved, self.times, self.lost = visitor, None, [], None
+        super().__init__(visitor)
+        self.moved, self.times = None, []
         self.dial, self.slider = (visitor.find(kind) for kind in ("Dial", "Slider"))
-        self.painted = (visitor.find("Painted") or [None])[0]
-        self.reading = asyncio.create_task(self._read())
 
-    async def _read(self):
-        try:
-            while True:
-                kind, content, _ = await self.visitor.receive()
-                if kind == "ERROR":
-                    raise RuntimeError(content["text"])
-                if kind != "PATCH-DOC":
-                    continue
-                if self.moved is not None:
-                    self.times.append(time.monotonic() - self.moved)
-                    self.moved = None
-                for event in content["events"]:
-                    if event.get("attr") == "sent":
-                        await self.visitor.set(self.painted, "painted", event["new"])
-        except (Closed, RuntimeError) as error:
-            self.lost = error
+    def heard(self):
+        if self.moved is not None:
+            self.times.append(time.monotonic() - self.moved)
+            self.moved = None
 
     async def move(self, value):
         """One step of the slider; one that came before the last was answered counts as answered now."""
@@ -102,11 +89,6 @@ class Active:
             await self.move(round(6 + 0.01 * (i % 90), 2))
             i += 1
             await asyncio.sleep(max(0, due - time.monotonic()))
-
-    async def leave(self):
-        """Closes the page."""
-        self.reading.cancel()
-        self.visitor.leave()
 
 
 async def come(urls, count):
