@@ -91,7 +91,7 @@ def on_a_phone():
 
 
 def build_view(explorer, roll, builder):
-    workshop = Workshop(builder, explorer)
+    workshop = Workshop(builder, explorer, roll.pacer.soon)
     roll.followers.append(workshop.show_scene)
     workshop.show_scene(explorer.scene)
     measure = card(say("main.cards.measure"), *Measure(builder).view, height="max-content")

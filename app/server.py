@@ -70,7 +70,8 @@ EACH_MESSAGE = 0.002  # s: what the cheapest message costs
 LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
 
 SOCKETS = 3  # of one session: its page's, and what is left of one that was lost
-IDLE = 5  # s after which a connection on which nothing is asked is closed: a browser keeps six open for minutes
+# s after which a connection on which nothing is asked is closed. A browser keeps six open for minutes; a proxy, few.
+IDLE, IDLE_PROXY = 5, 75
 FRESH = 120  # s in which a page that was sent may open its session
 TOKEN_LASTS = 24 * 3600
 PING = 45  # s
@@ -574,8 +575,9 @@ def serve(settings, sockets, files, parent=None):
     context = tornado.applications["/app"]
     tornado.tippe, tornado.door = settings, Door(settings)
     tornado.door.sessions = context._sessions
+    idle = IDLE_PROXY if settings.proxy else IDLE
     http = HTTPServer(tornado, xheaders=bool(settings.proxy), max_body_size=LARGEST_FRAGMENT,
-                      max_header_size=32 * 1024, idle_connection_timeout=IDLE, body_timeout=IDLE)  # fmt: skip
+                      max_header_size=32 * 1024, idle_connection_timeout=idle, body_timeout=idle)  # fmt: skip
     arrivals = Arrivals(http, sockets, files)
     loop = IOLoop.current()
     loop.asyncio_loop.set_exception_handler(unheard)

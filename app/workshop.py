@@ -3,6 +3,7 @@
 import html
 import io
 import math
+from functools import partial
 
 import numpy as np
 import panel as pn
@@ -26,6 +27,7 @@ PARTS = {"body": "#d9b98c", "hollow": "white", "core": "#8a96a3"}  # of the sect
 FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
 LARGEST_FILE = 65_536
+KNOBS = 32  # made at a time
 OWN = ""  # a select has no way to show that nothing is chosen
 UNSEEN_LABEL = {
     "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
@@ -326,10 +328,10 @@ class TopFile(pmui.FileInput):
 
 
 class Workshop:
-    """The builder's cards."""
+    """The builder's cards. soon: of a Pacer; a body of many pieces has its knobs in portions, others' work between."""
 
-    def __init__(self, builder, explorer):
-        self.builder = builder
+    def __init__(self, builder, explorer, soon=lambda make: make()):
+        self.builder, self._soon = builder, soon
         self._knobs, self._shown, self._slid, self._silent = {}, None, None, False
         self.section = Section(self._pull)
         self.derived, self.source, self.file_words = words(), words(), words()
@@ -424,8 +426,8 @@ class Workshop:
         now = [draft.family, *((dimension.name, dimension.words) for dimension in draft.dimensions)]
         if now != self._shown:
             self._shown = now
-            self._knobs = {dimension.name: Knob(dimension, self._pull) for dimension in draft.dimensions}
-            self.dimensions.objects = [grid(*(knob.view for knob in self._knobs.values()))]
+            self._knobs, self.dimensions.objects = {}, []
+            self._add_knobs(now)
         free = isinstance(draft.shape, Lathe)
         self.points.visible = free
         if free:
@@ -447,6 +449,20 @@ class Workshop:
         self.families.param.update(options=own | families, value=draft.family if draft.name else OWN)
         self._silent = False
         self.stl.disabled = isinstance(draft.shape, BareSphere)
+
+    def _add_knobs(self, shown):
+        """The next KNOBS of them, unless others are shown by now."""
+        draft = self.builder.draft
+        more = draft.dimensions[len(self._knobs) :]
+        if shown is not self._shown or not more:
+            return
+        added = {dimension.name: Knob(dimension, self._pull) for dimension in more[:KNOBS]}
+        self._knobs |= added
+        for knob in added.values():
+            knob.show(draft.shape, under_hand=False)
+        self.dimensions.append(grid(*(knob.view for knob in added.values())))
+        if len(more) > KNOBS:
+            self._soon(partial(self._add_knobs, shown))
 
     def show_scene(self, scene):
         """Whether the explorer's numbers are the body's."""

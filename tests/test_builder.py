@@ -11,11 +11,12 @@ from app.builder import FAMILIES, Builder, Rocking, changed, handles, pulled, se
 from app.compare import Compare
 from app.explorer import Explorer
 from app.family import neighbours, pegs, region, share_map
-from app.workshop import Workshop
+from app.workshop import KNOBS, Workshop
 from tippe_core import (
     PRESETS,
     Ball,
     BareSphere,
+    Lathe,
     Top,
     TopError,
     TruncatedSphere,
@@ -438,6 +439,27 @@ def test_a_map_stops_when_told_and_refuses_what_cannot_be(explorer, monkeypatch)
         compare.entries[name].value = text
         compare.compute()
         assert name in compare.said.object and not compare.start.disabled
+
+
+def test_many_pieces_have_their_knobs_in_portions(builder, explorer):
+    """Hundreds of them would keep the server for seconds."""
+    many = 100
+    points = tuple((0.01 + 0.001 * (i % 2), -0.009 + 0.0005 * i) for i in range(many))
+    asked = []
+    bench = Workshop(builder, explorer, asked.append)
+    builder.load(save_top(Lathe(R=0.02, points=points, density=(700.0,) * many)))
+    assert len(bench._knobs) == KNOBS and len(asked) == 1
+    while asked:
+        asked.pop()()
+    assert list(bench._knobs) == [each.name for each in builder.draft.dimensions] and len(bench._knobs) > many
+    assert sum(len(part) for part in bench.dimensions) == len(bench._knobs)
+
+    builder.choose(PRESETS[0].name)
+    builder.load(save_top(Lathe(R=0.02, points=points, density=(700.0,) * many)))
+    [late] = asked
+    builder.choose(PRESETS[0].name)
+    late()  # another body is on the bench by now
+    assert list(bench._knobs) == [each.name for each in builder.draft.dimensions] and len(bench._knobs) < KNOBS
 
 
 @pytest.mark.parametrize("value", [5e-324, 1e-300, 1e-12, 1e3, 1e9, 1e300])

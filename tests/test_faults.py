@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import visitors
 from visiting import WHOLE, Visit, free_port
 from wire import Visitor, answers, get, run, served, until
 
@@ -108,6 +109,11 @@ def test_a_visitor_who_stops_reading_holds_up_nobody(steady):
         return answered
 
     assert run(stall(steady.url)) == "OK"
+
+
+def test_visitors_who_come_together_and_leave_one_by_one(steady, capsys):
+    """They move, and open all tabs, in two languages; what is refused or fails is told, or stands in the log."""
+    assert visitors.main(steady.url, 3) == 0, capsys.readouterr().out
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")

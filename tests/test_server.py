@@ -205,6 +205,20 @@ def test_addresses_that_mean_ill(path, status, server):
     assert "alert(1)" not in text and "Traceback" not in text and "mine" not in text
 
 
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="reads Linux's list of signals")
+def test_no_clock_interrupts_what_the_server_does(server):
+    """One raised into whatever ran, the event loop too: a thread's time was compared with another's (Bokeh 3.10)."""
+
+    async def visit():
+        (await Visitor.enter(server.url)).leave()
+
+    run(visit())
+    [caught] = re.findall(r"SigCgt:\s*(\w+)", Path(f"/proc/{server.process.pid}/status").read_text())
+    for clock in (signal.SIGPROF, signal.SIGVTALRM, signal.SIGALRM):
+        assert not int(caught, 16) >> (clock - 1) & 1, clock.name
+    until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
+
+
 def test_a_page_of_another_site_may_not_connect(server):
     with pytest.raises(Exception, match="403"):
         run(Visitor.enter(server.url, headers={"Origin": "http://evil.example"}))
