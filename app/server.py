@@ -732,7 +732,6 @@ def main(settings):
         logging.getLogger("tornado.access").setLevel(logging.INFO)
     if not settings.secret:
         settings = replace(settings, secret=secrets.token_hex(32))
-    settings = replace(settings, prefix=settings.prefix and "/" + settings.prefix.strip("/"))
     try:
         sockets = bind_sockets(settings.port, settings.address or None)
     except OSError as error:

@@ -3,7 +3,7 @@
 import argparse
 import os
 import re
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 
 
 def _setting(default, says, low=None, high=None):
@@ -44,24 +44,26 @@ class Settings:
         for name, item in known.items():
             text = options[item.name]
             called[item.name] = name if text is None else f"--{item.name.replace('_', '-')}"
-            text = (environment.get(name, "") if text is None else text).strip()
-            if text:
-                values[item.name] = _number(called[item.name], text, item) if item.type is int else text
+            # a variable may be there and empty
+            given = environment.get(name, "").strip() or None if text is None else text.strip()
+            if given is not None:
+                values[item.name] = _number(called[item.name], given, item) if item.type is int else given
         settings = cls(**values)
         for host in settings.hosts:
             if not re.fullmatch(r"[\w.*-]+(:(\d{1,5}|\*))?|\[[\da-fA-F:]+\](:\d{1,5})?", host):
                 raise ValueError(
                     f"{called['origins']} has {host!r}; allowed is host or host:port, such as top.example.org."
                 )
+        path = settings.prefix.strip("/").split("/") if settings.prefix.strip("/") else []
         for name, wrong, allowed in (
-            ("prefix", not re.fullmatch(r"(/?[\w.~-]+)*/?", settings.prefix), "a path, such as /tops"),
+            ("prefix", not all(re.fullmatch(r"[\w.~-]+", part) for part in path), "a path, such as /tops"),
             ("log", settings.log not in ("debug", "info", "warning", "error"), "debug, info, warning or error"),
             ("frames", any(mark in settings.frames for mark in ";,\r\n"), "sources of a CSP, by spaces"),
             ("workers", settings.workers > 1 and not hasattr(os, "fork"), "1 on this system: it cannot fork"),
         ):
             if wrong:
                 raise ValueError(f"{called[name]} is {getattr(settings, name)!r}; allowed is {allowed}.")
-        return settings
+        return replace(settings, prefix="".join(f"/{part}" for part in path))
 
     @property
     def hosts(self):

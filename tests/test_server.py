@@ -53,6 +53,8 @@ def started(*arguments, **settings):
     (("--sessions-per-address=0",), {}, "--sessions-per-address is '0'; allowed is a whole number from 1"),
     (("--prot", "8765"), {}, "unrecognized arguments: --prot 8765"), (("8765",), {}, "unrecognized arguments: 8765"),
     (("--port",), {}, "argument --port: expected one argument"),
+    (("--port", ""), {}, "--port is ''; allowed is a whole number"),
+    (("--prefix", "a" * 60 + "?"), {}, "allowed is a path, such as /tops"),
 ])  # fmt: skip
 def test_a_bad_setting_ends_the_start_with_a_sentence(arguments, settings, says):
     done = started(*arguments, **settings)
@@ -64,6 +66,11 @@ def test_help_names_every_setting():
     assert done.returncode == 0 and "TIPPE_PORT=8765" in done.stdout
     for item in fields(Settings):
         assert f"--{item.name.replace('_', '-')} " in done.stdout
+
+
+@pytest.mark.parametrize("given, prefix", [("", ""), ("/", ""), ("tops", "/tops"), ("/a/b-c/", "/a/b-c")])
+def test_a_prefix_may_have_its_slashes_or_not(given, prefix):
+    assert Settings.of({"TIPPE_PREFIX": given}).prefix == Settings.of({}, ["--prefix", given]).prefix == prefix
 
 
 def test_the_command_line_goes_before_the_environment():
