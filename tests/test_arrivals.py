@@ -3,12 +3,14 @@
 import asyncio
 import resource
 import socket
+import subprocess
 import sys
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-from wire import Visitor, get, run, served, until
+from visiting import free_port
+from wire import Visitor, answers, get, run, served, until
 
 from app import arrivals
 
@@ -75,9 +77,18 @@ def test_as_many_files_are_asked_for_as_may_be(monkeypatch):
 
 
 @pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="reads Linux's list of limits")
-def test_the_server_raises_its_limit(tmp_path):
+@pytest.mark.parametrize("command", ["app", "panel serve app"])
+def test_the_server_raises_its_limit(command):
     hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
-    with served(tmp_path / "log", before=["sh", "-c", 'ulimit -S -n 256 && exec "$@"', "sh"]) as server:
-        [line] = [line for line in Path(f"/proc/{server.process.pid}/limits").read_text().splitlines()
+    port = free_port()
+    process = subprocess.Popen(["sh", "-c", 'ulimit -S -n 256 && exec "$@"', "sh", sys.executable, "-m",
+                                *command.split(), "--port", str(port), "--address", "127.0.0.1"],
+                               cwd=Path(__file__).parent.parent)  # fmt: skip
+    try:
+        until(lambda: answers(f"http://127.0.0.1:{port}/app"), 60)
+        [line] = [line for line in Path(f"/proc/{process.pid}/limits").read_text().splitlines()
                   if line.startswith("Max open files")]  # fmt: skip
-        assert int(line.split()[3]) == min(hard, 65_536)
+    finally:
+        process.terminate()
+        process.wait()
+    assert int(line.split()[3]) == min(hard, 65_536)
