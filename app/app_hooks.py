@@ -3,6 +3,8 @@
 import asyncio
 from concurrent.futures import Future, ThreadPoolExecutor
 
+import bokeh
+
 from app.arrivals import most_files
 
 
@@ -21,10 +23,14 @@ class Here(ThreadPoolExecutor):
 def on_server_loaded(server_context):
     """Asks for as many open files as may be, and keeps what sessions do in the server's own thread.
 
-    From 3.10 on Bokeh gives it to the event loop's executor. That is no faster, for one thread at a time has the
-    interpreter (a move costs an eighth more of the processor). But Panel answers some messages of a page, such as a
-    dragged slider's, in the event loop without the document's lock: beside a thread, two of them would change one
-    session at a time. What takes long is given to app.runs.
+    From 3.10 on Bokeh gives it to the event loop's executor, and what is sent to one of its own. That is no faster, for
+    one thread at a time has the interpreter (a move costs an eighth more of the processor). But Panel answers some
+    messages of a page, such as a dragged slider's, in the event loop without the document's lock: beside a thread, two
+    of them would change one session at a time. What takes long is given to app.runs.
     """
     most_files()
-    asyncio.get_running_loop().set_default_executor(Here(1))
+    here = Here(1)
+    asyncio.get_running_loop().set_default_executor(here)
+    if tuple(map(int, bokeh.__version__.split(".")[:2])) >= (3, 10):
+        # Private: if another Bokeh has none, this is an error in the log, at the start.
+        server_context.application_context._executor._executor = here

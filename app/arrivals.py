@@ -7,6 +7,7 @@ be taken, and a server that asks for the next one all the same does nothing else
 import logging
 import os
 import time
+from weakref import WeakSet
 
 from tornado.ioloop import IOLoop
 from tornado.iostream import IOStream
@@ -20,6 +21,7 @@ log = logging.getLogger("tippe")
 
 FILES = (65_536, 10_240, 4_096)  # as many as we ask for; macOS gives 10,240 whatever it says
 OTHERS = 64  # of them are not for connections, or a quarter where there are few
+STALLED = 10.0  # s without a byte, after which who does not read makes room
 LOOK_AGAIN = 0.25  # s
 SAY_AGAIN = 60.0  # s
 AT_ONCE = 64  # connections, before the others are served
@@ -42,21 +44,43 @@ def most_files():
     return None if soft == unlimited else soft
 
 
+class Stream(IOStream):
+    """One that knows when a byte of it last went out."""
+
+    def __init__(self, *arguments, **named):
+        super().__init__(*arguments, **named)
+        self.sent = time.monotonic()
+
+    def write_to_fd(self, data):
+        count = super().write_to_fd(data)
+        if count:
+            self.sent = time.monotonic()
+        return count
+
+
 class Arrivals:
     """Takes what comes to listening sockets, and gives it to an HTTPServer. files: as of most_files()."""
 
     def __init__(self, http, sockets, files):
         self._http, self._sockets, self._files = http, sockets, files
         self._last = None if files is None else files - min(OTHERS, files // 4)
-        self._said = -SAY_AGAIN
+        self._said, self._open, self._streams = -SAY_AGAIN, False, WeakSet()
 
     def start(self):
         """From now on they are taken."""
-        for each in self._sockets:
-            IOLoop.current().add_handler(each, self._arrived, IOLoop.READ)
+        self._open = True
+        self._take()
 
     def stop(self):
         """From now on nobody is taken; the sockets stay open."""
+        self._open = False
+        self._rest()
+
+    def _take(self):
+        for each in self._sockets:
+            IOLoop.current().add_handler(each, self._arrived, IOLoop.READ)
+
+    def _rest(self):
         for each in self._sockets:
             IOLoop.current().remove_handler(each)
 
@@ -69,8 +93,9 @@ class Arrivals:
             except OSError as error:  # no room, whatever the reason
                 self._wait(error.strerror)
                 return
-            stream = IOStream(connection, max_buffer_size=self._http.max_buffer_size,
-                              read_chunk_size=self._http.read_chunk_size)  # fmt: skip
+            stream = Stream(connection, max_buffer_size=self._http.max_buffer_size,
+                            read_chunk_size=self._http.read_chunk_size)  # fmt: skip
+            self._streams.add(stream)
             self._http.handle_stream(stream, address)
             # The system gives each file the least number that is free: all below are open.
             if self._last is not None and connection.fileno() >= self._last:
@@ -78,7 +103,7 @@ class Arrivals:
                 return
 
     def _wait(self, reason):
-        self.stop()
+        self._rest()
         if time.monotonic() - self._said > SAY_AGAIN:
             self._said = time.monotonic()
             log.warning("no more connections for now: %s (ulimit -n); who comes waits until others leave", reason)
@@ -86,6 +111,12 @@ class Arrivals:
 
     def _look(self):
         """Whether there is room again."""
+        if not self._open:
+            return
+        now = time.monotonic()
+        for stream in tuple(self._streams):
+            if stream.writing() and now - stream.sent > STALLED:
+                stream.close()
         try:
             probe = os.open(os.devnull, os.O_RDONLY)
         except OSError:
@@ -95,4 +126,4 @@ class Arrivals:
         if probe is None or (self._last is not None and probe >= self._last):
             IOLoop.current().call_later(LOOK_AGAIN, self._look)
         else:
-            self.start()
+            self._take()

@@ -117,7 +117,7 @@ class Compare:
         self.start = pmui.Button(label=say("family.map.start"), **BUTTON)
         self.cancel = pmui.Button(label=say("family.map.cancel"), disabled=True, **BUTTON)
         on_click(self.start, self.compute)
-        on_click(self.cancel, lambda event: self._run.stop())
+        on_click(self.cancel, lambda event: self._run and self._run.stop())
 
     @staticmethod
     def _buttons(table):
@@ -208,8 +208,10 @@ class Compare:
         self.start.disabled, self.cancel.disabled = True, False
         self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
         steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
-        self._run = Run(partial(self._work, steps, span), self._done)
-        self._runs.begin(self._run)
+        if self._run:
+            self._run.stop()
+        run = self._run = Run(partial(self._work, steps, span), lambda result: self._done(run, result))
+        self._runs.begin(run)
 
     def _work(self, steps, span, run):
         shown = time.monotonic()
@@ -222,11 +224,13 @@ class Compare:
 
     def _show_rows(self, run, done, found, span):
         """The map as far as it is."""
-        if not run.stopped:
+        if run is self._run and not run.stopped:
             self.shares.data = {"share": [found.share], **span}
             self.bar.object = _progress(100 * done / found.share.size)
 
-    def _done(self, result):
+    def _done(self, run, result):
+        if run is not self._run:  # another map is asked for by now
+            return
         stopped = isinstance(result, Stopped)
         self.start.disabled, self.cancel.disabled, self.bar.visible = False, True, False
         self.said.object = note(say("family.map.cancelled")) if stopped else ""

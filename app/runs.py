@@ -41,6 +41,8 @@ class Run:
 
     def stop(self):
         """Ends it: at once where it still waits for a thread, else at its next look."""
+        if self.stopped:
+            return
         self.stopped = True
         if self._drop:
             self._drop()
@@ -96,9 +98,12 @@ class Runs:
             self.post(lambda: run.done(result))
 
         def worked():
-            _NOW.set(run)
-            with speaking(language):
-                result = run.result()
+            now = _NOW.set(run)
+            try:
+                with speaking(language):
+                    result = run.result()
+            finally:
+                _NOW.reset(now)  # else the thread would keep the page
             tell(result)
 
         def drop():

@@ -51,7 +51,7 @@ from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.iostream import StreamClosedError
 from tornado.netutil import bind_sockets
-from tornado.web import HTTPError, RequestHandler
+from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError
 
 from app import text
@@ -66,7 +66,7 @@ KINDS = {"PATCH-DOC", "PULL-DOC-REQ", "SERVER-INFO-REQ"}  # a browser never push
 EVENTS = {"ModelChanged", "MessageSent"}  # nor adds roots, or streams
 
 SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a quiet one has saved up
-EACH_MESSAGE = 0.002  # s: what the cheapest message costs
+EACH_MESSAGE, WHOLE_PAGE = 0.002, 0.08  # s: what the cheapest message costs, and one that asks for the whole page
 LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
 
 SOCKETS = 3  # of one session: its page's, and what is left of one that was lost
@@ -77,6 +77,7 @@ TOKEN_LASTS = 24 * 3600
 PING = 45  # s
 TIDY = 10  # s
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
+PIECE = 64 * 1024  # bytes of a static file
 GRACE = 3.0  # s from SIGTERM to the end, whatever still runs
 
 
@@ -364,7 +365,7 @@ class Socket(WSHandler):
         if self.connection is None:
             return None
         mine = budget(self.connection.session)
-        mine.spend(EACH_MESSAGE)
+        mine.spend(WHOLE_PAGE if message.msgtype == "PULL-DOC-REQ" else EACH_MESSAGE)
         wait = mine.wait()
         if wait and not mine.told:
             log.warning("%s sends more than its share; it is read more slowly", self.request.remote_ip)
@@ -532,6 +533,18 @@ class Component(ComponentResourceHandler):
         return super().parse_url_path(path)
 
 
+def in_pieces(get_content):
+    """tornado's method that reads a static file, with the file open for each piece anew: else a connection that reads
+    slowly would be two open files."""
+
+    def read(cls, path, start=None, end=None):
+        start, end = start or 0, os.path.getsize(path) if end is None else end
+        for at in range(start, end, PIECE):
+            yield b"".join(get_content(path, at, min(at + PIECE, end)))
+
+    return classmethod(read)
+
+
 def set_default_headers(handler):
     for name, value in HEADERS.items():
         handler.set_header(name, value)
@@ -546,6 +559,7 @@ def serve(settings, sockets, files, parent=None):
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
     RequestHandler.set_default_headers = set_default_headers
+    StaticFileHandler.get_content = in_pieces(StaticFileHandler.get_content)
     ServerSession.with_document_locked = counted(ServerSession.with_document_locked)
     pn.config.exception_handler = note
     bokeh.server.urls.per_app_patterns[:] = [(r"/ws", Socket), (r"/?", Page)]
@@ -735,7 +749,8 @@ def main(settings):
     try:
         sockets = bind_sockets(settings.port, settings.address or None)
     except OSError as error:
-        print(f"TIPPE_PORT {settings.port}, TIPPE_ADDRESS {settings.address!r}: {error.strerror}", file=sys.stderr)
+        print(f"port {settings.port}, address {settings.address!r}: {error.strerror}. Choose others by --port and "
+              "--address, or TIPPE_PORT and TIPPE_ADDRESS.", file=sys.stderr)  # fmt: skip
         return 1
     files = most_files()
     if settings.workers > 1:

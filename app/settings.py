@@ -36,10 +36,10 @@ class Settings:
         for an option that is none.
         """
         known = {f"TIPPE_{item.name.upper()}": item for item in fields(cls)}
+        options = vars(_parser(known.values()).parse_args(list(arguments)))
         for name in environment:
             if name.startswith("TIPPE_") and name not in known:
                 raise ValueError(f"{name} is no setting. There are {', '.join(known)}.")
-        options = vars(_parser(known.values()).parse_args(list(arguments)))
         values, called = {}, {}
         for name, item in known.items():
             text = options[item.name]
@@ -56,7 +56,8 @@ class Settings:
                 )
         path = settings.prefix.strip("/").split("/") if settings.prefix.strip("/") else []
         for name, wrong, allowed in (
-            ("prefix", not all(re.fullmatch(r"[\w.~-]+", part) for part in path), "a path, such as /tops"),
+            ("prefix", not all(re.fullmatch(r"(?!\.+$)[\w.~-]+", part, re.ASCII) for part in path),
+             "a path of ASCII letters, digits and . _ ~ -, such as /tops"),
             ("log", settings.log not in ("debug", "info", "warning", "error"), "debug, info, warning or error"),
             ("frames", any(mark in settings.frames for mark in ";,\r\n"), "sources of a CSP, by spaces"),
             ("workers", settings.workers > 1 and not hasattr(os, "fork"), "1 on this system: it cannot fork"),

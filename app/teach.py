@@ -75,7 +75,8 @@ class Vote:
     """The teacher's side of a vote: opens a room about a step on the present top, and shows its histogram."""
 
     def __init__(self, explorer, runs):
-        self._explorer, self._runs, self._room, self._callback, self._shown = explorer, runs, None, None, None
+        self._explorer, self._runs, self._room, self._finding = explorer, runs, None, None
+        self._callback = self._shown = None
         titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
         self.which = pmui.Select(label=say("teach.vote.which"), options=titles, value=lesson.NAMES[0], size="small",
                                  sizing_mode="stretch_width")  # fmt: skip
@@ -146,12 +147,18 @@ class Vote:
     def _answer(self):
         room, planned = self._room, self._planned
         self.truth.object = note(say("learn.page.wait"))
-        self._runs.begin(Run(lambda run: room.step.answer(planned).truth, lambda truth: self._reveal(room, truth)))
+        if self._finding:
+            self._finding.stop()
+
+        def found(truth):
+            if not run.stopped:  # the vote is closed, or the answer asked for again
+                self._reveal(room, truth)
+
+        run = self._finding = Run(lambda run: room.step.answer(planned).truth, found)
+        self._runs.begin(run)
 
     def _reveal(self, room, truth):
         step, asks = room.step, room.asks
-        if room is not self._room:
-            return
         if isinstance(truth, Exception):
             self.truth.object = alert(told(truth)) if isinstance(truth, TopError) else ""
             if not isinstance(truth, TopError):
@@ -164,6 +171,8 @@ class Vote:
         self.truth.object = f"<b>{say('teach.vote.said', answer=said)}</b> ({say(f'learn.{step.name}.title')})"
 
     def _forget(self):
+        if self._finding:
+            self._finding.stop()
         if self._room:
             ROOMS.close(self._room.code)
         self._room = None

@@ -35,8 +35,11 @@ def pythons():
     for program in (path for place in places for path in [*place.glob("python3.*"), *place.glob("python.exe")]):
         if not re.fullmatch(r"python(3\.\d+)?(\.exe)?", program.name):
             continue
-        asked = subprocess.run([program, "-c", "import sys, venv; print(*sys.version_info[:3])"], capture_output=True,
-                               text=True)  # fmt: skip
+        try:
+            asked = subprocess.run([program, "-c", "import sys, venv; print(*sys.version_info[:3])"],
+                                   capture_output=True, text=True)  # fmt: skip
+        except OSError:  # nothing that can be started
+            continue
         if asked.returncode == 0:  # a shim of pyenv may stand for none
             version = tuple(map(int, asked.stdout.split()))
             if version[:2] >= (3, FIRST):
@@ -98,7 +101,7 @@ def tried(name, python, browser, constraints=None):
         folder = Path(folder)
         try:
             inside = installed(python, folder / "venv", constraints)
-        except RuntimeError as error:
+        except (RuntimeError, OSError, subprocess.CalledProcessError) as error:
             print(f"{name}: cannot be installed by {python}: {error}")
             return False
         asked = ("import importlib.metadata as m, platform as p, app; print(p.python_version(), app.__path__[0], "

@@ -1,14 +1,19 @@
 """More connections than the system gives files: they wait, one line says so, and those that ask nothing are let go."""
 
 import asyncio
+import os
 import resource
 import socket
 import subprocess
 import sys
+from itertools import count
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+from tornado.web import Application
 from visiting import free_port
 from wire import Visitor, answers, get, run, served, until
 
@@ -20,10 +25,21 @@ UNDER = ["sh", "-c", f'ulimit -n {FEW} && exec "$@"', "sh"]
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there, sockets are not counted with the files")
 
 
-def crowd(url, count):
+def crowd(url, many):
     """So many connections that ask nothing."""
     place = urlsplit(url)
-    return [socket.create_connection((place.hostname, place.port), timeout=60) for _ in range(count)]
+    return [socket.create_connection((place.hostname, place.port), timeout=60) for _ in range(many)]
+
+
+def greedy(url):
+    """A connection that asks for large files, one after the other, and reads nothing."""
+    place = urlsplit(url)
+    connection = socket.socket()
+    connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    connection.settimeout(60)
+    connection.connect((place.hostname, place.port))
+    connection.sendall(20 * f"GET /static/js/bokeh.min.js HTTP/1.1\r\nHost: {place.netloc}\r\n\r\n".encode())
+    return connection
 
 
 def closed(connection):
@@ -54,6 +70,46 @@ def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
         assert server.log.count("no more connections") == 1 and len(server.log.splitlines()) < 10
         for each in connections:
             each.close()
+
+
+def test_those_who_do_not_read_what_they_asked_for_make_room(tmp_path):
+    """And while they are sent it, it is no second open file each."""
+    with served(tmp_path / "log", before=UNDER) as server:
+        connections = [greedy(server.url) for _ in range(FEW)]
+        assert len(run(Visitor.enter(server.url)).models) > 100
+        assert "no more connections" in server.log and len(server.log.splitlines()) < 10
+        for each in connections:
+            each.close()
+
+
+def test_a_server_that_stops_takes_nobody_again(monkeypatch, caplog):
+    monkeypatch.setattr(arrivals, "LOOK_AGAIN", 0)
+
+    def free():
+        """The next file's number."""
+        number = os.open(os.devnull, os.O_RDONLY)
+        os.close(number)
+        return number
+
+    async def stopped():
+        [listening] = bind_sockets(0, "127.0.0.1")
+        room = free() + 1  # for the caller's end, and not for the server's
+        files = next(files for files in count() if files - min(arrivals.OTHERS, files // 4) == room)
+        arriving = arrivals.Arrivals(HTTPServer(Application()), [listening], files)
+        arriving.start()
+        caller = await asyncio.to_thread(socket.create_connection, listening.getsockname())
+        while "no more connections" not in caplog.text:
+            await asyncio.sleep(0)
+        arriving.stop()
+        listening.close()
+        caller.close()
+        while free() >= room:
+            await asyncio.sleep(0)
+        for _ in range(10):  # now it would find that there is room again
+            await asyncio.sleep(0)
+
+    run(stopped())
+    assert "Exception" not in caplog.text
 
 
 def test_as_many_files_are_asked_for_as_may_be(monkeypatch):

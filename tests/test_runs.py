@@ -10,13 +10,21 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from bokeh.document import Document
+from bokeh.server.tornado import BokehTornado
 from panel.io.application import build_single_handler_application
+from panel.io.state import set_curdoc
 from wire import run as run_async
 
 from app import lesson
+from app.builder import Builder
+from app.compare import Compare
 from app.explorer import Explorer
+from app.family import share_map
 from app.learn import Learn
+from app.planes import Planes
 from app.runs import THREADS, Run, Runs, Stopped, look
+from app.teach import Vote
 from app.text import say, speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
 
@@ -80,9 +88,12 @@ def test_a_run_that_waits_for_a_thread_ends_at_once(page):
     waiting = Run(lambda run: results.append("worked"), told(results))
     page.runs.begin(waiting)
     waiting.stop()
+    waiting.stop()
     page.next()
     go.set()
-    assert isinstance(results[0], Stopped) and len(results) == 1
+    for _ in range(THREADS._max_workers):
+        page.next()
+    assert len(results) == 1 and isinstance(results[0], Stopped)
 
 
 def test_what_a_page_has_under_way_ends_when_it_leaves_and_nothing_is_told(page):
@@ -140,17 +151,20 @@ def test_two_runs_at_a_time_are_each_as_it_is_alone():
 
 
 def test_sessions_work_in_the_servers_own_thread():
-    """Bokeh from 3.10 on gives their work to the loop's executor, beside what Panel does in the loop meanwhile."""
-    hooks = build_single_handler_application(Path(__file__).parent.parent / "app")
+    """Bokeh from 3.10 on gives their work to the loop's executor and to its own, beside what Panel does in the loop
+    meanwhile."""
+    app = build_single_handler_application(Path(__file__).parent.parent / "app")
 
     async def where():
-        hooks.on_server_loaded(None)
+        context = BokehTornado({"/app": app}).applications["/app"]
+        app.on_server_loaded(context.server_context)
         with pytest.raises(ZeroDivisionError):
             await asyncio.to_thread(lambda: 1 / 0)
-        return await asyncio.to_thread(threading.get_ident), threading.get_ident()
+        theirs = getattr(context, "_executor", None)
+        sent = [await theirs.run(threading.get_ident)] if theirs else []
+        return {*sent, await asyncio.to_thread(threading.get_ident), threading.get_ident()}
 
-    there, here = run_async(where())
-    assert there == here
+    assert len(run_async(where())) == 1
 
 
 @pytest.mark.parametrize("name", ["free", "proof", "flip"])
@@ -183,3 +197,60 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
     assert say(f"learn.verdict.{verdict}") in learn.verdict.object
     assert say(f"learn.{name}.{answer.told}", **answer.numbers).split("\n")[0] in learn.explanation.object
     lesson.slid.cache_clear()
+
+
+@pytest.fixture
+def busy(page):
+    """Ends when all threads have been busy until then; the page's runs wait."""
+    go = threading.Event()
+    for _ in range(THREADS._max_workers):
+        page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None))
+    yield go
+    go.set()
+
+
+def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy, monkeypatch):
+    monkeypatch.setattr("app.planes.PATIENCE", 0.0)
+    explorer = Explorer()
+    planes = Planes(explorer, Builder(explorer), page.runs)
+    planes.spin = 21.0
+    planes.spin = 22.0  # before the session hears that the first is not run
+    busy.set()
+    while planes.busy:
+        page.next()
+    assert planes.picture.settings.spin == 22.0
+
+
+def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
+    def slowly(*asked):
+        while True:
+            yield 10, nothing
+
+    nothing = next(share_map(0.4, 10.0, 0.5, np.array([0.07]), np.array([1.0, 1.1])))[1]
+    monkeypatch.setattr("app.compare.share_map", slowly)
+    compare = Compare(Explorer(), page.runs)
+    compare.compute()
+    first = compare._run
+    compare.compute()  # two clicks, before the button is seen to be taken away
+    assert first.stopped
+    compare.cancel.clicks += 1
+    while not compare.said.object:
+        assert compare.start.disabled
+        page.next()
+    assert "Cancelled" in compare.said.object and not compare.start.disabled
+
+
+def test_the_answer_of_a_vote_asked_for_twice_is_told_once(page, busy, monkeypatch):
+    monkeypatch.setattr("app.teach.page_address", lambda: "http://localhost/app")
+    told = []
+    with set_curdoc(Document()):
+        vote = Vote(Explorer(), page.runs)
+        monkeypatch.setattr(vote, "_reveal", lambda room, truth: told.append(truth))
+        vote.open.clicks += 1
+        vote.answer.clicks += 1
+        vote.answer.clicks += 1
+        busy.set()
+        for _ in range(THREADS._max_workers + 2):
+            page.next()
+        vote.close.clicks += 1
+    assert len(told) == 1 and not isinstance(told[0], Exception)

@@ -54,7 +54,8 @@ def started(*arguments, **settings):
     (("--prot", "8765"), {}, "unrecognized arguments: --prot 8765"), (("8765",), {}, "unrecognized arguments: 8765"),
     (("--port",), {}, "argument --port: expected one argument"),
     (("--port", ""), {}, "--port is ''; allowed is a whole number"),
-    (("--prefix", "a" * 60 + "?"), {}, "allowed is a path, such as /tops"),
+    (("--prefix", "a" * 60 + "?"), {}, "such as /tops"), (("--prefix", "tüps"), {}, "ASCII"),
+    (("--prefix", "a/.."), {}, "such as /tops"),
 ])  # fmt: skip
 def test_a_bad_setting_ends_the_start_with_a_sentence(arguments, settings, says):
     done = started(*arguments, **settings)
@@ -62,7 +63,7 @@ def test_a_bad_setting_ends_the_start_with_a_sentence(arguments, settings, says)
 
 
 def test_help_names_every_setting():
-    done = started("--help")
+    done = started("--help", no_setting="")
     assert done.returncode == 0 and "TIPPE_PORT=8765" in done.stdout
     for item in fields(Settings):
         assert f"--{item.name.replace('_', '-')} " in done.stdout
@@ -247,6 +248,17 @@ def test_a_session_has_few_sockets(server):
             visitor.leave()
 
     run(crowd())
+    until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
+
+
+def test_who_asks_for_the_whole_page_again_and_again_waits(server):
+    async def again():
+        mine = await Visitor.enter(server.url)
+        while "sends more than its share" not in server.log:
+            await mine.ask("PULL-DOC-REQ", {})
+        mine.leave()
+
+    run(again())
     until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
 
 
