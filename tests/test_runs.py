@@ -1,8 +1,10 @@
 """Long work: beside the server, ended where nobody wants it any more, and each run as if it were alone."""
 
 import asyncio
+import gc
 import sys
 import threading
+import weakref
 from functools import partial
 from pathlib import Path
 from queue import Queue
@@ -15,6 +17,7 @@ from bokeh.server.tornado import BokehTornado
 from panel.io.application import build_single_handler_application
 from panel.io.state import set_curdoc
 from wire import run as run_async
+from wire import until
 
 from app import lesson
 from app.builder import Builder
@@ -113,6 +116,19 @@ def test_what_a_page_has_under_way_ends_when_it_leaves_and_nothing_is_told(page)
     assert ended.wait(PATIENCE)
     page.runs.begin(Run(lambda run: None, lambda result: pytest.fail("the page has gone")))
     assert page.posted.empty()
+
+
+def test_no_thread_keeps_what_a_run_was_about(page):
+    class Picture:
+        pass
+
+    picture = Picture()
+    gone = weakref.ref(picture)
+    page.runs.begin(Run(lambda run, picture=picture: None, lambda result: None))
+    del picture
+    page.next()
+    # a thread lets go of its work soon after it has told of it
+    until(lambda: gc.collect() >= 0 and gone() is None)
 
 
 def test_an_error_is_told_too(page):
