@@ -71,6 +71,20 @@ def look(reached=0.0):
         run.look(reached)
 
 
+def to_session(document):
+    """What calls a function on the thread of a Bokeh document's session: for Runs."""
+
+    def post(function):
+        try:
+            document.add_next_tick_callback(function)
+        except AttributeError:
+            # Bokeh takes a document apart in one thread and says afterwards that its session has ended.
+            if document.session_context is not None:
+                raise
+
+    return post
+
+
 class Runs:
     """What one page has under way.
 

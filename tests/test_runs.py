@@ -26,7 +26,7 @@ from app.explorer import Explorer
 from app.family import share_map
 from app.learn import Learn
 from app.planes import Planes
-from app.runs import THREADS, Run, Runs, Stopped, look
+from app.runs import THREADS, Run, Runs, Stopped, look, to_session
 from app.teach import Vote
 from app.text import say, speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
@@ -129,6 +129,17 @@ def test_no_thread_keeps_what_a_run_was_about(page):
     page.next()
     # a thread lets go of its work soon after it has told of it
     until(lambda: gc.collect() >= 0 and gone() is None)
+
+
+def test_a_run_may_end_while_its_document_is_taken_apart():
+    document, session = Document(), lambda event: None
+    document.on_change(session)
+    document.destroy(session)
+    with pytest.raises(AttributeError):
+        document.add_next_tick_callback(print)
+    to_session(document)(print)
+    with pytest.raises(AttributeError):  # but what is wrong with one that lives is said
+        to_session(SimpleNamespace(session_context="open"))(print)
 
 
 def test_an_error_is_told_too(page):
