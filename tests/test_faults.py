@@ -1,5 +1,7 @@
 """What a person sees when something breaks, on `python -m app`: a sentence, and after it what had been set."""
 
+import asyncio
+import json
 import os
 import re
 import shutil
@@ -11,7 +13,9 @@ from pathlib import Path
 import pytest
 import visitors
 from visiting import WHOLE, Visit, free_port
-from wire import Visitor, answers, get, run, served, until
+from wire import Page, Visitor, answers, get, run, served, until
+
+from app.text import say
 
 LOST = "No connection to the server"
 BACK = 60_000  # ms
@@ -116,6 +120,30 @@ def test_visitors_who_come_together_and_leave_one_by_one(steady, capsys):
     assert visitors.main(steady.url, 3) == 0, capsys.readouterr().out
 
 
+def test_who_leaves_takes_nothing_from_who_stays(tmp_path):
+    """A German page, then an English one that goes: the German one still opens its tabs, and in German."""
+
+    async def stays(server):
+        german = Page(await Visitor.enter(server.url, headers={"Accept-Language": "de"}))
+        await german.visitor.ready()
+        english = await Visitor.enter(server.url, headers={"Accept-Language": "en"})
+        english.leave()
+        await asyncio.to_thread(until, lambda: '"sessions": 1' in get(server.root + "/liveness")[2])
+        models = german.visitor.models
+        [tabs] = german.visitor.find("Tabs")
+        for tab in range(1, visitors.TABS):
+            before = len(models)
+            await german.set(tabs, "active", tab)
+            await german.until(lambda before=before: len(models) > before + visitors.A_TAB)
+        await german.leave()
+        return json.dumps(list(models.values()), ensure_ascii=False)
+
+    with served(tmp_path / "log", linger=1) as server:
+        said = run(stays(server))
+        assert say("family.map.start", "de") in said and say("family.map.start", "en") not in said
+        assert "ERROR" not in server.log
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full disk to write to")
 def test_a_full_disk_stops_nobody(tmp_path):
     port = free_port()
@@ -134,9 +162,8 @@ def test_a_full_disk_stops_nobody(tmp_path):
 def test_the_page_needs_no_place_to_write():
     """matplotlib does, for its list of fonts: it waits until a figure is printed."""
     code = """
-import contextlib, sys
-with contextlib.suppress(AttributeError):  # the page itself is made for a visitor, and here is none
-    import app.main
+import sys
+import app.page
 print("matplotlib" in sys.modules, "app.prints" in sys.modules)"""
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=120)
     assert done.stdout.split()[-2:] == ["False", "True"], done.stderr[-2000:]

@@ -1,0 +1,217 @@
+"""The page, layout only."""
+
+from functools import partial
+from weakref import WeakKeyDictionary
+
+import panel as pn
+import panel_material_ui as pmui
+import param
+
+from app import first, text
+from app.builder import Builder
+from app.cards import PLAIN, card, grid
+from app.compare import Compare
+from app.connection import Connection
+from app.keep import Field, OneOf, explorer_of, read
+from app.learn import Learn, kept
+from app.look import widgets
+from app.planes import Planes
+from app.roll import Roll
+from app.runs import Runs, to_session
+from app.share import Share
+from app.teach import student_page
+from app.text import say
+from app.three_planes import KEPT, ThreePlanes
+from app.workshop import Measure, Workshop
+
+STILL = {"@media (prefers-reduced-motion: reduce)": {"&, & *": {"transition": "none !important",
+                                                                "animation": "none !important"}}}  # fmt: skip
+THEME = {
+    "components": {
+        f"Mui{part}": {"styleOverrides": {"root": STILL}}
+        for part in (
+            "ButtonBase",
+            "TouchRipple",
+            "Switch",
+            "Tabs",
+            "Paper",
+            "Backdrop",
+            "Drawer",
+            "Dialog",
+            "OutlinedInput",
+        )
+    }
+    | widgets()
+    | {
+        "MuiToggleButtonGroup": {
+            "styleOverrides": {
+                "root": {"flexWrap": "wrap", "& .MuiToggleButton-root": {"width": "auto", "flex": "1 1 auto"}}
+            }
+        },
+        "MuiMenuItem": {"defaultProps": {"role": "option"}},  # all menus here are of a Select
+        "MuiTabs": {"styleOverrides": {"indicator": {"backgroundColor": "var(--mui-palette-primary-main) !important"}}},
+    }
+}
+
+STYLE = [
+    ".MuiLinearProgress-root { display: none !important }",  # it stays there, and has no name
+    ".MuiTooltip-popper { display: none !important }",  # in English; guide.js has ours
+    "@media (max-width: 600px) { h3.title { font-size: 18px } }",
+    "main { background: var(--mui-palette-background-default) !important }",  # it would keep the first theme's
+]
+
+
+SPEAKS = WeakKeyDictionary()  # document -> its language
+text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc else text.DEFAULT)
+
+
+class Tongue(param.Parameterized):
+    """Which language the page speaks; another one means another page, so it is loaded anew, with its state."""
+
+    lang = param.Selector(default="", objects=["", *text.LANGUAGES], doc='"": the one the browser prefers')
+    KNOWN = {"lang": Field("lang", OneOf(**{name: name for name in text.LANGUAGES}), undoable=False)}  # noqa: RUF012
+
+    def choice(self, share):
+        """The control. share: the Share that keeps the state and the address."""
+        share.keep.add(self, self.KNOWN)
+        select = pmui.RadioButtonGroup(label="", options={name: key for key, name in text.LANGUAGES.items()},
+                                       value=text.spoken(), size="small", margin=(4, 16), sx=PLAIN)  # fmt: skip
+
+        def chosen(event):
+            self.lang = event.new
+            share.reload()
+
+        select.param.watch(chosen, "value")
+        return select
+
+
+def on_a_phone():
+    """By what the browser says of itself: there the controls cover the pictures, and would have to close first."""
+    return "mobi" in pn.state.headers.get("User-Agent", "").lower()
+
+
+def build_view(explorer, roll, builder):
+    workshop = Workshop(builder, explorer, roll.pacer.soon)
+    roll.followers.append(workshop.show_scene)
+    workshop.show_scene(explorer.scene)
+    measure = card(say("main.cards.measure"), *Measure(builder).view, height="max-content")
+    measure.styles = measure.styles | {"grid-column": "1 / -1"}
+    return grid(
+        card(say("main.cards.section"), *workshop.section_view, height="max-content"),
+        card(say("main.cards.bench"), *workshop.bench_view, height="max-content"),
+        measure,
+    )
+
+
+def planes_view(explorer, roll, builder, keep, runs):
+    planes = Planes(explorer, builder, runs)
+    roll.followers.append(planes.follow)
+    keep.add(planes, KEPT)
+    return ThreePlanes(planes, builder, roll.pacer.request).main
+
+
+def family_view(explorer, runs):
+    compare = Compare(explorer, runs)
+    compare.show(compare.family.value)
+    compare.compute()
+    return grid(
+        card(say("main.cards.compare"), *compare.figures_view, height="max-content"),
+        card(say("main.cards.map"), *compare.map_view, height="max-content"),
+        narrowest=1000,
+    )
+
+
+def learn_view(explorer, roll, keep, runs):
+    learn = Learn(explorer, roll, runs)
+    keep.add(learn, kept())
+    return learn.view
+
+
+def tabs(views, keep, soon):
+    """A header and a place for each view; a view is made when it is first looked at, and then stays.
+
+    views: {name in the address: maker}; soon: of a Pacer.
+    """
+    places = [pn.Column(sizing_mode="stretch_width", margin=0, visible=False) for _ in views]
+    header = pmui.Tabs(
+        *((say(f"main.tabs.{name}"), pn.Spacer(height=0)) for name in views),
+        sizing_mode="stretch_width",
+        margin=0,
+        sx={"& .MuiTab-root": {"textTransform": "none", "minHeight": 40, "padding": "8px 16px"}},
+    )
+    makers = list(views.values())
+
+    def make(active):
+        if not places[active].objects:
+            places[active].objects = [makers[active]()]
+
+    def look(active):
+        # One that the address names is made when the page is there: what it computes might overtake the page itself.
+        if active and not pn.state.loaded:
+            pn.state.onload(lambda: make(active))
+        else:
+            make(active)
+        for i, place in enumerate(places):
+            place.visible = i == active
+
+    header.param.watch(lambda event: soon(partial(look, event.new)), "active")
+    look(header.active)
+    known = OneOf(**{name: i for i, name in enumerate(views)})
+    keep.add(header, {"active": Field("tab", known, undoable=False)})
+    return [header, *places]
+
+
+def alone(page):
+    """The page, no longer told whether any page of this server is busy, which kept it and all it shows for ever."""
+    page.param._update_ref("busy", False)
+    return page
+
+
+def page():
+    search = pn.state.location.search
+    asked = read(search)[0].get("lang")
+    accepted = text.preferred(pn.state.headers.get("Accept-Language", ""))
+    SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
+    texts, sentence = read(search)  # what it says is in that language
+    if "vote" in texts:  # a student's link
+        return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"])], theme_toggle=False,
+                         busy_indicator=None, stylesheets=STYLE)  # fmt: skip
+    explorer, wrong = explorer_of(texts)
+    roll = Roll(explorer)
+    builder = Builder(explorer, roll.pacer.request)
+    runs = Runs(to_session(pn.state.curdoc))
+    pn.state.curdoc.on_session_destroyed(lambda context: runs.leave())
+    share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))))
+    share.keep.param.watch(lambda event: builder.follow(), "returned")
+    pn.state.curdoc.template_variables.update(
+        first.variables(None if "tab" in texts else roll.top, pn.state.location.search)
+    )
+    return pmui.Page(
+        template=first.PAGE,
+        title=say("main.title"),
+        sidebar=[*roll.sidebar, Tongue().choice(share)],
+        sidebar_open=not on_a_phone(),
+        header=[*share.header, roll.guide],
+        main=[
+            *share.main,
+            *roll.hidden,
+            Connection(words=say("main.lost"), width=0, height=0, margin=0),
+            *tabs(
+                {
+                    "roll": lambda: roll.main,
+                    "three-planes": lambda: planes_view(explorer, roll, builder, share.keep, runs),
+                    "build-a-top": lambda: build_view(explorer, roll, builder),
+                    "families": lambda: family_view(explorer, runs),
+                    "learn": lambda: learn_view(explorer, roll, share.keep, runs),
+                },
+                share.keep,
+                roll.pacer.soon,
+            ),
+        ],
+        sidebar_width=320,
+        sidebar_resizable=False,
+        theme_toggle=False,
+        theme_config={"light": THEME, "dark": THEME},
+        busy_indicator=None,
+        stylesheets=STYLE,
+    )
