@@ -64,25 +64,19 @@ class Arrivals:
     def __init__(self, http, sockets, files):
         self._http, self._sockets, self._files = http, sockets, files
         self._last = None if files is None else files - min(OTHERS, files // 4)
-        self._said, self._open, self._streams = -SAY_AGAIN, False, WeakSet()
+        self._said, self._again, self._streams = -SAY_AGAIN, None, WeakSet()
 
     def start(self):
         """From now on they are taken."""
-        self._open = True
-        self._take()
-
-    def stop(self):
-        """From now on nobody is taken; the sockets stay open."""
-        self._open = False
-        self._rest()
-
-    def _take(self):
         for each in self._sockets:
             IOLoop.current().add_handler(each, self._arrived, IOLoop.READ)
 
-    def _rest(self):
+    def stop(self):
+        """From now on nobody is taken; the sockets stay open."""
         for each in self._sockets:
             IOLoop.current().remove_handler(each)
+        if self._again is not None:
+            IOLoop.current().remove_timeout(self._again)
 
     def _arrived(self, listening, _events):
         for _ in range(AT_ONCE):
@@ -103,16 +97,14 @@ class Arrivals:
                 return
 
     def _wait(self, reason):
-        self._rest()
+        self.stop()
         if time.monotonic() - self._said > SAY_AGAIN:
             self._said = time.monotonic()
             log.warning("no more connections for now: %s (ulimit -n); who comes waits until others leave", reason)
-        IOLoop.current().call_later(LOOK_AGAIN, self._look)
+        self._again = IOLoop.current().call_later(LOOK_AGAIN, self._look)
 
     def _look(self):
         """Whether there is room again."""
-        if not self._open:
-            return
         now = time.monotonic()
         for stream in tuple(self._streams):
             if stream.writing() and now - stream.sent > STALLED:
@@ -124,6 +116,6 @@ class Arrivals:
         else:
             os.close(probe)
         if probe is None or (self._last is not None and probe >= self._last):
-            IOLoop.current().call_later(LOOK_AGAIN, self._look)
+            self._again = IOLoop.current().call_later(LOOK_AGAIN, self._look)
         else:
-            self._take()
+            self.start()

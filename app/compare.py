@@ -209,9 +209,9 @@ class Compare:
         self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
         steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
         if self._run:
-            self._run.stop()
-        run = self._run = Run(partial(self._work, steps, span), lambda result: self._done(run, result))
-        self._runs.begin(run)
+            self._run.forget()
+        self._run = Run(partial(self._work, steps, span), self._done)
+        self._runs.begin(self._run)
 
     def _work(self, steps, span, run):
         shown = time.monotonic()
@@ -224,13 +224,11 @@ class Compare:
 
     def _show_rows(self, run, done, found, span):
         """The map as far as it is."""
-        if run is self._run and not run.stopped:
+        if not run.stopped:
             self.shares.data = {"share": [found.share], **span}
             self.bar.object = _progress(100 * done / found.share.size)
 
-    def _done(self, run, result):
-        if run is not self._run:  # another map is asked for by now
-            return
+    def _done(self, result):
         stopped = isinstance(result, Stopped)
         self.start.disabled, self.cancel.disabled, self.bar.visible = False, True, False
         self.said.object = note(say("family.map.cancelled")) if stopped else ""

@@ -1,5 +1,6 @@
 """The tab "Learn": a question, a prediction, a run, an explanation with this run's numbers."""
 
+from functools import partial
 from html import escape
 
 import numpy as np
@@ -330,7 +331,7 @@ class Learn(param.Parameterized):
     def show_scene(self, scene):
         """The pictures, and once there is a prediction the verdict, by the motion that runs now."""
         if self._judging:
-            self._judging.stop()
+            self._judging.forget()
         if self.section == "derivation":
             self.picture_card.visible = self.section_card.visible = False
             self.top.speed = ROLLING_SPEED
@@ -350,13 +351,8 @@ class Learn(param.Parameterized):
             self._show(scene, step, *lesson.judged(step, scene, guess))
         else:
             self._show(scene, step, waits=note(say("learn.page.wait")))
-
-            def answered(result):
-                if not run.stopped:  # another answer is asked for by now
-                    self._judged(scene, step, result)
-
-            run = self._judging = Run(lambda run: lesson.judged(step, scene, guess), answered)
-            self._runs.begin(run)
+            self._judging = Run(lambda run: lesson.judged(step, scene, guess), partial(self._judged, scene, step))
+            self._runs.begin(self._judging)
 
     def _judged(self, scene, step, result):
         self.verdict.object = alert(told(result)) if isinstance(result, TopError) else ""

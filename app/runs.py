@@ -47,6 +47,11 @@ class Run:
         if self._drop:
             self._drop()
 
+    def forget(self):
+        """Ends it, and it is not told: something else is asked for by now."""
+        self.done = lambda result: None
+        self.stop()
+
     def look(self, reached=0.0):
         """To be called from within, often: raises Stopped where the run is to end."""
         self.reached = reached

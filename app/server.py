@@ -554,8 +554,8 @@ def set_default_headers(handler):
 # --- the server
 
 
-def serve(settings, sockets, files, parent=None):
-    """Serves until SIGTERM, or until the other end of the pipe parent is closed. files: as of most_files()."""
+def serve(settings, sockets, parent=None):
+    """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
     RequestHandler.set_default_headers = set_default_headers
@@ -592,7 +592,7 @@ def serve(settings, sockets, files, parent=None):
     idle = IDLE_PROXY if settings.proxy else IDLE
     http = HTTPServer(tornado, xheaders=bool(settings.proxy), max_body_size=LARGEST_FRAGMENT,
                       max_header_size=32 * 1024, idle_connection_timeout=idle, body_timeout=idle)  # fmt: skip
-    arrivals = Arrivals(http, sockets, files)
+    arrivals = Arrivals(http, sockets, most_files())
     loop = IOLoop.current()
     loop.asyncio_loop.set_exception_handler(unheard)
     server = BaseServer(loop, tornado, http)
@@ -680,7 +680,7 @@ def warm(application, settings):
     _cleanup_doc(session.document, destroy=False)
 
 
-def supervise(settings, sockets, files):
+def supervise(settings, sockets):
     """Keeps so many workers on the same sockets; one that ends is replaced, and all end with this one, however it ends.
 
     (panel serve --num-procs forks too, but its first process waits for the others with no signal handler: SIGTERM ends
@@ -699,7 +699,7 @@ def supervise(settings, sockets, files):
             os.close(ours_ends)
             for name in (signal.SIGTERM, signal.SIGINT, signal.SIGALRM):
                 signal.signal(name, signal.SIG_DFL)
-            serve(settings, sockets, files, parent=held)
+            serve(settings, sockets, parent=held)
             code = 0
         except BaseException:
             traceback.print_exc()
@@ -752,8 +752,7 @@ def main(settings):
         print(f"port {settings.port}, address {settings.address!r}: {error.strerror}. Choose others by --port and "
               "--address, or TIPPE_PORT and TIPPE_ADDRESS.", file=sys.stderr)  # fmt: skip
         return 1
-    files = most_files()
     if settings.workers > 1:
-        return supervise(settings, sockets, files)
-    serve(settings, sockets, files)
+        return supervise(settings, sockets)
+    serve(settings, sockets)
     return 0

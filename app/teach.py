@@ -148,14 +148,9 @@ class Vote:
         room, planned = self._room, self._planned
         self.truth.object = note(say("learn.page.wait"))
         if self._finding:
-            self._finding.stop()
-
-        def found(truth):
-            if not run.stopped:  # the vote is closed, or the answer asked for again
-                self._reveal(room, truth)
-
-        run = self._finding = Run(lambda run: room.step.answer(planned).truth, found)
-        self._runs.begin(run)
+            self._finding.forget()
+        self._finding = Run(lambda run: room.step.answer(planned).truth, lambda truth: self._reveal(room, truth))
+        self._runs.begin(self._finding)
 
     def _reveal(self, room, truth):
         step, asks = room.step, room.asks
@@ -172,7 +167,7 @@ class Vote:
 
     def _forget(self):
         if self._finding:
-            self._finding.stop()
+            self._finding.forget()
         if self._room:
             ROOMS.close(self._room.code)
         self._room = None

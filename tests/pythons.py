@@ -16,8 +16,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import visitors
-from visiting import PATIENCE, Visit, free_port, launch
-from wire import answers, until
+from visiting import PATIENCE, Visit, launch
+from wire import serving
 
 ROOT = Path(__file__).parent.parent
 FIRST, LAST = 11, 14  # of Python 3; of these it is said where there is none
@@ -59,22 +59,6 @@ def installed(python, folder, constraints=None):
     return inside
 
 
-@contextmanager
-def serving(command, log, folder):
-    """Starts a server, elsewhere than in the repository; the page's address."""
-    port = free_port()
-    with log.open("w") as file:
-        process = subprocess.Popen([*command, "--port", str(port), "--address", "localhost"], cwd=folder, stdout=file,
-                                   stderr=subprocess.STDOUT)  # fmt: skip
-    url = f"http://localhost:{port}/app"
-    try:
-        until(lambda: process.poll() is not None or answers(url), 120)
-        yield url
-    finally:
-        process.terminate()
-        process.wait()
-
-
 def look(url, browser):
     """Opens every tab in Chromium; whether all came and the page said of no error."""
     page = browser.new_page(viewport={"width": 1400, "height": 900})
@@ -113,9 +97,9 @@ def tried(name, python, browser, constraints=None):
         for command in (["-m", "app"], ["-m", "panel", "serve", app]):
             print("  python", *command[:3], flush=True)
             log = folder / "log"
-            with serving([inside, *command], log, folder) as url:
-                came = visitors.main(url, VISITORS) == 0
-                fine = came and (browser is None or look(url, browser))
+            with serving([inside, *command], log, folder) as server:
+                came = visitors.main(server.url, VISITORS) == 0
+                fine = came and (browser is None or look(server.url, browser))
             # A page that closes while Bokeh 3.10 stops is a traceback of Bokeh's, so its log counts until then.
             said = log.read_text().partition("Received signal")[0].splitlines()
             wrong = [line for line in said if re.search("ERROR|Traceback|a bug|Error:", line)]

@@ -4,7 +4,6 @@ import asyncio
 import os
 import resource
 import socket
-import subprocess
 import sys
 from itertools import count
 from pathlib import Path
@@ -14,8 +13,7 @@ import pytest
 from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 from tornado.web import Application
-from visiting import free_port
-from wire import Visitor, answers, get, run, served, until
+from wire import Visitor, get, run, served, serving, until
 
 from app import arrivals
 
@@ -134,17 +132,10 @@ def test_as_many_files_are_asked_for_as_may_be(monkeypatch):
 
 @pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="reads Linux's list of limits")
 @pytest.mark.parametrize("command", ["app", "panel serve app"])
-def test_the_server_raises_its_limit(command):
+def test_the_server_raises_its_limit(command, tmp_path):
     hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
-    port = free_port()
-    process = subprocess.Popen(["sh", "-c", 'ulimit -S -n 256 && exec "$@"', "sh", sys.executable, "-m",
-                                *command.split(), "--port", str(port), "--address", "127.0.0.1"],
-                               cwd=Path(__file__).parent.parent)  # fmt: skip
-    try:
-        until(lambda: answers(f"http://127.0.0.1:{port}/app"), 60)
-        [line] = [line for line in Path(f"/proc/{process.pid}/limits").read_text().splitlines()
+    limited = ["sh", "-c", 'ulimit -S -n 256 && exec "$@"', "sh", sys.executable, "-m", *command.split()]
+    with serving(limited, tmp_path / "log", Path(__file__).parent.parent) as server:
+        [line] = [line for line in Path(f"/proc/{server.process.pid}/limits").read_text().splitlines()
                   if line.startswith("Max open files")]  # fmt: skip
-    finally:
-        process.terminate()
-        process.wait()
-    assert int(line.split()[3]) == min(hard, 65_536)
+        assert int(line.split()[3]) == min(hard, 65_536)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 import visitors
 from visiting import WHOLE, Visit, free_port
-from wire import Page, Visitor, answers, get, run, served, until
+from wire import Visitor, answers, get, run, served, until
 
 from app.text import say
 
@@ -124,19 +124,13 @@ def test_who_leaves_takes_nothing_from_who_stays(tmp_path):
     """A German page, then an English one that goes: the German one still opens its tabs, and in German."""
 
     async def stays(server):
-        german = Page(await Visitor.enter(server.url, headers={"Accept-Language": "de"}))
-        await german.visitor.ready()
-        english = await Visitor.enter(server.url, headers={"Accept-Language": "en"})
-        english.leave()
+        german = await visitors.come(server.url, "de")
+        english = await visitors.come(server.url, "en")
+        await english.leave()
         await asyncio.to_thread(until, lambda: '"sessions": 1' in get(server.root + "/liveness")[2])
-        models = german.visitor.models
-        [tabs] = german.visitor.find("Tabs")
-        for tab in range(1, visitors.TABS):
-            before = len(models)
-            await german.set(tabs, "active", tab)
-            await german.until(lambda before=before: len(models) > before + visitors.A_TAB)
+        await visitors.open_tabs(german)
         await german.leave()
-        return json.dumps(list(models.values()), ensure_ascii=False)
+        return json.dumps(list(german.visitor.models.values()), ensure_ascii=False)
 
     with served(tmp_path / "log", linger=1) as server:
         said = run(stays(server))

@@ -25,10 +25,15 @@ async def come(url, language="en"):
 
 async def stay(page, K_J):
     """Does what a person does: moves the first slider, and looks at each tab."""
-    known = page.visitor.models
     dial = page.visitor.find("Dial")[0]
     for i in range(MOVES):
         await page.set(dial, "asked", [i + 1, K_J + 0.05 * i, False])
+    await open_tabs(page)
+
+
+async def open_tabs(page):
+    """One after the other, each until it is there."""
+    known = page.visitor.models
     [tabs] = page.visitor.find("Tabs")
     for tab in range(1, TABS):
         before = len(known)

@@ -237,6 +237,22 @@ def served(output, wait=True, before=(), arguments=(), **settings):
         process.wait()
 
 
+@contextmanager
+def serving(command, output, folder):
+    """A command that serves the page, run in a folder until the end of the block; it answers by then, or has ended."""
+    port = free_port()
+    with output.open("w") as file:
+        process = subprocess.Popen([*command, "--port", str(port), "--address", "localhost"], cwd=folder, stdout=file,
+                                   stderr=subprocess.STDOUT)  # fmt: skip
+    url = f"http://localhost:{port}/app"
+    try:
+        until(lambda: process.poll() is not None or answers(url), 120)
+        yield Served(process, url, output)
+    finally:
+        process.terminate()
+        process.wait()
+
+
 def megabytes(pid):
     """Resident, of a process."""
     return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
