@@ -208,10 +208,8 @@ class Compare:
         self.start.disabled, self.cancel.disabled = True, False
         self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
         steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
-        if self._run:
-            self._run.forget()
         self._run = Run(partial(self._work, steps, span), self._done)
-        self._runs.begin(self._run)
+        self._runs.begin(self._run, "map")
 
     def _work(self, steps, span, run):
         shown = time.monotonic()

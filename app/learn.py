@@ -352,7 +352,7 @@ class Learn(param.Parameterized):
         else:
             self._show(scene, step, waits=note(say("learn.page.wait")))
             self._judging = Run(lambda run: lesson.judged(step, scene, guess), partial(self._judged, scene, step))
-            self._runs.begin(self._judging)
+            self._runs.begin(self._judging, "lesson")
 
     def _judged(self, scene, step, result):
         self.verdict.object = alert(told(result)) if isinstance(result, TopError) else ""

@@ -17,7 +17,7 @@ from app.learn import Learn, kept
 from app.look import widgets
 from app.planes import Planes
 from app.roll import Roll
-from app.runs import Runs, to_session
+from app.runs import Runs, connected_to, to_session
 from app.share import Share
 from app.teach import student_page
 from app.text import say
@@ -179,9 +179,9 @@ def page():
     explorer, wrong = explorer_of(texts)
     roll = Roll(explorer)
     builder = Builder(explorer, roll.pacer.request)
-    runs = Runs(to_session(pn.state.curdoc))
+    runs = Runs(to_session(pn.state.curdoc), connected_to(pn.state.curdoc))
     pn.state.curdoc.on_session_destroyed(lambda context: runs.leave())
-    share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))))
+    share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))), runs)
     share.keep.param.watch(lambda event: builder.follow(), "returned")
     pn.state.curdoc.template_variables.update(
         first.variables(None if "tab" in texts else roll.top, pn.state.location.search)

@@ -364,7 +364,7 @@ class Planes(param.Parameterized):
     def _ask(self):
         self._asked = settings = self._settings()
         if not self._runs.beside:
-            self._runs.begin(Run(lambda run: solve(settings), partial(self._publish, settings)))
+            self._runs.begin(Run(lambda run: solve(settings), partial(self._publish, settings)), "planes")
             return
         self._wanted = settings
         if self._run is None:
@@ -378,7 +378,7 @@ class Planes(param.Parameterized):
         with param.edit_constant(self):
             self.busy = True
         self._run = Run(lambda run: solve(settings, run.look), self._done)
-        self._runs.begin(self._run)
+        self._runs.begin(self._run, "planes")
 
     def _done(self, result):
         settings, reached, told_to_stop = self._running, self._reached, self._told_to_stop

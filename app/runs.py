@@ -1,19 +1,20 @@
-"""Long work, beside the server: in a few threads that all pages share.
+"""Long work, beside the server: in a few threads that all pages share, in turns.
 
 The server's own thread answers everybody, so what may take long is not done there. Nothing outside can end a thread
 without harm; so what is done in one looks at its flag now and then (look), and ends where its page has gone or wants
-something else.
+something else. A page has one piece of each kind of work: a newer one takes the place of the one before.
 """
 
 import logging
+import threading
 import time
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from contextvars import ContextVar
 
 from app.text import speaking, spoken
 
-# Who asks while all are busy waits, and sees that nothing is done yet.
-THREADS = ThreadPoolExecutor(4, thread_name_prefix="run")
 # A run rests for NAP after each TURN, s, so that the server gets to its other visitors.
 TURN, NAP = 0.01, 0.001
 
@@ -25,6 +26,69 @@ class Stopped(Exception):
     """Raised within a run that is to end."""
 
 
+class Pool:
+    """A few threads, and who waits for one. Visitors take turns: next is who has the fewest pieces of work under way, of
+    these the one whose turn was longest ago. The last free thread is for who has none under way."""
+
+    def __init__(self, threads, name):
+        self.threads, self._executor = threads, ThreadPoolExecutor(threads, thread_name_prefix=name)
+        self._waiting, self._working = {}, Counter()  # visitor -> his pieces that wait; how many are under way
+        self._changing = threading.Lock()
+
+    def add(self, visitor, piece):
+        """Has it called in a thread, when it is its turn."""
+        with self._changing:
+            self._waiting.setdefault(visitor, []).append(piece)
+            self._fill()
+
+    def remove(self, visitor, piece):
+        """Whether it still waited; then it is not called."""
+        with self._changing:
+            waits = piece in self._waiting.get(visitor, ())
+            if waits:
+                self._waiting[visitor].remove(piece)
+                if not self._waiting[visitor]:
+                    del self._waiting[visitor]
+        return waits
+
+    def rest(self, visitor):
+        """s for which a piece of this visitor's rests after each turn: he has one share, however many his pieces."""
+        alone = len(self._working) < 2
+        return NAP if alone else NAP + TURN * (self._working[visitor] - 1)
+
+    def _fill(self):
+        while self._waiting and (free := self.threads - self._working.total()):
+            visitor = min(self._waiting, key=lambda each: self._working[each])
+            if self._working[visitor] and free == 1:
+                return
+            piece, *later = self._waiting[visitor]
+            self._put_last(visitor, later)
+            self._working[visitor] += 1
+            with suppress(RuntimeError):  # Python ends, and takes no more
+                self._executor.submit(self._do, visitor, piece).add_done_callback(_logged)
+
+    def _do(self, visitor, piece):
+        try:
+            piece()
+        finally:
+            with self._changing:
+                self._working[visitor] -= 1
+                if not self._working[visitor]:
+                    del self._working[visitor]
+                self._put_last(visitor, self._waiting.get(visitor))
+                self._fill()
+
+    def _put_last(self, visitor, waiting):
+        self._waiting.pop(visitor, None)
+        if waiting:
+            self._waiting[visitor] = waiting
+
+
+# Who asks while all are busy waits, and sees that nothing is done yet.
+WORK = Pool(4, "run")
+FILES = Pool(1, "file")  # matplotlib draws one figure at a time
+
+
 class Run:
     """One piece of work. work: a function of this Run, called in a thread; done: one of what work returned, or of the
     exception that it raised. reached: how far it is, in a number of its own."""
@@ -33,6 +97,7 @@ class Run:
         self.work, self.done = work, done
         self.begun, self.reached, self.stopped = time.monotonic(), 0.0, False
         self._rested, self._drop = self.begun, None
+        self._here, self._rest = lambda: True, lambda: NAP
 
     @property
     def elapsed(self):
@@ -55,16 +120,16 @@ class Run:
     def look(self, reached=0.0):
         """To be called from within, often: raises Stopped where the run is to end."""
         self.reached = reached
-        if self.stopped:
+        if self.stopped or not self._here():
             raise Stopped
         if time.monotonic() - self._rested > TURN:
-            time.sleep(NAP)
+            time.sleep(self._rest())
             self._rested = time.monotonic()
 
     def result(self):
         """What it returns, or the exception that it raises: it is told on another thread."""
         try:
-            return self.work(self)
+            return self.work(self) if self._here() else Stopped()
         except Exception as error:
             return error
 
@@ -90,30 +155,43 @@ def to_session(document):
     return post
 
 
+def connected_to(document):
+    """What tells whether a Bokeh document's page is there, and not only the session that it left: for Runs."""
+
+    def here():
+        session = document.session_context and document.session_context.session
+        return bool(session and session.connection_count)
+
+    return here
+
+
 class Runs:
-    """What one page has under way.
+    """What one page has under way: one piece of each kind of work.
 
     post: takes a function and calls it on the session's own thread. None: what is begun is done at once, without a
-    thread.
+    thread. here: whether the page is still there; nothing is begun for one that is not, and what it has ends.
     """
 
-    def __init__(self, post=None):
-        self._post, self._under_way, self._left = post, set(), False
+    def __init__(self, post=None, here=lambda: True):
+        self._post, self._here, self._under_way, self._left = post, here, {}, False
 
     @property
     def beside(self):
         """Whether there are threads."""
         return self._post is not None
 
-    def begin(self, run):
-        """Has its work done, in the language of this page, and then tells it on the session's thread."""
+    def begin(self, run, kind, pool=WORK):
+        """Has its work done, in the language of this page, and then tells it on the session's thread. What there is of
+        the same kind ends, and is not told: the newest answers."""
+        if self._left:
+            return
         if not self.beside:
             run.done(run.result())
             return
         language = spoken()
 
         def tell(result):
-            self._under_way.discard(run)
+            self._under_way.pop(run, None)
             self.post(lambda: run.done(result))
 
         def worked():
@@ -126,13 +204,15 @@ class Runs:
             tell(result)
 
         def drop():
-            if future.cancel():
+            if pool.remove(self, worked):
                 tell(Stopped())
 
-        self._under_way.add(run)
-        future = THREADS.submit(worked)
-        future.add_done_callback(_logged)
-        run._drop = drop
+        for before, its_kind in tuple(self._under_way.items()):
+            if its_kind == kind:
+                before.forget()
+        self._under_way[run] = kind
+        run._drop, run._here, run._rest = drop, self._here, lambda: pool.rest(self)
+        pool.add(self, worked)
 
     def post(self, function):
         """Calls it on the session's thread, unless the page has gone."""

@@ -1,13 +1,7 @@
-"""What is taken home: the link with its QR code, undo and redo, and the dialog of files to save.
+"""What is taken home: the link with its QR code, undo and redo, and the dialog of files to save."""
 
-Files are made in a thread of their own, one at a time, so that a page being served to others goes on answering.
-"""
-
-import asyncio
 import html
-import io
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import panel as pn
 import panel_material_ui as pmui
@@ -17,11 +11,13 @@ from panel.custom import JSComponent
 
 from app import export
 from app.cards import PLAIN, on_click, words
+from app.download import PLAIN_BUTTON, Download
 from app.keep import EXPLORER, Field, Keep, Number, Numbers, OneOf, usual
 from app.letter import letter
 from app.pacing import at_once
 from app.prints import FIGURES, caption, draw
-from app.text import listed, say, speaking, spoken
+from app.runs import Runs
+from app.text import listed, say
 from app.top3d import Top3D
 
 # Nothing may move for so long before the address of the page is changed and a step is made, s.
@@ -35,8 +31,6 @@ TOP = {"speed": Field("slow", OneOf(**SPEEDS), undoable=False)} | {
 LOOK = {name: Field(name, OneOf(yes=True, no=False), undoable=False) for name in ("dark", "large")}
 # A phone at arm's length reads modules of this size, px.
 MODULE = 4
-
-BENCH = ThreadPoolExecutor(1, thread_name_prefix="export")
 
 
 class Address(JSComponent):
@@ -132,16 +126,15 @@ class Photo(JSComponent):
     """A button that saves the top as it is seen, as a PNG with the caption below."""
 
     caption = param.List(default=[], doc="lines of plain text")
+    frame = param.String(default=PLAIN_BUTTON, constant=True)
     wide = param.Integer(default=2400, doc="of the picture, in px")
 
     _esm = """
     export function render({model, el}) {
-      el.innerHTML = `<style>button { font: 500 13px system-ui, sans-serif; padding: 4px 10px; height: 31px;
-        border: 1px solid; border-radius: 4px; background: transparent; color: var(--link, #0072B2);
-        cursor: pointer }
-        button:hover { background: #0072B214 } :focus-visible { outline: 2px solid; outline-offset: 2px }
-        </style><button>PNG</button>`
-      el.querySelector("button").onclick = async () => {
+      el.innerHTML = model.frame
+      const button = el.querySelector("button")
+      button.textContent = "PNG"
+      button.onclick = async () => {
         const picture = await window.__tippe?.top3d?.photo(model.wide)
         if (!picture) return
         const type = Math.round(picture.width / 75), margin = type
@@ -192,11 +185,12 @@ class Clock(param.Parameterized):
 class Share:
     """header: the buttons for the page's head; main: what was wrong with the link, and the dialog, above all views.
 
-    roll: the Roll of this Explorer; texts and sentence: of the link, from keep.read and keep.explorer_of.
+    roll: the Roll of this Explorer; texts and sentence: of the link, from keep.read and keep.explorer_of; runs: the
+    page's Runs.
     """
 
-    def __init__(self, explorer, roll, texts, sentence):
-        self._explorer = explorer
+    def __init__(self, explorer, roll, texts, sentence, runs=None):
+        self._explorer, self._runs = explorer, runs or Runs()
         self._top = next(iter(pn.Column(*roll.main).select(Top3D)))
         self.keep = Keep(texts, sentence, allowed=lambda: not explorer.scene.messages)
         self.keep.add(explorer, EXPLORER, usual, opened=True)
@@ -354,17 +348,8 @@ class Share:
         self._python.text = export.PYTHON[self._which.value](self._explorer.scene)
 
     def _download(self, label, filename, make):
-        async def content():
-            scene, link, language = self._explorer.scene, self.link, spoken()
-
-            def made():
-                with speaking(language):
-                    return make(scene, link)
-
-            return io.BytesIO(await asyncio.get_running_loop().run_in_executor(BENCH, made))
-
-        return pmui.FileDownload(label=label, filename=filename, callback=content, size="small", variant="outlined",
-                                 margin=0, sx=PLAIN)  # fmt: skip
+        return Download(self._runs, lambda: (self._explorer.scene, self.link), make, label=label, filename=filename,
+                        margin=0)  # fmt: skip
 
 
 def _print(name, kind):

@@ -147,10 +147,8 @@ class Vote:
     def _answer(self):
         room, planned = self._room, self._planned
         self.truth.object = note(say("learn.page.wait"))
-        if self._finding:
-            self._finding.forget()
         self._finding = Run(lambda run: room.step.answer(planned).truth, lambda truth: self._reveal(room, truth))
-        self._runs.begin(self._finding)
+        self._runs.begin(self._finding, "vote")
 
     def _reveal(self, room, truth):
         step, asks = room.step, room.asks

@@ -5,6 +5,7 @@ import gc
 import sys
 import threading
 import weakref
+from collections import Counter
 from functools import partial
 from pathlib import Path
 from queue import Queue
@@ -26,7 +27,7 @@ from app.explorer import Explorer
 from app.family import share_map
 from app.learn import Learn
 from app.planes import Planes
-from app.runs import THREADS, Run, Runs, Stopped, look, to_session
+from app.runs import TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
 from app.teach import Vote
 from app.text import say, speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
@@ -53,6 +54,23 @@ def page():
     page.runs.leave()
 
 
+@pytest.fixture
+def busy():
+    """All threads are, each with another visitor's work, until end()."""
+    go, pages = threading.Event(), [Page() for _ in range(WORK.threads)]
+    for page in pages:
+        page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None), "a")
+    until(lambda: WORK._working.total() == WORK.threads)
+
+    def end():
+        go.set()
+        for page in pages:
+            page.next()
+
+    yield SimpleNamespace(end=end)
+    go.set()
+
+
 def told(results):
     """What is called when a run is done."""
     return results.append
@@ -61,7 +79,7 @@ def told(results):
 def test_a_run_is_done_elsewhere_in_the_language_of_its_page_and_told_to_its_session(page):
     results = []
     with speaking("de"):
-        page.runs.begin(Run(lambda run: (spoken(), threading.get_ident()), told(results)))
+        page.runs.begin(Run(lambda run: (spoken(), threading.get_ident()), told(results)), "a")
     assert results == []
     page.next()
     [(language, thread)] = results
@@ -77,25 +95,21 @@ def test_a_run_ends_at_its_next_look(page):
             look(1.5)  # of the run that this thread does
 
     run = Run(work, told(results))
-    page.runs.begin(run)
+    page.runs.begin(run, "a")
     assert begun.wait(PATIENCE)
     run.stop()
     page.next()
     assert isinstance(results[0], Stopped) and run.reached == 1.5
 
 
-def test_a_run_that_waits_for_a_thread_ends_at_once(page):
-    go, results = threading.Event(), []
-    for _ in range(THREADS._max_workers):
-        page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None))
+def test_a_run_that_waits_for_a_thread_ends_at_once(page, busy):
+    results = []
     waiting = Run(lambda run: results.append("worked"), told(results))
-    page.runs.begin(waiting)
+    page.runs.begin(waiting, "a")
     waiting.stop()
     waiting.stop()
     page.next()
-    go.set()
-    for _ in range(THREADS._max_workers):
-        page.next()
+    busy.end()
     assert len(results) == 1 and isinstance(results[0], Stopped)
 
 
@@ -110,11 +124,11 @@ def test_what_a_page_has_under_way_ends_when_it_leaves_and_nothing_is_told(page)
         finally:
             ended.set()
 
-    page.runs.begin(Run(work, lambda result: pytest.fail("the page has gone")))
+    page.runs.begin(Run(work, lambda result: pytest.fail("the page has gone")), "a")
     assert begun.wait(PATIENCE)
     page.runs.leave()
     assert ended.wait(PATIENCE)
-    page.runs.begin(Run(lambda run: None, lambda result: pytest.fail("the page has gone")))
+    page.runs.begin(Run(lambda run: pytest.fail("the page has gone"), lambda result: None), "a")
     assert page.posted.empty()
 
 
@@ -124,7 +138,7 @@ def test_no_thread_keeps_what_a_run_was_about(page):
 
     picture = Picture()
     gone = weakref.ref(picture)
-    page.runs.begin(Run(lambda run, picture=picture: None, lambda result: None))
+    page.runs.begin(Run(lambda run, picture=picture: None, lambda result: None), "a")
     del picture
     page.next()
     # a thread lets go of its work soon after it has told of it
@@ -144,14 +158,114 @@ def test_a_run_may_end_while_its_document_is_taken_apart():
 
 def test_an_error_is_told_too(page):
     results = []
-    page.runs.begin(Run(lambda run: 1 / 0, told(results)))
+    page.runs.begin(Run(lambda run: 1 / 0, told(results)), "a")
     page.next()
     assert isinstance(results[0], ZeroDivisionError)
 
 
+class Crowd:
+    """Visitors of a pool of their own: in which order their pieces are begun, and how many of each at a time."""
+
+    def __init__(self, threads):
+        self.pool, self.begun, self.go = Pool(threads, "crowd"), [], Queue()
+        self.working, self.most, self.changing = Counter(), Counter(), threading.Lock()
+
+    def piece(self, visitor, name):
+        def work():
+            with self.changing:
+                self.begun.append(name)
+                self.working[visitor] += 1
+                self.most[visitor] = max(self.most[visitor], self.working[visitor])
+            self.go.get(timeout=PATIENCE)
+            with self.changing:
+                self.working[visitor] -= 1
+
+        self.pool.add(visitor, work)
+        return work
+
+    def end(self, pieces):
+        """Lets so many end."""
+        for _ in range(pieces):
+            self.go.put(None)
+
+
+def test_visitors_take_turns_however_much_one_of_them_asks_for():
+    crowd = Crowd(threads=1)
+    for i in range(50):
+        crowd.piece("flood", f"flood {i}")
+    for visitor in ("a", "b"):
+        for i in range(2):
+            crowd.piece(visitor, f"{visitor} {i}")
+    crowd.end(54)
+    until(lambda: len(crowd.begun) == 54)
+    assert crowd.begun[:7] == ["flood 0", "a 0", "b 0", "flood 1", "a 1", "b 1", "flood 2"]
+    assert [name for name in crowd.begun if name.startswith("flood")] == [f"flood {i}" for i in range(50)]
+
+
+def test_a_thread_is_free_for_who_has_none_under_way():
+    """However much one asks for: who comes then need not wait for any of it."""
+    crowd = Crowd(threads=4)
+    for i in range(9):
+        crowd.piece("flood", f"flood {i}")
+    until(lambda: len(crowd.begun) == 3)
+    crowd.piece("other", "other")
+    until(lambda: "other" in crowd.begun)
+    assert sorted(crowd.begun) == ["flood 0", "flood 1", "flood 2", "other"]
+    assert crowd.pool.rest("flood") > 2 * crowd.pool.rest("other") + 2 * TURN * 0.9  # his three share one share
+    crowd.end(10)
+    until(lambda: len(crowd.begun) == 10)
+    assert crowd.most["flood"] == 3
+    until(lambda: not crowd.pool._working)
+
+
+def test_of_a_kind_a_page_has_one_piece_and_the_newest_answers(page, busy):
+    begun, results = [], []
+    for i in range(300):
+        page.runs.begin(Run(lambda run, i=i: begun.append(i) or i, told(results)), "a")
+    page.runs.begin(Run(lambda run: "other", told(results)), "another")
+    busy.end()
+    until(lambda: page.posted.qsize() == 301)
+    for _ in range(301):
+        page.next()
+    assert begun == [299] and sorted(results, key=str) == [299, "other"]
+
+
+def test_nothing_is_begun_for_who_has_left(busy):
+    """Left is also whose connection has ended: the session that it leaves lives for half a minute more."""
+    here, begun = [True], []
+    gone = Page()
+    gone.runs = Runs(gone.posted.put, lambda: bool(here))
+    leaving = Page()
+    for page in (gone, leaving):
+        for kind in "abc":
+            page.runs.begin(Run(lambda run: begun.append("piece"), lambda result: None), kind)
+    leaving.runs.leave()
+    here.clear()
+    busy.end()
+    for _ in "abc":
+        gone.next()
+    assert begun == [] and not WORK._waiting and leaving.posted.empty()
+
+
+def test_a_run_ends_when_its_connection_does(page):
+    here, begun, results = [True], threading.Event(), []
+    page.runs = Runs(page.posted.put, lambda: bool(here))
+
+    def work(run):
+        begun.set()
+        while True:
+            look()
+
+    page.runs.begin(Run(work, told(results)), "a")
+    assert begun.wait(PATIENCE)
+    here.clear()
+    page.next()
+    assert isinstance(results[0], Stopped)
+
+
 def test_without_a_session_a_run_is_done_at_once():
     results = []
-    Runs().begin(Run(lambda run: threading.get_ident(), told(results)))
+    Runs().begin(Run(lambda run: threading.get_ident(), told(results)), "a")
     assert results == [threading.get_ident()]
 
 
@@ -168,7 +282,7 @@ def test_two_runs_at_a_time_are_each_as_it_is_alone():
     sys.setswitchinterval(1e-5)
     try:
         for tilt in tilts:
-            page.runs.begin(Run(lambda run, tilt=tilt: moved(tilt), partial(beside.__setitem__, tilt)))
+            page.runs.begin(Run(lambda run, tilt=tilt: moved(tilt), partial(beside.__setitem__, tilt)), tilt)
         for _ in tilts:
             page.next()
     finally:
@@ -226,23 +340,13 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
     lesson.slid.cache_clear()
 
 
-@pytest.fixture
-def busy(page):
-    """Ends when all threads have been busy until then; the page's runs wait."""
-    go = threading.Event()
-    for _ in range(THREADS._max_workers):
-        page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None))
-    yield go
-    go.set()
-
-
 def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy, monkeypatch):
     monkeypatch.setattr("app.planes.PATIENCE", 0.0)
     explorer = Explorer()
     planes = Planes(explorer, Builder(explorer), page.runs)
     planes.spin = 21.0
     planes.spin = 22.0  # before the session hears that the first is not run
-    busy.set()
+    busy.end()
     while planes.busy:
         page.next()
     assert planes.picture.settings.spin == 22.0
@@ -276,8 +380,8 @@ def test_the_answer_of_a_vote_asked_for_twice_is_told_once(page, busy, monkeypat
         vote.open.clicks += 1
         vote.answer.clicks += 1
         vote.answer.clicks += 1
-        busy.set()
-        for _ in range(THREADS._max_workers + 2):
+        busy.end()
+        for _ in range(2):
             page.next()
         vote.close.clicks += 1
     assert len(told) == 1 and not isinstance(told[0], Exception)
