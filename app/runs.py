@@ -27,8 +27,8 @@ class Stopped(Exception):
 
 
 class Pool:
-    """A few threads, and who waits for one. Visitors take turns: next is who has the fewest pieces of work under way, of
-    these the one whose turn was longest ago. The last free thread is for who has none under way."""
+    """A few threads, and who waits for one. Visitors take turns: next is who has the fewest pieces of work under way,
+    of these the one whose turn was longest ago. The last free thread is for who has none under way."""
 
     def __init__(self, threads, name):
         self.threads, self._executor = threads, ThreadPoolExecutor(threads, thread_name_prefix=name)
