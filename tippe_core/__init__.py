@@ -16,6 +16,7 @@ from .curve import (
     steady_precessions,
     turning_points,
 )
+from .ending import Ending, Stretch, ending
 from .errors import NoMotionError, TopError
 from .forces import friction_force, normal_force
 from .friction import Coulomb, SmoothedCoulomb, Viscous
@@ -54,6 +55,7 @@ __all__ = [
     "Change",
     "Constants",
     "Coulomb",
+    "Ending",
     "Gliding",
     "Lathe",
     "Ledger",
@@ -71,6 +73,7 @@ __all__ = [
     "State",
     "SteadyPrecessions",
     "SteadyStates",
+    "Stretch",
     "Thresholds",
     "Tielines",
     "Top",
@@ -84,6 +87,7 @@ __all__ = [
     "ball",
     "cylinder",
     "dimension_from_rocking",
+    "ending",
     "f",
     "f1_squared",
     "f2_squared",
