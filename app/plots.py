@@ -62,7 +62,7 @@ if (spans.followed) return
 spans.followed = true
 const move = (t) => { for (const span of spans) span.setv({location: t}, {sync: false}) }
 window.addEventListener("tippe:clock", ({detail: {t}}) => move(t))
-move(window.__tippe?.top3d?.t ?? 0)
+move(window.tippe?.time() ?? 0)
 """
 
 # The clock goes to `time`, and stands there as long as the hand is down.
@@ -102,7 +102,7 @@ if (done) hand.grip = null
 if (event_name == "panstart") tool_views.get(hover)._move_exit()
 hover.setv({active: !hand.grip}, {sync: false})
 if (taken == "bead" || event_name == "tap" && taken == "line") {
-  const {t, theta} = motion.data, now = window.__tippe.top3d.t, last = t.length - 1
+  const {t, theta} = motion.data, now = window.tippe.time(), last = t.length - 1
   const clamp = (value, one, other) => Math.min(Math.max(value, Math.min(one, other)), Math.max(one, other))
   const aim = clamp(x, row.inner, row.outer)
   // of the times at which the motion is nearest to the hand, the one next to now

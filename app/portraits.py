@@ -20,7 +20,7 @@ STRAIGHT = 300
 FOLLOW = """
 if (curve.followed) return
 curve.followed = true
-let now = window.__tippe?.top3d?.t ?? 0
+let now = window.tippe?.time() ?? 0
 const place = () => {
   const {t, x, y} = curve.data, last = t.length - 1, span = t[last] - t[0]
   if (!(span > 0)) return
@@ -41,7 +41,7 @@ place()
 # The instant whose point on the curve is nearest to the hand; of several as near, the one nearest in time.
 NEAREST = """
 const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame
-const {t, x, y} = curve.data, span = t[t.length - 1] - t[0], now = window.__tippe.top3d.t
+const {t, x, y} = curve.data, span = t[t.length - 1] - t[0], now = window.tippe.time()
 const [hand_x, hand_y] = [x_scale.compute(cb_obj.x), y_scale.compute(cb_obj.y)]
 let found = now, least = Infinity
 for (let i = 0; i < t.length; i++) {

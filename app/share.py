@@ -135,7 +135,7 @@ class Photo(JSComponent):
       const button = el.querySelector("button")
       button.textContent = "PNG"
       button.onclick = async () => {
-        const picture = await window.__tippe?.top3d?.photo(model.wide)
+        const picture = window.tippe?.photo(model.wide)
         if (!picture) return
         const type = Math.round(picture.width / 75), margin = type
         const canvas = document.createElement("canvas"), ink = canvas.getContext("2d")

@@ -34,6 +34,8 @@ class Top3D(Bundled):
     While it plays, and when it is moved by hand, it dispatches `tippe:clock` on the browser's window with
     `{t, index, playing}`; it moves to the time of a `tippe:seek` with `{t}`. Tops with a `clock` play as one, for the
     same stretch of time, and their events are `tippe:clock:<clock>` and `tippe:seek:<clock>`.
+    `tippe.time(clock)` on the window is the time now, and `tippe.photo(wide, clock)` a canvas with the picture, so many
+    pixels wide; without a clock, of the rolling top. All this holds too where the top is drawn flat, without WebGL.
     """
 
     SAYS = ("Stage",)

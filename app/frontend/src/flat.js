@@ -1,12 +1,13 @@
 // The top without WebGL: seen from the side, so that its tilt is to scale, drawn in the plane; the same bar plays it.
 import { Bar } from "./bar.js";
+import { Place } from "./clock.js";
 import { colours } from "./colours.js";
 import { coalesce, float32 } from "./data.js";
 import { emptyPose } from "./frames.js";
-import { Player } from "./player.js";
 import { followLook } from "./scene.js";
 
 const LEAST_REACH = 1.6, BELOW = 0.6; // from O upwards, and below the table, in R
+const WIDTH = 640; // px, of a picture for print whose place on the page has no size
 
 export function renderFlat({ model, root, picture, view }) {
   const canvas = document.createElement("canvas");
@@ -17,45 +18,69 @@ export function renderFlat({ model, root, picture, view }) {
   const words = picture.querySelector(".note");
   words.textContent = model.texts.flat;
   Object.assign(words.style, { position: "static", marginTop: "6px" });
-  const pen = canvas.getContext("2d");
+  let pen;
   const pose = emptyPose();
-  const suffix = model.clock ? `:${model.clock}` : "";
-  let pictures = 0, reach = LEAST_REACH, look;
+  let pictures = 0, reach = LEAST_REACH, look, verdict = model.texts.no_motion;
   const hex = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
 
-  const player = new Player({
+  const report = {
+    get pictures() { return pictures; },
+    get t() { return player.t; },
+    get index() { return player.index; },
+    get count() { return player.frames.count; },
+    get playing() { return player.playing; },
+    get verdict() { return verdict; },
+  };
+  const place = new Place({
+    model, picture, report,
     changed: () => draw(),
-    landed: () => (model.time = player.t),
-    playingChanged: () => (model.playing = player.playing),
+    inView: () => picture.clientWidth > 0,
+    photo: (wide) => {
+      const still = document.createElement("canvas"), { clientWidth: width, clientHeight: height } = picture;
+      const scale = wide / (width || WIDTH);
+      still.width = wide;
+      still.height = Math.round(scale * (height || WIDTH));
+      paint(still, still.width / scale, still.height / scale, scale);
+      return still;
+    },
   });
+  const { player } = place;
   const bar = new Bar(root, picture, model, player, () => {});
   for (const part of root.querySelectorAll(".shows, .view")) part.remove(); // there is nothing of that to see
   root.append(words);
 
   const draw = coalesce(() => {
-    const now = performance.now();
-    if (player.playing) player.advance(now, model.speed / (1000 * model.seconds));
+    if (place.moves) place.advance(performance.now());
     const { clientWidth: width, clientHeight: height } = picture;
-    if (!width || !height) return;
-    canvas.width = width * devicePixelRatio;
-    canvas.height = height * devicePixelRatio;
-    pen.scale(devicePixelRatio, devicePixelRatio);
+    if (width && height) {
+      canvas.width = width * devicePixelRatio;
+      canvas.height = height * devicePixelRatio;
+      paint(canvas, width, height, devicePixelRatio);
+      pictures += 1;
+    }
+    if (player.frames.count) bar.update(model.seconds);
+    place.say(verdict);
+    if (place.moves) draw();
+  });
+
+  function paint(on, width, height, scale) {
+    pen = on.getContext("2d");
+    pen.setTransform(scale, 0, 0, scale, 0, 0);
+    pen.fillStyle = hex(look.sky);
+    pen.fillRect(0, 0, width, height);
     const R = height / (reach + 1.3 + BELOW), table = height - BELOW * R;
     pen.fillStyle = hex(look.table);
     pen.fillRect(0, table, width, height - table);
-    if (player.frames.count) {
-      player.frames.read(player.place, pose);
-      const { x, y, z, w } = pose.quaternion;
-      const tilt = Math.acos(Math.min(1, Math.max(-1, 1 - 2 * (x * x + y * y))));
-      top(width / 2, table - R, R, tilt, Math.atan2(z, w) - Math.atan2(y, x)); // psi
-      bar.update(model.seconds);
-      window.dispatchEvent(new CustomEvent(`tippe:clock${suffix}`, {
-        detail: { t: player.t, index: player.index, playing: player.playing },
-      }));
-    }
-    pictures += 1;
-    if (player.playing) draw();
-  });
+    verdict = model.texts.no_motion;
+    if (!player.frames.count) return;
+    player.frames.read(player.place, pose);
+    const { x, y, z, w } = pose.quaternion;
+    const tilt = Math.acos(Math.min(1, Math.max(-1, 1 - 2 * (x * x + y * y))));
+    // off the table, or on its stem, the sphere's centre is where G and the axis say
+    const up = model.a === null ? 1 : pose.com.z + model.a * Math.cos(tilt);
+    top(width / 2, table - up * R, R, tilt, Math.atan2(z, w) - Math.atan2(y, x)); // psi
+    verdict = model.texts.verdicts[pose.regime];
+  }
 
   // The outline, turned about O, with a mark that goes round with the body.
   function top(x, y, R, tilt, turn) {
@@ -91,8 +116,10 @@ export function renderFlat({ model, root, picture, view }) {
     pen.fillText(`θ = ${((180 * tilt) / Math.PI).toFixed(1)}°`, x, 24);
   }
 
-  const onFrames = () => player.setFrames(model.frames);
-  model.on("frames", onFrames);
+  model.on("frames", () => {
+    place.take();
+    draw();
+  });
   const onProfile = () => {
     const profile = float32(model.profile);
     reach = LEAST_REACH;
@@ -100,16 +127,13 @@ export function renderFlat({ model, root, picture, view }) {
     draw();
   };
   model.on("profile", onProfile);
-  model.on("playing", () => player.setPlaying(model.playing));
-  const onSeek = ({ detail: { t, held } }) => player.seek(t, held);
-  window.addEventListener(`tippe:seek${suffix}`, onSeek);
   const resizing = new ResizeObserver(draw);
   resizing.observe(picture);
   onProfile();
-  onFrames();
-  player.setPlaying(model.playing);
+  place.take();
+  place.begin();
+  if (!model.clock) window.__tippe.flat = report;
 
-  (window.__tippe ??= {}).flat = { get pictures() { return pictures; }, get t() { return player.t; } };
   const unfollow = followLook((now) => {
     look = now;
     draw();
@@ -118,7 +142,8 @@ export function renderFlat({ model, root, picture, view }) {
     unfollow();
     draw.cancel();
     resizing.disconnect();
-    window.removeEventListener(`tippe:seek${suffix}`, onSeek);
+    place.leave();
+    if (window.__tippe.flat === report) delete window.__tippe.flat;
   };
   view.tippe = { dispose };
   model.on("remove", dispose);

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { Arrow } from "./arrow.js";
 import { Bar } from "./bar.js";
 import { Body } from "./body.js";
+import { Place } from "./clock.js";
 import { colours } from "./colours.js";
 import { coalesce, float32, niceAbove } from "./data.js";
 import { renderFlat } from "./flat.js";
@@ -11,7 +12,6 @@ import { Handle } from "./handle.js";
 import { Labels } from "./labels.js";
 import { WideLine } from "./lines.js";
 import { photo } from "./photo.js";
-import { Player } from "./player.js";
 import { Ribbon, Thread } from "./ribbon.js";
 import { followLook } from "./scene.js";
 import { tryStage } from "./stage.js";
@@ -22,11 +22,9 @@ const SHADE = 4.5; // half the side of the square that can be in shadow
 const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
 const FOLLOW_MS = 160; // the camera follows the top's drift, not each of its small turns
 const FIRST_VIEW = [-1.12, 0.3, 1];
-const TELL_MS = 80; // how often a scrub is told to Python
 const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
 // of the regimes in app/top3d.py
 const regimeColours = [colours.normal, colours.friction, colours.omega, colours.friction, colours.omega, colours.omega];
-const clocks = new Map(); // the tops that go together, by the name of their clock
 
 export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
@@ -112,14 +110,28 @@ export function renderTop3D({ model, el, view }) {
   const verdict = addText(picture, "verdict");
   const scalesText = addText(picture, "scales");
 
-  const player = new Player({
-    changed() {
-      stage.invalidate();
-      tellOthers();
-    },
-    landed: tellTime,
-    playingChanged: () => (model.playing = player.playing),
+  // What is drawn, for tests
+  const report = {
+    get t() { return player.t; },
+    get index() { return place.said?.index; },
+    get count() { return player.frames.count; },
+    get playing() { return player.playing; },
+    get position() { return body.position.toArray(); },
+    get quaternion() { return body.quaternion.toArray(); },
+    get eye() { return camera.position.clone().sub(seen).normalize().toArray(); },
+    get label() { return label; },
+    get verdict() { return verdict.textContent; },
+    get pictures() { return stage.pictures; },
+    get motions() { return { received, shown }; },
+    get highlight() { return pointedAt.visible ? highlight.label : ""; },
+  };
+  const place = new Place({
+    model, picture, report,
+    changed: () => stage.invalidate(),
+    inView: () => stage.inView,
+    photo: (wide) => photo(stage, labels, wide),
   });
+  const { player } = place;
   const handle = model.tiltable ? new Handle(stage, labels, model, player) : null;
   const bar = new Bar(root, picture, model, player, () => {
     model.camera = [];
@@ -129,48 +141,21 @@ export function renderTop3D({ model, el, view }) {
 
   const moment = emptyPose(); // what Python says of player.t
   const seen = new THREE.Vector3(); // the point that the camera looks at
-  const place = new THREE.Vector3();
+  const stands = new THREE.Vector3(); // the sphere's centre
   const forceTip = new THREE.Vector3();
   let scales = {};
   let restarted = true;
   let lastFrame;
-  let drawn; // what the last drawn picture showed
   let highlight = null; // of a tippe:highlight
   const suffix = model.clock ? `:${model.clock}` : "";
-  const member = { player, stage, echo: false };
-  const others = () => (clocks.get(model.clock) ?? []).filter((other) => other !== member);
   let received = 0, drawing = 0, shown = 0; // motions that came; the last of them in the picture begun, and on the screen
 
   function tick(now, held) {
-    if (!held && player.playing && player.frames.count > 1) {
-      // model.seconds of the real top pass in one unit of t; speed 1 shows them at their own pace.
-      const unitsPerMs = model.speed / (1000 * model.seconds);
-      const leads = leader() === member;
-      restarted = player.advance(now, leads ? unitsPerMs : 0) || restarted;
-      if (!leads) restarted = player.follow(leader().player.t) || restarted;
-    }
+    if (!held && place.moves) restarted = place.advance(now) || restarted;
     pose();
     follow(now);
     drawing = received;
-    return player.playing && player.frames.count > 1;
-  }
-
-  // Of the tops of one clock, the one that moves the time: the first in view with something to show.
-  function leader() {
-    if (!model.clock) return member;
-    const tops = clocks.get(model.clock);
-    return tops.find(({ stage, player }) => stage.inView && player.frames.count > 1) ?? tops[0];
-  }
-
-  // What a person does to one top of a clock is done to all.
-  function tellOthers() {
-    if (member.echo) return;
-    for (const other of others()) {
-      other.echo = true;
-      other.player.setPlaying(player.playing);
-      if (other.player.t !== player.t) other.player.seek(player.t);
-      other.echo = false;
-    }
+    return place.moves;
   }
 
   // The picture of the moment player.t
@@ -181,17 +166,17 @@ export function renderTop3D({ model, el, view }) {
     centre.visible = some && model.show_com_path;
     if (some) {
       frames.read(at, moment);
-      place.set(moment.contact.x, moment.contact.y, 1);
+      stands.set(moment.contact.x, moment.contact.y, 1);
       body.quaternion.copy(moment.quaternion);
-      body.position.copy(place);
+      body.position.copy(stands);
       // off the table, or on its stem, the sphere's centre is where G and the axis say
       if (model.a !== null) body.position.set(0, 0, model.a).applyQuaternion(moment.quaternion).add(moment.com);
-      underneath.position.set(place.x, place.y, ABOVE_TABLE / 2);
-      shade.position.set(place.x + 1.2, place.y + 1.3, ABOVE_TABLE / 3);
+      underneath.position.set(stands.x, stands.y, ABOVE_TABLE / 2);
+      shade.position.set(stands.x + 1.2, stands.y + 1.3, ABOVE_TABLE / 3);
       centre.position.copy(moment.com);
-      sun.target.position.copy(place);
-      sun.position.set(place.x - 3.2, place.y - 3.4, 8.2);
-      table.position.set(Math.round(place.x / 5) * 5, Math.round(place.y / 5) * 5, 0); // the grid repeats each 5 R
+      sun.target.position.copy(stands);
+      sun.position.set(stands.x - 3.2, stands.y - 3.4, 8.2);
+      table.position.set(Math.round(stands.x / 5) * 5, Math.round(stands.y / 5) * 5, 0); // the grid repeats each 5 R
       arrows.force.colour = regimeColours[moment.regime];
     }
     point("force", moment.contact, moment.force, some && model.show_force);
@@ -220,12 +205,7 @@ export function renderTop3D({ model, el, view }) {
       verdict.style.setProperty("--verdict", colour);
     }
     bar.update(model.seconds);
-    const { t, playing } = player;
-    if (!drawn || drawn.t !== t || drawn.playing !== playing) {
-      drawn = { t, playing, index: player.index };
-      const detail = { t, index: player.index, playing, verdict: word };
-      if (leader() === member) window.dispatchEvent(new CustomEvent(`tippe:clock${suffix}`, { detail }));
-    }
+    place.say(word);
   }
 
   // A vector along the turning axes 1', y, z, from "com" or "contact": only its direction is true where it is long.
@@ -260,7 +240,7 @@ export function renderTop3D({ model, el, view }) {
     lastFrame = player.playing ? now : undefined;
     const share = restarted || !player.playing ? 1 : 1 - Math.exp(-ms / FOLLOW_MS);
     restarted = false;
-    if (model.follow) moveView((place.x - seen.x) * share, (place.y - seen.y) * share);
+    if (model.follow) moveView((stands.x - seen.x) * share, (stands.y - seen.y) * share);
   }
 
   function moveView(dx, dy) {
@@ -279,7 +259,7 @@ export function renderTop3D({ model, el, view }) {
   }
 
   function firstView() {
-    seen.set(place.x, place.y, 1.25);
+    seen.set(stands.x, stands.y, 1.25);
     const [azimuth, height, times] = model.camera.length ? model.camera : FIRST_VIEW, far = distance() * times;
     camera.position.set(
       seen.x + far * Math.cos(height) * Math.cos(azimuth),
@@ -313,20 +293,8 @@ export function renderTop3D({ model, el, view }) {
   stage.beforeDraw = () => labels.place();
 
   // Python's side
-  let told;
-  function tellTime() {
-    clearTimeout(told);
-    told = setTimeout(() => {
-      if (!player.playing && !player.held && model.time !== player.t) model.time = player.t;
-    }, TELL_MS);
-  }
-
   function newFrames() {
-    const first = !player.frames.count;
-    member.echo = true; // a new motion is no news of the clock
-    player.setFrames(model.frames);
-    if (handle?.begins()) player.land(0);
-    member.echo = false;
+    const first = place.take(handle?.begins());
     received += 1;
     const { frames } = player;
     const most = frames.scales;
@@ -337,9 +305,7 @@ export function renderTop3D({ model, el, view }) {
       `<i>L</i> ${perR("momentum")} <i>MR</i>²(<i>g</i>/<i>R</i>)<sup>½</sup>`;
     for (const line of Object.values(track)) line.setPath(frames.count, (i) => frames.contact(i), ABOVE_TABLE);
     for (const line of Object.values(comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
-    if (first && frames.count) {
-      if (others().length) player.follow(leader().player.t);
-      else player.seek(model.time);
+    if (first) {
       pose();
       firstView();
     } else if (!player.playing) restarted = true;
@@ -356,65 +322,25 @@ export function renderTop3D({ model, el, view }) {
   const onFrames = coalesce(newFrames); // several in one frame of the screen: only the last is read
   model.on("frames", onFrames);
   model.on("profile", newProfile);
-  model.on("time", () => {
-    // What comes back is what was just told: to be passed over, or a scrub would jump back.
-    if (Math.abs(model.time - player.t) > 1e-9 * Math.max(1, Math.abs(player.t))) player.seek(model.time);
-  });
-  model.on("playing", () => player.setPlaying(model.playing));
   for (const name of ["mu_s", "seconds", "show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"]) {
     model.on(name, () => stage.invalidate());
   }
-  const onSeek = ({ detail: { t, held } }) => player.seek(t, held);
-  window.addEventListener(`tippe:seek${suffix}`, onSeek);
-  // The page's own keys, for the tops that are on the page as it is.
-  const onCommand = ({ detail: { toggle, step } }) => {
-    if (!picture.clientWidth || leader() !== member) return;
-    if (toggle) player.setPlaying(!player.playing);
-    else player.step(step);
-  };
-  window.addEventListener("tippe:command", onCommand);
   const onHighlight = ({ detail }) => {
     highlight = detail;
     pointedTip.element.textContent = detail?.label ?? "";
     stage.invalidate();
   };
   window.addEventListener(`tippe:highlight${suffix}`, onHighlight);
-  if (model.clock) clocks.set(model.clock, [...others(), member]);
 
   newProfile();
   newFrames();
-  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  player.playing = (others()[0]?.player ?? model).playing && !still;
-  if (model.playing !== player.playing) model.playing = player.playing;
-
-  // What is drawn, for tests and for the curious
-  const report = {
-    get t() { return player.t; },
-    get index() { return drawn?.index; },
-    get count() { return player.frames.count; },
-    get playing() { return player.playing; },
-    get position() { return body.position.toArray(); },
-    get quaternion() { return body.quaternion.toArray(); },
-    get eye() { return camera.position.clone().sub(seen).normalize().toArray(); },
-    get label() { return label; },
-    get verdict() { return verdict.textContent; },
-    get pictures() { return stage.pictures; },
-    get motions() { return { received, shown }; },
-    get highlight() { return pointedAt.visible ? highlight.label : ""; },
-    photo: (wide) => photo(stage, labels, wide),
-  };
-  window.__tippe ??= {};
-  window.__tippe.tops ??= (clock) => (clocks.get(clock) ?? []).map((top) => top.report);
-  member.report = report;
+  place.begin();
   if (!model.clock) window.__tippe.top3d = report;
 
   const dispose = () => {
     onFrames.cancel();
-    clearTimeout(told);
-    window.removeEventListener(`tippe:seek${suffix}`, onSeek);
-    window.removeEventListener("tippe:command", onCommand);
+    place.leave();
     window.removeEventListener(`tippe:highlight${suffix}`, onHighlight);
-    if (model.clock) clocks.set(model.clock, others());
     if (window.__tippe.top3d === report) delete window.__tippe.top3d;
     unfollow();
     stage.dispose();
