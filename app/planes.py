@@ -4,9 +4,12 @@ It computes and publishes, and knows no widgets. In units of R, M and g but for 
 A run is made in a thread, which has no page: it is told in which language to say why there is no motion.
 """
 
-from dataclasses import dataclass, field, replace
+import re
+from dataclasses import dataclass, field, fields, replace
 from functools import partial
+from itertools import groupby
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 import param
@@ -16,19 +19,23 @@ from app.runs import Run, Runs, Stopped
 from app.text import say, told
 from tippe_core import (
     Coulomb,
+    Ending,
     Outcome,
     Scales,
     Shape,
     SmoothedCoulomb,
     State,
+    SteadyStates,
+    Stretch,
     Top,
     TopError,
     Viscous,
+    ending,
     glide,
-    jellett_potential,
     outcome,
     roll,
     slide,
+    steady_states,
 )
 
 PLANES = ("rough", "smooth", "sliding")
@@ -42,7 +49,8 @@ MOST_SECONDS = 60.0
 MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
 LEAST_FRAMES = 600
 THROWN, NEAR_TOUCH = "stem throws it up", 0.02  # rad: so near to the touch angle a lift-off is the touch's
-WELL_POINTS = 361
+SHORT = 0.05  # s of the real top: a touch, or a hop, that an eye does not follow
+NUDGE = 1e-6  # rad: by so much further tilted starts the run beside the run
 
 # A run that a newer one replaces may still finish within this, s; later it is stopped.
 PATIENCE = 0.5
@@ -121,10 +129,12 @@ class Motion:
     the arguments of top3d.pack_frames. stretches: (start, end, place in REGIMES) in turn. drift: of KEPT, the largest
     difference between two instants, over the largest size; alone: the time to which the sphere alone is on the table,
     what ends that ("" if nothing), and the drift of J until then, which no more than one contact keeps. The events have
-    tippe_core's names, but THROWN where the stem's first touch is what lifts it off.
+    tippe_core's names, but THROWN where the stem's first touch is what lifts it off. ending: on the sliding plane, what
+    became of it.
     """
 
     trajectory: object
+    ending: Ending | None
     ended: str
     t: np.ndarray
     frames: tuple
@@ -150,21 +160,35 @@ class Motion:
         }
 
     @property
+    def crossings(self):
+        """The times at which theta passes a right angle, (k,)."""
+        theta, t = self.trajectory.theta - np.pi / 2, self.trajectory.t
+        at = np.flatnonzero((theta[:-1] < 0) != (theta[1:] < 0))
+        return t[at] + (t[at + 1] - t[at]) * theta[at] / (theta[at] - theta[at + 1])
+
+    @property
     def overturned(self):
         """The time at which theta first passes a right angle, nan if it never does, or started past it."""
-        theta, t = self.trajectory.theta, self.trajectory.t
-        past = int(np.argmax(theta > np.pi / 2))
-        if not past:
-            return np.nan
-        return float(np.interp(np.pi / 2, theta[past - 1 : past + 1], t[past - 1 : past + 1]))
+        found = self.crossings
+        return float(found[0]) if len(found) and self.trajectory.theta[0] < np.pi / 2 else np.nan
+
+
+class Well(NamedTuple):
+    """V_J at one C_J, from start to end in (R/g)^1/2: a while in which the ball alone was at the table."""
+
+    start: float
+    end: float
+    C_J: float
+    steady: SteadyStates
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Picture:
     """All that the views show. motions: {plane: Motion or None}; None: the sentence why is in messages at the plane.
 
-    theta, V_J (k,): the well at the start's C_J. messages: a sentence for each control that was given what cannot be,
-    "run" for a run that was stopped; the rest is then the last good one.
+    outcome: of the ball alone. growth: how many times NUDGE grew in the run beside the sliding one, None without that.
+    messages: a sentence for each control that was given what cannot be, "run" for a run that was stopped; the rest is
+    then the last good one.
     """
 
     settings: Settings
@@ -172,21 +196,35 @@ class Picture:
     friction: object
     motions: MappingProxyType
     outcome: Outcome
-    theta: np.ndarray
-    V_J: np.ndarray
+    growth: float | None = None
     messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
+
+    def wells(self, plane):
+        """(Well, ...) of the motion on a plane, one for each while of more than SHORT in which no stem touched: a
+        second contact changes C_J. Of none, that of the start."""
+        motion, shortest = self.motions[plane], SHORT / self.settings.scales.time
+        if motion is None:
+            return (Well(0.0, 0.0, self.outcome.C_J, self.outcome.steady),)
+        moved, found = motion.trajectory, []
+        spells = motion.ending.stretches if motion.ending else (Stretch(moved.t[0], moved.t[-1], "ball"),)
+        for free, group in groupby(spells, key=lambda spell: spell.on in ("ball", "air")):
+            group = list(group)
+            start, end = group[0].start, group[-1].end
+            inside = (moved.t >= start) & (moved.t <= end)
+            if free and inside.any() and (end - start > shortest or not found):
+                C_J = float(np.median(moved.jellett[inside]))
+                found.append(Well(start, end, C_J, steady_states(moved.top, C_J)))
+        return tuple(found) or (Well(0.0, 0.0, self.outcome.C_J, self.outcome.steady),)
 
 
 def solve(settings, progress=None):
     """The Picture. progress: called with the time reached; what it raises stops the run. Raises TopError, whose name is
     the input at fault."""
-    top, state, friction, times = settings.top, settings.state, settings.friction, settings.times
+    top, state, times = settings.top, settings.state, settings.times
     runs = {
-        "rough": lambda: roll(top, None, times, replace(state, vx=None, vy=None)),
-        "smooth": lambda: glide(top, state, times),
-        "sliding": lambda: slide(
-            top, state, friction, times, landing=settings.landing, edge=settings.edge, progress=progress
-        ),
+        "rough": lambda: _clear(roll(top, None, times, replace(state, vx=None, vy=None)), settings),
+        "smooth": lambda: _clear(glide(top, state, times), settings),
+        "sliding": lambda: _slid(settings, state, times, progress),
     }
     motions, messages = {}, {}
     for plane in PLANES:
@@ -195,13 +233,57 @@ def solve(settings, progress=None):
         except TopError as error:
             if plane == "sliding":
                 raise
-            motions[plane], messages[plane] = None, told(error)
-    goes = outcome(top, state, settings.scales)
-    theta = np.linspace(0, np.pi, WELL_POINTS)
+            motions[plane], messages[plane] = None, told(for_reader(error, settings.scales))
     return Picture(
-        settings=settings, state=state, friction=friction, motions=MappingProxyType(motions), outcome=goes, theta=theta,
-        V_J=jellett_potential(theta, top, goes.C_J), messages=MappingProxyType(messages),
+        settings=settings, state=state, friction=settings.friction, motions=MappingProxyType(motions),
+        outcome=outcome(top, state, settings.scales), messages=MappingProxyType(messages),
     )  # fmt: skip
+
+
+def _slid(settings, state, times, progress):
+    return slide(settings.top, state, settings.friction, times, landing=settings.landing, edge=settings.edge,
+                 progress=progress)  # fmt: skip
+
+
+def nudged(picture, progress=None):
+    """How many times NUDGE, added to the tilt of the start, grows in theta by the end of the sliding run, at most."""
+    settings, state = picture.settings, picture.state
+    moved = picture.motions["sliding"].trajectory
+    beside = replace(state, theta=state.theta + (NUDGE if state.theta < 1 else -NUDGE))
+    near = _slid(settings, beside, moved.t, progress)
+    both = min(len(moved.t), len(near.t))
+    return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / NUDGE)
+
+
+def _clear(trajectory, settings):
+    """A motion on the ball alone as far as the stem is clear of the table; TopError where it never is."""
+    theta, t = trajectory.theta, trajectory.t
+    angle = settings.shape.touch_angle if settings.edge else None
+    if angle is None or theta.max() < angle:
+        return trajectory
+    first = int(np.argmax(theta >= angle))
+    if not first:
+        raise TopError("tilt", float(np.degrees(theta[0])), f"less than {np.degrees(angle):.4g} degrees on this plane",
+                       "The end of its stem would be below the table.")  # fmt: skip
+    time = float(np.interp(angle, theta[first - 1 : first + 1], t[first - 1 : first + 1]))
+    rows = {part.name: value[:first] for part in fields(trajectory)
+            if isinstance(value := getattr(trajectory, part.name), np.ndarray)}  # fmt: skip
+    return replace(trajectory, events=((time, "stem touches"),), **rows)
+
+
+def for_reader(error, scales):
+    """A TopError of tippe_core in what stands beside the controls: degrees, rev/s, s."""
+    names = {"theta": ("tilt", 180 / np.pi), "omega3": ("spin", scales.angular_velocity / (2 * np.pi)),
+             "times": ("seconds", scales.time)}  # fmt: skip
+    name, size = names.get(error.name, (error.name, 1.0))
+
+    def scaled(words, start, size, unit=""):
+        number = rf"({start})(\d+(?:\.\d+)?(?:e[+-]?\d+)?)"
+        return re.sub(number, lambda found: f"{found[1]}{size * float(found[2]):.4g}{unit}", words)
+
+    value = float(f"{size * error.value:.6g}") if name != error.name and isinstance(error.value, float) else error.value
+    return TopError(name, value, scaled(error.allowed, "less than |at most ", size),
+                    scaled(error.remedy, "t = ", scales.time, " s"))  # fmt: skip
 
 
 def _motion(trajectory, settings, times, plane):
@@ -230,6 +312,7 @@ def _motion(trajectory, settings, times, plane):
     last = trajectory.events[-1] if ended and trajectory.events else (t[-1], "")
     return Motion(
         trajectory=trajectory,
+        ending=ending(trajectory) if plane == "sliding" else None,
         ended=event if last == first else last[1],
         t=t,
         frames=tuple(frames),
@@ -303,7 +386,7 @@ class Planes(param.Parameterized):
 
     def __init__(self, explorer, builder, runs=None):
         self._explorer, self._builder, self._runs = explorer, builder, runs or Runs()
-        self._run = self._wanted = None
+        self._run = self._wanted = self._beside = None
         self._told_to_stop = False
         super().__init__()
 
@@ -363,6 +446,9 @@ class Planes(param.Parameterized):
     @param.depends(*INPUTS, watch=True, on_init=True)
     def _ask(self):
         self._asked = settings = self._settings()
+        if self._beside:
+            self._beside.forget()
+            self._beside = None
         if not self._runs.beside:
             self._runs.begin(Run(lambda run: solve(settings), partial(self._publish, settings)), "planes")
             return
@@ -397,8 +483,8 @@ class Planes(param.Parameterized):
         if isinstance(result, Stopped):
             messages["run"] = say("planes.run.stopped", reached=reached)
         elif isinstance(result, TopError):
-            control = {"theta": "tilt", "omega3": "spin", "times": "seconds", "friction": "law"}
-            messages[control.get(result.name, result.name)] = told(result)
+            error = for_reader(result, settings.scales)
+            messages["law" if error.name == "friction" else error.name] = told(error)
         elif isinstance(result, Exception):
             raise result
         if messages:
@@ -407,3 +493,19 @@ class Planes(param.Parameterized):
             result = replace(self.picture, messages=MappingProxyType(messages))
         with param.edit_constant(self):
             self.picture = result
+        if not messages and self._runs.beside and not self.busy and _hits(result):
+            self._beside = Run(lambda run: nudged(result, run.look), partial(self._nudged, result))
+            self._runs.begin(self._beside)
+
+    def _nudged(self, picture, growth):
+        """What the run beside the run tells of it, if that is still what is shown."""
+        self._beside = None
+        if isinstance(growth, float) and self.picture.motions is picture.motions:
+            with param.edit_constant(self):
+                self.picture = replace(self.picture, growth=growth)
+
+
+def _hits(picture):
+    """Whether anything but its ball touched, which is what makes a motion depend on the last digit of its start."""
+    motion = picture.motions["sliding"]
+    return motion is not None and len(motion.ending.stretches) > 1

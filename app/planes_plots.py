@@ -3,18 +3,18 @@
 from itertools import pairwise
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Range1d, Span
+from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Label, Range1d, Span
 
 from app.builder import named
 from app.colours import COLOURS, FAINT, INK
 from app.planes import FLIES, LIFTS, PLANES, ROLLS, SLIPS
+from app.planes_words import LOOKS
 from app.plots import plain
 from app.text import listed, say
 from tippe_core import PRESETS as BODIES
+from tippe_core import jellett_potential
 
 CLOCK = "planes"
-# A plane's own colour, the same in all pictures of this tab.
-LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": COLOURS["friction"]}
 # Colour, and key in planes.toml.
 REGIMES = {ROLLS: (COLOURS["normal"], "rolls"), SLIPS: (COLOURS["friction"], "slips"),
            FLIES: (COLOURS["omega"], "air"), LIFTS: ("#8C2D04", "lifts")}  # fmt: skip
@@ -22,7 +22,7 @@ STOPPED = "#d5dae0"
 LEDGER = {"spin": "#CC79A7", "precession and nutation": "#E69F00", "motion of G": "#8a96a3", "height": "#56B4E9",
           "heat": "#D55E00"}  # fmt: skip
 QUANTITIES = ("theta", "omega3", "normal", "slip")
-BUCKETS, LEDGER_POINTS, BEAD_POINTS = 500, 500, 4000
+BUCKETS, LEDGER_POINTS, BEAD_POINTS, WELL_POINTS = 500, 500, 4000, 361
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
 MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
 NEAR = 0.035  # of the map's width: a click so near to a known top is meant for it
@@ -33,7 +33,7 @@ if (path.followed) return
 path.followed = true
 let now = 0
 const place_bead = () => {
-  const {t, theta, V, E} = path.data, last = t.length - 1
+  const {t, theta, V, E, well} = path.data, last = t.length - 1
   if (last < 1) return
   let low = 0, high = last
   while (high - low > 1) {
@@ -43,13 +43,27 @@ const place_bead = () => {
   }
   const share = Math.min(Math.max((now - t[low]) / (t[high] - t[low]), 0), 1)
   const at = (values) => values[low] + share * (values[high] - values[low])
-  bead.data = {theta: [at(theta)], V: [at(V)], E: [at(E)]}
+  const which = now >= t[last] ? well[last] : well[low] == well[high] ? well[low] : -1
+  const drawn = which < 0 ? {theta: [], V: [], E: []} : {theta: [at(theta)], V: [at(V)], E: [at(E)]}
+  bead.setv({data: drawn}, {sync: false})
+  if (which != shown) show_well(which)
+}
+let shown = null
+const show_well = (which) => {
+  shown = which
+  none.setv({visible: which < 0}, {sync: false})
+  const {alpha, low, high} = wells.data, {stable, well} = steady.data
+  wells.setv({data: {...wells.data, alpha: Array.from(alpha, (_, k) => k == which ? 1 : 0)}}, {sync: false})
+  const present = Array.from(well, (k) => k == which ? 1 : 0)
+  const points = {...steady.data, alpha: present, fill: present.map((on, k) => on * stable[k])}
+  steady.setv({data: points}, {sync: false})
+  if (which >= 0) range.setv({start: low[which], end: high[which]}, {sync: false})
 }
 const show = () => {
   for (const span of spans) span.setv({location: now}, {sync: false})
   place_bead()
 }
-path.properties.data.change.connect(place_bead)
+path.properties.data.change.connect(() => { shown = null; place_bead() })
 window.addEventListener("tippe:clock:CLOCK", ({detail: {t}}) => {
   now = t * path.tags[0]
   show()
@@ -165,47 +179,71 @@ def extremes(t, values):
 
 
 class Well:
-    """V_J over theta, its steady states, and the top as a bead in it, with the energy that it has left above."""
+    """V_J over theta, its steady states, and the top as a bead in it, with the energy that it has left above.
+
+    Each while in which no stem touches has a J and so a well of its own: the clock shows the present one.
+    """
 
     def __init__(self):
         self.figure = fig = plain(x_range=Range1d(-5, 185), y_range=Range1d(0, 1), name="planes-well")
         fig.min_border_left = 50
         fig.xaxis.ticker = [0, 30, 60, 90, 120, 150, 180]
-        self.curve = ColumnDataSource({"theta": [], "V": []})
-        self.steady = ColumnDataSource({"theta": [], "V": [], "fill": []})
-        # what the browser's clock reads, and what it moves
-        self.path = ColumnDataSource({name: [] for name in ("t", "theta", "V", "E")}, tags=[1.0])
+        self.wells = ColumnDataSource({name: [] for name in ("theta", "V", "alpha", "low", "high")})
+        self.steady = ColumnDataSource({name: [] for name in ("theta", "V", "stable", "well", "fill", "alpha")})
+        # what the browser's clock reads, and what it moves; well: which one, -1 for none
+        self.path = ColumnDataSource({name: [] for name in ("t", "theta", "V", "E", "well")}, tags=[1.0])
         self.bead = ColumnDataSource({"theta": [], "V": [], "E": []})
-        fig.line("theta", "V", source=self.curve, line_color=COLOURS["theta"], line_width=2.5)
+        fig.multi_line("theta", "V", source=self.wells, line_color=COLOURS["theta"], line_alpha="alpha", line_width=2.5)
         fig.scatter(
-            "theta", "V", source=self.steady, size=8, fill_color=INK, fill_alpha="fill", line_color=INK, line_width=1.5
-        )
+            "theta", "V", source=self.steady, size=8, fill_color=INK, fill_alpha="fill", line_color=INK, line_width=1.5,
+            line_alpha="alpha",
+        )  # fmt: skip
         on_top = {"source": self.bead, "level": "overlay"}
         fig.segment("theta", "V", "theta", "E", line_color=COLOURS["energy"], line_width=2, **on_top)
         fig.scatter("theta", "E", marker="dash", size=16, line_color=COLOURS["energy"], line_width=3, **on_top)
         fig.scatter("theta", "V", size=15, fill_color=COLOURS["friction"], line_color="white", line_width=2, **on_top)
+        self.none = Label(x=90, y=0, y_offset=60, text=say("planes.keys.no_well"), text_align="center",
+                          text_color=COLOURS["friction"], text_font_size="14px", visible=False)  # fmt: skip
+        fig.add_layout(self.none)
 
     def show(self, picture, plane):
-        motion = picture.motions[plane if plane in PLANES else "sliding"]
-        steady = picture.outcome.steady
-        V_steady = np.interp(steady.theta, picture.theta, picture.V_J)
-        self.curve.data = {"theta": np.degrees(picture.theta), "V": picture.V_J}
-        self.steady.data = {"theta": np.degrees(steady.theta), "V": V_steady,
-                            "fill": steady.stable.astype(float)}  # fmt: skip
-        low, high = float(picture.V_J.min()), float(np.min([picture.V_J.max(), 4 * np.median(picture.V_J)]))
+        plane = plane if plane in PLANES else "sliding"
+        motion, top = picture.motions[plane], picture.settings.top
+        found, theta = picture.wells(plane), np.linspace(0, np.pi, WELL_POINTS)
+        curves = [jellett_potential(theta, top, well.C_J) for well in found]
+        path = self._path(picture, motion, found)
+        ranges = []
+        for k, V in enumerate(curves):
+            E = np.array(path["E"])[np.array(path["well"]) == k]
+            low, high = float(V.min()), max(float(np.min([V.max(), 4 * np.median(V)])), *E[:1], E.max(initial=-np.inf))
+            pad = 0.08 * (high - low) or 0.05
+            ranges.append((low - pad, high + pad))
+        alpha = [1.0] + [0.0] * (len(found) - 1)
+        self.wells.data = {"theta": [np.degrees(theta)] * len(found), "V": curves, "alpha": alpha,
+                           "low": [low for low, _ in ranges], "high": [high for _, high in ranges]}  # fmt: skip
+        which = np.repeat(np.arange(len(found)), [len(well.steady.theta) for well in found])
+        places, stable = (np.concatenate([part(well.steady) for well in found]) for part in
+                          (lambda steady: steady.theta, lambda steady: steady.stable.astype(float)))  # fmt: skip
+        V = [jellett_potential(well.steady.theta, top, well.C_J) for well in found]
+        self.steady.data = {"theta": np.degrees(places), "V": np.concatenate(V), "stable": stable, "well": which,
+                            "fill": stable * (which == 0), "alpha": (which == 0).astype(float)}  # fmt: skip
+        self.figure.y_range.update(start=ranges[0][0], end=ranges[0][1])
+        self.path.tags = [picture.settings.scales.time]
+        self.path.data = path
         if motion is None:
-            self.path.data = {name: [] for name in self.path.data}
             self.bead.data = {name: [] for name in self.bead.data}
-        else:
-            moved, scales = motion.trajectory, picture.settings.scales
-            every = np.unique(np.linspace(0, len(moved.t) - 1, BEAD_POINTS).astype(int))
-            theta, E = moved.theta[every], moved.energy[every]
-            self.path.tags = [scales.time]
-            V = np.interp(theta, picture.theta, picture.V_J)
-            self.path.data = {"t": moved.t[every] * scales.time, "theta": np.degrees(theta), "V": V, "E": E}
-            high = max(high, float(E.max()))
-        pad = 0.08 * (high - low) or 0.05
-        self.figure.y_range.update(start=low - pad, end=high + pad)
+
+    def _path(self, picture, motion, found):
+        if motion is None:
+            return {name: [] for name in self.path.data}
+        moved, scales = motion.trajectory, picture.settings.scales
+        every = np.unique(np.linspace(0, len(moved.t) - 1, BEAD_POINTS).astype(int))
+        t, theta = moved.t[every], moved.theta[every]
+        V, which = np.zeros(len(t)), np.full(len(t), -1)
+        for k, well in enumerate(found):
+            inside = (t >= well.start) & (t <= well.end)
+            V[inside], which[inside] = jellett_potential(theta[inside], moved.top, well.C_J), k
+        return {"t": t * scales.time, "theta": np.degrees(theta), "V": V, "E": moved.energy[every], "well": which}
 
 
 def beside(place, name, taken):
@@ -284,7 +322,9 @@ class Map:
 
 def follow_clock(figures, well):
     """In the browser: the lines of the Figures and the bead of the Well go with the clock, which a hand on one sets."""
-    follow = CustomJS(args={"spans": figures.spans, "path": well.path, "bead": well.bead}, code=FOLLOW_CLOCK)
+    args = {"spans": figures.spans, "path": well.path, "bead": well.bead, "wells": well.wells, "steady": well.steady,
+            "none": well.none, "range": well.figure.y_range}  # fmt: skip
+    follow = CustomJS(args=args, code=FOLLOW_CLOCK)
     well.figure.js_on_change("inner_width", follow)
     for figure in figures.figures.values():
         seek = CustomJS(args={"path": well.path}, code=SEEK)

@@ -1,7 +1,5 @@
 """The tab of the three planes: why a tippe top turns over, and that it takes sliding friction."""
 
-import html
-
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
@@ -9,18 +7,15 @@ import panel_material_ui as pmui
 from app.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_click, progress, swatch, words
 from app.controls import Control
 from app.keep import Field, Number, OneOf
-from app.planes import LAWS, LIFTS, PATIENCE, PLANES, PRESETS, ROLLS
-from app.planes_plots import CLOCK, LEDGER, LOOKS, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
+from app.planes import LAWS, PATIENCE, PLANES, PRESETS
+from app.planes_plots import CLOCK, LEDGER, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
+from app.planes_words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
 from app.surface3d import pack
 from app.text import listed, say
 from app.top3d import Top3D, pack_frames
 
-SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
-# Below this a drift is that of the computation; what physics changes changes by more.
-ROUNDING = 1e-7
 NUMBERS = {"coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
-CHAOTIC = 20.0  # (g/R)^1/2: with more spin than that, hops that start a little apart end far apart
 POLL = 200  # ms between looks at a run under way
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
 # Three bars side by side have room for what matters only.
@@ -31,136 +26,6 @@ td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertica
 th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: #009E73 }
 .line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
 """
-
-
-def power(value):
-    """A small number as 3·10⁻¹³."""
-    mantissa, exponent = f"{max(value, 1e-16):.0e}".split("e")
-    return f"{mantissa}·10<sup>{int(exponent)}</sup>".replace("-", "−")
-
-
-def degrees(value):
-    return f"{np.degrees(value):.1f}°"
-
-
-# ---- words ----
-
-
-def in_force(picture, plane):
-    """The friction law in force, with its numbers."""
-    law, velocity, kind = picture.friction, picture.settings.scales.velocity, picture.settings.law
-    if plane in ("rough", "smooth"):
-        return say(f"planes.force.{plane}")
-    if kind == "coulomb":
-        return say("planes.force.coulomb", mu_k=law.mu_k, mu_s=law.mu_s)
-    if kind == "viscous":
-        return say("planes.force.viscous" if law.gamma else "planes.force.none", gamma=law.gamma,
-                   si=law.gamma / velocity)  # fmt: skip
-    return say("planes.force.smoothed", mu=law.mu, speed=100 * law.eps * velocity)
-
-
-def happens(event):
-    return listed("planes.events")[event]
-
-
-def fate(picture, plane):
-    """What became of the top on a plane, in a phrase."""
-    motion = picture.motions[plane]
-    if motion is None:
-        return html.escape(picture.messages.get(plane, say("planes.fate.nothing")))
-    theta, seconds = motion.trajectory.theta, picture.settings.scales.time
-    end, last = theta[-1], motion.trajectory.t[-1] * seconds
-    if plane != "sliding":
-        low, high = degrees(theta.min()), degrees(theta.max())
-        between = say("planes.fate.stays" if low == high else "planes.fate.between", low=low, high=high)
-        lifts = say("planes.fate.lifts", time=last) if motion.ended == "lifts off" else ""
-        if plane == "rough" and any(which == LIFTS for *_, which in motion.stretches):
-            lifts = say("planes.fate.pulls")
-        return say(f"planes.fate.{plane}", between=between, lifts=lifts)
-    verdict, past = picture.outcome.verdict, motion.overturned
-    if np.isfinite(past):
-        became = "swings" if end < np.pi / 2 else "hangs" if verdict == "hangs" else "turns"
-    elif theta[0] < np.pi / 2:
-        became = "upright" if verdict == "goes upright" and end < theta[0] else "not"
-    else:
-        became = "comes" if end < np.pi / 2 else "inverted"
-    at_the_end = say("planes.fate.end", tilt=degrees(end), time=last)
-    said = say(f"planes.fate.{became}", past=past * seconds, end=at_the_end)
-    held = [start for start, _, which in motion.stretches if which == ROLLS]
-    if motion.trajectory.regime[-1] == "roll":
-        said += say("planes.fate.caught", time=held[-1] * seconds)
-    until, event, _ = motion.alone
-    if event:
-        said += say("planes.fate.event", time=until * seconds, happens=happens(event))
-    stop = say("planes.fate.stops", happens=happens(motion.ended)) if motion.ended else ""
-    return f"{said}.{stop}"
-
-
-def outcome_words(goes, scales):
-    """tippe_core's sentence of an Outcome, in the page's language."""
-    limits, unit = goes.thresholds, scales.angular_velocity / (2 * np.pi)
-
-    def spin(value):
-        return say("planes.outcome.spin", spin=abs(value) * unit)
-
-    upright = say(f"planes.outcome.upright.{limits.upright.stable}", spin=spin(limits.upright.spin))
-    inverted = say(f"planes.outcome.inverted.{limits.inverted.stable}", spin=spin(limits.launch))
-    reason = upright
-    if limits.group == "neutral":
-        reason = say("planes.outcome.neutral")
-    elif limits.group in ("never rises", "can invert", "rises part of the way"):
-        reason = say("planes.outcome.both", upright=upright, inverted=inverted)
-    will = listed("planes.outcome.will")[goes.verdict].format(tilt=np.degrees(goes.theta))
-    return say("planes.outcome.sentence", spin=spin(goes.launch), will=will, reason=reason,
-               doubt="" if goes.certain else say("planes.outcome.doubt"))  # fmt: skip
-
-
-def verdict_words(picture):
-    settings, sliding = picture.settings, picture.motions["sliding"]
-    if settings.law == "viscous" and picture.friction.gamma == 0:
-        says = say("planes.verdict.forever")
-    else:
-        sentence = html.escape(outcome_words(picture.outcome, settings.scales))
-        caught = sliding is not None and sliding.trajectory.regime[-1] == "roll"
-        says = say("planes.verdict.there", sentence=sentence) + say(f"planes.verdict.{'caught' if caught else 'time'}")
-    if sliding is not None and abs(picture.state.omega3) > CHAOTIC and "air" in sliding.trajectory.regime:
-        says += say("planes.verdict.chaos")
-    lines = [f'<div class="line">{swatch(LOOKS[plane], "")}<b>{say(f"planes.plane.{plane}")}</b>: '
-             f"{fate(picture, plane)}</div>" for plane in PLANES]  # fmt: skip
-    return "".join(lines) + f'<div class="says">{says}</div>'
-
-
-def table_words(picture):
-    """What stays on each plane: the measured drift."""
-    head = "".join(f"<th>{swatch(LOOKS[plane], say(f'planes.plane.{plane}'))}</th>" for plane in PLANES)
-    rows = []
-    for name in SURVIVES:
-        cells = []
-        for plane in PLANES:
-            motion = picture.motions[plane]
-            cells.append(f"<td>{drift_words(name, motion, picture) if motion else say('planes.drift.nothing')}</td>")
-        rows.append(f"<tr><td>{say(f'planes.survives.{name}')}</td>{''.join(cells)}</tr>")
-    return (f"<table><tr><th>{say('planes.drift.measured')}</th>{head}</tr>{''.join(rows)}</table>"
-            f'<div class="key">{say("planes.drift.of")}</div>')  # fmt: skip
-
-
-def drift_words(name, motion, picture):
-    drift, (until, event, alone) = motion.drift[name], motion.alone
-    if drift < ROUNDING:
-        return f'<span class="kept">{say("planes.drift.stays", power=power(drift))}</span>'
-    changes = say("planes.drift.changes", size=f"{100 * drift:.3g} %" if drift > 1e-3 else power(drift))
-    if name == "J" and event and alone < ROUNDING:
-        then = say("planes.drift.then", time=until * picture.settings.scales.time, happens=happens(event),
-                   changes=changes)  # fmt: skip
-        return f'<span class="kept">{say("planes.drift.stays", power=power(alone))}</span>{then}'
-    return changes
-
-
-def stem_words(settings):
-    if settings.shape is None:
-        return say("planes.stem.apart")
-    angle = settings.shape.touch_angle
-    return say("planes.stem.never") if angle is None else say("planes.stem.past", angle=degrees(angle))
 
 
 KEPT = {
@@ -369,10 +234,10 @@ class ThreePlanes:
                 said.object = alert(messages.get(name, "")) or {
                     "stem": stem_words(settings), "by": self._start_words(picture)}.get(name, "")  # fmt: skip
             self._stem.disabled = settings.shape is None or settings.shape.touch_angle is None
+            self._verdict.object = verdict_words(picture)
             if self._shown is not settings:
                 self._figures.show(picture)
                 self._map.show(settings.top)
-                self._verdict.object = verdict_words(picture)
                 self._table.object = table_words(picture)
                 self._tempo(settings)
                 self._shown = settings

@@ -44,7 +44,8 @@ class Ending:
                theta > pi - 0.2), "leaning" (theta within 0.05 rad, on what `on` says), "rolling" (sticks, nutating),
                "moving" (none of these)
     on         on what it is all through that tenth; "" where that changes
-    least, most   theta in that tenth, rad
+    since      when that tenth begins, (R/g)^1/2
+    least, most   theta in it, rad
     ended      the event that ended it before its time, "" if none did
     flat       it stands flat on the end of its stem
     settled    nothing more follows: rolling, or friction takes nothing any more and it is where it would come back to
@@ -54,6 +55,7 @@ class Ending:
     stretches: tuple
     end: str
     on: str
+    since: float
     least: float
     most: float
     ended: str
@@ -87,7 +89,8 @@ def ending(trajectory):
         end = "leaning"
     else:
         end = "rolling" if rolls else "moving"
-    return Ending(found, end, on, least, most, ended, ended == "stands upright", settled, not ended and not settled)
+    return Ending(found, end, on, float(since), least, most, ended, flat=ended == "stands upright", settled=settled,
+                  cut=not ended and not settled)  # fmt: skip
 
 
 def _ended(moved):

@@ -116,11 +116,12 @@ def steady_states(top, C_J):
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """Where friction takes a start.
+    """Where friction takes a start, as long as one contact carries: at a second one, a stem's, C_J does not stay.
 
     verdict   "turns over", "stays inverted" or, for a < 0, "falls over" (theta = pi); "goes upright" (0); "hangs" in
-              between; "stays as it is" (a uniform ball)
+              between; "stays as it is" (a uniform ball; or a start exactly in a steady state, be it an unstable one)
     theta     the tilt of that end, rad; omega3 the spin about axis 3 there, (g/R)^1/2
+    nudged    where that state is unstable: the verdict after the least nudge; else ""
     certain   False where the energy suffices to reach another minimum of V_J as well: then this is the one downhill
     C_J, launch   the Jellett constant and the upright spin that has it
     steady    SteadyStates at C_J; thresholds: Thresholds
@@ -128,6 +129,7 @@ class Outcome:
     """
 
     verdict: str
+    nudged: str
     theta: float
     omega3: float
     certain: bool
@@ -139,7 +141,7 @@ class Outcome:
 
 
 def outcome(top, state, scales=None):
-    """The Outcome of a State on any plane with sliding friction.
+    """The Outcome of a State on any plane with sliding friction, of a top that touches it with its sphere alone.
 
     scales: Scales of the real top, for a sentence in rev/s. The state's vx, vy left None mean G at rest.
     """
@@ -155,6 +157,7 @@ def outcome(top, state, scales=None):
     steady, limits = steady_states(top, C_J), thresholds(top)
     V = jellett_potential(steady.theta, top, C_J)
     here = float(jellett_potential(state.theta, top, C_J))
+    nudged = ""
     if limits.group == "neutral":
         verdict, theta, certain = "stays as it is", state.theta, True
     else:
@@ -162,11 +165,22 @@ def outcome(top, state, scales=None):
         theta, certain = float(steady.theta[end]), _reachable_minima(state.theta, steady, V, E) <= 1
         far = "falls over" if a < 0 else "stays inverted" if state.theta > np.pi / 2 else "turns over"
         verdict = "goes upright" if end == 0 else far if end == len(V) - 1 else "hangs"
+        if _balances(state.theta, steady, V, E):
+            verdict, nudged = "stays as it is", verdict
+    launch = C_J / (I3 * (1 - a))
+    sentence = _sentence(verdict, nudged, theta, certain, launch, limits, scales)
+    theta = state.theta if nudged else theta
     I_eff = I1 * np.sin(theta) ** 2 + I3 * (np.cos(theta) - a) ** 2
     omega3 = C_J * (np.cos(theta) - a) / I_eff if I_eff else 0.0
-    launch = C_J / (I3 * (1 - a))
-    return Outcome(verdict, theta, float(omega3), certain, float(C_J), float(launch), steady, limits,
-                   _sentence(verdict, theta, certain, launch, limits, scales))  # fmt: skip
+    return Outcome(verdict, nudged, theta, float(omega3), certain, float(C_J), float(launch), steady, limits, sentence)
+
+
+def _balances(theta, steady, V, E):
+    """Whether it starts in an unstable steady state and has no energy beyond it: exactly at a pole, or in between as
+    near as the zeros of a polynomial are known."""
+    at = int(np.argmin(np.abs(steady.theta - theta)))
+    near = 0.0 if at in (0, len(V) - 1) else 1e-7
+    return bool(not steady.stable[at] and abs(steady.theta[at] - theta) <= near and E - V[at] <= 1e-12 * (1 + abs(E)))
 
 
 def _reachable_minima(theta, steady, V, E):
@@ -197,7 +211,7 @@ def _downhill(theta, steady, V, here):
     return end
 
 
-def _sentence(verdict, theta, certain, launch, limits, scales):
+def _sentence(verdict, nudged, theta, certain, launch, limits, scales):
     unit = scales.angular_velocity / (2 * np.pi) if scales else 1.0
 
     def spin(value):
@@ -210,10 +224,11 @@ def _sentence(verdict, theta, certain, launch, limits, scales):
 
     will = {"turns over": "turn over", "stays inverted": "stay inverted", "falls over": "fall over",
             "goes upright": "go upright", "hangs": f"hang at {np.degrees(theta):.1f} degrees",
-            "stays as it is": "keep its tilt"}[verdict]  # fmt: skip
+            "stays as it is": "keep its tilt"}[nudged or verdict]  # fmt: skip
+    exactly = " exactly in balance it stays as it is; nudged," if nudged else ""
     doubt = "" if certain else " (if its energy does not carry it over into the other minimum of V_J)"
     reasons = [stability("upright", limits.upright, limits.upright.spin)]
     if limits.group in ("never rises", "can invert", "rises part of the way"):
         reasons.append(stability("inverted", limits.inverted, limits.launch))
     reason = "a uniform ball has no preferred one" if limits.group == "neutral" else " and ".join(reasons)
-    return f"Launched at {spin(launch)} it will {will}{doubt}: {reason}."
+    return f"Launched at {spin(launch)}{exactly} it will {will}{doubt}: {reason}."
