@@ -151,7 +151,7 @@ class Builder(param.Parameterized):
     def __init__(self, explorer, request=None):
         super().__init__()
         self._explorer, self._request = explorer, request or explorer.param.update
-        self._publish(_draft(explorer.shape))
+        self._publish(_draft(explorer.shape, self._present))
 
     def set(self, name, value):
         """One dimension, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
@@ -204,11 +204,11 @@ class Builder(param.Parameterized):
 
     def choose(self, name):
         """The preset of this name, thrown anew."""
-        self._adopt(next(preset.shape for preset in PRESETS if preset.name == name))
+        self._take(next(preset for preset in PRESETS if preset.name == name))
 
     def choose_family(self, family):
         """The first preset of a family, thrown anew."""
-        self._adopt(next(preset.shape for preset in PRESETS if FAMILIES[type(preset.shape)][0] == family))
+        self._take(next(preset for preset in PRESETS if FAMILIES[type(preset.shape)][0] == family))
 
     def load(self, text):
         """The body in a file that save() wrote, thrown anew."""
@@ -220,8 +220,9 @@ class Builder(param.Parameterized):
 
     def follow(self):
         """Shows the body that the Explorer was given by something else."""
-        if self._explorer.shape != self.draft.shape:
-            self._publish(_draft(self._explorer.shape))
+        now = _draft(self._explorer.shape, self._present)
+        if (now.shape, now.name) != (self.draft.shape, self.draft.name):
+            self._publish(now)
 
     def save(self):
         """The body as the text of a small JSON file."""
@@ -247,8 +248,15 @@ class Builder(param.Parameterized):
     @property
     def attached(self):
         """Whether the Explorer's a, I1 and I3 are the body's."""
-        explorer = self._explorer
-        return fits(self.draft.shape, Top(explorer.a, explorer.I1, explorer.I3))
+        return fits(self.draft.shape, self._present)
+
+    @property
+    def _present(self):
+        """The Explorer's top."""
+        return Top(self._explorer.a, self._explorer.I1, self._explorer.I3)
+
+    def _take(self, preset):
+        self._adopt(preset.shape, top=preset.top)
 
     def _try(self, name, make, motion=None):
         try:
@@ -262,10 +270,10 @@ class Builder(param.Parameterized):
     def _refuse(self, name, error):
         self._publish(replace(self.draft, messages=MappingProxyType({name: sentence(error)})))
 
-    def _adopt(self, shape, motion=None):
-        self._publish(_draft(shape))
-        top = shape.top
-        K_J, K_R = (motion or thrown)(shape)
+    def _adopt(self, shape, motion=None, top=None):
+        top = top or shape.top
+        self._publish(_draft(shape, top))
+        K_J, K_R = motion(shape) if motion else thrown(shape, top)
         self._request(shape=shape, a=top.a, I1=top.I1, I3=top.I3, K_J=K_J, K_R=K_R)
 
     def _publish(self, draft):
@@ -285,9 +293,9 @@ class Builder(param.Parameterized):
         return float(share * pole_constants(shape.top, K_R)[0]), float(K_R)
 
 
-def thrown(shape):
+def thrown(shape, top=None):
     """(K_J, K_R) of the throw that a new body is given."""
-    spin, top = THROWN_SPIN * shape.scales.time, shape.top
+    spin, top = THROWN_SPIN * shape.scales.time, top or shape.top
     if top.a < 0:
         constants = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, spin)
         return float(constants.K_J), float(constants.K_R)
@@ -295,10 +303,11 @@ def thrown(shape):
     return float(THROWN_SHARE * pole_constants(top, K_R)[0]), float(K_R)
 
 
-def _draft(shape):
-    known = next((preset for preset in PRESETS if preset.shape == shape), None)
-    if known is None:
+def _draft(shape, top):
+    known = [preset for preset in PRESETS if preset.shape == shape]
+    if not known:
         return Draft(shape=shape)
+    known = next((preset for preset in known if preset.top == top), known[-1])
     return Draft(shape=shape, name=known.name, source=listed("workshop.presets")[known.name]["source"])
 
 

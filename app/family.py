@@ -61,8 +61,10 @@ def share_map(I1, K_R, mu_s, a, ratio):
 
 
 def presets():
-    """[(name, Top, K_R)]: every preset, thrown as a new body is."""
-    return [(named(preset.name), preset.shape.top, thrown(preset.shape)[1]) for preset in PRESETS]
+    """[(name, Top, K_R)]: every preset, thrown as a new body is; of two with one shape the first."""
+    first = {preset.shape: preset for preset in reversed(PRESETS)}
+    return [(named(preset.name), preset.top, thrown(preset.shape, preset.top)[1])
+            for preset in PRESETS if first[preset.shape] is preset]  # fmt: skip
 
 
 def pegs():

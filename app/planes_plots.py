@@ -26,6 +26,7 @@ BUCKETS, LEDGER_POINTS, BEAD_POINTS, WELL_POINTS = 500, 500, 4000, 361
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
 MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
 NEAR = 0.035  # of the map's width: a click so near to a known top is meant for it
+SAME = 1e-3  # two tops so near each other on the map are one mark
 
 # Moves the time lines and the bead in the browser; not synced, so playing sends nothing to the server.
 FOLLOW_CLOCK = """
@@ -288,7 +289,9 @@ class Map:
         # a top far to the left stands at the edge, with its place beside its name
         self.known, marks, taken = {}, [], []
         for body in BODIES:
-            top = body.shape.top
+            top = body.top
+            if any(np.hypot(top.a - a, top.I1 / top.I3 - ratio) < SAME for a, ratio in self.known.values()):
+                continue
             inside = top.a > left
             place = self.known[body.name] = (top.a if inside else left + 0.03, top.I1 / top.I3)
             name = named(body.name)

@@ -18,8 +18,8 @@ ROUNDING = 1e-7
 # So many spells on ball, stem or both are told one by one. A tilt whose least and largest change by less than STEADY
 # (rad) between the halves of the last fifth neither rises nor falls.
 MOST_SPELLS, STEADY = 5, np.radians(0.5)
-# A nudge of the start that grows so many times makes of the tenth of a degree that no hand holds twenty degrees.
-SCATTERS, HAND = 200.0, 0.1
+# A nudge of the start that grows so many times makes of the tenth of a degree that no hand holds ten degrees.
+SCATTERS, HAND = 100.0, 0.1
 
 
 def power(value):
@@ -137,7 +137,7 @@ def _touched(picture, motion):
         said[0] += say("planes.spells.thrown")
     left_out = len(told) - MOST_SPELLS
     if left_out > 1:
-        said[3 : 3 + left_out] = [say("planes.spells.between", number=left_out, end=told[2 + left_out][1])]
+        said[3 : 3 + left_out] = [say("planes.spells.between", end=told[2 + left_out][1])]
     return say("planes.spells.said", spells=say("planes.spells.comma").join(said))
 
 

@@ -57,6 +57,18 @@ def test_the_first_visit_is_the_papers_rounded_top_in_the_body_of_appendix_A(exp
     assert np.any(np.all(np.isclose(scene.profile, [0.32 / 1.6, 0.82 / 1.6]), axis=1))
 
 
+def test_the_papers_top_is_one_wherever_it_is_chosen_and_what_its_lengths_give_has_a_name_of_its_own(explorer, builder):
+    builder.choose("Top S")
+    builder.choose("The paper's tippe top")
+    assert explorer.scene.top == Top.paper() and explorer.scene.shape == TruncatedSphere.paper()
+    builder.choose("Appendix A's shape, a = 0.0698")
+    assert explorer.scene.top == TruncatedSphere.paper().top and round(explorer.scene.top.a, 4) == 0.0698
+    assert builder.draft.name == "Appendix A's shape, a = 0.0698"
+    explorer.param.update(a=0.070, I1=0.399, I3=0.408)  # as an undo does
+    builder.follow()
+    assert builder.draft.name == "The paper's tippe top"
+
+
 def test_a_dimension_is_one_event_and_the_explorer_follows(explorer, builder):
     drafts, scenes = watch(builder, "draft"), watch(explorer, "scene")
     builder.set("l", 0.010)
@@ -86,7 +98,7 @@ def test_presets(explorer, builder, preset):
     assert len(drafts) == 1 and (drafts[0].name, drafts[0].source) == (preset.name, preset.source)
     scene = explorer.scene
     assert len(scenes) == 1 and not scene.messages
-    assert scene.top == preset.shape.top and scene.shape == preset.shape and scene.scales == preset.shape.scales
+    assert scene.top == preset.top and scene.shape == preset.shape and scene.scales == preset.shape.scales
     # The spin stays what the paper's top has at K_R = 10 (physics.md: 34.7 cycles/s), and the table carries the motion.
     assert scene.upright_spin * scene.scales.angular_velocity / (2 * np.pi) == pytest.approx(34.7, abs=0.05) or (
         preset.shape.com > 0
@@ -400,7 +412,7 @@ def test_fig_5_of_a_region_is_the_papers():
 
 def test_compare_draws_both_figures_on_common_axes(explorer):
     compare = Compare(explorer)
-    for family, tops in (("pegs", 5), ("presets", len(PRESETS)), ("a", 5)):
+    for family, tops in (("pegs", 5), ("presets", len({preset.shape for preset in PRESETS})), ("a", 5)):
         compare.family.value = family
         drawn = [[pane.object for pane in pair] for pair in compare.rows[0]]
         assert len(drawn) == tops

@@ -11,8 +11,8 @@ from app.builder import FAMILIES, Builder, sentence
 from app.explorer import Explorer
 from app.planes import PRESETS as STARTS
 from app.planes import THROWN
+from app.planes_words import outcome_words
 from app.text import LANGUAGES, _patterns, listed, say
-from app.three_planes import outcome_words
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide
 from tippe_core.contacts import change
 
@@ -72,7 +72,7 @@ def test_every_body_and_start_has_a_name(language):
     assert [*listed("planes.presets", language)] == [*STARTS]
     # a choice is by its name: no two alike
     for names in ([body["name"] for body in bodies.values()], listed("planes.presets", language).values()):
-        assert len({*names}) == len(PRESETS)
+        assert len({*names}) == len([*names])
     if language == "en":
         assert [(name, body["source"]) for name, body in bodies.items()] == [
             (preset.name, preset.source) for preset in PRESETS]  # fmt: skip

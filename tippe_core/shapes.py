@@ -527,18 +527,23 @@ def dimension_from_rocking(family: Callable[[float], Shape], *, T, low, high, g=
 
 @dataclass(frozen=True)
 class Preset:
-    """A shape with a name for a menu and where it comes from."""
+    """A shape with a name for a menu and where it comes from; stated: its Top where that is told beside its lengths."""
 
     name: str
     shape: Shape
     source: str
+    stated: Top | None = None
+
+    @property
+    def top(self):
+        return self.stated or self.shape.top
 
 
 PRESETS = (
     Preset(
         "The paper's tippe top", TruncatedSphere.paper(),
-        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7. The paper rounds it to a = 0.070, "
-        "I1 = 0.399, I3 = 0.408 (Top.paper())."),
+        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7: a = 0.070, I1 = 0.399, I3 = 0.408 "
+        "(Top.paper()), in the body whose lengths are given there.", Top.paper()),
     Preset(
         "Top S", BareSphere(R=0.02, M=0.02, a=0.3, I1=131 / 350, I3=2 / 5),
         "Simulations of the tippe top by Rauch-Wojciechowski and Rutstam (N. Rutstam, arXiv:1306.2470), with "
@@ -564,6 +569,10 @@ PRESETS = (
             R=0.005, density=700.0,
             points=((0.005, 0.0), (0.018, 0.010), (0.022, 0.016), (0.018, 0.021), (0.004, 0.024), (0.003, 0.045))),
         "Dimensions our own: a turned wooden top whose points can be dragged."),
+    Preset(
+        "Appendix A's shape, a = 0.0698", TruncatedSphere.paper(),
+        "The same body with what its lengths give, not rounded: a = 0.0698, I1 = 0.3991, I3 = 0.4081. Where the stem "
+        "touches, so small a difference may decide where a motion ends."),
 )  # fmt: skip
 
 
