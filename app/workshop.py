@@ -316,15 +316,25 @@ class Pieces:
 
 
 class TopFile(pmui.FileInput):
-    """Counts the files that the browser refused because they are too large; the base class has no word for them."""
+    """Counts the files that were refused because they are too large; the base class has no word for them, and takes as
+    many as are sent, of any size. Of this one's each comes whole."""
 
     refused = param.Integer(default=0)
+    _sent = None  # until the browser says that this is all
 
     def _handle_msg(self, msg):
-        if msg["status"] == "error":
+        status = msg["status"]
+        if status == "upload_event":
+            self._sent = msg
+        elif status == "finished" and self._sent:
+            sent, self._sent = self._sent, None
+            if isinstance(sent["data"], bytes | memoryview) and len(sent["data"]) <= LARGEST_FILE:
+                self.param.update(value=bytes(sent["data"]), filename=sent["name"], mime_type=sent["mime_type"])
+            else:
+                self.refused += 1
+            self._send_msg({"status": "finished"})
+        elif status == "error":
             self.refused += 1
-        else:
-            super()._handle_msg(msg)
 
 
 class Workshop:

@@ -17,7 +17,8 @@ import yaml
 from visiting import free_port
 from wire import Closed, Visitor, answers, get, run, served, until
 
-from app.server import Budget, Door, Refused, look_at
+from app.door import Budget, Door
+from app.messages import Refused, look_at
 from app.settings import Settings
 
 ROOT = Path(__file__).parent.parent

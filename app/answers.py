@@ -1,0 +1,163 @@
+"""What is answered over HTTP: the page, where it is, whether the server lives, and files; with the headers of all."""
+
+import json
+import logging
+import os
+import re
+import secrets
+import sys
+
+from panel.io.server import ComponentResourceHandler, DocHandler
+from tornado.web import HTTPError, RequestHandler
+
+from app import text
+from app.sockets import in_english
+
+log = logging.getLogger("tippe")
+
+PIECE = 64 * 1024  # bytes of a static file
+
+
+HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "same-origin",  # the address holds what a person set
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=(), payment=(), usb=()",
+}
+# BokehJS makes functions of the page's CustomJS, and Panel imports a component's code from a blob.
+POLICY = (
+    "default-src 'none'; script-src 'self' 'nonce-{nonce}' 'unsafe-eval' blob:; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws://{host} wss://{host} blob: data:; "
+    "worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames}"
+)
+# While the page waits for its turn, and where it is not let in.
+WAITING = """
+<div id="waiting" role="status" style="display:none;position:fixed;inset:auto 10% 24px;text-align:center;z-index:9999;
+font:16px/1.5 system-ui,sans-serif;color:#22303c;background:white;border-radius:8px;padding:8px"></div>
+<script>
+(() => {
+  const words = document.getElementById("waiting")
+  const say = (text) => { words.textContent = text; words.style.display = "block" }
+  const here = () => window.Bokeh?.documents?.length > 0
+  setTimeout(() => here() || say(MADE), 3000)
+  addEventListener("unhandledrejection", () => {
+    if (here()) return
+    say(BUSY)
+    setTimeout(() => location.reload(), 5000 + 5000 * Math.random())
+  })
+  const look = setInterval(() => { if (here()) { words.remove(); clearInterval(look) } }, 200)
+})()
+</script>
+"""
+PLAIN = """<!doctype html><html lang="{lang}"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>{title}</title>{again}
+<p style="font: 18px/1.5 system-ui, sans-serif; margin: 20vh 10vw; color: #22303c">{sentence}</p></html>"""
+
+
+def policy(request, settings, nonce=""):
+    host = request.host if re.fullmatch(r"[\w.:\[\]-]{1,260}", request.host) else ""
+    text = POLICY.format(nonce=nonce, host=host, frames=settings.frames)
+    return text if host else text.replace(" ws:// wss://", "")
+
+
+class Handler(RequestHandler):
+    """Of this project's few plain answers."""
+
+    @property
+    def tippe(self):
+        return self.application.tippe
+
+    @property
+    def language(self):
+        """The one of the address, else the one that this browser prefers."""
+        asked = self.request.query_arguments.get("lang", [b""])[-1].decode(errors="replace")
+        return asked if asked in text.LANGUAGES else text.preferred(self.request.headers.get("Accept-Language", ""))
+
+    def words(self, name):
+        return text.say(f"main.server.{name}", self.language)
+
+    def say(self, status, sentence, again=0):
+        """A page with one sentence."""
+        self.set_status(status)
+        self.set_header("Content-Type", "text/html; charset=utf-8")
+        self.set_header("Cache-Control", "no-store")
+        self.set_header("Content-Security-Policy", policy(self.request, self.tippe))
+        if again:
+            self.set_header("Retry-After", str(again))
+        refresh = f'<meta http-equiv="refresh" content="{again}">' if again else ""
+        title = text.say("main.title", self.language)
+        self.finish(PLAIN.format(lang=self.language, title=title, sentence=sentence, again=refresh))
+
+
+class Page(Handler, DocHandler):
+    """The page, from one template session: a visitor's own is made when his browser opens the socket."""
+
+    async def get(self, *arguments, **named):
+        if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
+            Root.get(self)
+            return
+        if not self.tippe.lets(self.request.host):
+            log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
+            self.say(403, self.words("stranger"))
+            return
+        refusal = self.application.door.refusal(self.request.remote_ip)
+        if refusal:
+            log.warning("refused %s a page: %s", self.request.remote_ip, in_english(refusal))
+            self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
+            return
+        self.nonce = secrets.token_urlsafe(16)
+        self.set_header("Content-Security-Policy", policy(self.request, self.tippe, self.nonce))
+        await super().get(*arguments, **named)
+
+    def write(self, chunk):
+        if isinstance(chunk, str) and "</body>" in chunk:
+            before, after = chunk.rsplit("</body>", 1)
+            waiting = WAITING
+            for name in ("made", "busy"):
+                waiting = waiting.replace(name.upper(), json.dumps(self.words(name)))
+            chunk = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.nonce}"', f"{before}{waiting}</body>{after}")
+        super().write(chunk)
+
+
+class Root(Handler):
+    """Where the page is, for who asks for the server alone."""
+
+    def get(self):
+        self.redirect(f"{self.tippe.prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
+
+
+class Liveness(Handler):
+    """For the health checks of containers, and how full it is."""
+
+    def get(self):
+        self.set_header("Cache-Control", "no-store")
+        self.write({"live": True, "sessions": len(self.application.door.sessions)})
+
+
+class Component(ComponentResourceHandler):
+    """Panel's would import any module that a visitor names."""
+
+    def parse_url_path(self, path):
+        if path.split("/")[0] not in sys.modules:
+            raise HTTPError(404)
+        return super().parse_url_path(path)
+
+
+def in_pieces(get_content):
+    """tornado's method that reads a static file, with the file open for each piece anew: else a connection that reads
+    slowly would be two open files."""
+
+    def read(cls, path, start=None, end=None):
+        start, end = start or 0, os.path.getsize(path) if end is None else end
+        for at in range(start, end, PIECE):
+            yield b"".join(get_content(path, at, min(at + PIECE, end)))
+
+    return classmethod(read)
+
+
+def set_default_headers(handler):
+    for name, value in HEADERS.items():
+        handler.set_header(name, value)
+    handler.clear_header("Server")
+
+

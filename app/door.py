@@ -1,0 +1,149 @@
+"""Who may come in, and how much of the server's own thread each session takes."""
+
+import asyncio
+import inspect
+import time
+import types
+from collections import Counter, OrderedDict, deque
+from contextlib import contextmanager
+
+from tornado.ioloop import IOLoop
+
+SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a quiet one has saved up
+LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
+
+
+class Door:
+    """Counts sessions, and has them made one at a time, in turn among the addresses that ask."""
+
+    def __init__(self, settings):
+        self.settings, self.sessions = settings, {}  # Bokeh's own, by id
+        self.open = Counter()  # sessions and waiting ones, by address
+        self.known, self.gone = set(), 0  # ids of the sessions that tidy() saw, and how many went since it tidied
+        self._waiting = OrderedDict()  # address -> deque of futures
+        self._busy = False
+
+    def refusal(self, address):
+        """Why not, a key of [server] in main.toml; None where there is room."""
+        if len(self.sessions) + sum(map(len, self._waiting.values())) >= self.settings.sessions:
+            return "full"
+        if self.open[address] >= self.settings.sessions_per_address:
+            return "crowded"
+        return None
+
+    def enter(self, address):
+        self.open[address] += 1
+
+    def leave(self, address):
+        self.open[address] -= 1
+        if self.open[address] <= 0:
+            del self.open[address]
+
+    async def turn(self, address):
+        """Returns when it is this one's turn; the next waits for done()."""
+        if not self._busy:
+            self._busy = True
+            return
+        mine = asyncio.get_running_loop().create_future()
+        self._waiting.setdefault(address, deque()).append(mine)
+        await mine
+
+    def done(self, took):
+        """Those inside are served before the next is made."""
+        IOLoop.current().call_later(took / 4, self._next)
+
+    def _next(self):
+        if not self._waiting:
+            self._busy = False
+            return
+        address, queue = self._waiting.popitem(last=False)
+        mine = queue.popleft()
+        if queue:
+            self._waiting[address] = queue  # behind the others
+        mine.set_result(None)
+
+
+class Budget:
+    """A session's share of the processor: who is over it waits, and while he waits nothing is read from him."""
+
+    _running = None  # the one whose work is being done; there is one thread
+
+    def __init__(self):
+        self.left, self.at, self.spent, self.told = SAVED, time.monotonic(), 0.0, False
+        self._since = 0.0
+
+    def spend(self, seconds):
+        """Counts s of the processor."""
+        now = time.monotonic()
+        self.left = min(SAVED, self.left + SHARE * (now - self.at)) - seconds
+        self.at, self.spent = now, self.spent + seconds
+
+    def wait(self):
+        """s to wait after a message."""
+        seconds, self.spent = max(0.0, min(-self.left / SHARE, LONGEST_WAIT + self.spent)), 0.0
+        return seconds
+
+    @contextmanager
+    def work(self):
+        """Counts what is done inside: once, and without what is counted to another."""
+        outer = Budget._running
+        self._change(outer, self)
+        try:
+            yield
+        finally:
+            self._change(self, outer)
+
+    @staticmethod
+    def _change(before, after):
+        now = time.thread_time()  # of this thread: runs beside it are others'
+        if before is not None:
+            before.spend(now - before._since)
+        if after is not None:
+            after._since = now
+        Budget._running = after
+
+    async def steps(self, coroutine):
+        """Awaits a coroutine and counts its own steps, not what others do between them."""
+        return await self._stepping(coroutine)
+
+    @types.coroutine
+    def _stepping(self, coroutine):
+        step, value = coroutine.send, None
+        while True:
+            try:
+                with self.work():
+                    awaited = step(value)
+            except StopIteration as end:
+                return end.value
+            try:
+                step, value = coroutine.send, (yield awaited)
+            except GeneratorExit:
+                coroutine.close()
+                raise
+            except BaseException as error:
+                step, value = coroutine.throw, error
+
+
+def budget(session):
+    """The one of a Bokeh session."""
+    if not hasattr(session, "budget"):
+        session.budget = Budget()
+    return session.budget
+
+
+def counted(wrap):
+    """Bokeh's method that readies what a session is to do later, at the next tick or after some time: with what that
+    costs put on the session's budget, whether it waits for the document's lock or, as Panel's own answers, does not."""
+
+    def wrap_and_count(session, callback):
+        ready = wrap(session, callback)
+
+        def work(*arguments, **named):
+            mine = budget(session)
+            with mine.work():
+                result = ready(*arguments, **named)
+            return mine.steps(result) if inspect.iscoroutine(result) else result
+
+        return work
+
+    return wrap_and_count
