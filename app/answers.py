@@ -6,8 +6,12 @@ import os
 import re
 import secrets
 import sys
+import time
 
-from panel.io.server import ComponentResourceHandler, DocHandler
+from bokeh.server.views.session_handler import SessionHandler
+from bokeh.util.token import generate_jwt_token, generate_session_id
+from panel.io.resources import Resources
+from panel.io.server import ComponentResourceHandler, server_html_page_for_session
 from tornado.web import HTTPError, RequestHandler
 
 from app import text
@@ -89,8 +93,33 @@ class Handler(RequestHandler):
         self.finish(PLAIN.format(lang=self.language, title=title, sentence=sentence, again=refresh))
 
 
-class Page(Handler, DocHandler):
-    """The page, from one template session: a visitor's own is made when his browser opens the socket."""
+class Sheet:
+    """The page as all get it, written once in each language; what each visitor has of his own is put into it."""
+
+    TOKEN, NONCE = secrets.token_hex(), secrets.token_hex()  # stand in for them
+
+    def __init__(self, session, resources):
+        document = session.document
+        html = server_html_page_for_session(
+            session, Resources.from_bokeh(resources), document.title, token=self.TOKEN, template=document.template,
+            template_variables=document.template_variables)  # fmt: skip
+        before, after = html.rsplit("</body>", 1)
+        html = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', f"{before}{WAITING}</body>{after}")
+        self._pages = {}
+        for language in text.LANGUAGES:
+            self._pages[language] = html
+            for name in ("made", "busy"):
+                words = json.dumps(text.say(f"main.server.{name}", language))
+                self._pages[language] = self._pages[language].replace(name.upper(), words)
+
+    def page(self, language, token, nonce):
+        """For one visitor."""
+        return self._pages[language].replace(self.NONCE, nonce).replace(self.TOKEN, token)
+
+
+class Page(Handler, SessionHandler):
+    """The page, from one template session: a visitor's own is made when his browser opens the socket. Pages are given
+    out one at a time, in turn among the addresses that ask."""
 
     async def get(self, *arguments, **named):
         if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
@@ -100,23 +129,37 @@ class Page(Handler, DocHandler):
             log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
             self.say(403, self.words("stranger"))
             return
-        refusal = self.application.door.refusal(self.request.remote_ip)
+        door, address = self.application.door, self.request.remote_ip
+        hurried = door.pages.waiting(address) >= self.tippe.sessions_per_address
+        refusal = "hurried" if hurried else door.refusal(address)
         if refusal:
-            log.warning("refused %s a page: %s", self.request.remote_ip, in_english(refusal))
+            log.warning("refused %s a page: %s", address, in_english(refusal))
             self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
             return
-        self.nonce = secrets.token_urlsafe(16)
-        self.set_header("Content-Security-Policy", policy(self.request, self.tippe, self.nonce))
-        await super().get(*arguments, **named)
+        await door.pages.turn(address)
+        start = time.monotonic()
+        try:
+            nonce = secrets.token_urlsafe(16)
+            self.set_header("Cache-Control", "no-store")  # it holds the token of one session
+            self.set_header("Content-Type", "text/html; charset=utf-8")
+            self.set_header("Content-Security-Policy", policy(self.request, self.tippe, nonce))
+            self.finish(self.application.sheet.page(self.language, self._token(), nonce))
+        finally:
+            door.pages.done(time.monotonic() - start)
 
-    def write(self, chunk):
-        if isinstance(chunk, str) and "</body>" in chunk:
-            before, after = chunk.rsplit("</body>", 1)
-            waiting = WAITING
-            for name in ("made", "busy"):
-                waiting = waiting.replace(name.upper(), json.dumps(self.words(name)))
-            chunk = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.nonce}"', f"{before}{waiting}</body>{after}")
-        super().write(chunk)
+    head = get
+
+    def _token(self):
+        """What opens a session, with what its page is made of."""
+        app, request = self.application, self.request
+        headers = {name: value for name, value in request.headers.items() if name in app.include_headers}
+        return generate_jwt_token(
+            generate_session_id(secret_key=app.secret_key, signed=app.sign_sessions),
+            secret_key=app.secret_key, signed=app.sign_sessions, expiration=app.session_token_expiration,
+            extra_payload={"headers": headers, "cookies": {}, "arguments": request.arguments})  # fmt: skip
+
+    def compute_etag(self):
+        """None: no two are the same."""
 
 
 class Root(Handler):
@@ -125,6 +168,8 @@ class Root(Handler):
     def get(self):
         self.redirect(f"{self.tippe.prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
 
+    head = get
+
 
 class Liveness(Handler):
     """For the health checks of containers, and how full it is."""
@@ -132,6 +177,8 @@ class Liveness(Handler):
     def get(self):
         self.set_header("Cache-Control", "no-store")
         self.write({"live": True, "sessions": len(self.application.door.sessions)})
+
+    head = get
 
 
 class Component(ComponentResourceHandler):
@@ -156,8 +203,16 @@ def in_pieces(get_content):
 
 
 def set_default_headers(handler):
+    """tornado's hook, of all handlers."""
     for name, value in HEADERS.items():
         handler.set_header(name, value)
+    handler.set_header("Content-Security-Policy", policy(handler.request, handler.application.tippe))
     handler.clear_header("Server")
 
 
+def write_error(handler, status, **more):
+    """tornado's hook, of all handlers: what went wrong in one line."""
+    handler.set_header("Content-Type", "text/plain; charset=utf-8")
+    if status == 405:
+        handler.set_header("Allow", "GET" if type(handler).head is RequestHandler.head else "GET, HEAD")
+    handler.finish(f"{status} {handler._reason}\n")

@@ -13,31 +13,16 @@ SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a 
 LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
 
 
-class Door:
-    """Counts sessions, and has them made one at a time, in turn among the addresses that ask."""
+class Turns:
+    """Has things made one at a time, in turn among the addresses that ask. pause: after each, for those inside to be
+    served, in so many times what it took."""
 
-    def __init__(self, settings):
-        self.settings, self.sessions = settings, {}  # Bokeh's own, by id
-        self.open = Counter()  # sessions and waiting ones, by address
-        self.known, self.gone = set(), 0  # ids of the sessions that tidy() saw, and how many went since it tidied
-        self._waiting = OrderedDict()  # address -> deque of futures
-        self._busy = False
+    def __init__(self, pause):
+        self._pause, self._waiting, self._busy = pause, OrderedDict(), False  # address -> deque of futures
 
-    def refusal(self, address):
-        """Why not, a key of [server] in main.toml; None where there is room."""
-        if len(self.sessions) + sum(map(len, self._waiting.values())) >= self.settings.sessions:
-            return "full"
-        if self.open[address] >= self.settings.sessions_per_address:
-            return "crowded"
-        return None
-
-    def enter(self, address):
-        self.open[address] += 1
-
-    def leave(self, address):
-        self.open[address] -= 1
-        if self.open[address] <= 0:
-            del self.open[address]
+    def waiting(self, address=None):
+        """How many wait; from an address."""
+        return sum(map(len, self._waiting.values())) if address is None else len(self._waiting.get(address, ()))
 
     async def turn(self, address):
         """Returns when it is this one's turn; the next waits for done()."""
@@ -50,7 +35,7 @@ class Door:
 
     def done(self, took):
         """Those inside are served before the next is made."""
-        IOLoop.current().call_later(took / 4, self._next)
+        IOLoop.current().call_later(took * self._pause, self._next)
 
     def _next(self):
         if not self._waiting:
@@ -61,6 +46,32 @@ class Door:
         if queue:
             self._waiting[address] = queue  # behind the others
         mine.set_result(None)
+
+
+class Door:
+    """Counts sessions and pages, and lets them be made in turn."""
+
+    def __init__(self, settings):
+        self.settings, self.sessions = settings, {}  # Bokeh's own, by id
+        self.open = Counter()  # sessions and waiting ones, by address
+        self.known, self.gone = set(), 0  # ids of the sessions that tidy() saw, and how many went since it tidied
+        self.making, self.pages = Turns(pause=0.25), Turns(pause=4)
+
+    def refusal(self, address):
+        """Why not, a key of [server] in main.toml; None where there is room."""
+        if len(self.sessions) + self.making.waiting() >= self.settings.sessions:
+            return "full"
+        if self.open[address] >= self.settings.sessions_per_address:
+            return "crowded"
+        return None
+
+    def enter(self, address):
+        self.open[address] += 1
+
+    def leave(self, address):
+        self.open[address] -= 1
+        if self.open[address] <= 0:
+            del self.open[address]
 
 
 class Budget:

@@ -127,9 +127,11 @@ TAB = Value("the number of a tab", lambda value, of: type(value) is int and 0 <=
 
 SIZES = {name: NUMBER for name in ("inner_width", "inner_height", "outer_width", "outer_height")}
 RANGE = {"start": NUMBER | NONE, "end": NUMBER | NONE}
-PICTURE = {"time": NUMBER, "playing": FLAG, "speed": number(0, 100), "tilted": row(NUMBER, NUMBER, COUNT, or_none=True),
+ANGLE, SIZE = number(0, 4), number(-1e6, 1e6)  # rad; no input is larger
+PICTURE = {"time": SIZE, "playing": FLAG, "speed": number(0, 100), "tilted": row(ANGLE, SIZE, COUNT, or_none=True),
            "camera": row(NUMBER, NUMBER, NUMBER, or_none=True)}  # fmt: skip
-POINT = {"hand": row(SHORT, NUMBER, NUMBER, or_none=True), "picked": row(NUMBER, NUMBER, or_none=True)}
+POINT = {"hand": row(one_of("end", "line", "point"), ANGLE, SIZE, or_none=True),
+         "picked": row(SIZE, ANGLE, or_none=True)}  # fmt: skip
 
 # Of a class of models, its attributes that the browser changes.
 CHANGES = {

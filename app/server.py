@@ -42,7 +42,7 @@ from tornado.netutil import bind_sockets
 from tornado.web import RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError
 
-from app.answers import Component, Liveness, Page, Root, in_pieces, set_default_headers
+from app.answers import Component, Liveness, Page, Root, Sheet, in_pieces, set_default_headers, write_error
 from app.arrivals import Arrivals, most_files
 from app.door import Door, counted
 from app.sockets import LARGEST_FRAGMENT, TOKEN_LASTS, Socket, failure, note
@@ -61,7 +61,7 @@ def serve(settings, sockets, parent=None):
     """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
-    RequestHandler.set_default_headers = set_default_headers
+    RequestHandler.set_default_headers, RequestHandler.write_error = set_default_headers, write_error
     StaticFileHandler.get_content = in_pieces(StaticFileHandler.get_content)
     # Private: if another Bokeh has none, the server does not start.
     ServerSession._wrap_document_callback = counted(ServerSession._wrap_document_callback)
@@ -70,9 +70,7 @@ def serve(settings, sockets, parent=None):
     static = [(pattern, Component if handler is ComponentResourceHandler else handler, *more)
               for pattern, handler, *more in get_static_routes({})]  # fmt: skip
     apps = {"/app": build_single_handler_application(Path(__file__).parent)}
-    warm(apps["/app"], settings)
-    gc.collect()
-    gc.freeze()  # what all sessions share stays: looking through it again took a fifth of the making of each
+    template = warm(apps["/app"])
     tornado = BokehTornado(
         apps,
         prefix=settings.prefix,
@@ -93,6 +91,10 @@ def serve(settings, sockets, parent=None):
     context = tornado.applications["/app"]
     tornado.tippe, tornado.door = settings, Door(settings)
     tornado.door.sessions = context._sessions
+    tornado.sheet = Sheet(template, tornado.resources())
+    _cleanup_doc(template.document, destroy=False)
+    gc.collect()
+    gc.freeze()  # what all sessions share stays: looking through it again took a fifth of the making of each
     idle = IDLE_PROXY if settings.proxy else IDLE
     http = HTTPServer(tornado, xheaders=bool(settings.proxy), max_body_size=LARGEST_FRAGMENT,
                       max_header_size=32 * 1024, idle_connection_timeout=idle, body_timeout=idle)  # fmt: skip
@@ -155,19 +157,15 @@ def tidy(door):
         gc.freeze()
 
 
-def warm(application, settings):
+def warm(application):
     """One session that is the template of all pages, made before the first visitor comes."""
-    pn.config.reuse_sessions, pn.config.session_key_func = True, lambda request: "page"
     session = generate_session(application)
     reason = failure(application)
     if reason:
         raise SystemExit(reason)
     with set_curdoc(session.document):
-        pn.state._session_key_funcs[f"{settings.prefix}/app"] = pn.config.session_key_func
-        pn.state._sessions["page"] = session
-        session.block_expiration()
         pn.state._on_load(None)
-    _cleanup_doc(session.document, destroy=False)
+    return session
 
 
 def supervise(settings, sockets):

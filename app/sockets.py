@@ -118,7 +118,7 @@ class Socket(WSHandler):
             session = context.get_session(session_id)
             await budget(session).steps(session.with_document_locked(super()._async_open, token))
             return
-        await door.turn(address)
+        await door.making.turn(address)
         start = time.monotonic()
         try:
             if self.ws_connection is not None and not self.ws_connection.is_closing():
@@ -133,7 +133,7 @@ class Socket(WSHandler):
                 prepare(session.document)
                 await mine.steps(super()._async_open(token))
         finally:
-            door.done(time.monotonic() - start)
+            door.making.done(time.monotonic() - start)
 
     def get_websocket_protocol(self):
         """Tornado's, which ends a connection over too large a piece without a word in the log."""

@@ -17,7 +17,7 @@ import yaml
 from visiting import free_port
 from wire import Closed, Visitor, answers, get, run, served, until
 
-from app.door import Budget, Door
+from app.door import Budget, Turns
 from app.messages import Refused, look_at
 from app.settings import Settings
 
@@ -154,12 +154,12 @@ def test_which_names_the_server_goes_by(origins, host, lets):
 
 def test_sessions_are_made_in_turn_among_addresses():
     async def asked():
-        door, order = Door(Settings()), []
+        turns, order = Turns(0.25), []
 
         async def one(address):
-            await door.turn(address)
+            await turns.turn(address)
             order.append(address)
-            door.done(0)
+            turns.done(0)
 
         await asyncio.gather(*(one(address) for address in ["flood"] * 5 + ["b", "c"]))
         return order
