@@ -16,8 +16,10 @@ def run():
     except ValueError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
+    from app.classroom import DESK
     from app.server import main
 
+    DESK.keep(settings.votes, settings.votes_per_address)
     code = main(settings)
     logging.shutdown()
     os._exit(code)  # nothing is left to save, and taking all modules apart takes seconds

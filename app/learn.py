@@ -13,13 +13,14 @@ from app import lesson
 from app.cards import PLAIN, alert, card, grid, note, on_click, px, swatch, words
 from app.colours import COLOURS, GREY, INK
 from app.explorer import axes, outline
-from app.keep import Field, OneOf
+from app.keep import SECRET, Field, OneOf
 from app.lines import Derivation
 from app.plots import plain
+from app.poll import option, prediction
 from app.roll import show_top
 from app.runs import Run, Runs
 from app.surface3d import pack
-from app.teach import history_view, option, prediction, teach_view
+from app.teach import Key, history_view, teach_view
 from app.text import listed, say, told
 from app.top3d import REGIMES, Top3D, pack_frames
 from tippe_core import TopError
@@ -76,7 +77,8 @@ draw()
 def kept():
     """What of a Learn a link keeps."""
     return {"step": Field("step", OneOf(**{name: name for name in lesson.NAMES}), undoable=False),
-            "section": Field("learn", OneOf(**{name: name for name in SECTIONS}), undoable=False)}  # fmt: skip
+            "section": Field("learn", OneOf(**{name: name for name in SECTIONS}), undoable=False),
+            "room": Field(SECRET, Key, undoable=False)}  # fmt: skip
 
 
 def paragraphs(text):
@@ -211,11 +213,12 @@ class Learn(param.Parameterized):
     """The ten steps, and beside them the derivation, the teacher's page and the history.
 
     explorer, roll: where the runs are set up, by the same requests as the sliders'; runs: the page's Runs. What a link
-    keeps: step, section.
+    keeps: step, section, and of a vote that is open the teacher's key, room.
     """
 
     step = param.Selector(default=lesson.NAMES[0], objects=list(lesson.NAMES))
     section = param.Selector(default=SECTIONS[0], objects=list(SECTIONS))
+    room = param.String(default="")
 
     def __init__(self, explorer, roll, runs=None):
         super().__init__()
@@ -284,7 +287,7 @@ class Learn(param.Parameterized):
     def _look(self):
         """Shows the section; the teacher's page and the history are made when first looked at."""
         section = self.section
-        makers = {"teach": lambda: teach_view(self._explorer, self._runs), "history": history_view}
+        makers = {"teach": lambda: teach_view(self._explorer, self._runs, self), "history": history_view}
         if section in makers and section not in self._made:
             self._made[section] = makers[section]()
         self.pair.visible = section in self.places

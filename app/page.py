@@ -19,7 +19,7 @@ from app.planes import Planes
 from app.roll import Roll
 from app.runs import Runs, connected_to, to_session
 from app.share import Share
-from app.teach import student_page
+from app.student import student_page
 from app.text import say
 from app.three_planes import KEPT, ThreePlanes
 from app.workshop import Measure, Workshop

@@ -5,6 +5,8 @@ import os
 import re
 from dataclasses import dataclass, field, fields, replace
 
+from app.ballots import store
+
 
 def _setting(default, says, low=None, high=None):
     return field(default=default, metadata={"says": says, "from": low, "to": high})
@@ -25,6 +27,8 @@ class Settings:
     linger: int = _setting(30, "s that a session is kept after its page has gone", 1, 3600)
     proxy: int = _setting(0, "1: believe a proxy's X-Forwarded-For and -Proto", 0, 1)
     show: int = _setting(0, "1: open the page in this machine's browser", 0, 1)
+    votes: str = _setting("", "file or redis://host:6379/0 where votes are kept; without it, a file of this user's")
+    votes_per_address: int = _setting(250, "votes in one room from one address: a hall may be one", 1, 100_000)
     secret: str = _setting("", "what sessions are signed with; without it, new at each start")
     log: str = _setting("info", "how much is logged: debug, info, warning or error")
 
@@ -64,6 +68,10 @@ class Settings:
         ):
             if wrong:
                 raise ValueError(f"{called[name]} is {getattr(settings, name)!r}; allowed is {allowed}.")
+        try:
+            store(settings.votes, 1)
+        except ValueError as error:
+            raise ValueError(f"{called['votes']} is {settings.votes!r}; allowed is {error}.") from None
         return replace(settings, prefix="".join(f"/{part}" for part in path))
 
     @property

@@ -12,7 +12,7 @@ from panel.custom import JSComponent
 from app import export
 from app.cards import PLAIN, on_click, words
 from app.download import PLAIN_BUTTON, Download
-from app.keep import EXPLORER, Field, Keep, Number, Numbers, OneOf, usual
+from app.keep import EXPLORER, Field, Keep, Number, Numbers, OneOf, shared, usual
 from app.letter import letter
 from app.pacing import at_once
 from app.prints import FIGURES, caption, draw
@@ -229,8 +229,8 @@ class Share:
 
     @property
     def link(self):
-        """The address of the page as it is now."""
-        return self.address.page + self.keep.query
+        """The address of the page as it is now, for anybody."""
+        return self.address.page + shared(self.keep.query)
 
     def reload(self):
         """Loads the page anew, with its state; where that cannot be, with the last that could."""

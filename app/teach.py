@@ -1,7 +1,6 @@
-"""For teachers: links, plans, what goes wrong, the Olympiad's problem, the toy, and a vote; and the student's page."""
+"""For teachers: links, plans, what goes wrong, the Olympiad's problem, the toy, and a vote."""
 
 import re
-import secrets
 from itertools import pairwise
 from urllib.parse import quote
 
@@ -12,28 +11,19 @@ import segno
 from bokeh.models import ColumnDataSource, FactorRange, Range1d
 
 from app import lesson
+from app.ballots import Away
 from app.cards import PLAIN, alert, card, grid, note, on_click, px, words
-from app.classroom import MOST_VOTES, ROOMS, Refused
+from app.classroom import KEY, MOST_VOTES, Refused
 from app.colours import COLOURS
 from app.keep import EXPLORER
 from app.plots import plain
+from app.poll import Counter, asked_of, option, page_address, question_of, refusal, truth_of, unit
 from app.runs import Run
 from app.text import listed, say, told
 from tippe_core import Top, TopError
 
 BINS = 12
-LOOK_EVERY = 500  # ms
 QR_MODULE = 4
-
-
-def option(step, key):
-    """The words of an option; some steps have their own for the same key."""
-    return listed("learn.options").get(step.name, {}).get(key) or say(f"learn.options.{key}")
-
-
-def unit(asks):
-    """Of a Guess, as it is written here."""
-    return listed("learn.units").get(asks.unit, asks.unit)
 
 
 def link(step):
@@ -50,41 +40,35 @@ def bullets(items, ordered=False):
     return f"<{kind} style='margin: 4px 0; padding-left: 20px'>{''.join(f'<li>{item}</li>' for item in items)}</{kind}>"
 
 
-def prediction(step, asks, value=None):
-    """The widget for what a step asks, a Choice or a Guess."""
-    label = say("learn.page.yours")
-    if isinstance(asks, lesson.Choice):
-        options = {option(step, key): key for key in asks.options}
-        group = pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
-        group._allows_none = True  # else it takes the first by itself, when made and again, unseen, when drawn
-        group.value = value
-        return group
-    start = min(max(value, asks.low), asks.high) if value is not None else (asks.low + asks.high) / 2
-    return pmui.FloatSlider(label=f"{label}, {unit(asks)}" if asks.unit else label, start=asks.low, end=asks.high,
-                            step=asks.step, value=start, sizing_mode="stretch_width", margin=(4, 12),
-                            size="small")  # fmt: skip
+class Key:
+    """A teacher's, in his link."""
 
+    text = staticmethod(str)
 
-def page_address():
-    """Of this page, without a query."""
-    location = pn.state.location
-    return f"{location.protocol}//{location.hostname}{f':{location.port}' if location.port else ''}{location.pathname}"
+    @staticmethod
+    def value(text):
+        if not KEY.fullmatch(text):
+            raise ValueError(say("teach.vote.key"))
+        return text
 
 
 class Vote:
-    """The teacher's side of a vote: opens a room about a step on the present top, and shows its histogram."""
+    """The teacher's side of a vote: opens a room about a step on the present top, and shows its histogram.
 
-    def __init__(self, explorer, runs):
-        self._explorer, self._runs, self._room, self._finding = explorer, runs, None, None
-        self._callback = self._shown = None
+    kept: whose `room` is the key of the room, or ""; a link with the key opens the room again.
+    """
+
+    def __init__(self, explorer, runs, kept):
+        self._explorer, self._runs, self._kept = explorer, runs, kept
+        self._counter, self._room, self._finding = Counter(), None, None
         titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
         self.which = pmui.Select(label=say("teach.vote.which"), options=titles, value=lesson.NAMES[0], size="small",
                                  sizing_mode="stretch_width")  # fmt: skip
-        self.open = pmui.Button(label=say("teach.vote.open"), variant="contained", size="small", sx=PLAIN)
-        self.close = pmui.Button(label=say("teach.vote.close"), variant="outlined", size="small", sx=PLAIN,
-                                 visible=False)  # fmt: skip
-        self.answer = pmui.Button(label=say("teach.vote.answer"), variant="outlined", size="small", sx=PLAIN,
-                                  visible=False)  # fmt: skip
+        self.open, self.answer, self.close, self.again = (
+            pmui.Button(label=say(f"teach.vote.{name}"), variant="contained" if name == "open" else "outlined",
+                        size="small", sx=PLAIN, visible=name == "open")
+            for name in ("open", "answer", "close", "again")
+        )  # fmt: skip
         self.address, self.count, self.truth = words(""), words(say("teach.vote.shut")), words("")
         self.bars = ColumnDataSource({"x": [], "votes": []})
         self.range = FactorRange()
@@ -95,46 +79,101 @@ class Vote:
         on_click(self.open, lambda event: self._open())
         on_click(self.close, lambda event: self._close())
         on_click(self.answer, lambda event: self._answer())
-        if pn.state.curdoc:
-            pn.state.curdoc.on_session_destroyed(lambda context: self._forget())
+        on_click(self.again, lambda event: self._return())
+        if kept.room:
+            self._return()
 
     @property
     def view(self):
-        buttons = pn.Row(self.open, self.answer, self.close, sizing_mode="stretch_width", margin=0,
+        buttons = pn.Row(self.open, self.answer, self.close, self.again, sizing_mode="stretch_width", margin=0,
                          styles={"flex-wrap": "wrap"})  # fmt: skip
         histogram = pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0)
         explain = words(say("teach.vote.explain"))
-        return [explain, self.which, buttons, self.address, self.count, histogram, self.truth]
+        return [explain, self.which, buttons, self.count, histogram, self.truth, self.address]
 
-    def _plan(self):
-        step = lesson.STEPS[lesson.NAMES.index(self.which.value)]
-        return step, lesson.planned(step, self._explorer.scene, self._explorer.shape)
+    def _ask(self, work, done):
+        self.count.object = note(say("teach.vote.wait"))
+        self._counter.ask(work, done)
 
     def _open(self):
-        self._close()
-        step, self._planned = self._plan()
-        asks = step.asks(self._planned)
         try:
-            self._room = ROOMS.open(step, step.question(self._planned), asks)
-        except Refused as refused:
-            self.count.object = f"<div role='alert'>{say(f'teach.vote.{refused}')}</div>"
+            question = asked_of(lesson.STEPS[lesson.NAMES.index(self.which.value)], self._explorer)
+        except TopError as error:
+            self._say(alert(told(error)))
             return
-        address = f"{page_address()}?vote={self._room.code}"
+        before, address = self._kept.room, self._counter.address
+
+        def work(rooms):
+            if before:
+                rooms.close(before)
+            return rooms.open(address, **question)
+
+        def done(result):
+            if isinstance(result, Exception):
+                self._say(refusal("vote", result))
+            else:
+                room, self._kept.room = result
+                self._take(room)
+
+        self._ask(work, done)
+
+    def _return(self):
+        """To the room of the link."""
+        key = self._kept.room
+
+        def done(result):
+            self.again.visible = isinstance(result, Away)
+            if isinstance(result, Refused):
+                self._shut(refusal("vote", result))
+            elif isinstance(result, Away):
+                self._say(refusal("vote", result))
+            else:
+                self._take(result)
+
+        self._ask(lambda rooms: rooms.owned(key), done)
+
+    def _close(self):
+        key = self._kept.room
+
+        def done(result):
+            if isinstance(result, Exception):
+                self._say(refusal("vote", result))
+            else:
+                self._shut(say("teach.vote.shut"))
+
+        self._ask(lambda rooms: rooms.close(key), done)
+
+    def _take(self, room):
+        """The room that is open from now on."""
+        self._forget()
+        self._room, (self._step, self._asks) = room, question_of(room)
+        if self._step is None:
+            self._shut(refusal("vote", Refused("over")))
+            return
+        self.which.value = room.step
+        address = f"{page_address()}?vote={room.code}"
+        mine = f"{page_address()}?tab=learn&learn=teach&room={self._kept.room}"
         picture = segno.make(address, error="m", micro=False).svg_inline(scale=QR_MODULE, light="white")
         self.address.object = (
             f"<div>{say('teach.vote.link')}: <a href='{address}' target='_blank'>{address}</a></div>{picture}"
+            f"<details><summary>{say('teach.vote.mine')}</summary><a href='{mine}'>{mine}</a></details>"
         )
         self.close.visible = self.answer.visible = self.figure.visible = True
-        self._look()
-        self._callback = pn.state.curdoc.add_periodic_callback(self._look, LOOK_EVERY)
+        self._show(room)
+        self._counter.watch(room.code, self._news)
 
-    def _look(self):
-        votes = ROOMS.tally(self._room.code)
-        if votes == self._shown:
-            return
-        self._shown, asks = votes, self._room.asks
+    def _news(self, room):
+        if room is None:
+            self._shut(refusal("vote", Refused("over")))
+        elif isinstance(room, Away):
+            self._say(refusal("vote", room))
+        else:
+            self._show(room)
+
+    def _show(self, room):
+        votes, asks = list(room.votes), self._asks
         if isinstance(asks, lesson.Choice):
-            names = [option(self._room.step, key) for key in asks.options]
+            names = [option(self._step, key) for key in asks.options]
             counts = [votes.count(key) for key in asks.options]
         else:
             counts, edges = np.histogram(votes, bins=BINS, range=(asks.low, asks.high))
@@ -142,16 +181,19 @@ class Vote:
         self.range.factors = names[::-1]
         self.bars.data = {"x": names, "votes": list(map(int, counts))}
         self.figure.x_range.end = max(4, max(counts) + 1)
-        self.count.object = f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>"
+        self._say(f"<div role='status'>{say('teach.vote.count', votes=len(votes), most=MOST_VOTES)}</div>")
+
+    def _say(self, sentence):
+        self.count.object = sentence
 
     def _answer(self):
-        room, planned = self._room, self._planned
+        room, step, asks = self._room, self._step, self._asks
+        self._forget()
         self.truth.object = note(say("learn.page.wait"))
-        self._finding = Run(lambda run: room.step.answer(planned).truth, lambda truth: self._reveal(room, truth))
+        self._finding = Run(lambda run: truth_of(step, room.top), lambda truth: self._reveal(step, asks, truth))
         self._runs.begin(self._finding, "vote")
 
-    def _reveal(self, room, truth):
-        step, asks = room.step, room.asks
+    def _reveal(self, step, asks, truth):
         if isinstance(truth, Exception):
             self.truth.object = alert(told(truth)) if isinstance(truth, TopError) else ""
             if not isinstance(truth, TopError):
@@ -166,21 +208,20 @@ class Vote:
     def _forget(self):
         if self._finding:
             self._finding.forget()
-        if self._room:
-            ROOMS.close(self._room.code)
-        self._room = None
+        self.truth.object = ""
 
-    def _close(self):
-        if self._callback:
-            pn.state.curdoc.remove_periodic_callback(self._callback)
+    def _shut(self, sentence):
+        """No room is open here any more, and why."""
+        self._counter.leave()
         self._forget()
-        self._callback = self._shown = None
-        self.close.visible = self.answer.visible = self.figure.visible = False
-        self.address.object = self.truth.object = ""
-        self.count.object = say("teach.vote.shut")
+        self._room, self._kept.room = None, ""
+        self.close.visible = self.answer.visible = self.again.visible = self.figure.visible = False
+        self.address.object = ""
+        self._say(sentence)
 
 
-def teach_view(explorer, runs):
+def teach_view(explorer, runs, kept):
+    """kept: see Vote."""
     links = "".join(
         f"<li><a href='{link(step)}' target='_blank'>{say(f'learn.{step.name}.title')}</a></li>"
         for step in lesson.STEPS
@@ -198,7 +239,7 @@ def teach_view(explorer, runs):
 
     return grid(
         tall(
-            card(say("teach.page.vote"), *Vote(explorer, runs).view, height="max-content"),
+            card(say("teach.page.vote"), *Vote(explorer, runs, kept).view, height="max-content"),
             carded("fifteen", bullets(listed("teach.plans.fifteen"), True)),
             carded("wrong", bullets(listed("teach.plans.wrong"))),
             carded("toy", bullets(listed("teach.plans.toy"))),
@@ -229,29 +270,3 @@ def listed_all(name):
     """By year, the first that a source names."""
     year = re.compile(r"(18|19|20)\d\d")
     return sorted(listed(name).values(), key=lambda source: year.search(source["short"] + source["full"]).group())
-
-
-def student_page(code):
-    """What a student's link opens: one question, one prediction."""
-    room, page = ROOMS.room(code), secrets.token_hex(8)
-    title = f"<h2>{say('teach.student.title')}</h2>"
-    if room is None:
-        return pn.Column(words(f"{title}<div role='alert'>{say('teach.student.gone')}</div>"), margin=16)
-    said = words("")
-    widget = prediction(room.step, room.asks)
-    send = pmui.Button(label=say("teach.student.send"), variant="contained", sx=PLAIN)
-
-    def vote(event):
-        key = "waiting" if widget.value is None else "sent"
-        if key == "sent":
-            try:
-                ROOMS.vote(code, page, widget.value)
-            except Refused as refused:
-                key = str(refused)
-        said.object = f"<div role='status'>{say(f'teach.student.{key}')}</div>"
-
-    on_click(send, vote)
-    asked = say(f"learn.{room.step.name}.question", **room.numbers)
-    question = words(f"{title}<div style='font-size: {px(16)}'>{asked}</div>")
-    return pn.Column(question, widget, send, said, sizing_mode="stretch_width", max_width=640, margin=16,
-                     css_classes=["learn"])  # fmt: skip

@@ -1,8 +1,11 @@
 """Hypothesis draws the same examples on every run, so that a failure is a failure of the commit. One browser and one
 server for all tests that need them."""
 
+import os
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.request
 from pathlib import Path
@@ -12,11 +15,30 @@ from evidence import compare as compare
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import sync_playwright
 from visiting import Visit, free_port, launch
+from wire import redis_serving
 
 settings.register_profile(
     "repeatable", derandomize=True, deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("repeatable")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def votes():
+    """Where the servers of the tests keep votes: not in this user's own file."""
+    folder = tempfile.mkdtemp()
+    os.environ["TIPPE_VOTES"] = f"{folder}/votes.sqlite"
+    yield
+    shutil.rmtree(folder)
+
+
+@pytest.fixture(scope="session")
+def redis():
+    """The URL of a Redis."""
+    if not shutil.which("redis-server"):
+        pytest.skip("redis-server is not installed: `make redis`")
+    with redis_serving(free_port()) as url:
+        yield url
 
 
 @pytest.fixture(scope="session")

@@ -1,16 +1,26 @@
-"""A vote of a class: counted once a page, bounded, forgotten."""
+"""Votes of a class, in a file and in a Redis: one a phone, alike for all workers, bounded, forgotten in time."""
+
+import os
+import stat
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
+from visiting import free_port
+from wire import redis_serving, until
 
-from app import lesson
-from app.classroom import BETWEEN, BURST, LASTS, MOST_ROOMS, MOST_VOTES, Refused, Rooms
+from app import ballots, classroom
+from app.ballots import Away, Sqlite, store, usual
+from app.classroom import BETWEEN, LASTS, MOST_VOTES, ROOMS_OF_ADDRESS, USED, Desk, Refused, Room, Rooms
 
-STEP = lesson.STEPS[0]
-CHOICE, GUESS = lesson.Choice(("over", "between")), lesson.Guess(0.0, 10.0, 0.1, "%", 0.1, 0.1)
+CHOICE = {"step": "free", "numbers": {"spin": 34.5}, "asks": {"options": ["over", "between"]}, "top": {"a": ".07"}}
+GUESS = CHOICE | {"asks": {"low": 0.0, "high": 10.0, "step": 0.1, "unit": "%"}}
+HERE = "192.0.2.7"
 
 
 class Clock:
-    now = 0.0
+    now = 1e9
 
     def __call__(self):
         return self.now
@@ -21,57 +31,348 @@ def clock():
     return Clock()
 
 
+@pytest.fixture(params=["a file", "a Redis"])
+def place(request, tmp_path):
+    """Where both workers keep their votes."""
+    if request.param == "a file":
+        return str(tmp_path / "new" / "votes.sqlite")
+    url = request.getfixturevalue("redis")
+    import redis
+
+    redis.Redis.from_url(url).flushall()
+    return url
+
+
 @pytest.fixture
-def rooms(clock):
-    return Rooms(clock)
+def workers(place, clock):
+    """Two of one server; each with a store of its own, as processes have it."""
+    return [Rooms(store(place, LASTS), clock=clock) for _ in range(2)]
 
 
-def refused(call, *args):
+def refused(call, *args, **named):
     with pytest.raises(Refused) as caught:
-        call(*args)
+        call(*args, **named)
     return str(caught.value)
 
 
-def test_a_page_has_one_vote_and_may_change_it(rooms, clock):
-    code = rooms.open(STEP, {}, CHOICE).code
-    rooms.vote(code, "page", "over")
-    assert refused(rooms.vote, code, "page", "between") == "fast"
+def tally(rooms, code):
+    return sorted(Room.of(code, rooms.look([code])[code]).votes)
+
+
+def test_a_room_opened_at_one_worker_is_voted_in_at_the_other(workers):
+    one, other = workers
+    room, key = one.open(HERE, **CHOICE)
+    assert other.ballot(room.code, "phone") == (room, None)
+    other.vote(room.code, "phone", HERE, "over")
+    one.vote(room.code, "another", HERE, "between")
+    assert tally(one, room.code) == tally(other, room.code) == ["between", "over"]
+    again = other.owned(key)
+    assert (again.step, again.numbers, again.asks, again.top) == tuple(CHOICE.values()) and len(again.votes) == 2
+
+
+def test_a_phone_has_one_vote_at_whichever_worker_and_may_change_it(workers, clock):
+    one, other = workers
+    code = one.open(HERE, **CHOICE)[0].code
+    one.vote(code, "phone", HERE, "over")
+    assert refused(other.vote, code, "phone", HERE, "between") == "fast"
     clock.now += BETWEEN
-    rooms.vote(code, "page", "between")
-    rooms.vote(code, "another", "over")
-    assert sorted(rooms.tally(code)) == ["between", "over"]
+    other.vote(code, "phone", "198.51.100.1", "between")
+    assert tally(one, code) == ["between"]
+    assert one.ballot(code, "phone")[1] == "between" and one.ballot(code, "another")[1] is None
 
 
-def test_only_answers_count(rooms):
-    choice, guess = (rooms.open(STEP, {}, asks).code for asks in (CHOICE, GUESS))
-    for code, value in ((choice, "<script>"), (choice, 3.0), (guess, "over"), (guess, 11.0), (guess, float("nan"))):
-        assert refused(rooms.vote, code, "page", value) == "wrong"
-    assert refused(rooms.vote, "NOROOM", "page", "over") == "gone"
-    rooms.vote(guess, "page", 10.0)
-    assert rooms.tally(guess) == [10.0] and rooms.tally(choice) == []
+def test_only_answers_count(workers):
+    rooms = workers[0]
+    choice, guess = (rooms.open(HERE, **question)[0].code for question in (CHOICE, GUESS))
+    for code, value in ((choice, "<script>"), (choice, 3.0), (choice, []), (guess, "over"), (guess, 11.0),
+                        (guess, float("nan")), (guess, 10**400), (guess, True), (guess, None)):  # fmt: skip
+        assert refused(rooms.vote, code, "phone", HERE, value) == "wrong"
+    assert refused(rooms.vote, "NOROOM", "phone", HERE, "over") == "gone"
+    rooms.vote(guess, "phone", HERE, 10.0)
+    assert tally(rooms, guess) == [10.0] and tally(rooms, choice) == []
 
 
-def test_bounds_on_votes_rooms_and_rate(rooms, clock):
-    code = rooms.open(STEP, {}, CHOICE).code
-    for page in range(BURST):
-        rooms.vote(code, page, "over")
-    assert refused(rooms.vote, code, "one more at once", "over") == "fast"
-    for page in range(BURST, MOST_VOTES):
-        clock.now += 1.0
-        rooms.vote(code, page, "over")
-    clock.now += 1.0
-    assert refused(rooms.vote, code, "one too many", "over") == "full"
-    rooms.vote(code, 0, "between")
-    assert len(rooms.tally(code)) == MOST_VOTES
-    for _ in range(MOST_ROOMS - 1):
-        rooms.open(STEP, {}, CHOICE)
-    assert refused(rooms.open, STEP, {}, CHOICE) == "full"
+def test_one_address_has_so_many_votes_and_the_room_so_many(place, clock):
+    rooms = Rooms(store(place, LASTS), votes_of_address=3, clock=clock)
+    code = rooms.open(HERE, **CHOICE)[0].code
+    for phone in range(3):  # one house: what its provider gave it is the first half of the address
+        rooms.vote(code, str(phone), f"2001:db8:1:2:{phone}::9", "over")
+    assert refused(rooms.vote, code, "who forgets who he was", "2001:db8:1:2:ffff::1", "over") == "crowded"
+    clock.now += BETWEEN
+    rooms.vote(code, "1", "2001:db8:1:2::7", "between")  # who has one may still change it
+    for phone in range(3, MOST_VOTES):
+        rooms.vote(code, str(phone), f"10.0.{phone // 100}.{phone % 100}", "over")
+    assert refused(rooms.vote, code, "one too many", "10.9.9.9", "over") == "full"
+    assert len(tally(rooms, code)) == MOST_VOTES
 
 
-def test_gone_when_closed_and_after_a_while(rooms, clock):
-    first, second = (rooms.open(STEP, {}, CHOICE).code for _ in range(2))
-    rooms.close(first)
-    assert rooms.room(first) is None and rooms.tally(first) == []
+def test_a_school_behind_one_address_can_vote(workers):
+    code = workers[0].open(HERE, **CHOICE)[0].code
+    for phone in range(120):
+        workers[phone % 2].vote(code, str(phone), HERE, "over")
+    assert len(tally(workers[0], code)) == 120
+
+
+def test_rooms_are_bounded_by_address_and_in_all(workers, monkeypatch):
+    one, other = workers
+    keys = [workers[i % 2].open(HERE, **CHOICE)[1] for i in range(ROOMS_OF_ADDRESS)]
+    assert refused(one.open, HERE, **CHOICE) == refused(other.open, HERE, **CHOICE) == "crowded"
+    other.close(keys[0])
+    one.open(HERE, **CHOICE)
+    monkeypatch.setattr(classroom, "MOST_ROOMS", ROOMS_OF_ADDRESS + 1)
+    one.open("192.0.2.200", **CHOICE)
+    assert refused(other.open, "192.0.2.201", **CHOICE) == "full"
+
+
+def test_only_its_key_opens_and_closes_a_room(workers):
+    one, other = workers
+    room, key = one.open(HERE, **CHOICE)
+    stolen = f"{room.code}.{one.open(HERE, **CHOICE)[1].split('.')[1]}"
+    assert refused(other.owned, stolen) == "over"
+    other.close(stolen)
+    one.vote(room.code, "phone", HERE, "over")
+    assert other.owned(key).votes == ("over",)
+    other.close(key)
+    other.close(key)
+    assert refused(one.owned, key) == "over" and one.look([room.code]) == {}
+    assert one.ballot(room.code, "phone") == (None, None)
+    assert refused(one.vote, room.code, "phone", HERE, "over") == "gone"
+
+
+def test_a_room_lives_six_hours_after_its_last_use(workers, clock):
+    one, other = workers
+    (voted, key), (looked_at, _), (left, left_key) = (one.open(HERE, **CHOICE) for _ in range(3))
+    for _ in range(4):
+        clock.now += LASTS - USED
+        one.vote(voted.code, "phone", HERE, "over")
+        other.use(looked_at.code)
+        one = Rooms(one._store, clock=clock)  # a worker that has begun anew knows it all the same
+    assert refused(other.owned, left_key) == "over" and other.ballot(left.code, "phone") == (None, None)
+    assert one.look([left.code])
+    one.open(HERE, **CHOICE)  # then what is over goes
+    assert set(other.look([voted.code, looked_at.code, left.code])) == {voted.code, looked_at.code}
     clock.now += LASTS + 1
-    assert rooms.room(second) is None
-    assert first != second and len(first) == 6
+    assert refused(one.owned, key) == "over" and refused(one.vote, voted.code, "p", HERE, "over") == "gone"
+
+
+def test_what_is_kept_tells_no_names(workers):
+    rooms = workers[0]
+    room, key = rooms.open(HERE, **CHOICE)
+    rooms.vote(room.code, "the phone", HERE, "over")
+    kept = rooms.look([room.code, classroom.REGISTER])
+    assert len(kept) == 2
+    for text in kept.values():
+        assert HERE not in text and "the phone" not in text and key.split(".")[1] not in text
+
+
+def test_workers_that_count_at_once_lose_nothing(place):
+    first = Rooms(store(place, LASTS))
+    code, each = first.open(HERE, **CHOICE)[0].code, 40
+
+    def worker(number):
+        rooms = Rooms(store(place, LASTS))
+        for phone in range(each):
+            rooms.vote(code, f"{number} {phone}", HERE, "over")
+
+    with ThreadPoolExecutor(4) as threads:
+        list(threads.map(worker, range(4)))
+    assert len(tally(first, code)) == 4 * each
+
+
+def test_a_new_file_is_opened_by_many_at_once(tmp_path):
+    for attempt in range(10):
+        path = tmp_path / str(attempt)
+        with ThreadPoolExecutor(4) as threads:
+            list(threads.map(lambda key, path=path: Sqlite(path).change(str(key), str), range(4)))
+        assert len(Sqlite(path).read(map(str, range(4)))) == 4
+
+
+@pytest.mark.skipif(os.name == "nt", reason="files have no such permissions there")
+def test_the_file_is_its_users_alone(tmp_path):
+    path = tmp_path / "state" / "votes.sqlite"
+    kept = Sqlite(path)
+    kept.change("key", lambda text: "text")
+    modes = {each.name: stat.S_IMODE(each.stat().st_mode) for each in path.parent.iterdir()}
+    assert modes == dict.fromkeys(("votes.sqlite", "votes.sqlite-wal", "votes.sqlite-shm"), 0o600)
+    assert stat.S_IMODE(path.parent.stat().st_mode) == 0o700
+
+
+def test_a_file_that_cannot_be_is_said_and_one_that_comes_back_is_taken(tmp_path):
+    blocked = tmp_path / "a file"
+    blocked.write_text("in the way")
+    rooms = Rooms(Sqlite(blocked / "votes.sqlite"))
+    with pytest.raises(Away):
+        rooms.open(HERE, **CHOICE)
+    blocked.unlink()
+    room, _ = rooms.open(HERE, **CHOICE)
+    for each in blocked.iterdir():  # taken away from under a server that runs
+        each.unlink()
+    assert refused(rooms.vote, room.code, "phone", HERE, "over") == "gone"
+    other = tmp_path / "of another kind"
+    other.write_text("no database " * 100)
+    with pytest.raises(Away):
+        Rooms(Sqlite(other)).look([room.code])
+    assert other.read_text() == "no database " * 100
+
+
+def test_a_file_that_another_holds_is_not_waited_for_for_ever(tmp_path):
+    one, other = (Sqlite(tmp_path / "votes") for _ in range(2))
+    one.change("key", lambda text: "before")
+
+    def meanwhile(text):
+        with pytest.raises(Away):
+            other.change("key", lambda text: "stolen")
+        assert other.read(["key"]) == {"key": "before"}  # but who reads does not wait
+        return "after"
+
+    one.change("key", meanwhile)
+    assert other.read(["key"]) == {"key": "after"}
+
+
+def test_a_redis_that_is_not_there_is_said_and_one_that_comes_back_is_taken(redis):
+    port = free_port()
+    rooms = Rooms(store(f"redis://127.0.0.1:{port}/0", LASTS))
+    with pytest.raises(Away):
+        rooms.open(HERE, **CHOICE)
+    for _ in range(2):  # it comes, goes, and comes
+        with redis_serving(port):
+            code = rooms.open(HERE, **CHOICE)[0].code
+            rooms.vote(code, "phone", HERE, "over")
+            assert tally(rooms, code) == ["over"]
+        with pytest.raises(Away):
+            rooms.look([code])
+
+
+def test_a_redis_forgets_by_itself(redis):
+    kept = store(redis, 4000)
+    kept.change("key", lambda text: "text")
+    assert 3990 < kept._client.ttl("tippe:key") <= 4000
+
+
+@pytest.mark.parametrize("where, says", [
+    ("http://example.org", "the URL of a Redis"), ("redis://host:port", "the URL of a Redis"),
+    ("redis://host/0?wrong=1", "the URL of a Redis"),
+])  # fmt: skip
+def test_a_place_that_cannot_be_is_a_sentence(where, says):
+    with pytest.raises(ValueError, match=says):
+        store(where, 1)
+
+
+def test_without_the_package_a_redis_is_refused(monkeypatch):
+    monkeypatch.setattr(ballots.importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(ValueError, match="pip install 'redis"):
+        store("redis://localhost", 1)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="another place there")
+def test_the_usual_file_is_the_same_after_another_start_and_this_users_own(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    assert usual() == usual() == tmp_path / "state" / ballots.FOLDER / "votes.sqlite"
+    assert not (tmp_path / "state").exists()  # nothing is made where nobody votes
+    # where the home cannot be written: beside the temporary files, unless somebody else has made that folder
+    monkeypatch.setattr(ballots.os, "access", lambda path, mode: False)
+    monkeypatch.setattr(ballots.tempfile, "tempdir", str(tmp_path))
+    ours = tmp_path / f"{ballots.FOLDER}-{os.getuid()}"
+    assert usual() == usual() == ours / "votes.sqlite" and stat.S_IMODE(ours.stat().st_mode) == 0o700
+    ours.chmod(0o777)
+    assert usual().parent not in (ours, Path(tmp_path))
+    ours.rmdir()
+    ours.symlink_to(tmp_path)
+    assert usual().parent not in (ours, Path(tmp_path))
+
+
+class Slow:
+    """A store in memory that counts how often it is read; deaf while `away`, and as slow as `gate` lets it."""
+
+    def __init__(self):
+        self.texts, self.reads, self.away, self.gate = {}, 0, False, threading.Event()
+        self.gate.set()
+
+    def read(self, keys):
+        self.gate.wait()
+        if self.away:
+            raise Away("nobody answers")
+        self.reads += 1
+        return {key: self.texts[key] for key in keys if key in self.texts}
+
+    def change(self, key, function):
+        self.gate.wait()
+        if self.away:
+            raise Away("nobody answers")
+        text = function(self.texts.get(key))
+        self.texts.pop(key, None)
+        if text is not None:
+            self.texts[key] = text
+
+
+@pytest.fixture
+def slow():
+    return Slow()
+
+
+@pytest.fixture
+def desk(slow, monkeypatch):
+    monkeypatch.setattr(classroom, "store", lambda where, lasts: slow)
+    monkeypatch.setattr(classroom, "LOOK_EVERY", 0.02)
+    monkeypatch.setattr(classroom, "PAUSE", 0.1)
+    return Desk("")
+
+
+def asked(desk, work):
+    """What comes of it."""
+    found, done = [], threading.Event()
+    desk.ask(work, lambda result: (found.append(result), done.set()))
+    assert done.wait(20)
+    return found[0]
+
+
+def test_who_looks_is_told_what_is_new_and_250_pages_cost_one_read(desk, slow):
+    room, key = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
+    teacher, students = [], [[] for _ in range(250)]
+    desk.watch(room.code, teacher.append)
+    ends = [desk.watch(room.code, student.append, votes=False) for student in students]
+    until(lambda: len(teacher) == 1)
+    before = slow.reads
+    until(lambda: slow.reads > before + 5)
+    assert len(teacher) == 1  # nothing is new
+    asked(desk, lambda rooms: rooms.vote(room.code, "phone", HERE, "over"))
+    until(lambda: len(teacher) == 2)
+    assert teacher[-1].votes == ("over",) and not any(students)
+    ends[0]()
+    asked(desk, lambda rooms: rooms.close(key))
+    until(lambda: all(student == [None] for student in students[1:]))
+    assert teacher[-1] is None and students[0] == []
+    # so often was it read in all, not 251 times as often
+    assert slow.reads < 2000
+
+
+def test_a_store_that_hangs_or_goes_keeps_no_page_waiting_and_is_asked_again(desk, slow):
+    room, _ = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
+    teacher = []
+    desk.watch(room.code, teacher.append)
+    until(lambda: len(teacher) == 1)
+    slow.gate.clear()
+    answers = []
+    for phone in range(20):  # each comes back at once
+        desk.ask(lambda rooms, phone=phone: rooms.vote(room.code, str(phone), HERE, "over"), answers.append)
+    slow.away = True
+    slow.gate.set()
+    until(lambda: len(answers) == 20 and len(teacher) == 2)
+    assert all(isinstance(answer, Away) for answer in answers) and isinstance(teacher[-1], Away)
+    slow.away = False
+    until(lambda: len(teacher) == 3)
+    assert teacher[-1] == room
+    assert asked(desk, lambda rooms: rooms.vote(room.code, "phone", HERE, "over")) is None
+    until(lambda: teacher[-1].votes == ("over",))
+
+
+def test_a_teacher_who_looks_keeps_his_room(desk, slow, monkeypatch):
+    monkeypatch.setattr(classroom, "USED", 0.0)
+    room, _ = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
+    first = slow.texts[room.code]
+    desk.watch(room.code, lambda news: None, votes=False)
+    before = slow.reads
+    until(lambda: slow.reads > before + 3)
+    assert slow.texts[room.code] == first  # a student's phone that lies open does not
+    desk.watch(room.code, lambda news: None)
+    until(lambda: slow.texts[room.code] != first)

@@ -272,7 +272,7 @@ NOT_SAID = {
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
-       for name in ("server.py", "arrivals.py", "messages.py", "settings.py", "sockets.py")},
+       for name in ("server.py", "arrivals.py", "ballots.py", "messages.py", "settings.py", "sockets.py")},
     "top3d.py": {"would": "REGIMES", "in the air": "REGIMES", "the motion ends here": "REGIMES"},
     "look.js": {"dark large": "a key"},
 }  # fmt: skip

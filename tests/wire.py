@@ -4,6 +4,7 @@ import asyncio
 import json
 import os
 import re
+import socket
 import subprocess
 import sys
 import time
@@ -235,6 +236,25 @@ def served(output, wait=True, before=(), arguments=(), **settings):
     finally:
         process.terminate()
         process.wait()
+
+
+@contextmanager
+def redis_serving(port):
+    """A Redis that keeps nothing on the disk, until the end of the block; its URL."""
+    process = subprocess.Popen(["redis-server", "--port", str(port), "--bind", "127.0.0.1", "--save", "",
+                                "--appendonly", "no"], stdout=subprocess.DEVNULL)  # fmt: skip
+    try:
+        until(lambda: listens(port))
+        yield f"redis://127.0.0.1:{port}/0"
+    finally:
+        process.kill()
+        process.wait()
+
+
+def listens(port):
+    """Whether somebody takes connections there."""
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
 
 
 @contextmanager
