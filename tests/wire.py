@@ -1,6 +1,7 @@
 """A visitor without a browser: Bokeh's protocol over a websocket, as a page speaks it, or as somebody who means ill."""
 
 import asyncio
+import html
 import json
 import os
 import re
@@ -39,7 +40,7 @@ class Closed(Exception):
 
 @dataclass
 class Visitor:
-    """One page's end of a session. models: {id: (type, attributes)} as they were when it came."""
+    """One page's end of a session. models: {id: (type, attributes)} of the page as it is now."""
 
     socket: object
     token: str
@@ -78,6 +79,8 @@ class Visitor:
         elif isinstance(part, dict):
             if part.get("type") == "object" and "id" in part:
                 self.models[part["id"]] = (part["name"], part.get("attributes", {}))
+            elif part.get("kind") == "ModelChanged" and part["model"]["id"] in self.models:
+                self.models[part["model"]["id"]][1][part["attr"]] = part["new"]
             for each in part.values():
                 self._note(each)
 
@@ -110,6 +113,24 @@ class Visitor:
         await self.say("PATCH-DOC", {"events": [
             {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
         ]})  # fmt: skip
+
+    async def click(self, label):
+        """As if somebody had clicked the button that says so."""
+        [data] = [id for id, (name, attributes) in self.models.items()
+                  if name.startswith("Button") and attributes.get("label") == label]  # fmt: skip
+        [button] = [id for id, (_, attributes) in self.models.items()
+                    if isinstance(attributes.get("data"), dict) and attributes["data"].get("id") == data]  # fmt: skip
+        values = [["model", {"id": button}], ["node", "click"], ["data", {"type": "map", "entries": []}]]
+        event = {"type": "event", "name": "dom_event", "values": {"type": "map", "entries": values}}
+        await self.say("PATCH-DOC", {"events": [
+            {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
+        ]})  # fmt: skip
+
+    @property
+    def says(self):
+        """All that stands on the page as HTML."""
+        texts = (attributes.get("text") for _, attributes in self.models.values())
+        return "\n".join(html.unescape(text) for text in texts if isinstance(text, str))
 
     async def _fragment(self):
         fragment = await self.socket.read_message()
