@@ -2,8 +2,16 @@
 
 import asyncio
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
 
 import bokeh
+import panel.custom
+import panel.io.resources
+import panel.layout.base
+import panel.layout.grid
+import panel.reactive
+from bokeh.document.models import DocumentModelManager
+from panel.io.resources import CDN_DIST, LOCAL_DIST
 
 from app.arrivals import most_files
 
@@ -20,6 +28,34 @@ class Here(ThreadPoolExecutor):
         return future
 
 
+def thawed(freeze):
+    """Bokeh's or Panel's method that keeps a document's list of models while they change: where that fails it would be
+    kept for good, and nothing new would reach the page."""
+
+    @contextmanager
+    def frozen(of, *arguments, **named):
+        models = getattr(of, "models", of)
+        before = getattr(models, "_freeze_count", 0)
+        try:
+            with freeze(of, *arguments, **named):
+                yield
+        finally:
+            while getattr(models, "_freeze_count", 0) > before:
+                models._pop_freeze()
+
+    return frozen
+
+
+def at_home(patch_stylesheet):
+    """Panel's function that gives a style sheet its address. Of a part that never came into the document, because its
+    view failed, Panel would ask another machine; and all parts share their sheets, so the page would lose them."""
+
+    def patched(stylesheet, dist_url):
+        patch_stylesheet(stylesheet, LOCAL_DIST if dist_url == CDN_DIST else dist_url)
+
+    return patched
+
+
 def on_server_loaded(server_context):
     """Asks for as many open files as may be, and keeps what sessions do in the server's own thread.
 
@@ -29,6 +65,11 @@ def on_server_loaded(server_context):
     of them would change one session at a time. What takes long is given to app.runs.
     """
     most_files()
+    DocumentModelManager.freeze = thawed(DocumentModelManager.freeze)
+    for module in (panel.custom, panel.layout.base, panel.layout.grid):
+        module.freeze_doc = thawed(module.freeze_doc)
+    for module in (panel.io.resources, panel.reactive):
+        module.patch_stylesheet = at_home(module.patch_stylesheet)
     here = Here(1)
     asyncio.get_running_loop().set_default_executor(here)
     if tuple(map(int, bokeh.__version__.split(".")[:2])) >= (3, 10):

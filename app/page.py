@@ -1,6 +1,5 @@
 """The page, layout only."""
 
-from functools import partial
 from weakref import WeakKeyDictionary
 
 import panel as pn
@@ -20,6 +19,7 @@ from app.roll import Roll
 from app.runs import Runs, connected_to, to_session
 from app.share import Share
 from app.student import student_page
+from app.tabs import tabs
 from app.text import say
 from app.three_planes import KEPT, ThreePlanes
 from app.workshop import Measure, Workshop
@@ -125,40 +125,6 @@ def learn_view(explorer, roll, keep, runs):
     learn = Learn(explorer, roll, runs)
     keep.add(learn, kept())
     return learn.view
-
-
-def tabs(views, keep, soon):
-    """A header and a place for each view; a view is made when it is first looked at, and then stays.
-
-    views: {name in the address: maker}; soon: of a Pacer.
-    """
-    places = [pn.Column(sizing_mode="stretch_width", margin=0, visible=False) for _ in views]
-    header = pmui.Tabs(
-        *((say(f"main.tabs.{name}"), pn.Spacer(height=0)) for name in views),
-        sizing_mode="stretch_width",
-        margin=0,
-        sx={"& .MuiTab-root": {"textTransform": "none", "minHeight": 40, "padding": "8px 16px"}},
-    )
-    makers = list(views.values())
-
-    def make(active):
-        if not places[active].objects:
-            places[active].objects = [makers[active]()]
-
-    def look(active):
-        # One that the address names is made when the page is there: what it computes might overtake the page itself.
-        if active and not pn.state.loaded:
-            pn.state.onload(lambda: make(active))
-        else:
-            make(active)
-        for i, place in enumerate(places):
-            place.visible = i == active
-
-    header.param.watch(lambda event: soon(partial(look, event.new)), "active")
-    look(header.active)
-    known = OneOf(**{name: i for i, name in enumerate(views)})
-    keep.add(header, {"active": Field("tab", known, undoable=False)})
-    return [header, *places]
 
 
 def alone(page):
