@@ -11,7 +11,7 @@ RUN python3 -m venv /opt/build \
     && /opt/build/bin/pip install --no-cache-dir --require-hashes -r locks/build.txt \
     && /opt/build/bin/pip wheel --no-deps --no-build-isolation --wheel-dir /opt/wheel . \
     && python3 -m venv /opt/venv \
-    && /opt/venv/bin/pip install --no-cache-dir --require-hashes -r locks/run.txt \
+    && /opt/venv/bin/pip install --no-cache-dir --require-hashes -r locks/run.txt -r locks/redis.txt \
     && /opt/venv/bin/pip install --no-deps /opt/wheel/*.whl \
     && /opt/venv/bin/pip uninstall --yes pip \
     && cd /opt/venv/lib/python3*/site-packages \
@@ -26,10 +26,13 @@ RUN python3 -m venv /opt/build \
 
 FROM python:3.12-slim
 COPY --from=build /opt/venv /opt/venv
-# matplotlib keeps its list of fonts in memory, the only thing that is written at all, when the first figure is printed.
+# Votes are written to a volume, unless TIPPE_VOTES names a Redis; matplotlib keeps its list of fonts in memory, when the
+# first figure is printed. Nothing else is written.
+RUN install -d -o 65534 -g 65534 -m 700 /var/lib/tippe
+VOLUME /var/lib/tippe
 # With the system's malloc the memory of closed pages is given back; Python's own, an eighth faster, keeps it for others.
 ENV PATH=/opt/venv/bin:$PATH PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 PYTHONSAFEPATH=1 \
-    PYTHONMALLOC=malloc MPLCONFIGDIR=/dev/shm/matplotlib
+    PYTHONMALLOC=malloc MPLCONFIGDIR=/dev/shm/matplotlib TIPPE_VOTES=/var/lib/tippe/votes.sqlite
 USER 65534:65534
 EXPOSE 5006
 HEALTHCHECK --interval=30s --timeout=5s --start-period=30s CMD ["python", "-c", \

@@ -3,12 +3,12 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
 
-.PHONY: serve test pythons lock validation docs bench image browser proxy
+.PHONY: serve test pythons lock validation docs bench image browser proxy redis
 
 serve: .venv/serve
 	$(BIN)/python -m app --address localhost --show
 
-test: .venv/test browser proxy
+test: .venv/test browser proxy redis
 	$(BIN)/ruff check .
 	$(BIN)/lint-imports
 	$(BIN)/pytest
@@ -54,6 +54,12 @@ proxy:
 	@command -v haproxy >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq haproxy; } \
 	|| echo "haproxy is not installed: the test of deploy/haproxy.cfg will skip"
+
+# Redis for the tests of votes, half of which skip where there is none.
+redis:
+	@command -v redis-server >/dev/null \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq redis-server; } \
+	|| echo "redis-server is not installed: the tests of votes in a Redis will skip"
 
 # From the lock, whose files have to be those that were tested.
 .venv/serve: $(BUNDLED) locks/run.txt locks/build.txt

@@ -321,7 +321,34 @@ def test_the_files_for_many_replicas_set_what_there_is():
     first, *others = yaml.safe_load_all((ROOT / "deploy/kubernetes.yaml").read_text(encoding="utf-8"))
     [pod] = first["spec"]["template"]["spec"]["containers"]
     assert Settings.of({each["name"]: each.get("value", "") for each in pod["env"]}).proxy == 1
-    assert [each["kind"] for each in others] == ["Service", "Ingress", "PodDisruptionBudget", "NetworkPolicy"]
+    assert [each["kind"] for each in others[:4]] == ["Service", "Ingress", "PodDisruptionBudget", "NetworkPolicy"]
+
+
+def test_the_files_for_many_replicas_start_the_redis_that_they_name():
+    compose = yaml.safe_load((ROOT / "compose.yaml").read_text(encoding="utf-8"))
+    app, redis = compose["services"]["app"], compose["services"]["redis"]
+    assert app["environment"]["TIPPE_VOTES"] == "redis://redis:6379/0" and app["depends_on"] == ["redis"]
+    assert redis["networks"] == app["networks"] and redis["read_only"]
+
+    every = {(each["kind"], each["metadata"]["name"]): each["spec"]
+             for each in yaml.safe_load_all((ROOT / "deploy/kubernetes.yaml").read_text(encoding="utf-8"))}  # fmt: skip
+    [pod] = every["Deployment", "tippe"]["template"]["spec"]["containers"]
+    assert {"name": "TIPPE_VOTES", "value": "redis://tippe-redis:6379/0"} in pod["env"]
+    there = every["Deployment", "tippe-redis"]["template"]
+    [container] = there["spec"]["containers"]
+    assert container["args"] == redis["command"] and container["image"] == redis["image"]
+    service = every["Service", "tippe-redis"]
+    assert service["selector"] == there["metadata"]["labels"] and service["ports"][0]["port"] == 6379
+    [to_redis, to_names] = every["NetworkPolicy", "tippe"]["egress"]
+    assert to_redis["to"][0]["podSelector"]["matchLabels"] == there["metadata"]["labels"]
+    assert {each["port"] for each in to_names["ports"]} == {53}
+    assert every["NetworkPolicy", "tippe-redis"]["egress"] == []
+
+
+def test_the_image_keeps_votes_on_a_volume():
+    image = (ROOT / "Dockerfile").read_text(encoding="utf-8")
+    [path] = re.findall(r"TIPPE_VOTES=(\S+)/votes.sqlite", image)
+    assert f"\nVOLUME {path}\n" in image and f"-o 65534 -g 65534 -m 700 {path}\n" in image
 
 
 def test_the_docs_list_every_setting():
