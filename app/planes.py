@@ -50,7 +50,7 @@ MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
 LEAST_FRAMES = 600
 THROWN, NEAR_TOUCH = "stem throws it up", 0.02  # rad: so near to the touch angle a lift-off is the touch's
 SHORT = 0.05  # s of the real top: a touch, or a hop, that an eye does not follow
-NUDGE = 1e-6  # rad: by so much further tilted starts the run beside the run
+NUDGE, BESIDE = 1e-6, 3.0  # rad, s: a run beside the run starts so much further tilted, and goes so far past a touch
 
 # A run that a newer one replaces may still finish within this, s; later it is stopped.
 PATIENCE = 0.5
@@ -246,11 +246,12 @@ def _slid(settings, state, times, progress):
 
 
 def nudged(picture, progress=None):
-    """How many times NUDGE, added to the tilt of the start, grows in theta by the end of the sliding run, at most."""
-    settings, state = picture.settings, picture.state
-    moved = picture.motions["sliding"].trajectory
+    """How many times NUDGE, added to the tilt of the start, grows in theta on the sliding plane, at most; BESIDE after
+    the first touch is as long as it takes to tell."""
+    settings, state, motion = picture.settings, picture.state, picture.motions["sliding"]
+    moved, until = motion.trajectory, motion.ending.stretches[0].end + BESIDE / settings.scales.time
     beside = replace(state, theta=state.theta + (NUDGE if state.theta < 1 else -NUDGE))
-    near = _slid(settings, beside, moved.t, progress)
+    near = _slid(settings, beside, moved.t[moved.t <= until], progress)
     both = min(len(moved.t), len(near.t))
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / NUDGE)
 
@@ -448,7 +449,6 @@ class Planes(param.Parameterized):
         self._asked = settings = self._settings()
         if self._beside:
             self._beside.forget()
-            self._beside = None
         if not self._runs.beside:
             self._runs.begin(Run(lambda run: solve(settings), partial(self._publish, settings)), "planes")
             return
@@ -495,11 +495,10 @@ class Planes(param.Parameterized):
             self.picture = result
         if not messages and self._runs.beside and not self.busy and _hits(result):
             self._beside = Run(lambda run: nudged(result, run.look), partial(self._nudged, result))
-            self._runs.begin(self._beside)
+            self._runs.begin(self._beside, "nudged")
 
     def _nudged(self, picture, growth):
         """What the run beside the run tells of it, if that is still what is shown."""
-        self._beside = None
         if isinstance(growth, float) and self.picture.motions is picture.motions:
             with param.edit_constant(self):
                 self.picture = replace(self.picture, growth=growth)
