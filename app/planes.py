@@ -50,6 +50,7 @@ MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
 LEAST_FRAMES = 600
 THROWN, NEAR_TOUCH = "stem throws it up", 0.02  # rad: so near to the touch angle a lift-off is the touch's
 SHORT = 0.05  # s of the real top: a touch, or a hop, that an eye does not follow
+RTOL = 1e-9  # of slide()
 NUDGE, BESIDE = 1e-6, 3.0  # rad, s: a run beside the run starts so much further tilted, and goes so far past a touch
 
 # A run that a newer one replaces may still finish within this, s; later it is stopped.
@@ -241,7 +242,7 @@ def solve(settings, progress=None):
 
 
 def _slid(settings, state, times, progress):
-    return slide(settings.top, state, settings.friction, times, landing=settings.landing, edge=settings.edge,
+    return slide(settings.top, state, settings.friction, times, rtol=RTOL, landing=settings.landing, edge=settings.edge,
                  progress=progress)  # fmt: skip
 
 

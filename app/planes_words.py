@@ -7,7 +7,7 @@ import numpy as np
 
 from app.cards import swatch
 from app.colours import COLOURS
-from app.planes import LIFTS, PLANES, ROLLS, SHORT, THROWN
+from app.planes import LIFTS, PLANES, ROLLS, RTOL, SHORT, THROWN
 from app.text import listed, say
 
 # A plane's own colour, the same in all pictures of this tab.
@@ -224,10 +224,22 @@ def scatter_words(picture):
     return say("planes.verdict.scatters", growth=f"{growth:.0e}" if growth >= 1e4 else f"{growth:.2g}", hand=HAND)
 
 
+def run_words(picture):
+    """What the sliding run is a run of: who quotes it needs all of that."""
+    settings, state = picture.settings, picture.state
+    touches = "stem" if settings.edge else "ball"
+    start = "start" if settings.rolling is None else "rolling"
+    turns = state.omega3 * settings.scales.angular_velocity / (2 * np.pi)
+    return say("planes.run.of", a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
+               body=say(f"planes.run.{touches}"), law=in_force(picture, "sliding"), rtol=power(RTOL),
+               start=say(f"planes.run.{start}", tilt=degrees(state.theta), spin=turns, slip=settings.slip))  # fmt: skip
+
+
 def verdict_words(picture):
     lines = [f'<div class="line">{swatch(LOOKS[plane], "")}<b>{say(f"planes.plane.{plane}")}</b>: '
              f"{fate(picture, plane)}</div>" for plane in PLANES]  # fmt: skip
-    return "".join(lines) + f'<div class="says">{ball_words(picture)}{scatter_words(picture)}</div>'
+    return "".join(lines) + f'<div class="says">{ball_words(picture)}{scatter_words(picture)}</div>' + (
+        f'<div class="key says">{run_words(picture)}</div>')
 
 
 # ---- what stays ----
