@@ -215,7 +215,7 @@ class Picture:
             if free and inside.any() and (end - start > shortest or not found):
                 C_J = float(np.median(moved.jellett[inside]))
                 found.append(Well(start, end, C_J, steady_states(moved.top, C_J)))
-        return tuple(found) or (Well(0.0, 0.0, self.outcome.C_J, self.outcome.steady),)
+        return tuple(found) or (Well(-1.0, -1.0, self.outcome.C_J, self.outcome.steady),)
 
 
 def solve(settings, progress=None):

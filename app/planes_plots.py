@@ -35,7 +35,7 @@ path.followed = true
 let now = 0
 const place_bead = () => {
   const {t, theta, V, E, well} = path.data, last = t.length - 1
-  if (last < 1) return
+  if (last < 1) return none.setv({visible: false}, {sync: false})
   let low = 0, high = last
   while (high - low > 1) {
     const middle = (low + high) >> 1

@@ -18,6 +18,8 @@ ROUNDING = 1e-7
 # So many spells on ball, stem or both are told one by one. A tilt whose least and largest change by less than STEADY
 # (rad) between the halves of the last fifth neither rises nor falls.
 MOST_SPELLS, STEADY = 5, np.radians(0.5)
+# A tilt that stays within STILL (rad) has not left its balance.
+STILL = 1e-6
 # A nudge of the start that grows so many times makes of the tenth of a degree that no hand holds ten degrees.
 SCATTERS, HAND = 100.0, 0.1
 
@@ -81,7 +83,7 @@ def fate(picture, plane):
 def became(picture, motion):
     """The key in planes.toml of what became of it on the sliding plane."""
     found, theta, a = motion.ending, motion.trajectory.theta, picture.settings.top.a
-    if picture.outcome.nudged and np.ptp(theta) == 0:
+    if picture.outcome.nudged and np.ptp(theta) < STILL:
         return "balances"
     if found.flat:
         return "flat"

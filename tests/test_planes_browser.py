@@ -61,7 +61,7 @@ def choose(page, name):
 def test_the_first_look_says_that_only_sliding_turns_it_over(page, first):
     page.get_by_text(re.compile(r"^rough: never turns over: rolling keeps the sign")).wait_for()
     page.get_by_text(re.compile(r"^smooth: never turns over")).wait_for()
-    page.get_by_text(re.compile(r"^sliding: turns over: past 90° at 2\.\d+ s")).wait_for()
+    page.get_by_text(re.compile(r"^sliding: leans on ball and stem: 118\.8° at 5 s; past 90° at 2\.\d+ s")).wait_for()
     page.get_by_text(re.compile("Friction in force: smoothed Coulomb")).wait_for()
     page.wait_for_function(f"n => {TOPS}.length == 1 && {TOPS}[0].count == n", arg=len(first.motions["sliding"].t))
     shown = page.evaluate(COLUMN, ["planes-theta", "theta"])
@@ -98,9 +98,22 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
     choose(page, "sliding")
 
 
+def test_there_is_no_well_while_the_stem_touches(page, first):
+    """And the bead is gone with it; before that both are there."""
+    choose(page, "sliding")
+    hidden = f"t => {MODELS}.some((m) => m.type == 'Label' && m.visible) == (t > 2.6)"
+    for t, beads in ((4.0, 0), (1.0, 1)):
+        page.evaluate("t => window.dispatchEvent(new CustomEvent('tippe:seek:planes', {detail: {t}}))",
+                      t / first.settings.scales.time)  # fmt: skip
+        page.wait_for_function(hidden, arg=t)
+        page.wait_for_function(f"n => ({COLUMN})(['planes-well', 'E'])[0].length == n", arg=beads)
+        shown = page.evaluate(COLUMN, ["planes-well", "alpha"])[0]
+        assert shown == [beads]
+
+
 def test_a_preset_sets_the_top_the_start_and_the_law(page):
     choose(page, "Top S hangs")
-    page.get_by_text(re.compile(r"^sliding: hangs: past 90° at 1\.99 s, 109\.\d° at 25 s")).wait_for()
+    page.get_by_text(re.compile(r"^sliding: leans: 109\.\d° at 25 s; past 90° at 1\.99 s")).wait_for()
     page.get_by_text(re.compile("Friction in force: viscous")).wait_for()
     page.wait_for_function("field => field.value == '9.5493'", arg=field(page, "spin").element_handle())
     # and the address follows without another gesture
@@ -109,13 +122,13 @@ def test_a_preset_sets_the_top_the_start_and_the_law(page):
     page.wait_for_function("!location.search.includes('law=')")
     page.get_by_text(re.compile("Friction in force: smoothed Coulomb")).wait_for()
     choose(page, "The paper’s top by hand")
-    page.get_by_text(re.compile("^sliding: turns over")).wait_for()
+    page.get_by_text(re.compile("^sliding: leans on ball and stem")).wait_for()
 
 
 def test_a_bad_value_is_said_and_nothing_is_lost(page):
     put(page, "tilt", 200)
     page.get_by_text(re.compile("tilt = 200 is not possible")).wait_for()
-    assert page.get_by_text(re.compile("^sliding: turns over")).count()
+    assert page.get_by_text(re.compile("^sliding: leans on ball and stem")).count()
     put(page, "tilt", 10)
     page.get_by_text(re.compile("tilt = 200 is not possible")).wait_for(state="detached")
 
@@ -128,7 +141,7 @@ def test_a_long_run_shows_how_far_it_is_and_can_be_stopped(page):
     stop.click()
     page.get_by_text(re.compile(r"Stopped at \S+ s of the motion")).wait_for()
     stop.wait_for(state="hidden")
-    assert page.get_by_text(re.compile("^sliding: turns over.* at 5 s")).count()
+    assert page.get_by_text(re.compile("^sliding: leans on ball and stem.* at 5 s")).count()
     put(page, "seconds", 5)
     page.get_by_text(re.compile("Stopped at")).wait_for(state="detached")
 
