@@ -19,6 +19,10 @@ the normal impulse P in place of time says what happens (Routh; Keller, J. Appl.
 
 and Coulomb's friction may stop u_h on the way, if mu_s lets it.
 
+Painleve's limit. N must make u_z' rise: alone, and where two contacts press, both (all principal minors of u_z' by the
+N are positive). Where friction is too strong for that no N balances it, or several do, and what comes then is not in
+these equations. Where nothing presses (without forces u_z' > 0) the contact parts instead.
+
 Flight. L stays, e turns round it at |L|/I1, and G falls along a parabola.
 """
 
@@ -31,14 +35,18 @@ from scipy.optimize import brentq
 
 from .errors import TopError
 from .friction import Coulomb
+from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
 from .trajectory import Trajectory
 
 # SLOW: see sliding.py. REST ((gR)^1/2): slip below which Coulomb's friction may hold.
-# FLAT (rad): so near does the stem stand upright on its flat end. SLACK (Mg), TOUCH (R): less than that is nothing.
-SLOW, REST, FLAT, SLACK, TOUCH = 0.01, 1e-11, 1e-3, 1e-10, 1e-11
+# SLACK (Mg), TOUCH (R): less than that is nothing. LEAST: what is left of u_z' by N, of 1 without friction.
+SLOW, REST, SLACK, TOUCH, LEAST = 0.01, 1e-11, 1e-10, 1e-11, 1e-6
+SINKS = 1e-6  # (g): a contact that is let go and sinks faster would have to carry
 STEADY = 10.0  # ((g/R)^1/2): rate at which what rounding and tolerance do to closed contacts is undone
 UP = np.array([0.0, 0.0, 1.0])
 SPHERE, EDGE = 0, 1
+SUPPORTS = {(): "none", (SPHERE,): "ball", (EDGE,): "stem", (SPHERE, EDGE): "both"}
+ENDS = {"stands": "stands upright", "balances": "Painleve's limit", "turns": "too many turns"}
 
 
 # ---- y = (p_x, p_y, p_z, p_w, chi, L_x, L_y, L_z, v_x, v_y, x, y, t, heat[, v_z, z]), see sliding.py ----
@@ -77,6 +85,7 @@ def pose(top, y, path):
 def record(top, y, path, u, F, **more):
     """The Trajectory at y (14 or 16, n), for the horizontal slip u and the force F in space, (2, n) and (3, n)."""
     theta, phi, psi, omega = pose(top, y, path)
+    F = np.where((F[2] < 0) & (F[2] > -2 * SLACK), 0.0, F)
     e, turn = turning(top, y)[0], np.exp(-1j * phi)
     u_h, F_h = (u[0] + 1j * u[1]) * turn, (F[0] + 1j * F[1]) * turn
     p, half = y[:4] / np.sqrt((y[:4] ** 2).sum(axis=0)), np.exp(0.5j * y[4])  # q = p Rz(chi)
@@ -114,6 +123,7 @@ class Body:
         self.gentle = 10 * tolerance**0.5
         self.sticks = isinstance(friction, Coulomb)
         self.contacts = (SPHERE,) if edge is None else (SPHERE, EDGE)
+        self.tips = tipping_energy(top, edge) if edge else 0.0
 
     def on_sphere(self, y):
         """y of 16 from that of 14, on the sphere."""
@@ -121,8 +131,11 @@ class Body:
         return np.append(y, [-self.top.a * (wx * ey - wy * ex), 1 - self.top.a * ez])
 
     def on_edge(self, y):
-        """y of 16 from that of 14, on the edge."""
+        """y of 16 from that of 14, on the edge; flat on it, or as good, it leans to where it moves."""
         y = np.append(y, [0.0, 0.0])
+        e, w, _, _ = turning(self.top, y)
+        if self.edge[0] and e[2] < 0 and (lean := leaning(e, w))[0] < FLAT and lean[1] < 0:
+            y = crossed(y, e)
         _, _, height, u = self._contact(y, EDGE)
         y[14:] = -u[2], -height
         return y
@@ -165,7 +178,8 @@ class Body:
         return _sum(F, _cross(w_dot, rho))
 
     def forces(self, y, modes):
-        """{i: (F, rho, u)} for the contacts of modes, and what the others' u_z' is: {i: float}."""
+        """{i: (F, rho, u)} for the contacts of modes; {i: float}, what the others' u_z' is; and the least principal
+        minor of u_z' by the N, not above 0 beyond Painleve's limit."""
         top = self.top
         e, w, L3, _ = turning(top, y)
         free = [(1 / top.I3 - 1 / top.I1) * L3 * x for x in _cross(w, e)]  # w' but for the forces
@@ -183,6 +197,8 @@ class Body:
                 k = self.friction.k(u[0] * u[0] + u[1] * u[1])
                 unknowns.append((i, (-k * u[0], -k * u[1], 1.0)))
         moved = [{i: self._response(e, d, at[j][0], at[i][0]) for i in at} for j, d in unknowns]
+        minor = min((column[j][2] for (j, _), column in zip(unknowns, moved, strict=True) if modes[j] == "slip"),
+                    default=1.0)  # fmt: skip
         if len(rows) == 1:
             i, part, needed = rows[0]
             sizes = [needed / moved[0][i][part]]
@@ -190,6 +206,8 @@ class Body:
             matrix = np.array([[column[i][part] for column in moved] for i, part, _ in rows])
             right = np.array([needed for _, _, needed in rows])
             singular = len(right) == 6
+            if len(modes) == 2 and not singular:
+                minor = min(minor, np.linalg.det(matrix))
             sizes = np.linalg.lstsq(matrix, right, rcond=1e-9)[0] if singular else np.linalg.solve(matrix, right)
         found = {i: [0.0, 0.0, 0.0] for i in modes}
         others = {i: away[i][2] for i in at if i not in modes}
@@ -198,7 +216,7 @@ class Body:
                 found[j][part] += size * d[part]
             for i in others:
                 others[i] += size * column[i][2]
-        return {i: (F, at[i][0], at[i][3]) for i, F in found.items()}, others
+        return {i: (F, at[i][0], at[i][3]) for i, F in found.items()}, others, minor
 
     # ---- followed on one or two contacts ----
 
@@ -216,7 +234,7 @@ class Body:
     def _rates(self, y, modes):
         top = self.top
         y = y.tolist()
-        found, _ = self.forces(y, modes)
+        found, _, _ = self.forces(y, modes)
         (ex, ey, ez), (wx, wy, wz), L3, _ = turning(top, y)
         px, py, pz, pw = y[:4]
         w3 = L3 / top.I3
@@ -234,8 +252,8 @@ class Body:
     def _guards(self, y, modes, floor):
         """What must not be negative: {(kind, contact): float}. floor: heights that count as the table's."""
         y = y.tolist()
-        found, _ = self.forces(y, modes)
-        guards = {}
+        found, _, minor = self.forces(y, modes)
+        guards = {("balances", None): minor - LEAST}
         for i, (F, _, _) in found.items():
             guards["leaves", i] = F[2] + SLACK
             if modes[i] == "stick":
@@ -244,7 +262,12 @@ class Body:
         guards |= {("touches", i): max(heights[i] - floor[i] + TOUCH, self._contact(y, i)[3][2] + SLACK)
                    for i in self.contacts if i not in modes}  # fmt: skip
         if EDGE in modes and self.edge[0]:
-            guards["stands", EDGE] = 2 * sqrt((y[0] ** 2 + y[1] ** 2) * (y[2] ** 2 + y[3] ** 2)) - FLAT
+            e, w, L3, _ = turning(self.top, y)
+            if e[2] < 0:
+                s, rate = leaning(e, w)
+                above = energy_above_rest(self.top, self.edge, y, L3)
+                guards["stands", EDGE] = max(s / STANDS - 1, above - self.tips)
+                guards["rocks", EDGE] = max(s / FLAT - 1, rate + SLACK)
         return guards
 
     def follow(self, y, times, modes):
@@ -260,7 +283,7 @@ class Body:
         rows, speeds = [np.tile(y, (done, 1))], self._speeds(y, modes)
         floor = self.floor(y)
         if (event := self._first(self._guards(y, modes, floor))) is not None:
-            end = begin
+            end, rows, done = begin, [np.zeros((0, 16))], 0
         while y[12] < end and event is None:
             last, before = y, speeds
             if solver.step() or not np.all(np.isfinite(solver.y)):
@@ -287,8 +310,9 @@ class Body:
                 rows.append(self._at(times[done:count], dense, modes) if scaled else dense(times[done:count] - begin).T)
                 done = count
             path.append(y)
-            if len(path) % 8 == 0:  # as long as 64 steps on the sphere alone
-                self.progress(float(y[12]))
+            # as long as 64 steps on the sphere alone
+            if len(path) % 8 == 0 and self.progress(float(y[12])) and event is None:
+                event = "turns", None
         samples = np.concatenate(rows)
         samples[:, 12] = times[:done]
         return self._record(samples, np.array(path), modes), y, event
@@ -402,7 +426,8 @@ class Body:
                     ends, event = lands, ("lands", int(i))
             path.extend(flown[:, t <= ends].T)
             at = float(t[-1])
-            self.progress(float(begin + min(at, ends)))
+            if self.progress(float(begin + min(at, ends))) and event is None:
+                ends, event = at, ("turns", None)
         count = int(np.searchsorted(times, begin + ends, "right" if event is None else "left"))
         samples = self._flown(y, times[:count] - begin)
         samples[12] = times[:count]
@@ -413,10 +438,13 @@ class Body:
     # ---- touching, leaving ----
 
     def settle(self, y, event):
-        """The state after the event (kind, contact) at y, with any impact, and the modes in which it goes on."""
+        """The state after the event (kind, contact) at y, with any impact, and the modes in which it goes on, or None
+        beyond Painleve's limit."""
+        if event[0] == "rocks":
+            y = self._rocked(y)
         heights, (kind, touched) = self.heights(y), event
         closed = [i for i in self.contacts if heights[i] < 1e-9]
-        if kind in ("touches", "lands"):
+        if kind in ("touches", "lands", "rocks"):
             y = self._soft(y, closed)
             for _ in range(1000):
                 falls = {i: self._contact(y, i)[3][2] for i in closed}
@@ -437,7 +465,7 @@ class Body:
         speeds = np.array([self._contact(y, i)[3][2] for i in closed])
         if len(closed) < 2 or np.abs(speeds).max() > self.gentle:
             return y
-        found, _ = self.forces(y, {i: "stick" if self._rests(y, i) else "slip" for i in closed})
+        found, _, _ = self.forces(y, {i: "stick" if self._rests(y, i) else "slip" for i in closed})
         if min(F[2] for F, _, _ in found.values()) <= 0:
             return y
         W = [[self._mobility(y, i, j)[2, 2] for j in closed] for i in closed]
@@ -446,12 +474,15 @@ class Body:
         return y
 
     def _modes(self, y, options):
-        """The contacts that carry from here on: none pulls, none sinks in, none holds more than it can."""
-        best = None
+        """The contacts that carry from here on: none pulls, none sinks in, none holds more than it can; or None."""
+        best, unbalanced = (np.inf, y, None), False
         for chosen in sorted(product(*options.values()), key=lambda c: (c.count(None), -c.count("stick"))):
             modes = {i: mode for i, mode in zip(options, chosen, strict=True) if mode}
             y_now = self._let_go(y, modes)
-            found, others = self.forces(y_now, modes)
+            found, others, minor = self.forces(y_now, modes)
+            if minor < LEAST:
+                unbalanced = True
+                continue
             lacking = [-F[2] for F, _, _ in found.values()]
             lacking += [-others[i] for i in options if i not in modes and len(options[i]) > 1]
             lacking += [np.hypot(F[0], F[1]) - self.friction.mu_s * F[2]
@@ -459,9 +490,30 @@ class Body:
             worst = max(lacking, default=0.0)
             if worst <= SLACK / 2:
                 return y_now, modes
-            if best is None or worst < best[0]:
+            if worst < best[0]:
                 best = worst, y_now, modes
-        return best[1:]
+        return (y, None) if unbalanced and best[0] > SINKS else best[1:]
+
+    def stays_flat(self, y, modes):
+        """Whether the impact that brought its flat end down left it no way to lean further."""
+        e, w, _, _ = turning(self.top, y)
+        return EDGE in modes and leaning(e, w)[1] <= 0
+
+    def start_alone(self, y, time, event):
+        """The Trajectory of one instant, where the event ends it at once."""
+        if event == "lifts off":
+            return self.fly(y, time)[0]
+        stands, y = event == ENDS["stands"], y if len(y) == 16 else self.on_sphere(y)
+        rho = self._contact(y, SPHERE if event == "rim touches" else EDGE)[0]
+        none, weight = np.zeros((2, 1)), np.array([[0.0], [0.0], [float(stands)]])
+        return record(self.top, y[:, None], y[:, None], none, weight, contact=(y[10:12] + rho[:2])[None])
+
+    def _rocked(self, y):
+        """y leaning on the opposite point of the rim; what energy the small turn takes is heat."""
+        before, y = self._kinetic(y) + y[15], crossed(y, turning(self.top, y)[0])
+        y[15] -= self._contact(y, EDGE)[2]
+        y[13] += before - self._kinetic(y) - y[15]
+        return y
 
     def _let_go(self, y, modes):
         """y with the least slip where a contact at rest starts to slip: against the force that would have held it."""
@@ -543,6 +595,8 @@ def change(before, after, event):
     if not carried:
         return "lands on its stem" if EDGE in carries or (not carries and event[1] == EDGE) else "lands"
     if carried == carries or carries == (SPHERE, EDGE):
+        if event[0] == "rocks":
+            return "rocks over"
         touches = {SPHERE: "ball touches", EDGE: "stem touches"}
         return event[0] if event[0] in ("sticks", "slips") else touches[event[1]]
     if carried == (SPHERE, EDGE) and carries == (SPHERE,):

@@ -26,7 +26,7 @@ from scipy.integrate import LSODA
 from scipy.optimize import brentq
 
 from .constants import State, f3_2, versines
-from .contacts import EDGE, SLOW, SPHERE, TOUCH, Body, change, gap, pose, record, turning
+from .contacts import EDGE, ENDS, SLOW, SPHERE, SUPPORTS, TOUCH, Body, change, gap, pose, record, turning
 from .errors import TopError, finite, numbers
 from .forces import contact_force
 from .friction import Coulomb, SmoothedCoulomb, Viscous
@@ -68,12 +68,16 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     "lifts off" where that stops it,
     "rim touches" where the sphere's surface ends before anything else touches (an edge on the sphere, as of a cut ball
     without a stem): what comes then is not computed,
-    "stands upright" on a stem within 1e-3 rad of its flat end, where friction is no longer that of a point,
-    "too many events" after 1000 of them: friction at its limit that chatters, or a top that hops on.
+    "stands upright" on its stem within 1e-3 rad of flat, without the energy to tip over the rim of the stem's end any
+    more (standing.py); else the motion goes on over it: "rocks over" where the end comes down flat, an impact,
+    "Painleve's limit" where no normal force balances the friction at the stem, or several do (contacts.py),
+    "too many events" after 1000 of them: friction at its limit that chatters, or a top that hops on,
+    "too many turns" after what takes about half a minute.
+    A start that must leave the table is one sample in the air, or flies from the first; its first event is "lifts off".
+    supports: what carried it from when on, "ball", "stem", "both" or "none".
     regime: "slip", or "roll" where Coulomb's friction holds the top; on the sphere that part is the exact one of
     rolling.py. heat: the work of friction and of impacts.
-    Raises TopError for bad input, for friction so strong that no normal force balances it (Painleve), and for more
-    turns of the top than can be followed in about half a minute.
+    Raises TopError for bad input, and for friction so strong that no normal force balances it on the ball (Painleve).
     """
     if not isinstance(state, State):
         raise TopError("state", state, "a State")
@@ -88,8 +92,7 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
         raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
     if landing not in ("stop", "plastic"):
         raise TopError("landing", landing, '"stop" or "plastic"')
-    progress = _Limited(t, progress)
-    return _Run(top, friction, rtol / 10, _checked_edge(edge), landing == "plastic", progress)(state, t)
+    return _Run(top, friction, rtol / 10, _checked_edge(edge), landing == "plastic", _Limited(progress))(state, t)
 
 
 def sensitivity(top, state, friction, times, nudge=1e-6, **how):
@@ -105,18 +108,16 @@ def sensitivity(top, state, friction, times, nudge=1e-6, **how):
 
 
 class _Limited:
-    """progress, or nothing, until it was called too often."""
+    """progress, or nothing; True once it was called too often."""
 
-    def __init__(self, times, progress):
-        self.times, self.progress, self.calls = times, progress, 0
+    def __init__(self, progress):
+        self.progress, self.calls = progress, 0
 
     def __call__(self, t):
         self.calls += 1
-        if self.calls > MOST_CALLS:
-            raise TopError("times", float(self.times[-1]), f"times up to t = {t:.6g} for this start",
-                           "It turns too often to be followed further: a shorter time, or a slower top.")  # fmt: skip
         if self.progress:
             self.progress(t)
+        return self.calls > MOST_CALLS
 
 
 def _checked_edge(edge):
@@ -162,32 +163,44 @@ class _Run:
         self.sticks = isinstance(friction, Coulomb)
 
     def __call__(self, state, times):
-        y = self._start(state, times[0])
-        if np.cos(state.theta) < self.rim:
-            raise TopError("theta", state.theta, f"less than {np.arccos(self.rim):.6g} for this top",
-                           "The sphere's surface ends there.")  # fmt: skip
-        if self.edge and gap(self.edge, np.cos(state.theta), np.sin(state.theta)) < 0:
-            y, modes = self.body.settle(self.body.on_edge(y), ("starts", None))
-            if not modes and not self.flies:
-                return _joined(self.top, [self.body.fly(y, times[:1])[0]], ((float(times[0]), "lifts off"),))
-        else:
-            rolls = self.sticks and np.hypot(*_slip(self.top, y)) < 1e-12 and self._holds(y)
-            modes = {SPHERE: "stick" if rolls else "slip"}
-        stretches, events, done = [], [], 0
-        while True:
+        y, modes = self._begin(state, times[0])
+        stretches, events, supports, done = [], [], [], 0
+        _support(supports, float(times[0]), {EDGE: None} if modes is None else modes)
+        if modes == {}:
+            events.append((float(times[0]), "lifts off"))
+        while modes is not None and (modes or self.flies):
+            _support(supports, float(y[12]), modes)
             stretch, y, event, now = self._stretch(y, times[done:], modes)
             stretches.append(stretch)
             done += len(stretch.t)
             if event is None:
                 break
             events.append((float(y[12]), event))
-            if event in ("stands upright", "rim touches") or (not now and not self.flies):
+            if event in ENDS.values() or event == "rim touches":
                 break
             if len(events) >= MOST_EVENTS:
                 events.append((float(y[12]), "too many events"))
                 break
             modes = now
-        return _joined(self.top, stretches, tuple(events))
+        if modes is None:
+            events.append((float(y[12]), "Painleve's limit"))
+        if not done:
+            stretches.append(self.body.start_alone(y, times[:1], events[-1][1]))
+        return _joined(self.top, stretches, tuple(events), tuple(supports))
+
+    def _begin(self, state, t):
+        """y at a State, and the modes (see Body) in which it goes on: {} where it leaves the table at once, or None, as
+        settle() has it."""
+        y, c, s = self._start(state, t), np.cos(state.theta), np.sin(state.theta)
+        if c < self.rim:
+            raise TopError("theta", state.theta, f"less than {np.arccos(self.rim):.6g} for this top",
+                           "The sphere's surface ends there.")  # fmt: skip
+        if self.edge and gap(self.edge, c, s) < 0:
+            return self.body.settle(self.body.on_edge(y), ("starts", None))
+        rolls = self.sticks and np.hypot(*_slip(self.top, y)) < 1e-12 and self._holds(y)
+        if not rolls and self._Fz(self._unknowns(self._let_go(y) if self.sticks else y)) < 0:
+            return self.body.on_sphere(y), {}
+        return y, {SPHERE: "stick" if rolls else "slip"}
 
     def _stretch(self, y, times, modes):
         """A Trajectory of the times before the next event, the state then, its name and the modes (see Body) after it.
@@ -198,8 +211,8 @@ class _Run:
             stretch, y, event = self.body.follow(y, times, modes) if modes else self.body.fly(y, times)
             if event is None:
                 return stretch, y, None, modes
-            if event[0] == "stands":
-                return stretch, y, "stands upright", modes
+            if event[0] in ENDS:
+                return stretch, y, ENDS[event[0]], modes
         else:
             y = y[:14]
             self._floor = min(self._room(y), 0.0) if self.edge else 0.0
@@ -207,6 +220,8 @@ class _Run:
                 stretch, y, event = self._roll(y, times)
             else:
                 stretch, y, event = self._slip(self._let_go(y) if self.sticks else y, times)
+            if event == ENDS["turns"]:
+                return stretch, y, event, modes
             if event in (None, "sticks", "slips"):
                 return stretch, y, event, {SPHERE: "stick" if event == "sticks" else "slip"}
             y = self.body.on_sphere(y)
@@ -214,6 +229,11 @@ class _Run:
                 return stretch, y, event, {}
             event = "touches", EDGE
         y, now = self.body.settle(y, event)
+        if now is None:
+            left = {i: mode for i, mode in modes.items() if event != ("leaves", i)}
+            return stretch, y, change(modes, left, event), None
+        if event[0] == "rocks" and self.body.stays_flat(y, now):
+            return stretch, y, ENDS["stands"], now
         if turning(self.top, y)[0][2] < self.rim:
             return stretch, y, "rim touches", {}
         return stretch, y, change(modes, now, event), now
@@ -309,8 +329,8 @@ class _Run:
                 if event is not None:
                     z = dense(tau)
                     times = times[times <= z[12]]
-            if len(path) % 64 == 0:
-                self.progress(float(z[12]))
+            if len(path) % 64 == 0 and self.progress(float(z[12])) and event is None:
+                event = ENDS["turns"]
             if event is None and self.sticks and z[8] < min(last[8], LOG_STILL):
                 holds, gone = self._holds(z), z[8] < 2 * LOG_STILL  # near the limit of friction it may hold yet
                 if not gone and holds:
@@ -513,6 +533,15 @@ def _cut(trajectory, part, heat):
     return Trajectory(top=trajectory.top, **parts | {"heat": np.full(len(parts["t"]), heat)})
 
 
-def _joined(top, stretches, events):
-    return Trajectory(top=top, events=events,
+def _support(supports, t, modes):
+    """Adds (t, what carries); what carried for no time goes."""
+    what = SUPPORTS[tuple(sorted(modes))]
+    if supports and supports[-1][0] == t:
+        supports.pop()
+    if not supports or supports[-1][1] != what:
+        supports.append((t, what))
+
+
+def _joined(top, stretches, events, supports):
+    return Trajectory(top=top, events=events, supports=supports,
                       **{name: np.concatenate([getattr(s, name) for s in stretches]) for name in _PARTS})  # fmt: skip

@@ -25,7 +25,9 @@ class Trajectory:
     force (n, 3) on the top there, both in the turning axes x (along 1'), y (z cross 1'), z;
     regime (n,) "roll", "slip" or "air"; events, a tuple of (time, what);
     velocity (n, 3) of G in the same axes; where it is not given, that of the sphere's contact: omega x r + slip;
-    heat (n,) in MgR: what friction and impacts took since t[0], by their own work; 0 where not given.
+    heat (n,) in MgR: what friction and impacts took since t[0], by their own work; 0 where not given;
+    supports, a tuple of (time, what): what carries the top from that time on, "ball", "stem", "both" or "none"; first
+    at t[0], then at each change, located like events; the ball alone where not given.
 
     Where a stem's end takes part, contact, slip and force are those of the point that carries; of two, the force is
     the sum, and the contact and the slip are the means of both, weighted by the load. In the air slip and force are 0
@@ -50,6 +52,7 @@ class Trajectory:
     events: tuple = ()
     velocity: np.ndarray | None = None
     heat: np.ndarray | None = None
+    supports: tuple = ()
 
     def __post_init__(self):
         if self.velocity is None:
@@ -59,6 +62,8 @@ class Trajectory:
             object.__setattr__(self, "velocity", np.stack(v, axis=1))
         if self.heat is None:
             object.__setattr__(self, "heat", np.zeros(len(self.t)))
+        if not self.supports and len(self.t):
+            object.__setattr__(self, "supports", ((float(self.t[0]), "ball"),))
         for value in vars(self).values():
             if isinstance(value, np.ndarray):
                 value.flags.writeable = False

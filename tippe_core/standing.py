@@ -1,0 +1,50 @@
+"""Standing flat on the stem's end: when nothing can tip it any more, and what happens where its flat end comes down.
+
+The end is a circle of radius b, H = a + h from G, rounded by a ball of radius q. Leaning by alpha = pi - theta on a
+point of its rim G is H cos(alpha) + b sin(alpha) + q high, most where it is straight above that point,
+tan(alpha) = b/H, unless the ball comes to the table before that.
+
+Friction takes energy and never gives any. So with less energy above flat rest than G needs for that, all of the motion
+counted, nothing tips the top over its rim any more: it stands. The energy of the spin counts too, for friction at a
+point of the rim turns it into tilt as it does on the ball: from 1e-3 rad, at rest but for a spin of 6 (g/R)^1/2, the
+paper's top leans on its rim by 0.09 rad after 2 (R/g)^1/2, whichever the law.
+
+Passing its flat position the contact runs round the rim, and so the motion is followed. Where it passes within FLAT,
+as a top that rocks in a plane does, the far side of the rim comes down at once: an impact like any other here, plastic,
+at the opposite point, on which the top then leans as much to the other side.
+"""
+
+from math import acos, atan2, cos, hypot, sin, sqrt
+
+STANDS, FLAT = 1e-3, 1e-6  # rad: what counts as upright; what counts as flat
+
+
+def tipping_energy(top, edge):
+    """What G must rise from flat on the stem's end for the top to tip over its rim, or onto its ball."""
+    b, h, q = edge
+    H = top.a + h
+    onto_ball = atan2(b, h) + acos(min(1.0, (1 - q) / hypot(b, h)))  # h cos(alpha) + b sin(alpha) = 1 - q
+    alpha = min(atan2(b, H), onto_ball)
+    return H * (cos(alpha) - 1) + b * sin(alpha)
+
+
+def energy_above_rest(top, edge, y, L3):
+    """The energy at y (16) above that of rest, flat on the stem's end."""
+    L_squared, v_squared = y[5] * y[5] + y[6] * y[6] + y[7] * y[7], y[8] * y[8] + y[9] * y[9] + y[14] * y[14]
+    kinetic = (L_squared / top.I1 + (1 / top.I3 - 1 / top.I1) * L3 * L3 + v_squared) / 2
+    return kinetic + y[15] - (top.a + edge[1] + edge[2])
+
+
+def leaning(e, w):
+    """sin(theta) and its rate."""
+    (ex, ey, ez), (wx, wy, wz) = e, w
+    s = sqrt(ex * ex + ey * ey)
+    return s, (ex * (wy * ez - wz * ey) + ey * (wz * ex - wx * ez)) / s
+
+
+def crossed(y, e):
+    """y (16) leaning as much to the other side, G as high."""
+    (x, z, c), (px, py, pz, pw) = (-e[1], e[0], -e[2]), y[:4]  # the turn by 2 alpha about z cross e
+    y = y.copy()
+    y[:4] = c * px + x * pw + z * pz, c * py - x * pz + z * pw, c * pz + x * py - z * px, c * pw - x * px - z * py
+    return y
