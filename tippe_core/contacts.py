@@ -443,7 +443,7 @@ class Body:
         if event[0] == "rocks":
             y = self._rocked(y)
         heights, (kind, touched) = self.heights(y), event
-        closed = [i for i in self.contacts if heights[i] < 1e-9]
+        closed = [i for i in self.contacts if heights[i] < 1e-9 or (i, kind) == (EDGE, "rocks")]
         if kind in ("touches", "lands", "rocks"):
             y = self._soft(y, closed)
             for _ in range(1000):

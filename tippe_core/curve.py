@@ -11,7 +11,7 @@ The inverted pole is the same with a -> -a, v -> 1 + c and the sign of K_R turne
 
 from collections import namedtuple
 from dataclasses import replace
-from decimal import Decimal, localcontext
+from decimal import ROUND_CEILING, Context, Decimal, localcontext
 
 import numpy as np
 from scipy.optimize import brentq
@@ -400,11 +400,16 @@ def wells(curve):
         found = found or [Well(s.c, s.c) for s in stations if s.gap == 0][:1]  # a ball at rest
         if found:
             return found
-        shift = float(exact.K_R**2 - curve.top.I1 / curve.top.I3 * exact.K_J**2)
-        E, E_least = (float(exact.e) + shift) / 2, (float(exact.e - max(s.gap for s in stations)) + shift) / 2
+        shift = exact.K_R**2 - curve.top.I1 / curve.top.I3 * exact.K_J**2
+        E, E_least = float(exact.e + shift) / 2, (exact.e - max(s.gap for s in stations) + shift) / 2
         constants = f"K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) + 0.0:.10g}"
-        raise NoMotionError("E", E, f"E >= {E_least:.10g} for this top, {constants}",
+        raise NoMotionError("E", E, f"E >= {_no_less(E_least):.10g} for this top, {constants}",
                             "Below it is no motion, at it the steady precession of least energy.")  # fmt: skip
+
+
+def _no_less(x):
+    """x in ten figures, none of them rounded down: typed in again it is no smaller."""
+    return float(Context(prec=10, rounding=ROUND_CEILING).plus(x))
 
 
 def turning_point(curve, one, other):

@@ -90,7 +90,7 @@ class Nutation:
                 curvature = (left - 2 * low + right) / step**2
                 y0 += np.clip((left - right) / (2 * step * curvature), -10 * step, 10 * step)
             eps = np.sqrt(2 * low / curvature) if curvature > 0 else 1
-        if not eps < 0.2:
+        if not 0 < eps < 0.2:
             return None
         ends = np.arcsinh((1 - y0) / eps), np.arcsinh((1 + y0) / eps)
         alpha = sum(ends) / 2
@@ -363,7 +363,8 @@ class Rolling(Nutation):
             self.width = float(inner - outer)
             self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5  # as sin(kappa/2), cos(kappa/2)
             self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
-        self.start = start if isinstance(start, State) else State(0.0, 0.0, 0.0, 0.0)
+        self._given = isinstance(start, State)
+        self.start = start if self._given else State(0.0, 0.0, 0.0, 0.0)
         self._inward = self.start.theta_dot < 0
 
     def _h(self, v, m):
@@ -410,6 +411,10 @@ class Rolling(Nutation):
         return self._bracket(np.array([self.v1, self.v2]), np.array([self.m1, self.m2]))
 
     def _too_near(self):
+        if self._given:
+            return TopError("theta", self.start.theta, f"a start whose nutation {_NODES_MOST} nodes resolve",
+                            "It is too near to an unstable steady precession, or f1 or f3 nearly vanishes in the "
+                            "well; change the start a little.")  # fmt: skip
         E = (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
         return TopError("E", E, f"an energy whose nutation {_NODES_MOST} nodes resolve",
                         "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "

@@ -85,7 +85,7 @@ class Gliding(Nutation):
         return self._h(*self._versines(ch, sh))  # Q has nothing to cancel
 
     def _too_near(self):
-        return TopError("E", self.E, "an energy further from that of an unstable steady precession",
+        return TopError("theta", self.start.theta, "a start further from an unstable steady precession",
                         "So near to it the nutation takes almost for ever; change the start a little.")  # fmt: skip
 
     def _slopes(self, v, m):
