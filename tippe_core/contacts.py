@@ -177,14 +177,14 @@ class Body:
         w_dot = [x / top.I1 + along * axis for x, axis in zip(torque, e, strict=True)]
         return _sum(F, _cross(w_dot, rho))
 
-    def forces(self, y, modes):
-        """{i: (F, rho, u)} for the contacts of modes; {i: float}, what the others' u_z' is; and the least principal
-        minor of u_z' by the N, not above 0 beyond Painleve's limit."""
+    def forces(self, y, modes, beside=True):
+        """{i: (F, rho, u)} for the contacts of modes; {i: float}, what the others' u_z' is, if asked; and the least
+        principal minor of u_z' by the N, not above 0 beyond Painleve's limit."""
         top = self.top
         e, w, L3, _ = turning(top, y)
         free = [(1 / top.I3 - 1 / top.I1) * L3 * x for x in _cross(w, e)]  # w' but for the forces
         at, away, unknowns, rows = {}, {}, [], []
-        for i in self.contacts:
+        for i in self.contacts if beside else sorted(modes):
             rho, rho_dot, height, u = at[i] = self._contact(y, i, e, w)
             x, yy, z = away[i] = _sum(_cross(w, rho_dot), _cross(free, rho), (0.0, 0.0, -1.0))
             mode = modes.get(i)
@@ -234,7 +234,7 @@ class Body:
     def _rates(self, y, modes):
         top = self.top
         y = y.tolist()
-        found, _, _ = self.forces(y, modes)
+        found, _, _ = self.forces(y, modes, beside=False)
         (ex, ey, ez), (wx, wy, wz), L3, _ = turning(top, y)
         px, py, pz, pw = y[:4]
         w3 = L3 / top.I3
