@@ -18,6 +18,7 @@ from tippe_core import (
     State,
     Top,
     TopError,
+    TruncatedSphere,
     Viscous,
     outcome,
     sensitivity,
@@ -230,11 +231,26 @@ def test_no_more_events_than_can_be_followed(monkeypatch):
     assert moved.events[4][0] == moved.events[5][0] > moved.t[-1]
 
 
-def test_more_turns_than_can_be_followed_are_said(monkeypatch):
-    monkeypatch.setattr(sliding, "MOST_CALLS", 20)
-    with pytest.raises(TopError, match="times up to t = ") as caught:
-        slide(PAPER, State(1.0, 0, 0, 1e6), Viscous(0.3), [0, 1])
-    assert caught.value.name == "times"
+@pytest.mark.parametrize(("state", "friction", "more"), [
+    (State(1.0, 0, 0, 1e6), Viscous(0.3), {}),
+    (State(0.1, 0, 0, 9.0), Coulomb(0.3, 0.4), {}),
+    (State(3.0, 0, 0, -9.0), Viscous(0.3), {"edge": TruncatedSphere.paper().edge}),
+    (State(1.5, 3.0, 5.0, 3e4), Viscous(0.3), {"landing": "plastic"}),
+])  # fmt: skip
+def test_more_turns_than_can_be_followed_end_it_and_what_was_computed_stays(monkeypatch, state, friction, more):
+    times = np.linspace(0, 40, 4_000_001) if state.omega3 == 1e6 else np.linspace(0, 40, 40_001)
+    most = 2 if friction == Coulomb(0.3, 0.4) else 20
+    monkeypatch.setattr(sliding, "MOST_CALLS", most)
+    moved, told = slide(PAPER, state, friction, times, **more), []
+    t, what = moved.events[-1]
+    assert what == "too many turns" and 0 < len(moved.t) < len(times)
+    assert moved.t[-1] <= t < moved.t[-1] + 2 * times[1]
+    slide(PAPER, state, friction, times, progress=told.append, **more)
+    assert len(told) == most + 1 and told[-1] == t
+    monkeypatch.setattr(sliding, "MOST_CALLS", 1000)
+    longer = slide(PAPER, state, friction, times[: len(moved.t)], **more)
+    assert longer.events == moved.events[:-1]
+    np.testing.assert_allclose(longer.theta, moved.theta, rtol=0, atol=1e-7)
 
 
 def test_a_high_top_lets_go_from_rest():

@@ -35,7 +35,7 @@ from scipy.optimize import brentq
 
 from .errors import TopError
 from .friction import Coulomb
-from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
+from .standing import FLAT, STANDS, crossed, energy_above_rest, leaned, leaning, tipping_energy
 from .trajectory import Trajectory
 
 # SLOW: see sliding.py. REST ((gR)^1/2): slip below which Coulomb's friction may hold.
@@ -131,11 +131,10 @@ class Body:
         return np.append(y, [-self.top.a * (wx * ey - wy * ex), 1 - self.top.a * ez])
 
     def on_edge(self, y):
-        """y of 16 from that of 14, on the edge; flat on it, or as good, it leans to where it moves."""
+        """y of 16 from that of 14, on the edge."""
         y = np.append(y, [0.0, 0.0])
-        e, w, _, _ = turning(self.top, y)
-        if self.edge[0] and e[2] < 0 and (lean := leaning(e, w))[0] < FLAT and lean[1] < 0:
-            y = crossed(y, e)
+        if self.edge[0]:
+            y = leaned(y, *turning(self.top, y)[:2])
         _, _, height, u = self._contact(y, EDGE)
         y[14:] = -u[2], -height
         return y
@@ -148,14 +147,15 @@ class Body:
             e, w, _, _ = turning(self.top, y)
         (ex, ey, ez), (ex_, ey_, ez_) = e, _cross(w, e)  # e, e'
         if i == SPHERE:
-            along, down, turns = self.top.a, 1.0, 0.0
+            along, turns, down = self.top.a, 0.0, self.top.a * ez - 1.0
         else:
             b, h, q = self.edge
-            along, down, turns = self.top.a + h, q, 0.0
+            along, turns = self.top.a + h, 0.0
+            down = along * ez - q
             if b:  # rho = (a + h + b e_z/s) e - (b/s + q) z
                 s = sqrt(ex * ex + ey * ey)
-                along, down, turns = along + b * ez / s, down + b / s, b * ez_ / (s * s * s)
-        rho = along * ex, along * ey, along * ez - down
+                along, turns, down = along + b * ez / s, b * ez_ / (s * s * s), down - b * s
+        rho = along * ex, along * ey, down
         rho_dot = along * ex_ + turns * ex, along * ey_ + turns * ey, along * ez_
         return rho, rho_dot, y[15] + rho[2], _sum((y[8], y[9], y[14]), _cross(w, rho))
 

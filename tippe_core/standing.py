@@ -44,7 +44,24 @@ def leaning(e, w):
 
 def crossed(y, e):
     """y (16) leaning as much to the other side, G as high."""
-    (x, z, c), (px, py, pz, pw) = (-e[1], e[0], -e[2]), y[:4]  # the turn by 2 alpha about z cross e
+    return _turned(y, -e[1], e[0], -e[2])  # by 2 alpha about z cross e
+
+
+def leaned(y, e, w):
+    """y (16) of a start flat on the end, leaning to where it moves; of any other as it is."""
+    (wx, wy, _), tiny = w, FLAT / 1000
+    s, rate = leaning(e, w)
+    if e[2] > 0 or s > FLAT or (rate >= 0 and s > tiny):
+        return y
+    if s > tiny:
+        return crossed(y, e)
+    moves = hypot(wx, wy)
+    return _turned(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0) if moves else y
+
+
+def _turned(y, i, j, w):
+    """y turned by the quaternion (i, j, 0, w)."""
+    px, py, pz, pw = y[:4]
     y = y.copy()
-    y[:4] = c * px + x * pw + z * pz, c * py - x * pz + z * pw, c * pz + x * py - z * px, c * pw - x * px - z * py
+    y[:4] = w * px + i * pw + j * pz, w * py - i * pz + j * pw, w * pz + i * py - j * px, w * pw - i * px - j * py
     return y
