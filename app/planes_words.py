@@ -16,7 +16,7 @@ SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
 # Below this a drift is that of the computation; what physics changes changes by more.
 ROUNDING = 1e-7
 # So many spells on ball, stem or both are told one by one. A tilt whose least and largest change by less than STEADY
-# (rad) between the halves of the last fifth neither rises nor falls.
+# (rad) between the last two fifths of the time neither rises nor falls.
 MOST_SPELLS, STEADY = 5, np.radians(0.5)
 # A tilt that stays within STILL (rad) has not left its balance.
 STILL = 1e-6
@@ -163,8 +163,9 @@ def _goes_on(picture, motion):
     if kind in ("balances", "flat"):
         return say(f"planes.goes_on.{kind}")
     if kind == "rolls":
-        since = [start for start, _, which in motion.stretches if which == ROLLS][-1] * seconds
-        return say("planes.goes_on.rolls", since=since, low=degrees(found.least), high=degrees(found.most))
+        since = [start for start, _, which in motion.stretches if which == ROLLS][-1]
+        theta = moved.theta[moved.t >= since]
+        return say("planes.goes_on.rolls", since=since * seconds, low=degrees(theta.min()), high=degrees(theta.max()))
     if found.ended:
         time = motion.trajectory.events[-1][0] * seconds
         return say("planes.goes_on.ended", time=time, happens=happens(motion.ended))
@@ -172,7 +173,7 @@ def _goes_on(picture, motion):
         return ""
     if found.settled:
         return say(f"planes.goes_on.settled.{'both' if kind == 'both' else 'else'}")
-    last = moved.t >= moved.t[-1] - 0.2 * (moved.t[-1] - moved.t[0])
+    last = moved.t >= moved.t[-1] - 0.4 * (moved.t[-1] - moved.t[0])
     early, late = np.array_split(moved.theta[last], 2)
     drifts = late.min() - early.min(), late.max() - early.max()
     how = "rises" if min(drifts) > STEADY else "falls" if max(drifts) < -STEADY else "takes"
@@ -210,7 +211,9 @@ def ball_words(picture):
                sentence=html.escape(outcome_words(picture.outcome, settings.scales)))  # fmt: skip
     if settings.edge is None or sliding is None:
         return says
-    touched = next((s.start for s in sliding.ending.stretches if s.on in ("stem", "both")), None)
+    until, event, _ = sliding.alone
+    touched = until if event == THROWN else next(
+        (s.start for s in sliding.ending.stretches if s.on in ("stem", "both")), None)  # fmt: skip
     if touched is None:
         return says + say("planes.verdict.clear", angle=degrees(settings.shape.touch_angle))
     if touched == sliding.trajectory.t[0]:

@@ -223,6 +223,8 @@ def test_the_balls_verdict_is_of_the_ball_alone_and_void_from_the_stems_touch(us
     assert said.startswith("What friction would do to its ball alone, without a stem, while it slips: ")
     assert f"void from {first:.2f} s on" in said and f"by {100 * np.ptp(J) / np.abs(J).max():.3g} %" in said
     assert "in this run it has not" in ball_words(ran(usual, spin=5.0)[0])
+    thrown = ran(usual, spin=32.0, landing="stop", seconds=2.2)[0]
+    assert thrown.motions["sliding"].ended == THROWN and "void from 2.12 s on" in ball_words(thrown)
     assert "from the start" in ball_words(ran(usual, tilt=150.0, seconds=0.5)[0])
     assert "stem" not in ball_words(ran(usual, stem=False, seconds=0.5)[0])
 
@@ -234,6 +236,15 @@ def test_true_stick_holds_it_and_the_page_says_when_and_that_it_rises_no_more(us
     assert 0.03 < since < 0.07 and moved.theta[moved.regime == "roll"].max() < np.radians(5.2)
     told = float(re.search(r"True stick has held it since ([\d.]+) s", said)[1])
     assert told == pytest.approx(since, abs=0.008) and "never rises beyond" in said
+
+
+def test_of_a_rolling_top_all_of_its_nutation_is_told(usual):
+    """Its last tenth is less than one swing here."""
+    picture, said = ran(usual, law="coulomb", spin=0.0, tilt=60.0, seconds=1.0, slip=0.5)
+    moved = picture.motions["sliding"].trajectory
+    theta = np.degrees(moved.theta[moved.regime == "roll"])
+    assert f"between {theta.min():.1f}° and {theta.max():.1f}°: rolling" in said
+    assert np.ptp(theta) > 1.5 * np.ptp(theta[-len(theta) // 10 :])
 
 
 def test_exactly_upright_it_stays_so_and_nobody_says_that_it_will_turn_over(usual):

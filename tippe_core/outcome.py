@@ -224,7 +224,7 @@ def _sentence(verdict, nudged, theta, certain, launch, limits, scales):
 
     will = {"turns over": "turn over", "stays inverted": "stay inverted", "falls over": "fall over",
             "goes upright": "go upright", "hangs": f"hang at {np.degrees(theta):.1f} degrees",
-            "stays as it is": "keep its tilt"}[nudged or verdict]  # fmt: skip
+            "stays as it is": "tilt until it rolls, wherever that is"}[nudged or verdict]  # fmt: skip
     exactly = " exactly in balance it stays as it is; nudged," if nudged else ""
     doubt = "" if certain else " (if its energy does not carry it over into the other minimum of V_J)"
     reasons = [stability("upright", limits.upright, limits.upright.spin)]
