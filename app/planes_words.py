@@ -162,13 +162,15 @@ def _goes_on(picture, motion):
     kind = became(picture, motion)
     if kind in ("balances", "flat"):
         return say(f"planes.goes_on.{kind}")
-    if kind == "rolls":
-        since = [start for start, _, which in motion.stretches if which == ROLLS][-1]
-        theta = moved.theta[moved.t >= since]
-        return say("planes.goes_on.rolls", since=since * seconds, low=degrees(theta.min()), high=degrees(theta.max()))
     if found.ended:
         time = motion.trajectory.events[-1][0] * seconds
         return say("planes.goes_on.ended", time=time, happens=happens(motion.ended))
+    if kind == "rolls":
+        since = [start for start, _, which in motion.stretches if which == ROLLS][-1]
+        theta = moved.theta[moved.t >= since]
+        if not found.settled:
+            return say("planes.goes_on.rolls_yet", since=since * seconds)
+        return say("planes.goes_on.rolls", since=since * seconds, low=degrees(theta.min()), high=degrees(theta.max()))
     if _frictionless(picture):
         return ""
     if found.settled:

@@ -245,6 +245,8 @@ def test_of_a_rolling_top_all_of_its_nutation_is_told(usual):
     theta = np.degrees(moved.theta[moved.regime == "roll"])
     assert f"between {theta.min():.1f}° and {theta.max():.1f}°: rolling" in said
     assert np.ptp(theta) > 1.5 * np.ptp(theta[-len(theta) // 10 :])
+    moved, said = ran(usual, law="coulomb", spin=0.0, tilt=60.0, seconds=0.2, slip=0.5)
+    assert "before it has swung once" in said and "never rises" not in said
 
 
 def test_exactly_upright_it_stays_so_and_nobody_says_that_it_will_turn_over(usual):

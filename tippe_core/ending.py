@@ -48,7 +48,8 @@ class Ending:
     least, most   theta in it, rad
     ended      the event that ended it before its time, "" if none did
     flat       it stands flat on the end of its stem
-    settled    nothing more follows: rolling, or friction takes nothing any more and it is where it would come back to
+    settled    nothing more follows: it rolls and was seen to swing there and back, or friction takes nothing any more
+               and it is where it would come back to
     cut        the end of the time is all that ended it, and it still changes
     """
 
@@ -76,7 +77,7 @@ def ending(trajectory):
     carries = {stretch.on for stretch in found if stretch.end > since} or {found[-1].on}
     on = carries.pop() if len(carries) == 1 else ""
     rolls = bool(np.all(moved.regime[last] == "roll"))
-    settled = not ended and (rolls or (most - least < LEANS and _quiet(moved, last, on)))
+    settled = not ended and (_swings(moved) if rolls else most - least < LEANS and _quiet(moved, last, on))
     if ended in REFUSED:
         end = "refused"
     elif on == "stem":
@@ -99,6 +100,13 @@ def _ended(moved):
         return ""
     time, event = moved.events[-1]
     return event if event in STOPS or time > moved.t[-1] or len(moved.t) == 1 else ""
+
+
+def _swings(moved):
+    """Whether it has rolled long enough to come back: through two turning points of theta since it last slipped."""
+    since = int(np.flatnonzero(np.append(True, moved.regime != "roll"))[-1])
+    theta, w1 = moved.theta[since:], moved.omega[since:, 0]
+    return bool(np.ptp(theta) < 1e-6 or np.count_nonzero(np.diff(np.sign(w1))) > 1)
 
 
 def _quiet(moved, last, on):
