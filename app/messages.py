@@ -152,6 +152,7 @@ CHANGES = {
     "Dialog": {"open": FLAG},
     "FileDownload": {},
     "FloatSlider": {"value": ON_SLIDER, "value_throttled": ON_SLIDER},
+    "MessageState": {},  # Panel's, of the page's notifications
     "Page": {"sidebar_open": FLAG, "dark_theme": FLAG},
     "RadioBoxGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
     "RadioButtonGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
@@ -161,7 +162,10 @@ CHANGES = {
     "TextInput": {"value": TYPED, "value_input": TYPED},
     # ours
     "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT},
+    "Connection": {},
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
+    "Guide": {},
+    "Look": {"dark": FLAG, "large": FLAG},
     "Painted": {"painted": COUNT},
     "Surface3D": POINT,
     "Top3D": PICTURE,
@@ -176,7 +180,7 @@ POINTED = {"sx": NUMBER, "sy": NUMBER, "x": NUMBER, "y": NUMBER, "modifiers": PL
 DRAGGED = POINTED | {"delta_x": NUMBER, "delta_y": NUMBER}
 # The events of models, with what they carry, and of the page.
 EVENTS = {"dom_event": DOM, "tap": POINTED, "doubletap": POINTED,
-          "panstart": DRAGGED, "pan": DRAGGED, "panend": DRAGGED}  # fmt: skip
+          "panstart": POINTED, "pan": DRAGGED, "panend": POINTED}  # fmt: skip
 OF_THE_PAGE = {"document_ready": {}}
 
 # What a component may be sent as a message of its own, by its status.

@@ -16,6 +16,7 @@ from app.cards import BUTTON, alert, flow, note, on_click, words
 from app.colours import COLOURS, FAINT, INK
 from app.controls import number
 from app.explorer import body
+from app.messages import LARGEST_FILE
 from app.pacing import at_once
 from app.plots import plain
 from app.text import listed, say
@@ -26,7 +27,6 @@ SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i
 PARTS = {"body": "#d9b98c", "hollow": "white", "core": "#8a96a3"}  # of the section, in the order they are drawn
 FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
-LARGEST_FILE = 65_536
 KNOBS = 32  # made at a time
 OWN = ""  # a select has no way to show that nothing is chosen
 UNSEEN_LABEL = {

@@ -34,6 +34,15 @@ def get(url, **headers):
         return error.code, error.headers, error.read().decode(errors="replace")
 
 
+def event(name, model, **values):
+    """What a browser says where something happens to a model; values: as they are in a message, dicts as such."""
+    packed = [[key, {"type": "map", "entries": [*map(list, value.items())]} if isinstance(value, dict) else value]
+              for key, value in values.items()]  # fmt: skip
+    values = {"type": "map", "entries": [["model", {"id": model}], *packed]}
+    data = {"type": "event", "name": name, "values": values}
+    return {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": data}
+
+
 class Closed(Exception):
     """The server closed the connection: its code and its words."""
 
@@ -69,25 +78,34 @@ class Visitor:
         assert kind == "ACK"
         if pull:
             _, content, _ = await visitor.ask("PULL-DOC-REQ", {})
-            visitor._note(content["doc"])
+            visitor.note(content["doc"])
         return visitor
 
-    def _note(self, part):
+    def note(self, part):
+        """Remembers the models in what the server says."""
         if isinstance(part, list):
             for each in part:
-                self._note(each)
+                self.note(each)
         elif isinstance(part, dict):
             if part.get("type") == "object" and "id" in part:
                 self.models[part["id"]] = (part["name"], part.get("attributes", {}))
             elif part.get("kind") == "ModelChanged" and part["model"]["id"] in self.models:
                 self.models[part["model"]["id"]][1][part["attr"]] = part["new"]
             for each in part.values():
-                self._note(each)
+                self.note(each)
 
     def find(self, kind, *names):
         """The ids of the models of this type that have these attributes, in the order of the document."""
         return [id for id, (name, attributes) in self.models.items()
                 if re.fullmatch(kind + r"\d*", name) and all(each in attributes for each in names)]  # fmt: skip
+
+    def component(self, kind):
+        """The id of the first component of Panel's whose data are a model of this type, None where there is none."""
+        data = self.find(kind)
+        for id, (_, attributes) in self.models.items():
+            if isinstance(attributes.get("data"), dict) and attributes["data"].get("id") in data:
+                return id
+        return None
 
     async def say(self, kind, content, message=None, buffers=()):
         """Sends a message; returns its id."""
@@ -181,7 +199,7 @@ class Page:
                     raise RuntimeError(content["text"])
                 if kind == "PATCH-DOC":
                     self.heard()
-                    self.visitor._note(content)
+                    self.visitor.note(content)
                     for event in content["events"]:
                         if event.get("attr") == "sent":
                             await self.visitor.set(self._painted, "painted", event["new"])
