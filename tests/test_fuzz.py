@@ -6,15 +6,20 @@ import base64
 import gzip
 import json
 import random
+import re
 import sys
 import tempfile
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
+import visitors
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
 from wire import Closed, Visitor, megabytes, run, served
+
+import app.page  # noqa: F401  (all components)
+from app.messages import CHANGES
 
 NUMBERS = (0, -1, 7, 1e308, -1e308, 5e-324, 10**400, 2**63, float("nan"), float("inf"), True)
 STRINGS = ("", "7", "nan", "1e999", "−7", "<script>alert(1)</script>", "../../etc/passwd", "\x00", "\ud800", "9" * 5000)
@@ -177,6 +182,60 @@ def test_a_message_of_100_MB_is_not_read(attacked):
     answered, more = run(send(attacked.url))
     assert answered == "OK" and more < 50
     assert attacked.log.count("a piece over 256 KiB") == said + 1
+
+
+# --- each attribute of each component
+
+ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 3000,
+          {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
+GOOD = {"asked": [7, 6.5, False], "active": 1, "value_input": "7", "hand": [], "tilted": [], "playing": False,
+        "gesture": 7, "dark": False, "sidebar_open": True}  # fmt: skip
+
+
+def attributes_of(name):
+    """Of a component of this name, ours or the library's: all that it has, those that the browser changes first."""
+    modules = [module for key, module in sys.modules.items() if key.startswith(("app.", "panel_material_ui"))]
+    kind = next((vars(module)[name] for module in modules if hasattr(vars(module).get(name), "param")), None)
+    return [*CHANGES.get(name, {}), *(set(kind.param) - set(CHANGES.get(name, {})) if kind else ())]
+
+
+async def each_attribute(url):
+    """What is sent: eleven values to what the browser changes of each component; to the rest, which is refused by its
+    name, one of them. Then good ones, which are taken. Returns how many were sent."""
+    page, count = await visitors.come(url), 0
+    await visitors.open_tabs(page)
+    visitor = await Visitor.enter(url, page.visitor.token, pull=False)  # one more socket of the same session
+    components = {}
+    for id, (name, _) in page.visitor.models.items():
+        if re.fullmatch(r"[A-Z]\w*\d+", name) and attributes_of(re.sub(r"\d+$", "", name)):
+            components.setdefault(re.sub(r"\d+$", "", name), []).append(id)
+    assert {"Dial", "Tabs", "Select", "TextInput", "FloatSlider", "Top3D", "Surface3D", "TopFile"} <= set(components)
+    for name, ids in components.items():
+        for i, attribute in enumerate(attributes_of(name)):
+            known = attribute in CHANGES.get(name, {})
+            for value in ELEVEN if known else ELEVEN[i % 11 :][:1]:
+                for id in ids if known else ids[:1]:
+                    kind, reply = await visitor.answer(await visitor.set(id, attribute, value))
+                    assert known or kind == "ERROR", (name, attribute)
+                    assert kind == "OK" or reply["traceback"] is None
+                    count += 1
+    for name, ids in components.items():
+        for attribute in GOOD.keys() & CHANGES.get(name, {}).keys():
+            if name not in ("RadioButtonGroup", "RadioBoxGroup"):
+                kind, reply = await visitor.answer(await visitor.set(ids[0], attribute, GOOD[attribute]))
+                assert kind == "OK", (name, attribute, reply)
+    assert page.lost is None
+    visitor.leave()
+    await page.leave()
+    return count
+
+
+def test_values_that_belong_nowhere_for_each_attribute_of_each_component(attacked):
+    before = len(attacked.log)
+    assert run(each_attribute(attacked.url), 600) > 1000
+    log = attacked.log[before:]
+    at = max(log.find("a bug"), log.find("Traceback"))
+    assert at < 0, log[at : at + 5000]
 
 
 if __name__ == "__main__":

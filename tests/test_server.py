@@ -1,25 +1,31 @@
 """`python -m app`: its settings, whom it lets in, what it sends, and how it ends."""
 
 import asyncio
+import json
 import os
 import re
 import signal
 import subprocess
 import sys
-import time
 from contextlib import suppress
 from dataclasses import fields
+from http.client import HTTPConnection
 from pathlib import Path
+from types import SimpleNamespace
 from urllib.request import urlopen
 
 import pytest
 import yaml
+from bokeh.document import Document, without_document_lock
+from bokeh.server.session import ServerSession
+from tornado.ioloop import IOLoop
 from visiting import free_port
-from wire import Closed, Visitor, answers, get, run, served, until
+from wire import TOKEN, Closed, Visitor, answers, get, run, served, until
 
-from app.door import Budget, Turns
+from app.door import Budget, Turns, budget, counted
 from app.messages import Refused, look_at
 from app.settings import Settings
+from app.text import say
 
 ROOT = Path(__file__).parent.parent
 
@@ -112,32 +118,89 @@ def test_it_starts_and_serves_where_the_system_lacks_what_windows_lacks(tmp_path
     assert done.returncode == 2 and "--workers is 2; allowed is 1 on this system" in done.stderr
 
 
-def test_what_a_coroutine_does_itself_is_counted_and_not_what_others_do_while_it_waits():
-    """In s of the processor: its own two pieces, and none of the one between them, which is twice as long."""
-    budget, pieces = Budget(), []
+class Clock:
+    """Stands in for the processor's: work() is the only thing that takes time."""
 
-    def work(seconds):
-        begun = time.thread_time()
-        while time.thread_time() < begun + seconds:
-            pass
-        pieces.append(time.thread_time() - begun)
+    def __init__(self, monkeypatch):
+        self.now = 0.0
+        monkeypatch.setattr("app.door.time", self)
+
+    def thread_time(self):
+        return self.now
+
+    monotonic = thread_time
+
+    def work(self, seconds):
+        self.now += seconds
+
+
+def test_what_a_coroutine_does_itself_is_counted_and_not_what_others_do_while_it_waits(monkeypatch):
+    clock = Clock(monkeypatch)
+    budget = Budget()
 
     async def mine():
-        work(0.05)
+        clock.work(0.05)
         with suppress(ZeroDivisionError):
             await asyncio.gather(asyncio.sleep(0.05), others())
-        work(0.05)
+        clock.work(0.05)
         return "done"
 
     async def others():
-        work(0.2)
+        clock.work(0.2)
         raise ZeroDivisionError
 
-    async def both():
-        return await budget.steps(mine())
+    assert run(budget.steps(mine())) == "done"
+    assert budget.spent == pytest.approx(0.1)
 
-    assert run(both()) == "done"
-    assert budget.spent == pytest.approx(pieces[0] + pieces[2], abs=0.02)
+
+def test_what_is_done_for_another_in_the_midst_is_counted_to_him_and_nothing_twice(monkeypatch):
+    clock = Clock(monkeypatch)
+    mine, his = Budget(), Budget()
+    with mine.work():
+        clock.work(1)
+        with his.work():
+            clock.work(2)
+            with mine.work():
+                clock.work(4)
+        with mine.work():
+            clock.work(8)
+    clock.work(16)
+    assert mine.spent == pytest.approx(13) and his.spent == pytest.approx(2)
+
+
+@pytest.mark.parametrize("how", ["add_next_tick_callback", "add_timeout_callback"])
+def test_what_a_session_does_later_is_counted_with_the_lock_and_without(how, monkeypatch):
+    """Panel's answers to a changed slider wait for no lock."""
+    clock = Clock(monkeypatch)
+    monkeypatch.setattr(ServerSession, "_wrap_document_callback", counted(ServerSession._wrap_document_callback))
+
+    async def both():
+        session, done = ServerSession("mine", document := Document(), io_loop=IOLoop.current()), []
+
+        @without_document_lock
+        async def at_once():
+            clock.work(0.1)
+            await asyncio.sleep(0)
+            clock.work(0.2)
+            done.append(1)
+
+        async def locked():
+            clock.work(0.4)
+            await asyncio.sleep(0)
+            clock.work(0.8)
+            done.append(1)
+
+        def plain():
+            clock.work(1.6)
+            done.append(1)
+
+        for each in (at_once, locked, plain):
+            getattr(document, how)(each, *([1] if "timeout" in how else []))
+        while len(done) < 3:
+            await asyncio.sleep(0.001)
+        return budget(session).spent
+
+    assert run(both()) == pytest.approx(3.1)
 
 
 @pytest.mark.parametrize("origins, host, lets", [
@@ -181,13 +244,11 @@ def test_who_spends_more_than_a_share_waits_and_not_for_ever():
 def test_what_is_too_much_for_a_message(value):
     for _ in range(20 if value == "deep" else 0):
         value = [value]
-
-    class Message:
-        msgtype = "PATCH-DOC"
-        content = {"events": [{"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "value", "new": value}]}  # noqa: RUF012
-
+    content = {"events": [{"kind": "ModelChanged", "model": {"id": "p1"}, "attr": "value", "new": value}]}
+    models = SimpleNamespace(get_by_id=lambda id: None, seen=lambda id: True)
     with pytest.raises(Refused):
-        look_at(Message)
+        look_at(SimpleNamespace(msgtype="PATCH-DOC", content=content, payload=SimpleNamespace(buffers=[])),
+                SimpleNamespace(models=models))  # fmt: skip
 
 
 def test_headers_and_no_cookie(server):
@@ -199,6 +260,60 @@ def test_headers_and_no_cookie(server):
     assert "default-src 'none'" in policy and "frame-ancestors 'self'" in policy
     assert headers["X-Content-Type-Options"] == "nosniff" and headers["Cache-Control"] == "no-store"
     assert "Server" not in headers and "Set-Cookie" not in headers
+
+
+def test_a_page_is_written_once_and_has_a_token_and_a_nonce_of_its_own(server):
+    """Writing it anew for each took 0.15 s, in which nobody else was served."""
+
+    def apart(language):
+        _, headers, text = get(server.url, **{"Accept-Language": language})
+        token = TOKEN.search(text)[1]
+        nonce = headers["Content-Security-Policy"].split("'nonce-")[1].split("'")[0]
+        return token, nonce, text.replace(token, "").replace(nonce, "")
+
+    one, other, german = apart("en"), apart("en"), apart("de")
+    assert one[2] == other[2] and one[0] != other[0] and one[1] != other[1]
+    for language, page in (("en", one), ("de", german)):
+        assert json.dumps(say("main.server.made", language)) in page[2]
+
+
+def ask(server, method, path):
+    """An answer to any method, and its text."""
+    connection = HTTPConnection(server.root.removeprefix("http://"), timeout=60)
+    connection.request(method, path)
+    answer = connection.getresponse()
+    return answer, answer.read().decode()
+
+
+@pytest.mark.parametrize("path", ["/app", "/app/", "/", "/liveness", "/nothing", "/static/js/bokeh.min.js"])
+def test_HEAD_answers_as_GET_without_a_body_and_other_methods_in_a_line(path, server):
+    got, text = ask(server, "GET", path)
+    head, nothing = ask(server, "HEAD", path)
+    assert head.status == got.status and nothing == "" and int(head.headers["Content-Length"]) == len(text.encode())
+    assert "default-src 'none'" in head.headers["Content-Security-Policy"]
+    for method in ("POST", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE"):
+        answer, text = ask(server, method, path)
+        assert (answer.status, text.count("\n")) == (404 if path == "/nothing" and method != "TRACE" else 405, 1)
+        assert len(text) < 40 and "default-src 'none'" in answer.headers["Content-Security-Policy"]
+        assert answer.status == 404 or "GET" in answer.headers["Allow"]
+    assert "Traceback" not in server.log
+
+
+def test_pages_are_given_out_in_turn_and_not_without_end_to_one_address(server):
+    """Here 2 may wait; 20 come at once."""
+
+    async def crowd():
+        host, port = server.root.removeprefix("http://").split(":")
+        both = [await asyncio.open_connection(host, port) for _ in range(20)]
+        for _, writer in both:
+            writer.write(b"GET /app HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
+        return [(await reader.read()).decode() for reader, _ in both]
+
+    answers = run(crowd())
+    refused = [answer for answer in answers if answer.startswith("HTTP/1.1 503")]
+    assert 0 < len(refused) < 20 and all(answer.startswith(("HTTP/1.1 503", "HTTP/1.1 200")) for answer in answers)
+    assert all("Retry-After: 10" in each and say("main.server.hurried", "en") in each for each in refused)
+    assert get(server.url)[0] == 200
 
 
 @pytest.mark.parametrize("path, status", [
