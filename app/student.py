@@ -46,7 +46,8 @@ class Ballot:
         )
         on_click(self.send, lambda event: self._vote())
         on_click(self.again, lambda event: self._come())
-        self.phone.param.watch(lambda event: self._come(), "mark")
+        # what is held and sent together before the page says that it is there is lost
+        self.phone.param.watch(lambda event: pn.state.onload(self._come), "mark")
         self._ask_for("", note(say("teach.vote.wait")))
 
     @property

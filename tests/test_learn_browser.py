@@ -142,15 +142,31 @@ def test_nothing_locks(learner):
     assert found(page) == {}
 
 
-def test_a_vote(learner, browser):
-    """A teacher opens it, two students predict, the histogram shows them, and closing it forgets them."""
+@pytest.fixture
+def phones(chromium):
+    """Two, each with what it keeps itself."""
+    contexts = [chromium.new_context(reduced_motion="reduce", has_touch=True) for _ in range(2)]
+    yield contexts
+    for context in contexts:
+        context.close()
+
+
+def tally(page):
+    return list(page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
+        .find((m) => m.name == "votes").renderers[0].data_source.data.votes"""))
+
+
+def test_a_vote(learner, phones):
+    """A teacher opens it, two students predict, the histogram shows them, and closing it forgets them. Who loads the
+    page anew, or goes to another tab of his browser, is still the same; the teacher's address opens the vote again."""
     page = learner.page
     go(page, "teach")
     page.get_by_role("button", name=say("teach.vote.open")).click()
     link = page.locator("a[href*='?vote=']")
     link.wait_for()
     languages = ("en", "de")  # each is asked in the language of their own page
-    students = [opened(browser, f"{link.get_attribute('href')}&lang={each}", 390, 844) for each in languages]
+    students = [opened(phone, f"{link.get_attribute('href')}&lang={each}", 390, 844)
+                for phone, each in zip(phones, languages, strict=True)]  # fmt: skip
     for visit, option, language in zip(students, ("over", "upright"), languages, strict=True):
         send = visit.page.get_by_role("button", name=say("teach.student.send", language))
         send.click()
@@ -159,14 +175,33 @@ def test_a_vote(learner, browser):
         send.click()
         visit.page.get_by_text(say("teach.student.sent", language)).wait_for()
     page.get_by_text(say("teach.vote.count", votes=2, most=400)).wait_for()
-    votes = page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
-        .find((m) => m.name == "votes").renderers[0].data_source.data.votes""")
-    assert list(votes) == [1, 0, 1]
+    assert tally(page) == [1, 0, 1]
+    again = students[0].page
+    again.reload()
+    again.get_by_text(say("teach.student.sent")).wait_for()
+    assert again.get_by_role("radio", name=say("learn.options.over")).is_checked()
+    again.get_by_text(say("learn.options.between"), exact=True).click()
+    again.get_by_role("button", name=say("teach.student.send")).click()
+    page.wait_for_function("""() => { const [votes] = [...Bokeh.documents[0]._all_models.values()]
+        .filter((m) => m.name == "votes"); return votes.renderers[0].data_source.data.votes[1] == 1 }""")
+    assert tally(page) == [0, 1, 1]
+
+    # what he gives away does not hold his key; his own address does
+    key = re.search(r"[?&]room=([\w.-]+)", page.evaluate("location.search"))[1]
+    page.get_by_role("button", name=say("share.share"), exact=True).click()
+    page.get_by_role("dialog").locator("textarea").first.wait_for()
+    given = page.get_by_role("dialog").locator("textarea").evaluate_all("all => all.map((each) => each.value)")
+    assert any("learn=teach" in each for each in given) and not any(key in each for each in given)
+    page.keyboard.press("Escape")
+    page.reload()
+    page.get_by_text(say("teach.vote.count", votes=2, most=400)).wait_for()
+    assert tally(page) == [0, 1, 1] and link.get_attribute("href").split("?")[1] in students[0].page.url
     page.get_by_role("button", name=say("teach.vote.answer")).click()
     page.get_by_text(say("teach.vote.said", answer=say("learn.options.over"))).wait_for()
     assert found(page) == {}
     page.get_by_role("button", name=say("teach.vote.close")).click()
     page.get_by_text(say("teach.vote.shut")).wait_for()
+    students[1].page.get_by_text(say("teach.student.closed", "de")).wait_for()
     students[0].page.get_by_role("button", name=say("teach.student.send")).click()
     students[0].page.get_by_text(say("teach.student.gone")).wait_for()
     for visit in students:
