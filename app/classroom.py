@@ -26,7 +26,8 @@ USED = 600.0  # s: no oftener is it written that a room is in use
 BETWEEN = 1.0  # s between two votes of one phone
 LETTERS = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ"  # none that is taken for another
 CODE_LENGTH = 6
-KEY = re.compile(rf"[{LETTERS}]{{{CODE_LENGTH}}}\.[\w-]{{22}}", re.ASCII)  # the room's code, and its owner's secret
+CODE = re.compile(rf"[{LETTERS}]{{{CODE_LENGTH}}}")
+KEY = re.compile(rf"{CODE.pattern}\.[\w-]{{22}}", re.ASCII)  # the room's code, and its owner's secret
 MARK = re.compile(r"[0-9a-f]{32}", re.ASCII)  # what a phone is known by
 LOOK_EVERY = 0.5  # s
 PAUSE = 2.0  # s for which a store that did not answer is not asked again
@@ -129,7 +130,7 @@ class Rooms:
 
     def _read(self, code):
         """(text, record) of a room, which this uses; (None, None) where there is none."""
-        text = self._store.read([code]).get(code)
+        text = self._store.read([code]).get(code) if CODE.fullmatch(code) else None
         record = self._living(text)
         if record is None:
             return None, None
@@ -183,6 +184,8 @@ class Rooms:
 
     def vote(self, code, phone, address, value):
         """Counts the vote of a phone (any text that it is known by) in place of its earlier one, or raises Refused."""
+        if not CODE.fullmatch(code):
+            raise Refused("gone")
         phone, address, now = mixed(code, phone), mixed(code, network(address))[:6], self._clock()
         found = []
 

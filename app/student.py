@@ -38,13 +38,13 @@ class Ballot:
     def __init__(self, code):
         self._code, self._counter = code, Counter()
         self.phone = Phone(width=0, height=0, margin=0)
-        self.question, self.said = words(""), words("")
+        self.question, self.said, self.widget = words(""), words(""), None
         self.place = pn.Column(sizing_mode="stretch_width", margin=0)
         self.send, self.again = (
             pmui.Button(label=say(f"teach.{name}"), variant="contained", sx=PLAIN, visible=False)
             for name in ("student.send", "vote.again")
         )
-        on_click(self.send, lambda event: self._vote())
+        on_click(self.send, lambda event: self.widget and self._vote())
         on_click(self.again, lambda event: self._come())
         # what is held and sent together before the page says that it is there is lost
         self.phone.param.watch(lambda event: pn.state.onload(self._come), "mark")

@@ -77,9 +77,10 @@ class Vote:
         self.figure.hbar(y="x", right="votes", height=0.7, source=self.bars, color=COLOURS["theta"])
         self.figure.xaxis.ticker.min_interval = 1
         on_click(self.open, lambda event: self._open())
-        on_click(self.close, lambda event: self._close())
-        on_click(self.answer, lambda event: self._answer())
-        on_click(self.again, lambda event: self._return())
+        # a hidden button can be clicked too, by who speaks to the server without its page
+        on_click(self.close, lambda event: self._room and self._close())
+        on_click(self.answer, lambda event: self._room and self._answer())
+        on_click(self.again, lambda event: kept.room and self._return())
         if kept.room:
             self._return()
 
@@ -89,7 +90,7 @@ class Vote:
                          styles={"flex-wrap": "wrap"})  # fmt: skip
         histogram = pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0)
         explain = words(say("teach.vote.explain"))
-        return [explain, self.which, buttons, self.count, histogram, self.truth, self.address]
+        return [explain, self.which, buttons, self.address, self.count, histogram, self.truth]
 
     def _ask(self, work, done):
         self.count.object = note(say("teach.vote.wait"))

@@ -87,7 +87,9 @@ def test_only_answers_count(workers):
     for code, value in ((choice, "<script>"), (choice, 3.0), (choice, []), (guess, "over"), (guess, 11.0),
                         (guess, float("nan")), (guess, 10**400), (guess, True), (guess, None)):  # fmt: skip
         assert refused(rooms.vote, code, "phone", HERE, value) == "wrong"
-    assert refused(rooms.vote, "NOROOM", "phone", HERE, "over") == "gone"
+    for code in ("ABCDEF", "", classroom.REGISTER, "ABC\ud800EF", "ABCDEFG"):
+        assert refused(rooms.vote, code, "phone", HERE, "over") == "gone"
+        assert rooms.ballot(code, "phone") == (None, None)
     rooms.vote(guess, "phone", HERE, 10.0)
     assert tally(rooms, guess) == [10.0] and tally(rooms, choice) == []
 

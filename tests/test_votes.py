@@ -58,10 +58,11 @@ async def opens(page):
 
 
 async def student(url, code, phone, language="en"):
-    """A phone at the student's link; phone: a digit, by which it is known."""
-    page = await opened(f"{url}?vote={code}", language)
+    """A phone at the student's link; phone: a digit, by which it is known. It says so before its page is all there."""
+    page = Page(await Visitor.enter(f"{url}?vote={code}", headers={"Accept-Language": language}))
     for mark in page.visitor.find("Phone", "tags"):
         await page.set(mark, "mark", phone * 32)
+    await page.visitor.ready()
     return page
 
 
@@ -160,7 +161,12 @@ def test_two_servers_are_one_class(kind, tmp_path, request):
 def test_a_phone_votes_once_however_often_it_loads_the_page_and_an_address_is_bounded(tmp_path):
     async def lesson(server):
         page = await teacher(server.url)
+        for hidden in ("close", "answer", "again"):
+            await page.visitor.click(say(f"teach.vote.{hidden}"))
         code, _ = await opens(page)
+        nowhere = await student(server.url, "rooms", "1")
+        await hears(nowhere, say("teach.student.gone"))
+        await nowhere.visitor.click(say("teach.student.send"))
         phone = await student(server.url, code, "1")
         await votes(phone, "over")
         for answer in ("upright", "over", "between"):
@@ -177,6 +183,7 @@ def test_a_phone_votes_once_however_often_it_loads_the_page_and_an_address_is_bo
         await third.set(third.visitor.find("RadioBoxGroup", "options")[0], "value", "over")
         await third.visitor.click(say("teach.student.send"))
         await hears(third, say("teach.student.crowded"))
+        assert "a bug" not in server.log
         kept = Sqlite(tmp_path / "votes")
         assert Room.of(code, kept.read([code])[code]).votes == ("between", "between")
 
