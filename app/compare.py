@@ -12,6 +12,7 @@ from bokeh.palettes import Viridis256
 from app.builder import thrown
 from app.cards import BUTTON, PLAIN, alert, flow, note, on_click, progress, swatch, words
 from app.colours import COLOURS, FAINT, INK
+from app.drawings import side_by_side
 from app.family import neighbours, ordinary, pegs, presets, region, share_map
 from app.plots import plain
 from app.runs import Run, Runs, Stopped
@@ -19,66 +20,9 @@ from app.text import listed, say, told
 from app.workshop import beside, field, typed
 from tippe_core import TopError
 
-SMALL = 158  # px: two of them beside each other on a phone
 PICTURE_EVERY = 0.5  # s
 RATIOS = np.linspace(0.6, 1.9, 40)
 SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
-SHEET = "#dcebf6"
-# Fig. 5 as a drawing: K_J runs so far back and up, of the width and the height of the picture
-BACK, UP, HIGH = 0.28, 0.45, 0.5
-
-
-def waterfall(shown, end, most):
-    """Fig. 5 of a family.Region as a drawing: a sheet of f1^2 theta_dot^2 stands on every tieline, K_J to the back.
-
-    end: where the theta axis ends; most: the height, in K_R^2, that all figures have room for.
-    """
-
-    def place(theta, part, height=0.0):
-        return theta + BACK * end * part, UP * part + HIGH * height / most
-
-    fig = plain(x_range=Range1d(-0.06 * end, (1 + BACK) * end * 1.03), y_range=Range1d(-0.14, UP + HIGH + 0.04),
-                title=shown.name, name="waterfall")  # fmt: skip
-    fig.update(sizing_mode=None, width=SMALL, height=190)
-    fig.title.text_font_size, fig.title.text_color, fig.title.text_font_style = "12px", INK, "normal"
-    fig.axis.visible = fig.grid.visible = False
-    corners = [place(*corner) for corner in ((0, 0), (end, 0), (end, 1), (0, 1), (0, 0))]
-    fig.line(*zip(*corners, strict=True), line_color=FAINT)
-    for theta, label in ((0, "0"), (np.pi / 2, "π/2"), (np.pi, "π")):
-        if theta <= end:
-            fig.line(*zip(place(theta, 0), place(theta, 1), strict=True), line_color=FAINT, line_dash=[2, 4])
-            fig.text(theta, 0, text=[label], y_offset=4, text_align="center", text_baseline="top", text_color=INK,
-                     text_font_size="11px")  # fmt: skip
-    rows = np.flatnonzero(np.isfinite(shown.height).all(axis=1))[::-1]
-    sheets = [place(shown.theta[row], shown.part[row], shown.height[row]) for row in rows]
-    # closed along the tieline, from the back to the front
-    fig.patches([x for x, _ in sheets], [y for _, y in sheets], fill_color=SHEET, fill_alpha=0.85,
-                line_color=INK, line_alpha=0.7, line_width=0.7)  # fmt: skip
-    fig.line(*place(shown.lift.theta_steady, shown.part), line_color=INK, line_dash=[6, 4], line_width=1.5)
-    lifts = np.where(np.isfinite(shown.lift.E), shown.lift.theta_outer, np.nan)
-    fig.line(*place(lifts, shown.part), line_color=COLOURS["normal"], line_width=1.5)
-    return fig
-
-
-def small_figure(shown, x_range, y_range):
-    """Fig. 6 of one top, a family.Region, with K_J in units of its own K_J(P)."""
-    fig = plain(x_range=x_range, y_range=y_range, title=f"Kⱼ(P) = {shown.pole:.3g}".replace("-", "−"))
-    fig.update(sizing_mode=None, width=SMALL, height=200)
-    fig.title.text_font_size, fig.title.text_color, fig.title.text_font_style = "12px", INK, "normal"
-    fig.xaxis.ticker.desired_num_ticks = 3
-    steady, lift, slip = shown.lift.theta_steady, shown.lift, shown.slip
-    ends = {"l0": lift.theta_inner, "l1": lift.theta_outer, "s0": slip.theta_inner, "s1": slip.theta_outer}
-    # where even the steady precession breaks a limit, the tieline is a point there
-    ends = {name: np.where(np.isnan(theta), steady, theta) for name, theta in ends.items()}
-    source = ColumnDataSource({"part": shown.part, "steady": steady, "verge": slip.theta_verge,
-                               "lifts": np.where(np.isfinite(lift.E), ends["l1"], np.nan), **ends})
-    for left, right in (("l0", "s0"), ("s1", "l1")):
-        fig.harea(y="part", x1=left, x2=right, source=source, fill_color=COLOURS["friction"], fill_alpha=0.16)
-    fig.segment(x0="s0", x1="s1", y0="part", y1="part", source=source, line_color=INK, line_alpha=0.55)
-    fig.line("lifts", "part", source=source, line_color=COLOURS["normal"], line_width=2)
-    fig.line("verge", "part", source=source, line_color=COLOURS["friction"], line_width=2)
-    fig.line("steady", "part", source=source, line_color=INK, line_width=1.5, line_dash=[6, 4])
-    return fig
 
 
 class Compare:
@@ -88,8 +32,8 @@ class Compare:
     FIELDS = (("I1", "<i>I</i><sub>1</sub>"), ("K_R", "<i>K</i><sub>R</sub>"), ("mu_s", "<i>μ</i><sub>s</sub>"))
 
     def __init__(self, explorer, runs=None):
-        self._explorer, self._runs, self._run = explorer, runs or Runs(), None
-        self.rows = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._explorer, self._runs, self._run = explorer, runs or Runs(), None  # of the map
+        self.rows = words(margin=(6, 0))
         self.key = words()
         self.family = self._buttons("families")
         self.family.param.watch(lambda event: self.show(event.new), "value")
@@ -148,19 +92,27 @@ class Compare:
 
     def show(self, which):
         """The small figures: of the "presets" or of "pegs", all with one spin, or of this top's neighbours, at this
-        K_R."""
-        explorer = self._explorer
-        tops = {"presets": presets, "pegs": pegs}.get(
-            which, lambda: [(name, top, explorer.K_R) for name, top in neighbours(explorer.scene.top, which)])()
-        shown = [region(name, top, K_R, explorer.mu_s) for name, top, K_R in tops]
-        reach = max((np.nanmax(one.lift.theta_outer, initial=0.0) for one in shown), default=0.0)
-        end = min(np.pi, max(np.pi / 2, 1.03 * reach))
-        most = max((np.nanmax(one.height, initial=0.0) for one in shown), default=0.0) or 1.0
-        ranges = Range1d(0, end), Range1d(0, 1.02)
-        self.key.object = key_words(explorer.mu_s)
-        pairs = [pn.Column(_pane(waterfall(one, end, most)), _pane(small_figure(one, *ranges)), width=SMALL, margin=0)
-                 for one in shown]  # fmt: skip
-        self.rows.objects = [flow(*pairs, margin=0)]
+        K_R. They are drawn beside the server."""
+        top, K_R, mu_s = self._explorer.scene.top, self._explorer.K_R, self._explorer.mu_s
+
+        def draw(run):
+            tops = {"presets": presets, "pegs": pegs}.get(
+                which, lambda: [(name, each, K_R) for name, each in neighbours(top, which)])()
+            shown = []
+            for name, each, spin in tops:
+                run.look()
+                shown.append(region(name, each, spin, mu_s))
+            return side_by_side(shown)
+
+        self.key.object = key_words(mu_s)
+        self.rows.object = f'<div role="status">{note(say("family.waits"))}</div>'
+        self._runs.begin(Run(draw, self._drawn), "families")
+
+    def _drawn(self, result):
+        failed = isinstance(result, Exception)
+        self.rows.object = alert(say("family.failed")) if failed else result
+        if failed and not isinstance(result, Stopped):
+            raise result
 
     def _prefill(self):
         """The explorer's own numbers where its top is of this kind, else those of a preset that is."""
@@ -205,7 +157,7 @@ class Compare:
         own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1
         self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
         span = self._show_span()
-        self.start.disabled, self.cancel.disabled = True, False
+        self.cancel.disabled = False
         self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
         steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
         self._run = Run(partial(self._work, steps, span), self._done)
@@ -228,9 +180,10 @@ class Compare:
 
     def _done(self, result):
         stopped = isinstance(result, Stopped)
-        self.start.disabled, self.cancel.disabled, self.bar.visible = False, True, False
+        self.cancel.disabled, self.bar.visible = True, False
         self.said.object = note(say("family.map.cancelled")) if stopped else ""
         if isinstance(result, Exception) and not stopped:
+            self.said.object = alert(say("family.map.failed"))
             raise result
 
 
@@ -244,10 +197,6 @@ def key_words(mu_s):
 
 def _progress(percent):
     return progress(percent, say("family.map.progress"))
-
-
-def _pane(figure):
-    return pn.pane.Bokeh(figure, width=SMALL, height=figure.height, margin=0)
 
 
 def _sides(values):

@@ -1,7 +1,9 @@
 """The builder without a browser: a body changes in one event, and the explorer's numbers are the body's."""
 
 import json
+import re
 from dataclasses import replace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from limits import Family
 from app.builder import FAMILIES, Builder, Rocking, changed, handles, pulled, sentence, value_of
 from app.compare import Compare
 from app.explorer import Explorer
-from app.family import neighbours, pegs, region, share_map
+from app.family import neighbours, pegs, presets, region, share_map
 from app.workshop import KNOBS, Workshop
 from tippe_core import (
     PRESETS,
@@ -410,15 +412,35 @@ def test_fig_5_of_a_region_is_the_papers():
     assert np.abs(found.height[:, [0, -1]]).max() < 1e-9
 
 
+def paths(drawing, **attributes):
+    """The points (n, 2) of each line of an SVG that has these attributes."""
+    found = [path for path in drawing.iter("path")
+             if all(path.get(name.replace("_", "-")) == value for name, value in attributes.items())]  # fmt: skip
+    return [np.array(re.findall(r"(-?[\d.]+) (-?[\d.]+)", path.get("d")), float) for path in found]
+
+
 def test_compare_draws_both_figures_on_common_axes(explorer):
     compare = Compare(explorer)
-    for family, tops in (("pegs", 5), ("presets", len({preset.shape for preset in PRESETS})), ("a", 5)):
+    for family, tops in (("pegs", pegs()), ("presets", presets()), ("a", None)):
         compare.family.value = family
-        drawn = [[pane.object for pane in pair] for pair in compare.rows[0]]
-        assert len(drawn) == tops
-        for row in zip(*drawn, strict=True):
-            for axis in ("x_range", "y_range"):
-                assert len({(getattr(fig, axis).start, getattr(fig, axis).end) for fig in row}) == 1
+        drawings = list(ElementTree.fromstring(compare.rows.object).iter("svg"))
+        fives, sixes = drawings[::2], drawings[1::2]
+        assert len(fives) == len(sixes) == len(tops or neighbours(explorer.scene.top, "a"))
+        rules = [paths(six, stroke="var(--rule, #e7ebef)") for six in sixes]
+        assert all(np.array_equal(np.array(rule), np.array(rules[0])) for rule in rules)
+        frames = [paths(five, stroke_width="1")[0] for five in fives]
+        assert all(np.array_equal(frame, frames[0]) for frame in frames)
+        for (name, top, K_R), six in zip(tops or (), sixes if tops else (), strict=True):
+            # px to theta and to K_J/K_J(P), by the rules at 0 and at 0.5 or 1 rad, and at 0 and 1
+            upright, beside, *_, zero, _, one = rules[0]
+            step = float([text.text for text in six.iter("text")][2])  # the second number below
+            [steady] = paths(six, stroke_dasharray="6 4")
+            found = region(name, top, K_R, explorer.mu_s).lift.theta_steady
+            theta = step * (steady[:, 0] - upright[0, 0]) / (beside[0, 0] - upright[0, 0])
+            assert theta == pytest.approx(found, abs=0.02)
+            assert (zero[0, 1] - steady[:, 1]) / (zero[0, 1] - one[0, 1]) == pytest.approx(
+                (np.arange(48) + 0.5) / 48, abs=0.005)  # fmt: skip
+
 
 def test_a_map_of_either_kind_fills_and_shows_this_top(explorer, monkeypatch):
     monkeypatch.setattr("app.compare.RATIOS", np.array([0.9, 1.1]))
