@@ -366,7 +366,7 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
     assert first.stopped
     compare.cancel.clicks += 1
     while not compare.said.object:
-        assert compare.start.disabled
+        assert not compare.cancel.disabled
         page.next()
     assert "Cancelled" in compare.said.object and not compare.start.disabled
 

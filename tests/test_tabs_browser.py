@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from visiting import Visit
-from wire import serving
+from wire import serving, until
 
 ROOT = Path(__file__).parent.parent
 SERVE = "\nfrom app.__main__ import run\nrun()"
@@ -44,6 +44,38 @@ def fails_once(self, root, changed=None, old_models=None):
     return real(self, root, changed, old_models)
 Viewable._preprocess = fails_once
 """
+# The view waits for a file, and so does the whole server; the first map is never done.
+SLOW = """
+import os, sys, time
+import app.compare as compare, app.page as page
+real_view, real_map, maps = page.family_view, compare.share_map, []
+def late(*arguments):
+    while not os.path.exists(GO):
+        time.sleep(0.05)
+    return real_view(*arguments)
+def endless(*arguments):
+    maps.append(True)
+    if len(maps) > 1:
+        yield from real_map(*arguments)
+        return
+    while True:
+        time.sleep(0.02)
+        print("WORKS", flush=True)
+        yield 1, next(real_map(*arguments))[1]
+real_work = compare.Compare._work
+def work(self, *arguments):
+    try:
+        return real_work(self, *arguments)
+    finally:
+        print("ENDED", flush=True)
+page.family_view, compare.share_map, compare.Compare._work = late, endless, work
+"""
+# How many rows of the map are there
+ROWS = """() => {
+  const map = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "map" && m.renderers)
+  const share = map?.renderers[0].data_source.data.share[0] ?? []
+  return Array.from(share).flat(2).filter(Number.isFinite).length
+}"""
 URLS = """() => [...Bokeh.documents[0]._all_models.values()].filter((m) => m.type == "ImportedStyleSheet")
   .map((m) => m.url)"""
 
@@ -87,3 +119,37 @@ def test_a_tab_that_cannot_be_made_says_so_costs_nothing_and_can_be_opened_again
         assert set(before) <= set(page.evaluate(URLS))
         assert elsewhere(visit, server) == []
         assert "made to fail" in server.log
+
+
+def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromium, page, tmp_path):
+    go = tmp_path / "go"
+    with broken(SLOW.replace("GO", repr(str(go))), tmp_path) as server:
+        Visit(page, server.url)
+        page.get_by_role("tab", name="Families").click()
+        page.get_by_text("This tab is being made").locator("visible=true").wait_for()  # with the server at a standstill
+        assert not page.locator("[data-figure=plane]").first.is_visible()
+        assert page.get_by_role("tab", name="Families").get_attribute("aria-selected") == "true"
+        go.touch()
+        page.get_by_role("button", name="Compute the map").wait_for()
+        page.locator("svg[aria-label*='Top S']").first.wait_for()
+        until(lambda: "WORKS" in server.log)
+        assert "ENDED" not in server.log
+        page.goto("about:blank")
+        until(lambda: "ENDED" in server.log, 60)
+
+        again = chromium.new_page(viewport={"width": 1400, "height": 900})
+        Visit(again, server.url)
+        again.get_by_role("tab", name="Families").click()
+        again.wait_for_function(f"() => ({ROWS})() > 1000")
+        again.get_by_role("progressbar").wait_for(state="hidden")
+        rows = again.evaluate(ROWS)
+        again.get_by_role("tab", name="Roll").click()
+        again.locator("[data-figure=plane]").first.wait_for()
+        again.get_by_role("tab", name="Families").click()
+        button = again.get_by_role("button", name="Compute the map")
+        button.wait_for()
+        assert again.evaluate(ROWS) == rows and button.is_enabled()
+        button.click()
+        again.get_by_role("button", name="Cancel").and_(again.locator(":enabled")).wait_for()
+        again.wait_for_function(f"rows => ({ROWS})() == rows", arg=rows)
+        again.close()
