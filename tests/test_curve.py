@@ -1,11 +1,23 @@
 """f, turning points and steady precessions against formulas (30)-(36) in fifty digits."""
 
+import re
+
 import numpy as np
 import pytest
 from cases import CASES, LOADED, ORDINARY, PAPER, POLES, TWO_WELLS, Case
 from high_precision import Curve, mp, mpf
 
-from tippe_core import Constants, f, omega2, omega3, pole_constants, steady_precessions, turning_points
+from tippe_core import (
+    Constants,
+    NoMotionError,
+    Top,
+    f,
+    omega2,
+    omega3,
+    pole_constants,
+    steady_precessions,
+    turning_points,
+)
 
 THETAS = np.concatenate([np.linspace(0.05, 3.09, 41), 10.0 ** -np.arange(2, 9), np.pi - 10.0 ** -np.arange(2, 9)])
 
@@ -151,3 +163,23 @@ def test_two_steady_precessions_next_to_each_other(start, apart):
     assert len(found) == 3 and sum(stable) == 2
     pair = found[np.argsort(np.abs(found - float(theta)))[:2]]
     np.testing.assert_allclose(sorted(pair), expected, rtol=0, atol=1e-12 / apart)
+
+
+@pytest.mark.parametrize("kind", ["any", "at P", "at the inverted pole", "K_J = 0", "two decimals"])
+def test_the_least_energy_as_it_is_said_is_allowed(kind):
+    """Random tops of all sizes: typed in again, it gives the motion next to the steady precession, and no error."""
+    rng = np.random.default_rng([*kind.encode()])
+    for _ in range(40):
+        I1 = 10 ** rng.uniform(-2, 2)
+        top = Top(rng.uniform(-3, 0.9), I1, I1 * rng.uniform(0.001, 2))
+        K_J, K_R = rng.normal(size=2) * 10 ** rng.uniform(-2, 2, 2)
+        K_J = {"at P": pole_constants(top, K_R)[0], "at the inverted pole": pole_constants(top, K_R)[1],
+               "K_J = 0": 0.0, "two decimals": round(K_J, 2)}.get(kind, K_J)  # fmt: skip
+        with pytest.raises(NoMotionError) as caught:
+            turning_points(top, Constants(K_J, K_R, -1e8))
+        said = re.match(r"E >= (\S+) for this top", caught.value.allowed)[1]
+        inner, outer = turning_points(top, Constants(K_J, K_R, float(said)))[0]
+        assert 0 <= inner <= outer <= np.pi
+        # and not by being higher than it need be
+        with pytest.raises(NoMotionError):
+            turning_points(top, Constants(K_J, K_R, float(said) - 2e-9 * abs(float(said))))

@@ -6,7 +6,7 @@ import rigid_body as rb
 from cases import CASES, LOADED, ORDINARY, PAPER, POLES, Case, digits
 from high_precision import Curve, mp, mpf
 
-from tippe_core import Constants, Rolling, State, omega2, omega3, roll, steady_precessions
+from tippe_core import Constants, Rolling, State, Top, TopError, glide, omega2, omega3, roll, steady_precessions
 
 NUTATIONS = 50
 
@@ -349,6 +349,24 @@ def test_backwards_in_time():
     q = motion.quaternion[-1].astype(float)
     np.testing.assert_allclose(q * np.sign(q @ trajectory.quaternion[0]), trajectory.quaternion[0], rtol=0, atol=1e-11)
     np.testing.assert_allclose(motion.contact[-1].astype(float), 0, rtol=0, atol=1e-11)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("move", [lambda top, state: roll(top, None, [0, 1.0], state),
+                                  lambda top, state: glide(top, state, [0, 1.0])])  # fmt: skip
+@pytest.mark.parametrize("top", [Top(-2.138, 0.0316, 3.16e-8),
+                                 Top(-2.1382383878657505, 0.031587264640263776, 3.1619859066805554e-08)])  # fmt: skip
+def test_a_start_that_cannot_be_resolved_is_told_of_the_start(move, top):
+    """A needle upright but for 1e-9 rad; nobody gave an E."""
+    with pytest.raises(TopError) as caught:
+        move(top, State(1e-9, 0, 0, 2.0))
+    assert (caught.value.name, caught.value.value) == ("theta", 1e-9)
+    assert "change the start a little" in caught.value.remedy and "E" not in str(caught.value).split()
+    # by its constants it is the energy that is at fault
+    constants = Constants.from_state(top, 1e-9, 0, 0, 2.0)
+    with pytest.raises(TopError) as caught:
+        roll(top, constants, [0, 1.0])
+    assert caught.value.name == "E"
 
 
 def test_case_periods_are_what_they_say():
