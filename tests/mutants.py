@@ -19,7 +19,7 @@ from pathlib import Path
 TESTS = Path(__file__).parent
 CORE = TESTS.parent / "tippe_core"
 PAGE = TESTS.parent / "docs" / "mutants.md"
-FILES = ["constants", "curve", "forces", "rolling", "smooth", "friction", "contacts", "sliding"]
+FILES = ["constants", "curve", "forces", "rolling", "smooth", "friction", "standing", "contacts", "sliding"]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
 CONTROL = {"solve", "bisect", "sign_changes", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
@@ -27,6 +27,7 @@ QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_eq
 REST = ["test_smooth.py", "test_accuracy.py", "test_contacts.py", "test_rolling.py", "test_sliding.py",
         "test_claims.py", "test_tielines.py", "test_properties.py"]  # fmt: skip
 ORDER = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_contacts.py", "test_sliding.py"],
+         "standing": ["test_contacts.py"],
          "sliding": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py"],
          "smooth": ["test_equations.py", "test_smooth.py"],
          "rolling": ["test_symbolic.py", "test_equations.py", "test_rolling.py"]}  # fmt: skip

@@ -39,7 +39,7 @@ from .trajectory import Trajectory, checked_times
 STILL, SLACK, MOST_EVENTS = 1e-13, 1e-10, 1000
 # MOST_CALLS of progress, about a millisecond apart: half a minute. LOG_FAST: a trial step faster than that is too long
 # anyway, and its exponential may overflow.
-MOST_CALLS, LOG_FAST = 20_000, 100.0
+MOST_CALLS, LOG_FAST = 25_000, 100.0
 
 LOG_STILL = log(STILL)
 
@@ -74,9 +74,8 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     "too many events" after 1000 of them: friction at its limit that chatters, or a top that hops on,
     "too many turns" after what takes about half a minute.
     A start that must leave the table is one sample in the air, or flies from the first; its first event is "lifts off".
-    supports: what carried it from when on, "ball", "stem", "both" or "none".
     regime: "slip", or "roll" where Coulomb's friction holds the top; on the sphere that part is the exact one of
-    rolling.py. heat: the work of friction and of impacts.
+    rolling.py. heat: the work of friction and of impacts. supports: what carried the top, from when on.
     Raises TopError for bad input, and for friction so strong that no normal force balances it on the ball (Painleve).
     """
     if not isinstance(state, State):
