@@ -130,6 +130,8 @@ def spells(motion, seconds):
 def _touched(picture, motion):
     """On what it stood, from when to when."""
     told = spells(motion, picture.settings.scales.time)
+    if len(motion.trajectory.t) == 1:
+        return ""
     if len(told) == 1 and len(told[0]) == 3:
         whole = picture.settings.edge is None and told[0][2] == "ball"
         return "" if whole else say(f"planes.spells.only.{told[0][2]}")
