@@ -9,21 +9,13 @@ from .errors import TopError
 from .outcome import steady_states
 from .trajectory import Trajectory
 
-# LAST: the share of the time by which the end is told. NEAR (R): a ball lower than that touches. UPRIGHT, LEANS (rad):
-# so near to a pole, and so little change of the tilt.
-LAST, NEAR, UPRIGHT, LEANS = 0.1, 1e-6, 0.2, 0.05
+# LAST: the share of the time by which the end is told. UPRIGHT, LEANS (rad): so near to a pole, and so little change of
+# the tilt.
+LAST, UPRIGHT, LEANS = 0.1, 0.2, 0.05
 # QUIET: friction that takes less than this share of the kinetic energy in the last of the time changes nothing more.
 QUIET = 1e-3
 REFUSED = ("rim touches", "Painleve's limit")
 STOPS = ("stands upright", "too many events", "too many turns", *REFUSED)
-ALL = ("ball", "stem", "both", "air")
-AFTER = {
-    "lifts off": ("air",), "lands": ("ball", "air"), "lands on its stem": ("stem", "both", "air"),
-    "stem touches": ("both", "ball"), "ball touches": ("both", "stem"), "stem leaves": ("ball",),
-    "stands on its stem": ("stem",), "falls back on its ball": ("ball",)}  # fmt: skip
-BEFORE = {
-    "lands": ("air",), "lands on its stem": ("air",), "stem touches": ("ball",), "ball touches": ("stem",),
-    "stem leaves": ("both",), "stands on its stem": ("ball", "both"), "falls back on its ball": ("stem",)}  # fmt: skip
 
 
 class Stretch(NamedTuple):
@@ -123,31 +115,10 @@ def _quiet(moved, last, on):
     return bool(np.abs(stable - theta).min() < LEANS)
 
 
-# ---- on what it stands ----
-
-
 def stretches(trajectory):
-    """(Stretch, ...) of a Trajectory of slide()."""
-    moved = trajectory
-    times = [float(moved.t[0]), *(time for time, event in moved.events if event in AFTER), float(moved.t[-1])]
-    names = ["", *(event for _, event in moved.events if event in AFTER), ""]
-    found = []
-    for k, start in enumerate(times[:-1]):
-        end = max(start, min(times[k + 1], times[-1]))
-        on = _carries(moved, names[k], names[k + 1], start, end)
-        if found and found[-1].on == on:
-            found[-1] = Stretch(found[-1].start, end, on)
-        elif end > start or not found:
-            found.append(Stretch(start, end, on))
-    return tuple(found)
-
-
-def _carries(moved, before, after, start, end):
-    """On what it stands between two events."""
-    inside = slice(*np.searchsorted(moved.t, [start, end], "right" if before else "left"))
-    air, ball = moved.regime[inside] == "air", (moved.com[:, 2] + moved.top.a * np.cos(moved.theta) - 1)[inside]
-    possible = [which for which in AFTER.get(before, ALL) if which in BEFORE.get(after, ALL)]
-    if len(air):
-        seen = ("air",) if air.all() else ("stem",) if ball.max() > NEAR else ("ball", "both")
-        possible = [which for which in possible if which in seen] or seen
-    return (*possible, "ball")[0]
+    """(Stretch, ...) of a Trajectory: its supports."""
+    times = [*(time for time, _ in trajectory.supports), float(trajectory.t[-1])]
+    return tuple(
+        Stretch(start, max(start, end), {"none": "air"}.get(on, on))
+        for (start, on), end in zip(trajectory.supports, times[1:], strict=True)
+    )
