@@ -300,6 +300,21 @@ def test_a_run_beside_the_run_tells_where_a_nudge_decides(usual, explorer):
     assert 5 < threaded.picture.growth < 60
 
 
+def test_a_run_that_can_go_no_further_shows_what_was_computed_and_says_why(usual, monkeypatch):
+    pushed = State(2.6, 0.0, 0.0, 0.0, vx=0.0, vy=-1.0)
+    picture, said = ran(usual, law="coulomb", mu_k=1.0, mu_s=1.0, rolling=pushed, seconds=0.5)
+    assert said.startswith("goes no further: 149.0° at 0 s") and "Painlevé’s limit" in said
+    monkeypatch.setattr("tippe_core.sliding.MOST_CALLS", 10)
+    picture, said = ran(usual, spin=38.0, seconds=60.0)
+    motion = picture.motions["sliding"]
+    last = motion.trajectory.events[-1][0] * picture.settings.scales.time
+    assert not picture.messages and 0.1 < last < 59 and motion.t[-1] > motion.trajectory.t[-1]
+    assert f"At {last:.3g} s the computation stops: it has turned so often" in said
+    with speaking("de"):
+        _, said = ran(usual, law="coulomb", mu_k=1.0, mu_s=1.0, rolling=pushed)
+    assert "Grenze nach Painlevé" in said
+
+
 def test_a_limit_is_told_in_what_stands_beside_the_controls():
     scales = Scales.paper()
     error = for_reader(TopError("times", 1500.0, "at most 1357.06", "followed past t = 1357.06."), scales)
