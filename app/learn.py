@@ -95,8 +95,8 @@ def equation(tex):
     )  # fmt: skip
 
 
-def show_motion(view, scene, motion):
-    """A Trajectory of its own in place of the scene's: of a ball, since a stem would touch the table on the way."""
+def show_motion(view, scene, motion, stem):
+    """A Trajectory of its own in place of the scene's; stem: whether that is of the body itself, or of a ball."""
     if view.shown is motion:
         return
     view.shown = motion
@@ -106,7 +106,7 @@ def show_motion(view, scene, motion):
     top = scene.top
     view.param.update(
         mu_s=lesson.FRICTION.mu,
-        profile=pack(outline(top)),
+        profile=pack(scene.profile if stem else outline(top)),
         seconds=scene.scales.time,
         speed=SLIDING_SPEED,
         frames=pack_frames(
@@ -374,7 +374,7 @@ class Learn(param.Parameterized):
             if self.section_card.visible:
                 self.fig4.show(scene)
             if answer is not None and answer.motion is not None:
-                show_motion(self.top, scene, answer.motion)
+                show_motion(self.top, scene, answer.motion, answer.stem)
             else:
                 self.top.speed = ROLLING_SPEED
                 show_top(self.top, scene)
@@ -389,7 +389,9 @@ class Learn(param.Parameterized):
     @staticmethod
     def _explained(step, answer):
         explained = paragraphs(say(f"learn.{step.name}.{answer.told}", **answer.numbers))
+        if answer.doubt:
+            explained = paragraphs(say(f"learn.doubt.{answer.doubt}")) + explained
         follows = f'<div class="key">{say("learn.page.follows")}</div>'
-        if isinstance(answer.truth, str):
+        if isinstance(answer.truth, str) and not answer.doubt:
             explained = paragraphs(f"{option(step, answer.truth)}.") + explained
         return f"<div style='font-size: {px(14)}'>{explained}</div>{follows}"

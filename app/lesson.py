@@ -21,6 +21,7 @@ from tippe_core import (
     State,
     Trajectory,
     allowed_shares,
+    ending,
     f,
     f1_squared,
     f3_squared,
@@ -34,12 +35,16 @@ from tippe_core import (
 )
 
 K_R = 10.0  # the paper's, for Figs. 5 and 6
+# At K_R = 10 the paper's toy comes back from its stem, at this it stays there: tests/test_lesson.py.
+K_R_THROWN = 13.0
 TILT = 0.1  # rad: nobody lets a top go exactly upright
 FRICTION = SmoothedCoulomb(0.3, 1.0)
-WHILE = np.linspace(0.0, 300.0, 6001)  # fine enough to draw the top between two instants
-SETTLED = 0.3  # rad from a pole
-EVERY = 8  # of those, for a curve
+# (R/g)^1/2: a run is made again, longer, until its end is reached; STEP and MOST, of its instants, draw the top between
+WHILES, STEP, MOST = (260.0, 1200.0), 0.05, 8000
+HAND = 1e-3  # rad: who lets a top go cannot say its tilt better; where that decides the end, nobody can foretell it
+CURVE = 750  # points of a curve
 FEW = 24
+UPRIGHT = 0.2  # rad, as tippe_core's ending()
 
 Curve = namedtuple("Curve", "key colour x y dash", defaults=("solid",))
 Point = namedtuple("Point", "key x y")
@@ -59,7 +64,10 @@ class Picture:
 class Answer:
     """truth: what the computation says, an option or a number; numbers: for the words of the explanation.
 
-    motion: a Trajectory to show in 3-D in place of the scene's own; told: which of the step's explanations says it.
+    motion: a Trajectory to show in 3-D in place of the scene's own, stem: whether it is of the body with its stem;
+    told: which of the step's explanations says it. doubt: why truth is not certain, or "": "early" the computation
+    came to where it cannot go on, "cut" the motion still changes at its end, "scatters" a start HAND beside it ends
+    elsewhere, "differs" a run ends otherwise than the formula says.
     """
 
     truth: str | float
@@ -67,6 +75,8 @@ class Answer:
     picture: Picture
     motion: Trajectory | None = None
     told: str = "explain"
+    stem: bool = False
+    doubt: str = ""
 
 
 @dataclass(frozen=True)
@@ -128,11 +138,14 @@ def at(K_J_share, energy, mu_s=0.5):
     return inputs
 
 
-def near_upright(top):
-    """Inputs for a top spun at K_R = 10 and let go, tilted a little."""
-    constants = Constants(0.0, K_R, 0.0)
-    state = {"theta": TILT, "theta_dot": 0.0, "omega2": 0.0, "omega3": float(omega3(TILT, top, constants))}
-    return state | {"phi": 0.0, "psi": 0.0, "given": "state"}
+def thrown(K_R=K_R):
+    """Inputs for a top spun to this K_R and let go, tilted a little."""
+
+    def inputs(top):
+        state = {"theta": TILT, "theta_dot": 0.0, "omega2": 0.0, "phi": 0.0, "psi": 0.0, "given": "state"}
+        return state | {"omega3": float(omega3(TILT, top, Constants(0.0, K_R, 0.0)))}
+
+    return inputs
 
 
 def choice(*options):
@@ -142,14 +155,44 @@ def choice(*options):
 # ---- the answers ----
 
 
-@lru_cache(maxsize=16)
-def slid(top, spin):
-    """The Trajectory of a top let go at TILT with this spin on a table that is not rough enough."""
-    return slide(top, State(TILT, 0.0, 0.0, spin), FRICTION, WHILE, rtol=1e-8, progress=look)
+@lru_cache(maxsize=32)
+def slid(top, spin, edge=None, tilt=TILT):
+    """(Trajectory, Ending) of a top let go with this spin on a table that is not rough enough, followed to its end."""
+    rtol = 1e-8 if edge is None else 1e-6  # after an impact HAND counts for more, and both contacts take long
+    for long in WHILES:
+        times = np.linspace(0.0, long, int(min(long / STEP, MOST)) + 1)
+        motion = slide(top, State(tilt, 0.0, 0.0, spin), FRICTION, times, rtol, "plastic", edge, look)  # fmt: skip
+        found = ending(motion)
+        if not unsettled(found):
+            break
+    return motion, found
 
 
-def where(theta):
-    return "upright" if theta < SETTLED else "over" if theta > np.pi - SETTLED else "between"
+def unsettled(found):
+    """Whether an Ending still changes: not where the shape holds the tilt, on ball and stem both, nor where all that is
+    left is to lose the spin, on the stem alone and upside down."""
+    leans, stands = found.end == "leaning" and found.on == "both", found.on == "stem" and found.least > np.pi - UPRIGHT
+    return found.cut and not (leans or stands)
+
+
+def where(found):
+    """An Ending as one of the options of step 1."""
+    middle = (found.least + found.most) / 2
+    if found.flat or found.end in ("stem", "inverted"):
+        return "over"
+    return "upright" if found.end == "upright" or (found.end == "rolling" and middle < UPRIGHT) else "between"
+
+
+def doubt(top, spin, edge, found):
+    """Why it is not certain where this run ends, see Answer."""
+    if found.ended and not found.flat:
+        return "early"
+    if unsettled(found):
+        return "cut"
+    if len(found.stretches) == 1:  # no impact, nothing that scatters
+        return ""
+    beside = slid(top, spin, edge, TILT + HAND)[1]
+    return "scatters" if where(beside) != where(found) or unsettled(beside) else ""
 
 
 def limit_words(E):
@@ -171,22 +214,46 @@ def start(scene):
     return {"spin": revolutions(scene, scene.upright_spin), "tilt": np.degrees(TILT)}
 
 
+def curve(key, colour, motion, values):
+    """Of a Trajectory over its time."""
+    every = slice(None, None, max(1, len(motion.t) // CURVE))
+    return Curve(key, colour, motion.t[every], values[every])
+
+
+def stem_of(scene):
+    """The edge of the stem's end, None where the body has none or is not known."""
+    return scene.shape.edge if scene.shape else None
+
+
+def only_ball(scene):
+    """The edge for what is told of a single contact: none where a > 0, the paper's Fig. 2. An ordinary top has its own,
+    for its ball alone would fall through the table's plane."""
+    return stem_of(scene) if scene.top.a < 0 else None
+
+
 def free(scene):
-    top, spin = scene.top, scene.upright_spin
-    motion = slid(top, spin)
-    end = float(motion.theta[-1])
+    top, spin, edge = scene.top, scene.upright_spin, stem_of(scene)
+    motion, found = slid(top, spin, edge)
     inner, outer = np.degrees(turning_points(top, Constants.from_state(top, TILT, 0.0, 0.0, spin))[0])
     numbers = start(scene) | {
-        "end": np.degrees(end), "mu": FRICTION.mu,
+        "end": np.degrees(motion.theta[-1]), "most": np.degrees(motion.theta.max()), "mu": FRICTION.mu,
         "seconds": motion.t[-1] * scene.scales.time, "inner": inner, "outer": outer,
-        "spin_end": revolutions(scene, motion.omega[-1, 2]),
+        "spin_end": revolutions(scene, motion.omega[-1, 2]), "on": say(f"learn.on.{on_what(found, edge)}"),
     }  # fmt: skip
     curves = (
-        Curve("slides", COLOURS["friction"], motion.t[::EVERY], np.degrees(motion.theta[::EVERY])),
+        curve("slides", COLOURS["friction"], motion, np.degrees(motion.theta)),
         level("rolls", COLOURS["theta"], motion.t, inner),
         level("rolls", COLOURS["theta"], motion.t, outer),
     )
-    return Answer(where(end), numbers, Picture("t", "degrees", curves), motion)
+    return Answer(where(found), numbers, Picture("t", "degrees", curves), motion, stem=edge is not None,
+                  doubt=doubt(top, spin, edge, found))  # fmt: skip
+
+
+def on_what(found, edge):
+    """The key of the words on what it ends; a whole sphere has nothing else."""
+    if edge is None:
+        return "sphere" if found.on == "ball" else "change"
+    return "flat" if found.flat else found.on or "change"
 
 
 def jellett(scene):
@@ -348,16 +415,18 @@ def proof(scene):
     by_jellett = -top.I1 / top.I3 * start.K_J / (1 + top.a) if top.a != -1 else np.nan
     same = abs(by_routh - by_jellett) < 1e-9 * abs(spin)
     truth = "agree" if same else "opposite" if by_routh * by_jellett < 0 else "size"
-    motion = slid(top, spin)
+    motion, found = slid(top, spin, only_ball(scene))
     numbers = {
         "jellett": revolutions(scene, by_jellett), "routh": revolutions(scene, by_routh),
         "spin": revolutions(scene, spin), "K_J": start.K_J, "K_R": start.K_R,
         "toy": revolutions(scene, motion.omega[-1, 2]), "end": np.degrees(motion.theta[-1]),
+        "still": say(f"learn.still.{'changes' if unsettled(found) or (found.ended and not found.flat) else 'ends'}"),
     }  # fmt: skip
     theta = np.linspace(0, np.pi, 121)
     curves = (
         Curve("by_routh", COLOURS["omega"], np.degrees(theta), omega3(theta, top, start)),
-        Curve("slides", COLOURS["friction"], np.degrees(motion.theta[::EVERY]), motion.omega[::EVERY, 2]),
+        Curve("slides", COLOURS["friction"], *(part[:: max(1, len(motion.t) // CURVE)]
+                                               for part in (np.degrees(motion.theta), motion.omega[:, 2]))),
     )
     points = (Point("jellett_at_pi", 180.0, by_jellett),) if np.isfinite(by_jellett) else ()
     told = "explain" if truth == "opposite" else "size" if points else "nan"
@@ -378,9 +447,13 @@ def flip(scene):
     """The spin that turns it over once it may slip, in rev/s."""
     top = scene.top
     least, spin = needed_spin(top), scene.upright_spin
-    tried = [slid(top, share * least) for share in (0.8, 2.0)] if np.isfinite(least) else [slid(top, spin)]
+    edge = only_ball(scene)
+    runs = [slid(top, share * least, edge) for share in (0.8, 2.0)] if np.isfinite(least) else [slid(top, spin, edge)]
+    tried, found = zip(*runs, strict=True)
     motion = tried[-1]
-    half = np.abs(motion.theta - np.pi / 2).argmin()
+    early, cut = any(each.ended for each in found), any(unsettled(each) for each in found)
+    as_said = [where(each) == "over" for each in found] == ([False, True] if np.isfinite(least) else [False])
+    half = np.argmax(motion.theta > np.pi / 2)
     numbers = {
         "least": revolutions(scene, least), "rad": least * scene.scales.angular_velocity,
         "gamma": top.I1 / top.I3, "low": 1 - top.a, "high": 1 + top.a,
@@ -392,11 +465,11 @@ def flip(scene):
     keys = ("slower", "faster") if len(tried) == 2 else ("slides",)
     colours = (COLOURS["theta"], COLOURS["friction"])
     curves = tuple(
-        Curve(key, colour, run.t[::EVERY], np.degrees(run.theta[::EVERY]))
-        for key, colour, run in zip(keys, colours, tried, strict=False)
+        curve(key, colour, run, np.degrees(run.theta)) for key, colour, run in zip(keys, colours, tried, strict=False)
     )
     told = "explain" if np.isfinite(least) else "nan"
-    return Answer(revolutions(scene, least), numbers, Picture("t", "degrees", curves), motion, told)
+    return Answer(revolutions(scene, least), numbers, Picture("t", "degrees", curves), motion, told, edge is not None,
+                  "early" if early else "cut" if cut else "" if as_said else "differs")  # fmt: skip
 
 
 # ---- the steps ----
@@ -430,7 +503,7 @@ def of_spin(scene):
 
 
 STEPS = (
-    Step("free", choice("over", "between", "upright"), near_upright, free,
+    Step("free", choice("over", "between", "upright"), thrown(K_R_THROWN), free,
          (r"\vec r=R\hat z-a\hat 3\quad(3)\qquad "
           r"\vec v=\vec\omega\times\vec r\quad(4)",), ("gray", "perry", "bohr"), slides=True),
     Step("jellett", of_torque, at(0.8, 0.9), jellett,
@@ -454,10 +527,10 @@ STEPS = (
     Step("slip", lambda scene: Guess(0.0, 100.0, 0.5, "%", 0.25, 2.0), at(0.6, 0.98), slip,
          (r"F_x=-\frac{I_3K_R\,f^{1/2}}{f_3^3}\left(\cos\theta-\frac{I_3}{I_1}(\cos\theta-a)\right)\quad(38)",
           r"\left(F_x^2+F_y^2\right)^{1/2}\le\mu_sF_z"), ("gray", "kane")),
-    Step("proof", choice("agree", "size", "opposite"), near_upright, proof,
+    Step("proof", choice("agree", "size", "opposite"), thrown(), proof,
          (r"\omega_3(\pi)=-\frac{I_1}{I_3}\frac{K_J}{1+a}\quad(30)\qquad "
           r"\omega_3(\pi)=\frac{K_R}{f_3(\pi)}\quad(31)",), ("gray", "routh", "jellett"), slides=True),
-    Step("flip", of_spin, near_upright, flip,
+    Step("flip", of_spin, thrown(), flip,
          (r"\vec v\ne\vec\omega\times\vec r",
           r"\omega^2>\frac{Mga\,(1-\alpha)^2}{I_1-I_3(1-\alpha)}\,,\qquad 1-\alpha<\frac{I_1}{I_3}<1+\alpha\,,"
           r"\qquad\alpha=\frac aR"), ("gallop", "leutwyler", "rauch"), slides=True),
@@ -475,9 +548,12 @@ def planned(step, scene, shape):
 
 
 def judged(step, scene, guess):
-    """(verdict, Answer): "right", "near", "off", or "never" where there is no such number; by this scene alone.
+    """(verdict, Answer): "right", "near", "off", "never" where there is no such number, or "open" where the
+    answer is not certain; by this scene alone.
 
     (None, Answer) where there is no guess.
     """
     answer = step.answer(scene)
-    return (None if guess is None else step.asks(scene).verdict(guess, answer.truth)), answer
+    if guess is None:
+        return None, answer
+    return "open" if answer.doubt else step.asks(scene).verdict(guess, answer.truth), answer

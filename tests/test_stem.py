@@ -70,7 +70,7 @@ BODIES = {
     "cone": (SHAPES["Wooden cone"].top, SHAPES["Wooden cone"].edge, SHAPES["Wooden cone"].touch_angle),
 }
 EACH = 8
-TIMES = np.linspace(0.0, 30.0, 151)
+TIMES = np.linspace(0.0, 20.0, 101)
 
 
 def starts(name):
@@ -78,7 +78,7 @@ def starts(name):
     fastest = 4.0 if name == "cone" else 9.0  # a peg far below G: faster, it does little but hop
     rng = np.random.default_rng([23, *name.encode()])
     for i in range(EACH):
-        tilt, (theta_dot, omega2) = rng.uniform(0.02, 0.95 * BODIES[name][2]), 0.3 * rng.normal(size=2)
+        tilt, (theta_dot, omega2) = rng.uniform(0.02, 0.98 * BODIES[name][2]), 0.3 * rng.normal(size=2)
         state, mu = State(tilt, theta_dot, omega2, rng.uniform(1, fastest)), rng.uniform(0.15, 0.5)
         yield state, SmoothedCoulomb(mu, 10 ** rng.uniform(-1.3, 0)) if i % 2 else Coulomb(mu)
 
@@ -121,5 +121,6 @@ def test_random_starts_of_five_bodies():
             seen.update({what for _, what in moved.events})
     print(dict(found), dict(seen))
     assert found["agrees"] >= 0.9 * EACH * len(BODIES), found
-    for what in ("sticks", "lifts off", "lands", "stands on its stem", "falls back on its ball", "stem leaves"):
-        assert seen[what] >= 4, seen
+    for what in ("lifts off", "lands", "stands on its stem", "falls back on its ball", "ball touches", "stem leaves"):
+        assert seen[what] >= 1, (what, seen)
+    assert seen["sticks"] >= 10, seen
