@@ -9,7 +9,9 @@ from visiting import Visit
 
 from app import derivation, lesson
 from app.explorer import Explorer
+from app.keep import Body
 from app.text import listed, say
+from tippe_core import PRESETS
 
 
 @pytest.fixture(scope="module")
@@ -206,6 +208,24 @@ def test_a_vote(learner, phones):
     students[0].page.get_by_text(say("teach.student.gone")).wait_for()
     for visit in students:
         closed(visit)
+
+
+@pytest.mark.parametrize(("body", "language", "width"), [("Top S", "en", 1400), ("The paper's tippe top", "de", 390)])
+def test_step_1_tells_who_is_right_that_he_is_right(browser, server, body, language, width):
+    """Both turn over: in flight and landing the one, on its stem the other."""
+    shape = next(preset.shape for preset in PRESETS if preset.name == body)
+    address = f"{server}?tab=learn&step=free&lang={language}&body={Body.text(shape)}"
+    visit = opened(browser, address, width, 900)
+    page = visit.page
+    for guess, verdict, button in (("over", "right", "predict"), ("between", "off", "again")):
+        page.get_by_role("button", name=say(f"learn.page.{button}", language)).wait_for()
+        page.get_by_text(say(f"learn.options.{guess}", language), exact=True).click()
+        page.get_by_role("button", name=say(f"learn.page.{button}", language)).click()
+        page.get_by_role("status").get_by_text(say(f"learn.verdict.{verdict}", language)).wait_for()
+        page.get_by_text(f"{say('learn.options.over', language)}.", exact=True).wait_for()
+    on = say("learn.on.sphere", language) if shape.edge is None else ""
+    assert on in page.locator("p").filter(has_text="0.3").inner_text()
+    closed(visit)
 
 
 def test_on_a_phone(browser, server):

@@ -126,7 +126,7 @@ LONG = np.linspace(0.0, 1200.0, 1201)
 
 
 def became(top, spin, edge):
-    """Where the oracle with a stem is in the last tenth of a long time, as an option of step 1, and theta at its end."""
+    """Where the oracle with a stem is in the last tenth of a long time, an option of step 1, and theta at its end."""
     motion = st.integrate(top, State(lesson.TILT, 0, 0, spin), lesson.FRICTION, LONG, edge, damping=1.0, share=1.0)
     theta = motion.theta[LONG > 1080]
     on_stem = motion.spent(st.STEM, since=1080) > 0.99
@@ -144,7 +144,7 @@ def of_preset(preset, name):
 
 
 def rolled(scene):
-    """One nutation of the rigid body from the scene's start: theta, omega along 1', 2', 3, the force; (n,) each part."""
+    """One nutation of the rigid body from the scene's start: theta, omega in space, omega_3, the force in space."""
     state, top = scene.state, scene.top
     times = np.linspace(0, scene.rolling.period, 801)
     motion = rb.integrate(rb.Body.of(top), rb.euler_quaternion(state.phi, state.theta, state.psi),
@@ -190,7 +190,8 @@ def test_what_rolls_against_the_rigid_body(preset):
     numbers = of_preset(preset, "routh")[0].numbers
     assert (numbers["inner"], numbers["outer"]) == pytest.approx((w3.min(), w3.max()), rel=1e-4)
     numbers = of_preset(preset, "energy")[0].numbers
-    assert numbers["height_outer"] - numbers["height_inner"] == pytest.approx(top.a * (axis_z[0] - axis_z[400]), abs=1e-6)
+    rise = top.a * (axis_z[0] - axis_z[400])
+    assert numbers["height_outer"] - numbers["height_inner"] == pytest.approx(rise, abs=1e-6)
     answer, scene = of_preset(preset, "turning")
     theta = rolled(scene)[0]
     assert answer.truth == pytest.approx(np.degrees(theta.max()), abs=1e-3)
