@@ -7,6 +7,7 @@ import panel as pn
 import panel_material_ui as pmui
 import param
 
+from app import asked
 from app.bundle import Bundled
 from app.cards import NOTES, PLAIN, alert, note
 from app.explorer import Explorer
@@ -140,13 +141,14 @@ class Control:
             margin=(0, 14, 8, 16),
         )
         at_once(self.view, "asked")
-        self.view.param.watch(self._asked, "asked")
+        self.view.param.watch(asked.heard(self._asked), "asked")
 
     def _asked(self, event):
-        count, wish, typed = event.new
-        self._heard, self._unread = count, False
+        count, wish, typed = asked.parts(event.new, asked.number, asked.anything, bool)
+        wish = asked.text(wish) if typed else asked.number(wish)
+        self._heard, self._unread = int(count), False
         if not typed:
-            self._request(self.name, float(wish))
+            self._request(self.name, wish)
             return
         try:
             value = float(wish.replace("−", "-").replace(",", "."))
@@ -164,15 +166,15 @@ class Control:
         that is no number, until the value is another."""
         if self._unread and (message or number(shown) == self._shown):
             return
-        asked = (self._heard, value, shown, note, message, bounds)
-        if asked == self._stands:
+        wanted = (self._heard, value, shown, note, message, bounds)
+        if wanted == self._stands:
             return
         self._unread = False
         if message:
             self._say(message, wrong=True)
             return
         self.follow(value, shown, bounds, **wording(note))
-        self._stands = asked
+        self._stands = wanted
 
     def follow(self, value, shown, bounds=None, **more):
         """The slider and the number go where the value is. more: of the Dial's, at the same time."""

@@ -9,11 +9,13 @@ import binascii
 import re
 import zlib
 from dataclasses import dataclass, fields
+from functools import partial
 from typing import Any
 from urllib.parse import parse_qsl, quote
 
 import param
 
+from app import asked
 from app.explorer import Explorer
 from app.text import say, told
 from tippe_core import TopError, load_top, save_top
@@ -56,7 +58,7 @@ class Numbers:
     @staticmethod
     def text(value):
         """Of finite numbers."""
-        return "_".join(map(Number.text, value))
+        return "_".join(map(Number.text, map(asked.number, value)))
 
     def value(self, text):
         """Of what text() wrote; else a ValueError."""
@@ -73,8 +75,11 @@ class OneOf:
         self._words = words
 
     def text(self, value):
-        """The word of a value."""
-        return next(word for word, known in self._words.items() if known == value)
+        """The word of a value; Unasked where it has none."""
+        for word, known in self._words.items():
+            if known == value:
+                return word
+        raise asked.Unasked(f"not one of {', '.join(self._words)}")
 
     def value(self, text):
         """The value of a word; else a ValueError."""
@@ -188,12 +193,12 @@ def values(texts, known, skip=()):
 
 def explorer_of(texts):
     """(Explorer, sentence): the motion that texts ask for, else the default one. Never raises."""
-    asked, sentence = values(texts, EXPLORER)
-    if "shape" in asked:
-        top = asked["shape"].top
-        asked = {"a": top.a, "I1": top.I1, "I3": top.I3} | asked
+    inputs, sentence = values(texts, EXPLORER)
+    if "shape" in inputs:
+        top = inputs["shape"].top
+        inputs = {"a": top.a, "I1": top.I1, "I3": top.I3} | inputs
     try:
-        return Explorer(**asked), sentence
+        return Explorer(**inputs), sentence
     # what the solver says of numbers whose squares or reciprocals are no numbers
     except (ValueError, ArithmeticError) as error:
         why = told(error) if isinstance(error, TopError) else say("share.link.extreme")
@@ -259,10 +264,22 @@ class Keep(param.Parameterized):
             owner.param.update(**found)
             self.sentence = " ".join(filter(None, (self.sentence, wrong)))
         self._parts.append(part)
-        owner.param.watch(lambda *events: self.param.trigger("changed"), list(known))
+        owner.param.watch(partial(self._set, known), list(known))
         # it is not a step that a view was made
         self._steps = [step | {id(owner): part.state(undoable=True)} for step in self._steps]
         self._write()
+
+    def _set(self, known, *events):
+        """What a page never sends goes back to what was."""
+        for event in events:
+            if known[event.name].codec is Body:  # which no page sends
+                continue
+            try:
+                known[event.name].codec.text(event.new)
+            except (ValueError, TypeError, OverflowError) as error:
+                asked.pass_over(event, error)
+                event.obj.param.update(**{event.name: event.old})
+        self.param.trigger("changed")
 
     def at_rest(self, gesture=None):
         """A gesture has ended; what comes late of the same gesture, which is not None, makes no step of its own."""

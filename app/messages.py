@@ -163,6 +163,7 @@ CHANGES = {
     # ours
     "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT},
     "Connection": {},
+    "Download": {"clicks": COUNT},
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
     "Guide": {},
     "Look": {"dark": FLAG, "large": FLAG},

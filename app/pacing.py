@@ -8,6 +8,8 @@ import panel as pn
 import param
 from panel.custom import JSComponent
 
+from app.failure import after, attempt
+
 # Two, so that one is on its way while the browser paints the other.
 HANDS_IN_FLIGHT = 2
 # After its last request a hand is taken to rest.
@@ -67,7 +69,7 @@ class Pacer:
         """The page has come."""
         self._begun = True
         self._advance()
-        self._after(ANSWER_WITHIN, self._finish)
+        after(ANSWER_WITHIN, self._finish)
 
     def soon(self, make):
         """Runs a function that puts something new on the page, next of what waits for its turn: two such messages
@@ -77,7 +79,7 @@ class Pacer:
             return
         self.later.insert(0, make)
         self._advance()
-        self._after(ANSWER_WITHIN, self._finish)
+        after(ANSWER_WITHIN, self._finish)
 
     def request(self, **inputs):
         """Asks for these inputs of the Explorer; a later request for the same input replaces one still waiting."""
@@ -86,12 +88,8 @@ class Pacer:
         self._single, self._said = self._resting, None  # what is asked for is answered, also where nothing changes
         if self._resting:
             self._resting = False
-            self._after(REST_AFTER, self._rest)
+            after(REST_AFTER, self._rest)
         self._advance()
-
-    @staticmethod
-    def _after(seconds, then):
-        pn.state.curdoc.add_timeout_callback(then, max(round(1000 * seconds), 20))
 
     def _advance(self):
         late = time.monotonic() - ANSWER_WITHIN
@@ -132,7 +130,7 @@ class Pacer:
             left = self._requested + REST_AFTER - time.monotonic()
             self._resting = not (left > 0 or self._wanted)
             if not self._resting:
-                self._after(left, self._rest)
+                after(left, self._rest)
         if not self._resting:
             return
         self._say(self.explorer.scene)
@@ -140,7 +138,7 @@ class Pacer:
 
     def _see_to_it(self):
         if self._round or self._round_is_due or (self._begun and self.later):
-            self._after(ANSWER_WITHIN, self._finish)
+            after(ANSWER_WITHIN, self._finish)
 
     def _finish(self):
         """The pictures of a tab that does not answer come too, late."""
@@ -158,7 +156,7 @@ class Pacer:
             with pn.io.hold():  # one message, in order, so that the answer comes after the picture
                 sent()
         else:  # until the page says that it is there only Bokeh sends anything, what is done under its lock
-            pn.state.curdoc.add_next_tick_callback(sent)
+            pn.state.curdoc.add_next_tick_callback(partial(attempt, sent))
         in_flight.append((number, time.monotonic()))
 
     def _on_painted(self, event):

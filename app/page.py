@@ -1,5 +1,6 @@
 """The page, layout only."""
 
+from functools import partial
 from weakref import WeakKeyDictionary
 
 import panel as pn
@@ -11,6 +12,7 @@ from app.builder import Builder
 from app.cards import PLAIN, card, grid
 from app.compare import Compare
 from app.connection import Connection
+from app.failure import attempt, failure
 from app.keep import Field, OneOf, explorer_of, read
 from app.learn import Learn, kept
 from app.look import widgets
@@ -139,13 +141,15 @@ def page():
     accepted = text.preferred(pn.state.headers.get("Accept-Language", ""))
     SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
     texts, sentence = read(search)  # what it says is in that language
+    failed = failure()
     if "vote" in texts:  # a student's link
-        return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"])], theme_toggle=False,
+        return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"]), failed], theme_toggle=False,
                          busy_indicator=None, stylesheets=STYLE)  # fmt: skip
     explorer, wrong = explorer_of(texts)
     roll = Roll(explorer)
     builder = Builder(explorer, roll.pacer.request)
-    runs = Runs(to_session(pn.state.curdoc), connected_to(pn.state.curdoc))
+    post = to_session(pn.state.curdoc)
+    runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
     pn.state.curdoc.on_session_destroyed(lambda context: runs.leave())
     share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))), runs)
     share.keep.param.watch(lambda event: builder.follow(), "returned")
@@ -162,6 +166,7 @@ def page():
             *share.main,
             *roll.hidden,
             Connection(words=say("main.lost"), width=0, height=0, margin=0),
+            failed,
             *tabs(
                 {
                     "roll": lambda: roll.main,

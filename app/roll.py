@@ -6,6 +6,7 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
+from app import asked
 from app.cards import PLAIN, card, grid, section, swatch, words
 from app.colours import COLOURS
 from app.controls import SPIN, Controls, named, worst
@@ -230,11 +231,14 @@ class Roll:
                 pacer.request(K_J=K_J, E=float(least_energy(theta, scene.top, K_J, explorer.K_R)), given="E")
 
         def on_surface(event):
-            grip, theta, K_J = event.new if event.name == "hand" else ("tieline", *reversed(event.new))
+            if event.name == "hand":
+                grip, theta, K_J = asked.parts(event.new, asked.text, asked.number, asked.number)
+            else:
+                grip, (K_J, theta) = "tieline", asked.parts(event.new, asked.number, asked.number)
             grabbed(grip, theta, K_J, {"lift-off": 2.0, "slip": 1.0}[explorer.limit])
 
         def tilted(event):
-            theta, t, grasp = event.new
+            theta, t, grasp = asked.parts(event.new, asked.number, asked.number, asked.number)
             if grasp != self._grasp:  # from then on the hand moves theta alone
                 self._grasp = grasp
                 motion = explorer.scene.rolling([0.0, t])
@@ -249,7 +253,7 @@ class Roll:
 
         plane.hand.on_change("data", on_plane)
         at_once(top, "tilted", "time")
-        top.param.watch(tilted, "tilted")
+        top.param.watch(asked.heard(tilted), "tilted")
         for show in (show_hand, *pictures, show_words):
             show(explorer.scene)
 
@@ -263,7 +267,7 @@ class Roll:
         def make_surface():
             surface = Surface3D(sizing_mode="stretch_both")
             at_once(surface, "hand")
-            surface.param.watch(on_surface, ["hand", "picked"])
+            surface.param.watch(asked.heard(on_surface), ["hand", "picked"])
             add(planes, partial(show_surface, surface))
             floor.append(surface)
 

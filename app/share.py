@@ -12,6 +12,7 @@ from panel.custom import JSComponent
 from app import export
 from app.cards import PLAIN, on_click, words
 from app.download import PLAIN_BUTTON, Download
+from app.failure import after
 from app.keep import EXPLORER, Field, Keep, Number, Numbers, OneOf, shared, usual
 from app.letter import letter
 from app.pacing import at_once
@@ -250,15 +251,12 @@ class Share:
         self._changed_at = time.monotonic()
         if not self._waiting:
             self._waiting = True
-            self._later(REST)
-
-    def _later(self, seconds):
-        pn.state.curdoc.add_timeout_callback(self._look, max(round(1000 * seconds), 20))
+            after(REST, self._look)
 
     def _look(self):
         left = self._changed_at + REST - time.monotonic()
         if self.address.held or left > 0:
-            self._later(REST if self.address.held else left)
+            after(REST if self.address.held else left, self._look)
             return
         self._waiting = False
         self.keep.at_rest(self.address.gesture)

@@ -19,6 +19,7 @@ from tornado.websocket import WebSocketClosedError
 
 from app import text
 from app.door import Budget, budget
+from app.failure import tell
 from app.messages import Refused, look_at
 
 log = logging.getLogger("tippe")
@@ -203,6 +204,8 @@ class Socket(WSHandler):
         except Exception as error:
             sentence = note(error, self.request.remote_ip)
             reply = self.connection and self._error(message, sentence)
+            if self.connection and not isinstance(error, Refused):
+                tell(self.connection.session.document)
         if reply and self.connection is not None:
             await self.send_message(reply)
 

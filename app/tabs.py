@@ -67,6 +67,8 @@ def tabs(views, keep, soon):
     )
 
     def look(active):
+        if active not in range(len(places)):  # no page sends that
+            return
         for i, column in enumerate(columns):
             column.visible = i == active
         # One that the address names is made when the page is there: what it computes might overtake the page itself.

@@ -11,6 +11,7 @@ import panel_material_ui as pmui
 import param
 from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d
 
+from app import asked
 from app.builder import FAMILIES, Rocking, handles, named, pulled, sentence, value_of
 from app.cards import BUTTON, alert, flow, note, on_click, words
 from app.colours import COLOURS, FAINT, INK
@@ -227,12 +228,12 @@ class Knob:
             pn.Row(title, self.entry, sizing_mode="stretch_width", margin=0), self.slider, self.words,
             sizing_mode="stretch_width", margin=(0, 0, 4, 0),
         )  # fmt: skip
-        self.slider.param.watch(self._slid, "value")
+        self.slider.param.watch(asked.heard(self._slid), "value")
         self.entry.param.watch(self._typed, "value")
 
     def _slid(self, event):
         if not self._silent:
-            self._pull(self.dimension.name, event.new / self.dimension.factor, slid=True)
+            self._pull(self.dimension.name, asked.number(event.new) / self.dimension.factor, slid=True)
 
     def _typed(self, event):
         if self._silent:

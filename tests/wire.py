@@ -201,6 +201,8 @@ class Page:
                     self.heard()
                     self.visitor.note(content)
                     for event in content["events"]:
+                        if event["kind"] == "ModelChanged" and event["model"]["id"] in self.visitor.models:
+                            self.visitor.models[event["model"]["id"]][1][event["attr"]] = event["new"]
                         if event.get("attr") == "sent":
                             await self.visitor.set(self._painted, "painted", event["new"])
                 async with self._heard:
@@ -221,15 +223,40 @@ class Page:
         if self.lost:
             raise self.lost
 
+    def labelled(self, kind, label):
+        """The id of the model of this kind with this label."""
+        [found] = [id for id in self.visitor.find(kind, "label") if self.visitor.models[id][1]["label"] == label]
+        return found
+
+    def now(self, model, attribute, default=None):
+        """What the server has said of it so far."""
+        return self.visitor.models[model][1].get(attribute, default)
+
     async def set(self, model, attribute, value):
         """As if the browser had changed a model, and waits for the answer."""
         message = await self.visitor.set(model, attribute, value)
+        await self.until(lambda: message in self._replies)
+
+    async def click(self, button):
+        """As if the browser had clicked one of Panel's, and waits for the answer."""
+        [view] = [id for id, (_, attributes) in self.visitor.models.items()
+                  if isinstance(attributes.get("data"), dict) and attributes["data"].get("id") == button]  # fmt: skip
+        values = {"type": "map", "entries": [["model", {"id": view}], ["node", "click"], ["data", None]]}
+        event = {"type": "event", "name": "dom_event", "values": values}
+        message = await self.visitor.say("PATCH-DOC", {"events": [
+            {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
+        ]})  # fmt: skip
         await self.until(lambda: message in self._replies)
 
     async def leave(self):
         """Closes the page."""
         self.reading.cancel()
         self.visitor.leave()
+
+    async def vanish(self):
+        """Is gone at once, without the words with which a connection ends."""
+        self.reading.cancel()
+        self.visitor.socket.protocol.stream.close()
 
 
 def run(coroutine, seconds=120):

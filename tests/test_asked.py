@@ -1,0 +1,103 @@
+"""What a browser may send in the place of a number: one line in the log, and the page stays as it is."""
+
+import math
+
+import panel_material_ui as pmui
+import pytest
+from bokeh.document import Document
+from panel.io.state import set_curdoc
+
+from app.builder import Builder
+from app.explorer import Explorer
+from app.keep import Field, Keep, Numbers, OneOf
+from app.roll import Roll
+from app.share import TOP
+from app.surface3d import Surface3D
+from app.workshop import Workshop
+
+VALUES = {"None": None, "True": True, "-1": -1, "10**400": 10**400, "1e308": 1e308, "nan": math.nan, "empty": "",
+          "long": "x" * 5000, "list": [], "dict": {}, "nested": [[{"a": [None]}], {"b": 1}]}  # fmt: skip
+
+
+@pytest.fixture(params=VALUES.values(), ids=VALUES)
+def value(request):
+    return request.param
+
+
+@pytest.fixture
+def roll():
+    with set_curdoc(Document()):
+        yield Roll(Explorer())
+
+
+@pytest.fixture
+def one_line(caplog):
+    """Each time something is passed over there is one line, and nothing worse."""
+    yield
+    for record in caplog.records:
+        if record.name == "tippe":
+            assert record.levelname == "WARNING" and record.getMessage().startswith("passed over: ")
+            assert "\n" not in record.getMessage() and record.exc_info is None
+
+
+def lists(value, *others):
+    """Of the right length with this value in each place; the value itself where it is a list; too short, too long."""
+    for i in range(len(others)):
+        yield [*others[:i], value, *others[i + 1 :]]
+    yield from ([value], [*others, value])
+    if isinstance(value, list):
+        yield value
+
+
+def test_a_dial_passes_over_what_it_never_sends(roll, value, one_line):
+    control = roll.controls._controls["K_J"]
+    for typed, wish in ((False, 6.0), (True, "6")):
+        for sent in lists(value, 1, wish, typed):
+            control.view.asked = sent
+            assert math.isfinite(roll.pacer.explorer.scene.constants.K_J)
+    control.view.asked = [99, 6.25, False]
+    assert roll.pacer._wanted.get("K_J", roll.pacer.explorer.K_J) == 6.25
+
+
+def test_a_hand_on_a_picture_passes_over_what_it_never_sends(roll, value, one_line):
+    while not roll.main.select(Surface3D):
+        roll.pacer.later.pop(0)()
+    [surface] = roll.main.select(Surface3D)
+    for part, name, right in ((roll.top, "tilted", (0.5, 1.0, 2)), (surface, "hand", ("line", 0.5, 6.0)),
+                              (surface, "picked", (6.0, 0.5))):  # fmt: skip
+        for sent in lists(value, *right):
+            if value != 1e308:  # a number, if an odd one: it is answered as such
+                setattr(part, name, sent)
+    assert math.isfinite(roll.pacer.explorer.scene.constants.K_J)
+
+
+def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line):
+    with set_curdoc(Document()):
+        explorer = Explorer()
+        workshop = Workshop(Builder(explorer), explorer)
+        knob = next(iter(workshop._knobs.values()))
+        try:
+            knob.slider.value = value
+        except ValueError:  # the widget's own word
+            pass
+        assert explorer.scene.messages == {}
+
+
+def test_what_has_no_word_in_a_link_goes_back_to_what_was(roll, value, one_line):
+    keep = Keep()
+    keep.add(roll.top, TOP)
+    tabs = pmui.Tabs(("a", pmui.Button()), ("b", pmui.Button()))
+    keep.add(tabs, {"active": Field("tab", OneOf(a=0, b=1), undoable=False)})
+    for owner, name in ((roll.top, "camera"), (roll.top, "speed"), (tabs, "active")):
+        before = getattr(owner, name)
+        for sent in (value, [value], [1.0, value, 2.0]):
+            try:
+                setattr(owner, name, sent)
+            except ValueError:  # the widget's own word
+                continue
+            keep.at_rest()
+        good = [] if name == "camera" else before
+        assert getattr(owner, name) in (good, [1.0, 1e308, 2.0], [1.0, -1, 2.0], 0, 1) or value in ((), 1)
+    keep.at_rest()
+    assert all(part not in keep.query for part in ("nan", "inf", "x" * 100))
+    assert Numbers(3).text([1, 2, 3]) == "1_2_3"

@@ -1,0 +1,225 @@
+"""Nobody takes anything from anybody: pages that come, go and are collected in every order, on one server; who floods;
+and what fails, which is told to whom it failed."""
+
+import asyncio
+import gc
+import json
+import sys
+import types
+from itertools import permutations
+from queue import Queue
+
+import panel as pn
+import pytest
+import visitors
+from inside import inside
+from wire import run, until
+
+from app.text import say
+
+PAGES = 3
+PATIENCE = 300  # s
+
+
+@pytest.fixture(scope="module")
+def here():
+    with inside() as here:
+        yield here
+
+
+@pytest.fixture
+def idle(monkeypatch):
+    """Pages compute nothing that takes long."""
+    monkeypatch.setattr("app.planes.solve", lambda settings, look=None: None)
+    monkeypatch.setattr("app.compare.share_map", lambda *asked: iter(()))
+
+
+# --- in every order
+
+
+def orders(stays):
+    """All in which three pages come, and two of them go: ((page, whether it comes), ...)."""
+    comes, goes = [(page, True) for page in range(PAGES)], [(page, False) for page in range(PAGES) if page != stays]
+    for order in permutations(comes + goes):
+        place = {event: i for i, event in enumerate(order)}
+        in_turn = all(place[page, True] < place[page + 1, True] for page in range(PAGES - 1))
+        if in_turn and all(place[page, True] < place[page, False] for page, _ in goes):
+            yield order
+
+
+ORDERS = {" ".join(f"{'+' if comes else '-'}{page}" for page, comes in order): (order, stays)
+          for stays in range(PAGES) for order in orders(stays)}  # fmt: skip
+
+
+async def works(page, language):
+    """All that it has not shown yet opens, Share too, and in this language."""
+    other = "en" if language == "de" else "de"
+    await page.click(page.labelled("Button", say("share.share", language)))
+    await page.until(lambda: page.visitor.find("Photo"))
+    await visitors.open_tabs(page)
+
+    def said():
+        return json.dumps(list(page.visitor.models.values()), ensure_ascii=False)
+
+    keys = ("share.dialog.motion", "family.map.start", "learn.page.predict", "workshop.bench.save")
+    await page.until(lambda: all(say(key, language) in said() for key in keys))
+    assert not [key for key in keys if say(key, other) in said()]
+
+
+async def come_and_go(here, order, stays):
+    languages = {page: "de" if page == stays else "en" for page in range(PAGES)}
+    there = {}
+    for page, comes in order:
+        if comes:
+            there[page] = await visitors.come(here.url, languages[page])
+        else:
+            await there.pop(page).vanish()
+        await asyncio.to_thread(here.wait_for_sessions, len(there))
+        gc.collect()
+    [last] = there.values()
+    await works(last, languages[stays])
+    await last.vanish()
+    await asyncio.to_thread(here.wait_for_sessions, 0)
+
+
+def test_these_are_all_orders():
+    assert len(ORDERS) == 15
+
+
+@pytest.mark.parametrize(("order", "stays"), ORDERS.values(), ids=ORDERS)
+def test_who_stays_keeps_all_of_his_page_in_whichever_order_the_others_come_and_go(here, idle, order, stays):
+    run(come_and_go(here, order, stays), PATIENCE)
+
+
+# --- what fails
+
+
+def broken(*_, **__):
+    raise RuntimeError("broken by the test")
+
+
+async def fails(page, monkeypatch, part, act):
+    """With this part of the server broken, act() is answered by the sentence that it could not be done."""
+    [failure] = page.visitor.find("Failure")
+    before = page.now(failure, "times", 0)
+    with monkeypatch.context() as now:
+        now.setattr(part, broken)
+        await act()
+        await page.until(lambda: page.now(failure, "times", 0) == before + 1)
+
+
+async def ask_of_a_broken_server(here, monkeypatch):
+    page = await visitors.come(here.url, "de")
+    share = page.labelled("Button", say("share.share", "de"))
+    await fails(page, monkeypatch, "app.share.segno.make", lambda: page.click(share))
+    await page.click(share)  # and can be asked for again
+    await page.until(lambda: page.visitor.find("Download"))
+
+    table = page.visitor.find("Download")[16]
+    assert page.now(table, "filename") == "tippe-top-motion.csv"
+    await fails(page, monkeypatch, "app.export._columns", lambda: page.set(table, "clicks", 1))
+    await page.set(table, "clicks", 2)
+    await page.until(lambda: page.now(table, "file", [0])[0] == 1)
+    before = page.now(table, "file")[1]
+    await page.set(table, "clicks", 3)  # the same file once more
+    await page.until(lambda: page.now(table, "file") == [2, before])
+
+    dial, known = page.visitor.find("Dial")[0], len(page.visitor.models)
+    await fails(page, monkeypatch, "app.explorer.Explorer._solve", lambda: page.set(dial, "asked", [1, 5.5, False]))
+    await page.set(dial, "asked", [2, 5.6, False])
+    await page.until(lambda: page.now(dial, "told")[:2] == [2, 5.6])
+
+    [tabs] = page.visitor.find("Tabs")
+    await page.set(tabs, "active", 3)
+    await page.until(lambda: len(page.visitor.models) > known + 50)
+    start = page.labelled("Button", say("family.map.start", "de"))
+    await fails(page, monkeypatch, "app.compare.share_map", lambda: page.click(start))
+    await page.click(start)
+    await page.vanish()
+    await asyncio.to_thread(here.wait_for_sessions, 0)
+
+
+def test_what_fails_is_told_to_whom_it_failed_and_can_be_asked_for_again(here, idle, monkeypatch):
+    run(ask_of_a_broken_server(here, monkeypatch), PATIENCE)
+
+
+# --- who floods
+
+
+async def flood(here, monkeypatch):
+    """One clicks 300 times on files, another once: his is the next but one to be made; and of who is gone, none is."""
+    made, go = [], Queue()
+
+    def draw(scene, name, kind):
+        made.append((scene.constants.K_J, name))
+        go.get(timeout=PATIENCE)
+        return b"figure"
+
+    monkeypatch.setattr("app.share.draw", draw)
+    pages = {}
+    for who, K_J in (("flood", 5.5), ("other", 6.5)):
+        pages[who] = page = await visitors.come(f"{here.url}?KJ={K_J}")
+        await page.click(page.labelled("Button", say("share.share", "en")))
+        await page.until(lambda page=page: len(page.visitor.find("Download")) > 16)
+    flooder, other = pages["flood"], pages["other"]
+    figures = flooder.visitor.find("Download")[:3]
+    for clicks in range(1, 101):
+        for figure in figures:
+            await flooder.visitor.set(figure, "clicks", clicks)
+    await flooder.set(figures[0], "clicks", 101)
+    wanted = other.visitor.find("Download")[0]
+    await other.set(wanted, "clicks", 1)
+    await other.set(wanted, "clicks", 2)
+    go.put(None)
+    go.put(None)
+    await other.until(lambda: other.now(wanted, "file", [0])[0] == 1)
+    await asyncio.to_thread(until, lambda: len(made) == 3)
+    assert [K_J for K_J, _ in made] == [5.5, 6.5, 5.5]
+    await flooder.vanish()
+    await asyncio.to_thread(here.wait_for_sessions, 1)
+    go.put(None)
+    await other.set(wanted, "clicks", 3)
+    go.put(None)
+    await other.until(lambda: other.now(wanted, "file", [0])[0] == 2)
+    assert [K_J for K_J, _ in made] == [5.5, 6.5, 5.5, 6.5]  # the third of the flood is not begun
+    await other.vanish()
+    await asyncio.to_thread(here.wait_for_sessions, 0)
+
+
+def test_who_floods_is_one_of_those_who_wait_and_who_left_is_none(here, idle, monkeypatch):
+    run(flood(here, monkeypatch), PATIENCE)
+
+
+# --- globals
+
+
+def globals_of_ours():
+    """{where: identity} of every name of our modules and of every attribute of their classes; of lists, dicts and sets
+    their length too. What holds documents weakly is for sessions."""
+    found = {}
+    for name, module in tuple(sys.modules.items()):
+        if name.split(".")[0] in ("app", "tippe_core") and isinstance(module, types.ModuleType):
+            classes = [each for each in vars(module).values() if isinstance(each, type) and each.__module__ == name]
+            for owner in (module, *classes):
+                for key, value in tuple(vars(owner).items()):
+                    if key != "__builtins__" and not key.startswith("_param__") and not key.startswith("_abc"):
+                        size = len(value) if isinstance(value, (list, dict, set)) else None
+                        found[f"{name} {getattr(owner, '__name__', '')}.{key}"] = (id(value), size)
+    return found
+
+
+async def live(here):
+    page = await visitors.come(here.url, "de")
+    await page.click(page.labelled("Button", say("share.share", "de")))
+    await page.until(lambda: page.visitor.find("Photo"))
+    await page.vanish()
+    await asyncio.to_thread(here.wait_for_sessions, 0)
+
+
+def test_no_session_writes_a_global(here, idle):
+    run(live(here), PATIENCE)  # what is made at first use is there
+    before, handler = globals_of_ours(), pn.config.exception_handler
+    run(live(here), PATIENCE)
+    after = globals_of_ours()
+    assert {where for where in {*before, *after} if before.get(where) != after.get(where)} == set()
+    assert pn.config.exception_handler is handler
