@@ -168,6 +168,7 @@ CHANGES = {
     "Guide": {},
     "Look": {"dark": FLAG, "large": FLAG},
     "Painted": {"painted": COUNT},
+    "Phone": {"mark": text(32)},
     "Surface3D": POINT,
     "Top3D": PICTURE,
     "TopFile": {},

@@ -66,10 +66,14 @@ async def student(url, code, phone, language="en"):
     return page
 
 
+async def chooses(page, answer, language="en"):
+    await page.until(lambda: page.visitor.find("RadioBoxGroup", "options"))
+    await page.set(page.visitor.find("RadioBoxGroup", "options")[0], "value", say(f"learn.options.{answer}", language))
+
+
 async def votes(page, answer, language="en"):
     """Until it is counted; a phone votes once a second."""
-    await page.until(lambda: page.visitor.find("RadioBoxGroup", "options"))
-    await page.set(page.visitor.find("RadioBoxGroup", "options")[0], "value", answer)
+    await chooses(page, answer, language)
     said = [say(f"teach.{key}", language) for key in ("student.sent", "student.fast", "vote.wait")]
     while True:
         await page.visitor.click(say("teach.student.send", language))
@@ -180,7 +184,7 @@ def test_a_phone_votes_once_however_often_it_loads_the_page_and_an_address_is_bo
         await third.until(lambda: third.visitor.find("RadioBoxGroup", "options"))
         await third.visitor.click(say("teach.student.send"))
         await hears(third, say("teach.student.waiting"))
-        await third.set(third.visitor.find("RadioBoxGroup", "options")[0], "value", "over")
+        await chooses(third, "over")
         await third.visitor.click(say("teach.student.send"))
         await hears(third, say("teach.student.crowded"))
         assert "a bug" not in server.log
@@ -213,7 +217,7 @@ def test_a_redis_that_goes_is_a_sentence_for_all_and_after_it_has_come_back_all_
             second = await student(server.url, code, "2")
             await second.until(lambda: second.visitor.find("RadioBoxGroup", "options"))
         await hears(page, say("teach.vote.away"))
-        await second.set(second.visitor.find("RadioBoxGroup", "options")[0], "value", "over")
+        await chooses(second, "over")
         await second.visitor.click(say("teach.student.send"))
         await hears(second, say("teach.student.away"))
         other = await teacher(server.url, key)
