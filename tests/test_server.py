@@ -25,6 +25,7 @@ from wire import TOKEN, Closed, Visitor, answers, get, run, served, until
 from app.door import Budget, Turns, budget, counted
 from app.messages import Refused, look_at
 from app.settings import Settings
+from app.sockets import Socket
 from app.text import say
 
 ROOT = Path(__file__).parent.parent
@@ -367,16 +368,32 @@ def test_a_session_has_few_sockets(server):
     until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
 
 
-def test_who_asks_for_the_whole_page_again_and_again_waits(server):
-    async def again():
-        mine = await Visitor.enter(server.url)
-        while "sends more than its share" not in server.log:
-            asked = [await mine.say("PULL-DOC-REQ", {}) for _ in range(20)]  # before the first is answered
-            await mine.answer(asked[-1])
-        mine.leave()
+def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):
+    """On a clock that stands still: a whole page counts 0.08 s, and 5 s are saved up."""
+    Clock(monkeypatch)
+    waited = []
 
-    run(again())
-    until(lambda: '"sessions": 0' in get(server.root + "/liveness")[2])
+    async def asleep(seconds):
+        waited.append(seconds)
+
+    async def nothing(*_):
+        return SimpleNamespace(msgtype="PULL-DOC-REQ")
+
+    monkeypatch.setattr("app.sockets.asyncio", SimpleNamespace(sleep=asleep))
+    socket = Socket.__new__(Socket)
+    socket.connection = SimpleNamespace(session=SimpleNamespace())
+    socket.request, socket.receiver = SimpleNamespace(remote_ip="10.0.0.7"), SimpleNamespace(consume=nothing)
+    socket._answer = nothing
+
+    async def ask(times):
+        for _ in range(times):
+            await socket.on_message("")
+
+    run(ask(62))
+    assert waited == []
+    run(ask(3))
+    assert waited == pytest.approx([0.08, 0.24, 0.33], abs=1e-6)
+    assert "10.0.0.7 sends more than its share" in caplog.text
 
 
 def test_no_more_sessions_than_there_are_places(server):
