@@ -232,6 +232,7 @@ def test_nothing_that_the_page_itself_sends_is_refused(chromium, server):
     """A hand on a slider of each tab, on the body that is built, and a file, in a browser."""
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     visit, before = Visit(page, server.url), server.log.count("refused")
+    visit.pause()
     page.locator("[role=tab]").nth(2).click()
     page.locator("input[type=file]").set_input_files(
         {"name": "top.json", "mimeType": "application/json", "buffer": TOP})  # fmt: skip
