@@ -264,6 +264,7 @@ TEMPLATE = re.compile(r"(?:\\.|\$(?!\{)|[^`$\\])*", re.DOTALL)
 
 # What looks like English in the code and is none that a visitor reads: {file: {its beginning: why}}.
 NOT_SAID = {
+    "answers.py": {"GET, HEAD": "a header"},
     "builder.py": {r"\({}[,)]| {} for this body": "looked for in what the core says"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
     "explorer.py": {"would": "REGIMES of top3d.py"},
