@@ -161,7 +161,8 @@ def slid(top, spin, edge=None, tilt=TILT):
     rtol = 1e-8 if edge is None else 1e-6  # after an impact HAND counts for more, and both contacts take long
     for long in WHILES:
         times = np.linspace(0.0, long, int(min(long / STEP, MOST)) + 1)
-        motion = slide(top, State(tilt, 0.0, 0.0, spin), FRICTION, times, rtol, "plastic", edge, look)  # fmt: skip
+        motion = slide(top, State(tilt, 0.0, 0.0, spin), FRICTION, times, rtol=rtol, landing="plastic", edge=edge,
+                       progress=look)  # fmt: skip
         found = ending(motion)
         if not unsettled(found):
             break

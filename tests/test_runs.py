@@ -21,7 +21,9 @@ from wire import run as run_async
 from wire import until
 
 from app import lesson
+from app.ballots import Sqlite
 from app.builder import Builder
+from app.classroom import Rooms
 from app.compare import Compare
 from app.explorer import Explorer
 from app.family import share_map
@@ -371,12 +373,13 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
     assert "Cancelled" in compare.said.object and not compare.start.disabled
 
 
-def test_the_answer_of_a_vote_asked_for_twice_is_told_once(page, busy, monkeypatch):
+def test_the_answer_of_a_vote_asked_for_twice_is_told_once(page, busy, monkeypatch, tmp_path):
     monkeypatch.setattr("app.teach.page_address", lambda: "http://localhost/app")
-    told = []
+    told, rooms = [], Rooms(Sqlite(tmp_path / "votes"))
     with set_curdoc(Document()):
-        vote = Vote(Explorer(), page.runs)
-        monkeypatch.setattr(vote, "_reveal", lambda room, truth: told.append(truth))
+        vote = Vote(Explorer(), page.runs, SimpleNamespace(room=""))
+        monkeypatch.setattr(vote, "_reveal", lambda step, asks, truth: told.append(truth))
+        monkeypatch.setattr(vote._counter, "ask", lambda work, done: done(work(rooms)))
         vote.open.clicks += 1
         vote.answer.clicks += 1
         vote.answer.clicks += 1
