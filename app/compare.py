@@ -12,7 +12,7 @@ from bokeh.palettes import Viridis256
 from app.builder import thrown
 from app.cards import BUTTON, PLAIN, alert, flow, note, on_click, progress, swatch, words
 from app.colours import COLOURS, FAINT, INK
-from app.drawings import side_by_side
+from app.drawings import LINE, side_by_side
 from app.family import neighbours, ordinary, pegs, presets, region, share_map
 from app.plots import plain
 from app.runs import Run, Runs, Stopped
@@ -119,7 +119,7 @@ class Compare:
         explorer, ordinary_tops = self._explorer, self.kind.value == "ordinary"
         I1, K_R = explorer.scene.top.I1, explorer.K_R
         if (explorer.scene.top.a < 0) != ordinary_tops:
-            shape = ordinary() if ordinary_tops else type(explorer).shape.default
+            shape = ordinary() if ordinary_tops else type(explorer).param.shape.default
             I1, K_R = shape.top.I1, thrown(shape)[1]
         for name, value in (("I1", I1), ("K_R", K_R), ("mu_s", explorer.mu_s)):
             self.entries[name].value = f"{value:.4g}"
@@ -189,7 +189,7 @@ class Compare:
 
 def key_words(mu_s):
     lines = "".join((
-        swatch(INK, say("family.key.tielines")), swatch(INK, say("family.key.steady"), "dashed"),
+        swatch(LINE, say("family.key.tielines")), swatch(LINE, say("family.key.steady"), "dashed"),
         swatch(COLOURS["normal"], say("family.key.lift")),
         swatch(COLOURS["friction"], say("family.key.verge", mu_s=mu_s))))  # fmt: skip
     return f'<div class="key">{say("family.key.figures")}</div><div class="key">{lines}</div>'

@@ -27,7 +27,7 @@ class Failure(JSComponent):
       const words = document.createElement("div"), close = document.createElement("button")
       words.setAttribute("role", "alert")
       Object.assign(words.style, {
-        position: "fixed", inset: "8px 8px auto", margin: "auto", maxWidth: "560px", zIndex: 9998, display: "flex",
+        position: "fixed", inset: "auto 8px 8px", margin: "auto", maxWidth: "560px", zIndex: 9998, display: "flex",
         gap: "12px", alignItems: "center", padding: "8px 8px 8px 16px", borderRadius: "8px", background: "#b3261e",
         color: "white", font: "15px/1.4 system-ui, sans-serif", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)",
       })

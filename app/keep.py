@@ -272,8 +272,8 @@ class Keep(param.Parameterized):
     def _set(self, known, *events):
         """What a page never sends goes back to what was."""
         for event in events:
-            if known[event.name].codec is Body:  # which no page sends
-                continue
+            if known[event.name].codec is Body or (event.new is None and event.obj.param[event.name].allow_None):
+                continue  # no page sends a body; and None, where it may be, has no word in a link
             try:
                 known[event.name].codec.text(event.new)
             except (ValueError, TypeError, OverflowError) as error:

@@ -128,8 +128,11 @@ TAB = Value("the number of a tab", lambda value, of: type(value) is int and 0 <=
 SIZES = {name: NUMBER for name in ("inner_width", "inner_height", "outer_width", "outer_height")}
 RANGE = {"start": NUMBER | NONE, "end": NUMBER | NONE}
 ANGLE, SIZE = number(0, 4), number(-1e6, 1e6)  # rad; no input is larger
-PICTURE = {"time": SIZE, "playing": FLAG, "speed": number(0, 100), "tilted": row(ANGLE, SIZE, COUNT, or_none=True),
-           "camera": row(NUMBER, NUMBER, NUMBER, or_none=True)}  # fmt: skip
+SHOWN = ("show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow")
+PICTURE = dict.fromkeys(SHOWN, FLAG) | {
+    "time": SIZE, "playing": FLAG, "speed": number(0, 100), "tilted": row(ANGLE, SIZE, COUNT, or_none=True),
+    "camera": row(NUMBER, NUMBER, NUMBER, or_none=True),
+}  # fmt: skip
 POINT = {"hand": row(one_of("end", "line", "point"), ANGLE, SIZE, or_none=True),
          "picked": row(SIZE, ANGLE, or_none=True)}  # fmt: skip
 

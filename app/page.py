@@ -126,6 +126,7 @@ def family_view(explorer, runs):
 def learn_view(explorer, roll, keep, runs):
     learn = Learn(explorer, roll, runs)
     keep.add(learn, kept())
+    learn.param.watch(lambda event: keep.at_rest(), "room")  # at once: a reload would lose it
     return learn.view
 
 

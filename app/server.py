@@ -42,10 +42,20 @@ from tornado.netutil import bind_sockets
 from tornado.web import RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError
 
-from app.answers import Component, Liveness, Page, Root, Sheet, in_pieces, set_default_headers, write_error
+from app.answers import (
+    Component,
+    Liveness,
+    Page,
+    Root,
+    Sheet,
+    in_pieces,
+    log_request,
+    set_default_headers,
+    write_error,
+)
 from app.arrivals import Arrivals, most_files
 from app.door import Door, counted
-from app.sockets import LARGEST_FRAGMENT, TOKEN_LASTS, Socket, failure, note
+from app.sockets import LARGEST_FRAGMENT, TOKEN_LASTS, Socket, note, why_not_made
 
 log = logging.getLogger("tippe")
 
@@ -86,6 +96,7 @@ def serve(settings, sockets, parent=None):
         session_token_expiration=TOKEN_LASTS,
         include_headers=["User-Agent", "Accept-Language", "Host"],
         include_cookies=[],
+        log_function=log_request,
     )
     tornado.add_handlers(r".*", [(r"/liveness", Liveness), (r"/", Root)])  # there, whatever the prefix
     context = tornado.applications["/app"]
@@ -160,7 +171,7 @@ def tidy(door):
 def warm(application):
     """One session that is the template of all pages, made before the first visitor comes."""
     session = generate_session(application)
-    reason = failure(application)
+    reason = why_not_made(application)
     if reason:
         raise SystemExit(reason)
     with set_curdoc(session.document):

@@ -57,7 +57,7 @@ def note(error, whose="a session"):
     return str(error) if isinstance(error, Refused) else f"The server did not take that ({name})."
 
 
-def failure(application):
+def why_not_made(application):
     """Why the last page could not be made, or None. Panel keeps it, and would show it to all who come after."""
     runner = application.handlers[0]._main_handler._runner
     reason, runner._failed, runner._error, runner._error_detail = runner.error_detail, False, None, None
@@ -111,6 +111,8 @@ class Socket(WSHandler):
         if refusal:
             self._refuse(4000, in_english(refusal))
             return
+        if self.ws_connection is None:  # gone again
+            return
         self.set_nodelay(True)  # a message is three writes and more; the second would wait for the first one's receipt
         self.entered = address
         door.enter(address)
@@ -126,7 +128,7 @@ class Socket(WSHandler):
                 mine = Budget()
                 session = await mine.steps(context.create_session_if_needed(session_id, self.request, token))
                 session.budget = mine
-                reason = failure(context.application)
+                reason = why_not_made(context.application)
                 if reason:
                     log.error("a bug: a page could not be made: %s", reason)
                     self._refuse(4000, "The page could not be made.")

@@ -47,7 +47,8 @@ class Ballot:
         on_click(self.send, lambda event: self.widget and self._vote())
         on_click(self.again, lambda event: self._come())
         # what is held and sent together before the page says that it is there is lost
-        self.phone.param.watch(lambda event: pn.state.onload(self._come), "mark")
+        self._mark = ""
+        self.phone.param.watch(self._known, "mark")
         self._ask_for("", note(say("teach.vote.wait")))
 
     @property
@@ -60,9 +61,15 @@ class Ballot:
         self.question.object = f"<h2>{say('teach.student.title')}</h2><div style='font-size: {px(16)}'>{asked}</div>"
         self.said.object = said
 
+    def _known(self, event):
+        """By what the phone says first: a page that says something else later would vote as another."""
+        if not self._mark:
+            self._mark = event.new
+            pn.state.onload(self._come)
+
     def _come(self):
         """Asks for the room, and for what this phone has voted there."""
-        code, mark = self._code, self.phone.mark
+        code, mark = self._code, self._mark
 
         def done(result):
             self.again.visible = isinstance(result, Away)
@@ -92,7 +99,7 @@ class Ballot:
         if value is None:
             self._status("waiting")
             return
-        code, mark, address = self._code, self.phone.mark, self._counter.address
+        code, mark, address = self._code, self._mark, self._counter.address
 
         def done(result):
             if isinstance(result, Exception):

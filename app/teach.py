@@ -76,7 +76,7 @@ class Vote:
         self.figure.update(sizing_mode="stretch_width", height=220, visible=False)
         self.figure.hbar(y="x", right="votes", height=0.7, source=self.bars, color=COLOURS["theta"])
         self.figure.xaxis.ticker.min_interval = 1
-        on_click(self.open, lambda event: self._open())
+        on_click(self.open, lambda event: self._room or self._open())
         # a hidden button can be clicked too, by who speaks to the server without its page
         on_click(self.close, lambda event: self._room and self._close())
         on_click(self.answer, lambda event: self._room and self._answer())
@@ -105,9 +105,10 @@ class Vote:
         before, address = self._kept.room, self._counter.address
 
         def work(rooms):
+            opened = rooms.open(address, **question)
             if before:
                 rooms.close(before)
-            return rooms.open(address, **question)
+            return opened
 
         def done(result):
             if isinstance(result, Exception):
@@ -160,6 +161,7 @@ class Vote:
             f"<details><summary>{say('teach.vote.mine')}</summary><a href='{mine}'>{mine}</a></details>"
         )
         self.close.visible = self.answer.visible = self.figure.visible = True
+        self.open.visible = False  # it would close this one
         self._show(room)
         self._counter.watch(room.code, self._news)
 
@@ -217,6 +219,7 @@ class Vote:
         self._forget()
         self._room, self._kept.room = None, ""
         self.close.visible = self.answer.visible = self.again.visible = self.figure.visible = False
+        self.open.visible = True
         self.address.object = ""
         self._say(sentence)
 
@@ -233,7 +236,9 @@ def teach_view(explorer, runs, kept):
     )
 
     def tall(*cards):
-        return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles={"gap": "12px"})
+        # its own height: a phone's page is lower than these cards, and the next column would lie over them
+        styles = {"gap": "12px", "height": "max-content", "max-height": "none"}
+        return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles=styles)
 
     def carded(key, content):
         return card(say(f"teach.page.{key}"), words(content), height="max-content")

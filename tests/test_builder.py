@@ -442,6 +442,14 @@ def test_compare_draws_both_figures_on_common_axes(explorer):
                 (np.arange(48) + 0.5) / 48, abs=0.005)  # fmt: skip
 
 
+def test_the_map_of_the_other_kind_starts_from_a_top_of_that_kind():
+    for a, kind, other in ((-0.5, "ordinary", "tippe"), (0.07, "tippe", "ordinary")):
+        compare = Compare(Explorer(a=a, K_R=3.0))
+        assert compare.kind.value == kind and compare.entries["K_R"].value == "3"
+        compare.kind.value = other
+        assert compare.entries["K_R"].value != "3" and float(compare.entries["I1"].value) > 0
+
+
 def test_a_map_of_either_kind_fills_and_shows_this_top(explorer, monkeypatch):
     monkeypatch.setattr("app.compare.RATIOS", np.array([0.9, 1.1]))
     monkeypatch.setattr("app.compare.SPANS", {"tippe": np.array([0.1, 0.2]), "ordinary": np.array([-10.0, -5.0])})

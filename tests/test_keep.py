@@ -13,7 +13,9 @@ from hypothesis import strategies as st
 
 from app.explorer import Explorer
 from app.keep import EXPLORER, LONGEST_QUERY, STEPS, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
+from app.share import Clock
 from app.text import say
+from app.top3d import Top3D
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
 
 # Version 1 of the links: a default or a name that is not as here makes old links mean something else.
@@ -249,3 +251,13 @@ def test_every_input_of_the_explorer_is_kept():
     assert all(field.key == field.key.strip("_") for field in EXPLORER.values())
     assert len({field.key for field in EXPLORER.values()}) == len(EXPLORER)
     assert all(fields(shape) for shape in BODIES)
+
+
+def test_what_was_paused_plays_on_when_it_is_played():
+    top = Top3D()
+    keep, clock = Keep(), Clock(top)
+    keep.add(clock, Clock.KNOWN)
+    for playing in (False, True, False, True):
+        top.playing = playing
+        keep.at_rest()
+        assert top.playing is playing and ("t=" in keep.query) is not playing

@@ -233,6 +233,10 @@ def test_nothing_that_the_page_itself_sends_is_refused(chromium, server):
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     visit, before = Visit(page, server.url), server.log.count("refused")
     visit.pause()
+    for box in page.locator("input[type=checkbox][name]:visible").all():
+        box.click(force=True)
+    assert page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
+        .filter((model) => model.attributes.show_track === false && model.attributes.follow === false).length""")
     page.locator("[role=tab]").nth(2).click()
     page.locator("input[type=file]").set_input_files(
         {"name": "top.json", "mimeType": "application/json", "buffer": TOP})  # fmt: skip

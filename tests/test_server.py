@@ -18,7 +18,9 @@ import pytest
 import yaml
 from bokeh.document import Document, without_document_lock
 from bokeh.server.session import ServerSession
+from tornado.httpclient import HTTPRequest
 from tornado.ioloop import IOLoop
+from tornado.websocket import websocket_connect
 from visiting import free_port
 from wire import TOKEN, Closed, Visitor, answers, get, run, served, until
 
@@ -407,6 +409,32 @@ def test_no_more_sessions_than_there_are_places(server):
     run(crowd())
     until(lambda: get(server.url)[0] == 200)
     assert "Too many pages" in server.log and "Traceback" not in server.log
+
+
+def test_the_log_tells_no_key_of_a_vote(server):
+    async def crowd():
+        inside = [await Visitor.enter(server.url) for _ in range(2)]
+        assert get(f"{server.url}?tab=learn&room=ABCDEF.secret")[0] == 503
+        for visitor in inside:
+            visitor.leave()
+
+    run(crowd())
+    assert get(f"{server.url}/nowhere?room=ABCDEF.secret")[0] == 404
+    until(lambda: get(server.url)[0] == 200)
+    assert "503 GET /app" in server.log and "secret" not in server.log
+
+
+def test_who_leaves_while_he_connects_leaves_no_traceback(server):
+    address = HTTPRequest(server.url.replace("http", "ws", 1) + "/ws", headers={"Origin": server.root})
+
+    async def hasty(token):
+        (await websocket_connect(address, subprotocols=["bokeh", token])).close()
+
+    for _ in range(8):
+        until(lambda: get(server.url)[0] == 200)
+        run(hasty(TOKEN.search(get(server.url)[2]).group(1)))
+    until(lambda: get(server.url)[0] == 200)
+    assert "Traceback" not in server.log
 
 
 def workers_of(pid):
