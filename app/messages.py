@@ -167,6 +167,7 @@ CHANGES = {
     "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT},
     "Connection": {},
     "Download": {"clicks": COUNT},
+    "Failure": {},
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
     "Guide": {},
     "Look": {"dark": FLAG, "large": FLAG},

@@ -29,7 +29,7 @@ def quoted(function, start, end):
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_event_has_words(language):
-    names = quoted(slide, "events: ", "supports: ")
+    names = quoted(slide, "events: ", "regime: ")
     contacts = [(), (0,), (1,), (0, 1)]
     for before in contacts:
         for after in contacts:

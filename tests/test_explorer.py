@@ -290,15 +290,15 @@ def test_a_top_that_no_body_is_is_refused_at_once(name, top):
 @pytest.fixture
 def pacer(explorer, monkeypatch):
     """With three pictures, of which the second fails; drawn lists what was drawn."""
-    monkeypatch.setattr(Pacer, "_after", lambda self, seconds, then: self.timers.append(then))
-    drawn = []
+    drawn, timers = [], []
+    monkeypatch.setattr("app.pacing.after", lambda seconds, then: timers.append(then))
 
     def fails(scene):
         raise ZeroDivisionError
 
     pictures = [lambda scene: drawn.append("first"), fails, lambda scene: drawn.append("last")]
     pacer = Pacer(explorer, lambda scene: drawn.append("hand"), pictures, lambda scene: drawn.append("words"))
-    pacer.timers, pacer.drawn = [], drawn
+    pacer.timers, pacer.drawn = timers, drawn
     return pacer
 
 

@@ -23,8 +23,10 @@ PATIENCE = 300  # s
 
 @pytest.fixture(scope="module")
 def here():
+    gc.freeze()  # what other tests left, which collecting would look through again and again
     with inside() as here:
         yield here
+    gc.unfreeze()
 
 
 @pytest.fixture
