@@ -124,7 +124,7 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
     assert violations(page) == [], "the drawer"
     page.keyboard.press("Escape")
     page.locator(".MuiBackdrop-root:visible").wait_for(state="hidden")
-    for name, ready in {"Roll": "canvas", "Three planes": "canvas", "Build a top": "button:text-is('Put on')",
+    for name, ready in {"Roll": "canvas", "Three planes": "canvas:visible", "Build a top": "button:text-is('Put on')",
                         "Families": "button:text-is('Compute the map')", "Learn": "main"}.items():  # fmt: skip
         click("tab", name)(page)
         awaited(ready)(page)
