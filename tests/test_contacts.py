@@ -320,6 +320,57 @@ def test_painleves_limit_of_the_issue():
         assert moved.events == ((0.0, "Painleve's limit"),)
 
 
+SANK = (State(1.05452101, -4.47557814, 1.66558761, -2.27392277, vx=0.61912355, vy=0.15238439), 2.33594616)
+
+
+def above_the_table(moved):
+    """Of the ball's lowest point, from the pose; and the ledger with the heat is kept."""
+    np.testing.assert_allclose(sum(moved.ledger), moved.energy[0], rtol=0, atol=1e-8)
+    return moved.com[:, 2] + [sb.sphere(moved.top)(axis)[2] for axis in matrices(moved)[:, :, 2]]
+
+
+def starts(count):
+    random = np.random.default_rng(7)
+    for _ in range(count):
+        yield (State(random.uniform(0.2, 2), *random.normal(0, 4, 2), random.normal(0, 8), vx=random.normal(),
+                     vy=random.normal()), random.uniform(0, 3))  # fmt: skip
+
+
+def test_painleve_on_the_ball():
+    """Viscous friction of a fast slip: no N of the rigid body balances it, though without it the table would push.
+
+    It was called "lifts off", and the top fell into the table, to -4e-4 R.
+    """
+    limit = left = 0
+    for state, gamma in (SANK, *starts(150)):
+        moved = slide(PAPER, state, Viscous(gamma), np.linspace(0, 0.03, 61), landing="plastic", rtol=1e-10)
+        assert above_the_table(moved).min() > -1e-9
+        q, w, v, _ = first_instant(slide(PAPER, state, GREASED, [0]))
+        N, free = (sb.accelerations(PAPER, lambda u, k=k: k * u * [1, 1, 0], sb.matrix(q)[:, 2], w, v)[2]
+                   for k in (gamma, 0.0))  # fmt: skip
+        at_once = [what for t, what in moved.events if t == 0]
+        assert at_once == (["lifts off"] if free < 0 else ["Painleve's limit"] if N < 0 else [])
+        if at_once == ["Painleve's limit"]:
+            assert len(moved.t) == 1 and moved.force[0, 2] == 0 and moved.supports == ((0.0, "ball"),)
+        limit, left = limit + (free > 0 > N), left + (free < 0)
+    assert limit > 5 and left > 5
+
+
+def test_a_short_hop_of_a_start_ends_where_the_ball_meets_the_table():
+    """Up and down again within the first step of the flight; it was followed to that step's end, below the table."""
+    state, friction = State(1.89178890, -3.72605542, 1.10835478, 9.26861311, vx=0.7131987, vy=-0.9385750), VISCOUS
+    moved = slide(PAPER, state, friction, np.linspace(0, 0.02, 201), landing="plastic", rtol=1e-10)
+    assert [what for _, what in moved.events[:2]] == ["lifts off", "lands"]
+    assert above_the_table(moved).min() > -1e-9
+    # the flight in closed form: L is kept, and the axis goes round it
+    (L, *_), (v, *_) = momenta(moved)
+    axis, along, z = matrices(moved)[0, :, 2], L / np.linalg.norm(L), moved.com[0, 2]
+    t, turn = (landed := moved.events[1][0]), np.linalg.norm(L) / PAPER.I1 * landed
+    there = (axis * np.cos(turn) + np.cross(along, axis) * np.sin(turn)
+             + along * (along @ axis) * (1 - np.cos(turn)))  # fmt: skip
+    assert 0 < t < 0.01 and abs(z + v[2] * t - t * t / 2 + sb.sphere(PAPER)(there)[2]) < 1e-12
+
+
 # ---- what holds of all motions ----
 
 EDGES = [None, EDGE, (0.0, 13 / 15, 1 / 3), (0.5, 0.9, 0.1), (0.3, 1.2, 0.0)]

@@ -41,6 +41,7 @@ from .trajectory import Trajectory
 # SLOW: see sliding.py. REST ((gR)^1/2): slip below which Coulomb's friction may hold.
 # SLACK (Mg), TOUCH (R): less than that is nothing. LEAST: what is left of u_z' by N, of 1 without friction.
 SLOW, REST, SLACK, TOUCH, LEAST = 0.01, 1e-11, 1e-10, 1e-11, 1e-6
+HOP = np.append(0.0, np.geomspace(1e-6, 0.99, 48))  # where in a step of the flight it may be above the table
 SINKS = 1e-6  # (g): a contact that is let go and sinks faster would have to carry
 STEADY = 10.0  # ((g/R)^1/2): rate at which what rounding and tolerance do to closed contacts is undone
 UP = np.array([0.0, 0.0, 1.0])
@@ -421,7 +422,10 @@ class Body:
                 def height(x, i=i):
                     return self.heights(self._flown(y, np.array([x])))[i, 0]
 
-                lands = brentq(height, t[k - 1], t[k], xtol=1e-15) if k and height(t[k - 1]) > 0 else float(t[k])
+                # after the short hop of a start it may have risen and come down within the first step
+                after = t[k - 1] + (t[k] - t[k - 1]) * HOP if k else t[:1]
+                risen = np.flatnonzero(self.heights(self._flown(y, after))[i] > 0)
+                lands = brentq(height, after[risen[-1]], t[k], xtol=1e-15) if risen.size else float(after[0])
                 if lands <= ends:
                     ends, event = lands, ("lands", int(i))
             path.extend(flown[:, t <= ends].T)
@@ -499,12 +503,12 @@ class Body:
         e, w, _, _ = turning(self.top, y)
         return EDGE in modes and leaning(e, w)[1] <= 0
 
-    def start_alone(self, y, time, event):
-        """The Trajectory of one instant, where the event ends it at once."""
+    def start_alone(self, y, time, event, i):
+        """The Trajectory of one instant on contact i, where the event ends it at once."""
         if event == "lifts off":
             return self.fly(y, time)[0]
         stands, y = event == ENDS["stands"], y if len(y) == 16 else self.on_sphere(y)
-        rho = self._contact(y, SPHERE if event == "rim touches" else EDGE)[0]
+        rho = self._contact(y, i)[0]
         none, weight = np.zeros((2, 1)), np.array([[0.0], [0.0], [float(stands)]])
         return record(self.top, y[:, None], y[:, None], none, weight, contact=(y[10:12] + rho[:2])[None])
 

@@ -26,7 +26,7 @@ from scipy.integrate import LSODA
 from scipy.optimize import brentq
 
 from .constants import State, f3_2, versines
-from .contacts import EDGE, ENDS, SLOW, SPHERE, SUPPORTS, TOUCH, Body, change, gap, pose, record, turning
+from .contacts import EDGE, ENDS, LEAST, SLOW, SPHERE, SUPPORTS, TOUCH, Body, change, gap, pose, record, turning
 from .errors import TopError, finite, numbers
 from .forces import contact_force
 from .friction import Coulomb, SmoothedCoulomb, Viscous
@@ -70,7 +70,7 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     without a stem): what comes then is not computed,
     "stands upright" on its stem within 1e-3 rad of flat, without the energy to tip over the rim of the stem's end any
     more (standing.py); else the motion goes on over it: "rocks over" where the end comes down flat, an impact,
-    "Painleve's limit" where no normal force balances the friction at the stem, or several do (contacts.py),
+    "Painleve's limit" where no normal force balances the friction, or several do (contacts.py),
     "too many events" after 1000 of them: friction at its limit that chatters, or a top that hops on,
     "too many turns" after what takes about half a minute.
     A start that must leave the table is one sample in the air, or flies from the first; its first event is "lifts off".
@@ -164,7 +164,7 @@ class _Run:
     def __call__(self, state, times):
         y, modes = self._begin(state, times[0])
         stretches, events, supports, done = [], [], [], 0
-        _support(supports, float(times[0]), {EDGE: None} if modes is None else modes)
+        _support(supports, float(times[0]), {self._stands_on(state): None} if modes is None else modes)
         if modes == {}:
             events.append((float(times[0]), "lifts off"))
         while modes is not None and (modes or self.flies):
@@ -184,22 +184,28 @@ class _Run:
         if modes is None:
             events.append((float(y[12]), "Painleve's limit"))
         if not done:
-            stretches.append(self.body.start_alone(y, times[:1], events[-1][1]))
+            stretches.append(self.body.start_alone(y, times[:1], events[-1][1], self._stands_on(state)))
         return _joined(self.top, stretches, tuple(events), tuple(supports))
 
     def _begin(self, state, t):
         """y at a State, and the modes (see Body) in which it goes on: {} where it leaves the table at once, or None, as
         settle() has it."""
-        y, c, s = self._start(state, t), np.cos(state.theta), np.sin(state.theta)
-        if c < self.rim:
+        y = self._start(state, t)
+        if np.cos(state.theta) < self.rim:
             raise TopError("theta", state.theta, f"less than {np.arccos(self.rim):.6g} for this top",
                            "The sphere's surface ends there.")  # fmt: skip
-        if self.edge and gap(self.edge, c, s) < 0:
+        if self._stands_on(state) == EDGE:
             return self.body.settle(self.body.on_edge(y), ("starts", None))
-        rolls = self.sticks and np.hypot(*_slip(self.top, y)) < 1e-12 and self._holds(y)
-        if not rolls and self._Fz(self._unknowns(self._let_go(y) if self.sticks else y)) < 0:
+        if self.sticks and np.hypot(*_slip(self.top, y)) < 1e-12 and self._holds(y):
+            return y, {SPHERE: "stick"}
+        presses, lifts = self._carries(self._unknowns(self._let_go(y) if self.sticks else y))
+        if presses < 0:
             return self.body.on_sphere(y), {}
-        return y, {SPHERE: "stick" if rolls else "slip"}
+        return y, {SPHERE: "slip"} if lifts >= LEAST else None
+
+    def _stands_on(self, state):
+        """The contact that carries at a State."""
+        return EDGE if self.edge and gap(self.edge, np.cos(state.theta), np.sin(state.theta)) < 0 else SPHERE
 
     def _stretch(self, y, times, modes):
         """A Trajectory of the times before the next event, the state then, its name and the modes (see Body) after it.
@@ -219,7 +225,7 @@ class _Run:
                 stretch, y, event = self._roll(y, times)
             else:
                 stretch, y, event = self._slip(self._let_go(y) if self.sticks else y, times)
-            if event == ENDS["turns"]:
+            if event in ENDS.values():
                 return stretch, y, event, modes
             if event in (None, "sticks", "slips"):
                 return stretch, y, event, {SPHERE: "stick" if event == "sticks" else "slip"}
@@ -296,13 +302,14 @@ class _Run:
             y[8], y[9] = speed * np.cos(z[9]) + carried[0], speed * np.sin(z[9]) + carried[1]
         return y
 
-    def _Fz(self, z):
+    def _carries(self, z):
+        """F_z times what is left of u_z' by it, and that: below 0 the top lifts off; below LEAST no F_z balances."""
         e, _, L3, carried = turning(self.top, z)
         if self.sticks:
             push = self.friction.mu_k * np.cos(z[9]), self.friction.mu_k * np.sin(z[9])
         else:
             push = _push(self.friction, z[8] - carried[0], z[9] - carried[1])
-        return _force(self.top, z, e, L3, push)[2]
+        return _presses(self.top, z, e, L3), _lifts(self.top, e, push)
 
     def _slip(self, y, times):
         """A Trajectory of the times before the next event, the state then, and the event (None: the times are over)."""
@@ -315,14 +322,14 @@ class _Run:
         path, rows = [z], [np.tile(z, (done, 1))]
         while z[12] < end and event is None:
             last = z
-            if solver.step() or not isfinite(Fz := self._Fz(solver.y.tolist())):
+            if solver.step() or not isfinite(sum(carries := self._carries(solver.y.tolist()))):
                 raise TopError("friction", self.friction, "weaker friction for this top",
                                f"The equations could not be followed past t = {last[12]:.6g}.")  # fmt: skip
             z, dense = solver.y, None
             if not self.sticks:
                 z[12] = solver.t  # without the rounding of its integration
             ez = 1 - 2 * (z[0] * z[0] + z[1] * z[1])
-            if Fz < 0.1 or ez < self.rim or (self.edge and self._room(z) < 0.1):
+            if min(carries) < 0.1 or ez < self.rim or (self.edge and self._room(z) < 0.1):
                 dense = solver.dense_output()
                 tau, event = self._leaves(dense)
                 if event is not None:
@@ -372,7 +379,8 @@ class _Run:
     def _leaves(self, dense):
         """The first tau of the last step at which the sphere no longer carries alone, and what happens there."""
         taus, found = np.linspace(dense.t_old, dense.t, 9), (np.inf, None)
-        guards = {"lifts off": self._Fz, "rim touches": lambda z: turning(self.top, z)[0][2] - self.rim}
+        guards = {"lifts off": lambda z: self._carries(z)[0], ENDS["balances"]: lambda z: self._carries(z)[1] - LEAST,
+                  "rim touches": lambda z: turning(self.top, z)[0][2] - self.rim}  # fmt: skip
         if self.edge:
             guards["stem touches"] = self._nears
         for event, guard in guards.items():
@@ -501,13 +509,22 @@ def _push(friction, ux, uy):
     return k * ux, k * uy
 
 
+def _presses(top, y, e, L3):
+    """1 - a [L_z (L . e) - e_z L^2]/I1^2"""
+    Lx, Ly, Lz = y[5:8]
+    return 1 - top.a * (Lz * L3 - e[2] * (Lx * Lx + Ly * Ly + Lz * Lz)) / (top.I1 * top.I1)
+
+
+def _lifts(top, e, push):
+    """1 + (a/I1) [a s^2 - r_z k (u . e)]: what is left of u_z' by F_z"""
+    a, (ex, ey, ez), (kx, ky) = top.a, e, push
+    return 1 + a / top.I1 * (a * (ex * ex + ey * ey) - (1 - a * ez) * (kx * ex + ky * ey))
+
+
 def _force(top, y, e, L3, push):
     """F = F_z (z - k u)"""
-    Lx, Ly, Lz = y[5:8]
-    a, I1, (ex, ey, ez), (kx, ky) = top.a, top.I1, e, push
-    lean = a * (ex * ex + ey * ey) - (1 - a * ez) * (kx * ex + ky * ey)
-    Fz = (1 - a * (Lz * L3 - ez * (Lx * Lx + Ly * Ly + Lz * Lz)) / (I1 * I1)) / (1 + a / I1 * lean)
-    return -kx * Fz, -ky * Fz, Fz
+    Fz = _presses(top, y, e, L3) / _lifts(top, e, push)
+    return -push[0] * Fz, -push[1] * Fz, Fz
 
 
 def rolling_force(top, state):
