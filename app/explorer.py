@@ -12,6 +12,7 @@ import param
 
 from app.text import say, told
 from tippe_core import (
+    SUNK,
     Constants,
     Rolling,
     Scales,
@@ -424,6 +425,15 @@ def fits(shape, top):
 def body(shape):
     """The shape's outline, (radius, height above O along axis 3) in R, (k, 2)."""
     return shape.profile(max(OUTLINE_POINTS, len(shape.solid.outline) + 1)) / shape.R
+
+
+def second_part(shape):
+    """What of a body touches beside the ball: "stem" where that is the end of a stem, or nothing, else "rim"."""
+    if shape is None or shape.edge is None:
+        return "stem"
+    radius, height, rounding = shape.edge
+    ends = height + rounding > body(shape)[:, 1].max() - SUNK
+    return "stem" if ends and radius + rounding < 1 else "rim"
 
 
 def outline(top):

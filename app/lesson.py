@@ -12,10 +12,11 @@ from functools import lru_cache
 import numpy as np
 
 from app.colours import COLOURS, GREY
-from app.explorer import solve
+from app.explorer import body, second_part, solve
 from app.runs import look
 from app.text import say
 from tippe_core import (
+    UPRIGHT,
     Constants,
     SmoothedCoulomb,
     State,
@@ -29,6 +30,7 @@ from tippe_core import (
     omega3,
     pole_constants,
     slide,
+    sunk,
     thresholds,
     tielines,
     turning_points,
@@ -44,7 +46,6 @@ WHILES, STEP, MOST = (260.0, 1200.0), 0.05, 8000
 HAND = 1e-3  # rad: who lets a top go cannot say its tilt better; where that decides the end, nobody can foretell it
 CURVE = 750  # points of a curve
 FEW = 24
-UPRIGHT = 0.2  # rad, as tippe_core's ending()
 
 Curve = namedtuple("Curve", "key colour x y dash", defaults=("solid",))
 Point = namedtuple("Point", "key x y")
@@ -184,9 +185,10 @@ def where(found):
     return "upright" if found.end == "upright" or (found.end == "rolling" and middle < UPRIGHT) else "between"
 
 
-def doubt(top, spin, edge, found):
-    """Why it is not certain where this run ends, see Answer."""
-    if found.ended and not found.flat:
+def doubt(top, spin, edge, found, shape=None):
+    """Why it is not certain where this run ends, see Answer. shape: the body, of which slide() knows ball and edge."""
+    moved = slid(top, spin, edge)[0]
+    if (found.ended and not found.flat) or (edge and shape and sunk(moved, body(shape)) < len(moved.t)):
         return "early"
     if unsettled(found):
         return "cut"
@@ -239,7 +241,8 @@ def free(scene):
     numbers = start(scene) | {
         "end": np.degrees(motion.theta[-1]), "most": np.degrees(motion.theta.max()), "mu": FRICTION.mu,
         "seconds": motion.t[-1] * scene.scales.time, "inner": inner, "outer": outer,
-        "spin_end": revolutions(scene, motion.omega[-1, 2]), "on": say(f"learn.on.{on_what(found, edge)}"),
+        "spin_end": revolutions(scene, motion.omega[-1, 2]),
+        "on": say(f"learn.on.{on_what(found, edge)}", part=part(scene.shape)),
     }  # fmt: skip
     curves = (
         curve("slides", COLOURS["friction"], motion, np.degrees(motion.theta)),
@@ -247,7 +250,12 @@ def free(scene):
         level("rolls", COLOURS["theta"], motion.t, outer),
     )
     return Answer(where(found), numbers, Picture("t", "degrees", curves), motion, stem=edge is not None,
-                  doubt=doubt(top, spin, edge, found))  # fmt: skip
+                  doubt=doubt(top, spin, edge, found, scene.shape))  # fmt: skip
+
+
+def part(shape):
+    """What touches beside the ball, in words."""
+    return say(f"learn.parts.{second_part(shape)}")
 
 
 def on_what(found, edge):
@@ -469,6 +477,8 @@ def flip(scene):
         curve(key, colour, run, np.degrees(run.theta)) for key, colour, run in zip(keys, colours, tried, strict=False)
     )
     told = "explain" if np.isfinite(least) else "nan"
+    touched = any(stretch.on in ("stem", "both") for each in found for stretch in each.stretches)
+    numbers["but"] = say("learn.second_contact", part=part(scene.shape)) if touched else ""
     return Answer(revolutions(scene, least), numbers, Picture("t", "degrees", curves), motion, told, edge is not None,
                   "early" if early else "cut" if cut else "" if as_said else "differs")  # fmt: skip
 

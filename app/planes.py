@@ -14,10 +14,11 @@ from typing import NamedTuple
 import numpy as np
 import param
 
-from app.explorer import axes
+from app.explorer import axes, body, second_part
 from app.runs import Run, Runs, Stopped
 from app.text import say, told
 from tippe_core import (
+    SUNK,
     Coulomb,
     Ending,
     Outcome,
@@ -32,10 +33,12 @@ from tippe_core import (
     Viscous,
     ending,
     glide,
+    lowest,
     outcome,
     roll,
     slide,
     steady_states,
+    sunk,
 )
 
 PLANES = ("rough", "smooth", "sliding")
@@ -48,7 +51,8 @@ MOST_SECONDS = 60.0
 # A frame turns the top by MOST_TURN rad at most, unless that takes more than MOST_FRAMES; by FARTHEST_TURN it may not.
 MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
 LEAST_FRAMES = 600
-THROWN, NEAR_TOUCH = "stem throws it up", 0.02  # rad: so near to the touch angle a lift-off is the touch's
+THROWN, ANOTHER = "stem throws it up", "another part touches"
+NEAR_TOUCH = 0.02  # rad: so near to the touch angle a lift-off is the touch's
 SHORT = 0.05  # s of the real top: a touch, or a hop, that an eye does not follow
 RTOL = 1e-9  # of slide()
 NUDGE, BESIDE = 1e-6, 3.0  # rad, s: a run beside the run starts so much further tilted, and goes so far past a touch
@@ -92,6 +96,11 @@ class Settings:
         return self.shape.edge if self.stem and self.shape is not None else None
 
     @property
+    def part(self):
+        """What touches beside the ball, "stem" or "rim"."""
+        return second_part(self.shape)
+
+    @property
     def state(self):
         """The State at t = 0. slip 1: G at rest; 0: G moves as rolling needs; in between and beyond in proportion."""
         if self.rolling is not None:
@@ -130,8 +139,8 @@ class Motion:
     the arguments of top3d.pack_frames. stretches: (start, end, place in REGIMES) in turn. drift: of KEPT, the largest
     difference between two instants, over the largest size; alone: the time to which the sphere alone is on the table,
     what ends that ("" if nothing), and the drift of J until then, which no more than one contact keeps. The events have
-    tippe_core's names, but THROWN where the stem's first touch is what lifts it off. ending: on the sliding plane, what
-    became of it.
+    tippe_core's names, but THROWN where the stem's first touch is what lifts it off, and ANOTHER. ending: on the
+    sliding plane, what became of it.
     """
 
     trajectory: object
@@ -163,9 +172,21 @@ class Motion:
     @property
     def crossings(self):
         """The times at which theta passes a right angle, (k,)."""
-        theta, t = self.trajectory.theta - np.pi / 2, self.trajectory.t
+        theta, t = self._from_right_angle
         at = np.flatnonzero((theta[:-1] < 0) != (theta[1:] < 0))
         return t[at] + (t[at + 1] - t[at]) * theta[at] / (theta[at] - theta[at + 1])
+
+    @property
+    def _from_right_angle(self):
+        """theta less a right angle, and the time, where that is not 0."""
+        theta = self.trajectory.theta - np.pi / 2
+        off = np.abs(theta) > 1e-12
+        return theta[off], self.trajectory.t[off]
+
+    @property
+    def starts_below(self):
+        """Whether it starts below a right angle, or goes below it from there."""
+        return bool(np.all(self._from_right_angle[0][:1] < 0))
 
     @property
     def overturned(self):
@@ -222,9 +243,10 @@ def solve(settings, progress=None):
     """The Picture. progress: called with the time reached; what it raises stops the run. Raises TopError, whose name is
     the input at fault."""
     top, state, times = settings.top, settings.state, settings.times
+    _check_room(settings, state)
     runs = {
-        "rough": lambda: _clear(roll(top, None, times, replace(state, vx=None, vy=None)), settings),
-        "smooth": lambda: _clear(glide(top, state, times), settings),
+        "rough": lambda: _clear(lambda: roll(top, None, times, replace(state, vx=None, vy=None)), settings, state),
+        "smooth": lambda: _clear(lambda: glide(top, state, times), settings, state),
         "sliding": lambda: _slid(settings, state, times, progress),
     }
     motions, messages = {}, {}
@@ -242,8 +264,33 @@ def solve(settings, progress=None):
 
 
 def _slid(settings, state, times, progress):
-    return slide(settings.top, state, settings.friction, times, rtol=RTOL, landing=settings.landing, edge=settings.edge,
-                 progress=progress)  # fmt: skip
+    moved = slide(settings.top, state, settings.friction, times, rtol=RTOL, landing=settings.landing,
+                  edge=settings.edge, progress=progress)  # fmt: skip
+    first = sunk(moved, body(settings.shape)) if settings.edge else len(moved.t)
+    return moved if first == len(moved.t) else _until(moved, max(first, 1), float(moved.t[first]), ANOTHER)
+
+
+def _check_room(settings, state):
+    """TopError where a part of the body that is neither ball nor edge would be below the table at the start."""
+    if settings.edge is None:
+        return
+    theta = np.append(np.linspace(0, np.pi, 3601), state.theta)
+    radius, height, rounding = settings.edge
+    stands = np.maximum(1, rounding - height * np.cos(theta) + radius * np.sin(theta))
+    below = stands + lowest(body(settings.shape), theta) < -SUNK
+    if below[-1]:
+        most = np.degrees(theta[max(int(np.argmax(below)) - 1, 0)])
+        raise TopError("tilt", float(np.degrees(state.theta)), f"at most {most:.4g} degrees for this body",
+                       "Another part of it would be below the table.")  # fmt: skip
+
+
+def _until(trajectory, count, time, event):
+    """The first rows of a Trajectory, which ends at that time with that event."""
+    rows = {part.name: value[:count] for part in fields(trajectory)
+            if isinstance(value := getattr(trajectory, part.name), np.ndarray)}  # fmt: skip
+    before = {name: tuple(each for each in getattr(trajectory, name) if each[0] < time)
+              for name in ("events", "supports")}  # fmt: skip
+    return replace(trajectory, **rows | before | {"events": (*before["events"], (time, event))})
 
 
 def nudged(picture, progress=None):
@@ -257,20 +304,20 @@ def nudged(picture, progress=None):
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / NUDGE)
 
 
-def _clear(trajectory, settings):
-    """A motion on the ball alone as far as the stem is clear of the table; TopError where it never is."""
+def _clear(motion, settings, state):
+    """A motion on the ball alone, motion(), as far as the stem is clear of the table; TopError where it never is."""
+    angle = settings.shape.touch_angle if settings.edge else np.inf
+    if state.theta >= angle:
+        raise TopError("tilt", float(np.degrees(state.theta)),
+                       f"less than {np.degrees(angle):.4g} degrees on this plane",
+                       "Its stem or rim would be below the table.")  # fmt: skip
+    trajectory = motion()
     theta, t = trajectory.theta, trajectory.t
-    angle = settings.shape.touch_angle if settings.edge else None
-    if angle is None or theta.max() < angle:
+    if theta.max() < angle:
         return trajectory
-    first = int(np.argmax(theta >= angle))
-    if not first:
-        raise TopError("tilt", float(np.degrees(theta[0])), f"less than {np.degrees(angle):.4g} degrees on this plane",
-                       "The end of its stem would be below the table.")  # fmt: skip
+    first = max(int(np.argmax(theta >= angle)), 1)
     time = float(np.interp(angle, theta[first - 1 : first + 1], t[first - 1 : first + 1]))
-    rows = {part.name: value[:first] for part in fields(trajectory)
-            if isinstance(value := getattr(trajectory, part.name), np.ndarray)}  # fmt: skip
-    return replace(trajectory, events=((time, "stem touches"),), **rows)
+    return _until(trajectory, first, time, "stem touches")
 
 
 def for_reader(error, scales):

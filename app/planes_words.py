@@ -7,7 +7,7 @@ import numpy as np
 
 from app.cards import swatch
 from app.colours import COLOURS
-from app.planes import LIFTS, PLANES, ROLLS, RTOL, SHORT, THROWN
+from app.planes import LIFTS, PLANES, RTOL, SHORT, THROWN
 from app.text import listed, say
 
 # A plane's own colour, the same in all pictures of this tab.
@@ -18,8 +18,11 @@ ROUNDING = 1e-7
 # So many spells on ball, stem or both are told one by one. A tilt whose least and largest change by less than STEADY
 # (rad) between the last two fifths of the time neither rises nor falls.
 MOST_SPELLS, STEADY = 5, np.radians(0.5)
-# A tilt that stays within STILL (rad) has not left its balance.
-STILL = 1e-6
+# SHARE of the tilt, or of what it swings, counts as a change where the tilt is small. A tilt that stays within STILL
+# (rad) has not left its balance; upright is what is within NEAR_UPRIGHT (rad).
+SHARE, STILL, NEAR_UPRIGHT = 0.1, 1e-6, np.radians(2)
+# What has less energy of motion (MgR) lies; what begins before AT_ONCE (s) begins at 0.00 s.
+AT_REST, AT_ONCE = 1e-6, 0.005
 # A nudge of the start that grows so many times makes of the tenth of a degree that no hand holds ten degrees.
 SCATTERS, HAND = 100.0, 0.1
 
@@ -51,8 +54,13 @@ def in_force(picture, plane):
     return say("planes.force.smoothed", mu=law.mu, speed=100 * law.eps * velocity)
 
 
-def happens(event):
-    return listed("planes.events")[event]
+def part(settings):
+    """What touches beside the ball."""
+    return say(f"planes.parts.{settings.part}")
+
+
+def happens(event, settings):
+    return say(f"planes.events.{event}", part=part(settings))
 
 
 def _frictionless(picture):
@@ -74,7 +82,8 @@ def fate(picture, plane):
     between = say("planes.fate.stays" if low == high else "planes.fate.between", low=low, high=high)
     lifts = say("planes.fate.lifts", time=last) if motion.ended == "lifts off" else ""
     if motion.ended == "stem touches":
-        lifts = say("planes.fate.touches", time=motion.alone[0] * picture.settings.scales.time)
+        lifts = say("planes.fate.touches", time=motion.alone[0] * picture.settings.scales.time,
+                    part=part(picture.settings))  # fmt: skip
     elif plane == "rough" and any(which == LIFTS for *_, which in motion.stretches):
         lifts = say("planes.fate.pulls")
     return say(f"planes.fate.{plane}", between=between, lifts=lifts)
@@ -83,12 +92,16 @@ def fate(picture, plane):
 def became(picture, motion):
     """The key in planes.toml of what became of it on the sliding plane."""
     found, theta, a = motion.ending, motion.trajectory.theta, picture.settings.top.a
-    if picture.outcome.nudged and np.ptp(theta) < STILL:
-        return "balances"
     if found.flat:
         return "flat"
+    if found.ended:
+        return "refused"
+    if picture.outcome.nudged and np.ptp(theta) < STILL and all(each.on == "ball" for each in found.stretches):
+        return "balances"
     if found.on == "ball" and np.all(motion.trajectory.regime[motion.trajectory.t >= found.since] == "roll"):
         return "rolls"
+    if found.end == "upright" and (found.most > NEAR_UPRIGHT or _trend(motion) == "rises"):
+        return "leaning" if found.settled or _trend(motion) == "takes" else "moving"
     if found.end == "upright":
         return "upright" if theta[0] < np.pi / 2 else "comes"
     if found.end == "inverted":
@@ -106,10 +119,11 @@ def _where(picture, motion):
         at_the_end += say("planes.fate.range", low=degrees(found.least), high=degrees(found.most))
     times = motion.crossings * seconds
     if len(times):
-        way = "past" if moved.theta[0] < np.pi / 2 else "below"
+        way = "past" if motion.starts_below else "below"
         key = way if len(times) == 1 else f"{way}_at_last" if len(times) % 2 else f"{way}_and_back"
         at_the_end += say(f"planes.fate.{key}", first=times[0], last=times[-1])
-    return say("planes.fate.said", became=say(f"planes.became.{became(picture, motion)}"), end=at_the_end)
+    return say("planes.fate.said", became=say(f"planes.became.{became(picture, motion)}",
+               part=part(picture.settings)), end=at_the_end)  # fmt: skip
 
 
 def spells(motion, seconds):
@@ -134,21 +148,23 @@ def _touched(picture, motion):
         return ""
     if len(told) == 1 and len(told[0]) == 3:
         whole = picture.settings.edge is None and told[0][2] == "ball"
-        return "" if whole else say(f"planes.spells.only.{told[0][2]}")
-    said = [_spell(spell, "first" if k == 0 else "last" if k == len(told) - 1 else "then")
+        return "" if whole else say(f"planes.spells.only.{told[0][2]}", part=part(picture.settings))
+    said = [_spell(spell, "first" if k == 0 else "last" if k == len(told) - 1 else "then", part(picture.settings))
             for k, spell in enumerate(told)]  # fmt: skip
     if motion.alone[1] == THROWN:
-        said[0] += say("planes.spells.thrown")
+        said[0] += say("planes.spells.thrown", part=part(picture.settings))
     left_out = len(told) - MOST_SPELLS
     if left_out > 1:
         said[3 : 3 + left_out] = [say("planes.spells.between", end=told[2 + left_out][1])]
     return say("planes.spells.said", spells=say("planes.spells.comma").join(said))
 
 
-def _spell(spell, place):
+def _spell(spell, place, second):
     start, end, which, *in_turn = spell
-    on = say(f"planes.spells.on.{which}")
-    if not in_turn and (place == "first" or end - start >= SHORT):
+    on = say(f"planes.spells.on.{which}", part=second)
+    if not in_turn and end - start >= SHORT:
+        if place == "last" and start < AT_ONCE:
+            place = "at_once"
         return say(f"planes.spells.{place}", start=start, end=end, on=on)
     length, *others = in_turn or [end - start]
     said = say(f"planes.spells.short{'_first' if place == 'first' else ''}", length=milliseconds(length), on=on)
@@ -163,12 +179,12 @@ def _goes_on(picture, motion):
     found, moved, seconds = motion.ending, motion.trajectory, picture.settings.scales.time
     kind = became(picture, motion)
     if kind in ("balances", "flat"):
-        return say(f"planes.goes_on.{kind}")
+        return say(f"planes.goes_on.{kind}", part=part(picture.settings))
     if found.ended:
         time = motion.trajectory.events[-1][0] * seconds
-        return say("planes.goes_on.ended", time=time, happens=happens(motion.ended))
+        return say("planes.goes_on.ended", time=time, happens=happens(motion.ended, picture.settings))
     if kind == "rolls":
-        since = [start for start, _, which in motion.stretches if which == ROLLS][-1]
+        since = moved.events[-1][0] if moved.events else moved.t[0]  # what falls between two samples ends it too
         theta = moved.theta[moved.t >= since]
         if not found.settled:
             return say("planes.goes_on.rolls_yet", since=since * seconds)
@@ -176,12 +192,25 @@ def _goes_on(picture, motion):
     if _frictionless(picture):
         return ""
     if found.settled:
-        return say(f"planes.goes_on.settled.{'both' if kind == 'both' else 'else'}")
+        entries = moved.ledger
+        moves = (entries.spin + entries.precession + entries.nutation + entries.translation)[-1]
+        low, high = degrees(found.least), degrees(found.most)
+        how = ("rest" if moves < AT_REST else "both" if kind == "both" else "creeps" if found.creeps else
+               "else" if low == high else "sways")  # fmt: skip
+        return say(f"planes.goes_on.settled.{how}", low=low, high=high)
+    return say("planes.goes_on.cut", seconds=picture.settings.seconds, how=say(f"planes.goes_on.{_trend(motion)}"))
+
+
+def _trend(motion):
+    """Whether its tilt "rises" or "falls" in the last two fifths of the time, more than it swings; or only "takes"."""
+    moved = motion.trajectory
     last = moved.t >= moved.t[-1] - 0.4 * (moved.t[-1] - moved.t[0])
     early, late = np.array_split(moved.theta[last], 2)
+    least = min(STEADY, SHARE * moved.theta[last].max())
     drifts = late.min() - early.min(), late.max() - early.max()
-    how = "rises" if min(drifts) > STEADY else "falls" if max(drifts) < -STEADY else "takes"
-    return say("planes.goes_on.cut", seconds=picture.settings.seconds, how=say(f"planes.goes_on.{how}"))
+    if abs(late.mean() - early.mean()) < SHARE * np.ptp(moved.theta[last]):
+        return "takes"
+    return "rises" if min(drifts) > least else "falls" if max(drifts) < -least else "takes"
 
 
 # ---- what friction does to the ball alone, and how much a run can tell ----
@@ -210,19 +239,22 @@ def ball_words(picture):
     """What friction would do to the ball alone, and how far that holds for this run."""
     settings, sliding = picture.settings, picture.motions["sliding"]
     if _frictionless(picture):
-        return say("planes.verdict.forever")
+        heat = sliding.trajectory.heat[-1] if sliding else 0.0
+        return say(f"planes.verdict.{'impacts' if heat > ROUNDING else 'forever'}", heat=heat)
     says = say("planes.verdict.ball" if settings.edge else "planes.verdict.whole",
-               sentence=html.escape(outcome_words(picture.outcome, settings.scales)))  # fmt: skip
+               sentence=html.escape(outcome_words(picture.outcome, settings.scales)), part=part(settings))  # fmt: skip
     if settings.edge is None or sliding is None:
         return says
     until, event, _ = sliding.alone
     touched = until if event == THROWN else next(
         (s.start for s in sliding.ending.stretches if s.on in ("stem", "both")), None)  # fmt: skip
     if touched is None:
-        return says + say("planes.verdict.clear", angle=degrees(settings.shape.touch_angle))
+        return says + say("planes.verdict.clear", angle=degrees(settings.shape.touch_angle), part=part(settings))
     if touched == sliding.trajectory.t[0]:
-        return says + say("planes.verdict.never")
-    return says + say("planes.verdict.void", time=touched * settings.scales.time, drift=100 * sliding.drift["J"])
+        return says + say("planes.verdict.never", part=part(settings))
+    void = "void" if sliding.drift["J"] > ROUNDING else "void_alone"  # without spin it was 0 and is
+    return says + say(f"planes.verdict.{void}", time=touched * settings.scales.time, drift=100 * sliding.drift["J"],
+                      part=part(settings))  # fmt: skip
 
 
 def scatter_words(picture):
@@ -240,7 +272,8 @@ def run_words(picture):
     start = "start" if settings.rolling is None else "rolling"
     turns = state.omega3 * settings.scales.angular_velocity / (2 * np.pi)
     return say("planes.run.of", a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
-               body=say(f"planes.run.{touches}"), law=in_force(picture, "sliding"), rtol=power(RTOL),
+               body=say(f"planes.run.{touches}", part=part(settings)), rtol=power(RTOL),
+               law=in_force(picture, "sliding"),
                start=say(f"planes.run.{start}", tilt=degrees(state.theta), spin=turns, slip=settings.slip))  # fmt: skip
 
 
@@ -274,7 +307,8 @@ def drift_words(name, motion, picture):
         return f'<span class="kept">{say("planes.drift.stays", power=power(drift))}</span>'
     changes = say("planes.drift.changes", size=f"{100 * drift:.3g} %" if drift > 1e-3 else power(drift))
     if name == "J" and event and alone < ROUNDING:
-        then = say("planes.drift.then", time=until * picture.settings.scales.time, happens=happens(event),
+        settings = picture.settings
+        then = say("planes.drift.then", time=until * settings.scales.time, happens=happens(event, settings),
                    changes=changes)  # fmt: skip
         return f'<span class="kept">{say("planes.drift.stays", power=power(alone))}</span>{then}'
     return changes
@@ -284,4 +318,5 @@ def stem_words(settings):
     if settings.shape is None:
         return say("planes.stem.apart")
     angle = settings.shape.touch_angle
-    return say("planes.stem.never") if angle is None else say("planes.stem.past", angle=degrees(angle))
+    return say("planes.stem.never") if angle is None else say("planes.stem.past", angle=degrees(angle),
+                                                                         part=part(settings))  # fmt: skip

@@ -9,8 +9,8 @@ import pytest
 
 from app.builder import FAMILIES, Builder, sentence
 from app.explorer import Explorer
+from app.planes import ANOTHER, THROWN
 from app.planes import PRESETS as STARTS
-from app.planes import THROWN
 from app.planes_words import outcome_words
 from app.text import LANGUAGES, _patterns, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide
@@ -39,7 +39,7 @@ def test_every_event_has_words(language):
                 except KeyError:  # no such change
                     continue
     assert len(names) >= 13
-    assert {*listed("planes.events", language)} == names | {THROWN}
+    assert {*listed("planes.events", language)} == names | {THROWN, ANOTHER}
 
 
 STARTS_OF_ALL_KINDS = [
@@ -123,4 +123,5 @@ def test_an_error_is_told_in_german_with_the_units_of_the_sliders(monkeypatch):
         load_top('{"schema": 1}')
     assert "fehlt" in sentence(error.value)
     goes = outcome(Top.paper(), State(np.radians(10), 0.0, 0.0, 5.0), Scales.paper())
-    assert re.fullmatch(r"Mit [\d.]+ U/s angedreht, kippt er um: .*", outcome_words(goes, Scales.paper()))
+    said = outcome_words(goes, Scales.paper())
+    assert re.fullmatch(r"Wie bei einem aufrechten Start mit [\d.]+ U/s kippt er um: .*", said)

@@ -176,6 +176,17 @@ def test_what_slides_against_the_oracle(preset):
     assert (answer.numbers["slow_end"], answer.numbers["fast_end"]) == pytest.approx((slow[1], fast[1]), abs=3.0)
 
 
+def test_a_rim_is_no_stem_and_ends_what_the_well_says():
+    """The disc's first edge is that of the disc: it comes to lie on it, where Jellett's constant does not stay."""
+    disc = next(preset for preset in PRESETS if preset.name == "Disc on a peg")
+    answer, _ = of_preset(disc, "flip")
+    said = say(f"learn.flip.{answer.told}", **answer.numbers)
+    assert np.ptp(answer.motion.jellett) > 0.01 * np.abs(answer.motion.jellett).max()
+    assert "its rim touches" in said and "not by this argument" in said
+    assert "rim" in of_preset(disc, "free")[0].numbers["on"]
+    assert answered("flip").numbers["but"] == ""
+
+
 @pytest.mark.parametrize("preset", PRESETS, ids=[preset.name for preset in PRESETS])
 def test_what_rolls_against_the_rigid_body(preset):
     """Steps 2 to 8, by one nutation of a body that knows no constant."""

@@ -104,8 +104,8 @@ def test_the_three_regimes_of_S_in_one_sentence():
 
     assert [at(w).verdict for w in (25, 60, 90)] == ["goes upright", "hangs", "turns over"]
     assert at(60).theta == pytest.approx(1.90888, abs=5e-6)
-    assert at(90).sentence == ("Launched at 14.2 rev/s it will turn over: upright is stable only below 4.4 rev/s "
-                               "and inverted is stable only above 12.2 rev/s.")  # fmt: skip
+    assert at(90).sentence == ("As an upright start of 14.2 rev/s would, it will turn over: upright is stable only "
+                               "below 4.4 rev/s and inverted is stable only above 12.2 rev/s.")  # fmt: skip
     assert outcome(PAPER, State(0.1, 0, 0, 42 / Scales.paper().angular_velocity)).verdict == "goes upright"
     assert outcome(BALL, State(0.7, 0, 0, 3.0)).theta == 0.7
 

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import cache
 from queue import Queue
 
 import numpy as np
@@ -269,6 +270,82 @@ def test_no_bead_is_above_the_energy_that_it_has(usual):
     assert np.all(which[touching & (t > 2.45) & (t < 3.1)] == -1) and set(which) == {-1, 0, 1}
     C_J = [found.C_J for found in picture.wells("sliding")]
     assert C_J == pytest.approx([2.37, 0.165], abs=0.005)  # of the issue
+
+
+@cache
+def first_of(body):
+    explorer = Explorer()
+    builder = Builder(explorer)
+    builder.choose(body)
+    return Planes(explorer, builder).picture.settings
+
+
+def of(body, **settings):
+    """The Settings of the first look with another body."""
+    return replace(first_of(body), **settings)
+
+
+def all_said(settings):
+    picture = solve(settings)
+    return picture, re.sub(r"<[^>]*>", "", " ".join((fate(picture, "sliding"), ball_words(picture))))
+
+
+DISC, CONE, PAPERS = "Disc on a peg", "Wooden cone", "The paper's tippe top"
+NO_SPIN, FREE, STICKS = {"spin": 0.0}, {"law": "viscous", "gamma": 0.0}, {"law": "coulomb", "mu_k": 1.0, "mu_s": 1.0}
+SAID = [
+    (DISC, NO_SPIN | {"tilt": 10.0, "seconds": 1.0}, ["on both ball and rim", "without a rim"], ["stem"]),
+    (CONE, {"seconds": 5.0}, ["creeps on"], ["so it stays"]),
+    (PAPERS, NO_SPIN | {"tilt": 180.0, "seconds": 0.2}, ["stands flat on its stem"], ["least nudge would"]),
+    (PAPERS, FREE | NO_SPIN | {"tilt": 130.0, "seconds": 4.0}, ["impacts without a bounce have taken 0.265"],
+     ["for ever"]),
+    (CONE, NO_SPIN | {"seconds": 3.0}, ["It lies at rest.", "void from"], ["precession", "by 0 %"]),
+    (PAPERS, FREE | {"spin": 30.0, "seconds": 1.0}, ["leans: "], ["is upright"]),
+    (DISC, {"seconds": 1.0}, [], ["is upright"]),
+    (PAPERS, {"tilt": 0.001, "seconds": 3.0}, ["is still on its way", "its tilt still grows"], ["is upright"]),
+    (PAPERS, NO_SPIN | {"tilt": 118.0}, [], ["its tilt still falls"]),
+    (PAPERS, {"tilt": 90.0, "seconds": 0.2}, ["As an upright start of"], ["back past it", "below 90"]),
+    (PAPERS, {"tilt": 119.0, "seconds": 0.3}, ["It is for "], ["0.00 s"]),
+    (PAPERS, STICKS | {"spin": 30.0, "tilt": 130.0, "seconds": 0.3}, ["goes no further: "], ["stands on its stem: "]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("body", "settings", "says", "nots"), SAID)
+def test_what_is_said_is_so(body, settings, says, nots):
+    _, said = all_said(of(body, **settings))
+    assert all(words in said for words in says), said
+    assert not any(words in said for words in nots), said
+
+
+def test_stuck_since_its_last_touch_and_not_before():
+    """A touch of 0.16 ms falls between two samples."""
+    picture, said = all_said(of(PAPERS, **STICKS | NO_SPIN | {"tilt": 130.0}))
+    last = picture.motions["sliding"].ending.stretches[-1].start * picture.settings.scales.time
+    assert float(re.search(r"True stick has held it since ([\d.]+) s", said)[1]) >= round(last, 2) > 3
+
+
+def deepest(picture):
+    """The lowest point of the whole body in all of the run, above the table."""
+    moved, (radius, z) = picture.motions["sliding"].trajectory, picture.settings.shape.profile(400).T
+    c, s = np.cos(moved.theta)[:, None], np.sin(moved.theta)[:, None]
+    return (moved.com[:, 2:] + moved.top.a * c + (z * c - radius * s) / picture.settings.shape.R).min()
+
+
+@pytest.mark.parametrize(("body", "most"), [(DISC, 90.0), (CONE, 132.0)])
+def test_no_other_part_of_the_body_is_below_the_table(body, most):
+    """The disc lies on its side at a right angle; the cone on rim and stem at 180 degrees less atan(3/3.33)."""
+    for tilt in (most + 1, 175.0, 180.0):
+        with pytest.raises(TopError, match=f"at most {most:.0f}|at most 131.9"):
+            solve(of(body, tilt=tilt, seconds=0.1))
+    assert deepest(solve(of(body, tilt=most - 1, seconds=0.1))) > -1e-6
+    fast = State(np.radians(most - 1), 3.0, 0.0, 0.0, vx=0.0, vy=0.0)
+    picture, said = all_said(of(body, rolling=fast, seconds=0.3))
+    assert deepest(picture) > -1e-6 and picture.motions["sliding"].ended == "another part touches"
+    assert said.startswith("goes no further") and "nothing is computed here" in said
+
+
+def test_a_start_past_the_touch_is_refused_for_that_and_not_for_its_nutation():
+    picture = solve(of(PAPERS, spin=0.0, tilt=179.99, seconds=0.1))
+    assert "below the table" in fate(picture, "smooth") and "a little" not in fate(picture, "smooth")
 
 
 def test_rough_and_smooth_end_where_the_stem_touches(usual):

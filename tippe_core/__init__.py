@@ -16,7 +16,7 @@ from .curve import (
     steady_precessions,
     turning_points,
 )
-from .ending import Ending, Stretch, ending
+from .ending import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
 from .forces import friction_force, normal_force
 from .friction import Coulomb, SmoothedCoulomb, Viscous
@@ -50,6 +50,8 @@ from .trajectory import Ledger, Trajectory
 
 __all__ = [
     "PRESETS",
+    "SUNK",
+    "UPRIGHT",
     "Ball",
     "BareSphere",
     "Change",
@@ -99,6 +101,7 @@ __all__ = [
     "jellett_potential",
     "limit_energy",
     "load_top",
+    "lowest",
     "normal_force",
     "omega2",
     "omega3",
@@ -111,6 +114,7 @@ __all__ = [
     "slide",
     "steady_precessions",
     "steady_states",
+    "sunk",
     "thresholds",
     "tielines",
     "turning_points",

@@ -14,7 +14,12 @@ from .trajectory import Trajectory
 LAST, UPRIGHT, LEANS = 0.1, 0.2, 0.05
 # QUIET: friction that takes less than this share of the kinetic energy in the last of the time changes nothing more.
 QUIET = 1e-3
-REFUSED = ("rim touches", "Painleve's limit")
+# CREEPS, THERE (rad): a mean tilt that changes by less, beside what it swings, stays where it is; so near its end it
+# is there.
+CREEPS, THERE = 1e-3, 3.5e-3
+# SUNK (R): so far below the table a point of the body counts as in it.
+SUNK = 1e-6
+REFUSED = ("rim touches", "another part touches", "Painleve's limit")
 STOPS = ("stands upright", "too many events", "too many turns", *REFUSED)
 
 
@@ -43,6 +48,7 @@ class Ending:
     settled    nothing more follows: it rolls and was seen to swing there and back, or friction takes nothing any more
                and it is where it would come back to
     cut        the end of the time is all that ended it, and it still changes
+    creeps     it is settled, and yet its mean tilt still goes on to where it will be
     """
 
     stretches: tuple
@@ -55,6 +61,7 @@ class Ending:
     flat: bool
     settled: bool
     cut: bool
+    creeps: bool
 
 
 def ending(trajectory):
@@ -82,8 +89,9 @@ def ending(trajectory):
         end = "leaning"
     else:
         end = "rolling" if rolls else "moving"
+    creeps = settled and not rolls and on == "ball" and _creeps(moved, last)
     return Ending(found, end, on, float(since), least, most, ended, flat=ended == "stands upright", settled=settled,
-                  cut=not ended and not settled)  # fmt: skip
+                  cut=not ended and not settled, creeps=creeps)  # fmt: skip
 
 
 def _ended(moved):
@@ -96,7 +104,9 @@ def _ended(moved):
 
 def _swings(moved):
     """Whether it has rolled long enough to come back: through two turning points of theta since it last slipped."""
-    since = int(np.flatnonzero(np.append(True, moved.regime != "roll"))[-1])
+    slipped = moved.t[moved.regime != "roll"][-1:]
+    event = max([moved.t[0], *slipped, *(time for time, _ in moved.events[-1:])])
+    since = min(int(np.searchsorted(moved.t, event)), len(moved.t) - 1)
     theta, w1 = moved.theta[since:], moved.omega[since:, 0]
     return bool(np.ptp(theta) < 1e-6 or np.count_nonzero(np.diff(np.sign(w1))) > 1)
 
@@ -110,9 +120,35 @@ def _quiet(moved, last, on):
         return False
     if on != "ball":
         return True
+    return _from_stable(moved, last) < LEANS
+
+
+def _from_stable(moved, last):
+    """How far the mean of theta is from a stable steady state of the ball; 0 for a uniform ball, which has none."""
     steady, theta = steady_states(moved.top, moved.jellett[-1]), moved.theta[last].mean()
-    stable = np.append(steady.theta[steady.stable], theta if not any(steady.stable) else np.inf)  # a uniform ball
-    return bool(np.abs(stable - theta).min() < LEANS)
+    return float(np.abs(steady.theta[steady.stable] - theta).min()) if any(steady.stable) else 0.0
+
+
+def lowest(profile, theta):
+    """How far the lowest point of a profile, (k, 2) of radius and height above O in R, is above O at each theta."""
+    radius, z = profile.T
+    return np.array([np.min(z * c - radius * s) for s, c in zip(np.sin(theta), np.cos(theta), strict=True)])
+
+
+def sunk(trajectory, profile):
+    """The first row at which a part of the profile that slide() does not know of is in the table, or how many there
+    are: it knows the sphere and one edge, and an upper rim or another corner may come to the table past these."""
+    height = trajectory.com[:, 2] + trajectory.top.a * np.cos(trajectory.theta) + lowest(profile, trajectory.theta)
+    return int(np.argmax(np.append(height < -SUNK, True)))
+
+
+def _creeps(moved, last):
+    """Whether the mean of theta still changes over the last two fifths of the time, and is not where it goes."""
+    if _from_stable(moved, last) < THERE:
+        return False
+    last = moved.theta[moved.t >= moved.t[-1] - 4 * LAST * (moved.t[-1] - moved.t[0])]
+    early, late = (part.mean() for part in np.array_split(last, 2))
+    return bool(abs(late - early) > CREEPS + np.ptp(last) / 10)
 
 
 def stretches(trajectory):

@@ -231,4 +231,4 @@ def _sentence(verdict, nudged, theta, certain, launch, limits, scales):
     if limits.group in ("never rises", "can invert", "rises part of the way"):
         reasons.append(stability("inverted", limits.inverted, limits.launch))
     reason = "a uniform ball has no preferred one" if limits.group == "neutral" else " and ".join(reasons)
-    return f"Launched at {spin(launch)}{exactly} it will {will}{doubt}: {reason}."
+    return f"As an upright start of {spin(launch)} would,{exactly} it will {will}{doubt}: {reason}."
