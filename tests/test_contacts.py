@@ -290,6 +290,31 @@ def test_a_start_flat_on_the_end_leans_to_where_it_moves(theta_dot):
     np.testing.assert_allclose(moved.energy, flat, rtol=0, atol=1e-8)
 
 
+@pytest.mark.parametrize("lean", [0.0, 1e-8, 9e-7])
+@pytest.mark.parametrize("spin", [2.0, -30.0])
+@pytest.mark.parametrize("friction", [SmoothedCoulomb(0.3, 0.1), VISCOUS, Coulomb(0.3), GREASED])
+def test_a_start_flat_on_the_end_with_a_spin_stands(friction, spin, lean):
+    """All of the rim carries alike: neither weight nor friction has a side to tip it to. It rocked over 1000 times."""
+    moved = slide(PAPER, State(np.pi - lean, 0, 0, spin), friction, np.linspace(0, 4, 41), edge=EDGE, landing="plastic")
+    (t, what), = moved.events
+    assert what == "stands upright" and t < 1e-8 and moved.supports == ((0.0, "stem"),)
+    heights = moved.com[:, 2] + [sb.edge(PAPER, *EDGE[:2])(axis)[2] for axis in matrices(moved)[:, :, 2]]
+    np.testing.assert_allclose(heights, 0, atol=1e-9)
+    np.testing.assert_allclose(sum(moved.ledger), PAPER.I3 * spin**2 / 2 + H - (1 - PAPER.a), rtol=0, atol=2e-7)
+
+
+@pytest.mark.parametrize("share", [0.97, 1.03])
+def test_a_start_flat_on_the_end_that_slides(share):
+    """It trips over the leading rim where the torque of friction about G, mu H, is more than that of the weight, b."""
+    state, friction = State(np.pi, 0, 0, 0, vx=1.0, vy=0.5), Coulomb(share * B / H)
+    moved = slide(PAPER, state, friction, np.linspace(0, 1, 11), edge=EDGE)
+    stands = [what for _, what in moved.events] == ["stands upright"]
+    assert stands == (share < 1), moved.events
+    if not stands:  # its bottom points where it came from, its upper end, against axis 3, ahead
+        axis = matrices(moved)[3, :, 2]
+        assert len(moved.t) == 11 and -axis[:2] @ [1.0, 0.5] > 0.99 * np.hypot(*axis[:2]) * np.hypot(1.0, 0.5) > 0
+
+
 # ---- Painleve's limit ----
 
 

@@ -35,7 +35,7 @@ from scipy.optimize import brentq
 
 from .errors import TopError
 from .friction import Coulomb
-from .standing import FLAT, STANDS, crossed, energy_above_rest, leaned, leaning, tipping_energy
+from .standing import FLAT, STANDS, crossed, energy_above_rest, leaned, leaning, lies, tipping_energy
 from .trajectory import Trajectory
 
 # SLOW: see sliding.py. REST ((gR)^1/2): slip below which Coulomb's friction may hold.
@@ -501,7 +501,7 @@ class Body:
     def stays_flat(self, y, modes):
         """Whether the impact that brought its flat end down left it no way to lean further."""
         e, w, _, _ = turning(self.top, y)
-        return EDGE in modes and leaning(e, w)[1] <= 0
+        return EDGE in modes and (leaning(e, w)[1] <= 0 or lies(self.top, self.edge, e, w))
 
     def start_alone(self, y, time, event, i):
         """The Trajectory of one instant on contact i, where the event ends it at once."""

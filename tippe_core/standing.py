@@ -11,12 +11,15 @@ paper's top leans on its rim by 0.09 rad after 2 (R/g)^1/2, whichever the law.
 
 Passing its flat position the contact runs round the rim, and so the motion is followed. Where it passes within FLAT,
 as a top that rocks in a plane does, the far side of the rim comes down at once: an impact like any other here, plastic,
-at the opposite point, on which the top then leans as much to the other side.
+at the opposite point, on which the top then leans as much to the other side. What is left of its leaning may be too
+little to take it beyond FLAT again: then it lies on all of its rim, whatever its spin, which that rim only slows. So a
+start flat on the end with nothing but a spin stands, though from a lean of 1e-4 rad the same spin rocks it.
 """
 
 from math import acos, atan2, cos, hypot, sin, sqrt
 
 STANDS, FLAT = 1e-3, 1e-6  # rad: what counts as upright; what counts as flat
+ROUNDING = 1e-13  # what is left of nothing by sin(pi)
 
 
 def tipping_energy(top, edge):
@@ -42,21 +45,31 @@ def leaning(e, w):
     return s, (ex * (wy * ez - wz * ey) + ey * (wz * ex - wx * ez)) / s
 
 
+def lies(top, edge, e, w):
+    """Whether e' takes it no further than FLAT from flat: 1/2 (I1 + H^2 + b^2) e'^2 < b FLAT, on a rim that holds."""
+    b, h, _ = edge
+    (ex, ey, ez), (wx, wy, wz) = e, w
+    square = (wy * ez - wz * ey) ** 2 + (wz * ex - wx * ez) ** 2
+    return (top.I1 + (top.a + h) ** 2 + b * b) * square < 2 * b * FLAT
+
+
 def crossed(y, e):
     """y (16) leaning as much to the other side, G as high."""
     return _turned(y, -e[1], e[0], -e[2])  # by 2 alpha about z cross e
 
 
 def leaned(y, e, w):
-    """y (16) of a start flat on the end, leaning to where it moves; of any other as it is."""
+    """y (16) of a start flat on the end, leaning to where it turns, or else slides; of any other as it is."""
     (wx, wy, _), tiny = w, FLAT / 1000
     s, rate = leaning(e, w)
     if e[2] > 0 or s > FLAT or (rate >= 0 and s > tiny):
         return y
     if s > tiny:
         return crossed(y, e)
+    if hypot(wx, wy) <= ROUNDING * hypot(*w):
+        wx, wy = (-y[9], y[8]) if hypot(y[8], y[9]) > ROUNDING else (1.0, 0.0)
     moves = hypot(wx, wy)
-    return _turned(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0) if moves else y
+    return _turned(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0)
 
 
 def _turned(y, i, j, w):
