@@ -532,7 +532,9 @@ class Planes(param.Parameterized):
             messages["run"] = say("planes.run.stopped", reached=reached)
         elif isinstance(result, TopError):
             error = for_reader(result, settings.scales)
-            messages["law" if error.name == "friction" else error.name] = told(error)
+            name = "law" if error.name == "friction" else error.name
+            hidden = settings.rolling is not None and name in ("spin", "tilt", "slip")
+            messages["by" if hidden else name] = told(error)
         elif isinstance(result, Exception):
             raise result
         if messages:

@@ -240,7 +240,9 @@ def ball_words(picture):
     settings, sliding = picture.settings, picture.motions["sliding"]
     if _frictionless(picture):
         heat = sliding.trajectory.heat[-1] if sliding else 0.0
-        return say(f"planes.verdict.{'impacts' if heat > ROUNDING else 'forever'}", heat=heat)
+        if heat > ROUNDING:
+            return say("planes.verdict.impacts", heat=heat)
+        return "" if sliding and sliding.ended else say("planes.verdict.forever")
     says = say("planes.verdict.ball" if settings.edge else "planes.verdict.whole",
                sentence=html.escape(outcome_words(picture.outcome, settings.scales)), part=part(settings))  # fmt: skip
     if settings.edge is None or sliding is None:

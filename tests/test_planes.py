@@ -304,7 +304,10 @@ SAID = [
     (PAPERS, {"tilt": 0.001, "seconds": 3.0}, ["is still on its way", "its tilt still grows"], ["is upright"]),
     (PAPERS, NO_SPIN | {"tilt": 118.0}, [], ["its tilt still falls"]),
     (PAPERS, {"tilt": 90.0, "seconds": 0.2}, ["As an upright start of"], ["back past it", "below 90"]),
-    (PAPERS, {"tilt": 119.0, "seconds": 0.3}, ["It is for "], ["0.00 s"]),
+    (PAPERS, NO_SPIN | {"tilt": 119.0, "seconds": 1.0}, ["It is for ", "and after that to the end on its ball"],
+     ["0.00 s"]),
+    (PAPERS, FREE | NO_SPIN | {"tilt": 179.0, "seconds": 1.0}, ["stands flat on its stem"], ["for ever"]),
+    ("Uniform ball", {}, ["so it goes on, between 1.8° and 3.9°"], ["so it stays"]),
     (PAPERS, STICKS | {"spin": 30.0, "tilt": 130.0, "seconds": 0.3}, ["goes no further: "], ["stands on its stem: "]),
 ]  # fmt: skip
 
@@ -341,6 +344,13 @@ def test_no_other_part_of_the_body_is_below_the_table(body, most):
     picture, said = all_said(of(body, rolling=fast, seconds=0.3))
     assert deepest(picture) > -1e-6 and picture.motions["sliding"].ended == "another part touches"
     assert said.startswith("goes no further") and "nothing is computed here" in said
+
+
+def test_a_start_by_constants_that_is_refused_is_answered_beside_the_constants(planes):
+    """The slider of the tilt is not there then."""
+    rolling = replace(planes.picture.settings, rolling=planes.picture.state)
+    planes._publish(rolling, TopError("tilt", 100.0, "at most 90"))
+    assert set(planes.picture.messages) == {"by"}
 
 
 def test_a_start_past_the_touch_is_refused_for_that_and_not_for_its_nutation():
