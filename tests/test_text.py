@@ -265,10 +265,12 @@ TEMPLATE = re.compile(r"(?:\\.|\$(?!\{)|[^`$\\])*", re.DOTALL)
 # What looks like English in the code and is none that a visitor reads: {file: {its beginning: why}}.
 NOT_SAID = {
     "answers.py": {"GET, HEAD": "a header"},
+    "asked.py": {"": "said to the log"},
     "builder.py": {r"\({}[,)]| {} for this body": "looked for in what the core says"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
     "explorer.py": {"would": "REGIMES of top3d.py"},
     "export.py": {"": "files of data and programs, which are the same in every language"},
+    "keep.py": {"not one of {}": "said to the log"},
     "learn.py": {"in the air": "REGIMES of top3d.py"},
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
