@@ -127,7 +127,7 @@ def test_rolling(top, compare):
 @pytest.mark.parametrize("top", TOPS.values(), ids=TOPS.keys())
 def test_viscous_friction(top, compare):
     stayed = 0
-    for state in random_states(22, 6):
+    for state in random_states(22, 10):
         times = window(0.0, 0.1 / (1 + abs(state.omega2) + abs(state.omega3)))
         motion = slide(top, state, Viscous(0.3), times, rtol=1e-13)
         if not motion.events:  # on the table
