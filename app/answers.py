@@ -7,6 +7,7 @@ import re
 import secrets
 import sys
 import time
+from http.client import responses
 
 from bokeh.server.views.session_handler import SessionHandler
 from bokeh.util.token import generate_jwt_token, generate_session_id
@@ -223,4 +224,4 @@ def write_error(handler, status, **more):
     handler.set_header("Content-Type", "text/plain; charset=utf-8")
     if status == 405:
         handler.set_header("Allow", "GET" if type(handler).head is RequestHandler.head else "GET, HEAD")
-    handler.finish(f"{status} {handler._reason}\n")
+    handler.finish(f"{status} {responses.get(status, 'Unknown')}\n")

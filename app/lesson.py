@@ -290,11 +290,10 @@ def energy(scene):
     top, spin, motion = scene.top, scene.upright_spin, scene.nutation
     share = lifting(scene)
     ledger, half = motion.ledger, len(motion.t) // 2
-    kinetic = ledger.spin + ledger.precession + ledger.nutation + ledger.translation
     numbers = {
         "share": share, "lift": 2 * top.a, "spin": revolutions(scene, spin), "kinetic": top.I3 * spin**2 / 2,
-        "E": scene.constants.E, "drift": np.ptp(motion.energy), "kinetic_inner": kinetic[0],
-        "height_inner": ledger.height[0], "kinetic_outer": kinetic[half], "height_outer": ledger.height[half],
+        "E": scene.constants.E, "drift": np.ptp(motion.energy), "kinetic_inner": ledger.kinetic[0],
+        "height_inner": ledger.height[0], "kinetic_outer": ledger.kinetic[half], "height_outer": ledger.height[half],
     }  # fmt: skip
     names = {"spin": "omega", "precession": "momentum", "nutation": "theta", "translation": "friction"}
     curves = [Curve(name, COLOURS[colour], motion.t, getattr(ledger, name)) for name, colour in names.items()]

@@ -31,8 +31,10 @@ from tippe_core import (
     Top,
     TopError,
     Viscous,
+    beside,
     ending,
     glide,
+    growth,
     lowest,
     outcome,
     roll,
@@ -298,10 +300,8 @@ def nudged(picture, progress=None):
     the first touch is as long as it takes to tell."""
     settings, state, motion = picture.settings, picture.state, picture.motions["sliding"]
     moved, until = motion.trajectory, motion.ending.stretches[0].end + BESIDE / settings.scales.time
-    beside = replace(state, theta=state.theta + (NUDGE if state.theta < 1 else -NUDGE))
-    near = _slid(settings, beside, moved.t[moved.t <= until], progress)
-    both = min(len(moved.t), len(near.t))
-    return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / NUDGE)
+    near = _slid(settings, beside(state, NUDGE), moved.t[moved.t <= until], progress)
+    return growth(moved, near, NUDGE)
 
 
 def _clear(motion, settings, state):

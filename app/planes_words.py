@@ -192,9 +192,8 @@ def _goes_on(picture, motion):
     if _frictionless(picture):
         return ""
     if found.settled:
-        entries = moved.ledger
-        moves = (entries.spin + entries.precession + entries.nutation + entries.translation)[-1]
         low, high = degrees(found.least), degrees(found.most)
+        moves = moved.ledger.kinetic[-1]
         how = ("rest" if moves < AT_REST else "both" if kind == "both" else "creeps" if found.creeps else
                "else" if low == high else "sways")  # fmt: skip
         return say(f"planes.goes_on.settled.{how}", low=low, high=high)

@@ -41,7 +41,7 @@ from .shapes import (
     save_top,
 )
 from .share import allowed_shares
-from .sliding import sensitivity, slide
+from .sliding import beside, growth, sensitivity, slide
 from .smooth import Gliding, glide
 from .solids import Solid, ball, cylinder, frustum, zone
 from .tielines import Tielines, figures, limit_energy, tielines
@@ -87,6 +87,7 @@ __all__ = [
     "a_from_rocking",
     "allowed_shares",
     "ball",
+    "beside",
     "cylinder",
     "dimension_from_rocking",
     "ending",
@@ -98,6 +99,7 @@ __all__ = [
     "friction_force",
     "frustum",
     "glide",
+    "growth",
     "jellett_potential",
     "limit_energy",
     "load_top",

@@ -113,8 +113,7 @@ def _swings(moved):
 
 def _quiet(moved, last, on):
     """Whether friction takes nothing any more, and on the ball alone whether that is at a stable steady state."""
-    t, heat, entries = moved.t[last], moved.heat[last], moved.ledger
-    kinetic = (entries.spin + entries.precession + entries.nutation + entries.translation)[-1]
+    t, heat, kinetic = moved.t[last], moved.heat[last], moved.ledger.kinetic[-1]
     first, second = np.diff(np.interp([t[0], (t[0] + t[-1]) / 2, t[-1]], t, heat))
     if on in ("air", "") or first + second > QUIET * kinetic + 1e-9 or second > first + 1e-9:
         return False

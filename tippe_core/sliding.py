@@ -100,8 +100,17 @@ def sensitivity(top, state, friction, times, nudge=1e-6, **how):
     Arguments as of slide(). Large where the physics is sensitive, whatever the tolerance: a top near the limit of
     sticking, of lift-off or of a threshold. A nudge that makes other events happen counts by what it does to theta.
     """
-    beside = replace(state, theta=state.theta + (nudge if state.theta < 1 else -nudge))
-    moved, near = (slide(top, start, friction, times, **how) for start in (state, beside))
+    moved, near = (slide(top, start, friction, times, **how) for start in (state, beside(state, nudge)))
+    return growth(moved, near, nudge)
+
+
+def beside(state, nudge):
+    """A State whose theta is a nudge (rad) larger, from 1 rad on smaller."""
+    return replace(state, theta=state.theta + (nudge if state.theta < 1 else -nudge))
+
+
+def growth(moved, near, nudge):
+    """How many times the nudge (rad) between the starts of two Trajectories grows at most, where both have samples."""
     both = min(len(moved.t), len(near.t))
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / nudge)
 

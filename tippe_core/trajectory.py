@@ -10,7 +10,16 @@ from .curve import f3_squared
 from .errors import TopError, numbers
 from .top import Top
 
-Ledger = namedtuple("Ledger", "spin precession nutation height translation heat")
+
+class Ledger(namedtuple("Ledger", "spin precession nutation height translation heat")):
+    """Where the energy is, in MgR: see Trajectory.ledger."""
+
+    __slots__ = ()
+
+    @property
+    def kinetic(self):
+        """All of it that is motion."""
+        return self.spin + self.precession + self.nutation + self.translation
 
 
 @dataclass(frozen=True, eq=False)
