@@ -6,6 +6,7 @@ from contextlib import contextmanager
 
 import bokeh
 import panel.custom
+import panel.io.document
 import panel.io.resources
 import panel.layout.base
 import panel.layout.grid
@@ -56,6 +57,20 @@ def at_home(patch_stylesheet):
     return patched
 
 
+def to_the_last(dispatch):
+    """Panel's function that writes what waits for a document's page. The first of two that were begun ends their common
+    mark, and the second then took it that there is nothing: what it had lay there until something else was sent."""
+    module = panel.io.document
+    waiting = module._WRITE_EVENTS if hasattr(module, "_WRITE_EVENTS") else module._WRITE_MSGS  # Panel 1.10, 1.9
+
+    async def dispatched(document):
+        if document in waiting:
+            module._WRITE_BLOCK[document] = True
+        await dispatch(document)
+
+    return dispatched
+
+
 def on_server_loaded(server_context):
     """Asks for as many open files as may be, and keeps what sessions do in the server's own thread.
 
@@ -70,6 +85,7 @@ def on_server_loaded(server_context):
         module.freeze_doc = thawed(module.freeze_doc)
     for module in (panel.io.resources, panel.reactive):
         module.patch_stylesheet = at_home(module.patch_stylesheet)
+    panel.io.document._dispatch_msgs = to_the_last(panel.io.document._dispatch_msgs)
     here = Here(1)
     asyncio.get_running_loop().set_default_executor(here)
     if tuple(map(int, bokeh.__version__.split(".")[:2])) >= (3, 10):

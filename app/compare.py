@@ -12,12 +12,13 @@ from bokeh.palettes import Viridis256
 from app.builder import thrown
 from app.cards import BUTTON, PLAIN, alert, flow, note, on_click, progress, swatch, words
 from app.colours import COLOURS, FAINT, INK
+from app.controls import typed_number
 from app.drawings import LINE, side_by_side
 from app.family import neighbours, ordinary, pegs, presets, region, share_map
 from app.plots import plain
 from app.runs import Run, Runs, Stopped
 from app.text import listed, say, told
-from app.workshop import beside, field, typed
+from app.workshop import beside, field
 from tippe_core import TopError
 
 PICTURE_EVERY = 0.5  # s
@@ -135,7 +136,7 @@ class Compare:
         values = {}
         for name, entry in self.entries.items():
             try:
-                values[name] = typed(entry.value)
+                values[name] = typed_number(entry.value)
             except ValueError:
                 raise ValueError(say("family.map.not_a_number", name=name, text=entry.value)) from None
         for name, allowed, good in (("I1", "I1 > 0 (in MR^2)", values["I1"] > 0),

@@ -115,6 +115,20 @@ def wording(words, wrong=False):
     return {"wrong": wrong, "words": alert(words) if wrong else note(words)}
 
 
+def asked_of(sent):
+    """(count, number or text, whether it was typed) of what a Dial's browser asks."""
+    count, wish, typed = asked.parts(sent, asked.number, asked.anything, bool)
+    return int(count), asked.text(wish) if typed else asked.number(wish), typed
+
+
+def typed_number(text):
+    """What somebody typed; raises ValueError."""
+    value = float(text.replace("−", "-").replace(",", "."))
+    if not math.isfinite(value):
+        raise ValueError
+    return value
+
+
 class Control:
     """One input of a view-model. request: a function of its name and the number that is wanted, and typed=True where
     that was typed."""
@@ -144,16 +158,13 @@ class Control:
         self.view.param.watch(asked.heard(self._asked), "asked")
 
     def _asked(self, event):
-        count, wish, typed = asked.parts(event.new, asked.number, asked.anything, bool)
-        wish = asked.text(wish) if typed else asked.number(wish)
-        self._heard, self._unread = int(count), False
+        self._heard, wish, typed = asked_of(event.new)
+        self._unread = False
         if not typed:
             self._request(self.name, wish)
             return
         try:
-            value = float(wish.replace("−", "-").replace(",", "."))
-            if not math.isfinite(value):
-                raise ValueError
+            value = typed_number(wish)
         except ValueError:
             self._unread = True
             self._say(say("controls.not_a_number", text=wish, shown=self._shown), wrong=True)

@@ -15,7 +15,7 @@ from app import asked
 from app.builder import FAMILIES, Rocking, handles, named, pulled, sentence, value_of
 from app.cards import BUTTON, alert, flow, note, on_click, words
 from app.colours import COLOURS, FAINT, INK
-from app.controls import number
+from app.controls import Dial, asked_of, number, typed_number, wording
 from app.explorer import body
 from app.messages import LARGEST_FILE
 from app.pacing import at_once
@@ -70,14 +70,6 @@ def grid(*content):
 
 def beside(label, entry):
     return pn.Row(words(label, sizing_mode=None, margin=(5, 4, 0, 0)), entry, margin=0)
-
-
-def typed(text):
-    """The number in a field; raises ValueError."""
-    value = float(text.replace("−", "-").replace(",", "."))
-    if not math.isfinite(value):
-        raise ValueError
-    return value
 
 
 class Section:
@@ -206,59 +198,35 @@ def _cavities(shape):
 
 
 class Knob:
-    """One dimension: a slider with its unit, a number to type, and the sentence where it cannot be."""
+    """One dimension of the body: a Dial. pull: a function of its name and the value that is wanted, in SI."""
 
     def __init__(self, dimension, pull):
-        self.dimension, self._pull, self._silent = dimension, pull, False
-        says = f"{dimension.words}, {dimension.unit}".strip(", ")
-        self.slider = pmui.FloatSlider(
-            value=dimension.low, start=dimension.low, end=dimension.high, step=dimension.step, label=says,
-            sx=UNSEEN_LABEL,
-            show_value=False, size="small", tooltips=False,
-            sizing_mode="stretch_width", margin=(-4, 10, -4, 10), tags=[dimension.name],
+        self.dimension, self._pull, self._heard = dimension, pull, 0
+        name, spoken = dimension.name, f"{dimension.words}, {dimension.unit}".strip(", ")
+        self.view = Dial(
+            input=name, title=f'{symbol(name)}&ensp;<span class="note">{spoken}</span>', spoken=dimension.words,
+            unit=dimension.unit, step=dimension.step, start=dimension.low, end=dimension.high,
+            sizing_mode="stretch_width", margin=(0, 6, 8, 6),
         )  # fmt: skip
-        at_once(self.slider, "value", "value_throttled")
-        self.entry = field("", says, tags=[dimension.name])
-        self.words = words()
-        title = words(
-            f'<div class="name">{symbol(dimension.name)}&ensp;<span class="note">{says}</span></div>',
-            margin=(4, 6, 0, 0),
-        )
-        self.view = pn.Column(
-            pn.Row(title, self.entry, sizing_mode="stretch_width", margin=0), self.slider, self.words,
-            sizing_mode="stretch_width", margin=(0, 0, 4, 0),
-        )  # fmt: skip
-        self.slider.param.watch(asked.heard(self._slid), "value")
-        self.entry.param.watch(self._typed, "value")
+        at_once(self.view, "asked")
+        self.view.param.watch(asked.heard(self._asked), "asked")
 
-    def _slid(self, event):
-        if not self._silent:
-            self._pull(self.dimension.name, asked.number(event.new) / self.dimension.factor, slid=True)
-
-    def _typed(self, event):
-        if self._silent:
-            return
-        try:
-            value = typed(event.new)
-        except ValueError:
-            self.say(say("workshop.bench.not_a_number", text=event.new, number=self.dimension.high))
-            return
+    def _asked(self, event):
+        self._heard, value, typed = asked_of(event.new)
+        if typed:
+            try:
+                value = typed_number(value)
+            except ValueError:
+                self.say(say("workshop.bench.not_a_number", text=value, number=self.dimension.high))
+                return
         self._pull(self.dimension.name, value / self.dimension.factor)
 
-    def show(self, shape, under_hand):
+    def show(self, shape):
         value = float(f"{value_of(shape, self.dimension.name) * self.dimension.factor:.9g}")
-        self._silent = True
-        self.entry.value = number(value)
-        if not under_hand:
-            slider = self.slider
-            slider.param.update(start=min(slider.start, value), end=max(slider.end, value), value=value)
-        self._silent = False
-        self.say("")
+        self.view.param.update(told=[self._heard, value, number(value)], **wording(""))
 
     def say(self, text):
-        self.entry.error_state = bool(text)
-        if self.words.object != alert(text):
-            self.words.object = alert(text)
+        self.view.param.update(**wording(text, wrong=True))
 
 
 class Pieces:
@@ -307,7 +275,7 @@ class Pieces:
         values = {}
         for name, entry in (*self.entries.items(), ("density", self.density)):
             try:
-                values[name] = typed(entry.value)
+                values[name] = typed_number(entry.value)
             except ValueError:
                 which = say(f"workshop.pieces.names.{name}")
                 self.words.object = alert(say("workshop.pieces.not_a_number", name=which, text=entry.value))
@@ -343,8 +311,8 @@ class Workshop:
 
     def __init__(self, builder, explorer, soon=lambda make: make()):
         self.builder, self._soon = builder, soon
-        self._knobs, self._shown, self._slid, self._silent = {}, None, None, False
-        self.section = Section(self._pull)
+        self._knobs, self._shown, self._silent = {}, None, False
+        self.section = Section(builder.set)
         self.derived, self.source, self.file_words = words(), words(), words()
         self.presets = self._choice("presets", builder.choose)
         self.families = self._choice("family", builder.choose_family)
@@ -412,11 +380,6 @@ class Workshop:
         choices = grid(self.presets, self.families)
         return [choices, self.source, self.dimensions, self.points, *self.pieces.view, files, self.file_words]
 
-    def _pull(self, name, value, slid=False):
-        self._slid = name if slid else None
-        self.builder.set(name, value)
-        self._slid = None
-
     def _loaded(self, event):
         if event.new:
             self.builder.load(event.new)
@@ -448,7 +411,7 @@ class Workshop:
             if name in draft.messages:
                 knob.say(draft.messages[name])
             elif not draft.messages:
-                knob.show(draft.shape, under_hand=name == self._slid)
+                knob.show(draft.shape)
         self._silent = True
         # what is chosen already cannot be chosen: a changed body has an entry of its own, beside those to go back to
         own = {} if draft.name else {say("workshop.bench.none"): OWN}
@@ -467,10 +430,10 @@ class Workshop:
         more = draft.dimensions[len(self._knobs) :]
         if shown is not self._shown or not more:
             return
-        added = {dimension.name: Knob(dimension, self._pull) for dimension in more[:KNOBS]}
+        added = {dimension.name: Knob(dimension, self.builder.set) for dimension in more[:KNOBS]}
         self._knobs |= added
         for knob in added.values():
-            knob.show(draft.shape, under_hand=False)
+            knob.show(draft.shape)
         self.dimensions.append(grid(*(knob.view for knob in added.values())))
         if len(more) > KNOBS:
             self._soon(partial(self._add_knobs, shown))
@@ -533,7 +496,7 @@ class Measure:
         for name, _, unit in self.FIELDS:
             entry = self.entries[name]
             try:
-                values[name] = typed(entry.value) * unit
+                values[name] = typed_number(entry.value) * unit
             except ValueError:
                 raise ValueError(say("workshop.own.not_a_number", text=entry.value)) from None
         rocking = Rocking(**values)

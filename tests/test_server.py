@@ -12,11 +12,15 @@ from dataclasses import fields
 from http.client import HTTPConnection
 from pathlib import Path
 from types import SimpleNamespace
+from unittest.mock import Mock
 from urllib.request import urlopen
 
+import panel.io.document
 import pytest
 import yaml
 from bokeh.document import Document, without_document_lock
+from bokeh.document.events import TitleChangedEvent
+from bokeh.protocol import Protocol
 from bokeh.server.session import ServerSession
 from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.ioloop import IOLoop
@@ -24,6 +28,7 @@ from tornado.websocket import websocket_connect
 from visiting import free_port
 from wire import TOKEN, Closed, Visitor, answers, get, run, served, until
 
+from app.app_hooks import to_the_last
 from app.door import Budget, Turns, budget, counted
 from app.messages import Refused, look_at
 from app.settings import Settings
@@ -526,3 +531,28 @@ def test_the_image_keeps_votes_on_a_volume():
 def test_the_docs_list_every_setting():
     text = (ROOT / "docs/DEPLOY.md").read_text(encoding="utf-8")
     assert all(f"| TIPPE_{item.name.upper()} |" in text for item in fields(Settings))
+
+
+async def say_two_things():
+    """What of two changes of a document reaches its page, where the second comes just as the first has been written."""
+    written, writing, document = [], [], Document()
+
+    def send(text_data):
+        written.append(text_data)
+        writing.append(asyncio.get_running_loop().create_future())
+        return writing[-1]
+
+    connection = Mock(_socket=SimpleNamespace(send=send), protocol=Protocol())
+    for title in ("first", "second"):
+        panel.io.document.schedule_write_events(document, [connection], [TitleChangedEvent(document, title)])
+        if title == "first":
+            await asyncio.sleep(0)
+            for each in writing:
+                each.set_result(None)
+    await asyncio.sleep(0.1)
+    return [title for title in ("first", "second") if any(f'"{title}"' in text for text in written)]
+
+
+def test_what_is_said_while_something_else_is_written_comes_too(monkeypatch):
+    monkeypatch.setattr(panel.io.document, "_dispatch_msgs", to_the_last(panel.io.document._dispatch_msgs))
+    assert run(say_two_things()) == ["first", "second"]
