@@ -209,7 +209,7 @@ async def each_attribute(url):
     for id, (name, _) in page.visitor.models.items():
         if re.fullmatch(r"[A-Z]\w*\d+", name) and attributes_of(re.sub(r"\d+$", "", name)):
             components.setdefault(re.sub(r"\d+$", "", name), []).append(id)
-    assert {"Dial", "Tabs", "Select", "TextInput", "FloatSlider", "Top3D", "Surface3D", "TopFile"} <= set(components)
+    assert {"Dial", "Tabs", "Select", "TextInput", "Top3D", "Surface3D", "TopFile"} <= set(components)
     for name, ids in components.items():
         for i, attribute in enumerate(attributes_of(name)):
             known = attribute in CHANGES.get(name, {})

@@ -172,6 +172,7 @@ async def flood(here, monkeypatch):
     wanted = other.visitor.find("Download")[0]
     await other.set(wanted, "clicks", 1)
     await other.set(wanted, "clicks", 2)
+    await other.until(lambda: other.now(wanted, "making"))  # clicks are gathered for a moment before they are heard
     go.put(None)
     go.put(None)
     await other.until(lambda: other.now(wanted, "file", [0])[0] == 1)

@@ -241,7 +241,7 @@ def test_nothing_that_the_page_itself_sends_is_refused(chromium, server):
     page.locator("input[type=file]").set_input_files(
         {"name": "top.json", "mimeType": "application/json", "buffer": TOP})  # fmt: skip
     page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
-        .some((model) => model.attributes.value == 23.45)""")
+        .some((model) => model.attributes.told?.[1] == 23.45)""")
     visit.drag(visit.pixel("section", 0, 5), visit.pixel("section", 2, 9))
     page.mouse.up()
     for tab in (1, 3, 4):
