@@ -190,6 +190,7 @@ class Builder(param.Parameterized):
     def compose(self, kind, density, r, low, high):
         """Puts a piece on the body, or takes it away where the density (kg/m^3) is negative: a "cylinder" or "cone"
         (its point up) from the height low to high (m), or a "ball" of radius r about (low + high)/2."""
+
         def made():
             form = {"cylinder": lambda: cylinder(r, low, high), "cone": lambda: frustum(r, 0.0, low, high),
                     "ball": lambda: ball(r, (low + high) / 2)}[kind]()  # fmt: skip

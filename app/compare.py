@@ -98,7 +98,8 @@ class Compare:
 
         def draw(run):
             tops = {"presets": presets, "pegs": pegs}.get(
-                which, lambda: [(name, each, K_R) for name, each in neighbours(top, which)])()
+                which, lambda: [(name, each, K_R) for name, each in neighbours(top, which)]
+            )()
             shown = []
             for name, each, spin in tops:
                 run.look()

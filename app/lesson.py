@@ -433,8 +433,11 @@ def proof(scene):
     theta = np.linspace(0, np.pi, 121)
     curves = (
         Curve("by_routh", COLOURS["omega"], np.degrees(theta), omega3(theta, top, start)),
-        Curve("slides", COLOURS["friction"], *(part[:: max(1, len(motion.t) // CURVE)]
-                                               for part in (np.degrees(motion.theta), motion.omega[:, 2]))),
+        Curve(
+            "slides",
+            COLOURS["friction"],
+            *(part[:: max(1, len(motion.t) // CURVE)] for part in (np.degrees(motion.theta), motion.omega[:, 2])),
+        ),
     )
     points = (Point("jellett_at_pi", 180.0, by_jellett),) if np.isfinite(by_jellett) else ()
     told = "explain" if truth == "opposite" else "size" if points else "nan"

@@ -134,7 +134,7 @@ def letter(scene, link="", look=None):
         for name, div in zip(times.figures, time_divs, strict=True)
     )
     pictures = "".join(
-        f'<section><h2>{say(f"roll.portraits.{portrait.name}.title")}</h2><div>{portrait.axes[1]}</div>'
+        f"<section><h2>{say(f'roll.portraits.{portrait.name}.title')}</h2><div>{portrait.axes[1]}</div>"
         f'<div class="figure">{div}</div><div class="axis">{portrait.axes[0]}</div>'
         f'<p class="axis">{portrait.words(scene)}</p></section>'
         for portrait, div in zip(portraits, portrait_divs, strict=True)

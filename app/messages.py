@@ -278,8 +278,13 @@ def _look_at_change(event, models):
 
 def _look_at_event(event, models):
     data = event.get("msg_data")
-    if set(event) != {"kind", "msg_type", "msg_data"} or event["msg_type"] != "bokeh_event" \
-            or not isinstance(data, dict) or set(data) != {"type", "name", "values"} or data["type"] != "event":
+    if (
+        set(event) != {"kind", "msg_type", "msg_data"}
+        or event["msg_type"] != "bokeh_event"
+        or not isinstance(data, dict)
+        or set(data) != {"type", "name", "values"}
+        or data["type"] != "event"
+    ):
         raise Refused("A message to the page is an event.")
     name, values = data["name"], entries_of(data["values"])
     known = {**EVENTS, **OF_THE_PAGE, "data_event": None} if isinstance(name, str) else {}

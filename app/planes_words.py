@@ -281,8 +281,11 @@ def run_words(picture):
 def verdict_words(picture):
     lines = [f'<div class="line">{swatch(LOOKS[plane], "")}<b>{say(f"planes.plane.{plane}")}</b>: '
              f"{fate(picture, plane)}</div>" for plane in PLANES]  # fmt: skip
-    return "".join(lines) + f'<div class="says">{ball_words(picture)}{scatter_words(picture)}</div>' + (
-        f'<div class="key says">{run_words(picture)}</div>')
+    return (
+        "".join(lines)
+        + f'<div class="says">{ball_words(picture)}{scatter_words(picture)}</div>'
+        + (f'<div class="key says">{run_words(picture)}</div>')
+    )
 
 
 # ---- what stays ----

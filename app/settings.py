@@ -60,8 +60,11 @@ class Settings:
                 )
         path = settings.prefix.strip("/").split("/") if settings.prefix.strip("/") else []
         for name, wrong, allowed in (
-            ("prefix", not all(re.fullmatch(r"(?!\.+$)[\w.~-]+", part, re.ASCII) for part in path),
-             "a path of ASCII letters, digits and . _ ~ -, such as /tops"),
+            (
+                "prefix",
+                not all(re.fullmatch(r"(?!\.+$)[\w.~-]+", part, re.ASCII) for part in path),
+                "a path of ASCII letters, digits and . _ ~ -, such as /tops",
+            ),
             ("log", settings.log not in ("debug", "info", "warning", "error"), "debug, info, warning or error"),
             ("frames", any(mark in settings.frames for mark in ";,\r\n"), "sources of a CSP, by spaces"),
             ("workers", settings.workers > 1 and not hasattr(os, "fork"), "1 on this system: it cannot fork"),

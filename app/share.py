@@ -26,9 +26,11 @@ REST = 0.25
 SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
 SHOWS = {"show_track": "track", "show_com_path": "G", "show_force": "F", "show_cone": "cone", "show_omega": "w",
          "show_momentum": "L", "follow": "follow"}  # fmt: skip
-TOP = {"speed": Field("slow", OneOf(**SPEEDS), undoable=False)} | {
-    name: Field(key, OneOf(yes=True, no=False), undoable=False) for name, key in SHOWS.items()
-} | {"camera": Field("view", Numbers(3), undoable=False)}
+TOP = (
+    {"speed": Field("slow", OneOf(**SPEEDS), undoable=False)}
+    | {name: Field(key, OneOf(yes=True, no=False), undoable=False) for name, key in SHOWS.items()}
+    | {"camera": Field("view", Numbers(3), undoable=False)}
+)
 LOOK = {name: Field(name, OneOf(yes=True, no=False), undoable=False) for name in ("dark", "large")}
 # A phone at arm's length reads modules of this size, px.
 MODULE = 4
@@ -211,7 +213,11 @@ class Share:
         self.undo = self._button("↶", say("share.undo"), lambda event: self.keep.undo())
         self.redo = self._button("↷", say("share.redo"), lambda event: self.keep.redo())
         self.share = pmui.Button(
-            label=say("share.share"), size="small", variant="outlined", color="light", margin=(0, 4),
+            label=say("share.share"),
+            size="small",
+            variant="outlined",
+            color="light",
+            margin=(0, 4),
             sx=PLAIN["& button"] | {"color": "#fff"},
         )
         on_click(self.share, self._open)

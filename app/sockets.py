@@ -222,5 +222,3 @@ class Socket(WSHandler):
         reply = self.connection.error(message, sentence)
         reply.content["traceback"] = None
         return reply
-
-

@@ -122,7 +122,10 @@ class ThreePlanes:
         on_click(stop, lambda event: self._planes.stop())
         self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
         self._stem = pmui.Checkbox.from_param(
-            self._planes.param.stem, label=say("planes.stem.can"), description="", size="small",
+            self._planes.param.stem,
+            label=say("planes.stem.can"),
+            description="",
+            size="small",
             margin=(0, 14, 0, 6),
         )
         controls = card(

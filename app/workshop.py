@@ -245,7 +245,8 @@ class Pieces:
         self.density = field("", spoken["density"], width=78)
         self.words = words()
         self.put, self.take, self.undo = (
-            pmui.Button(label=say(f"workshop.pieces.{does}"), **BUTTON) for does in ("put", "take", "undo"))
+            pmui.Button(label=say(f"workshop.pieces.{does}"), **BUTTON) for does in ("put", "take", "undo")
+        )
         on_click(self.put, lambda event: self._compose(1))
         on_click(self.take, lambda event: self._compose(-1))
         on_click(self.undo, lambda event: builder.take_off())
@@ -455,8 +456,7 @@ def derived_words(shape):
         # one number where it is of one material, else the mean
         rows.append((say("workshop.body.density"), f"{shape.mass / shape.volume:.0f} kg/m³"))
     numbers = "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
-    touch = (
-        say("workshop.body.never") if angle is None else say("workshop.body.touches", angle=math.degrees(angle)))
+    touch = say("workshop.body.never") if angle is None else say("workshop.body.touches", angle=math.degrees(angle))
     prints = "unknown" if isinstance(shape, BareSphere) else ""
     if isinstance(shape, LoadedSphere) and shape.core_density:  # a cavity is in it
         prints = "outside"

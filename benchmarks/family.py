@@ -60,9 +60,11 @@ def main():
         tops = [Top(a[i], I1, I1 * ratio[i]) for i in range(0, len(a), EVERY)]
         slow, spent_slow = timed(lambda tops=tops, K_R=K_R: np.array([exact(top, K_R) for top in tops]))
         off = np.abs(shares[::EVERY] - slow)
-        print(f"{name}: {len(a) / spent:.0f} tops/s, {spent / len(a) / plain:.1f} times plain f; "
-              f"tielines {len(tops) / spent_slow:.0f}/s; "
-              f"differ by {np.median(off):.0e} (median), {np.quantile(off, 0.95):.0e} (95 %), {off.max():.0e} (most)")
+        print(
+            f"{name}: {len(a) / spent:.0f} tops/s, {spent / len(a) / plain:.1f} times plain f; "
+            f"tielines {len(tops) / spent_slow:.0f}/s; "
+            f"differ by {np.median(off):.0e} (median), {np.quantile(off, 0.95):.0e} (95 %), {off.max():.0e} (most)"
+        )
 
 
 if __name__ == "__main__":

@@ -136,13 +136,18 @@ def of_the_well(top, state):
     times = integrals(curve, inner, outer)
     if times is None:
         return
-    for name, found, exact in zip(("period", "advance of phi", "advance of psi"),
-                                  (rolling.period, rolling.phi_advance, rolling.psi_advance), times, strict=True):
+    for name, found, exact in zip(
+        ("period", "advance of phi", "advance of psi"),
+        (rolling.period, rolling.phi_advance, rolling.psi_advance),
+        times,
+        strict=True,
+    ):
         yield name, found, exact, abs(exact) if name == "period" else max(2 * mp.pi, abs(exact))
 
 
 def integrals(curve, inner, outer):
     """(period, phi, psi) of one nutation by the midpoint rule in kappa, doubled until thirty digits stand still."""
+
     def rates(kappa):
         c1, c2 = mp.cos(inner), mp.cos(outer)
         c = (c1 + c2) / 2 + (c1 - c2) / 2 * mp.cos(kappa)

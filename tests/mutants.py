@@ -33,18 +33,26 @@ ORDER = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_c
          "rolling": ["test_symbolic.py", "test_equations.py", "test_rolling.py"]}  # fmt: skip
 # What the tests cannot notice, and why: (file, what is written after the change) -> reason.
 EXPLAINED = {
-    ("curve", "guess = Decimal(brentq(N, right, left, xtol=1e-15)) if low / high < 0 else None"):
-        "a quotient has the sign of the product",
-    ("curve", "constants = f'K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) - 0.0:.10g}'"):
-        "the wording of an error, -0 for 0",
+    (
+        "curve",
+        "guess = Decimal(brentq(N, right, left, xtol=1e-15)) if low / high < 0 else None",
+    ): "a quotient has the sign of the product",
+    (
+        "curve",
+        "constants = f'K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) - 0.0:.10g}'",
+    ): "the wording of an error, -0 for 0",
     ("curve", "cancelled = np.abs(value) < _CANCELLED / size"): "where the longest float is used, not what is computed",
     ("curve", "return (value, np.maximum(size, constants.K_R ** 3 / f1_2(1 - v, top)))"): "the same",
     ("curve", "return (value, np.maximum(size, constants.K_R ** 2 / f1_2(1 + v, top)))"): "the same",
-    ("curve", "return ((e - tilt - turn) / f1_sq, np.maximum(np.abs(e), np.maximum(np.abs(tilt), turn)) * f1_sq)"):
-        "the same",
+    (
+        "curve",
+        "return ((e - tilt - turn) / f1_sq, np.maximum(np.abs(e), np.maximum(np.abs(tilt), turn)) * f1_sq)",
+    ): "the same",
     ("smooth", "q = -(B + root if B >= 0 else B + root) / 2"): "the same zeros, with more rounding",
-    ("smooth", "outer = -one if P(+one)[0] == 0 and e > 4 * t.a else solve(P, -one, here, True)"):
-        "the solver finds the pole to the last digit, too",
+    (
+        "smooth",
+        "outer = -one if P(+one)[0] == 0 and e > 4 * t.a else solve(P, -one, here, True)",
+    ): "the solver finds the pole to the last digit, too",
     ("smooth", "outer = -one if P(-one)[0] == 0 and e > 4 / t.a else solve(P, -one, here, True)"): "the same",
     ("smooth", "if slope == 0 or (abs(here) == 1 and slope / here > 0):"): "a quotient has the sign of the product",
     ("curve", "s2 = 1 + c * c"): "a slope of Newton's method: more steps to the same zero, or bisection",
@@ -52,12 +60,16 @@ EXPLAINED = {
     ("curve", "return (self.exact.e - self.U(c), -self.N(c) * (s2 * s2) if s2 else None)"): "the same",
     ("curve", "return (self.exact.e - self.U(c), +self.N(c) / (s2 * s2) if s2 else None)"): "the same",
     ("curve", "opposite = p / q <= 0"): "a quotient has the sign of the product; where q = 0 both forms of C agree",
-    ("sliding", "push = _push(self.friction, z[8] + carried[0], z[9] - carried[1])"):
-        "F_z is 0 at the same place, whatever the push",
+    (
+        "sliding",
+        "push = _push(self.friction, z[8] + carried[0], z[9] - carried[1])",
+    ): "F_z is 0 at the same place, whatever the push",
     ("sliding", "push = _push(self.friction, z[8] - carried[0], z[9] + carried[1])"): "the same",
     ("sliding", "ez = 1 - 2 * (z[0] / z[0] + z[1] * z[1])"): "steps are looked at for events that have none",
-    ("contacts", "g = sqrt(square) * (sqrt(square) + SLOW * scale) if sticks else 1.0"):
-        "how fast the path is run through, which is the same path",
+    (
+        "contacts",
+        "g = sqrt(square) * (sqrt(square) + SLOW * scale) if sticks else 1.0",
+    ): "how fast the path is run through, which is the same path",
     ("contacts", "if worst <= SLACK * 2:"): "what counts as nothing",
     ("contacts", "away = -rest[:2] * np.hypot(rest[0], rest[1])"): "how small the first slip is",
     ("sliding", "if np.all(np.abs(missing) < 1e-13 / (1 + np.abs(times))):"): "one more of Newton's steps",

@@ -117,10 +117,17 @@ def test_a_family_is_one_of_its_presets(builder):
         assert builder.draft.family == family
 
 
-@pytest.mark.parametrize("name, value, says", [
-    ("c", 0.020, "c = 20 mm is not possible: allowed is -16 < c <= 16 (mm, the cut goes through the sphere)."),
-    ("r", 0.015, "0 <= r <= 13.739 (mm"), ("l", 0.0, "With both 0 there is none"), ("R", 0.005, "c = 8.2 mm"),
-    ("M", -1e-3, "M = -1 g is not possible: allowed is 0 < M (g)."), ("R", float("nan"), "R = nan")])
+@pytest.mark.parametrize(
+    "name, value, says",
+    [
+        ("c", 0.020, "c = 20 mm is not possible: allowed is -16 < c <= 16 (mm, the cut goes through the sphere)."),
+        ("r", 0.015, "0 <= r <= 13.739 (mm"),
+        ("l", 0.0, "With both 0 there is none"),
+        ("R", 0.005, "c = 8.2 mm"),
+        ("M", -1e-3, "M = -1 g is not possible: allowed is 0 < M (g)."),
+        ("R", float("nan"), "R = nan"),
+    ],
+)
 def test_a_bad_dimension_is_said_at_its_field_and_changes_nothing(explorer, builder, name, value, says):
     shape, scene, drafts = builder.draft.shape, explorer.scene, watch(builder, "draft")
     builder.set(name, value)
@@ -163,9 +170,15 @@ def test_save_and_load(builder, explorer):
     assert load_top(builder.save()) == shape
 
 
-@pytest.mark.parametrize("change, says", [
-    ({"schema": "other"}, "schema"), ({"version": 2}, "version"), ({"kind": "Cube"}, "kind"),
-    ({"dimensions": {"R": 0.016}}, "missing")])
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        ({"schema": "other"}, "schema"),
+        ({"version": 2}, "version"),
+        ({"kind": "Cube"}, "kind"),
+        ({"dimensions": {"R": 0.016}}, "missing"),
+    ],
+)
 def test_a_file_that_cannot_be_is_said_and_changes_nothing(explorer, builder, change, says):
     shape, scene = builder.draft.shape, explorer.scene
     for text in (json.dumps(json.loads(save_top(shape)) | change), "no file", b"\xff\xfe", b"x" * 100_000):
@@ -192,8 +205,11 @@ def test_stl(builder):
 # --- handles ---
 
 
-@pytest.mark.parametrize("shape", [*(preset.shape for preset in PRESETS),
-                                   replace(TruncatedSphere.paper(), l=0.0, r=0.0)], ids=lambda s: type(s).__name__)
+@pytest.mark.parametrize(
+    "shape",
+    [*(preset.shape for preset in PRESETS), replace(TruncatedSphere.paper(), l=0.0, r=0.0)],
+    ids=lambda s: type(s).__name__,
+)
 def test_a_handle_pulled_to_where_it_is_changes_nothing(shape):
     for name, (x, z) in handles(shape).items():
         assert pulled(shape, name, x, z) == pytest.approx(value_of(shape, name), abs=5e-4 if name == "a" else 5.1e-6)
@@ -299,10 +315,14 @@ def test_the_period_of_a_known_top_gives_its_a_back(builder, explorer):
     assert explorer.scene.top.a == pytest.approx(shape.top.a, rel=1e-9) and explorer.scene.scales.M == 0.012
 
 
-@pytest.mark.parametrize("make, says", [
-    (lambda: Top(1.5, 0.4, 0.4), "a = 1.5 is not possible: allowed is a < 1 (in units of R)."),
-    (lambda: Ball(R=-1.0, M=0.01), "R = -1000 mm is not possible"),
-    (lambda: replace(PRESETS[3].shape, l=5000.0), "0 <= l <= 250000 (mm)")])
+@pytest.mark.parametrize(
+    "make, says",
+    [
+        (lambda: Top(1.5, 0.4, 0.4), "a = 1.5 is not possible: allowed is a < 1 (in units of R)."),
+        (lambda: Ball(R=-1.0, M=0.01), "R = -1000 mm is not possible"),
+        (lambda: replace(PRESETS[3].shape, l=5000.0), "0 <= l <= 250000 (mm)"),
+    ],
+)
 def test_sentences_are_in_the_units_of_the_sliders(make, says):
     with pytest.raises(TopError) as error:
         make()
@@ -332,9 +352,29 @@ def test_the_allowed_share_is_the_area_of_the_papers_table():
     """physics.md's tielines of the paper's top at K_R = 10: outer - inner over K_J from 0 to P, by trapezoids."""
     K_J = np.array([0, 1, 2, 3, 4, 5, 6, 7, 8, 8.3651])
     lift = np.array([1.6943, 1.5787, 1.4646, 1.3508, 1.2365, 1.1207, 1.0040, 0.8907, 0.7991, 0.7789]) - [
-        1.3085, 1.1960, 1.0797, 0.9578, 0.8274, 0.6844, 0.5220, 0.3294, 0.0945, 0.0]
+        1.3085,
+        1.1960,
+        1.0797,
+        0.9578,
+        0.8274,
+        0.6844,
+        0.5220,
+        0.3294,
+        0.0945,
+        0.0,
+    ]
     slip = np.array([1.6637, 1.5519, 1.4393, 1.3242, 1.2043, 1.0764, 0.9350, 0.7754, 0.5837, 0.4998]) - [
-        1.3383, 1.2210, 1.1023, 0.9804, 0.8529, 0.7165, 0.5654, 0.3839, 0.1328, 0.0]
+        1.3383,
+        1.2210,
+        1.1023,
+        0.9804,
+        0.8529,
+        0.7165,
+        0.5654,
+        0.3839,
+        0.1328,
+        0.0,
+    ]
     share = np.trapezoid(slip, K_J) / np.trapezoid(lift, K_J)
     # the rule's own error with ten points, both areas curved alike
     assert allowed_shares(0.07, 0.399, 0.408, 10.0, 0.5) == pytest.approx(share, abs=3e-3)
@@ -347,10 +387,20 @@ def exact_share(a, I1, I3, K_R, mu_s):
     return np.nansum(slip.theta_outer - slip.theta_inner) / np.nansum(lift.theta_outer - lift.theta_inner)
 
 
-@pytest.mark.parametrize("a, ratio, I1, K_R, mu_s", [
-    (0.07, 1.02, 0.399, 10.0, 0.5), (0.02, 0.6, 0.399, 10.0, 0.5), (0.3, 1.6, 0.399, 10.0, 0.1),
-    (0.5, 0.8, 0.399, 4.0, 0.3), (-10.1, 1.9, 48.2, 53.3, 0.5), (-5.0, 1.0, 48.2, 53.3, 0.5),
-    (-2.9, 1.04, 3.66, 23.6, 0.5), (-1.7, 0.6, 0.4, 10.0, 0.5), (-8.0, 1.2, 2.0, 30.0, 0.5)])
+@pytest.mark.parametrize(
+    "a, ratio, I1, K_R, mu_s",
+    [
+        (0.07, 1.02, 0.399, 10.0, 0.5),
+        (0.02, 0.6, 0.399, 10.0, 0.5),
+        (0.3, 1.6, 0.399, 10.0, 0.1),
+        (0.5, 0.8, 0.399, 4.0, 0.3),
+        (-10.1, 1.9, 48.2, 53.3, 0.5),
+        (-5.0, 1.0, 48.2, 53.3, 0.5),
+        (-2.9, 1.04, 3.66, 23.6, 0.5),
+        (-1.7, 0.6, 0.4, 10.0, 0.5),
+        (-8.0, 1.2, 2.0, 30.0, 0.5),
+    ],
+)
 def test_the_bulk_share_is_that_of_the_exact_tielines(a, ratio, I1, K_R, mu_s):
     """Tippe and ordinary tops, wells of a radian and of 1e-5, one and two of them. 5e-4 is a thirtieth of what the eye
     could tell on the map's scale of colours."""
@@ -358,8 +408,10 @@ def test_the_bulk_share_is_that_of_the_exact_tielines(a, ratio, I1, K_R, mu_s):
     assert share == pytest.approx(exact_share(a, I1, ratio * I1, K_R, mu_s), abs=5e-4)
 
 
-@pytest.mark.parametrize("a, I1, I3, K_R, mu_s, row", [
-    (0.070, 0.399, 0.408, 10.0, 0.5, 40), (0.449, 0.399, 0.3024, 10.0, 0.5, 14), (-2.9, 3.66, 3.8, 23.6, 0.5, 62)])
+@pytest.mark.parametrize(
+    "a, I1, I3, K_R, mu_s, row",
+    [(0.070, 0.399, 0.408, 10.0, 0.5, 40), (0.449, 0.399, 0.3024, 10.0, 0.5, 14), (-2.9, 3.66, 3.8, 23.6, 0.5, 62)],
+)
 def test_a_width_is_that_of_the_slow_search(a, I1, I3, K_R, mu_s, row):
     """limits.py walks trajectory after trajectory with a rigid body's own forces."""
     top = Top(a, I1, I3)

@@ -54,8 +54,12 @@ def test_sign_of_omega_3(turning_over, compare):
         case = CASES[name]
         motion = roll(case.top, case.constants, np.linspace(0, 3 * case.period, 200), well=case.row)
         compare("sign of omega_3", np.sign(motion.omega[:, 2]), np.sign(case.K_R), 0, "the sign of K_R")
-        body = rb.integrate(rb.Body.of(case.top), motion.quaternion[0],
-                            rb.to_body(motion.psi[0], *motion.omega[0]), [0.0, case.period / 3, case.period / 2])
+        body = rb.integrate(
+            rb.Body.of(case.top),
+            motion.quaternion[0],
+            rb.to_body(motion.psi[0], *motion.omega[0]),
+            [0.0, case.period / 3, case.period / 2],
+        )
         signs = np.sign(body.omega_body[:, 2].astype(float))
         compare("sign of omega_3", signs, np.sign(case.K_R), 0, "the rigid body in space")
     signs = np.sign(turning_over.omega[:, 2])

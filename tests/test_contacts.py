@@ -221,7 +221,7 @@ def test_nearly_flat_it_stands_only_where_it_rocks_no_more(state, friction):
 def test_the_spin_of_a_flat_top_is_counted():
     """Turning slowly it comes down from its rim and stands; its energy is below G's greatest height."""
     moved = slide(PAPER, State(3.1, 0, 0, -0.1), SmoothedCoulomb(0.3, 0.1), np.linspace(0, 5, 501), edge=EDGE)
-    (t, what), = moved.events
+    ((t, what),) = moved.events
     assert what == "stands upright" and t - 0.02 < moved.t[-1] < t and np.pi - moved.theta[-1] < 0.01
     assert moved.energy[-1] + 1 - PAPER.a < np.hypot(H, B)
 
@@ -296,7 +296,7 @@ def test_a_start_flat_on_the_end_leans_to_where_it_moves(theta_dot):
 def test_a_start_flat_on_the_end_with_a_spin_stands(friction, spin, lean):
     """All of the rim carries alike: neither weight nor friction has a side to tip it to. It rocked over 1000 times."""
     moved = slide(PAPER, State(np.pi - lean, 0, 0, spin), friction, np.linspace(0, 4, 41), edge=EDGE, landing="plastic")
-    (t, what), = moved.events
+    ((t, what),) = moved.events
     assert what == "stands upright" and t < 1e-8 and moved.supports == ((0.0, "stem"),)
     heights = moved.com[:, 2] + [sb.edge(PAPER, *EDGE[:2])(axis)[2] for axis in matrices(moved)[:, :, 2]]
     np.testing.assert_allclose(heights, 0, atol=1e-9)
@@ -328,7 +328,7 @@ def test_painleve_on_the_stem(law, slope):
         push = law(mu)
         q, w, v, _ = first_instant(slide(PAPER, state, GREASED, [0], edge=EDGE))
         axis = sb.matrix(q)[:, 2]
-        N, = sb.supported(PAPER, lambda u, push=push: push.k(u @ u) * u * [1, 1, 0], (contact,), axis, w, v)[2]
+        (N,) = sb.supported(PAPER, lambda u, push=push: push.k(u @ u) * u * [1, 1, 0], (contact,), axis, w, v)[2]
         if N < 0:
             assert moved.events == ((0.0, "Painleve's limit"),) and len(moved.t) == 1
             assert moved.force[0, 2] == 0 and moved.supports == ((0.0, "stem"),)

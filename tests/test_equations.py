@@ -54,8 +54,11 @@ def vectors(top, motion):
     first = across / np.linalg.norm(across.astype(float), axis=1)[:, None]  # 1'
     second = np.cross(axis, first)
     w1, w2, w3 = motion.omega.astype(rb.LONG).T
-    F = column(motion.force[:, 0]) * first + column(motion.force[:, 1]) * np.cross(Z, first) + column(
-        motion.force[:, 2]) * Z
+    F = (
+        column(motion.force[:, 0]) * first
+        + column(motion.force[:, 1]) * np.cross(Z, first)
+        + column(motion.force[:, 2]) * Z
+    )
     contact = np.column_stack([motion.contact, np.zeros(len(t))]).astype(rb.LONG)
     return SimpleNamespace(
         a=top.a, I1=top.I1, I3=top.I3, dI=top.I3 - top.I1, d=lambda x: matrix @ x, axis=axis, first=first,

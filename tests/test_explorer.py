@@ -25,16 +25,19 @@ from tippe_core import (
 )
 
 # Tielines of the paper's top at K_R = 10: K_J, 2E' (F_z), inner, outer, 2E' (mu_s = 0.5), inner, outer, verge.
-TABLE = np.array([
-    [0, 4.03286, 1.3085, 1.6943, 2.88682, 1.3383, 1.6637, 1.6478],
-    [1, 3.99619, 1.1960, 1.5787, 2.99743, 1.2210, 1.5519, 1.5323],
-    [2, 4.06714, 1.0797, 1.4646, 3.12279, 1.1023, 1.4393, 1.4181],
-    [3, 4.26842, 0.9578, 1.3508, 3.26472, 0.9804, 1.3242, 1.3035],
-    [4, 4.65286, 0.8274, 1.2365, 3.42535, 0.8529, 1.2043, 1.1870],
-    [5, 5.33490, 0.6844, 1.1207, 3.60713, 0.7165, 1.0764, 1.0664],
-    [6, 6.58010, 0.5220, 1.0040, 3.82036, 0.5654, 0.9350, 0.9350],
-    [7, 9.08885, 0.3294, 0.8907, 4.30872, 0.3839, 0.7754, 0.7754],
-    [8, 14.86605, 0.0945, 0.7991, 5.78017, 0.1328, 0.5837, 0.5837]])
+TABLE = np.array(
+    [
+        [0, 4.03286, 1.3085, 1.6943, 2.88682, 1.3383, 1.6637, 1.6478],
+        [1, 3.99619, 1.1960, 1.5787, 2.99743, 1.2210, 1.5519, 1.5323],
+        [2, 4.06714, 1.0797, 1.4646, 3.12279, 1.1023, 1.4393, 1.4181],
+        [3, 4.26842, 0.9578, 1.3508, 3.26472, 0.9804, 1.3242, 1.3035],
+        [4, 4.65286, 0.8274, 1.2365, 3.42535, 0.8529, 1.2043, 1.1870],
+        [5, 5.33490, 0.6844, 1.1207, 3.60713, 0.7165, 1.0764, 1.0664],
+        [6, 6.58010, 0.5220, 1.0040, 3.82036, 0.5654, 0.9350, 0.9350],
+        [7, 9.08885, 0.3294, 0.8907, 4.30872, 0.3839, 0.7754, 0.7754],
+        [8, 14.86605, 0.0945, 0.7991, 5.78017, 0.1328, 0.5837, 0.5837],
+    ]
+)
 
 
 @pytest.fixture
@@ -52,9 +55,15 @@ def test_fig_6_of_the_first_visit_is_the_papers_table(explorer):
     plane = explorer.scene.plane
     rows = np.searchsorted(plane.K_J, TABLE[:, 0])
     assert np.array_equal(plane.K_J[rows], TABLE[:, 0])
-    shown = np.column_stack([
-        plane.lift.theta_inner, plane.lift.theta_outer, plane.slip.theta_inner, plane.slip.theta_outer,
-        plane.slip.theta_verge])[rows]
+    shown = np.column_stack(
+        [
+            plane.lift.theta_inner,
+            plane.lift.theta_outer,
+            plane.slip.theta_inner,
+            plane.slip.theta_outer,
+            plane.slip.theta_verge,
+        ]
+    )[rows]
     assert shown == pytest.approx(TABLE[:, [2, 3, 5, 6, 7]], abs=5e-5)
     for tie, column in ((plane.lift, 1), (plane.slip, 4)):
         two_E_prime = Constants(plane.K_J, 10.0, tie.E).two_E_prime(Top.paper())
@@ -100,8 +109,16 @@ def test_what_did_not_change_is_the_same_object(explorer):
     assert explorer.scene.plane is not plane
 
 
-@pytest.mark.parametrize("inputs", [{}, {"K_J": 3.0, "K_R": 6.0}, {"K_J": 12.0}, {"upper": False, "K_J": -5.0},
-                                    {"a": -1.5, "I1": 3.0, "I3": 0.5, "K_J": 0.5}])
+@pytest.mark.parametrize(
+    "inputs",
+    [
+        {},
+        {"K_J": 3.0, "K_R": 6.0},
+        {"K_J": 12.0},
+        {"upper": False, "K_J": -5.0},
+        {"a": -1.5, "I1": 3.0, "I3": 0.5, "K_J": 0.5},
+    ],
+)
 def test_the_numbers_are_tippe_cores(explorer, inputs):
     explorer.param.update(**inputs)
     scene = explorer.scene
@@ -147,9 +164,17 @@ def test_share_and_energy_are_each_others_inverse(explorer, share):
     assert marks.share(marks.energy(share)) == pytest.approx(share, abs=1e-12)
 
 
-@pytest.mark.parametrize("name, value, says", [
-    ("I3", 0.9, "2 I1"), ("I1", -0.1, "I1"), ("a", 1.2, "a"), ("energy", -0.2, "E >= "), ("mu_s", -0.1, "mu_s"),
-    ("K_J", float("nan"), "K_J")])
+@pytest.mark.parametrize(
+    "name, value, says",
+    [
+        ("I3", 0.9, "2 I1"),
+        ("I1", -0.1, "I1"),
+        ("a", 1.2, "a"),
+        ("energy", -0.2, "E >= "),
+        ("mu_s", -0.1, "mu_s"),
+        ("K_J", float("nan"), "K_J"),
+    ],
+)
 def test_what_cannot_be_is_said_beside_its_control_and_the_picture_stays(explorer, name, value, says):
     good, before = explorer.scene, getattr(explorer, name)
     setattr(explorer, name, value)
@@ -201,7 +226,11 @@ def test_constants_and_initial_state_follow_each_other_to_the_last_digit(explore
     assert explorer.given == "E" and explorer.scene.constants == Constants(constants.K_J, constants.K_R, 40.0)
     state = explorer.scene.state
     assert (explorer.theta, explorer.theta_dot, explorer.omega2, explorer.omega3) == (
-        state.theta, state.theta_dot, state.omega2, state.omega3)
+        state.theta,
+        state.theta_dot,
+        state.omega2,
+        state.omega3,
+    )
     back = Constants.from_state(Top.paper(), state.theta, state.theta_dot, state.omega2, state.omega3)
     assert (back.K_J, back.K_R, back.E) == pytest.approx((constants.K_J, constants.K_R, 40.0), rel=1e-13)
 

@@ -154,8 +154,10 @@ def phones(chromium):
 
 
 def tally(page):
-    return list(page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
-        .find((m) => m.name == "votes").renderers[0].data_source.data.votes"""))
+    return list(
+        page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
+        .find((m) => m.name == "votes").renderers[0].data_source.data.votes""")
+    )
 
 
 def test_a_vote(learner, phones):

@@ -43,6 +43,7 @@ def test_thresholds_are_where_the_largest_eigenvalue_crosses_zero(top, pole):
 
 def test_the_friction_coefficient_drops_out():
     for gamma in (0.05, 3.0):
+
         def law(u, gamma=gamma):
             return gamma * u
 

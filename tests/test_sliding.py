@@ -295,7 +295,7 @@ def test_events_are_located_to_1e_9():
     assert list(closest.regime[1:]) == ["slip", "roll"]
     # lift-off: N of the rigid body changes sign within 1e-9
     state, law = State(0.8, 9.0, 0, 3.0), Viscous(0.3)
-    (t, _), = slide(PAPER, state, law, [0, 5.0], rtol=1e-12).events
+    ((t, _),) = slide(PAPER, state, law, [0, 5.0], rtol=1e-12).events
     motion = sb.integrate(PAPER, lambda u: 0.3 * u, *first_instant(PAPER, state), np.array([0, t - 1e-9, t + 1e-9]))
     N = [sb.accelerations(PAPER, lambda u: 0.3 * u, sb.matrix(motion.quaternion[i])[:, 2], motion.omega[i],
                           motion.velocity[i])[2] for i in (1, 2)]  # fmt: skip
@@ -348,7 +348,7 @@ def test_a_start_that_rolls_through_a_pole(state):
 def test_lift_off_ends_the_motion(state):
     times = np.linspace(0, 5, 5001)
     moved = slide(PAPER, state, Viscous(0.3), times, rtol=1e-11)
-    (t, what), = moved.events
+    ((t, what),) = moved.events
     assert what == "lifts off" and moved.t[-1] <= t < moved.t[-1] + 1.001e-3
     assert moved.force[:, 2].min() > 0 and moved.force[-1, 2] < 0.02
     motion = sb.integrate(PAPER, lambda u: 0.3 * u, *first_instant(PAPER, state), np.array([0.0, t]))

@@ -92,7 +92,7 @@ def witness(top, edge, state, friction, n, **table):
 
 
 def compared(top, edge, state, friction):
-    """"agrees"; or why it cannot be told: "a border", where the oracle itself goes elsewhere after a nudge of 1e-6 rad,
+    """ "agrees"; or why it cannot be told: "a border", where the oracle itself goes elsewhere after a nudge of 1e-6 rad,
     "the table", where it does by how far from plastic the impacts on it are; or by how many rad they differ."""
     moved = slide(top, state, friction, TIMES, landing="plastic", edge=edge)
     n = len(moved.t)

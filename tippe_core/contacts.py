@@ -296,7 +296,7 @@ class Body:
             if min((guards := self._guards(y, modes, floor)).values()) < 0.05:
                 third = (solver.t - solver.t_old) / 3
                 for tau in (solver.t_old + third, solver.t - third, solver.t):
-                    if (event := self._first(guards if tau == solver.t else self._guards(dense(tau), modes, floor))):
+                    if event := self._first(guards if tau == solver.t else self._guards(dense(tau), modes, floor)):
                         y = dense(self._crossing(dense, modes, floor, event, tau, tau - third))
                         break
             speeds = self._speeds(y, modes)
