@@ -17,6 +17,8 @@ from wire import Visitor, get, run, served, serving, until
 
 from app import arrivals
 
+pytestmark = pytest.mark.served
+
 FEW = 96  # open files
 UNDER = ["sh", "-c", f'ulimit -n {FEW} && exec "$@"', "sh"]
 

@@ -1,7 +1,10 @@
 """The page as axe-core sees it, by WCAG 2.2 A and AA: every tab and what is in it, in every look, and on a phone."""
 
+import pytest
 from axe_playwright_python.base import AXE_SCRIPT
 from visiting import PATIENCE, WHOLE
+
+pytestmark = pytest.mark.served
 
 RULES = {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]}
 CONTRAST = {"type": "rule", "values": ["color-contrast"]}

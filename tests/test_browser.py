@@ -7,6 +7,8 @@ from visiting import Visit, wait
 from app.explorer import solve
 from tippe_core import Top
 
+pytestmark = pytest.mark.served
+
 K_J_FIELD, I3_FIELD = 0, 6  # places in the sidebar
 
 FIELDS = "input[type=text]:visible"

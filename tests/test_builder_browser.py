@@ -9,6 +9,8 @@ from visiting import Visit, wait
 
 from tippe_core import PRESETS, TruncatedSphere, load_top, save_top
 
+pytestmark = pytest.mark.served
+
 # Where a point of a figure, in its own coordinates, is on the screen.
 PLACE = """
 ([figure, x, y]) => {

@@ -171,6 +171,7 @@ window.read = async (bytes, seconds, points) => {
 </script>"""
 
 
+@pytest.mark.served
 @pytest.mark.skipif(not THREE.is_dir(), reason="three.js is here where the bundle was built")
 def test_three_js_reads_the_gltf_and_moves_the_body_as_computed(scene, chromium):
     page = chromium.new_page()

@@ -17,6 +17,8 @@ from wire import Visitor, answers, get, run, served, until
 
 from app.text import say
 
+pytestmark = pytest.mark.served
+
 LOST = "No connection to the server"
 BACK = 60_000  # ms
 ROOT = Path(__file__).parent.parent

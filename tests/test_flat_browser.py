@@ -10,6 +10,8 @@ from visiting import COLUMN, WHOLE, Visit
 from app.explorer import solve
 from tippe_core import Top
 
+pytestmark = pytest.mark.served
+
 NO_WEBGL = """const real = HTMLCanvasElement.prototype.getContext
 HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
     return kind.startsWith("webgl") ? null : real.call(this, kind, ...more) }"""

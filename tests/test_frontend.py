@@ -17,6 +17,8 @@ from app.controls import Control
 from app.surface3d import Surface3D, pack
 from app.top3d import Top3D, pack_frames
 
+pytestmark = pytest.mark.served
+
 ROOT = Path(__file__).parent.parent
 
 

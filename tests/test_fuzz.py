@@ -21,6 +21,8 @@ from wire import Closed, Visitor, megabytes, run, served
 import app.page  # noqa: F401  (all components)
 from app.messages import CHANGES
 
+pytestmark = pytest.mark.served
+
 NUMBERS = (0, -1, 7, 1e308, -1e308, 5e-324, 10**400, 2**63, float("nan"), float("inf"), True)
 STRINGS = ("", "7", "nan", "1e999", "−7", "<script>alert(1)</script>", "../../etc/passwd", "\x00", "\ud800", "9" * 5000)
 SPECIAL = (

@@ -7,6 +7,8 @@ from visiting import COLUMN, PIXEL, WHOLE, Visit, wait
 from app.explorer import least_energy, solve
 from tippe_core import Constants, Top, roll, tielines, turning_points
 
+pytestmark = pytest.mark.served
+
 TOP = Top.paper()
 FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # places in the sidebar
 STATE_FIELDS = {"theta": 0, "theta_dot": 1, "omega2": 2, "omega3": 3}

@@ -13,6 +13,8 @@ from visiting import WHOLE, Visit
 from app.explorer import Explorer, solve
 from tippe_core import Top
 
+pytestmark = pytest.mark.served
+
 # The bytes of the motion as the 3-D view has them.
 FRAMES = """() => {
   const found = [...Bokeh.documents[0]._all_models.values()].find((m) => m.data?.frames && !m.data.clock)

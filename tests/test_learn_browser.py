@@ -13,6 +13,8 @@ from app.keep import Body
 from app.text import listed, say
 from tippe_core import PRESETS
 
+pytestmark = pytest.mark.served
+
 
 @pytest.fixture(scope="module")
 def browser(chromium):

@@ -17,6 +17,8 @@ from wire import run, until
 
 from app.text import say
 
+pytestmark = pytest.mark.served
+
 PAGES = 3
 PATIENCE = 300  # s
 

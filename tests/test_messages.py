@@ -16,6 +16,8 @@ from wire import Visitor, event, megabytes, run, served
 from app.messages import CHANGES, LARGEST_FILE, MOST, Refused, look_at
 from tippe_core import LoadedSphere, save_top
 
+pytestmark = pytest.mark.served
+
 APP = Path(__file__).parent.parent / "app"
 GIGABYTE = 1_000_000_000
 TOP = save_top(LoadedSphere(R=0.02345, b=0.008, d=0.010, density=1190.0, core_density=7850.0)).encode()

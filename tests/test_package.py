@@ -91,12 +91,14 @@ def unpacked(tmp_path_factory):
     return path
 
 
+@pytest.mark.served
 @pytest.mark.skipif(not (ROOT / ".git").exists() or not shutil.which("git"), reason="compares with what git has")
 def test_the_source_archive_has_all_that_git_has(unpacked):
     known = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\n")
     assert [path for path in known if path and (ROOT / path).exists() and not (unpacked / path).exists()] == []
 
 
+@pytest.mark.served
 def test_the_source_archive_passes_its_tests_of_files(unpacked):
     """Those that read what is not a program: the proxy's and the cluster's settings, the docs, the readme."""
     done = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_readme.py",

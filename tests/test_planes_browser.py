@@ -11,6 +11,8 @@ from app.explorer import Explorer
 from app.planes import Planes
 from tippe_core import PRESETS
 
+pytestmark = pytest.mark.served
+
 PATIENCE = 120_000  # ms: three tops drawn by the processor of a busy machine
 TOPS = "__tippe.tops('planes')"
 TOP = "__tippe.tops('planes').find((top) => top.label.includes(plane))"

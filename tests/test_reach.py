@@ -9,6 +9,8 @@ from visiting import DRAWN, Visit
 
 from app.text import listed
 
+pytestmark = pytest.mark.served
+
 # All that the page says now, to the eye and to the ear, piece by piece.
 SAID = """
 () => {

@@ -35,6 +35,8 @@ from app.settings import Settings
 from app.sockets import Socket
 from app.text import say
 
+pytestmark = pytest.mark.served
+
 ROOT = Path(__file__).parent.parent
 
 

@@ -9,6 +9,8 @@ import pytest
 from visiting import Visit
 from wire import serving, until
 
+pytestmark = pytest.mark.served
+
 ROOT = Path(__file__).parent.parent
 SERVE = "\nfrom app.__main__ import run\nrun()"
 

@@ -16,6 +16,8 @@ from app.ballots import Sqlite
 from app.classroom import Room
 from app.text import say
 
+pytestmark = pytest.mark.served
+
 KEY = re.compile(r"tab=learn&learn=teach&room=([\w.-]+)")
 CODE = re.compile(r"\?vote=(\w+)")
 
