@@ -86,9 +86,11 @@ STEPS = {
 LIGHT, DARK, LARGE, DARK_LARGE = (False, False), (True, False), (False, True), (True, True)
 
 
-def test_axe_finds_nothing_anywhere_in_any_look(chromium, server):
+def test_axe_finds_nothing_anywhere_in_any_look_and_no_other_machine_is_asked(chromium, server):
     page = chromium.new_context(viewport={"width": 1400, "height": 1000}, reduced_motion="reduce").new_page()
     page.set_default_timeout(PATIENCE)
+    asked = []
+    page.on("request", lambda request: asked.append(request.url))
     page.add_init_script("localStorage.setItem('tippe:tour', '1')")
     page.goto(server)
     page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && Bokeh.documents[0].is_idle")
@@ -112,6 +114,8 @@ def test_axe_finds_nothing_anywhere_in_any_look(chromium, server):
     page.evaluate(AXE_SCRIPT)
     assert violations(page) == []
     page.context.close()
+    assert len(asked) > 10
+    assert [url for url in asked if not url.startswith((server.rsplit("/", 1)[0], "data:", "blob:"))] == []
 
 
 def test_axe_finds_nothing_on_a_phone(chromium, server):
