@@ -73,9 +73,9 @@ def server():
     process.wait()
 
 
-@pytest.fixture(params=[(1400, 900)], ids=["1400x900"])
+@pytest.fixture(scope="module", params=[(1400, 900)], ids=["1400x900"])
 def visit(request, server, chromium):
-    """A Visit in a window of this size; the test fails on an error in the page."""
+    """A Visit in a window of this size, for all tests of a file; an error in the page fails the last of them."""
     width, height = request.param
     page = chromium.new_page(viewport={"width": width, "height": height})
     visit = Visit(page, server)

@@ -1,8 +1,9 @@
-"""The whole page in Chromium: it shows tippe_core's numbers, plays with no server."""
+"""The whole page in Chromium: it shows tippe_core's numbers, plays with no server. In this order: a test that moves
+something puts it back or needs it moved."""
 
 import numpy as np
 import pytest
-from visiting import Visit, wait
+from visiting import wait
 
 from app.explorer import solve
 from tippe_core import Top
@@ -18,119 +19,110 @@ PLACES = """() => [...Bokeh.documents[0]._all_models.values()].filter((model) =>
     .map(({x, y, width, height}) => [x, y, width, height])"""
 
 
-@pytest.fixture(scope="module")
-def shared(server, chromium):
-    """One visit for the tests here, in their order; those that move something put it back or need it moved."""
-    visit = Visit(chromium.new_page(viewport={"width": 1400, "height": 900}), server)
-    yield visit
-    visit.page.close()
-    assert not visit.errors
+def test_something_moves_at_once(visit):
+    assert visit.page.title() == "Tippe top explorer"
+    start = visit.page.evaluate("__tippe.top3d.t")
+    visit.page.wait_for_function("t => __tippe.top3d.t != t", arg=start)
 
 
-def test_something_moves_at_once(shared):
-    assert shared.page.title() == "Tippe top explorer"
-    start = shared.page.evaluate("__tippe.top3d.t")
-    shared.page.wait_for_function("t => __tippe.top3d.t != t", arg=start)
-
-
-def test_playing_sends_nothing(shared):
-    shared.page.wait_for_function("__tippe.top3d.playing")
+def test_playing_sends_nothing(visit):
+    visit.page.wait_for_function("__tippe.top3d.playing")
     for _ in range(10):  # a page that has just loaded still tells the server its size
-        shared.sent.clear()
-        pictures = shared.page.evaluate("__tippe.top3d.pictures")
-        shared.page.wait_for_function("n => __tippe.top3d.pictures > n + 15", arg=pictures)
-        if not shared.sent:
+        visit.sent.clear()
+        pictures = visit.page.evaluate("__tippe.top3d.pictures")
+        visit.page.wait_for_function("n => __tippe.top3d.pictures > n + 15", arg=pictures)
+        if not visit.sent:
             return
-    assert not shared.sent
+    assert not visit.sent
 
 
-def test_the_top_stands_as_the_trajectory_says(shared):
-    shared.pause()
+def test_the_top_stands_as_the_trajectory_says(visit):
+    visit.pause()
     motion = solve(Top.paper(), 7.0, 10.0, 0.5, 0.9).trajectory
     for index in (0, 100, 777):
-        shared.page.evaluate(
+        visit.page.evaluate(
             "t => window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t}}))", float(motion.t[index])
         )
-        shared.page.wait_for_function("i => __tippe.top3d.index == i", arg=index)
-        drawn = np.array(shared.page.evaluate("__tippe.top3d.quaternion"))
+        visit.page.wait_for_function("i => __tippe.top3d.index == i", arg=index)
+        drawn = np.array(visit.page.evaluate("__tippe.top3d.quaternion"))
         assert abs(drawn @ motion.quaternion[index]) == pytest.approx(1, abs=1e-6)
 
 
-def test_the_lines_over_time_go_with_the_clock_of_the_top(shared):
-    shared.pause()
-    shared.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 3}}))")
-    shared.page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
+def test_the_lines_over_time_go_with_the_clock_of_the_top(visit):
+    visit.pause()
+    visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 3}}))")
+    visit.page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
         .filter((m) => m.type == "Span" && m.level == "overlay")
         .every((m) => Math.abs(m.location - __tippe.top3d.t) < 1e-9
             && Math.abs(m.location - 3) < 0.02)""")
 
 
-def test_after_a_slider_moved_the_data_on_display_are_tippe_cores(shared):
-    thumb = shared.page.locator("input[type=range]:visible").nth(K_J_FIELD)
+def test_after_a_slider_moved_the_data_on_display_are_tippe_cores(visit):
+    thumb = visit.page.locator("input[type=range]:visible").nth(K_J_FIELD)
     thumb.focus()
     for _ in range(30):
         thumb.press("ArrowLeft")
-    field = shared.page.locator(FIELDS).nth(K_J_FIELD)
-    shared.page.wait_for_function("field => field.value == '6.7'", arg=field.element_handle())
+    field = visit.page.locator(FIELDS).nth(K_J_FIELD)
+    visit.page.wait_for_function("field => field.value == '6.7'", arg=field.element_handle())
     scene = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
-    shared.until_column("constants", 0, "K_J", scene.K_J[0])
+    visit.until_column("constants", 0, "K_J", scene.K_J[0])
     motion, every = scene.trajectory, 2
     # The slider's own sum of steps differs from 6.7 in the last digits.
     for figure, values in {"theta": motion.theta, "normal": scene.normal, "ratio": scene.ratio}.items():
-        assert shared.column(figure, 0, figure) == pytest.approx(values[::every], abs=1e-11)
+        assert visit.column(figure, 0, figure) == pytest.approx(values[::every], abs=1e-11)
     plane = {"K_J": scene.plane.K_J, "slip_in": scene.plane.slip.theta_inner, "verge": scene.plane.slip.theta_verge}
     for column, values in plane.items():
-        assert np.array_equal(shared.column("plane", 0, column), values)
-    shared.page.wait_for_function("n => __tippe.top3d.count == n", arg=len(motion.t))
+        assert np.array_equal(visit.column("plane", 0, column), values)
+    visit.page.wait_for_function("n => __tippe.top3d.count == n", arg=len(motion.t))
 
 
-def test_nothing_moves_while_a_slider_is_dragged(shared):
+def test_nothing_moves_while_a_slider_is_dragged(visit):
     """Numbers get longer and sentences come and go; the page stands still."""
-    page = shared.page
+    page = visit.page
     before = page.evaluate(PLACES)
     thumb = page.locator("input[type=range]:visible").nth(K_J_FIELD).bounding_box()
     across, up = thumb["x"], thumb["y"] + thumb["height"] / 2
-    shared.drag((across + 0.7 * thumb["width"], up), (across + 0.2 * thumb["width"], up))
+    visit.drag((across + 0.7 * thumb["width"], up), (across + 0.2 * thumb["width"], up))
     field = page.locator(FIELDS).nth(K_J_FIELD)
     page.wait_for_function("field => Number(field.value) < 2.5", arg=field.element_handle())
     assert len(before) > 20 and page.evaluate(PLACES) == before
     page.mouse.up()
     # all pictures of the drag have come, so that none comes after what is typed next
-    wait(page, lambda: abs(shared.column("constants", 0, "K_J")[0] - float(field.input_value())) < 1e-4)
+    wait(page, lambda: abs(visit.column("constants", 0, "K_J")[0] - float(field.input_value())) < 1e-4)
     page.wait_for_function("Bokeh.documents[0].is_idle")
     assert page.evaluate(PLACES) == before
     field.fill("6.7")
     field.press("Enter")
-    shared.until_column("constants", 0, "K_J", solve(Top.paper(), 6.7, 10.0, 0.5, 0.9).K_J[0])
+    visit.until_column("constants", 0, "K_J", solve(Top.paper(), 6.7, 10.0, 0.5, 0.9).K_J[0])
 
 
-def test_a_bad_value_is_said_beside_its_control(shared):
-    before = shared.column("theta", 0, "theta")
-    field = shared.page.locator(FIELDS).nth(I3_FIELD)
+def test_a_bad_value_is_said_beside_its_control(visit):
+    before = visit.column("theta", 0, "theta")
+    field = visit.page.locator(FIELDS).nth(I3_FIELD)
     field.fill("0.9")
     field.press("Enter")
-    alert = shared.page.locator("[role=alert]:visible")
+    alert = visit.page.locator("[role=alert]:visible")
     alert.wait_for()
     assert "I3" in alert.inner_text() and "0.9" in alert.inner_text()
-    assert np.array_equal(shared.column("theta", 0, "theta"), before)
+    assert np.array_equal(visit.column("theta", 0, "theta"), before)
     field.fill("not this")
     field.press("Enter")
-    shared.page.get_by_text("not a number").wait_for()
+    visit.page.get_by_text("not a number").wait_for()
     field.fill("0.4")
     field.press("Enter")
     alert.wait_for(state="detached")
     expected = solve(Top(0.07, 0.399, 0.4), 6.7, 10.0, 0.5, 0.9)
-    shared.until_column("theta", 0, "theta", expected.trajectory.theta[0])
+    visit.until_column("theta", 0, "theta", expected.trajectory.theta[0])
 
 
-def test_a_tab_that_paints_nothing_loses_no_request(shared):
+def test_a_tab_that_paints_nothing_loses_no_request(visit):
     """Of a hidden tab no frame is asked for, so nothing tells the server that its pictures arrived."""
-    shared.page.evaluate("() => { window.requestAnimationFrame = () => 0 }")
-    thumb = shared.page.locator("input[type=range]:visible").nth(K_J_FIELD)
+    visit.page.evaluate("() => { window.requestAnimationFrame = () => 0 }")
+    thumb = visit.page.locator("input[type=range]:visible").nth(K_J_FIELD)
     thumb.focus()
     for _ in range(8):
         thumb.press("ArrowLeft")
-    shared.until_column("constants", 0, "K_J", solve(Top(0.07, 0.399, 0.4), 6.62, 10.0, 0.5, 0.9).K_J[0])
+    visit.until_column("constants", 0, "K_J", solve(Top(0.07, 0.399, 0.4), 6.62, 10.0, 0.5, 0.9).K_J[0])
 
 
 @pytest.mark.parametrize("visit", [(390, 844)], ids=["390x844"], indirect=True)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import visitors
-from visiting import WHOLE, Visit, free_port
+from visiting import Visit, free_port
 from wire import Visitor, answers, get, run, served, until
 
 pytestmark = pytest.mark.served
@@ -170,21 +170,6 @@ def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_it
         finally:
             proxy.terminate()
             proxy.wait()
-
-
-def test_without_webgl_the_top_is_drawn_flat(page, server):
-    page.add_init_script("""const real = HTMLCanvasElement.prototype.getContext
-        HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
-            return kind.startsWith("webgl") ? null : real.call(this, kind, ...more) }""")
-    page.goto(server)
-    page.get_by_text("no WebGL, so the top is drawn flat").wait_for(timeout=BACK)
-    start = page.evaluate("__tippe.flat.t")
-    page.wait_for_function("t => __tippe.flat.t != t", arg=start)
-    page.wait_for_function(WHOLE, timeout=BACK)
-    page.get_by_label("Pause").first.click()
-    page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
-        .filter((m) => m.type == "Span" && m.level == "overlay")
-        .every((m) => Math.abs(m.location - __tippe.flat.t) < 1e-6)""")
 
 
 LISTENS_IN = """

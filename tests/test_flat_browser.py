@@ -17,21 +17,24 @@ HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
     return kind.startsWith("webgl") ? null : real.call(this, kind, ...more) }"""
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def flat(chromium, server):
-    """flat(query="") -> a Visit without WebGL, in which all of the first tab is there; an error in a page fails."""
-    visits = []
+    """flat(query="") -> a Visit without WebGL, in which all of the first tab is there, one a query; an error in one
+    fails the last of the tests."""
+    visits = {}
 
     def go(query=""):
+        if query in visits:
+            return visits[query]
         page = chromium.new_page(viewport={"width": 1400, "height": 900})
         page.add_init_script(NO_WEBGL)
-        visits.append(Visit(page, server + query, whole=False))
+        visit = visits[query] = Visit(page, server + query, whole=False)
         page.locator("p:text('no WebGL, so the top is drawn flat'):visible").first.wait_for()
         page.wait_for_function(WHOLE)
-        return visits[-1]
+        return visit
 
     yield go
-    for visit in visits:
+    for visit in visits.values():
         visit.page.close()
         assert [error for error in visit.errors if "WebGL" not in error] == []
 
@@ -45,7 +48,10 @@ def seek(visit, index):
 
 def stop(visit):
     """At the start, where the axis is most upright."""
-    visit.page.locator("button[aria-label=Pause]:visible").first.click()
+    visit.page.locator("button:is([aria-label=Pause], [aria-label=Play]):visible").first.wait_for()
+    pause = visit.page.locator("button[aria-label=Pause]:visible")
+    if pause.count():
+        pause.first.click()
     visit.page.locator("button[aria-label=Play]:visible").first.wait_for()
     seek(visit, 0)
 
@@ -90,8 +96,14 @@ def test_a_hand_on_a_portrait_and_on_fig_6_moves_the_clock(flat):
 def test_space_and_the_arrows_are_the_clocks_and_what_is_said_names_the_motion(flat):
     visit = flat()
     page = visit.page
+    stop(visit)
+    page.locator("body").press("Space")
+    page.wait_for_function("__tippe.flat.t != 0")
     page.locator("body").press("Space")
     page.locator("button[aria-label=Play]:visible").first.wait_for()
+    page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
+        .filter((m) => m.type == "Span" && m.level == "overlay")
+        .every((m) => Math.abs(m.location - __tippe.flat.t) < 1e-6)""")
     seek(visit, 17)
     page.locator("body").press("ArrowRight")
     until_scrubbed(visit, "18")

@@ -82,6 +82,33 @@ def stop_at_the_start(visit):
     visit.page.wait_for_function("__tippe.top3d.index == 0")
 
 
+@pytest.fixture(scope="module")
+def one(chromium, server):
+    """A page for all tests here; nothing moves by itself in it."""
+    context = chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+    visit = Visit(context.new_page(), server)
+    visit.first = {name: selected(visit)[name] for name in ("K_J", "inner", "outer")}
+    yield visit
+    context.close()
+    assert not visit.errors
+
+
+@pytest.fixture
+def visit(one):
+    """That page with its first motion, whatever a test before has done."""
+    page = one.page
+    if page.get_by_role("button", name="constants", exact=True).get_attribute("aria-pressed") != "true":
+        page.get_by_role("button", name="constants", exact=True).click()
+        page.locator(":text('Routh’s constant'):visible").wait_for()
+    # a hand that has just let go makes its step a moment later
+    page.wait_for_function(
+        f"""([undo, first]) => {{ undo.click(); const now = ({SELECTED})()
+            return undo.disabled && Object.entries(first).every(([name, value]) => now[name] == value) }}""",
+        arg=[page.get_by_role("button", name="Undo").element_handle(), one.first], polling=200)  # fmt: skip
+    page.locator("[data-figure=plane]").first.scroll_into_view_if_needed()
+    return one
+
+
 def test_an_end_of_the_tieline_is_the_energy(visit):
     stop_at_the_start(visit)
     before = selected(visit)

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 import zxingcpp
 from PIL import Image
-from visiting import WHOLE, Visit
+from visiting import Visit
 
 from app.explorer import Explorer, solve
 from tippe_core import Top
@@ -74,10 +74,8 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
     found = zxingcpp.read_barcodes(Image.open(io.BytesIO(code.screenshot())))
     assert [code.text for code in found] == [link]
 
-    other = go(server)
-    other.page.goto(link)
+    other = go(link)
     other.page.wait_for_function("t => window.__tippe?.top3d?.t === t", arg=visit.page.evaluate("__tippe.top3d.t"))
-    other.page.wait_for_function(WHOLE)
     for place in COLUMNS:
         assert np.array_equal(visit.column(*place), other.column(*place))
     assert np.array_equal(visit.page.evaluate(FRAMES), other.page.evaluate(FRAMES))
@@ -125,8 +123,8 @@ def test_undo_is_one_step_a_gesture(go, server):
     assert np.array_equal(visit.column("theta", 0, "theta"), dragged)
 
 
-@pytest.mark.parametrize("query", ["?KJ=%3Cscript%3Ealert(1)%3C/script%3E", "?body=" + 9_000 * "Z%3C", "?I3=2&tab=no"],
-                         ids=["script", "long", "impossible"])  # fmt: skip
+@pytest.mark.parametrize("query", ["?KJ=%3Cscript%3Ealert(1)%3C/script%3E", "?body=" + 9_000 * "Z%3C"],
+                         ids=["script", "long"])  # fmt: skip
 def test_a_bad_link_says_so_and_shows_the_first_motion(go, server, query):
     visit = go(server + query)
     said = visit.page.get_by_role("alert").first

@@ -43,7 +43,7 @@ WHOLE = """
 
 
 # Whether both pictures in 3-D are drawn; on a phone the second one is below the window, and waits to come in view.
-DRAWN = "window.__tippe?.top3d?.pictures > 2 && (innerWidth < 600 || window.__tippe.surface3d?.pictures > 0)"
+DRAWN = "window.__tippe?.top3d?.pictures > 0 && (innerWidth < 600 || window.__tippe.surface3d?.pictures > 0)"
 
 
 def free_port():
