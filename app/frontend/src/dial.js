@@ -23,6 +23,18 @@ input[type=range] { display: block; width: 100%; height: 26px; accent-color: var
 const PAGE = 10; // steps that Page Up and Page Down go
 const KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: PAGE, PageDown: -PAGE };
 
+const written = (number) => String(Number(number.toPrecision(6))).replace("-", "−");
+
+// A value in words: with its unit, or where it stands among the marks.
+export function spoken(value, { marks, unit, texts }) {
+  if (!marks.length) return `${written(value)} ${unit}`;
+  const passed = Math.max(marks.filter(([at]) => at <= value).length, 1), [from, to] = [marks[passed - 1], marks[passed]];
+  if (value === from[0]) return from[1];
+  if (!to) return fill(texts.beyond, { mark: from[1] });
+  const percent = Math.round((100 * (value - from[0])) / (to[0] - from[0]));
+  return fill(texts.between, { percent, from: from[1], to: to[1] });
+}
+
 let made = 0;
 
 export function renderDial({ model, el }) {
@@ -43,23 +55,14 @@ export function renderDial({ model, el }) {
   entry.setAttribute("aria-label", model.unit ? fill(model.texts.entry, { name: model.spoken, unit: model.unit }) : model.spoken);
   for (const input of [slider, entry]) input.setAttribute("aria-describedby", words.id);
 
-  const written = (number) => String(Number(number.toPrecision(6))).replace("-", "−");
   function place() {
     slider.min = Math.min(model.start, value);
     slider.max = Math.max(model.end, value);
     slider.value = value;
-    slider.setAttribute("aria-valuetext", spoken());
+    slider.setAttribute("aria-valuetext", spoken(value, model));
     const [low, high] = [Number(slider.min), Number(slider.max)];
     marks.hidden = !model.marks.length;
     marks.innerHTML = model.marks.map(([at, word]) => `<span style="left: ${(100 * (at - low)) / (high - low)}%">${word}</span>`).join("");
-  }
-  function spoken() {
-    if (!model.marks.length) return `${written(value)} ${model.unit}`;
-    const after = model.marks.findIndex(([at]) => at > value), [from, to] = [model.marks.at(after - 1), model.marks[after]];
-    if (!to) return value > from[0] ? fill(model.texts.beyond, { mark: from[1] }) : from[1];
-    if (value === from[0]) return from[1];
-    const percent = Math.round((100 * (value - from[0])) / (to[0] - from[0]));
-    return fill(model.texts.between, { percent, from: from[1], to: to[1] });
   }
   function ask(wish, typed) {
     count += 1;
