@@ -5,12 +5,14 @@ const up = new THREE.Vector3(0, 0, 1);
 const direction = new THREE.Vector3();
 
 export class Arrow extends THREE.Group {
+  /** @param {THREE.ColorRepresentation} colour */
   constructor(colour, { radius = 0.035, through = 0.55 } = {}) {
     super();
     this.radius = radius;
     const shaft = new THREE.CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5);
     const head = new THREE.ConeGeometry(1, 1, 20).rotateX(Math.PI / 2).translate(0, 0, 0.5);
     // Both passes count as transparent, so that they come after the table and the body and in this order.
+    /** @type {[THREE.MeshBasicMaterial, THREE.MeshLambertMaterial]} */
     this.passes = [
       new THREE.MeshBasicMaterial({
         transparent: true, opacity: through, depthFunc: THREE.GreaterDepth, depthWrite: false,
@@ -35,6 +37,7 @@ export class Arrow extends THREE.Group {
   }
 
   // From origin along (x, y, z), in the scene's units; tip receives where it ends.
+  /** @param {THREE.Vector3} origin @param {number} x @param {number} y @param {number} z @param {THREE.Vector3} tip */
   point(origin, x, y, z, tip) {
     direction.set(x, y, z);
     tip.copy(origin).add(direction);

@@ -1,10 +1,13 @@
 // The box round a surface: floor and back walls with a grid, ticks and names on the edges nearest to the eye.
 import * as THREE from "three";
+/** @import { Labels } from "./labels.js" */
+/** @import { Stage } from "./stage.js" */
 
 // About `wanted` round numbers from low to high.
+/** @param {number} low @param {number} high @param {number} wanted */
 function roundTicks(low, high, wanted) {
   const raw = (high - low) / wanted, decade = 10 ** Math.floor(Math.log10(raw));
-  const step = decade * [1, 2, 2.5, 5, 10].find((digits) => digits * decade >= raw * (1 - 1e-9));
+  const step = decade * ([1, 2, 2.5, 5].find((digits) => digits * decade >= raw * (1 - 1e-9)) ?? 10);
   const ticks = [];
   for (let i = Math.ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; i++) ticks.push(i * step);
   return { step, ticks };
@@ -12,11 +15,21 @@ function roundTicks(low, high, wanted) {
 
 // One quantity on a side of the box: from values to places and back. to > from always.
 export class Scale {
+  low = NaN;
+  high = NaN;
+  step = NaN;
+  /** @type {number[]} */
+  ticks = [];
+
+  /** @param {number} from @param {number} to */
   constructor(from, to, wanted = 5) {
-    Object.assign(this, { from, to, wanted });
+    this.from = from;
+    this.to = to;
+    this.wanted = wanted;
     this.set(0, 1);
   }
 
+  /** @param {number} low @param {number} high */
   set(low, high) {
     if (!(high > low)) [low, high] = [low - 0.5, low + 0.5];
     if (low === this.low && high === this.high) return false;
@@ -41,22 +54,30 @@ export class Scale {
 }
 
 export class Axes {
-  constructor(stage, labels, { x, y, z }, names) {
-    Object.assign(this, { stage, labels, scales: { x, y, z } });
+  /** @param {Stage} stage @param {Labels} labels @param {Record<Axis, Scale>} scales @param {Record<Axis, string>} names as HTML */
+  constructor(stage, labels, scales, names) {
+    this.stage = stage;
+    this.labels = labels;
+    this.scales = scales;
+    this.walls = this.edges = 0;
     this.lines = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ vertexColors: true }));
     this.lines.frustumCulled = false;
     stage.scene.add(this.lines);
+    /** @type {Record<Axis, Label[]>} */
     this.ticks = { x: [], y: [], z: [] };
-    this.names = Object.fromEntries(Object.entries(names).map(([axis, html]) => [axis, labels.add(html, "axis")]));
+    const name = (axis) => labels.add(names[axis], "axis");
+    this.names = { x: name("x"), y: name("y"), z: name("z") };
   }
 
+  /** @param {{ walls: number, edges: number }} look */
   dress({ walls, edges }) {
-    Object.assign(this, { walls, edges });
+    this.walls = walls;
+    this.edges = edges;
     this.place(true);
   }
 
   // Puts the walls behind and the numbers in front, as seen now.
-  place(force) {
+  place(force = false) {
     const { camera, controls } = this.stage;
     const eye = camera.position.clone().sub(controls.target);
     const sides = [Math.sign(eye.x) || 1, Math.sign(eye.y) || -1];
@@ -92,6 +113,7 @@ export class Axes {
     line(EDGE, nearX, y.from, 0, nearX, y.to, 0);
     // Of the two upright edges at the sides of the picture the left one carries the numbers.
     const right = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion);
+    /** @type {[x: number, y: number]} */
     const upright = right.x * nearX + right.y * farY < right.x * farX + right.y * nearY ? [nearX, farY] : [farX, nearY];
     line(EDGE, ...upright, 0, ...upright, z.to);
     this.lines.geometry.dispose();
@@ -106,6 +128,7 @@ export class Axes {
     this.names.z.shift = [6, -20];
   }
 
+  /** @param {Axis} axis @param {(at: number) => XYZ} where @param {XYZ} nameAt */
   write(axis, where, nameAt) {
     const scale = this.scales[axis], pool = this.ticks[axis];
     while (pool.length < scale.ticks.length) pool.push(this.labels.add("", "tick"));

@@ -1,6 +1,7 @@
 // The playback bar: buttons, scrubber, speed, what is shown. It reads and drives a player; it draws nothing itself.
 import { colours } from "./colours.js";
 import { fill } from "./data.js";
+/** @import { Player } from "./player.js" */
 
 const icons = {
   play: '<svg viewBox="0 0 24 24" aria-hidden="true"><path d="M8 5v14l11-7z"/></svg>',
@@ -18,6 +19,7 @@ const shows = {
 };
 
 export class Bar {
+  /** @param {HTMLElement} root @param {HTMLElement} picture @param {TopModel} model @param {Player} player @param {() => void} resetView */
   constructor(root, picture, model, player, resetView) {
     this.player = player;
     const texts = (this.texts = model.texts);
@@ -38,8 +40,14 @@ export class Bar {
           `<label title="${title}" style="--swatch: ${colour}"><input type="checkbox" name="${name}" aria-label="${title}"><span class="swatch"></span><span>${text}</span></label>`)
         .join("")}</span>`;
     root.append(bar);
+    /** @returns {any} */
     const find = (selector) => bar.querySelector(selector);
-    [this.play, this.scrub, this.speed] = [".play", ".scrub", ".speed"].map(find);
+    /** @type {HTMLButtonElement} */
+    this.play = find(".play");
+    /** @type {HTMLInputElement} */
+    this.scrub = find(".scrub");
+    /** @type {HTMLSelectElement} */
+    this.speed = find(".speed");
     this.time = document.createElement("div");
     this.time.className = "time";
     picture.append(this.time);
@@ -51,14 +59,14 @@ export class Bar {
     this.scrub.oninput = () => player.show(Number(this.scrub.value));
     this.speed.onchange = () => (model.speed = Number(this.speed.value));
     root.addEventListener("keydown", (event) => {
-      if (event.target.matches("input, select, button")) return;
+      if (/** @type {Element} */ (event.target).matches("input, select, button")) return;
       const act = { " ": () => this.play.click(), ArrowLeft: () => player.step(-1), ArrowRight: () => player.step(1) }[event.key];
       if (!act) return;
       event.preventDefault();
       act();
     });
 
-    for (const box of bar.querySelectorAll("input[type=checkbox]")) {
+    for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (bar.querySelectorAll("input[type=checkbox]"))) {
       box.onchange = () => (model[box.name] = box.checked);
       const follow = () => (box.checked = model[box.name]);
       model.on(box.name, follow);
@@ -66,14 +74,14 @@ export class Bar {
     }
     const speed = () => {
       // A speed that is not in the list is nobody's choice here, but Python may set it: add it rather than lie.
-      if (!speeds.some((n) => 1 / n === model.speed)) this.speed.append(new Option(fill(texts.faster, { times: model.speed }), model.speed));
+      if (!speeds.some((n) => 1 / n === model.speed)) this.speed.append(new Option(fill(texts.faster, { times: model.speed }), String(model.speed)));
       this.speed.value = String(model.speed);
     };
     model.on("speed", speed);
     speed();
   }
 
-  // secondsPerUnit: what one (R/g)^1/2 of the real top takes.
+  /** @param {number} secondsPerUnit what one (R/g)^1/2 of the real top takes */
   update(secondsPerUnit) {
     const { playing, frames, t } = this.player;
     if (this.shownPlaying !== playing) {
@@ -81,8 +89,8 @@ export class Bar {
       this.play.innerHTML = playing ? icons.pause : icons.play;
       this.play.setAttribute("aria-label", playing ? this.texts.pause : this.texts.play);
     }
-    this.scrub.max = Math.max(frames.count - 1, 0);
-    this.scrub.value = this.player.place;
+    this.scrub.max = String(Math.max(frames.count - 1, 0));
+    this.scrub.value = String(this.player.place);
     const seconds = (t * secondsPerUnit).toFixed(4), units = t.toFixed(3);
     this.time.innerHTML = `<b>${seconds} s</b> = ${units} (<i>R</i>/<i>g</i>)<sup>½</sup>`;
     this.scrub.setAttribute("aria-valuetext", fill(this.texts.seconds, { seconds }));

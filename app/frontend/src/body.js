@@ -1,11 +1,13 @@
 // The top: its outline turned round axis 3, painted so that every turn shows.
 import * as THREE from "three";
 import { colours } from "./colours.js";
+import { penOf } from "./data.js";
 
 const AROUND = 56;
 const CORNER = 0.35; // rad: a sharper bend than this is an edge of the wood, not a curve
 
 // Rows of (radius, height, normal r, normal z, share of the outline's length); a corner has two, one for each side.
+/** @param {Float32Array} profile */
 function outline(profile) {
   const n = profile.length >> 1;
   const points = Array.from({ length: n }, (_, i) => [profile[2 * i], profile[2 * i + 1]]);
@@ -78,7 +80,7 @@ function grainSource(seed) {
 function paint(firstCorner) {
   const canvas = document.createElement("canvas");
   const width = (canvas.width = 1024), height = (canvas.height = 512);
-  const pen = canvas.getContext("2d");
+  const pen = penOf(canvas);
   const random = grainSource(7);
   const edge = height * (1 - firstCorner); // y of the sphere's rim, y grows downwards
   const level = (share) => height - share * (height - edge); // share of the sphere's outline, from its bottom
@@ -120,20 +122,22 @@ function paint(firstCorner) {
   return texture;
 }
 
+/** @extends {THREE.Mesh<THREE.BufferGeometry, THREE.MeshPhongMaterial>} */
 export class Body extends THREE.Mesh {
   constructor() {
     super(new THREE.BufferGeometry(), new THREE.MeshPhongMaterial({ shininess: 70, specular: 0x3a3a3a }));
     this.castShadow = true;
   }
 
-  // profile: (radius, height above O along axis 3) pairs.
+  /** @param {Float32Array} profile (radius, height above O along axis 3) pairs */
   setProfile(profile) {
-    this.geometry.dispose();
-    this.material.map?.dispose();
+    const { geometry: old, material } = this;
+    old.dispose();
+    material.map?.dispose();
     const { rows, firstCorner } = outline(profile);
     this.geometry = revolve(rows);
-    this.material.map = paint(firstCorner);
-    this.material.needsUpdate = true;
+    material.map = paint(firstCorner);
+    material.needsUpdate = true;
     this.reach = rows.reduce((most, [r, z]) => Math.max(most, Math.hypot(r, z)), 1); // from O to the farthest point
     this.top = rows.reduce((most, [, z]) => Math.max(most, z), 0); // and to the end of the axis
   }

@@ -3,6 +3,7 @@
 import { Player } from "./player.js";
 
 const TELL_MS = 80; // how often a scrub is told to Python
+/** @type {Map<string, Place[]>} */
 const clocks = new Map(); // name -> the places on it
 
 const on = (name) => clocks.get(name) ?? [];
@@ -16,10 +17,22 @@ const api = {
 };
 
 export class Place {
-  // changed(): t or playing moved; inView(): whether it is seen now; photo(wide): a canvas with its picture; report: what
-  // is drawn, for tests.
+  /**
+   * @param {object} top
+   * @param {TopModel} top.model
+   * @param {HTMLElement} top.picture
+   * @param {() => void} top.changed t or playing moved
+   * @param {() => boolean} top.inView whether it is seen now
+   * @param {(wide: number) => HTMLCanvasElement} top.photo
+   * @param {object} top.report what is drawn, for tests
+   */
   constructor({ model, picture, changed, inView, photo, report }) {
-    Object.assign(this, { model, picture, inView, photo, report, name: model.clock, echo: false });
+    this.model = model;
+    this.inView = inView;
+    this.photo = photo;
+    this.report = report;
+    this.name = model.clock;
+    this.echo = false;
     this.player = new Player({
       changed: () => {
         changed();
@@ -91,6 +104,7 @@ export class Place {
 
   // The time goes on. model.seconds of the real top pass in one unit of t; speed 1 shows them at their own pace. Tells
   // whether the motion began anew.
+  /** @param {number} now in ms */
   advance(now) {
     const { model, player, leads } = this;
     const again = player.advance(now, leads ? model.speed / (1000 * model.seconds) : 0);
@@ -98,6 +112,7 @@ export class Place {
   }
 
   // Says on the window what the picture shows now, where that is new.
+  /** @param {string} verdict */
   say(verdict) {
     const { t, playing, index } = this.player;
     if (this.said?.t === t && this.said.playing === playing) return;

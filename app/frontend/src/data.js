@@ -1,4 +1,5 @@
 // Arrays come as bytes: an ArrayBuffer on the wire, so nothing passes through JSON.
+/** @param {Bytes} [bytes] */
 export function float32(bytes) {
   if (!bytes) return new Float32Array(0);
   if (bytes instanceof ArrayBuffer) return new Float32Array(bytes);
@@ -8,16 +9,19 @@ export function float32(bytes) {
 }
 
 // The least of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is at least x: a number to put on a scale.
+/** @param {number} x */
 export function niceAbove(x) {
   if (!(x > 0) || !isFinite(x)) return 1;
   const decade = 10 ** Math.floor(Math.log10(x));
-  return decade * [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((digits) => digits * decade >= x * (1 - 1e-9));
+  return decade * ([1, 1.5, 2, 3, 4, 5, 6, 8].find((digits) => digits * decade >= x * (1 - 1e-9)) ?? 10);
 }
 
 // A text of browser.toml with its numbers put in.
+/** @param {string} text @param {Record<string, any>} values */
 export const fill = (text, values) => text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
 
 // Calls run once before the next paint, however often it was asked for in between.
+/** @param {() => void} run @returns {Later} */
 export function coalesce(run) {
   let asked = 0;
   const later = () => {
@@ -32,3 +36,7 @@ export function coalesce(run) {
   };
   return later;
 }
+
+// What draws in the plane of a canvas. There is none only where the canvas was given to WebGL.
+/** @param {HTMLCanvasElement} canvas */
+export const penOf = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));

@@ -26,6 +26,7 @@ const KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: 
 const written = (number) => String(Number(number.toPrecision(6))).replace("-", "−");
 
 // A value in words: with its unit, or where it stands among the marks.
+/** @param {number} value @param {Pick<DialModel, "marks" | "unit" | "texts">} model */
 export function spoken(value, { marks, unit, texts }) {
   if (!marks.length) return `${written(value)} ${unit}`;
   const passed = Math.max(marks.filter(([at]) => at <= value).length, 1), [from, to] = [marks[passed - 1], marks[passed]];
@@ -37,13 +38,18 @@ export function spoken(value, { marks, unit, texts }) {
 
 let made = 0;
 
+/** @param {Rendering<DialModel>} rendering */
 export function renderDial({ model, el }) {
   const id = `dial-${(made += 1)}`;
   el.innerHTML = `<style>${style}</style>
     <div class="head"><label class="name" for="${id}"></label><input type="text" autocomplete="off" spellcheck="false" maxlength="60"></div>
     <input type="range" id="${id}" step="any"><div class="marks" aria-hidden="true"></div><div class="words" id="${id}-words"></div>`;
-  const [name, marks, words] = [".name", ".marks", ".words"].map((part) => el.querySelector(part));
-  const [entry, slider] = ["text", "range"].map((kind) => el.querySelector(`input[type=${kind}]`));
+  /** @returns {any} */
+  const part = (selector) => el.querySelector(selector);
+  /** @type {HTMLElement[]} */
+  const [name, marks, words] = [".name", ".marks", ".words"].map(part);
+  /** @type {HTMLInputElement[]} */
+  const [entry, slider] = ["input[type=text]", "input[type=range]"].map(part);
   let count = 0; // of what was asked
   let value = 0; // the slider's, to the last digit
   let typing = false; // whether there is something in the entry that was not asked for yet
@@ -56,9 +62,9 @@ export function renderDial({ model, el }) {
   for (const input of [slider, entry]) input.setAttribute("aria-describedby", words.id);
 
   function place() {
-    slider.min = Math.min(model.start, value);
-    slider.max = Math.max(model.end, value);
-    slider.value = value;
+    slider.min = String(Math.min(model.start, value));
+    slider.max = String(Math.max(model.end, value));
+    slider.value = String(value);
     slider.setAttribute("aria-valuetext", spoken(value, model));
     const [low, high] = [Number(slider.min), Number(slider.max)];
     marks.hidden = !model.marks.length;
@@ -83,7 +89,7 @@ export function renderDial({ model, el }) {
     ask(entry.value, true);
   }
 
-  slider.addEventListener("input", () => slide(Math.round(slider.value / model.step) * model.step));
+  slider.addEventListener("input", () => slide(Math.round(Number(slider.value) / model.step) * model.step));
   slider.addEventListener("keydown", (event) => {
     const steps = KEYS[event.key], end = { Home: slider.min, End: slider.max }[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey || (steps === undefined && end === undefined)) return;

@@ -5,14 +5,17 @@ import { pace, REST } from "./stage.js";
 import { renderTop3D } from "./top3d.js";
 
 const MEANWHILE = 5 * REST; // where the processor draws, it has a page to make
+/** @type {Omit<Rendering<TopModel>, "model"> & { values: TopModel, become: (model: TopModel) => void, place: HTMLElement } | null} */
 let early = null; // the picture that waits for its model
 
 // What a view asks of a model, until become() puts the session's own behind it.
+/** @param {TopModel} values */
 function standIn(values) {
   const listeners = [], changed = new Set(); // what a person did before
+  /** @type {TopModel | null} */
   let own = null;
   const on = (name, run) => (own ? own.on(name, run) : listeners.push([name, run]));
-  const model = new Proxy({}, {
+  const model = new Proxy(/** @type {TopModel} */ ({}), {
     get: (_, name) => (name === "on" ? on : (own ?? values)[name]),
     set(_, name, value) {
       (own ?? values)[name] = value;
@@ -20,11 +23,12 @@ function standIn(values) {
       return true;
     },
   });
-  const become = (model) => {
-    own = model;
-    for (const listener of listeners) own.on(...listener);
-    for (const name of changed) own[name] = values[name];
-    for (const [name, run] of listeners) if (name in values && !changed.has(name) && !isSame(values[name], own[name])) run();
+  /** @param {TopModel} its */
+  const become = (its) => {
+    own = its;
+    for (const [name, run] of listeners) its.on(name, run);
+    for (const name of changed) its[name] = values[name];
+    for (const [name, run] of listeners) if (name in values && !changed.has(name) && !isSame(values[name], its[name])) run();
   };
   return { model, become };
 }
@@ -41,8 +45,11 @@ function inOneLanguage(texts) {
 }
 
 export function first() {
-  const place = document.getElementById("first"), { search, model: said } = JSON.parse(document.getElementById("first-values").textContent);
+  /** @returns {any} */
+  const part = (id) => document.getElementById(id);
+  const place = part("first"), { search, model: said } = JSON.parse(part("first-values").textContent);
   if (location.search !== search) return; // another motion, or another view
+  /** @type {any} */
   const values = Object.fromEntries(Object.entries(said).map(([name, value]) =>
     [name, value?.base64 === undefined ? value : Uint8Array.from(atob(value.base64), (c) => c.charCodeAt(0)).buffer]));
   values.texts = inOneLanguage(said.texts);
@@ -57,6 +64,7 @@ export function first() {
 }
 
 // As renderTop3D, and the first one takes over what is drawn already.
+/** @param {Rendering<TopModel>} rendering */
 export function renderFirst({ model, el, view }) {
   if (!early || model.clock) return renderTop3D({ model, el, view });
   const { values, become, place, ...was } = early;

@@ -2,20 +2,21 @@
 import { Bar } from "./bar.js";
 import { Place } from "./clock.js";
 import { colours } from "./colours.js";
-import { coalesce, float32 } from "./data.js";
+import { coalesce, float32, penOf } from "./data.js";
 import { emptyPose } from "./frames.js";
 import { followLook } from "./scene.js";
 
 const LEAST_REACH = 1.6, BELOW = 0.6; // from O upwards, and below the table, in R
 const WIDTH = 640; // px, of a picture for print whose place on the page has no size
 
+/** @param {Omit<Rendering<TopModel>, "el"> & { root: HTMLElement, picture: HTMLElement }} rendering */
 export function renderFlat({ model, root, picture, view }) {
   const canvas = document.createElement("canvas");
   canvas.style.cursor = "default";
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", model.label || model.texts.label);
   picture.prepend(canvas);
-  const words = picture.querySelector(".note");
+  const words = /** @type {HTMLElement} */ (picture.querySelector(".note"));
   words.textContent = model.texts.flat;
   Object.assign(words.style, { position: "static", marginTop: "6px" });
   let pen;
@@ -64,7 +65,7 @@ export function renderFlat({ model, root, picture, view }) {
   });
 
   function paint(on, width, height, scale) {
-    pen = on.getContext("2d");
+    pen = penOf(on);
     pen.setTransform(scale, 0, 0, scale, 0, 0);
     pen.fillStyle = hex(look.sky);
     pen.fillRect(0, 0, width, height);

@@ -7,6 +7,7 @@ const WIDTH = 20;
 const T = 0, QUATERNION = 1, CONTACT = 5, COM = 7, FORCE = 10, OMEGA = 13, MOMENTUM = 16, REGIME = 19;
 
 export class Frames {
+  /** @param {Bytes} [bytes] */
   constructor(bytes) {
     this.rows = float32(bytes);
     this.count = Math.floor(this.rows.length / WIDTH);
@@ -20,20 +21,24 @@ export class Frames {
     return this.count ? this.time(this.count - 1) : 0;
   }
 
+  /** @param {number} i */
   time(i) {
     return this.rows[i * WIDTH + T];
   }
 
+  /** @param {number} i @returns {[number, number]} */
   contact(i) {
     return [this.rows[i * WIDTH + CONTACT], this.rows[i * WIDTH + CONTACT + 1]];
   }
 
+  /** @param {number} i @param {Put} put */
   com(i, put) {
     const at = i * WIDTH + COM;
     put(this.rows[at], this.rows[at + 1], this.rows[at + 2]);
   }
 
   // Where t lies among the rows, as a fraction: 3.25 is a quarter of the way from row 3 to row 4.
+  /** @param {number} t */
   place(t) {
     let low = 0, high = this.count - 1;
     if (!(t > this.time(0))) return 0;
@@ -46,6 +51,7 @@ export class Frames {
     return low + (t - this.time(low)) / (this.time(high) - this.time(low));
   }
 
+  /** @param {number} t */
   nearest(t) {
     return Math.round(this.place(t));
   }
@@ -64,6 +70,7 @@ export class Frames {
   }
 
   // The pose at a place: on a row exactly that row, between two the shortest turn and the straight line.
+  /** @param {number} place @param {Pose} pose */
   read(place, pose) {
     const low = Math.min(Math.floor(place), this.count - 1);
     const high = Math.min(low + 1, this.count - 1);
@@ -84,8 +91,8 @@ export class Frames {
 
 const other = new Quaternion();
 
+/** @returns {Pose} */
 export function emptyPose() {
-  const pose = { quaternion: new Quaternion(), regime: 0 };
-  for (const name of ["contact", "com", "force", "omega", "momentum"]) pose[name] = new Vector3();
-  return pose;
+  const [contact, com, force, omega, momentum] = Array.from({ length: 5 }, () => new Vector3());
+  return { quaternion: new Quaternion(), contact, com, force, omega, momentum, regime: 0 };
 }

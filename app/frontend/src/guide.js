@@ -16,8 +16,9 @@ const RENAME_MS = 100; // by then the library has drawn what opened
 const writing = "input, textarea, select, button, a[href], summary, [contenteditable=true], [role=slider], [role=tab], [role=option]";
 
 // Elements lie in the shadow roots of many components.
+/** @param {string} selector @param {ParentNode} root @returns {HTMLElement | null} */
 function find(selector, root = document) {
-  for (const element of root.querySelectorAll("*")) {
+  for (const element of /** @type {NodeListOf<HTMLElement>} */ (root.querySelectorAll("*"))) {
     if (element.matches(selector) && element.getClientRects().length) return element;
     const inside = element.shadowRoot && find(selector, element.shadowRoot);
     if (inside) return inside;
@@ -25,12 +26,15 @@ function find(selector, root = document) {
   return null;
 }
 
+/** @param {Rendering<GuideModel>} rendering */
 export function renderGuide({ model, el }) {
   const { texts } = model;
   el.innerHTML = `<style>${guideStyle}</style><button class="head-button tour">${texts.tour}</button><button class="head-button keys" aria-label="${texts.keys}" title="${texts.keys_hint}">?</button>`;
+  const buttonOf = (name) => /** @type {HTMLButtonElement} */ (el.querySelector(`.${name}`));
   const listening = new AbortController(), { signal } = listening;
   const layer = document.createElement("div"); // over the page, and not within any part of it
-  layer.attachShadow({ mode: "open" }).innerHTML = `<style>${guideStyle}</style>
+  const over = layer.attachShadow({ mode: "open" });
+  over.innerHTML = `<style>${guideStyle}</style>
     <dialog class="list" aria-labelledby="title"><h2 id="title">${texts.keys}</h2><table>${texts.list.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
       <button class="close">${texts.close}</button> <button class="again">${texts.again}</button></dialog>
     <div class="ring" hidden></div>
@@ -43,7 +47,8 @@ export function renderGuide({ model, el }) {
   live.style.cssText = "position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap";
   (find("[role=main], main") ?? document.body).append(live);
   document.body.append(layer);
-  const part = (selector) => layer.shadowRoot.querySelector(selector);
+  /** @returns {any} */
+  const part = (selector) => over.querySelector(selector);
   const [list, ring, stop] = [".list", ".ring", ".stop"].map(part);
 
   // The widgets' own library names its buttons in English, and names them anew when a drawer or dialog opens or closes.
@@ -88,7 +93,7 @@ export function renderGuide({ model, el }) {
     "keydown",
     (event) => {
       if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
-      const target = event.composedPath()[0], typing = target.matches?.("input:not([type=range], [type=checkbox]), textarea, [contenteditable=true]");
+      const target = /** @type {Element} */ (event.composedPath()[0]), typing = target.matches?.("input:not([type=range], [type=checkbox]), textarea, [contenteditable=true]");
       if (event.key === "?" && !typing) return openList(event);
       if (event.key === "Escape" && !stop.hidden) return end();
       if (target.matches?.(writing) || list.open) return;
@@ -103,7 +108,7 @@ export function renderGuide({ model, el }) {
     event.preventDefault();
     if (!list.open) list.showModal();
   }
-  el.querySelector(".keys").onclick = openList;
+  buttonOf("keys").onclick = openList;
   part(".close").onclick = () => list.close();
   part(".again").onclick = () => {
     list.close();
@@ -112,9 +117,14 @@ export function renderGuide({ model, el }) {
   list.onclick = (event) => event.target === list && list.close();
 
   // The tour
-  let at = 0, target = null, from = null, watching;
+  /** @type {HTMLElement | null} */
+  let target = null;
+  /** @type {HTMLElement | null} */
+  let from = null;
+  let at = 0, watching;
+  /** @param {Element | null} [active] */
   function begin(active = null) {
-    from = active;
+    from = /** @type {HTMLElement | null} */ (active);
     stop.hidden = ring.hidden = false;
     watching = setInterval(place, 200); // the page goes on being laid out
     go(0);
@@ -147,7 +157,7 @@ export function renderGuide({ model, el }) {
   function place() {
     if (stop.hidden) return;
     if (!target?.isConnected) target = find(STOPS[at]);
-    const seen = target?.getBoundingClientRect(), box = seen?.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop, GAP = 14;
+    const seen = target?.getBoundingClientRect(), box = seen && seen.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop, GAP = 14;
     ring.hidden = !box;
     if (!box) return Object.assign(stop.style, { left: `${(innerWidth - wide) / 2}px`, top: `${innerHeight - high - GAP}px` });
     Object.assign(ring.style, { left: `${box.left - 6}px`, top: `${box.top - 6}px`, width: `${box.width + 12}px`, height: `${box.height + 12}px` });
@@ -158,10 +168,10 @@ export function renderGuide({ model, el }) {
       [innerHeight - box.bottom, high, inside(box.left, innerWidth - wide), box.bottom + GAP],
       [box.top, high, inside(box.left, innerWidth - wide), box.top - GAP - high],
     ];
-    const [, , left, top] = rooms.find(([room, needs]) => room > needs + 2 * GAP) ?? rooms.at(box.top > innerHeight - box.bottom ? 3 : 2);
+    const [, , left, top] = rooms.find(([room, needs]) => room > needs + 2 * GAP) ?? rooms[box.top > innerHeight - box.bottom ? 3 : 2];
     Object.assign(stop.style, { left: `${inside(left, innerWidth - wide)}px`, top: `${inside(top, innerHeight - high)}px` });
   }
-  el.querySelector(".tour").onclick = () => begin(document.activeElement);
+  buttonOf("tour").onclick = () => begin(document.activeElement);
   part(".skip").onclick = end;
   part(".back").onclick = () => go(at - 1);
   part(".next").onclick = () => go(at + 1);

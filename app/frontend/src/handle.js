@@ -1,5 +1,9 @@
 // The handle at the end of the axis of a paused top: dragged, or moved by the arrow keys, it asks for another tilt.
 import { Vector3 } from "three";
+/** @import { Body } from "./body.js" */
+/** @import { Labels } from "./labels.js" */
+/** @import { Player } from "./player.js" */
+/** @import { Stage } from "./stage.js" */
 
 const BEYOND = 0.25; // how far beyond the body, in R
 const LEAST = 0.01; // rad from the vertical, where a lean has no direction
@@ -7,8 +11,17 @@ const TRIES = 400;
 const KEY_STEP = 0.01;
 
 export class Handle {
+  /** @param {Stage} stage @param {Labels} labels @param {TopModel} model @param {Player} player */
   constructor(stage, labels, model, player) {
-    Object.assign(this, { stage, model, player, grasp: 0, axis: new Vector3(), from: new Vector3() });
+    this.stage = stage;
+    this.model = model;
+    this.player = player;
+    this.grasp = 0;
+    this.axis = new Vector3();
+    this.from = new Vector3();
+    this.lean = [1, 0];
+    this.t = this.theta = this.reach = 0;
+    this.held = this.asked = false;
     this.label = labels.add("", "handle");
     const { element } = this.label;
     element.tabIndex = 0;
@@ -46,12 +59,14 @@ export class Handle {
     this.lean = lean > 1e-6 ? [x / lean, y / lean] : [1, 0];
   }
 
+  /** @param {number} theta */
   ask(theta) {
     const most = Math.PI - LEAST;
     this.model.tilted = [Math.min(Math.max(theta, LEAST), most), this.t, this.grasp];
   }
 
   // The tilt whose handle is nearest to the pointer on the screen.
+  /** @param {PointerEvent} event */
   under({ clientX, clientY }) {
     const { camera, width, height, holder } = this.stage, box = holder.getBoundingClientRect(), point = new Vector3();
     let found = this.theta, least = Infinity;
@@ -72,6 +87,7 @@ export class Handle {
   }
 
   // Where the body is now.
+  /** @param {Body} body @param {boolean} shown */
   follow(body, shown) {
     this.label.visible = shown;
     this.from.copy(body.position);

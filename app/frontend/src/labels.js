@@ -1,24 +1,28 @@
 // Text that stands at a point in space: HTML over the canvas, so it stays sharp at any zoom.
 import { Vector3 } from "three";
+/** @import { Stage } from "./stage.js" */
 
 const projected = new Vector3();
 
 export class Labels {
+  /** @param {Stage} stage */
   constructor(stage) {
     this.stage = stage;
     this.layer = document.createElement("div");
     this.layer.className = "labels";
     stage.holder.append(this.layer);
+    /** @type {Label[]} */
     this.all = [];
   }
 
-  // shift: where the text stands from its point, in px.
+  /** @param {string} html @returns {Label} */
   add(html, className = "") {
     const element = document.createElement("span");
     element.className = className;
     element.setAttribute("aria-hidden", "true");
     element.innerHTML = html;
     this.layer.append(element);
+    /** @type {Label} */
     const label = { element, at: new Vector3(), shift: [0, 0], visible: true };
     this.all.push(label);
     return label;

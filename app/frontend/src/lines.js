@@ -5,16 +5,19 @@ import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 
 export class WideLine extends LineSegments2 {
+  /** @param {ConstructorParameters<typeof LineMaterial>[0]} style */
   constructor(style) {
     super(new LineSegmentsGeometry(), new LineMaterial(style));
     this.frustumCulled = false;
+    this.buffer = new InstancedInterleavedBuffer(new Float32Array(0), 6, 1);
     this.reserve(1);
     this.segments = 0;
   }
 
+  /** @param {number} segments */
   reserve(segments) {
-    if (this.buffer && this.buffer.count >= segments) return;
-    const old = this.geometry;
+    if (this.buffer.count >= segments) return;
+    const { geometry: old } = this;
     this.geometry = new LineSegmentsGeometry(); // a buffer's size is fixed once it has been drawn
     this.buffer = new InstancedInterleavedBuffer(new Float32Array(6 * segments), 6, 1);
     this.geometry.setAttribute("instanceStart", new InterleavedBufferAttribute(this.buffer, 3, 0));
@@ -28,6 +31,7 @@ export class WideLine extends LineSegments2 {
   }
 
   // n points joined one to the next; point(i, put) calls put(x, y, z).
+  /** @param {number} n @param {Points} point */
   setPath(n, point) {
     this.setSegments(Math.max(n - 1, 0), (i, put) => {
       point(i, put);
@@ -36,9 +40,10 @@ export class WideLine extends LineSegments2 {
   }
 
   // n separate segments; ends(i, put) calls put twice.
+  /** @param {number} n @param {Points} ends */
   setSegments(n, ends) {
     this.reserve(n);
-    const array = this.buffer.array;
+    const { array } = this.buffer;
     let at = 0;
     const put = (x, y, z) => {
       array[at++] = x;

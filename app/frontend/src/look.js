@@ -13,6 +13,7 @@ const looks = {
 };
 const FAINT_TYPE = { light: "#5b6875", "light large": "#26323d", dark: "#aab6c2", "dark large": "#e3e8ed" };
 
+/** @param {Pick<Rendering<LookModel>, "model">} rendering */
 export function renderLook({ model }) {
   document.documentElement.lang = model.texts.language;
   const first = new WeakMap(); // model -> what its inks and sizes were

@@ -1,6 +1,11 @@
 // A still of a stage for print: the picture drawn anew, so many pixels wide, with the labels that stand over it as HTML.
+import { penOf } from "./data.js";
+/** @import { Labels } from "./labels.js" */
+/** @import { Stage } from "./stage.js" */
+
+/** @param {Stage} stage @param {Labels} labels @param {number} wide */
 export function photo(stage, labels, wide) {
-  const canvas = document.createElement("canvas"), ink = canvas.getContext("2d");
+  const canvas = document.createElement("canvas"), ink = penOf(canvas);
   const still = stage.still(wide), scale = still.width / stage.width;
   canvas.width = still.width;
   canvas.height = still.height;
@@ -14,6 +19,7 @@ export function photo(stage, labels, wide) {
     const box = element.getBoundingClientRect();
     const { fontStyle, fontWeight, fontFamily, fontSize, color, textShadow } = getComputedStyle(element);
     ink.font = `${fontStyle} ${fontWeight} ${scale * parseFloat(fontSize)}px ${fontFamily}`;
+    /** @type {[number, number]} */
     const at = [scale * (box.x - holder.x + box.width / 2), scale * (box.y - holder.y + box.height / 2)];
     ink.strokeStyle = textShadow.match(/^rgba?\([^)]*\)/)?.[0] ?? "white";
     ink.lineWidth = 3 * scale;

@@ -4,9 +4,16 @@ import { Frames } from "./frames.js";
 const LONGEST_STEP_MS = 250; // after a pause of the whole page go on from where it stopped
 
 export class Player {
-  // changed(): t or playing moved; landed(): a person or Python put the cursor somewhere, it is to be told to Python.
+  /**
+   * @param {object} tell
+   * @param {() => void} tell.changed t or playing moved
+   * @param {() => void} tell.landed a person or Python put the cursor somewhere: to be told to Python
+   * @param {() => void} tell.playingChanged
+   */
   constructor({ changed, landed, playingChanged }) {
-    Object.assign(this, { changed, landed, playingChanged });
+    this.changed = changed;
+    this.landed = landed;
+    this.playingChanged = playingChanged;
     this.frames = new Frames();
     this.t = 0;
     this.playing = false;
@@ -21,6 +28,7 @@ export class Player {
   }
 
   // New motion, same moment: a playing top goes on without a jump back to the start.
+  /** @param {Bytes} bytes */
   setFrames(bytes) {
     this.frames = new Frames(bytes);
     if (this.playing) this.t = this.wrap(this.t);
@@ -28,13 +36,15 @@ export class Player {
     this.changed();
   }
 
+  /** @param {number} t */
   wrap(t) {
     const { start, end } = this.frames;
     if (!(end > start)) return start;
     return t <= end && t >= start ? t : start + ((((t - start) % (end - start)) + (end - start)) % (end - start));
   }
 
-  // unitsPerMs: how much of the trajectory passes in a millisecond of the wall clock. Tells whether it began anew.
+  // Tells whether it began anew.
+  /** @param {number} now in ms @param {number} unitsPerMs how much of the trajectory passes in one of the wall clock */
   advance(now, unitsPerMs) {
     if (this.held) return false;
     const step = this.before === undefined ? 0 : Math.min(now - this.before, LONGEST_STEP_MS);
@@ -45,12 +55,14 @@ export class Player {
   }
 
   // The time of another player. Tells whether that began anew.
+  /** @param {number} t */
   follow(t) {
     const before = this.t;
     if (this.frames.count) this.t = this.wrap(t);
     return this.t < before;
   }
 
+  /** @param {boolean} playing */
   setPlaying(playing) {
     if (playing === this.playing) return;
     this.playing = playing;
@@ -61,6 +73,7 @@ export class Player {
   }
 
   // A frame by its number; a playing top pauses there.
+  /** @param {number} index */
   show(index) {
     if (!this.frames.count) return;
     this.land(Math.min(Math.max(index, 0), this.frames.count - 1));
@@ -68,12 +81,14 @@ export class Player {
     this.changed();
   }
 
+  /** @param {number} by */
   step(by) {
     const count = this.frames.count;
     if (count) this.show((this.frames.nearest(this.t) + by + count) % count);
   }
 
   // A time from outside; a playing top goes on from there, once no hand holds the time any more.
+  /** @param {number} t */
   seek(t, held = false) {
     if (!held && this.held) this.before = undefined;
     this.held = held;
@@ -83,6 +98,7 @@ export class Player {
     this.changed();
   }
 
+  /** @param {number} index */
   land(index) {
     if (!this.frames.count) return;
     this.t = this.frames.time(index);

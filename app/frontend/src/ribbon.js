@@ -1,7 +1,9 @@
 // A path painted on the table: a flat strip, whose points may change and whose first part can be drawn alone.
 import * as THREE from "three";
 
+/** @extends {THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>} */
 export class Ribbon extends THREE.Mesh {
+  /** @param {number} width @param {THREE.MeshBasicMaterialParameters} material */
   constructor(width, material) {
     super(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide, ...material }));
     this.halfWidth = width / 2;
@@ -14,7 +16,7 @@ export class Ribbon extends THREE.Mesh {
     this.capacity = points;
     const index = [];
     for (let i = 0; i + 1 < points; i++) index.push(2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 1, 2 * i + 3, 2 * i + 2);
-    const old = this.geometry;
+    const { geometry: old } = this;
     this.geometry = new THREE.BufferGeometry(); // a buffer's size is fixed once it has been drawn
     this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6 * points), 3));
     this.geometry.setIndex(index);
@@ -22,6 +24,7 @@ export class Ribbon extends THREE.Mesh {
   }
 
   // (x, y) pairs; all at one height.
+  /** @param {number} n @param {(i: number) => [x: number, y: number]} xy @param {number} height */
   setPath(n, xy, height) {
     this.reserve(n);
     this.points = n;
@@ -44,23 +47,27 @@ export class Ribbon extends THREE.Mesh {
 }
 
 // A line one pixel wide, in space.
+/** @extends {THREE.Line<THREE.BufferGeometry, THREE.LineBasicMaterial>} */
 export class Thread extends THREE.Line {
+  /** @param {THREE.LineBasicMaterialParameters} material */
   constructor(material) {
     super(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, depthWrite: false, ...material }));
     this.frustumCulled = false;
     this.capacity = 0;
   }
 
+  /** @param {number} n @param {Points} point */
   setPath(n, point) {
     if (n > this.capacity) {
       this.capacity = n;
-      this.geometry.dispose();
+      const { geometry: old } = this;
+      old.dispose();
       this.geometry = new THREE.BufferGeometry();
       this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * n), 3));
     }
     this.points = n;
     if (!n) return;
-    const { position } = this.geometry.attributes;
+    const { geometry: { attributes: { position } } } = this;
     for (let i = 0; i < n; i++) point(i, (x, y, z) => position.setXYZ(i, x, y, z));
     position.needsUpdate = true;
   }

@@ -34,19 +34,36 @@ const onInput = (event) => {
 for (const type of ["pointerdown", "pointermove", "keydown"]) window.addEventListener(type, onInput, { capture: true });
 
 export class Stage {
-  // tick(now, held) runs before each drawn frame and says whether another one is to follow, held while a hand is on a
-  // control and the picture is to stand still; fit(aspect) runs after a new size; shown() when a picture came out.
+  /**
+   * @param {HTMLElement} holder
+   * @param {object} options
+   * @param {string} options.label
+   * @param {Record<string, any>} options.texts
+   * @param {number} options.fov
+   * @param {(now: number, held: boolean) => boolean} [options.tick] runs before each drawn frame and says whether another
+   *   one is to follow; held while a hand is on a control and the picture is to stand still
+   * @param {(aspect: number) => void} [options.fit] runs after a new size
+   * @param {() => void} [options.shown] a picture came out
+   * @param {() => void} [options.turned] a person turned it or zoomed
+   */
   constructor(holder, { label, texts, fov, tick = () => false, fit = () => {}, shown = () => {}, turned = () => {} }) {
     this.holder = holder;
     this.tick = tick;
     this.fit = fit;
     this.shown = shown;
     this.turned = turned;
+    /** @type {(() => void) | undefined} */
+    this.beforeDraw = undefined;
     this.inView = true;
+    this.width = this.height = 0; // px; not known yet
     this.cost = 0; // ms until a drawn picture is out, a running mean
     this.coarse = 1;
     this.tries = 0;
     this.pictures = 0; // that came out
+    this.request = this.timer = 0;
+    this.drawnAt = 0;
+    /** @type {WebGLSync | null} */
+    this.fence = null; // of a picture that was begun
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(fov, 1, 0.1, 150);
     this.camera.up.set(0, 0, 1); // physics: z is up
@@ -55,7 +72,7 @@ export class Stage {
     this.target = new THREE.WebGLRenderTarget(1, 1, {
       samples: SAMPLES, colorSpace: THREE.SRGBColorSpace, internalFormat: "RGBA8",
     });
-    this.target.isXRRenderTarget = true; // three's own word for: the colours of a screen, not of a texture
+    Object.assign(this.target, { isXRRenderTarget: true }); // three's own word for: the colours of a screen, not of a texture
     this.fineness = 1;
 
     const canvas = this.renderer.domElement;
@@ -74,7 +91,7 @@ export class Stage {
     holder.addEventListener(
       "wheel",
       (event) => {
-        if (holder.getRootNode().activeElement !== canvas) event.stopPropagation();
+        if (/** @type {ShadowRoot} */ (holder.getRootNode()).activeElement !== canvas) event.stopPropagation();
       },
       { capture: true, passive: true },
     );
@@ -103,6 +120,7 @@ export class Stage {
   }
 
   // Shift and an arrow turn the picture, + and - zoom: what a drag and the wheel do.
+  /** @param {KeyboardEvent} event */
   key(event) {
     const { camera, controls } = this, { x, y, z } = camera.position.clone().sub(controls.target);
     const turn = event.shiftKey && { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
@@ -119,6 +137,7 @@ export class Stage {
     this.turned();
   }
 
+  /** @param {string} sentence */
   note(sentence) {
     this.noteElement?.remove();
     if (!sentence) return;
@@ -162,6 +181,7 @@ export class Stage {
     }, POLL_MS);
   }
 
+  /** @param {number} now in ms */
   isHeld = (now) => slow && now - inputAt < HAND_MS;
 
   // The first picture's shaders are made beside the page: one that has to be there at once holds up everything.
@@ -174,9 +194,10 @@ export class Stage {
       renderer.setRenderTarget(null);
       this.compiling = true;
     }
-    return (this.prepared = renderer.info.programs.every((program) => program.isReady()));
+    return (this.prepared = /** @type {any[]} */ (renderer.info.programs).every((program) => program.isReady()));
   }
 
+  /** @param {number} now in ms */
   isReady(now) {
     if (this.width && !this.isPrepared()) return false;
     if (this.fence) return this.isDrawn();
@@ -186,6 +207,7 @@ export class Stage {
     return !early && (this.asked || this.moving || (this.simple && this.inView));
   }
 
+  /** @param {number} now in ms */
   frame = (now) => {
     this.request = 0;
     if (this.disposed) return;
@@ -210,6 +232,7 @@ export class Stage {
   };
 
   // From what a picture took: whether this machine is slow, and how coarse moving ones are to be.
+  /** @param {number} took ms */
   learn(took) {
     if (this.simple || this.pictures < 3) return; // the first ones wait for their shaders
     this.cost += 0.15 * (Math.min(took, 250) - this.cost);
@@ -234,7 +257,7 @@ export class Stage {
     if (simple === this.simple) return;
     this.simple = simple;
     this.renderer.shadowMap.autoUpdate = !simple;
-    this.scene.traverse((object) => {
+    this.scene.traverse((/** @type {any} */ object) => {
       if (object.isLineSegments2 && object.geometry.instanceCount > LONG_LINE) object.layers.set(simple ? 1 : 0);
     });
   }
@@ -242,7 +265,7 @@ export class Stage {
   // Begins a picture, which the graphics process then draws while the page goes on; present() puts it on the screen.
   draw() {
     if (this.disposed || this.lost || !this.width) return;
-    const { renderer, target } = this, gl = renderer.getContext();
+    const { renderer, target, gl } = this;
     const pixels = this.fineness * Math.min(devicePixelRatio, MAX_PIXEL_RATIO);
     target.setSize(Math.round(this.width * pixels), Math.round(this.height * pixels));
     this.beforeDraw?.();
@@ -256,26 +279,31 @@ export class Stage {
     this.drawnAt = performance.now();
   }
 
+  get gl() {
+    return /** @type {WebGL2RenderingContext} */ (this.renderer.getContext()); // three has no other any more
+  }
+
   forget() {
     if (!this.fence) return;
-    this.renderer.getContext().deleteSync(this.fence);
+    this.gl.deleteSync(this.fence);
     this.fence = null;
     inWork -= 1;
   }
 
   isDrawn() {
-    const gl = this.renderer.getContext();
-    return gl.getSyncParameter(this.fence, gl.SYNC_STATUS) === gl.SIGNALED;
+    const { gl } = this;
+    return gl.getSyncParameter(/** @type {WebGLSync} */ (this.fence), gl.SYNC_STATUS) === gl.SIGNALED;
   }
 
   present() {
     if (!this.fence) return;
-    const { renderer, target: { width, height } } = this, gl = renderer.getContext(), canvas = renderer.domElement;
+    const { renderer, gl, target: { width, height } } = this, canvas = renderer.domElement;
     this.forget();
     if (canvas.width !== width) canvas.width = width;
     if (canvas.height !== height) canvas.height = height;
     // Beside three's own record of what is bound, so it is left as it was: nothing.
-    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, renderer.properties.get(this.target).__webglFramebuffer);
+    const { __webglFramebuffer: drawn } = /** @type {any} */ (renderer.properties.get(this.target));
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, drawn);
     gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
     this.pictures += 1;
@@ -283,6 +311,7 @@ export class Stage {
   }
 
   // The picture of this moment, fine and so many pixels wide, in a canvas that the next picture will overwrite.
+  /** @param {number} wide */
   still(wide) {
     this.forget();
     this.setSimple(false);
@@ -303,7 +332,7 @@ export class Stage {
     this.resizing.disconnect();
     this.seeing.disconnect();
     this.controls.dispose();
-    this.scene.traverse((object) => {
+    this.scene.traverse((/** @type {any} */ object) => {
       object.geometry?.dispose();
       for (const material of [object.material ?? []].flat()) {
         material.map?.dispose();
@@ -318,6 +347,7 @@ export class Stage {
 }
 
 // A browser without WebGL gets a sentence instead of a picture.
+/** @param {HTMLElement} holder @param {ConstructorParameters<typeof Stage>[1]} options */
 export function tryStage(holder, options) {
   try {
     return new Stage(holder, options);

@@ -8,6 +8,7 @@ import { WideLine } from "./lines.js";
 import { followLook } from "./scene.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "./style.js";
+/** @import { Stage } from "./stage.js" */
 
 const INK = 0x1d2733; // on the surface itself, which is pale on every page
 const CURVES = 26; // about so many of the rows have their curve and their tieline drawn
@@ -25,17 +26,20 @@ const limits = {
     colour: colours.friction, text: "<i>F</i><sub>h</sub> = <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>", why: "above_slip",
   },
 };
-const worsts = [{ colour: colours.theta }, { colour: colours.friction, why: "slips" }, { colour: colours.normal, why: "lifts" }];
+const worsts = [{ colour: colours.theta, why: "" }, { colour: colours.friction, why: "slips" }, { colour: colours.normal, why: "lifts" }];
 const GRIP_PX = 14;
 
+/** @param {Rendering<SurfaceModel>} rendering */
 export function renderSurface3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const { picture } = frameIn(el), { texts } = model;
   picture.dataset.picture = "surface";
-  const stage = tryStage(picture, { label: texts.label, texts, fov: 26, fit, tick, shown: () => (shown = drawing) });
+  const stage = /** @type {Stage} */ (
+    tryStage(picture, { label: texts.label, texts, fov: 26, fit, tick, shown: () => (shown = drawing) })
+  );
   if (!stage) return;
   const { scene, camera, controls, renderer } = stage;
-  scene.background = new THREE.Color();
+  const background = (scene.background = new THREE.Color());
   scene.add(new THREE.HemisphereLight(0xffffff, 0xcfd4dc, 2.5));
   const lamp = new THREE.DirectionalLight(0xffffff, 1.3);
   lamp.position.set(-2, -3, 5);
@@ -90,7 +94,7 @@ export function renderSurface3D({ model, el, view }) {
   scene.add(mesh, curves, ...pairs.flat());
 
   const unfollow = followLook((look) => {
-    scene.background.set(look.ground);
+    background.set(look.ground);
     floor.tielines[0].material.color.set(look.lines);
     for (const { material } of [floor.steady[0], pole]) material.color.set(look.ink);
     axes.dress(look);
@@ -163,7 +167,7 @@ export function renderSurface3D({ model, el, view }) {
         color.setXYZ(at, shade.r, shade.g, shade.b);
       }
     }
-    const index = geometry.index.array;
+    const triangles = /** @type {THREE.BufferAttribute} */ (geometry.index), index = /** @type {Uint32Array} */ (triangles.array);
     let used = 0;
     for (let i = 0; i + 1 < rows; i++) {
       if (!real(i) || !real(i + 1)) continue; // no motion there: a gap
@@ -174,7 +178,7 @@ export function renderSurface3D({ model, el, view }) {
       }
     }
     index.fill(0, used); // triangles without area
-    for (const attribute of [geometry.index, position, color]) attribute.needsUpdate = true;
+    for (const attribute of [triangles, position, color]) attribute.needsUpdate = true;
     geometry.computeVertexNormals();
     geometry.computeBoundingSphere(); // the ray under the pointer asks for it
   }
@@ -195,7 +199,7 @@ export function renderSurface3D({ model, el, view }) {
       });
     }
     const verge = float32(model.verge), steady = float32(model.steady);
-    for (const [lines, points] of [[floor.verge, verge], [floor.steady, steady]]) {
+    for (const [lines, points] of /** @type {[WideLine[], Float32Array][]} */ ([[floor.verge, verge], [floor.steady, steady]])) {
       // Where one of a pair's ends is missing the line has a gap.
       const joined = [];
       for (let i = 0; i + 3 < points.length; i += 2) if (points.subarray(i, i + 4).every(Number.isFinite)) joined.push(i);
@@ -248,7 +252,8 @@ export function renderSurface3D({ model, el, view }) {
     if (!hit) return null;
     const { position } = mesh.geometry.attributes;
     const distance = (i) => corner.fromBufferAttribute(position, i).distanceToSquared(hit.point);
-    return [hit.face.a, hit.face.b, hit.face.c].reduce((best, i) => (distance(i) < distance(best) ? i : best));
+    const { a, b, c } = /** @type {THREE.Face} */ (hit.face);
+    return [a, b, c].reduce((best, i) => (distance(i) < distance(best) ? i : best));
   }
 
   let lastMove;
@@ -275,6 +280,7 @@ export function renderSurface3D({ model, el, view }) {
 
   // The floor under the pointer: [theta, K_J], or null outside the box.
   const ground = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0), foot = new THREE.Vector3();
+  /** @param {PointerEvent} event @returns {[theta: number, K_J: number] | null} */
   function onFloor(event, anywhere = false) {
     const box = picture.getBoundingClientRect();
     pointer.set(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
@@ -296,12 +302,13 @@ export function renderSurface3D({ model, el, view }) {
   }
 
   // The tieline on display can be taken hold of on the floor: an end of it, or all of it.
+  /** @type {"end" | "line" | null} */
   let gripped = null;
   function gripUnder(event) {
     if (!Number.isFinite(selected)) return null;
     const box = picture.getBoundingClientRect();
-    const [a, b] = ends.map((theta) => {
-      corner.set(x.at(Math.min(theta, x.high)), y.at(selected), 0).project(camera);
+    const [a, b] = ends.map((end) => {
+      corner.set(x.at(Math.min(end, x.high)), y.at(selected), 0).project(camera);
       return [((corner.x + 1) / 2) * box.width + box.left - event.clientX, ((1 - corner.y) / 2) * box.height + box.top - event.clientY];
     });
     if (Math.min(Math.hypot(...a), Math.hypot(...b)) < GRIP_PX) return "end";
@@ -320,7 +327,7 @@ export function renderSurface3D({ model, el, view }) {
 
   const pull = coalesce(() => {
     const place = gripped && onFloor(lastMove, true);
-    if (!place) return;
+    if (!gripped || !place) return;
     model.hand = [gripped, Math.min(Math.max(place[0], 0), Math.PI), Math.min(Math.max(place[1], y.low), y.high)];
     say();
   });
@@ -417,8 +424,8 @@ export function renderSurface3D({ model, el, view }) {
     get selected() { return shown; },
     get grips() { // where on the page the ends of the motion on display can be taken
       const box = picture.getBoundingClientRect();
-      return ends.map((theta) => {
-        corner.set(x.at(theta), y.at(selected), 0).project(camera);
+      return ends.map((end) => {
+        corner.set(x.at(end), y.at(selected), 0).project(camera);
         return [((corner.x + 1) / 2) * box.width + box.left, ((1 - corner.y) / 2) * box.height + box.top];
       });
     },

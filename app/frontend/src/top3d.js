@@ -5,7 +5,7 @@ import { Bar } from "./bar.js";
 import { Body } from "./body.js";
 import { Place } from "./clock.js";
 import { colours } from "./colours.js";
-import { coalesce, float32, niceAbove } from "./data.js";
+import { coalesce, float32, niceAbove, penOf } from "./data.js";
 import { renderFlat } from "./flat.js";
 import { emptyPose } from "./frames.js";
 import { Handle } from "./handle.js";
@@ -16,6 +16,7 @@ import { Ribbon, Thread } from "./ribbon.js";
 import { followLook } from "./scene.js";
 import { tryStage } from "./stage.js";
 import { frameIn } from "./style.js";
+/** @import { Stage } from "./stage.js" */
 
 const TABLE = 26; // the table's radius, in R: by there it has faded into the sky
 const SHADE = 4.5; // half the side of the square that can be in shadow
@@ -26,19 +27,19 @@ const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow 
 // of the regimes in app/top3d.py
 const regimeColours = [colours.normal, colours.friction, colours.omega, colours.friction, colours.omega, colours.omega];
 
+/** @param {Rendering<TopModel>} rendering */
 export function renderTop3D({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
   if (!model.clock) picture.dataset.picture = "top";
-  const stage = tryStage(picture, { label, texts, fov: 30, tick, fit, turned, shown: () => (shown = drawing) });
+  const stage = /** @type {Stage} */ (tryStage(picture, { label, texts, fov: 30, tick, fit, turned, shown: () => (shown = drawing) }));
   if (!stage) return renderFlat({ model, root, picture, view });
   const { scene, camera, controls, renderer } = stage;
 
   // The table, the light, and the shadow that stands where the top is
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
-  scene.background = new THREE.Color();
-  scene.fog = new THREE.Fog(0, 9, TABLE - 2);
+  const background = (scene.background = new THREE.Color()), fog = (scene.fog = new THREE.Fog(0, 9, TABLE - 2));
   const table = makeTable();
   const shade = new THREE.Mesh(
     new THREE.PlaneGeometry(2 * SHADE, 2 * SHADE),
@@ -98,7 +99,7 @@ export function renderTop3D({ model, el, view }) {
   };
   const pointedTip = labels.add("", "vector");
   const unfollow = followLook((look) => {
-    for (const colour of [scene.background, scene.fog.color]) colour.set(look.sky);
+    for (const colour of [background, fog.color]) colour.set(look.sky);
     dressTable(table, look);
     for (const { material } of [comPath.whole, comPath.passed, centre]) material.color.set(look.ink);
     shade.material.color.set(look.shade);
@@ -123,7 +124,7 @@ export function renderTop3D({ model, el, view }) {
     get verdict() { return verdict.textContent; },
     get pictures() { return stage.pictures; },
     get motions() { return { received, shown }; },
-    get highlight() { return pointedAt.visible ? highlight.label : ""; },
+    get highlight() { return pointedAt.visible ? highlight?.label : ""; },
   };
   const place = new Place({
     model, picture, report,
@@ -142,11 +143,10 @@ export function renderTop3D({ model, el, view }) {
   const moment = emptyPose(); // what Python says of player.t
   const seen = new THREE.Vector3(); // the point that the camera looks at
   const stands = new THREE.Vector3(); // the sphere's centre
-  const forceTip = new THREE.Vector3();
-  let scales = {};
+  const scales = {};
   let restarted = true;
   let lastFrame;
-  let highlight = null; // of a tippe:highlight
+  let highlight = /** @type {Pointed | null} */ (null); // of a tippe:highlight
   const suffix = model.clock ? `:${model.clock}` : "";
   let received = 0, drawing = 0, shown = 0; // motions that came; the last of them in the picture begun, and on the screen
 
@@ -222,16 +222,16 @@ export function renderTop3D({ model, el, view }) {
     for (const name of Object.keys(arrows)) arrows[name].visible = tips[name].visible = false;
   }
 
-  function point(name, from, vector, shown) {
+  function point(name, from, vector, visible) {
     const arrow = arrows[name], tip = tips[name], scale = scales[name] ?? 1;
     arrow.point(from, vector.x * scale, vector.y * scale, vector.z * scale, tip.at);
-    arrow.visible = tip.visible = shown && arrow.drawable;
+    arrow.visible = tip.visible = visible && arrow.drawable;
     tip.shift = name === "omega" ? [16, -4] : [-15, -6];
   }
 
-  function show(line, shown, passed, count) {
-    line.whole.points = shown ? count : 0;
-    line.passed.points = shown ? passed + 1 : 0;
+  function show(line, visible, passed, count) {
+    line.whole.points = visible ? count : 0;
+    line.passed.points = visible ? passed + 1 : 0;
   }
 
   // The camera moves along with the top, keeping the direction a person chose.
@@ -399,7 +399,7 @@ function dressTable(table, look) {
 function blobMaterial() {
   const canvas = document.createElement("canvas");
   const side = (canvas.width = canvas.height = 128);
-  const pen = canvas.getContext("2d");
+  const pen = penOf(canvas);
   const fade = pen.createRadialGradient(side / 2, side / 2, 0, side / 2, side / 2, side / 2);
   fade.addColorStop(0, "rgba(40, 34, 26, 0.6)");
   fade.addColorStop(0.35, "rgba(40, 34, 26, 0.25)");

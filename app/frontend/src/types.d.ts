@@ -1,0 +1,106 @@
+// What Python, the page and these scripts hand one another, for the checks by tsc: nothing of this is in the bundle.
+
+type Put = (x: number, y: number, z: number) => void;
+type Points = (i: number, put: Put) => void;
+type Axis = "x" | "y" | "z";
+type XYZ = [x: number, y: number, z: number];
+type Later = { (): void; cancel(): void };
+
+// The top at one moment, in the axes of space; app/top3d.py says what each is.
+type Pose = Record<"contact" | "com" | "force" | "omega" | "momentum", import("three").Vector3> & {
+  quaternion: import("three").Quaternion;
+  regime: number;
+};
+
+// A text at a point in space; shift: where it stands from there, in px.
+type Label = { element: HTMLElement; at: import("three").Vector3; shift: [number, number]; visible: boolean };
+
+// What a text points at, alone: a vector along the turning axes 1', y, z, from G or from the contact.
+type Pointed = { label: string; start: "com" | "contact"; vector: [number, number, number] };
+
+// The model of a component has its parameters, which the class of the same name in Python explains.
+interface Model {
+  texts: Record<string, any>;
+  on(name: string, run: () => void): void;
+}
+
+// Panel calls render with these; view is its own, and stays when the same view is rendered anew.
+interface Rendering<M extends Model> {
+  model: M;
+  el: HTMLElement;
+  view: { tippe?: { dispose(): void } };
+}
+
+type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
+
+interface TopModel extends Model, Record<Shown, boolean> {
+  frames: Bytes;
+  profile: Bytes;
+  mu_s: number;
+  seconds: number;
+  time: number;
+  label: string;
+  clock: string;
+  a: number | null;
+  tiltable: boolean;
+  tilted: [theta: number, t: number, grasp: number] | [];
+  playing: boolean;
+  speed: number;
+  camera: number[];
+}
+type Shown = "show_track" | "show_com_path" | "show_force" | "show_cone" | "show_omega" | "show_momentum" | "follow";
+
+interface SurfaceModel extends Model {
+  K_J: Bytes;
+  theta: Bytes;
+  heights: Bytes;
+  energy: Bytes;
+  verge: Bytes;
+  steady: Bytes;
+  P: Bytes;
+  selected: Bytes;
+  selected_curve: Bytes;
+  theta_max: number;
+  limit: "lift-off" | "slip";
+  hand: [grip: "end" | "line" | "point", theta: number, K_J: number] | [];
+  picked: [K_J: number, theta: number] | [];
+}
+
+interface DialModel extends Model {
+  input: string;
+  title: string;
+  hint: string;
+  spoken: string;
+  unit: string;
+  marks: [value: number, word: string][];
+  lines: number;
+  step: number;
+  start: number;
+  end: number;
+  told: [count: number, value: number, text: string];
+  asked: [count: number, wish: number | string, typed: boolean] | [];
+  words: string;
+  wrong: boolean;
+}
+
+interface GuideModel extends Model {
+  said: string;
+  seconds: number;
+}
+
+interface LookModel extends Model {
+  id: string;
+  dark: boolean;
+  large: boolean;
+  on_dark: Record<string, string>;
+}
+
+declare const Bokeh: { documents: any[] };
+
+interface Window {
+  tippe: { time(clock?: string): number; photo(wide: number, clock?: string): HTMLCanvasElement | undefined };
+  __tippe: Record<string, any>; // for tests
+  // Our own events; what they carry stands where they are sent.
+  addEventListener(type: `tippe:${string}`, run: (event: CustomEvent) => void, options?: AddEventListenerOptions): void;
+  removeEventListener(type: `tippe:${string}`, run: (event: CustomEvent) => void): void;
+}
