@@ -1,0 +1,51 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Frames, emptyPose } from "../../app/frontend/src/frames.js";
+import { motion, near } from "./helping.js";
+
+const times = [1, 2, 4, 4.5, 8];
+const frames = new Frames(motion(times.map((t) => ({ t }))));
+
+test("a time's place is the row, and as a fraction how far it is to the next", () => {
+  assert.deepEqual([frames.start, frames.end, frames.count], [1, 8, 5]);
+  for (const [t, place] of [[1, 0], [1.25, 0.25], [3, 1.5], [4, 2], [4.5, 3], [7.125, 3.75], [8, 4]]) near(frames.place(t), place);
+  assert.deepEqual([-5, 20, NaN].map((t) => frames.place(t)), [0, 4, 0]);
+  assert.deepEqual([1.4, 1.6, 4.2, 4.3, 7].map((t) => frames.nearest(t)), [0, 1, 2, 3, 4]);
+});
+
+const row = {
+  t: 3, quaternion: [0.5, -0.5, 0.5, 0.5], contact: [1, 2], com: [3, 4, 5], force: [3, 4, 12], omega: [-2, 3, 6], momentum: [1, 2, 2], regime: 2,
+};
+const arrays = ({ quaternion, contact, com, force, omega, momentum }) =>
+  [quaternion.toArray(), ...[contact, com, force, omega, momentum].map((vector) => vector.toArray())];
+
+test("on a row the pose is that row", () => {
+  const two = new Frames(motion([{ t: 0 }, row])), pose = emptyPose();
+  two.read(1, pose);
+  assert.deepEqual(arrays(pose), [row.quaternion, [...row.contact, 0], row.com, row.force, row.omega, row.momentum]);
+  assert.equal(pose.regime, 2);
+  assert.deepEqual(two.contact(1), row.contact);
+  two.com(1, (...at) => assert.deepEqual(at, row.com));
+  assert.deepEqual(two.scales, { force: 13, omega: 7, momentum: 3 }); // Pythagoras in whole numbers
+});
+
+test("between two rows it is the turn in equal steps, the shorter way, and the straight line", () => {
+  const turned = (angle, sign = 1) => [0, 0, sign * Math.sin(angle / 2), sign * Math.cos(angle / 2)]; // about z
+  for (const sign of [1, -1]) { // both are the same turn
+    const other = { ...row, contact: [-1, 6], com: [1, 1, 1], force: [0, 2, 0], omega: [5, 5, 5], momentum: [-3, 0, 1], regime: 1 };
+    const rows = [row, { ...other, quaternion: turned(0.4) }, { ...row, quaternion: turned(2.4, sign) }, other];
+    const four = new Frames(motion(rows)), pose = emptyPose();
+    const vectors = ({ contact, com, force, omega, momentum }) => [...contact, 0, ...com, ...force, ...omega, ...momentum];
+    for (const share of [0.25, 0.5, 0.9]) {
+      four.read(1 + share, pose);
+      near(pose.quaternion.toArray(), turned(0.4 + 2 * share));
+      near(arrays(pose).slice(1).flat(), vectors(row).map((value, i) => share * value + (1 - share) * vectors(other)[i]));
+      assert.equal(pose.regime, 1); // until the row that has another
+    }
+  }
+});
+
+test("no motion has no rows", () => {
+  const none = new Frames();
+  assert.deepEqual([none.count, none.start, none.end, none.scales.force], [0, 0, 0, 0]);
+});

@@ -1,0 +1,70 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Group, PerspectiveCamera, Vector3 } from "three";
+import { Handle } from "../../app/frontend/src/handle.js";
+import { Labels } from "../../app/frontend/src/labels.js";
+import { element, near } from "./helping.js";
+
+// A camera on the x axis that looks at O, with z up: 90 degrees high, and the picture twice as wide as high.
+function stageOf() {
+  const camera = new PerspectiveCamera(90, 2, 0.1, 100);
+  camera.up.set(0, 0, 1);
+  camera.position.set(10, 0, 0);
+  camera.lookAt(0, 0, 0);
+  return { camera, width: 400, height: 200, holder: { ...element(), getBoundingClientRect: () => ({ left: 30, top: 7 }) } };
+}
+const placeOf = ({ element: { style } }) => style.transform.match(/-?[\d.]+(?=px)/g).map(Number);
+
+test("a text stands where its point is seen", () => {
+  const stage = stageOf(), labels = new Labels(stage), label = labels.add("G");
+  // At 10 from the eye the picture is 20 high and 40 wide; y is to the right, z up.
+  for (const [at, seen] of [[[0, 0, 0], [200, 100]], [[0, 20, 0], [400, 100]], [[0, 0, 10], [200, 0]], [[5, -5, -2.5], [100, 150]]]) {
+    label.at.set(...at);
+    labels.place();
+    near(placeOf(label), seen, 0.06);
+  }
+  label.shift = [12, -7];
+  labels.place();
+  near(placeOf(label), [112, 143], 0.06);
+});
+
+test("a text behind the eye, and one that is not to be seen, is not there", () => {
+  const stage = stageOf(), labels = new Labels(stage), label = labels.add("G");
+  const shown = () => (labels.place(), label.element.style.display !== "none");
+  assert.equal(shown(), true);
+  label.at.set(20, 0, 0);
+  assert.equal(shown(), false);
+  label.at.set(0, 0, 0);
+  label.visible = false;
+  assert.equal(shown(), false);
+});
+
+test("the handle asks for the tilt that is under the pointer, in the plane of the axis", () => {
+  const stage = stageOf(), labels = new Labels(stage), model = { texts: {} }, body = new Group();
+  const handle = new Handle(stage, labels, model, { t: 2.5 });
+  body.top = 1.7;
+  body.position.set(0.3, 0.2, 1);
+  const lean = (tilt, towards) => {
+    body.quaternion.setFromAxisAngle(new Vector3(-Math.sin(towards), Math.cos(towards), 0), tilt); // of z towards there
+    handle.follow(body, true);
+    near([handle.theta, handle.axis.x], [tilt, Math.sin(tilt) * Math.cos(towards)]);
+    labels.place();
+    return placeOf(handle.label);
+  };
+  for (const [tilt, towards] of [[0.7, 1.2], [2.5, 1.9], [0.05, -1.5]]) {
+    const [x, y] = lean(tilt, towards);
+    assert.ok(handle.label.at.distanceTo(body.position) > body.top);
+    lean(tilt + 0.4, towards);
+    handle.take();
+    near(handle.under({ clientX: x + 30, clientY: y + 7 }), tilt, 0.02);
+  }
+  handle.ask(-3);
+  handle.ask(9);
+  assert.ok(model.tilted[0] < Math.PI && model.tilted[0] > 3.1);
+  assert.deepEqual(model.tilted.slice(1), [2.5, 3]);
+  assert.equal(handle.begins(), false);
+  handle.asked = true; // by a key: for the one motion that answers it
+  assert.deepEqual([handle.begins(), handle.begins()], [true, false]);
+  handle.held = true;
+  assert.deepEqual([handle.begins(), handle.begins()], [true, true]);
+});

@@ -1,0 +1,94 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Player } from "../../app/frontend/src/player.js";
+import { motion, near } from "./helping.js";
+
+function playerOf(...times) {
+  const heard = { changed: 0, landed: 0, playingChanged: 0 };
+  const player = new Player(Object.fromEntries(Object.keys(heard).map((name) => [name, () => (heard[name] += 1)])));
+  player.setFrames(motion(times.map((t) => ({ t }))));
+  return { player, heard };
+}
+
+test("a playing top goes on by the wall clock and begins anew at the end", () => {
+  const { player } = playerOf(1, 2, 5);
+  player.seek(1);
+  player.setPlaying(true);
+  assert.equal(player.advance(1000, 0.01), false); // the clock starts here
+  player.advance(1100, 0.01);
+  near(player.t, 2);
+  player.advance(1300, 0.01);
+  near(player.t, 4);
+  assert.equal(player.advance(1450, 0.01), true);
+  near(player.t, 1.5);
+  player.advance(9000, 0.01); // the page had stopped: a quarter of a second
+  near(player.t, 4);
+});
+
+test("any time is a time of the motion, which repeats itself", () => {
+  const { player } = playerOf(1, 2, 5);
+  for (const [t, within] of [[1, 1], [5, 5], [5.5, 1.5], [0.5, 4.5], [13.25, 1.25], [-7.5, 4.5]]) near(player.wrap(t), within);
+  assert.equal(playerOf(3).player.wrap(8), 3);
+});
+
+test("steps go from row to row, and round", () => {
+  const { player, heard } = playerOf(1, 2, 5), seen = [];
+  for (const by of [1, 1, 1, -1, -1]) {
+    player.step(by);
+    seen.push(player.t);
+  }
+  assert.deepEqual(seen, [2, 5, 1, 5, 2]);
+  assert.equal(heard.landed, 5);
+  player.show(99);
+  assert.equal(player.t, 5);
+});
+
+test("paused it stands on a row, playing it goes on from where it is put", () => {
+  const { player, heard } = playerOf(1, 2, 5);
+  player.seek(4);
+  assert.deepEqual([player.t, player.index, heard.landed], [5, 2, 1]);
+  player.setPlaying(true);
+  player.seek(4);
+  assert.deepEqual([player.t, player.index, heard.landed, heard.playingChanged], [4, 1, 1, 1]);
+  player.setPlaying(true); // no news
+  assert.equal(heard.playingChanged, 1);
+  player.setPlaying(false);
+  assert.deepEqual([player.t, heard.landed, heard.playingChanged], [5, 2, 2]);
+});
+
+test("while a hand holds the time it stands, and then goes on without a jump", () => {
+  const { player } = playerOf(1, 2, 5);
+  player.setPlaying(true);
+  player.advance(1000, 0.01);
+  player.seek(3, true);
+  assert.equal(player.advance(1100, 0.01), false);
+  assert.equal(player.t, 3);
+  player.seek(3, false);
+  player.advance(1200, 0.01);
+  assert.equal(player.t, 3);
+  player.advance(1210, 0.01);
+  near(player.t, 3.1);
+  player.seek(2); // by no hand: the clock goes on
+  player.advance(1310, 0.01);
+  near(player.t, 3);
+});
+
+test("a new motion keeps the moment, and one that follows another has its time", () => {
+  const { player } = playerOf(1, 2, 5);
+  player.seek(5);
+  player.setFrames(motion([0, 4.5, 7].map((t) => ({ t }))));
+  assert.equal(player.t, 4.5);
+  player.setPlaying(true);
+  player.seek(5.5);
+  player.setFrames(motion([0, 5].map((t) => ({ t }))));
+  assert.equal(player.t, 0.5);
+  assert.deepEqual([player.follow(3), player.t, player.follow(2), player.t], [false, 3, true, 2]);
+});
+
+test("no motion can be asked anything", () => {
+  const { player, heard } = playerOf();
+  player.step(1);
+  player.show(3);
+  player.seek(2);
+  assert.deepEqual([player.t, player.place, player.index, heard.landed], [0, 0, 0, 0]);
+});
