@@ -69,7 +69,7 @@ BODIES = {
     "S": (SHAPES["Top S"].top, None, np.pi),
     "cone": (SHAPES["Wooden cone"].top, SHAPES["Wooden cone"].edge, SHAPES["Wooden cone"].touch_angle),
 }
-EACH = 8
+EACH = 12
 TIMES = np.linspace(0.0, 20.0, 101)
 
 
@@ -92,8 +92,9 @@ def witness(top, edge, state, friction, n, **table):
 
 
 def compared(top, edge, state, friction):
-    """ "agrees"; or why it cannot be told: "a border", where the oracle itself goes elsewhere after a nudge of 1e-6 rad,
-    "the table", where it does by how far from plastic the impacts on it are; or by how many rad they differ."""
+    """(verdict, slide's motion). The verdict: "agrees"; why it cannot be told, "a border" where the oracle itself goes
+    elsewhere after a nudge of 1e-6 rad, "the table" where it does with other impacts; else by how many rad they differ.
+    """
     moved = slide(top, state, friction, TIMES, landing="plastic", edge=edge)
     n = len(moved.t)
     assert n == len(TIMES) or moved.events[-1][1] in ("stands upright", "rim touches", "too many events"), moved.events

@@ -210,17 +210,24 @@ def wordings(node, function, module):
 
 
 def said_by_errors():
-    """(place, words) of each TopError in the core and the page: what is allowed, and what to do."""
+    """(place, words) of each TopError in the core and the page: a value in words, what is allowed, and what to do."""
     for path in (*sorted(CORE.glob("*.py")), *MODULES):
         inside = {}  # node -> the innermost function around it
         for function in ast.walk(tree(path)):
             if isinstance(function, ast.FunctionDef):
                 inside |= {id(node): function for node in ast.walk(function)}
         for node in ast.walk(tree(path)):
-            if isinstance(node, ast.Call) and name_of(node) in ("TopError", "NoMotionError"):
-                for argument in node.args[2:]:
-                    for words in wordings(argument, inside.get(id(node)), tree(path)):
-                        yield f"{path.name}:{node.lineno}", words
+            if not isinstance(node, ast.Call):
+                continue
+            arguments = []
+            if name_of(node) in ("TopError", "NoMotionError"):
+                arguments = [("{}", argument) for argument in node.args[1:]]
+            elif name_of(node) == "_range":
+                remedies = [("{}", keyword.value) for keyword in node.keywords if keyword.arg == "remedy"]
+                arguments = [("{{}} <= x <= {{}} ({})", node.args[4]), *remedies]
+            for form, argument in arguments:
+                for words in wordings(argument, inside.get(id(node)), tree(path)):
+                    yield f"{path.name}:{node.lineno}", form.format(words)
 
 
 # What stands in such words and is German as well: the core's names, units.
