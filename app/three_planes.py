@@ -30,11 +30,12 @@ th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { c
 
 KEPT = {
     "plane": Field("plane", OneOf(**{plane: plane for plane in (*PLANES, "compare")}), undoable=False),
-    "by": Field("by", OneOf(spin="spin", constants="constants")),
+    "by": Field("start", OneOf(spin="spin", constants="constants")),
     "law": Field("law", OneOf(**{law: law for law in LAWS})),
     "landing": Field("land", OneOf(stop="stop", plastic="plastic")),
     "stem": Field("stem", OneOf(yes=True, no=False)),
-    **{name: Field(name, Number) for name in ("spin", "tilt", "slip", "seconds", "mu_k", "gamma", "mu", "eps")},
+    **{name: Field(name, Number) for name in ("spin", "tilt", "slip", "seconds", "mu_k", "gamma", "eps")},
+    "mu": Field("mu_smooth", Number),
     "mu_s": Field("mu_stick", Number),
 }
 """What of a Planes a link keeps."""

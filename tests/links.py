@@ -1,0 +1,81 @@
+"""Links of every kind that the page has made, and what each opened when it was made: python tests/links.py [LINK ...]
+
+data/links.json keeps them. A link that somebody has put into a script of his course must open the same for ever, so
+what stands there is never made anew; this adds the links that it is given. If the page is built otherwise, only
+opened() is to follow.
+"""
+
+import json
+import sys
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+import panel as pn
+from bokeh.document import Document
+from panel.io.state import set_curdoc
+
+from app import page, tabs, text
+from app.keep import Body, Keep
+
+FILE = Path(__file__).parent / "data" / "links.json"
+
+
+def known():
+    """{link: what it opened}."""
+    return json.loads(FILE.read_text(encoding="utf-8"))
+
+
+@contextmanager
+def kept():
+    """A list of (Keep, owner, {parameter: Field}) of all that a page keeps; its tabs are made when they are asked for."""
+    parts, add = [], Keep.add
+
+    def noted(keep, owner, known, *rest, **named):
+        add(keep, owner, known, *rest, **named)
+        parts.append((keep, owner, known))
+
+    with patch.object(Keep, "add", noted), patch.object(tabs.Place, "ask", tabs.Place.fill):
+        yield parts
+
+
+def opened(link):
+    """What a link opens, of numbers, words and truth values: every setting by its name in a link; the language; the
+    top, its body in SI and R, the motion and its turning points in units of R, M and g; and what is said of the link."""
+    with set_curdoc(Document()), kept() as parts:
+        pn.state.location.search = link
+        page.page()
+        if not parts:
+            return {"language": text.spoken(), "settings": {}}  # a student's page
+        [explorer] = [owner for _, owner, _ in parts if hasattr(owner, "scene")]
+        keep, scene = parts[0][0], explorer.scene
+        return {
+            "language": text.spoken(),
+            "settings": {field.key: plain(field.codec, getattr(owner, name))
+                         for _, owner, fields in parts for name, field in fields.items()},
+            "body": {"R": scene.scales.R, "M": scene.scales.M, "height": float(np.ptp(scene.profile[:, 1]))},
+            "top": asdict(scene.top),
+            "motion": {name: float(getattr(scene.constants, name)) for name in ("K_J", "K_R", "E")},
+            "turns": [float(theta) for theta in scene.turning],
+            "wrong": sorted(scene.messages),
+            "address": keep.query,
+            "said": keep.sentence,
+        }  # fmt: skip
+
+
+def plain(codec, value):
+    """A setting as a number, a word, a truth value, or a list of numbers."""
+    return codec.text(value) if codec is Body else value.item() if isinstance(value, np.generic) else value
+
+
+def main(links):
+    found = known() if FILE.exists() else {}
+    found |= {link: opened(link) for link in links if link not in found}
+    lines = (f"{json.dumps(link)}: {json.dumps(what, ensure_ascii=False)}" for link, what in found.items())
+    FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
