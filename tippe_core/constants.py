@@ -1,39 +1,52 @@
 """The three constants of the motion without slipping, given or from an initial state."""
 
-from collections import namedtuple
 from dataclasses import dataclass, fields
 from decimal import Context, Decimal, localcontext
+from typing import NamedTuple, Self, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .errors import TopError, finite, numbers
+from .top import Top
+from .types import Array, Number, Scalars
 
 # The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic
 # in cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34), for which the
 # standard library is enough.
 EXACT = Context(prec=60, Emin=-999999, Emax=999999)
 LARGEST = 1e12  # of a State: no top is as fast or as far by far, and EXACT keeps 36 figures of squares as large
-ExactTop = namedtuple("ExactTop", "a I1 I3")
 
 
-def exact_top(top):
+class ExactTop(NamedTuple):
+    """A Top in Decimals, or one of long floats or of arrays."""
+
+    a: Number
+    I1: Number
+    I3: Number
+
+
+AnyTop: TypeAlias = Top | ExactTop
+
+
+def exact_top(top: Top) -> ExactTop:
     return ExactTop(Decimal(top.a), Decimal(top.I1), Decimal(top.I3))
 
 
 # f1^2, f2^2, f3^2 of (35), (34), (32), with c = cos(theta) and s2 = sin(theta)^2: floats, arrays or Decimals alike.
 
 
-def f1_2(c, top):
+def f1_2(c: Number, top: AnyTop) -> Number:
     """(35)  f1^2 = I1 + 1 + a^2 - 2 a c"""
     return top.I1 + 1 + top.a * top.a - 2 * top.a * c
 
 
-def f2_2(c, s2, top):
+def f2_2(c: Number, s2: Number, top: AnyTop) -> Number:
     """(34)  f2^2 = I1 + (I1/I3) s^2 + (c - a)^2"""
     return top.I1 + top.I1 / top.I3 * s2 + (c - top.a) ** 2
 
 
-def f3_2(c, s2, top):
+def f3_2(c: Number, s2: Number, top: AnyTop) -> Number:
     """(32)  f3^2 = I3 + s^2 + (I3/I1)(c - a)^2"""
     return top.I3 + s2 + top.I3 / top.I1 * (c - top.a) ** 2
 
@@ -45,11 +58,11 @@ class Constants:
     Raises TopError where one is not finite.
     """
 
-    K_J: float
-    K_R: float
-    E: float
+    K_J: Scalars
+    K_R: Scalars
+    E: Scalars
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for field in fields(self):
             value = getattr(self, field.name)
             if np.ndim(value) == 0 and not isinstance(value, (list, tuple)):
@@ -64,22 +77,22 @@ class Constants:
             shapes = ", ".join(str(np.shape(x)) for x in (self.K_J, self.K_R, self.E))
             raise TopError("constants", shapes, "shapes of K_J, K_R and E that broadcast together") from None
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         if not isinstance(other, Constants):
             return NotImplemented
         return all(np.array_equal(getattr(self, n), getattr(other, n)) for n in ("K_J", "K_R", "E"))
 
-    def __hash__(self):
+    def __hash__(self) -> int:
         return hash(tuple(np.asarray(getattr(self, n)).tobytes() for n in ("K_J", "K_R", "E")))
 
-    def two_E_prime(self, top):
+    def two_E_prime(self, top: Top) -> Scalars:
         """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33). Correctly rounded for scalars."""
         if any(np.ndim(x) for x in (self.K_J, self.K_R, self.E)):
             return 2 * self.E - self.K_R**2 + top.I1 / top.I3 * self.K_J**2
         return float(Exact.of(self, top).e)
 
     @classmethod
-    def from_state(cls, top, theta, theta_dot, omega2, omega3):
+    def from_state(cls, top: Top, theta: float, theta_dot: float, omega2: float, omega3: float) -> Self:
         """The constants of the rolling motion through a state, by (30), (31) and (6).
 
         theta in rad, in [0, pi]; theta_dot, omega2 (about 2') and omega3 (about 3) in (g/R)^1/2.
@@ -111,7 +124,7 @@ class State:
     vx: float | None = None
     vy: float | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for field in fields(self):
             value = getattr(self, field.name)
             if value is not None or field.name not in ("x", "y", "vx", "vy"):
@@ -134,15 +147,15 @@ class Exact:
     e: Decimal
 
     @classmethod
-    def of(cls, constants, top):
+    def of(cls, constants: Constants, top: Top) -> Self:
         if any(np.ndim(x) for x in (constants.K_J, constants.K_R, constants.E)):
             raise TopError("constants", constants, "numbers K_J, K_R and E here, not arrays")
         with localcontext(EXACT):
-            K_J, K_R, E = (Decimal(x) for x in (constants.K_J, constants.K_R, constants.E))
-            return cls(*map(nonzero, (K_J, K_R)), 2 * E - K_R**2 + Decimal(top.I1) / Decimal(top.I3) * K_J**2)
+            K_J, K_R, E = (Decimal(float(x)) for x in (constants.K_J, constants.K_R, constants.E))
+            return cls(nonzero(K_J), nonzero(K_R), 2 * E - K_R**2 + Decimal(top.I1) / Decimal(top.I3) * K_J**2)
 
     @classmethod
-    def of_state(cls, state, top):
+    def of_state(cls, state: State, top: Top) -> Self:
         """By (30), (31) and (33)."""
         v, m = versines(state.theta)
         with localcontext(EXACT):
@@ -152,15 +165,15 @@ class Exact:
             w1, w2, w3 = Decimal(state.theta_dot), Decimal(state.omega2), Decimal(state.omega3)
             K_J = s2.sqrt() * w2 + t.I3 / t.I1 * (c - t.a) * w3
             K_R = f3_2(c, s2, t).sqrt() * w3
-            return cls(*map(nonzero, (K_J, K_R)), 2 * t.a * v + f2_2(c, s2, t) * w2**2 + f1_2(c, t) * w1**2)
+            return cls(nonzero(K_J), nonzero(K_R), 2 * t.a * v + f2_2(c, s2, t) * w2**2 + f1_2(c, t) * w1**2)
 
 
-def nonzero(K):
+def nonzero(K: Decimal) -> Decimal:
     """K, or 0 where it is so small that the turn at a pole, at 1 - c near K^2, would be lost among floats."""
     return K if abs(K) > Decimal("1e-24") else Decimal(0)
 
 
-def versines(theta):
+def versines(theta: ArrayLike) -> tuple[Array, Array]:
     """(1 - cos theta, 1 + cos theta), each to full relative precision, at its zero too; pi is the inverted pole."""
     theta = np.asarray(theta, dtype=float)
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2

@@ -1,8 +1,12 @@
 """What is said when a value cannot be used: its name, the value, the allowed range, what to do."""
 
 import math
+from typing import SupportsFloat
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from .types import Array
 
 
 class TopError(ValueError):
@@ -11,7 +15,7 @@ class TopError(ValueError):
     Attributes name, value, allowed and remedy hold the parts of the sentence; str() is the sentence.
     """
 
-    def __init__(self, name, value, allowed, remedy=""):
+    def __init__(self, name: str, value: object, allowed: str, remedy: str = "") -> None:
         self.name, self.value, self.allowed, self.remedy = name, value, allowed, remedy
         shown = f"{value:.10g}" if isinstance(value, float) else repr(value)
         super().__init__(f"{name} = {shown} is not possible: allowed is {allowed}." + (f" {remedy}" if remedy else ""))
@@ -21,7 +25,7 @@ class NoMotionError(TopError):
     """The energy is below the bottom of every well of f: no such motion exists."""
 
 
-def finite(name, value):
+def finite(name: str, value: SupportsFloat) -> float:
     """value as a float, or a TopError that names it."""
     try:
         number = float(value)
@@ -32,7 +36,7 @@ def finite(name, value):
     return number
 
 
-def numbers(name, values):
+def numbers(name: str, values: ArrayLike) -> Array:
     """values as a new float array, or a TopError that names them."""
     try:
         array = np.array(values)

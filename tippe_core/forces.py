@@ -7,13 +7,19 @@ With f' carried out, (37) and (39) have neither the 0/0 of (39) at a c = 1 nor t
     F_x = -(I3 K_R/f3^3) [c - (I3/I1)(c - a)] w1 ,           g = (I3/I1) K_R (I3 + 1 - a c)/f3^3 ,  w1 = theta_dot .
 """
 
+from typing import overload
+
 import numpy as np
 
-from .constants import f1_2, f2_2, f3_2, versines
+from .constants import Constants, f1_2, f2_2, f3_2, versines
 from .curve import bracket_slope, f, omega2, omega3
+from .top import Top
+from .types import Array, Number, Scalars, Vector
 
 
-def contact_force(v, m, top, K_R, w1, w1_squared, w2, w3):
+def contact_force(
+    v: Number, m: Number, top: Top, K_R: Number, w1: Number, w1_squared: Number, w2: Number, w3: Number
+) -> Vector:
     """(F_x, F_y, F_z) in Mg in the turning axes, from v = 1 - cos(theta), m = 1 + cos(theta) and omega in 1', 2', 3."""
     a, I1 = top.a, top.I1
     c, s2 = 1 - v, v * m
@@ -25,7 +31,7 @@ def contact_force(v, m, top, K_R, w1, w1_squared, w2, w3):
     return Fx, Fy, Fz
 
 
-def forces_on_curve(theta, top, constants, w1_squared):
+def forces_on_curve(theta: Scalars, top: Top, constants: Constants, w1_squared: Scalars) -> Vector:
     """(F_x, F_y, F_z) of (37) to (39) for theta_dot > 0, in Mg, where theta_dot^2 is this."""
     v, m = versines(theta)
     w2, w3 = (function(theta, top, constants) for function in (omega2, omega3))
@@ -33,7 +39,11 @@ def forces_on_curve(theta, top, constants, w1_squared):
         return contact_force(v, m, top, constants.K_R, np.sqrt(w1_squared), w1_squared, w2, w3)
 
 
-def normal_force(theta, top, constants):
+@overload
+def normal_force(theta: float, top: Top, constants: Constants) -> Scalars: ...
+@overload
+def normal_force(theta: Array, top: Top, constants: Constants) -> Array: ...
+def normal_force(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     """F_z = 1 + a (s f'/2 + c f), (37), in Mg. theta in rad; theta and the constants broadcast.
 
     nan at a pole that no motion with this K_J reaches.
@@ -41,7 +51,11 @@ def normal_force(theta, top, constants):
     return forces_on_curve(theta, top, constants, f(theta, top, constants))[2]
 
 
-def friction_force(theta, top, constants):
+@overload
+def friction_force(theta: float, top: Top, constants: Constants) -> tuple[Scalars, Scalars]: ...
+@overload
+def friction_force(theta: Array, top: Top, constants: Constants) -> tuple[Array, Array]: ...
+def friction_force(theta: Scalars, top: Top, constants: Constants) -> tuple[Scalars, Scalars]:
     """(F_x, F_y) for theta_dot > 0, (38) and (39), in Mg; F_x turns its sign with theta_dot.
 
     x along 1' (the line of nodes), y along z cross 1'. theta in rad; theta and the constants broadcast. F_x is nan

@@ -1,8 +1,10 @@
 """Laws of friction at a contact: k(u^2), with F_h = -k F_z u and u the slip."""
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from .errors import TopError, finite
+from .types import Number
 
 
 @dataclass(frozen=True)
@@ -13,9 +15,9 @@ class Coulomb:
     """
 
     mu_k: float
-    mu_s: float | None = None
+    mu_s: float = None  # type: ignore[assignment]  # once made, it has one
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _positive(self, "mu_k")
         if self.mu_s is None:
             object.__setattr__(self, "mu_s", self.mu_k)
@@ -23,7 +25,7 @@ class Coulomb:
         if self.mu_s < self.mu_k:
             raise TopError("mu_s", self.mu_s, f"mu_s >= mu_k = {self.mu_k:g}", "Friction at rest is the larger one.")
 
-    def k(self, square):
+    def k(self, square: Number) -> Number:
         return self.mu_k / square**0.5
 
 
@@ -36,10 +38,10 @@ class Viscous:
 
     gamma: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _positive(self, "gamma", zero=True)
 
-    def k(self, square):
+    def k(self, square: Number) -> Number:
         return self.gamma
 
 
@@ -53,15 +55,18 @@ class SmoothedCoulomb:
     mu: float
     eps: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _positive(self, "mu")
         _positive(self, "eps")
 
-    def k(self, square):
+    def k(self, square: Number) -> Number:
         return self.mu / (square + self.eps * self.eps) ** 0.5
 
 
-def _positive(law, name, zero=False):
+Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb
+
+
+def _positive(law: Friction, name: str, zero: bool = False) -> None:
     value = finite(name, getattr(law, name))
     if value < 0 or (value == 0 and not zero):
         raise TopError(name, value, f"{name} {'>=' if zero else '>'} 0")

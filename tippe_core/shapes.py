@@ -11,10 +11,11 @@ An impossible body is a TopError that names the dimension.
 """
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from math import acos, atan2, hypot, inf, isfinite, pi, sqrt
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 from scipy.optimize import brentq
@@ -22,74 +23,84 @@ from scipy.optimize import brentq
 from .errors import TopError, finite
 from .solids import DENSEST, LARGEST, Frustum, Solid, Zone, ball, cylinder, frustum, zone
 from .top import Scales, Top
+from .types import Array, Number, Rim
 
 SMALLEST = 1e-6  # m: no peg is smaller, and no power of it is lost
 LONG = LARGEST / 4  # m: heights that are added stay below LARGEST
 LIGHTEST, THINNEST = 1e-30, 1e-9  # kg, kg/m^3: no product of them is lost
 MOST_POINTS, MOST_PIECES = 400, 64
 SCHEMA, VERSION, LONGEST = "tippe-top-explorer/top", 1, 65_536  # bytes
+Json: TypeAlias = Any  # whatever a stranger wrote
 
 
+@dataclass(frozen=True, kw_only=True)
 class Shape:
     """What all shapes share. R (m) is the radius of the sphere that rolls: the body, or its peg."""
 
-    _weights = ("density",)  # the fields in proportion to which the mass is
+    R: float
 
-    def __post_init__(self):
+    _weights: ClassVar[tuple[str, ...]] = ("density",)  # the fields in proportion to which the mass is
+
+    if TYPE_CHECKING:  # it is a field of Turned, which a property here would be in the way of
+
+        @property
+        def solid(self) -> Solid: ...
+
+    def __post_init__(self) -> None:
         for field in fields(self):
             if field.type in (float, "float"):
                 object.__setattr__(self, field.name, finite(field.name, getattr(self, field.name)))
         _range("R", self.R, SMALLEST, LONG, "m")
         self._check()
 
-    def _check(self):
+    def _check(self) -> None:
         """Raises TopError where the dimensions do not make a body."""
 
     @property
-    def mass(self):
+    def mass(self) -> float:
         """M, kg."""
         return self.solid.mass
 
     @property
-    def com(self):
+    def com(self) -> float:
         """Height of G above O, m: -a in SI."""
         return self.solid.com
 
     @property
-    def moments(self):
+    def moments(self) -> tuple[float, float]:
         """(I1, I3) at G, kg m^2."""
         return self.solid.I1, self.solid.I3
 
     @property
-    def volume(self):
+    def volume(self) -> float:
         """Of the material, m^3."""
         return self.solid.volume
 
     @property
-    def scales(self):
+    def scales(self) -> Scales:
         """Scales(R, M) with g = 9.81 m/s^2."""
         return Scales(self.R, self.mass)
 
     @property
-    def top(self):
+    def top(self) -> Top:
         """The Top this body is: a/R, I1/(M R^2), I3/(M R^2)."""
         unit = self.mass * self.R**2
         I1, I3 = self.moments
         return Top(a=0.0 - self.com / self.R, I1=I1 / unit, I3=I3 / unit)
 
-    def profile(self, n=200):
-        """(n, 2): radius and height above O (m) from the contact point at (0, -R) to the body's top, corners exact.
+    def profile(self, n: int = 200) -> Array:
+        """Radius and height above O (m) from the contact point at (0, -R) to the body's top, corners exact: (n, 2).
 
         Raises TopError where n is less than the number of corners.
         """
         return self.solid.profile(n)
 
-    def stl(self, sides=128):
+    def stl(self, sides: int = 128) -> bytes:
         """The body as a binary STL file (bytes), in mm; see Solid.stl."""
         return self.solid.stl(sides)
 
     @cached_property
-    def touch_angle(self):
+    def touch_angle(self) -> float | None:
         """theta in radians from which not only the sphere of radius R touches the table; None if that never happens.
 
         At theta the table's plane is rho sin(theta) - z cos(theta) = R. A point at the distance D from O, at the angle
@@ -99,7 +110,7 @@ class Shape:
         return self._touch[0]
 
     @property
-    def edge(self):
+    def edge(self) -> Rim | None:
         """What touches there, the edge of the stem's end as a rule: (radius, height above O, rounding) in R, or None.
 
         A circle about axis 3, 0 where it is a point, rounded by a ball of that radius along it.
@@ -107,33 +118,33 @@ class Shape:
         return self._touch[1]
 
     @cached_property
-    def _touch(self):
+    def _touch(self) -> tuple[float | None, Rim | None]:
         found = []
         for edge in self.solid.outline[1:]:
             for radius, z in (edge.start, edge.end):
                 D, beta = hypot(radius, z), atan2(radius, -z)
                 if D >= self.R * (1 - 1e-12):
                     found.append((beta - acos(min(1.0, self.R / D)), (float(radius / self.R), float(z / self.R), 0.0)))
-            if edge.arc and abs(edge.slice.R - self.R) < abs(edge.slice.centre):
-                theta = acos((edge.slice.R - self.R) / edge.slice.centre)
-                point = edge.slice.centre - edge.slice.R * (edge.slice.R - self.R) / edge.slice.centre
+            if (arc := edge.arc) and abs(arc.R - self.R) < abs(arc.centre):
+                theta = acos((arc.R - self.R) / arc.centre)
+                point = arc.centre - arc.R * (arc.R - self.R) / arc.centre
                 if edge.start[1] < point < edge.end[1]:
-                    found.append((theta, (0.0, float(edge.slice.centre / self.R), float(edge.slice.R / self.R))))
+                    found.append((theta, (0.0, float(arc.centre / self.R), float(arc.R / self.R))))
         angle, edge = min(found, default=(inf, None))
         return (angle, edge) if angle < pi - 1e-9 else (None, None)
 
-    def with_mass(self, M):
+    def with_mass(self, M: float) -> Self:
         """The same body of a material, or materials, so much denser that it weighs M (kg)."""
         factor = _mass(finite("M", M)) / self.mass
         return replace(self, **{name: _times(factor, getattr(self, name)) for name in self._weights})
 
-    def __add__(self, other):
+    def __add__(self, other: "Solid | Shape") -> "Turned":
         """With something put on: a Solid weighed in kg/m^3, or all of another shape."""
-        return Turned(R=self.R, solid=self.solid + getattr(other, "solid", other))
+        return Turned(R=self.R, solid=self.solid + (other.solid if isinstance(other, Shape) else other))
 
-    def __sub__(self, other):
+    def __sub__(self, other: "Solid | Shape") -> "Turned":
         """With something taken away: `top - top.density * cylinder(r, low, high)` is bored."""
-        return Turned(R=self.R, solid=self.solid - getattr(other, "solid", other))
+        return Turned(R=self.R, solid=self.solid - (other.solid if isinstance(other, Shape) else other))
 
 
 class OneMaterial(Shape):
@@ -141,29 +152,36 @@ class OneMaterial(Shape):
 
     _weights = ("M",)
 
-    def __post_init__(self):
+    if TYPE_CHECKING:  # M is a field of each kind, in its own place
+
+        @property
+        def M(self) -> float: ...
+        @property
+        def form(self) -> Solid: ...
+
+    def __post_init__(self) -> None:
         super().__post_init__()
         _mass(self.M)
         if not 0 < self.density <= DENSEST:
             raise TopError("M", self.M, f"at most {DENSEST * self.form.volume:g} kg for this body ({DENSEST:g} kg/m^3)")
 
     @classmethod
-    def from_density(cls, density, **dimensions):
+    def from_density(cls, density: float, **dimensions: float) -> Self:
         """The shape of a material of that density (kg/m^3)."""
         _range("density", finite("density", density), THINNEST, DENSEST, "kg/m^3")
-        body = cls(M=1e-3, **dimensions)
-        return replace(body, M=density * body.form.mass)
+        body = cls(M=1e-3, **dimensions)  # type: ignore[call-arg]  # a field of each kind
+        return replace(body, M=density * body.form.mass)  # type: ignore[call-arg]
 
     @cached_property
-    def solid(self):
+    def solid(self) -> Solid:
         return self.density * self.form
 
     @property
-    def mass(self):
+    def mass(self) -> float:
         return self.M
 
     @property
-    def density(self):
+    def density(self) -> float:
         """kg/m^3."""
         return self.M / self.form.mass
 
@@ -182,11 +200,11 @@ class TruncatedSphere(OneMaterial):
     M: float
 
     @classmethod
-    def paper(cls):
+    def paper(cls) -> Self:
         """Appendix A: R = 1.6 cm, c = 0.82 cm, l = 1.92 cm, r = 0.32 cm, M = 11.5 g."""
         return cls(R=0.016, c=0.0082, l=0.0192, r=0.0032, M=0.0115)
 
-    def _check(self):
+    def _check(self) -> None:
         _range("c", self.c, -self.R, self.R, "m, the cut goes through the sphere", above=True)
         cut = sqrt((self.R - self.c) * (self.R + self.c))
         _range("r", self.r, 0, cut, "m, the radius of the cut it stands on", remedy="Lower r, or cut lower.")
@@ -194,7 +212,7 @@ class TruncatedSphere(OneMaterial):
         _stem(self.r, self.l)
 
     @cached_property
-    def form(self):
+    def form(self) -> Solid:
         sphere = zone(self.R, -self.R, self.c)
         return sphere + cylinder(self.r, self.c, self.c + self.l) if self.l else sphere
 
@@ -207,7 +225,7 @@ class Ball(OneMaterial):
     M: float
 
     @cached_property
-    def form(self):
+    def form(self) -> Solid:
         return ball(self.R)
 
 
@@ -226,7 +244,7 @@ class LoadedSphere(Shape):
 
     _weights = ("density", "core_density")
 
-    def _check(self):
+    def _check(self) -> None:
         _range("b", self.b, SMALLEST, self.R, "m, inside the ball", below=True)
         room = self.R - self.b
         _range("d", self.d, -room, room, "m, or the core sticks out", above=True, below=True)
@@ -234,7 +252,7 @@ class LoadedSphere(Shape):
         _range("core_density", self.core_density, 0, DENSEST, "kg/m^3, 0 for a cavity")
 
     @cached_property
-    def solid(self):
+    def solid(self) -> Solid:
         sphere = self.density * ball(self.R)
         if self.core_density == self.density:
             return sphere
@@ -259,7 +277,7 @@ class OrdinaryTop(OneMaterial):
     l: float
     M: float
 
-    def _check(self):
+    def _check(self) -> None:
         _range("h", self.h, 0, LONG, "m, the peg's rod")
         _range("r1", self.r1, 0, LARGEST, "m, or the body hangs on a point", above=True)
         _range("r2", self.r2, 0, LARGEST, "m")
@@ -269,7 +287,7 @@ class OrdinaryTop(OneMaterial):
         _stem(self.r, self.l)
 
     @cached_property
-    def form(self):
+    def form(self) -> Solid:
         face = self.h + self.t
         form = zone(self.R, -self.R, 0) + frustum(self.r1, self.r2, self.h, face)
         if self.h:
@@ -287,10 +305,10 @@ class Lathe(Shape):
     """
 
     R: float
-    points: tuple
-    density: tuple | float
+    points: tuple[tuple[float, float], ...]
+    density: tuple[float, ...] | float
 
-    def _check(self):
+    def _check(self) -> None:
         points = _rows("points", self.points, 2, MOST_POINTS)
         last = -self.R
         for index, (radius, height) in enumerate(points):
@@ -299,19 +317,20 @@ class Lathe(Shape):
                    "m, from the sphere's lowest point or the point before up", above=index == 0)  # fmt: skip
             last = height
         object.__setattr__(self, "points", points)
-        if np.ndim(self.density) == 0:
-            density = _range("density", finite("density", self.density), THINNEST, DENSEST, "kg/m^3")
+        given: Number = self.density  # also of another sequence
+        if np.ndim(given) == 0:
+            density = _range("density", finite("density", given), THINNEST, DENSEST, "kg/m^3")
         else:
-            if len(self.density) != len(points):
-                raise TopError("density", self.density, f"one number, or as many as points ({len(points)})")
-            density = tuple(finite(f"density[{index}]", value) for index, value in enumerate(self.density))
+            if len(given) != len(points):
+                raise TopError("density", given, f"one number, or as many as points ({len(points)})")
+            density = tuple(finite(f"density[{index}]", value) for index, value in enumerate(given))
             for index, value in enumerate(density):
                 _range(f"density[{index}]", value, THINNEST, DENSEST, "kg/m^3")
         object.__setattr__(self, "density", density)
         _one_piece("points", self.solid)
 
     @cached_property
-    def solid(self):
+    def solid(self) -> Solid:
         densities = self.density if isinstance(self.density, tuple) else [self.density] * len(self.points)
         solid = densities[0] * zone(self.R, -self.R, self.points[0][1])
         for (r_low, low), (r_high, high), density in zip(self.points, self.points[1:], densities[1:], strict=False):
@@ -329,13 +348,13 @@ class Turned(Shape):
 
     _weights = ("solid",)
 
-    def _check(self):
+    def _check(self) -> None:
         if not isinstance(self.solid, Solid) or not 1 <= len(self.solid.slices) <= MOST_PIECES:
             raise TopError("solid", self.solid, f"a Solid of 1 to {MOST_PIECES} pieces")
         _one_piece("solid", self.solid)
         peg = self.solid.outline[0]
         near = 1e-9 * self.R
-        if not (peg.arc and abs(peg.slice.R - self.R) <= near and abs(peg.slice.centre) <= near and peg.start[0] == 0
+        if not (peg.arc and abs(peg.arc.R - self.R) <= near and abs(peg.arc.centre) <= near and peg.start[0] == 0
                 and abs(peg.start[1] + self.R) <= near):  # fmt: skip
             raise TopError("R", self.R, "the radius of the sphere about O at the solid's lowest point",
                            "Put zone(R, -R, ...) at the bottom, whole.")  # fmt: skip
@@ -353,7 +372,7 @@ class BareSphere(Shape):
 
     _weights = ("M",)
 
-    def _check(self):
+    def _check(self) -> None:
         _mass(self.M)
         Top(self.a, self.I1, self.I3)
         # int r^2 dm <= M R^2 about O, and it is I1 + I3/2 + a^2
@@ -363,40 +382,41 @@ class BareSphere(Shape):
         _range("a", self.a, -most, most, "R, or it does not fit into the sphere")
 
     @property
-    def mass(self):
+    def mass(self) -> float:
         return self.M
 
     @property
-    def com(self):
+    def com(self) -> float:
         return -self.a * self.R
 
     @property
-    def moments(self):
+    def moments(self) -> tuple[float, float]:
         unit = self.M * self.R**2
         return self.I1 * unit, self.I3 * unit
 
     @property
-    def top(self):
+    def top(self) -> Top:
         return Top(self.a, self.I1, self.I3)
 
     @cached_property
-    def solid(self):
+    def solid(self) -> Solid:
         """Its outside: where the mass is inside is not known."""
         return ball(self.R)
 
-    def stl(self, sides=128):
+    def stl(self, sides: int = 128) -> bytes:
         raise TopError("shape", "BareSphere", "a shape whose inside is known", "Give it dimensions to print it.")
 
 
+KINDS: dict[str, type[Shape]]
 KINDS = {kind.__name__: kind for kind in (TruncatedSphere, LoadedSphere, OrdinaryTop, Lathe, Turned, Ball, BareSphere)}
 
 
-def _mass(M):
+def _mass(M: float) -> float:
     _range("M", M, 0, inf, "kg", above=True)
     return _range("M", M, LIGHTEST, inf, "kg")
 
 
-def _stem(r, l):
+def _stem(r: float, l: float) -> None:
     if (r == 0) != (l == 0):
         name = "r" if r == 0 else "l"
         raise TopError(name, 0.0, f"{name} > 0 (m)", "A stem has a radius and a length; with both 0 there is none.")
@@ -404,7 +424,16 @@ def _stem(r, l):
         raise TopError("l", l, f"0, or l >= {SMALLEST:g} (m)")
 
 
-def _range(name, value, low, high, unit, above=False, below=False, remedy=""):
+def _range(
+    name: str,
+    value: float,
+    low: float,
+    high: float,
+    unit: str,
+    above: bool = False,
+    below: bool = False,
+    remedy: str = "",
+) -> float:
     """value, or a TopError unless low <= value <= high (< where above, below)."""
     if (low < value if above else low <= value) and (value < high if below else value <= high) and isfinite(value):
         return value
@@ -413,7 +442,7 @@ def _range(name, value, low, high, unit, above=False, below=False, remedy=""):
     raise TopError(name, value, f"{left}{name}{right} ({unit})", remedy)
 
 
-def _rows(name, rows, columns, most):
+def _rows(name: str, rows: object, columns: int, most: int) -> tuple[tuple[float, ...], ...]:
     """A tuple of tuples of floats."""
     if not isinstance(rows, (list, tuple, np.ndarray)) or not 1 <= len(rows) <= most:
         raise TopError(name, rows, f"1 to {most} rows of {columns} numbers")
@@ -424,7 +453,7 @@ def _rows(name, rows, columns, most):
         tuple(finite(f"{name}[{index}]", value) for value in row) for index, row in enumerate(rows))  # fmt: skip
 
 
-def _one_piece(name, solid):
+def _one_piece(name: str, solid: Solid) -> None:
     if solid.mass <= 0 or solid.pieces != 1:
         raise TopError(name, f"{solid.pieces} bodies", "one body", "Make its parts overlap or touch.")
     starts = [id(edge.start) for outline in solid.outlines for edge in outline]
@@ -433,7 +462,7 @@ def _one_piece(name, solid):
         raise TopError(name, "a point or circle", "a face where parts meet", "Make them overlap, or leave a gap.")
 
 
-def _times(factor, weight):
+def _times(factor: float, weight: Number) -> Number:
     return tuple(factor * value for value in weight) if isinstance(weight, tuple) else factor * weight
 
 
@@ -446,10 +475,10 @@ class Measured:
 
     value: float
     uncertainty: float
-    shares: dict
+    shares: dict[str, float]
 
 
-def rocking_period(top):
+def rocking_period(top: Top) -> float:
     """Period in (R/g)^1/2 of small rocking about theta = 0, without spin and without slipping; needs a > 0.
 
     T = 2 pi [(I1 + (1 - a)^2)/a]^1/2
@@ -459,7 +488,17 @@ def rocking_period(top):
     return 2 * pi * sqrt((top.I1 + (1 - top.a) ** 2) / top.a)
 
 
-def a_from_rocking(*, T, R, I1, g=9.81, dT=0.0, dR=0.0, dI1=0.0, dg=0.0):
+def a_from_rocking(
+    *,
+    T: float,
+    R: float,
+    I1: float,
+    g: float = 9.81,
+    dT: float = 0.0,
+    dR: float = 0.0,
+    dI1: float = 0.0,
+    dg: float = 0.0,
+) -> Measured:
     """a (in R) of a top that rocks with the period T (s): Measured, with the d.. as standard uncertainties.
 
     R in m, I1 in MR^2 (from the shape), g in m/s^2. With q = (T/2 pi)^2 g/R the period's formula is
@@ -487,7 +526,16 @@ def a_from_rocking(*, T, R, I1, g=9.81, dT=0.0, dR=0.0, dI1=0.0, dg=0.0):
     return Measured(a, hypot(*shares.values()), shares)
 
 
-def dimension_from_rocking(family: Callable[[float], Shape], *, T, low, high, g=9.81, dT=0.0, dg=0.0):
+def dimension_from_rocking(
+    family: Callable[[float], Shape],
+    *,
+    T: float,
+    low: float,
+    high: float,
+    g: float = 9.81,
+    dT: float = 0.0,
+    dg: float = 0.0,
+) -> Measured:
     """The one unknown dimension of a body that rocks with the period T (s): Measured, in the dimension's unit.
 
     family(x) is the shape for the dimension x, tried from low to high; where it is no body, or does not rock, x is
@@ -497,7 +545,7 @@ def dimension_from_rocking(family: Callable[[float], Shape], *, T, low, high, g=
     _range("T", finite("T", T), 0, inf, "s", above=True)
     _range("g", finite("g", g), 0, inf, "m/s^2", above=True)
 
-    def period(x):
+    def period(x: float) -> float:
         try:
             shape = family(float(x))
             return rocking_period(shape.top) * replace(shape.scales, g=g).time
@@ -535,7 +583,7 @@ class Preset:
     stated: Top | None = None
 
     @property
-    def top(self):
+    def top(self) -> Top:
         return self.stated or self.shape.top
 
 
@@ -579,7 +627,7 @@ PRESETS = (
 # --- files ---
 
 
-def save_top(shape):
+def save_top(shape: Shape) -> str:
     """The shape as the text of a small JSON document: its kind, and its dimensions in SI."""
     dimensions = {field.name: getattr(shape, field.name) for field in fields(shape)}
     if isinstance(shape, Turned):
@@ -591,7 +639,7 @@ def save_top(shape):
     return json.dumps(document, indent=1) + "\n"
 
 
-def load_top(text):
+def load_top(text: str | bytes) -> Shape:
     """The shape in a document (str or bytes) that save_top wrote, or one like it. Raises TopError, naming the field."""
     if not isinstance(text, (str, bytes)):
         raise TopError("file", type(text).__name__, "the text of a saved top")
@@ -624,14 +672,15 @@ def load_top(text):
     return kind(**{name: _frozen(value) for name, value in dimensions.items()})
 
 
-def _solid(pieces):
+def _solid(pieces: Json) -> Solid:
     if not isinstance(pieces, list) or not 1 <= len(pieces) <= MOST_PIECES:
         raise TopError("solid", _short(pieces), f"a list of 1 to {MOST_PIECES} pieces")
     slices = []
     for index, piece in enumerate(pieces):
         name = f"solid[{index}]"
         word = piece.get("piece") if isinstance(piece, dict) else None
-        kind = {"Zone": Zone, "Frustum": Frustum}.get(word) if isinstance(word, str) else None
+        kinds: dict[str, type[Zone | Frustum]] = {"Zone": Zone, "Frustum": Frustum}
+        kind = kinds.get(word) if isinstance(word, str) else None
         if kind is None:
             raise TopError(f"{name}.piece", _short(word), "Zone, Frustum")
         _fields(name, piece, ["piece", *(field.name for field in fields(kind))])
@@ -645,7 +694,7 @@ def _solid(pieces):
     return Solid(tuple(slices))
 
 
-def _without_repeats(pairs):
+def _without_repeats(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
     names = [name for name, _ in pairs]
     for name in names:
         if names.count(name) > 1:
@@ -653,7 +702,7 @@ def _without_repeats(pairs):
     return dict(pairs)
 
 
-def _fields(name, record, wanted):
+def _fields(name: str, record: Json, wanted: Collection[str]) -> None:
     if not isinstance(record, dict):
         raise TopError(name, _short(record), f"an object with {', '.join(wanted)}")
     for field in record:
@@ -664,12 +713,12 @@ def _fields(name, record, wanted):
             raise TopError(field, "missing", ", ".join(wanted), f"Add it to {name}.")
 
 
-def _number(name, value):
+def _number(name: str, value: Json) -> None:
     if not isinstance(value, float):
         raise TopError(name, _short(value), "a number")
 
 
-def _numbers(name, values):
+def _numbers(name: str, values: Json) -> None:
     """A list of numbers, or of lists of numbers."""
     if not isinstance(values, list) or not 1 <= len(values) <= MOST_POINTS:
         raise TopError(name, _short(values), f"a list of 1 to {MOST_POINTS}")
@@ -678,11 +727,11 @@ def _numbers(name, values):
             _number(f"{name}[{index}]", number)
 
 
-def _frozen(value):
+def _frozen(value: Json) -> Json:
     return tuple(_frozen(item) for item in value) if isinstance(value, list) else value
 
 
-def _short(value):
+def _short(value: Json) -> Json:
     """What is shown of something a stranger wrote."""
     shown = value if isinstance(value, (str, float, bool, type(None))) else type(value).__name__
     return shown[:40] if isinstance(shown, str) else shown

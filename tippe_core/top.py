@@ -1,6 +1,7 @@
 """The top as the paper's equations see it: three numbers, and the scales that turn them into a real one."""
 
 from dataclasses import dataclass
+from typing import Self
 
 from .errors import TopError, finite
 
@@ -21,7 +22,7 @@ class Top:
     I1: float
     I3: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("a", "I1", "I3"):
             object.__setattr__(self, name, finite(name, getattr(self, name)))
         if self.a >= 1:
@@ -35,7 +36,7 @@ class Top:
                 f"No body has more: lower I3 or raise I1 to {self.I3 / 2:g} or above.")  # fmt: skip
 
     @classmethod
-    def paper(cls):
+    def paper(cls) -> Self:
         """The commercial wooden top of appendix A: a = 0.070, I1 = 0.399, I3 = 0.408."""
         return cls(a=0.070, I1=0.399, I3=0.408)
 
@@ -48,48 +49,48 @@ class Scales:
     M: float
     g: float = 9.81
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("R", "M", "g"):
             object.__setattr__(self, name, finite(name, getattr(self, name)))
             if getattr(self, name) <= 0:
                 raise TopError(name, getattr(self, name), f"{name} > 0 (SI units)")
 
     @classmethod
-    def paper(cls):
+    def paper(cls) -> Self:
         """The top of appendix A: R = 1.6 cm, M = 11.5 g."""
         return cls(R=0.016, M=0.0115)
 
     @property
-    def time(self):
+    def time(self) -> float:
         """(R/g)^1/2 in s."""
         return (self.R / self.g) ** 0.5
 
     @property
-    def angular_velocity(self):
+    def angular_velocity(self) -> float:
         """(g/R)^1/2 in rad/s."""
         return (self.g / self.R) ** 0.5
 
     @property
-    def velocity(self):
+    def velocity(self) -> float:
         """(gR)^1/2 in m/s."""
         return (self.g * self.R) ** 0.5
 
     @property
-    def force(self):
+    def force(self) -> float:
         """Mg in N."""
         return self.M * self.g
 
     @property
-    def energy(self):
+    def energy(self) -> float:
         """MgR in J."""
         return self.M * self.g * self.R
 
     @property
-    def inertia(self):
+    def inertia(self) -> float:
         """MR^2 in kg m^2."""
         return self.M * self.R**2
 
     @property
-    def angular_momentum(self):
+    def angular_momentum(self) -> float:
         """M (gR^3)^1/2 in kg m^2/s."""
         return self.M * (self.g * self.R**3) ** 0.5

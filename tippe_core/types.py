@@ -1,0 +1,16 @@
+"""The kinds of numbers that the signatures speak of."""
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array: TypeAlias = NDArray[np.float64]
+Bools: TypeAlias = NDArray[np.bool_]
+Indices: TypeAlias = NDArray[np.intp]
+Complex: TypeAlias = NDArray[np.complex128]
+Scalars: TypeAlias = float | Array  # a number, or an array; several of them broadcast together
+# Any, for a formula is written once for floats, arrays (real, complex, of long floats) and Decimals alike.
+Number: TypeAlias = Any
+Vector: TypeAlias = tuple[Number, Number, Number]
+Rim: TypeAlias = tuple[float, float, float]  # a circle about axis 3: radius, height above O, rounding, in R
