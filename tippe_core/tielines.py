@@ -19,14 +19,18 @@ placed by polynomials through the grid's own points and made exact by Newton's s
 searched on closer and closer grids.
 """
 
-from collections import namedtuple
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple, TypeAlias, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from .constants import ExactTop, f2_2
+from .constants import AnyTop, ExactTop, f2_2
 from .curve import ExactCurve, angle, bracket_slope, find_stations, pole_gaps, pole_slope, well_slope
 from .errors import TopError, finite
+from .top import Top
+from .types import Array, Bools, Complex, Indices, Number, Scalars
 
 _BLOCK = 256  # K_J at once: more of them leave the processor's caches
 
@@ -41,17 +45,21 @@ class Tielines:
     nan: even the steady precession breaks it); theta_steady, E_steady the steady precession of least energy.
     """
 
-    K_J: np.ndarray
-    E: np.ndarray
-    theta_inner: np.ndarray
-    theta_outer: np.ndarray
-    theta_verge: np.ndarray
-    limited_by: np.ndarray
-    theta_steady: np.ndarray
-    E_steady: np.ndarray
+    K_J: Array
+    E: Array
+    theta_inner: Array
+    theta_outer: Array
+    theta_verge: Array
+    limited_by: NDArray[np.str_]
+    theta_steady: Array
+    E_steady: Array
 
 
-def limit_energy(top, K_J, K_R, mu_s=None):
+@overload
+def limit_energy(top: Top, K_J: float, K_R: float, mu_s: float | None = None) -> float: ...
+@overload
+def limit_energy(top: Top, K_J: Array, K_R: float, mu_s: float | None = None) -> Array: ...
+def limit_energy(top: Top, K_J: Scalars, K_R: float, mu_s: float | None = None) -> Scalars:
     """The largest E (6) with F_z >= 0, and F_h <= mu_s F_z where mu_s is given, on the whole trajectory.
 
     For the well of the steady precession of least energy. K_J a number or an array, K_R and mu_s numbers; inf where
@@ -61,17 +69,18 @@ def limit_energy(top, K_J, K_R, mu_s=None):
     return E if np.ndim(K_J) else float(E)
 
 
-def tielines(top, K_J, K_R, mu_s=None):
+def tielines(top: Top, K_J: ArrayLike, K_R: float, mu_s: float | None = None) -> Tielines:
     """Tielines of Fig. 5 (mu_s None: F_z >= 0) or of Fig. 6 (F_h <= mu_s F_z too). K_J of any shape, K_R a number."""
     return _tielines(top, K_J, K_R, [mu_s])[0]
 
 
-def figures(top, K_J, K_R, mu_s):
+def figures(top: Top, K_J: ArrayLike, K_R: float, mu_s: float) -> tuple[Tielines, Tielines]:
     """Both at once, for less than two calls: (tielines of Fig. 5, tielines of Fig. 6)."""
-    return tuple(_tielines(top, K_J, K_R, [None, mu_s]))
+    lift, slip = _tielines(top, K_J, K_R, [None, mu_s])
+    return lift, slip
 
 
-def _tielines(top, K_J, K_R, limits):
+def _tielines(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | None]) -> list[Tielines]:
     """Tielines for each of the limits: None for F_z >= 0 alone, or a mu_s."""
     shape, K_J = np.shape(K_J), np.asarray(K_J, dtype=float)
     if not np.all(np.isfinite(K_J)):
@@ -82,7 +91,8 @@ def _tielines(top, K_J, K_R, limits):
             raise TopError("mu_s", float(mu), "mu_s >= 0")
     if not K_J.size:
         empty = np.empty(shape)
-        return [Tielines(*[empty] * 5, np.empty(shape, "U9"), empty, empty) for _ in limits]
+        words = np.empty(shape, "U9")
+        return [Tielines(empty, empty, empty, empty, empty, words, empty, empty) for _ in limits]
     with np.errstate(all="ignore"):
         blocks = [list(_Wells(top, K_J[i : i + _BLOCK], K_R).columns(limits)) for i in range(0, K_J.size, _BLOCK)]
         columns = [zip(*parts, strict=True) for parts in zip(*blocks, strict=True)]
@@ -91,10 +101,30 @@ def _tielines(top, K_J, K_R, limits):
 
 # ---- one theta: everything that depends on it alone ----
 
-Place = namedtuple("Place", "x s2 f1 f2 drop height slope N0 N1 N2 zc zb z1 X2 Y A0 A1 D")
+class Place(NamedTuple):
+    """Arrays of the shape of x, real or complex."""
+
+    x: Number
+    s2: Number
+    f1: Number
+    f2: Number
+    drop: Number
+    height: Number
+    slope: Number
+    N0: Number
+    N1: Number
+    N2: Number
+    zc: Number
+    zb: Number
+    z1: Number
+    X2: Number
+    Y: Number
+    A0: Number
+    A1: Number
+    D: Number
 
 
-def _place(x, north, top, K_R):
+def _place(x: Number, north: Bools, top: AnyTop, K_R: Number) -> Place:
     """Coefficients at distance x of cos(theta) to the nearer pole: real, or complex to have derivatives (f(x + ih)/h).
 
     Next to the inverted pole they are those of the upright one with the signs of a, cos(theta) and K_R turned.
@@ -119,18 +149,18 @@ def _place(x, north, top, K_R):
         D=(w3 / f1) ** 2 * D - kappa * X * X * (f1 + f2) / (f1 * f1))  # fmt: skip
 
 
-def _distance(theta, phi):
+def _distance(theta: Array, phi: Array) -> tuple[Array, Bools]:
     """1 - cos of the nearer of theta and phi = pi - theta, and whether that is theta."""
     north = theta <= phi
     return 2 * np.sin(np.where(north, theta, phi) / 2) ** 2, north
 
 
-def _angle(x, north):
+def _angle(x: Array, north: Bools) -> Array:
     half = 2 * np.arctan2(np.sqrt(x), np.sqrt(2 - x))
     return np.where(north, half, np.pi - half)
 
 
-def _interval(p, B, q, mu, n):
+def _interval(p: Place, B: Number, q: Number, mu: Scalars, n: Scalars) -> tuple[Number, Number]:
     """2E' at the end of the interval from q on in which the top keeps to the table (less than at q, or nan: it has no
     end), and mu F_z - n F_h at q."""
     z1 = mu * p.z1
@@ -152,7 +182,7 @@ def _interval(p, B, q, mu, n):
     return p.f1 * end + (p.height - p.drop * B * B), margin
 
 
-def _first(base, end, margin):
+def _first(base: Array, end: Array, margin: Array) -> Array:
     """2E' at which the limit first breaks where the trajectory passes: base, 2E' of one that turns there, where it is
     broken at rest; end of _interval, or inf where it has none."""
     return np.where(margin < 0, base, np.where(end >= base, end, np.inf))
@@ -167,7 +197,7 @@ _STENCIL = np.arange(-_REACH, _REACH + 1)[:, None]
 _FIT = np.linalg.inv(_STENCIL ** np.arange(2 * _REACH + 1.0))  # values on the stencil to coefficients
 
 
-def _mapped(t):
+def _mapped(t: Array) -> Array:
     """theta at place t of the grid: closer at the poles, where U is steep."""
     X = t / _CELLS
     return np.pi * (X - 0.9 * np.sin(2 * np.pi * X) / (2 * np.pi))
@@ -176,7 +206,7 @@ def _mapped(t):
 GRID = np.maximum(_mapped(np.arange(_CELLS + 1.0)), 1e-100)  # and both poles, but for their zeros
 
 
-def _zero(coefficients, t):
+def _zero(coefficients: Array, t: Array) -> tuple[Array, Number]:
     """The zero next to t of polynomials, rows of coefficients from the constant on, and the slope there."""
     for _ in range(3):
         value, slope = coefficients[-1], 0.0
@@ -187,7 +217,7 @@ def _zero(coefficients, t):
     return t, slope
 
 
-def _newton(function, x, enough):
+def _newton(function: Callable[[Complex, Indices], Complex], x: Array, enough: float) -> Indices:
     """Newton's steps in place on function(x + ih, i), i indices of x, to steps of a part `enough`; the i left over."""
     i = np.arange(x.size)
     for _ in range(30):
@@ -200,7 +230,7 @@ def _newton(function, x, enough):
     return i
 
 
-def _crossing(values, i, j):
+def _crossing(values: Array, i: Indices, j: Indices) -> Array:
     """Where values on stencils (stencil, k) about points i of the grid are zero, in the cells that begin at j."""
     low, r = j - i + _REACH, np.arange(len(i))
     share = values[low, r] / (values[low, r] - values[low + 1, r])
@@ -208,10 +238,16 @@ def _crossing(values, i, j):
     return i + _zero(_FIT @ values, j - i + share)[0]
 
 
-def _least(values):
+def _least(values: Array) -> tuple[Array, Array]:
     """Where polynomials through values (stencil, k) are least, from the stencil's middle, and the curvature there."""
     fit = _FIT @ values
     return _zero(fit[1:] * np.arange(1, 2 * _REACH + 1)[:, None], -fit[1] / (2 * fit[2]))
+
+
+Pair: TypeAlias = tuple[float, float]  # mu, n
+Ends: TypeAlias = tuple[Array, Array]  # low, high
+# of _closer: theta, what _on gives there, and what to call with the indices of the next ends
+Grid: TypeAlias = tuple[Array, tuple[Place, Array, Array, Array], Callable[[Indices, Indices], None]]
 
 
 class _Wells:
@@ -219,7 +255,7 @@ class _Wells:
 
     _AT_REST = "x s2 f2 height slope zc zb z1 Y A0 A1".split()
 
-    def __init__(self, top, K_J, K_R):
+    def __init__(self, top: Top, K_J: Array, K_R: float) -> None:
         self.top, self.K_J, self.K_R, self.barriers = top, K_J, K_R, {}
         self.gaps, self.k = pole_gaps(top, K_J, K_R), np.arange(len(K_J))
         self.place, self.B, self.q, self.U = self._on(GRID, GRID[::-1], self.k)
@@ -232,14 +268,14 @@ class _Wells:
         if self.barriers:
             _, _, self.q, self.base = self._on(GRID, GRID[::-1], self.k)
 
-    def energy(self, e):
+    def energy(self, e: Array) -> Array:
         """E from 2E'."""
         return (e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
 
-    def _gap(self, north, k):
+    def _gap(self, north: Bools, k: Indices) -> Array:
         return np.where(north, self.gaps[0][k], self.gaps[1][k])
 
-    def _on(self, theta, phi, k):
+    def _on(self, theta: Array, phi: Array, k: Indices) -> tuple[Place, Array, Array, Array]:
         """Place, B, and the q and 2E' that first reach each theta, on grids (n,) or (k, n), for K_J of indices k."""
         x, north = _distance(theta, phi)
         p = _place(x, north, self.top, self.K_R)
@@ -255,24 +291,24 @@ class _Wells:
                 base[row] = np.where(beyond, np.maximum(base[row], height), base[row])
         return p, B, q + (base - U) / p.f1, base
 
-    def _bracket(self, x, north, d):
+    def _bracket(self, x: Number, north: Bools, d: Array) -> tuple[Number, Number, Number, ExactTop, Array]:
         """B, f2^2, s^2, and the top and K_R as the nearer pole sees them."""
         sign = np.where(north, 1.0, -1.0)
         t, K = ExactTop(sign * self.top.a, self.top.I1, self.top.I3), sign * self.K_R
         s2 = x * (2 - x)
         return d + x * pole_slope(x, t.a, K, t), f2_2(1 - x, s2, t), s2, t, K
 
-    def _steady(self):
+    def _steady(self) -> Array:
         """theta_p: the zero of N next to the lowest point of the grid."""
         j = _clip(self.lowest, _REACH, _CELLS - _REACH)
         p, B = self.place, self.B[self.k, j + _STENCIL]
-        N = (p.N2[j + _STENCIL] * B + p.N1[j + _STENCIL]) * B + p.N0[j + _STENCIL]
-        t, _ = _zero(_FIT @ N, (self.lowest - j) * 1.0)
+        N_near = (p.N2[j + _STENCIL] * B + p.N1[j + _STENCIL]) * B + p.N0[j + _STENCIL]
+        t, _ = _zero(_FIT @ N_near, (self.lowest - j) * 1.0)
         t = j + np.where(np.abs(t) < _REACH, t, self.lowest - j)
         x, north = _distance(_mapped(t), _mapped(_CELLS - t))
         d = self._gap(north, self.k)
 
-        def N(z, i):
+        def N(z: Complex, i: Indices) -> Complex:
             B, _, s2, t, K = self._bracket(z, north[i], d[i])
             return well_slope(1 - z, s2, B, -bracket_slope(1 - z, s2, t, K), t)
 
@@ -293,12 +329,12 @@ class _Wells:
             theta[i] = angle(max(found, key=lambda s: s.gap).c) if found else GRID[self.lowest[i]]
         return theta
 
-    def _barriers(self, i):
+    def _barriers(self, i: np.intp) -> list[tuple[float, float]]:
         """(theta, U) of the largest U that separate the wells of one K_J."""
         stations = find_stations(ExactCurve.of(self.top, self.K_J[i], self.K_R))
         return [(angle(s.c), -float(s.gap)) for s in stations if not s.bottom and s.gap.is_finite()]
 
-    def columns(self, limits):
+    def columns(self, limits: Sequence[float | None]) -> Iterator[tuple[Number, ...]]:
         """The columns of Tielines for each of the limits."""
         pairs = [(1.0, 0.0) if mu is None else (float(mu), 1.0) for mu in limits]
         e, verge, normal, broken, U_p = self._limits(pairs)
@@ -311,7 +347,7 @@ class _Wells:
             by = np.where(broken[i], "no motion", np.where(np.isinf(e[i]), "nothing", by))
             yield self.K_J, self.energy(e[i]), *ends[i], verge[i], by, self.theta_p, self.energy(U_p)
 
-    def _limits(self, pairs):
+    def _limits(self, pairs: list[Pair]) -> tuple[Array, Array, Array, Bools, Array]:
         """2E' of the limits, theta and F_z where they are reached, whether broken at rest (limits, k); U there (k,)."""
         found = []
         for mu, n in pairs:
@@ -402,7 +438,7 @@ class _Wells:
         verge[~np.isfinite(e) | broken] = np.nan
         return np.where(broken, np.nan, e), verge, normal, broken, p.height + p.f2 * w2**2
 
-    def _turns(self, margin, e, done):
+    def _turns(self, margin: Array, e: Array, done: Array) -> tuple[Indices, Indices]:
         """Rows and cells of the grid, but for those done, where a turning point below e may be without margin."""
         over = margin < 0
         k, cell = np.divmod(np.flatnonzero(over[:, 1:] != over[:, :-1]), _CELLS)
@@ -419,7 +455,7 @@ class _Wells:
         clear[np.isin(k, list(self.barriers))] = False
         return k[~clear], cell[~clear]
 
-    def _search(self, pair, k, ends, e, verge, normal):
+    def _search(self, pair: Pair, k: Indices, ends: list[Ends], e: Array, verge: Array, normal: Array) -> None:
         """Closer and closer grids between ends, for K_J of indices k: writes what is below e."""
         for theta, (p, B, q, base), closer in self._closer(k, ends):
             end, margin = _interval(p, B, q, *pair)
@@ -432,7 +468,7 @@ class _Wells:
             if value < e[i]:
                 e[i], verge[i], normal[i] = value, place, z
 
-    def _narrow(self, pair, e, verge, normal, ends):
+    def _narrow(self, pair: Pair, e: Array, verge: Array, normal: Array, ends: Array) -> bool:
         """As _search, in those trajectories in which the grid has few points: whether it found less."""
         count = ((self.base[:, 1:-1] <= e[:, None]) & np.isfinite(e[:, None])).sum(axis=1)
         k = np.flatnonzero(np.isfinite(e) & (count < _FEW) & (ends[1] > ends[0]))
@@ -451,20 +487,20 @@ class _Wells:
         self._search(pair, k[rows], [(low, high), (np.pi - low, np.pi - high)], e, verge, normal)
         return bool(np.any(e < before))
 
-    def _closer(self, k, ends):
+    def _closer(self, k: Indices, ends: list[Ends]) -> Iterator[Grid]:
         """Grids that close in, for K_J of indices k, from both ends (low, high) of theta and of pi - theta."""
         share, r, ends = np.arange(33) / 32, np.arange(len(k)), [np.array(pair) for pair in ends]
 
-        def closer(low, high):
+        def closer(low: Indices, high: Indices) -> None:
             ends[:] = [np.array([grid[r, low], grid[r, high]]) for grid in (theta, phi)]
 
         for _ in range(20):
             theta, phi = (low[:, None] + (high - low)[:, None] * share for low, high in ends)
             yield theta, self._on(theta, phi, k), closer
-            if all((np.abs(high - low) <= 1e-16 * np.minimum(*map(np.max, ends))).all() for low, high in ends):
+            if all((np.abs(high - low) <= 1e-16 * np.minimum(ends[0].max(), ends[1].max())).all() for low, high in ends):
                 break
 
-    def _ends(self, e):
+    def _ends(self, e: Array) -> Array:
         """theta at both turning points of the trajectories of energies e (limits, k) in these wells: (limits, 2, k)."""
         insides = [self.base <= energy[:, None] for energy in e]
         within = np.array([(inside.argmax(axis=1), _CELLS - inside[:, ::-1].argmax(axis=1)) for inside in insides])
@@ -477,7 +513,7 @@ class _Wells:
         x, north = _distance(_mapped(t), _mapped(_CELLS - t))
         d = self._gap(north, k)
 
-        def D(z, i):
+        def D(z: Complex, i: Indices) -> Complex:
             B, f2, s2, _, _ = self._bracket(z, north[i], d[i])
             return s2 * (energy[i] - 2 * self.top.a * np.where(north[i], z, 2 - z)) - f2 * B * B
 
@@ -494,7 +530,7 @@ class _Wells:
                 theta[which, side, rows] = self._end(rows, e[which, rows], sign)
         return theta
 
-    def _end(self, k, e, sign):
+    def _end(self, k: Indices, e: Array, sign: int) -> Array:
         """The turning point on one side of theta_p (1: inner, -1: outer), for K_J of indices k."""
         beyond = (sign * (GRID - self.theta_p[k, None]) < 0) & (self.base[k] > e[:, None])
         low = np.where(sign > 0, _CELLS - beyond[:, ::-1].argmax(axis=1), beyond.argmax(axis=1))
@@ -510,10 +546,10 @@ class _Wells:
         return (theta[r, at - 1] + theta[r, at]) / 2
 
 
-def _normal(p, B, e):
+def _normal(p: Place, B: Number, e: Number) -> Number:
     """F_z at 2E' = e."""
     return p.zc + p.zb * B + p.z1 * (e - p.height + p.drop * B * B) / p.f1
 
 
-def _clip(x, low, high):
+def _clip(x: Number, low: Number, high: Number) -> Number:
     return np.minimum(np.maximum(x, low), high)  # np.clip takes ten times as long on arrays this short

@@ -1,24 +1,31 @@
 """The record that every kind of motion returns."""
 
-from collections import namedtuple
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .curve import f3_squared
 from .errors import TopError, numbers
 from .top import Top
+from .types import Array
 
 
-class Ledger(namedtuple("Ledger", "spin precession nutation height translation heat")):
-    """Where the energy is, in MgR: see Trajectory.ledger."""
+class Ledger(NamedTuple):
+    """Where the energy is, in MgR, (n,) each: see Trajectory.ledger."""
 
-    __slots__ = ()
+    spin: Array
+    precession: Array
+    nutation: Array
+    height: Array
+    translation: Array
+    heat: Array
 
     @property
-    def kinetic(self):
-        """All of it that is motion."""
+    def kinetic(self) -> Array:
+        """All of it that is motion, (n,)."""
         return self.spin + self.precession + self.nutation + self.translation
 
 
@@ -47,23 +54,23 @@ class Trajectory:
     """
 
     top: Top
-    t: np.ndarray
-    theta: np.ndarray
-    phi: np.ndarray
-    psi: np.ndarray
-    quaternion: np.ndarray
-    contact: np.ndarray
-    com: np.ndarray
-    omega: np.ndarray
-    slip: np.ndarray
-    force: np.ndarray
-    regime: np.ndarray
-    events: tuple = ()
-    velocity: np.ndarray | None = None
-    heat: np.ndarray | None = None
-    supports: tuple = ()
+    t: Array
+    theta: Array
+    phi: Array
+    psi: Array
+    quaternion: Array
+    contact: Array
+    com: Array
+    omega: Array
+    slip: Array
+    force: Array
+    regime: NDArray[np.str_]
+    events: tuple[tuple[float, str], ...] = ()
+    velocity: Array = None  # type: ignore[assignment]  # once made, it has these two
+    heat: Array = None  # type: ignore[assignment]
+    supports: tuple[tuple[float, str], ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.velocity is None:
             (w1, w2, w3), (ux, uy), a = self.omega.T, self.slip.T, self.top.a
             s, c = np.sin(self.theta), np.cos(self.theta)
@@ -78,29 +85,29 @@ class Trajectory:
                 value.flags.writeable = False
 
     @cached_property
-    def jellett(self):
-        """C_J = I1 s w2 + I3 (c - a) w3, (14); the paper's K_J of (30) is C_J/I1."""
+    def jellett(self) -> Array:
+        """C_J = I1 s w2 + I3 (c - a) w3, (14), (n,); the paper's K_J of (30) is C_J/I1."""
         top, (_, w2, w3) = self.top, self.omega.T
         return top.I1 * np.sin(self.theta) * w2 + top.I3 * (np.cos(self.theta) - top.a) * w3
 
     @cached_property
-    def routh(self):
-        """K_R = f3 w3, (31)."""
+    def routh(self) -> Array:
+        """K_R = f3 w3, (31), (n,)."""
         return np.sqrt(f3_squared(self.theta, self.top)) * self.omega[:, 2]
 
     @cached_property
-    def L_3(self):
-        """I3 w3, G's angular momentum about axis 3."""
+    def L_3(self) -> Array:
+        """I3 w3, G's angular momentum about axis 3, (n,)."""
         return self.top.I3 * self.omega[:, 2]
 
     @cached_property
-    def L_z(self):
-        """I1 s w2 + I3 c w3, G's angular momentum about the vertical."""
+    def L_z(self) -> Array:
+        """I1 s w2 + I3 c w3, G's angular momentum about the vertical, (n,)."""
         top, (_, w2, w3) = self.top, self.omega.T
         return top.I1 * np.sin(self.theta) * w2 + top.I3 * np.cos(self.theta) * w3
 
     @cached_property
-    def ledger(self):
+    def ledger(self) -> Ledger:
         """Where the energy is: Ledger of (n,) arrays in MgR, whose sum stays what it was.
 
         spin I3 w3^2/2, precession I1 w2^2/2, nutation I1 w1^2/2, height of G above its place when upright,
@@ -112,12 +119,12 @@ class Trajectory:
                       (self.velocity**2).sum(axis=1) / 2, self.heat)  # fmt: skip
 
     @cached_property
-    def energy(self):
-        """E of (6), counted from G's height when upright."""
-        return sum(self.ledger[:-1])
+    def energy(self) -> Array:
+        """E of (6), counted from G's height when upright, (n,)."""
+        return sum(self.ledger[:-1], np.zeros(len(self.t)))
 
 
-def checked_times(times):
+def checked_times(times: ArrayLike) -> Array:
     """times as a new (n,) float array, or a TopError."""
     t = numbers("times", times)
     if t.ndim != 1 or not t.size:

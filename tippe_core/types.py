@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 Array: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
 Indices: TypeAlias = NDArray[np.intp]
-Complex: TypeAlias = NDArray[np.complex128]
+Complex: TypeAlias = NDArray[np.complexfloating]
 Scalars: TypeAlias = float | Array  # a number, or an array; several of them broadcast together
 # Any, for a formula is written once for floats, arrays (real, complex, of long floats) and Decimals alike.
 Number: TypeAlias = Any
