@@ -22,23 +22,34 @@ the rates of sigma_- and sigma_+ are smooth for every trajectory, also through a
 point.
 """
 
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
 from decimal import Decimal, localcontext
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.fft import dct, dst
 
 from .constants import EXACT, Constants, Exact, State, f1_2, f2_2, f3_2, versines
 from .curve import ExactCurve, Well, near_pole, omega2_at, wells
 from .errors import TopError
 from .forces import contact_force
+from .top import Top
 from .trajectory import Trajectory, checked_times
+from .types import Array, Complex, Indices, Number, Scalars
 
 _NODES_LEAST, _NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that of a merging
 _FEW, _MANY = 64, 512  # harmonics: up to so many each by itself; at once
+# cos(kappa/2), sin(kappa/2), v, m, h, dkappa/deta; and of sigma: its turn by whole periods, the rest, what was left out
+Nodes: TypeAlias = tuple[Array, Array, Array, Array, Array, Array]
+Sigma: TypeAlias = tuple[Array, Array, Array]
 
 
-def roll(top, constants, times, start="inner", well=0):
+def roll(
+    top: Top, constants: Constants | None, times: ArrayLike, start: State | str = "inner", well: int = 0
+) -> Trajectory:
     """The motion without slipping at the given times: Trajectory. Exact to rounding for times of any length.
 
     constants: K_J, K_R and E, numbers; or None where start is a State.
@@ -51,19 +62,48 @@ def roll(top, constants, times, start="inner", well=0):
     return Rolling(top, constants, start, well)(times)
 
 
-class Nutation:
-    """A motion whose c_dot^2 is analytic between two turning points, as a function of time since its start.
+class Nutation(ABC):
+    """A motion whose c_dot^2 is analytic between two turning points, as a function of time since its start."""
 
-    Of a kind of motion: top, start (State), _inward (whether theta falls at first), v1, v2, m1, m2 and width of the
-    turning points, _place (as sin(kappa/2), cos(kappa/2) at the start), gaps (d at both poles); _h and _h_exact, that
-    is dt/dkappa; _slopes and _w3, for the rates of phi and psi; _omega; _too_near(), the error to raise; and where a
-    path is carried along, _carried.
-    """
+    top: Top
+    start: State
+    v1: float  # of the turning points
+    v2: float
+    m1: float
+    m2: float
+    width: float
+    gaps: tuple[float, float]  # d at both poles
+    _inward: bool  # whether theta falls at first
+    _place: tuple[float, float]  # as sin(kappa/2), cos(kappa/2) at the start
+
+    @abstractmethod
+    def _h(self, v: Array, m: Array) -> Array:
+        """dt/dkappa at v = 1 - c, m = 1 + c."""
+
+    @abstractmethod
+    def _h_exact(self, ch: Array, sh: Array) -> Array:
+        """dt/dkappa with all figures, at cos(kappa/2) and sin(kappa/2)."""
+
+    @abstractmethod
+    def _slopes(self, v: Array, m: Array) -> Sequence[Scalars]:
+        """(w2 s - d)/(1 -+ c) at the poles."""
+
+    @abstractmethod
+    def _w3(self, v: Array, m: Array) -> Scalars:
+        """omega_3."""
+
+    @abstractmethod
+    def _omega(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> tuple[Array, Array, Array]:
+        """omega about 1', 2', 3."""
+
+    @abstractmethod
+    def _too_near(self) -> TopError:
+        """The error to raise."""
 
     # ---- one nutation, on nodes in kappa ----
 
     @cached_property
-    def _map(self):
+    def _map(self) -> tuple[float, float, float, float] | None:
         """y0, eps, alpha, x0 of cos(kappa) = y0 + eps sinh(alpha (cos(eta) - x0)), or None where kappa = eta will do.
 
         Where Q nearly vanishes in the well or at an end of it, wells are about to merge or a steady precession is
@@ -73,7 +113,7 @@ class Nutation:
         if self.width == 0 or h.max() < 3 * h.min():
             return None
 
-        def Q(y):
+        def Q(y: Array) -> Array:
             up, down = np.maximum((1 + y) / 2, 1e-20), np.maximum((1 - y) / 2, 1e-20)
             return 1 / self._h_exact(np.sqrt(up), np.sqrt(down)) ** 2
 
@@ -96,7 +136,7 @@ class Nutation:
         alpha = sum(ends) / 2
         return y0, eps, alpha, (ends[1] - ends[0]) / (2 * alpha)
 
-    def _nodes(self, n):
+    def _nodes(self, n: int) -> Nodes:
         """n midpoints of eta in (0, pi): (cos(kappa/2), sin(kappa/2)), v, m, h, dkappa/deta."""
         if n == _NODES_LEAST and not self._map:
             return self._plain
@@ -105,10 +145,10 @@ class Nutation:
         return self._crowded[n]
 
     @cached_property
-    def _crowded(self):
+    def _crowded(self) -> dict[int, Nodes]:
         return {}
 
-    def _exact_nodes(self, n):
+    def _exact_nodes(self, n: int) -> Nodes:
         half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
         ch, sh, stretch = np.cos(half), np.sin(half), np.ones(n)
         if self._map:
@@ -121,21 +161,23 @@ class Nutation:
         return ch, sh, *self._versines(ch, sh), self._h_exact(ch, sh), stretch
 
     @cached_property
-    def _plain(self):
+    def _plain(self) -> Nodes:
         """The least nodes, with kappa = eta."""
         half = (np.arange(_NODES_LEAST) + 0.5) * (np.pi / (2 * _NODES_LEAST))
         ch, sh = np.cos(half), np.sin(half)
         v, m = self._versines(ch, sh)
         return ch, sh, v, m, self._h(v, m), np.ones(_NODES_LEAST)
 
-    def _eta(self, sine, cosine):
+    def _eta(self, sine: float, cosine: float) -> tuple[float, float]:
         """What sin(eta/2) and cos(eta/2) are as, where sin(kappa/2) and cos(kappa/2) are as sine and cosine."""
         if not self._map:
             return sine, cosine
         y0, eps, _, _ = self._map
         whole = sine**2 + cosine**2
 
-        def part(share, end):  # alpha times the distance of cos(eta) to an end, from that of cos(kappa), 2 share
+        def part(
+            share: float, end: float
+        ) -> float:  # alpha times the distance of cos(eta) to an end, from that of cos(kappa), 2 share
             p = end / eps
             q = p - 2 * share / whole / eps
             if p * q > 0:
@@ -144,7 +186,7 @@ class Nutation:
 
         return np.sqrt(part(sine**2, 1 - y0)), np.sqrt(part(cosine**2, 1 + y0))
 
-    def _resolved(self, n, *rates):
+    def _resolved(self, n: int, *rates: Array) -> tuple[bool, Array]:
         """Whether n midpoints resolve even periodic functions of kappa; and their cosine coefficients."""
         coefficients = dct(np.array(rates), type=2, axis=1) / n
         size = np.abs(coefficients)
@@ -154,7 +196,7 @@ class Nutation:
         return bool(np.all((tail < 1e-15 * scale) | flat)), coefficients
 
     @cached_property
-    def _time(self):
+    def _time(self) -> tuple[int, float, Array, Array, Array]:
         """Number of nodes enough for h, period, tau and dkappa/deta at the nodes, cosine coefficients of dt/deta."""
         n = _NODES_LEAST
         while n <= _NODES_MOST:
@@ -167,17 +209,17 @@ class Nutation:
         raise self._too_near()
 
     @property
-    def period(self):
+    def period(self) -> float:
         """Period of the nutation in (R/g)^1/2."""
         return self._time[1]
 
     @cached_property
-    def _kappa(self):
+    def _kappa(self) -> Array:
         """Sine coefficients in tau of kappa - tau."""
         n, _, tau, stretch, _ = self._time
         while True:
 
-            def coefficients(k, n=n, tau=tau, stretch=stretch):
+            def coefficients(k: Indices, n: int = n, tau: Array = tau, stretch: Array = stretch) -> Array:
                 return (2 / (n * k) * (_wave(k, tau).real @ stretch))[None]
 
             series = _converged(coefficients, _most(n, tau))
@@ -190,7 +232,7 @@ class Nutation:
             tau = _phase(dct(h * stretch, type=2) / n)
 
     @cached_property
-    def _orientation(self):
+    def _orientation(self) -> tuple[Number, ...]:
         """Mean rates in tau, sine coefficients of sigma_- and sigma_+, and of a velocity carried along its own.
 
         Those are the Fourier coefficients forward and backward and the constant, in axes that turn at the mean rate.
@@ -209,7 +251,7 @@ class Nutation:
 
             waves = rates if velocity is None else np.array([*rates, velocity, velocity.conj()])
 
-            def coefficients(k, n=n, tau=tau, waves=waves):
+            def coefficients(k: Indices, n: int = n, tau: Array = tau, waves: Array | Complex = waves) -> Array:
                 sums = (_wave(k, tau) @ waves.T).real.T
                 sums[:2] *= 2 / n / k
                 return sums
@@ -221,10 +263,10 @@ class Nutation:
                 raise self._too_near()
             n *= 2
 
-    def _carried(self, ch, sh, v, m, h):
+    def _carried(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> Complex | None:
         """Of a point carried along, velocity over exp(i sigma_- + i sigma_+) (n,) complex; None: there is none."""
 
-    def _sigma_rates(self, v, m, h):
+    def _sigma_rates(self, v: Array, m: Array, h: Array) -> Array:
         """d sigma_-+/dkappa: half of phi_dot (1 + c) - w3 and of phi_dot (1 - c) + w3, less the turn at the pole."""
         w3, rates = self._w3(v, m), []
         poles = (v, self.v1, self.v2, -1), (m, self.m1, self.m2, 1)
@@ -234,7 +276,7 @@ class Nutation:
             rates.append((peak + h * (slope + sign * w3)) / 2)
         return np.array(rates)
 
-    def _w1(self, ch, sh, v, m, h):
+    def _w1(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> Array:
         """theta_dot; where it turns its sign, at a pole, as just after it."""
         with np.errstate(invalid="ignore", divide="ignore"):
             w1 = np.where(self.width > 0, self.width * sh * ch / (h * np.sqrt(v * m)), 0.0)
@@ -243,13 +285,13 @@ class Nutation:
             w1 = np.where(at_pole, np.where(v == 0, 1, -1) * self.width**0.5 / (h * 2**0.5), w1)
         return w1
 
-    def _pole_factor(self, ch, sh, pole):
+    def _pole_factor(self, ch: Array, sh: Array, pole: int) -> Complex:
         x1, x2 = ((self.v1, self.v2), (self.m1, self.m2))[pole]
         return x1**0.5 * ch + 1j * np.copysign(x2**0.5, self.gaps[pole]) * sh
 
     # ---- at any time ----
 
-    def _clock(self, times):
+    def _clock(self, times: ArrayLike) -> tuple[Array, Array, Array]:
         """Whole periods, half periods (0 or 1) and the rest of the phase, -pi/2 to pi/2, at the times: (n,) each."""
         t, T = checked_times(times), self.period
         half, rest = self._start_phase
@@ -263,7 +305,7 @@ class Nutation:
         return turns + whole, halves - 2 * turns, rest
 
     @cached_property
-    def _start_phase(self):
+    def _start_phase(self) -> tuple[float, float]:
         """Half period and the rest of the phase at the start, to full precision next to either turning point."""
         sine, cosine = self._place
         if self.width == 0:
@@ -276,28 +318,30 @@ class Nutation:
         tau = eta + 2 / h[0] * (sign * h[1:] / k) @ np.sin(k * eta)
         return half, -tau if self._inward != bool(half) else tau
 
-    def theta(self, times):
+    def theta(self, times: ArrayLike) -> Array:
         """theta (n,) in rad at the times (n,)."""
         _, half, rest = self._clock(times)
         ch, sh = _half_angle(half, rest, _evaluate(half, rest, self._kappa[None])[0])
         v, m = self._versines(ch, sh)
         return 2 * np.arctan2(np.sqrt(v), np.sqrt(m))
 
-    def _versines(self, ch, sh):
+    def _versines(self, ch: Array, sh: Array) -> tuple[Array, Array]:
         return self.v1 + self.width * sh**2, self.m2 + self.width * ch**2
 
     @cached_property
-    def phi_advance(self):
+    def phi_advance(self) -> float:
         """Advance of phi in a period, rad."""
         return 2 * np.pi * self._orientation[0].sum() + np.pi * sum(np.copysign(1, d) for d in self.gaps)
 
     @cached_property
-    def psi_advance(self):
+    def psi_advance(self) -> float:
         """Advance of psi in a period, rad."""
         north, south = (np.copysign(1, d) for d in self.gaps)
         return 2 * np.pi * (self._orientation[0] @ (-1, 1)) + np.pi * (south - north)
 
-    def _motion(self, turns, half, rest, *more):
+    def _motion(
+        self, turns: Array, half: Array, rest: Array, *more: Array
+    ) -> tuple[Array, Array, Sigma, Sigma, list[Array]]:
         """cos and sin of kappa/2, the parts of sigma_- and sigma_+, and the sums of more sine series."""
         mean, *series = self._orientation[:3]
         series = self._kappa, *series, *more
@@ -309,9 +353,10 @@ class Nutation:
         # whole turns apart: rounded with them, the angles of late periods would not be smooth in time
         sigma = [(2 * np.pi * _part_turn(turns, mu), mu * tau + series, 2 * np.pi * np.trunc(turns * mu))
                  for mu, series in zip(mean, (minus, plus), strict=True)]  # fmt: skip
-        return *_half_angle(half, rest, kappa), *sigma, more
+        ch, sh = _half_angle(half, rest, kappa)
+        return ch, sh, sigma[0], sigma[1], more
 
-    def _posed(self, times):
+    def _posed(self, times: ArrayLike) -> tuple[dict[str, Number], dict[str, Number], float]:
         """_state at the start and at the times, the latter turned to the start's phi and psi, and the turn of phi."""
         start = self.start
         first = self._state(np.zeros(1), *(np.array([x]) for x in self._start_phase))
@@ -324,7 +369,7 @@ class Nutation:
         now["quaternion"] = np.stack([xy.real, xy.imag, zw.imag, zw.real], axis=1)
         return first, now, d_phi
 
-    def _state(self, turns, half, rest, *more):
+    def _state(self, turns: Array, half: Array, rest: Array, *more: Array) -> dict[str, Number]:
         ch, sh, minus, plus, more = self._motion(turns, half, rest, *more)
         v, m = self._versines(ch, sh)
         parity = np.where(np.remainder(turns, 2) == 1, -1.0, 1.0)
@@ -349,7 +394,7 @@ class Rolling(Nutation):
     theta(times) alone, or called with times for the whole Trajectory.
     """
 
-    def __init__(self, top, constants, start="inner", well=0):
+    def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
         self.top = top
         with localcontext(EXACT):
             if isinstance(start, State):
@@ -358,22 +403,22 @@ class Rolling(Nutation):
                 curve, (inner, outer) = _from_constants(top, constants, start, well)
                 here = inner if start == "inner" else outer
             exact, self._exact = curve.exact, (curve, inner, outer)
-            self.gaps = tuple(map(float, curve.gaps))
+            self.gaps = float(curve.gaps[0]), float(curve.gaps[1])
             self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
             self.width = float(inner - outer)
             self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5  # as sin(kappa/2), cos(kappa/2)
             self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
         self._given = isinstance(start, State)
-        self.start = start if self._given else State(0.0, 0.0, 0.0, 0.0)
+        self.start = start if isinstance(start, State) else State(0.0, 0.0, 0.0, 0.0)
         self._inward = self.start.theta_dot < 0
 
-    def _h(self, v, m):
-        """dt/dkappa = Q^-1/2 at v = 1 - c, m = 1 + c."""
+    def _h(self, v: Array, m: Array) -> Array:
+        """Q^-1/2."""
         top, c, c1, c2 = self.top, 1 - v, 1 - self.v1, 1 - self.v2
         gamma, a = top.I3 / top.I1, top.a
         # second divided differences over (c1, c2, c), first ones over (c1, c2) and (c2, c), of y = f3,
         places = (c1, self.v1 * self.m1), (c2, self.v2 * self.m2), (c, v * m)
-        y1, y2, y = (np.sqrt(f3_2(*place, top)) for place in places)
+        y1, y2, y = (np.sqrt(f3_2(x, s2, top)) for x, s2 in places)
         y_12 = ((gamma - 1) * (c1 + c2) - 2 * gamma * a) / (y1 + y2)
         y_2c = ((gamma - 1) * (c2 + c) - 2 * gamma * a) / (y2 + y)
         y_12c = (gamma - 1 - y_12 * y_2c) / (y1 + y)
@@ -394,7 +439,7 @@ class Rolling(Nutation):
         with np.errstate(invalid="ignore", divide="ignore"):
             return 1 / np.sqrt(Q)
 
-    def _h_exact(self, ch, sh):
+    def _h_exact(self, ch: Array, sh: Array) -> Array:
         """dt/dkappa with the digits of EXACT."""
         curve, inner, outer = self._exact
         with localcontext(EXACT):
@@ -402,15 +447,15 @@ class Rolling(Nutation):
                  for up, down in zip((ch**2).tolist(), (sh**2).tolist(), strict=True)]  # fmt: skip
             return np.array([float(((inner - x) * (x - outer) * f1_2(x, curve.top) / curve.D(x)[0]).sqrt()) for x in c])
 
-    def _bracket(self, v, m):
+    def _bracket(self, v: Array, m: Array) -> Array:
         d, x, C = near_pole(v, m, self.top, self.K_R, self.gaps)
         return d + x * C
 
     @cached_property
-    def _bracket_ends(self):
+    def _bracket_ends(self) -> Array:
         return self._bracket(np.array([self.v1, self.v2]), np.array([self.m1, self.m2]))
 
-    def _too_near(self):
+    def _too_near(self) -> TopError:
         if self._given:
             return TopError("theta", self.start.theta, f"a start whose nutation {_NODES_MOST} nodes resolve",
                             "It is too near to an unstable steady precession, or f1 or f3 nearly vanishes in the "
@@ -420,23 +465,21 @@ class Rolling(Nutation):
                         "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "
                         "well; change E a little.")  # fmt: skip
 
-    def _slopes(self, v, m):
-        """(w2 s - d)/(1 -+ c) at the poles."""
+    def _slopes(self, v: Array, m: Array) -> list[Array]:
         gap, nearer, C = near_pole(v, m, self.top, self.K_R, self.gaps)
         B = gap + nearer * C
         with np.errstate(invalid="ignore", divide="ignore"):
             return [np.where(near, C, (B - d) / x)
                     for near, x, d in zip((v <= m, m <= v), (v, m), self.gaps, strict=True)]  # fmt: skip
 
-    def _w3(self, v, m):
+    def _w3(self, v: Array, m: Array) -> Array:
         return self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
 
-    def _omega(self, ch, sh, v, m, h):
-        """omega about 1', 2', 3."""
+    def _omega(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> tuple[Array, Array, Array]:
         w2 = omega2_at(v, m, self.top, self.K_R, self.gaps)
         return self._w1(ch, sh, v, m, h), w2, self._w3(v, m)
 
-    def _carried(self, ch, sh, v, m, h):
+    def _carried(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> Complex:
         """The velocity of the contact point, (w2 c - w3 s, -w1) in the turning axes."""
         A = self._pole_factor(ch, sh, 0) * self._pole_factor(ch, sh, 1)
         w1, w2, w3 = self._omega(ch, sh, v, m, h)
@@ -444,7 +487,9 @@ class Rolling(Nutation):
         direction = np.where(s > 0, A / np.where(s > 0, s, 1), 1)
         return direction * (w2 * (1 - v) - w3 * s - 1j * w1)
 
-    def _state(self, turns, half, rest):
+    def _state(  # type: ignore[override]  # more is its own
+        self, turns: Array, half: Array, rest: Array
+    ) -> dict[str, Number]:
         """And the contact point counted from phase 0."""
         mean, minus, _, forward, backward, constant = self._orientation
         rate = mean.sum()
@@ -472,7 +517,7 @@ class Rolling(Nutation):
         contact = scale * (whole * np.exp(1j * rate * tau) * Y - Y0 + amplitude * along)
         return now | {"contact": contact}
 
-    def __call__(self, times):
+    def __call__(self, times: ArrayLike) -> Trajectory:
         """The Trajectory at the times (n,)."""
         top, start, t = self.top, self.start, checked_times(times)
         first, now, d_phi = self._posed(t)
@@ -493,7 +538,7 @@ class Rolling(Nutation):
             regime=np.full(len(t), "roll"))  # fmt: skip
 
 
-def _from_constants(top, constants, start, well):
+def _from_constants(top: Top, constants: Constants | None, start: str, well: int) -> tuple[ExactCurve, Well]:
     if not isinstance(start, str) or start not in ("inner", "outer"):
         raise TopError("start", start, '"inner", "outer" or a State')
     if not isinstance(constants, Constants):
@@ -505,7 +550,7 @@ def _from_constants(top, constants, start, well):
     return curve, found[well]
 
 
-def _from_state(top, constants, state):
+def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[ExactCurve, Well, Decimal]:
     exact = Exact.of_state(state, top)
     v, m = (float(x) for x in versines(state.theta))
     here = 1 - Decimal(v) if v <= m else Decimal(m) - 1
@@ -520,13 +565,12 @@ def _from_state(top, constants, state):
         if not isinstance(constants, Constants):
             raise TopError("constants", constants, "Constants(K_J, K_R, E), or None beside a State")
         own = Exact.of(constants, top)
-        for name in ("K_J", "K_R", "e"):
-            if abs(getattr(own, name) - getattr(exact, name)) > Decimal("1e-9") * max(1, abs(getattr(exact, name))):
-                raise TopError(name.replace("e", "2E'"), float(getattr(own, name)),
-                               f"{float(getattr(exact, name)):.10g}, that of the State",
+        for name, one, other in (("K_J", own.K_J, exact.K_J), ("K_R", own.K_R, exact.K_R), ("2E'", own.e, exact.e)):
+            if abs(one - other) > Decimal("1e-9") * max(Decimal(1), abs(other)):
+                raise TopError(name, float(one), f"{float(other):.10g}, that of the State",
                                "Give None for the constants.")  # fmt: skip
     curve = ExactCurve(top, exact, rounded=False)
-    if state.theta_dot == 0 and abs(curve.N(here)) < Decimal("1e-50") * max(1, exact.K_J**2, exact.K_R**2):
+    if state.theta_dot == 0 and abs(curve.N(here)) < Decimal("1e-50") * max(Decimal(1), exact.K_J**2, exact.K_R**2):
         return curve, Well(here, here), here
     inner, outer = min(wells(curve), key=lambda w: max(here - w.inner, w.outer - here))
     return curve, Well(inner, outer), min(max(here, outer), inner)
@@ -535,14 +579,14 @@ def _from_state(top, constants, state):
 # ---- series ----
 
 
-def _part_turn(turns, rate):
+def _part_turn(turns: Array, rate: float) -> Array:
     """turns * rate less its whole part, to the digits of rate: the product with its leading 24 bits is exact."""
     leading = float(np.float32(rate))
     whole = turns * leading
     return np.fmod(whole, 1) + turns * (rate - leading) - (np.trunc(turns * rate) - np.trunc(whole))
 
 
-def _integral(cosines):
+def _integral(cosines: Array) -> Array:
     """At the midpoints, the integral from 0 of the even function with these cosine coefficients."""
     n = len(cosines)
     k = np.arange(1, n)
@@ -550,17 +594,17 @@ def _integral(cosines):
     return cosines[0] / 2 * (np.arange(n) + 0.5) * np.pi / n + dst(sines, type=3) / 2
 
 
-def _phase(h):
+def _phase(h: Array) -> Array:
     """tau at the midpoints, from the cosine coefficients of h."""
     return _integral(h) * 2 / h[0]
 
 
-def _most(n, tau):
+def _most(n: int, tau: Array) -> int:
     """The harmonics of tau that n midpoints of kappa resolve."""
     return int(n / (np.diff(tau).max() * n / np.pi))
 
 
-def _wave(k, tau):
+def _wave(k: Indices, tau: Array) -> Complex:
     """exp(-i k tau) for consecutive k, (len(k), len(tau)); where they are many, as products of few."""
     if len(k) <= _FEW:
         return np.exp(-1j * np.outer(k, tau))
@@ -568,13 +612,14 @@ def _wave(k, tau):
     return (far[:, None] * near).reshape(-1, len(tau))[: len(k)]
 
 
-def _converged(coefficients, most):
+def _converged(coefficients: Callable[[Indices], Array], most: int) -> Array | None:
     """coefficients(k) (rows, len(k)) for k = 1, 2, ..., doubled until all rows have ended; None if that takes over
     `most`.
 
     A row has ended where its last quarter is rounding: below 1e-16 of the sum of its sizes, or small and not falling.
     """
-    count, done = 8, []
+    done: list[Array] = []
+    count = 8
     while count < most:
         first, count = sum(part.shape[1] for part in done), min(2 * count, most)
         done += [coefficients(np.arange(k, min(k + _MANY, count + 1))) for k in range(first + 1, count + 1, _MANY)]
@@ -587,14 +632,14 @@ def _converged(coefficients, most):
     return None
 
 
-def _half_angle(half, rest, series):
+def _half_angle(half: Scalars, rest: Scalars, series: Scalars) -> tuple[Array, Array]:
     """cos and sin of kappa/2 = (pi half + rest + series)/2."""
     s = np.sin((rest + series) / 2)  # within pi/4 or so of 0
     c = np.sqrt(1 - s * s)
     return np.where(half, -s, c), np.where(half, c, s)
 
 
-def _evaluate(half, rest, rows, cosine=False):
+def _evaluate(half: Array, rest: Array, rows: Array, cosine: bool = False) -> Array:
     """(rows, n): the sums over k >= 1 of rows[:, k - 1] sin(k tau), or cos(k tau), at tau = pi half + rest."""
     count = rows.shape[1]
     out = np.empty((len(rows), len(rest)))

@@ -10,28 +10,53 @@ stays in the processor's cache. Between the points of the grid, limits and turni
 narrower than a few points get a grid of their own, and rows with several wells are left to tippe_core.tielines itself.
 """
 
-from collections import namedtuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .constants import ExactTop, f2_2, f3_2
+from .constants import AnyTop, ExactTop, f2_2, f3_2
 from .errors import TopError, finite
 from .tielines import _distance, _mapped, _place, figures
 from .top import Top
+from .types import Array, Bools, Indices, Number
 
 ROWS, COLUMNS = 64, 256  # K_J, theta
 BLOCK = 32  # tops whose coefficients are made together
 NARROW, CLOSE, AROUND = 10, 24, 1.25  # a well of fewer points gets so many, over so many times its half-width
 PASSES, CHUNK = 4, 256  # at most; so many rows of such wells at a time
 PART = (np.arange(ROWS) + 0.5) / ROWS  # of K_J(P)
-THETA = _mapped(np.arange(COLUMNS) + 0.5)  # between the points of tielines' own grid: without the poles
+THETA = _mapped(np.arange(COLUMNS + 0.0) + 0.5)  # between the points of tielines' own grid: without the poles
 _CUBIC = np.linalg.inv(np.arange(4.0)[:, None] ** np.arange(4))  # values at 0, 1, 2, 3 to coefficients
 
-# Of arrays of theta: sin^2; beta = K_J - B; U; F_z; F_y; the end by F_z; and that by friction, Q and W, W with sign
-_Coefficients = namedtuple("_Coefficients", "s2 beta U0 U2 z0 z1 z2 y0 y1 y2 l0 l1 l2 q0 q1 q2 w0 w1 w2 sign")
+
+class _Coefficients(NamedTuple):
+    """Of arrays of theta: sin^2; beta = K_J - B; U; F_z; F_y; the end by F_z; that by friction, Q and W, W with sign."""
+
+    s2: Array
+    beta: Array
+    U0: Array
+    U2: Array
+    z0: Array
+    z1: Array
+    z2: Array
+    y0: Array
+    y1: Array
+    y2: Array
+    l0: Array
+    l1: Array
+    l2: Array
+    q0: Array
+    q1: Array
+    q2: Array
+    w0: Array
+    w1: Array
+    w2: Array
+    sign: Array
 
 
-def allowed_shares(a, I1, I3, K_R, mu_s):
+def allowed_shares(a: ArrayLike, I1: ArrayLike, I3: ArrayLike, K_R: float, mu_s: float) -> Array:
     """The share, 0 to 1, of Fig. 5's region of the (K_J, theta) plane, K_J from 0 to P, that friction leaves.
 
     The sum of the widths in theta of 64 tielines under F_h <= mu_s F_z, over the same under F_z >= 0 alone; a tieline
@@ -47,13 +72,14 @@ def allowed_shares(a, I1, I3, K_R, mu_s):
         share = np.full(a.shape, np.nan)
         tops = np.array([a[there], I1[there], I3[there]])
         for i in range(0, tops.shape[1], BLOCK):
-            lift, slip = _widths(*tops[:, i : i + BLOCK, None], K_R, mu_s).sum(axis=2)
+            some = tops[:, i : i + BLOCK, None]
+            lift, slip = _widths(some[0], some[1], some[2], K_R, mu_s).sum(axis=2)
             tops[0, i : i + BLOCK] = slip / lift
     share[there] = tops[0]
     return share
 
 
-def _coefficients(theta, top, K_R, mu):
+def _coefficients(theta: Array, top: AnyTop, K_R: float, mu: float) -> _Coefficients:
     p = _place(*_distance(theta, np.pi - theta), top, K_R)
     c, s, s2 = np.cos(theta), np.sin(theta), p.s2
     z1, A1 = mu * p.z1, p.A1
@@ -76,7 +102,7 @@ def _coefficients(theta, top, K_R, mu):
         w0=r0 * unit**2, w1=r1 * unit**2, w2=r2 * unit**2, sign=np.sign(unit))  # fmt: skip
 
 
-def _widths(a, I1, I3, K_R, mu):
+def _widths(a: Array, I1: Array, I3: Array, K_R: float, mu: float) -> Array:
     """Widths in theta of the tielines of tops of (n, 1) a, I1, I3, (2, n, ROWS): of Fig. 5, of Fig. 6."""
     n = len(a)
     k = _coefficients(THETA, ExactTop(a, I1, I3), K_R, mu)
@@ -115,14 +141,14 @@ def _widths(a, I1, I3, K_R, mu):
     return np.nan_to_num(width)
 
 
-def _sweep(k, K_J, mu, buffers):
+def _sweep(k: _Coefficients, K_J: Array, mu: float, buffers: Array) -> tuple[Array, Bools]:
     """Places of the turning points on the grid of k's columns (limits, sides, rows), the first point 0: one where
     there is no motion, infinite where nothing limits it; and in which rows U has several minima."""
     B, U, scratch, F_z, F_y, margin, end_z, end_h = buffers
     columns, here = U.shape[1], np.arange(len(U))
     row = here * columns
 
-    def quadratic(c2, c1, c0, out):
+    def quadratic(c2: Array, c1: Array, c0: Array, out: Array) -> Array:
         np.multiply(B, c2, out=out)
         out += c1
         out *= B
@@ -146,12 +172,12 @@ def _sweep(k, K_J, mu, buffers):
     quadratic(k.q2, k.q1, k.q0, end_h)
     end_h -= scratch
 
-    def stencil(at):
+    def stencil(at: Indices) -> tuple[Indices, Indices, Indices]:
         """First of the four points around cells `at`, flat indices (4, ...), where the cells begin among the four."""
         start = np.clip(at - 1, 0, columns - 4)
         return start, row + start + np.arange(4).reshape(-1, *[1] * at.ndim), np.clip(at - start, 0, 2)
 
-    def s2(index):
+    def s2(index: Indices) -> Array:
         return k.s2.take(index if k.s2.ndim == 2 else index - row)
 
     # within the trajectory: the vertex of a parabola through three points of the limit
@@ -168,7 +194,7 @@ def _sweep(k, K_J, mu, buffers):
         j = scratch.argmin(axis=1)
         i = np.clip(j, 1, columns - 2)
         vertex, t = _vertex(*(end[here, i + step] for step in (-1, 0, 1)))
-        good = (np.abs(t) <= 1) & (vertex >= _parabola(*(U[here, i + step] for step in (-1, 0, 1)), t))
+        good = (np.abs(t) <= 1) & (vertex >= _parabola(t, *(U[here, i + step] for step in (-1, 0, 1))))
         inside.append(np.fmin(scratch[here, j], np.where(good, vertex, np.inf)))
         masks = over & ~outside, over & outside
         sides.append([[columns - 1 - masks[0][:, ::-1].argmax(axis=1), masks[1].argmax(axis=1) - 1],
@@ -183,7 +209,7 @@ def _sweep(k, K_J, mu, buffers):
     t = _root(weight * left, low)
     corner = _value(_cubic(weight * U.take(flat)), t) / _value(_cubic(weight), t)
     ends = np.fmin(inside, np.where(some, corner, np.inf).min(axis=1))
-    normal, across = (_parabola(*(F[here, near + step] for step in (-1, 0, 1)), steady) for F in (F_z, F_y))
+    normal, across = (_parabola(steady, *(F[here, near + step] for step in (-1, 0, 1))) for F in (F_z, F_y))
     still = np.array([normal < 0, mu * normal < np.abs(across)])
     ends = np.where(still, well, ends)
     # turning points
@@ -200,27 +226,27 @@ def _sweep(k, K_J, mu, buffers):
     return np.where(still[:, None], near + steady, places), several
 
 
-def _vertex(before, at, after):
+def _vertex(before: Array, at: Array, after: Array) -> tuple[Array, Array]:
     """Least value of the parabolas through values at -1, 0, 1, and where; inf where they bend down."""
     bend = before - 2 * at + after
     bend = np.where(bend > 0, bend, np.nan)
     return at - (after - before) ** 2 / (8 * bend), (before - after) / (2 * bend)
 
 
-def _parabola(before, at, after, t):
+def _parabola(t: Array, before: Array, at: Array, after: Array) -> Array:
     return at + t * ((after - before) + t * (before - 2 * at + after)) / 2
 
 
-def _cubic(values):
+def _cubic(values: Array) -> Array:
     """Coefficients of the cubics through values (4, ...) at 0, 1, 2, 3."""
     return np.tensordot(_CUBIC, values, axes=1)
 
 
-def _value(c, t):
+def _value(c: Array, t: Number) -> Array:
     return ((c[3] * t + c[2]) * t + c[1]) * t + c[0]
 
 
-def _root(values, low, outside=None):
+def _root(values: Array, low: Indices, outside: Sequence[Sequence[int]] | None = None) -> Array:
     """Where cubics through values (4, ...) are zero between low and low + 1; the chord's zero where they are not.
 
     outside, 0 or 1: the end of the cell to start from, where values may rise and fall between the two."""

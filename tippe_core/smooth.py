@@ -14,20 +14,24 @@ pushes with
     F_z = 1 + d^2/dt^2 (-a c) = {I1 + a [I1 c (w1^2 + w2^2) - I3 w3 s w2]}/(I1 + a^2 s^2) .
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from decimal import Decimal, localcontext
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from .constants import EXACT, State, exact_top, versines
+from .constants import EXACT, ExactTop, State, exact_top, versines
 from .curve import angle, solve
 from .errors import TopError
 from .rolling import Nutation
+from .top import Top
 from .trajectory import Trajectory, checked_times
+from .types import Array
 
 
-def glide(top, state, times):
+def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
     """The motion on a smooth plane at the given times: Trajectory. Exact to rounding for times of any length.
 
     state: State at times[0]; x, y, vx, vy left None mean G at the origin, at rest.
@@ -52,7 +56,7 @@ class Gliding(Nutation):
     motion goes on after it).
     """
 
-    def __init__(self, top, state):
+    def __init__(self, top: Top, state: State) -> None:
         if not isinstance(state, State):
             raise TopError("state", state, "a State")
         self.top, self.start, self._inward = top, state, state.theta_dot < 0
@@ -68,54 +72,54 @@ class Gliding(Nutation):
             self.turning_points = np.array([angle(inner), angle(outer)])
             self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
             self.width = float(inner - outer)
-            self._place = float(max(inner - here, 0)) ** 0.5, float(max(here - outer, 0)) ** 0.5
+            self._place = float(max(inner - here, Decimal(0))) ** 0.5, float(max(here - outer, Decimal(0))) ** 0.5
             self.gaps = float((L_z - L3) / t.I1), float((L_z + L3) / t.I1)
             self._Q_outer = float(e + L3 * L3 / t.I1 - 2 * t.a * (1 - inner - 2 * outer))
             self._C = float(L3 / t.I1)
             self.E = float(e + L3 * w3) / 2
 
-    def _h(self, v, m):
+    def _h(self, v: Array, m: Array) -> Array:
         Q = self._Q_outer + 2 * self.top.a * (self.v2 - v)
         if self.width == 0 and not np.all(Q > 0):
             return np.ones_like(Q)  # at rest on an unstable steady precession: any rate of kappa will do
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.sqrt((self.top.I1 + self.top.a**2 * v * m) / Q)
 
-    def _h_exact(self, ch, sh):
+    def _h_exact(self, ch: Array, sh: Array) -> Array:
         return self._h(*self._versines(ch, sh))  # Q has nothing to cancel
 
-    def _too_near(self):
+    def _too_near(self) -> TopError:
         return TopError("theta", self.start.theta, "a start further from an unstable steady precession",
                         "So near to it the nutation takes almost for ever; change the start a little.")  # fmt: skip
 
-    def _slopes(self, v, m):
+    def _slopes(self, v: Array, m: Array) -> tuple[float, float]:
         return self._C, -self._C
 
-    def _w3(self, v, m):
+    def _w3(self, v: Array, m: Array) -> float:
         return self.start.omega3
 
-    def _omega(self, ch, sh, v, m, h):
+    def _omega(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> tuple[Array, Array, Array]:
         x, d, C = np.minimum(v, m), np.where(v <= m, *self.gaps), np.where(v <= m, self._C, -self._C)
         with np.errstate(invalid="ignore", divide="ignore"):
             w2 = np.where(d == 0, 0.0, d / np.sqrt(v * m)) + np.sqrt(x / (2 - x)) * C
         return self._w1(ch, sh, v, m, h), w2, np.full_like(w2, self.start.omega3)
 
-    def _F_z(self, v, m, w1, w2):
+    def _F_z(self, v: Array, m: Array, w1: Array, w2: Array) -> Array:
         a, I1, s, c = self.top.a, self.top.I1, np.sqrt(v * m), 1 - v
         return (I1 + a * I1 * (c * (w1**2 + w2**2) - self._C * s * w2)) / (I1 + a * a * s * s)
 
     @property
-    def lift_off(self):
+    def lift_off(self) -> float:
         """Time from the start to where F_z falls to 0, in (R/g)^1/2; inf if it never does."""
 
-        def F_z(t):
+        def F_z(t: Array) -> Array:
             now = self._state(*self._clock(np.append(0.0, t)))
             w1, w2, _ = now["omega"]
             return self._F_z(now["v"], now["m"], w1, w2)[1:]
 
         return first_below(F_z, self.period)
 
-    def __call__(self, times):
+    def __call__(self, times: ArrayLike) -> Trajectory:
         """The Trajectory at the times (n,)."""
         top, start, t = self.top, self.start, checked_times(times)
         _, now, d_phi = self._posed(t)
@@ -135,10 +139,10 @@ class Gliding(Nutation):
             force=np.stack([none, none, F_z], axis=1), regime=np.full(len(t), "slip"))  # fmt: skip
 
 
-def _turning(t, e, L_z, L3, here, still):
+def _turning(t: ExactTop, e: Decimal, L_z: Decimal, L3: Decimal, here: Decimal, still: bool) -> tuple[Decimal, Decimal]:
     """cos(theta) at the turning points, Decimals: the zeros of P on both sides of here."""
 
-    def P(c):
+    def P(c: Decimal) -> tuple[Decimal, Decimal]:
         B, rest = L_z - L3 * c, e - 2 * t.a * (1 - c)
         return ((1 - c * c) * rest - B * B / t.I1,
                 -2 * c * rest + 2 * t.a * (1 - c * c) + 2 * L3 * B / t.I1)  # fmt: skip
@@ -162,12 +166,12 @@ def _turning(t, e, L_z, L3, here, still):
     return (max(min(other, one), here), here) if slope > 0 else (here, min(max(other, -one), here))
 
 
-def first_below(function, period):
+def first_below(function: Callable[[Array], Array], period: float) -> float:
     """The first t >= 0 at which function(t (n,)) -> (n,), of the given period, falls below 0; inf if it never does."""
     t = np.linspace(0, period, 513)
     values = function(t)
 
-    def crossing(times, values):
+    def crossing(times: Array, values: Array) -> float:
         i = int(np.argmax(values < 0))
         return 0.0 if i == 0 else brentq(lambda x: function(np.array([x]))[0], times[i - 1], times[i], xtol=1e-13)
 

@@ -16,13 +16,17 @@ little to take it beyond FLAT again: then it lies on all of its rim, whatever it
 start flat on the end with nothing but a spin stands, though from a lean of 1e-4 rad the same spin rocks it.
 """
 
+from collections.abc import Sequence
 from math import acos, atan2, cos, hypot, sin, sqrt
+
+from .top import Top
+from .types import Array, Rim, Vector
 
 STANDS, FLAT = 1e-3, 1e-6  # rad: what counts as upright; what counts as flat
 ROUNDING = 1e-13  # what is left of nothing by sin(pi)
 
 
-def tipping_energy(top, edge):
+def tipping_energy(top: Top, edge: Rim) -> float:
     """What G must rise from flat on the stem's end for the top to tip over its rim, or onto its ball."""
     b, h, q = edge
     H = top.a + h
@@ -31,21 +35,21 @@ def tipping_energy(top, edge):
     return H * (cos(alpha) - 1) + b * sin(alpha)
 
 
-def energy_above_rest(top, edge, y, L3):
+def energy_above_rest(top: Top, edge: Rim, y: Sequence[float] | Array, L3: float) -> float:
     """The energy at y (16) above that of rest, flat on the stem's end."""
     L_squared, v_squared = y[5] * y[5] + y[6] * y[6] + y[7] * y[7], y[8] * y[8] + y[9] * y[9] + y[14] * y[14]
     kinetic = (L_squared / top.I1 + (1 / top.I3 - 1 / top.I1) * L3 * L3 + v_squared) / 2
     return kinetic + y[15] - (top.a + edge[1] + edge[2])
 
 
-def leaning(e, w):
+def leaning(e: Vector, w: Vector) -> tuple[float, float]:
     """sin(theta) and its rate."""
     (ex, ey, ez), (wx, wy, wz) = e, w
     s = sqrt(ex * ex + ey * ey)
     return s, (ex * (wy * ez - wz * ey) + ey * (wz * ex - wx * ez)) / s
 
 
-def lies(top, edge, e, w):
+def lies(top: Top, edge: Rim, e: Vector, w: Vector) -> bool:
     """Whether e' takes it no further than FLAT from flat: 1/2 (I1 + H^2 + b^2) e'^2 < b FLAT, on a rim that holds."""
     b, h, _ = edge
     (ex, ey, ez), (wx, wy, wz) = e, w
@@ -53,12 +57,12 @@ def lies(top, edge, e, w):
     return (top.I1 + (top.a + h) ** 2 + b * b) * square < 2 * b * FLAT
 
 
-def crossed(y, e):
+def crossed(y: Array, e: Vector) -> Array:
     """y (16) leaning as much to the other side, G as high."""
     return _turned(y, -e[1], e[0], -e[2])  # by 2 alpha about z cross e
 
 
-def leaned(y, e, w):
+def leaned(y: Array, e: Vector, w: Vector) -> Array:
     """y (16) of a start flat on the end, leaning to where it turns, or else slides; of any other as it is."""
     (wx, wy, _), tiny = w, FLAT / 1000
     s, rate = leaning(e, w)
@@ -72,7 +76,7 @@ def leaned(y, e, w):
     return _turned(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0)
 
 
-def _turned(y, i, j, w):
+def _turned(y: Array, i: float, j: float, w: float) -> Array:
     """y turned by the quaternion (i, j, 0, w)."""
     px, py, pz, pw = y[:4]
     y = y.copy()

@@ -101,6 +101,7 @@ def _tielines(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | Non
 
 # ---- one theta: everything that depends on it alone ----
 
+
 class Place(NamedTuple):
     """Arrays of the shape of x, real or complex."""
 
@@ -497,7 +498,9 @@ class _Wells:
         for _ in range(20):
             theta, phi = (low[:, None] + (high - low)[:, None] * share for low, high in ends)
             yield theta, self._on(theta, phi, k), closer
-            if all((np.abs(high - low) <= 1e-16 * np.minimum(ends[0].max(), ends[1].max())).all() for low, high in ends):
+            if all(
+                (np.abs(high - low) <= 1e-16 * np.minimum(ends[0].max(), ends[1].max())).all() for low, high in ends
+            ):
                 break
 
     def _ends(self, e: Array) -> Array:
