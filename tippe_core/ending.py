@@ -8,6 +8,7 @@ import numpy as np
 from .errors import TopError
 from .outcome import steady_states
 from .trajectory import Trajectory
+from .types import Array, Bools
 
 # LAST: the share of the time by which the end is told. UPRIGHT, LEANS (rad): so near to a pole, and so little change of
 # the tilt.
@@ -51,7 +52,7 @@ class Ending:
     creeps     it is settled, and yet its mean tilt still goes on to where it will be
     """
 
-    stretches: tuple
+    stretches: tuple[Stretch, ...]
     end: str
     on: str
     since: float
@@ -64,7 +65,7 @@ class Ending:
     creeps: bool
 
 
-def ending(trajectory):
+def ending(trajectory: Trajectory) -> Ending:
     """The Ending of a Trajectory of slide()."""
     if not isinstance(trajectory, Trajectory):
         raise TopError("trajectory", trajectory, "a Trajectory")
@@ -94,7 +95,7 @@ def ending(trajectory):
                   cut=not ended and not settled, creeps=creeps)  # fmt: skip
 
 
-def _ended(moved):
+def _ended(moved: Trajectory) -> str:
     """The event that ended it: the Trajectory has no sample there."""
     if not moved.events:
         return ""
@@ -102,7 +103,7 @@ def _ended(moved):
     return event if event in STOPS or time > moved.t[-1] or len(moved.t) == 1 else ""
 
 
-def _swings(moved):
+def _swings(moved: Trajectory) -> bool:
     """Whether it has rolled long enough to come back: through two turning points of theta since it last slipped."""
     slipped = moved.t[moved.regime != "roll"][-1:]
     event = max([moved.t[0], *slipped, *(time for time, _ in moved.events[-1:])])
@@ -111,7 +112,7 @@ def _swings(moved):
     return bool(np.ptp(theta) < 1e-6 or np.count_nonzero(np.diff(np.sign(w1))) > 1)
 
 
-def _quiet(moved, last, on):
+def _quiet(moved: Trajectory, last: Bools, on: str) -> bool:
     """Whether friction takes nothing any more, and on the ball alone whether that is at a stable steady state."""
     t, heat, kinetic = moved.t[last], moved.heat[last], moved.ledger.kinetic[-1]
     first, second = np.diff(np.interp([t[0], (t[0] + t[-1]) / 2, t[-1]], t, heat))
@@ -122,26 +123,26 @@ def _quiet(moved, last, on):
     return _from_stable(moved, last) < LEANS
 
 
-def _from_stable(moved, last):
+def _from_stable(moved: Trajectory, last: Bools) -> float:
     """How far the mean of theta is from a stable steady state of the ball; 0 for a uniform ball, which has none."""
     steady, theta = steady_states(moved.top, moved.jellett[-1]), moved.theta[last].mean()
     return float(np.abs(steady.theta[steady.stable] - theta).min()) if any(steady.stable) else 0.0
 
 
-def lowest(profile, theta):
+def lowest(profile: Array, theta: Array) -> Array:
     """How far the lowest point of a profile, (k, 2) of radius and height above O in R, is above O at each theta."""
     radius, z = profile.T
     return np.array([np.min(z * c - radius * s) for s, c in zip(np.sin(theta), np.cos(theta), strict=True)])
 
 
-def sunk(trajectory, profile):
+def sunk(trajectory: Trajectory, profile: Array) -> int:
     """The first row at which a part of the profile that slide() does not know of is in the table, or how many there
     are: it knows the sphere and one edge, and an upper rim or another corner may come to the table past these."""
     height = trajectory.com[:, 2] + trajectory.top.a * np.cos(trajectory.theta) + lowest(profile, trajectory.theta)
     return int(np.argmax(np.append(height < -SUNK, True)))
 
 
-def _creeps(moved, last):
+def _creeps(moved: Trajectory, last: Bools) -> bool:
     """Whether the mean of theta still changes over the last two fifths of the time, and is not where it goes."""
     if _from_stable(moved, last) < THERE:
         return False
@@ -150,7 +151,7 @@ def _creeps(moved, last):
     return bool(abs(late - early) > CREEPS + np.ptp(last) / 10)
 
 
-def stretches(trajectory):
+def stretches(trajectory: Trajectory) -> tuple[Stretch, ...]:
     """(Stretch, ...) of a Trajectory: its supports."""
     times = [*(time for time, _ in trajectory.supports), float(trajectory.t[-1])]
     return tuple(

@@ -17,16 +17,22 @@ At the poles C_J = I3 (1 - a) omega upright and -I3 (1 + a) Omega inverted, and 
 (Rauch-Wojciechowski, Skoldstam, Glad, Regul. Chaotic Dyn. 10, 333 (2005); Rutstam, arXiv:1306.2470).
 """
 
-from collections import namedtuple
 from dataclasses import dataclass
+from typing import NamedTuple, overload
 
 import numpy as np
 
 from .constants import State, versines
 from .errors import TopError, finite
-from .top import Scales
+from .top import Scales, Top
+from .types import Array, Bools, Scalars
 
-SteadyStates = namedtuple("SteadyStates", "theta stable")
+
+class SteadyStates(NamedTuple):
+    """theta (k,) in rad, from 0 to pi, and stable (k,), whether V_J is least there."""
+
+    theta: Array
+    stable: Bools
 
 
 @dataclass(frozen=True)
@@ -39,7 +45,7 @@ class Change:
     stable: str
     spin: float
 
-    def holds(self, spin):
+    def holds(self, spin: float) -> bool:
         """Whether it is stable with this spin (of either sign)."""
         return {"always": True, "never": False}.get(self.stable, (abs(spin) > self.spin) == (self.stable == "above"))
 
@@ -64,7 +70,7 @@ class Thresholds:
     rise: float
 
 
-def thresholds(top):
+def thresholds(top: Top) -> Thresholds:
     """The Thresholds of a top."""
     a, gamma = top.a, top.I1 / top.I3
     if a == 0 and gamma == 1:
@@ -79,14 +85,20 @@ def thresholds(top):
     return Thresholds(group, upright, inverted, abs(1 + a) / (1 - a) * inverted.spin, float(rise))
 
 
-def _change(height, inertia):
+def _change(height: float, inertia: float) -> Change:
     """Stable where height + inertia spin^2 > 0."""
     if height * inertia < 0:
         return Change("above" if inertia > 0 else "below", float(np.sqrt(-height / inertia)))
     return Change("always" if height + inertia > 0 else "never", np.nan)
 
 
-def jellett_potential(theta, top, C_J):
+@overload
+def jellett_potential(theta: float, top: Top, C_J: float) -> float: ...
+@overload
+def jellett_potential(theta: Scalars, top: Top, C_J: Array) -> Array: ...
+@overload
+def jellett_potential(theta: Array, top: Top, C_J: Scalars) -> Array: ...
+def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
     """V_J = a(1 - c) + C_J^2/(2 I_eff) in MgR. theta in rad and C_J broadcast; inf where I_eff = 0 and C_J is not."""
     v, m = versines(theta)
     I_eff = top.I1 * v * m + top.I3 * (1 - v - top.a) ** 2
@@ -94,7 +106,7 @@ def jellett_potential(theta, top, C_J):
         return top.a * v + np.where(np.equal(C_J, 0), 0.0, np.square(C_J) / (2 * I_eff))
 
 
-def steady_states(top, C_J):
+def steady_states(top: Top, C_J: float) -> SteadyStates:
     """The extrema of V_J at C_J (a number): SteadyStates(theta, stable), arrays from theta = 0 to pi, both included.
 
     A top on any friction comes to rest in them relative to its own precession; stable where V_J is least. (For a
@@ -140,7 +152,7 @@ class Outcome:
     sentence: str
 
 
-def outcome(top, state, scales=None):
+def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
     """The Outcome of a State on any plane with sliding friction, of a top that touches it with its sphere alone.
 
     scales: Scales of the real top, for a sentence in rev/s. The state's vx, vy left None mean G at rest.
@@ -175,7 +187,7 @@ def outcome(top, state, scales=None):
     return Outcome(verdict, nudged, theta, float(omega3), certain, float(C_J), float(launch), steady, limits, sentence)
 
 
-def _balances(theta, steady, V, E):
+def _balances(theta: float, steady: SteadyStates, V: Array, E: float) -> bool:
     """Whether it starts in an unstable steady state and has no energy beyond it: exactly at a pole, or in between as
     near as the zeros of a polynomial are known."""
     at = int(np.argmin(np.abs(steady.theta - theta)))
@@ -183,7 +195,7 @@ def _balances(theta, steady, V, E):
     return bool(not steady.stable[at] and abs(steady.theta[at] - theta) <= near and E - V[at] <= 1e-12 * (1 + abs(E)))
 
 
-def _reachable_minima(theta, steady, V, E):
+def _reachable_minima(theta: float, steady: SteadyStates, V: Array, E: float) -> int:
     """How many minima of V_J no barrier above E parts from theta."""
     right = int(np.searchsorted(steady.theta, theta))
     below, count = V <= E, 0
@@ -195,7 +207,7 @@ def _reachable_minima(theta, steady, V, E):
     return count
 
 
-def _downhill(theta, steady, V, here):
+def _downhill(theta: float, steady: SteadyStates, V: Array, here: float) -> int:
     """The index of the minimum of V_J below theta; a start on a maximum of it leaves to the lower neighbour."""
     right = int(np.searchsorted(steady.theta, theta))
     at = min(max(right, 0), len(V) - 1)
@@ -211,13 +223,13 @@ def _downhill(theta, steady, V, here):
     return end
 
 
-def _sentence(verdict, nudged, theta, certain, launch, limits, scales):
+def _sentence(verdict: str, nudged: str, theta: float, certain: bool, launch: float, limits: Thresholds, scales: Scales | None) -> str:
     unit = scales.angular_velocity / (2 * np.pi) if scales else 1.0
 
-    def spin(value):
+    def spin(value: float) -> str:
         return f"{abs(value) * unit:.3g} {'rev/s' if scales else '(g/R)^1/2'}"
 
-    def stability(pole, change, value):
+    def stability(pole: str, change: Change, value: float) -> str:
         if change.stable in ("always", "never"):
             return f"{pole} is {'stable' if change.stable == 'always' else 'unstable'} at any spin"
         return f"{pole} is stable only {change.stable} {spin(value)}"

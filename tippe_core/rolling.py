@@ -265,6 +265,7 @@ class Nutation(ABC):
 
     def _carried(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> Complex | None:
         """Of a point carried along, velocity over exp(i sigma_- + i sigma_+) (n,) complex; None: there is none."""
+        return None
 
     def _sigma_rates(self, v: Array, m: Array, h: Array) -> Array:
         """d sigma_-+/dkappa: half of phi_dot (1 + c) - w3 and of phi_dot (1 - c) + w3, less the turn at the pole."""

@@ -32,7 +32,7 @@ _CUBIC = np.linalg.inv(np.arange(4.0)[:, None] ** np.arange(4))  # values at 0, 
 
 
 class _Coefficients(NamedTuple):
-    """Of arrays of theta: sin^2; beta = K_J - B; U; F_z; F_y; the end by F_z; that by friction, Q and W, W with sign."""
+    """Of arrays of theta: sin^2; beta = K_J - B; U; F_z; F_y; the end by F_z; that by friction, Q, W and its sign."""
 
     s2: Array
     beta: Array
