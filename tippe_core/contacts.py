@@ -26,17 +26,21 @@ these equations. Where nothing presses (without forces u_z' > 0) the contact par
 Flight. L stays, e turns round it at |L|/I1, and G falls along a parabola.
 """
 
+from collections.abc import Callable, Iterable, Sequence
 from itertools import product
 from math import sqrt
+from typing import TypeAlias
 
 import numpy as np
 from scipy.integrate import LSODA, solve_ivp
 from scipy.optimize import brentq
 
 from .errors import TopError
-from .friction import Coulomb
+from .friction import Coulomb, Friction, holding
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaned, leaning, lies, tipping_energy
+from .top import Top
 from .trajectory import Trajectory
+from .types import Array, Number, Rim, Vector
 
 # SLOW: see sliding.py. REST ((gR)^1/2): slip below which Coulomb's friction may hold.
 # SLACK (Mg), TOUCH (R): less than that is nothing. LEAST: what is left of u_z' by N, of 1 without friction.
@@ -46,14 +50,20 @@ SINKS = 1e-6  # (g): a contact that is let go and sinks faster would have to car
 STEADY = 10.0  # ((g/R)^1/2): rate at which what rounding and tolerance do to closed contacts is undone
 UP = np.array([0.0, 0.0, 1.0])
 SPHERE, EDGE = 0, 1
+SUPPORTS: dict[tuple[int, ...], str]
 SUPPORTS = {(): "none", (SPHERE,): "ball", (EDGE,): "stem", (SPHERE, EDGE): "both"}
 ENDS = {"stands": "stands upright", "balances": "Painleve's limit", "turns": "too many turns"}
+Modes: TypeAlias = dict[int, str]  # see Body
+Event: TypeAlias = tuple[str, int | None]  # what happens, at which contact
+Force: TypeAlias = tuple[list[float], Vector, Vector]  # F, rho, u
+Progress: TypeAlias = Callable[[float], bool]  # called with the time reached; True where that was too often
+Dense: TypeAlias = Number  # scipy's dense output
 
 
 # ---- y = (p_x, p_y, p_z, p_w, chi, L_x, L_y, L_z, v_x, v_y, x, y, t, heat[, v_z, z]), see sliding.py ----
 
 
-def turning(top, y):
+def turning(top: Top, y: Sequence[Number] | Array) -> tuple[Vector, Vector, Number, tuple[Number, Number]]:
     """e, w, L . e and the horizontal part of w x r for the sphere's r = z - a e, of floats or arrays."""
     px, py, pz, pw, _, Lx, Ly, Lz = y[:8]
     a, I1 = top.a, top.I1
@@ -65,7 +75,7 @@ def turning(top, y):
     return (ex, ey, ez), (wx, wy, wz), L3, (wy * rz + a * wz * ey, -wx * rz - a * wz * ex)
 
 
-def pose(top, y, path):
+def pose(top: Top, y: Array, path: Array) -> tuple[Array, Array, Array, Array]:
     """theta, phi, psi (n,) and omega (3, n) about 1', 2', 3 at y (14 or 16, n).
 
     path: y, or what has the same rows but for the velocity, at all steps of the integration, to follow the angles.
@@ -83,7 +93,9 @@ def pose(top, y, path):
     return theta, phi, psi, np.array([across.real, c * across.imag + s * w[2], c * w[2] - s * across.imag])
 
 
-def record(top, y, path, u, F, **more):
+def record(
+    top: Top, y: Array, path: Array, u: Sequence[Array] | Array, F: Sequence[Array] | Array, **more: Number
+) -> Trajectory:
     """The Trajectory at y (14 or 16, n), for the horizontal slip u and the force F in space, (2, n) and (3, n)."""
     theta, phi, psi, omega = pose(top, y, path)
     F = np.where((F[2] < 0) & (F[2] > -2 * SLACK), 0.0, F)
@@ -91,7 +103,7 @@ def record(top, y, path, u, F, **more):
     u_h, F_h = (u[0] + 1j * u[1]) * turn, (F[0] + 1j * F[1]) * turn
     p, half = y[:4] / np.sqrt((y[:4] ** 2).sum(axis=0)), np.exp(0.5j * y[4])  # q = p Rz(chi)
     xy, zw = (p[0] + 1j * p[1]) * half.conj(), (p[3] + 1j * p[2]) * half
-    parts = {
+    parts: dict[str, Number] = {
         "contact": np.stack([y[10] + top.a * e[0], y[11] + top.a * e[1]], axis=1),
         "com": np.stack([y[10], y[11], 1 - top.a * np.cos(theta)], axis=1),
         "regime": np.full(len(theta), "slip")}  # fmt: skip
@@ -105,7 +117,7 @@ def record(top, y, path, u, F, **more):
         heat=y[13], **parts | more)  # fmt: skip
 
 
-def gap(edge, c, s):
+def gap(edge: Rim, c: Number, s: Number) -> Number:
     """Height of the edge's lowest point above the table while the sphere stands on it."""
     b, h, q = edge
     return 1 + h * c - b * s - q
@@ -117,21 +129,22 @@ class Body:
     Its modes are a dict {SPHERE or EDGE: "slip" or "stick"} of the contacts that carry, {} in the air.
     """
 
-    def __init__(self, top, friction, tolerance, edge, progress):
-        self.top, self.friction, self.tolerance, self.edge, self.progress = top, friction, tolerance, edge, progress
+    def __init__(self, top: Top, friction: Friction, tolerance: float, edge: Rim | None, progress: Progress) -> None:
+        self.top, self.friction, self.tolerance, self.progress = top, friction, tolerance, progress
+        self.edge: Rim = edge or (0.0, 0.0, 0.0)  # of a whole sphere none, and no contact asks for it
         # touching more softly than this, both contacts stay closed, for else ever smaller bounces would follow without
         # end, down to heights below the tolerance; the energy is its square
         self.gentle = 10 * tolerance**0.5
-        self.sticks = isinstance(friction, Coulomb)
+        self.sticks, self.mu_s = isinstance(friction, Coulomb), holding(friction)
         self.contacts = (SPHERE,) if edge is None else (SPHERE, EDGE)
         self.tips = tipping_energy(top, edge) if edge else 0.0
 
-    def on_sphere(self, y):
+    def on_sphere(self, y: Array) -> Array:
         """y of 16 from that of 14, on the sphere."""
         (ex, ey, ez), (wx, wy, _), _, _ = turning(self.top, y)
         return np.append(y, [-self.top.a * (wx * ey - wy * ex), 1 - self.top.a * ez])
 
-    def on_edge(self, y):
+    def on_edge(self, y: Array) -> Array:
         """y of 16 from that of 14, on the edge."""
         y = np.append(y, [0.0, 0.0])
         if self.edge[0]:
@@ -142,9 +155,11 @@ class Body:
 
     # ---- contacts ----
 
-    def _contact(self, y, i, e=None, w=None):
+    def _contact(
+        self, y: Sequence[float] | Array, i: int, e: Vector | None = None, w: Vector | None = None
+    ) -> tuple[Vector, Vector, float, Vector]:
         """rho, rho', its height above the table and u, of contact i."""
-        if e is None:
+        if e is None or w is None:
             e, w, _, _ = turning(self.top, y)
         (ex, ey, ez), (ex_, ey_, ez_) = e, _cross(w, e)  # e, e'
         if i == SPHERE:
@@ -160,25 +175,27 @@ class Body:
         rho_dot = along * ex_ + turns * ex, along * ey_ + turns * ey, along * ez_
         return rho, rho_dot, y[15] + rho[2], _sum((y[8], y[9], y[14]), _cross(w, rho))
 
-    def heights(self, y):
+    def heights(self, y: Sequence[Number] | Array) -> Array:
         """Of the sphere's and the edge's lowest points above the table (k, n), at y (16, n)."""
         px, py, pz, pw = y[:4]
         s, c = 2 * np.sqrt((px * px + py * py) * (pz * pz + pw * pw)), 1 - 2 * (px * px + py * py)
         rise = y[15] + self.top.a * c - 1
-        return np.array([rise, rise + gap(self.edge, c, s)] if self.edge else [rise])
+        return np.array([rise, rise + gap(self.edge, c, s)] if EDGE in self.contacts else [rise])
 
-    def floor(self, y):
+    def floor(self, y: Array) -> Array:
         """Heights that count as 0 from y on: what the tolerance took from those of contacts that just parted."""
         return np.minimum(self.heights(y), 0.0)
 
-    def _response(self, e, F, at, rho):
+    def _response(self, e: Vector, F: Sequence[Number], at: Vector, rho: Vector) -> Vector:
         """v' + w' x rho for the force F at `at`; u' for an impulse."""
         top, torque = self.top, _cross(at, F)
         along = (1 / top.I3 - 1 / top.I1) * (torque[0] * e[0] + torque[1] * e[1] + torque[2] * e[2])
         w_dot = [x / top.I1 + along * axis for x, axis in zip(torque, e, strict=True)]
         return _sum(F, _cross(w_dot, rho))
 
-    def forces(self, y, modes, beside=True):
+    def forces(
+        self, y: Sequence[float] | Array, modes: Modes, beside: bool = True
+    ) -> tuple[dict[int, Force], dict[int, float], float]:
         """{i: (F, rho, u)} for the contacts of modes; {i: float}, what the others' u_z' is, if asked; and the least
         principal minor of u_z' by the N, not above 0 beyond Painleve's limit."""
         top = self.top
@@ -221,7 +238,7 @@ class Body:
 
     # ---- followed on one or two contacts ----
 
-    def _clock(self, y, modes, found=None):
+    def _clock(self, y: Sequence[float] | Array, modes: Modes, found: dict[int, Force] | None = None) -> float:
         """dt/dtau."""
         g = 1.0
         if self.sticks:
@@ -232,7 +249,7 @@ class Body:
                     g *= speed / (speed + SLOW)
         return g
 
-    def _rates(self, y, modes):
+    def _rates(self, y: Array, modes: Modes) -> Array:
         top = self.top
         y = y.tolist()
         found, _, _ = self.forces(y, modes, beside=False)
@@ -250,15 +267,15 @@ class Body:
             *torque, total[0], total[1], y[8], y[9], 1.0, heat, total[2], y[14]])  # fmt: skip
         return rates * self._clock(y, modes, found)
 
-    def _guards(self, y, modes, floor):
+    def _guards(self, y: Array, modes: Modes, floor: Array) -> dict[Event, float]:
         """What must not be negative: {(kind, contact): float}. floor: heights that count as the table's."""
         y = y.tolist()
         found, _, minor = self.forces(y, modes)
-        guards = {("balances", None): minor - LEAST}
+        guards: dict[Event, float] = {("balances", None): minor - LEAST}
         for i, (F, _, _) in found.items():
             guards["leaves", i] = F[2] + SLACK
             if modes[i] == "stick":
-                guards["slips", i] = self.friction.mu_s * F[2] - sqrt(F[0] * F[0] + F[1] * F[1]) + SLACK
+                guards["slips", i] = self.mu_s * F[2] - sqrt(F[0] * F[0] + F[1] * F[1]) + SLACK
         heights = self.heights(y)
         guards |= {("touches", i): max(heights[i] - floor[i] + TOUCH, self._contact(y, i)[3][2] + SLACK)
                    for i in self.contacts if i not in modes}  # fmt: skip
@@ -271,7 +288,7 @@ class Body:
                 guards["rocks", EDGE] = max(s / FLAT - 1, rate + SLACK)
         return guards
 
-    def follow(self, y, times, modes):
+    def follow(self, y: Array, times: Array, modes: Modes) -> tuple[Trajectory, Array, Event | None]:
         """A Trajectory of the times before the next event, the state then, and (kind, contact) of it, or None."""
         end, begin = times[-1], float(y[12])
         atol = np.full(16, self.tolerance)
@@ -318,15 +335,15 @@ class Body:
         samples[:, 12] = times[:done]
         return self._record(samples, np.array(path), modes), y, event
 
-    def _speeds(self, y, modes):
+    def _speeds(self, y: Array, modes: Modes) -> dict[int, float]:
         if not self.sticks:
             return {}
         return {i: float(np.hypot(*self._slip(y, i))) for i, mode in modes.items() if mode == "slip"}
 
-    def _slip(self, y, i):
+    def _slip(self, y: Array, i: int) -> Array:
         return np.array(self._contact(y, i)[3][:2])
 
-    def _halted(self, y, modes, i):
+    def _halted(self, y: Array, modes: Modes, i: int) -> Array:
         """y where the last of the slip at contact i is gone: by the midpoint rule."""
         middle, u = y, self._slip(y, i)
         for _ in range(3):
@@ -335,19 +352,19 @@ class Body:
             middle = y + left / 2 * rates
         return y + left * rates
 
-    def _may_stick(self, y, modes, i):
+    def _may_stick(self, y: Array, modes: Modes, i: int) -> bool:
         """Whether contact i could stick here."""
         F = self.forces(y, modes | {i: "stick"})[0][i][0]
-        return np.hypot(F[0], F[1]) <= self.friction.mu_s * F[2]
+        return bool(np.hypot(F[0], F[1]) <= self.mu_s * F[2])
 
     @staticmethod
-    def _first(guards):
+    def _first(guards: dict[Event, float]) -> Event | None:
         return next((key for key, value in guards.items() if not value >= 0), None)
 
-    def _crossing(self, dense, modes, floor, event, after, before):
+    def _crossing(self, dense: Dense, modes: Modes, floor: Array, event: Event, after: float, before: float) -> float:
         """tau at which the guard of the event falls below 0."""
 
-        def guard(tau):
+        def guard(tau: float) -> float:
             return self._guards(dense(tau), modes, floor)[event]
 
         kind, i = event
@@ -356,7 +373,7 @@ class Body:
 
         return brentq(guard, before, after, xtol=1e-15) if guard(before) > 0 else before
 
-    def _at(self, times, dense, modes):
+    def _at(self, times: Array, dense: Dense, modes: Modes) -> Array:
         """y (n, 16) at times within the last step."""
         limits = min(dense.t_old, dense.t), max(dense.t_old, dense.t)
         tau = np.full(len(times), limits[1])
@@ -368,7 +385,7 @@ class Body:
                 tau[i] = np.clip(tau[i] + (t - y[12]) / self._clock(y, modes), *limits)
         return dense(tau).T.reshape(len(times), 16)
 
-    def _record(self, samples, path, modes):
+    def _record(self, samples: Array, path: Array, modes: Modes) -> Trajectory:
         n = len(samples)
         u, F, contact = np.zeros((2, n)), np.zeros((3, n)), np.empty((n, 2))
         for k, y in enumerate(samples):
@@ -385,7 +402,7 @@ class Body:
 
     # ---- in the air ----
 
-    def _flown(self, y, t):
+    def _flown(self, y: Array, t: Array) -> Array:
         """y (16, n) a time t (n,) later, in the air."""
         L, I1 = y[5:8], self.top.I1
         size = np.linalg.norm(L)
@@ -405,7 +422,7 @@ class Body:
         out[14], out[15] = y[14] - t, y[15] + y[14] * t - t * t / 2
         return out
 
-    def fly(self, y, times):
+    def fly(self, y: Array, times: Array) -> tuple[Trajectory, Array, Event | None]:
         """As follow(), in the air."""
         rate, begin, left = np.linalg.norm(y[5:8]) / self.top.I1, y[12], times[-1] - y[12]
         floor = self.floor(y)[:, None]
@@ -419,7 +436,7 @@ class Body:
             for i in np.flatnonzero(low.any(axis=1)):
                 k = int(np.argmax(low[i]))
 
-                def height(x, i=i):
+                def height(x: float, i: np.intp = i) -> float:
                     return self.heights(self._flown(y, np.array([x])))[i, 0]
 
                 # after the short hop of a start it may have risen and come down within the first step
@@ -441,7 +458,7 @@ class Body:
 
     # ---- touching, leaving ----
 
-    def settle(self, y, event):
+    def settle(self, y: Array, event: Event) -> tuple[Array, Modes | None]:
         """The state after the event (kind, contact) at y, with any impact, and the modes in which it goes on, or None
         beyond Painleve's limit."""
         if event[0] == "rocks":
@@ -452,19 +469,20 @@ class Body:
             y = self._soft(y, closed)
             for _ in range(1000):
                 falls = {i: self._contact(y, i)[3][2] for i in closed}
-                i = min(falls, key=falls.get)
+                i = min(falls, key=falls.__getitem__)
                 if falls[i] >= -1e-12:
                     break
                 y = self._impact(y, i)
+        options: dict[int, list[str | None]]
         options = {i: [None, "slip"] for i in closed if self._contact(y, i)[3][2] < 1e-9}
         for i in options:
             if self._rests(y, i):
                 options[i] = [None, "stick", "slip"]
         if touched in options and kind in ("leaves", "sticks", "slips"):  # it is settled; elsewhere rounding may decide
-            options[touched] = {"leaves": [None], "sticks": ["stick"], "slips": ["slip"]}[kind]
+            options[touched] = [{"leaves": None, "sticks": "stick", "slips": "slip"}[kind]]
         return self._modes(y, options)
 
-    def _soft(self, y, closed):
+    def _soft(self, y: Array, closed: list[int]) -> Array:
         """y with both contacts closed for good, where they touch too softly to tell and both would carry."""
         speeds = np.array([self._contact(y, i)[3][2] for i in closed])
         if len(closed) < 2 or np.abs(speeds).max() > self.gentle:
@@ -477,7 +495,7 @@ class Body:
             y = self._pushed(y, i, P * UP)
         return y
 
-    def _modes(self, y, options):
+    def _modes(self, y: Array, options: dict[int, list[str | None]]) -> tuple[Array, Modes | None]:
         """The contacts that carry from here on: none pulls, none sinks in, none holds more than it can; or None."""
         best, unbalanced = (np.inf, y, None), False
         for chosen in sorted(product(*options.values()), key=lambda c: (c.count(None), -c.count("stick"))):
@@ -489,7 +507,7 @@ class Body:
                 continue
             lacking = [-F[2] for F, _, _ in found.values()]
             lacking += [-others[i] for i in options if i not in modes and len(options[i]) > 1]
-            lacking += [np.hypot(F[0], F[1]) - self.friction.mu_s * F[2]
+            lacking += [np.hypot(F[0], F[1]) - self.mu_s * F[2]
                         for i, (F, _, _) in found.items() if modes[i] == "stick" and len(options[i]) > 1]  # fmt: skip
             worst = max(lacking, default=0.0)
             if worst <= SLACK / 2:
@@ -498,12 +516,12 @@ class Body:
                 best = worst, y_now, modes
         return (y, None) if unbalanced and best[0] > SINKS else best[1:]
 
-    def stays_flat(self, y, modes):
+    def stays_flat(self, y: Array, modes: Modes) -> bool:
         """Whether the impact that brought its flat end down left it no way to lean further."""
         e, w, _, _ = turning(self.top, y)
         return EDGE in modes and (leaning(e, w)[1] <= 0 or lies(self.top, self.edge, e, w))
 
-    def start_alone(self, y, time, event, i):
+    def start_alone(self, y: Array, time: Array, event: str, i: int) -> Trajectory:
         """The Trajectory of one instant on contact i, where the event ends it at once."""
         if event == "lifts off":
             return self.fly(y, time)[0]
@@ -512,14 +530,14 @@ class Body:
         none, weight = np.zeros((2, 1)), np.array([[0.0], [0.0], [float(stands)]])
         return record(self.top, y[:, None], y[:, None], none, weight, contact=(y[10:12] + rho[:2])[None])
 
-    def _rocked(self, y):
+    def _rocked(self, y: Array) -> Array:
         """y leaning on the opposite point of the rim; what energy the small turn takes is heat."""
         before, y = self._kinetic(y) + y[15], crossed(y, turning(self.top, y)[0])
         y[15] -= self._contact(y, EDGE)[2]
         y[13] += before - self._kinetic(y) - y[15]
         return y
 
-    def _let_go(self, y, modes):
+    def _let_go(self, y: Array, modes: Modes) -> Array:
         """y with the least slip where a contact at rest starts to slip: against the force that would have held it."""
         for i, mode in modes.items():
             if mode == "slip" and self._rests(y, i):
@@ -528,60 +546,60 @@ class Body:
                 y[8:10] -= 1e-9 * np.array(F[:2]) / (np.hypot(F[0], F[1]) or 1.0) + self._slip(y, i)
         return y
 
-    def _rests(self, y, i):
+    def _rests(self, y: Array, i: int) -> bool:
         return self.sticks and np.hypot(*self._slip(y, i)) < REST
 
-    def _mobility(self, y, i, j):
+    def _mobility(self, y: Array, i: int, j: int) -> Array:
         """(3, 3): u_i for an impulse at contact j."""
         e, at, rho = turning(self.top, y)[0], self._contact(y, j)[0], self._contact(y, i)[0]
         return np.array([self._response(e, axis, at, rho) for axis in np.eye(3).tolist()]).T
 
-    def _pushed(self, y, i, impulse):
+    def _pushed(self, y: Array, i: int, impulse: Array) -> Array:
         before, y = self._kinetic(y), y.copy()
         y[5:8] += _cross(self._contact(y, i)[0], impulse)
         y[[8, 9, 14]] += impulse
         y[13] += before - self._kinetic(y)
         return y
 
-    def _kinetic(self, y):
+    def _kinetic(self, y: Array) -> float:
         L3 = turning(self.top, y)[2]
         L, v = y[5:8], y[[8, 9, 14]]
         return (L @ L / self.top.I1 + (1 / self.top.I3 - 1 / self.top.I1) * L3 * L3 + v @ v) / 2
 
-    def _impact(self, y, i):
+    def _impact(self, y: Array, i: int) -> Array:
         """y after the plastic impact at contact i."""
         W, u0 = self._mobility(y, i, i), np.array(self._contact(y, i)[3])
         impulse = impact(W, u0, self.friction)
         return self._pushed(y, i, impulse)
 
 
-def impact(W, u0, friction):
+def impact(W: Array, u0: Array, friction: Friction) -> Array:
     """The impulse (3,) of a plastic impact: u = u0 + W impulse, d(impulse)/dP = z - k(u) u until u_z = 0."""
-    sticks = isinstance(friction, Coulomb)
+    sticks, mu_s = isinstance(friction, Coulomb), holding(friction)
     scale = float(np.linalg.norm(u0))
 
-    def rates(_, impulse):
+    def rates(_: float, impulse: Array) -> Array:
         u = u0 + W @ impulse
         square = u[0] * u[0] + u[1] * u[1]
         k = friction.k(square)
         g = sqrt(square) / (sqrt(square) + SLOW * scale) if sticks else 1.0
         return np.array([-k * u[0] * g, -k * u[1] * g, g])
 
-    def closes(_, impulse):
+    def closes(_: float, impulse: Array) -> float:
         return (u0 + W @ impulse)[2]
 
-    def halts(_, impulse):
+    def halts(_: float, impulse: Array) -> float:
         u = u0 + W @ impulse
         return np.hypot(u[0], u[1]) - 1e-9 * scale
 
-    closes.terminal, closes.direction = True, 1.0
-    halts.terminal, halts.direction = True, -1.0
+    closes.terminal, closes.direction = True, 1.0  # type: ignore[attr-defined]  # what solve_ivp reads
+    halts.terminal, halts.direction = True, -1.0  # type: ignore[attr-defined]
     impulse, slipped = np.zeros(3), False
     for _ in range(3):
         u = u0 + W @ impulse
         if sticks and np.hypot(u[0], u[1]) <= 1.001e-9 * scale and not slipped:
             rest = np.linalg.solve(W, -u)
-            if np.hypot(rest[0], rest[1]) <= friction.mu_s * rest[2]:
+            if np.hypot(rest[0], rest[1]) <= mu_s * rest[2]:
                 return impulse + rest
             away = -rest[:2] / np.hypot(rest[0], rest[1])  # slips on, against the impulse that would have held it
             impulse, slipped = impulse + np.linalg.solve(W, np.append(2e-9 * scale * away - u[:2], 0.0)), True
@@ -593,7 +611,7 @@ def impact(W, u0, friction):
     return impulse
 
 
-def change(before, after, event):
+def change(before: Iterable[int], after: Iterable[int], event: Event) -> str:
     """What to call the change of modes after an event (kind, contact)."""
     carried, carries = tuple(sorted(before)), tuple(sorted(after))
     if not carried:
@@ -601,17 +619,18 @@ def change(before, after, event):
     if carried == carries or carries == (SPHERE, EDGE):
         if event[0] == "rocks":
             return "rocks over"
-        touches = {SPHERE: "ball touches", EDGE: "stem touches"}
+        touches: dict[int | None, str] = {SPHERE: "ball touches", EDGE: "stem touches"}
         return event[0] if event[0] in ("sticks", "slips") else touches[event[1]]
     if carried == (SPHERE, EDGE) and carries == (SPHERE,):
         return "stem leaves"
     return {(): "lifts off", (SPHERE,): "falls back on its ball", (EDGE,): "stands on its stem"}[carries]
 
 
-def _cross(x, y):
+def _cross(x: Number, y: Number) -> Vector:
     (x0, x1, x2), (y0, y1, y2) = x, y
     return x1 * y2 - x2 * y1, x2 * y0 - x0 * y2, x0 * y1 - x1 * y0
 
 
-def _sum(*vectors):
-    return tuple(map(sum, zip(*vectors, strict=True)))
+def _sum(*vectors: Sequence[Number]) -> Vector:
+    x, y, z = map(sum, zip(*vectors, strict=True))
+    return x, y, z

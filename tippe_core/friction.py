@@ -66,6 +66,11 @@ class SmoothedCoulomb:
 Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb
 
 
+def holding(law: Friction) -> float:
+    """mu_s of a law that holds; any other never does."""
+    return law.mu_s if isinstance(law, Coulomb) else 0.0
+
+
 def _positive(law: Friction, name: str, zero: bool = False) -> None:
     value = finite(name, getattr(law, name))
     if value < 0 or (value == 0 and not zero):

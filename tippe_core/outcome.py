@@ -223,7 +223,9 @@ def _downhill(theta: float, steady: SteadyStates, V: Array, here: float) -> int:
     return end
 
 
-def _sentence(verdict: str, nudged: str, theta: float, certain: bool, launch: float, limits: Thresholds, scales: Scales | None) -> str:
+def _sentence(
+    verdict: str, nudged: str, theta: float, certain: bool, launch: float, limits: Thresholds, scales: Scales | None
+) -> str:
     unit = scales.angular_velocity / (2 * np.pi) if scales else 1.0
 
     def spin(value: float) -> str:

@@ -18,21 +18,43 @@ or grows exponentially in tau and beta is smooth. That is a change of variables,
 tau = t.
 """
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from math import cos, exp, isfinite, log, sin
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.integrate import LSODA
 from scipy.optimize import brentq
 
 from .constants import State, f3_2, versines
-from .contacts import EDGE, ENDS, LEAST, SLOW, SPHERE, SUPPORTS, TOUCH, Body, change, gap, pose, record, turning
+from .contacts import (
+    EDGE,
+    ENDS,
+    LEAST,
+    SLOW,
+    SPHERE,
+    SUPPORTS,
+    TOUCH,
+    Body,
+    Dense,
+    Modes,
+    Progress,
+    change,
+    gap,
+    pose,
+    record,
+    turning,
+)
 from .errors import TopError, finite, numbers
 from .forces import contact_force
-from .friction import Coulomb, SmoothedCoulomb, Viscous
+from .friction import Coulomb, Friction, SmoothedCoulomb, Viscous, holding
 from .rolling import Rolling
 from .smooth import first_below
+from .top import Top
 from .trajectory import Trajectory, checked_times
+from .types import Array, Number, Rim, Vector
 
 # STILL: the last of the slip, which takes far less time than the 1e-9 to which events are located. SLACK (Mg): what
 # rolling may need beyond mu_s F_z before it counts as slipping, above what so small a slip does to the forces.
@@ -42,9 +64,13 @@ STILL, SLACK, MOST_EVENTS = 1e-13, 1e-10, 1000
 MOST_CALLS, LOG_FAST = 25_000, 100.0
 
 LOG_STILL = log(STILL)
+Happened: TypeAlias = tuple[tuple[float, str], ...]  # times, and what
 
 
-def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, progress=None):
+def slide(
+    top: Top, state: State, friction: Friction, times: ArrayLike, rtol: float = 1e-9, landing: str = "stop",
+    edge: ArrayLike | None = None, progress: Callable[[float], object] | None = None,
+) -> Trajectory:  # fmt: skip
     """The motion with friction at the given times: Trajectory.
 
     state: State at times[0]; x, y, vx, vy left None mean G at the origin, at rest.
@@ -94,7 +120,9 @@ def slide(top, state, friction, times, rtol=1e-9, landing="stop", edge=None, pro
     return _Run(top, friction, rtol / 10, _checked_edge(edge), landing == "plastic", _Limited(progress))(state, t)
 
 
-def sensitivity(top, state, friction, times, nudge=1e-6, **how):
+def sensitivity(
+    top: Top, state: State, friction: Friction, times: ArrayLike, nudge: float = 1e-6, **how: Number
+) -> float:
     """How many times a nudge of the start's theta (rad) grows: the largest change of theta by it, over the nudge.
 
     Arguments as of slide(). Large where the physics is sensitive, whatever the tolerance: a top near the limit of
@@ -104,12 +132,12 @@ def sensitivity(top, state, friction, times, nudge=1e-6, **how):
     return growth(moved, near, nudge)
 
 
-def beside(state, nudge):
+def beside(state: State, nudge: float) -> State:
     """A State whose theta is a nudge (rad) larger, from 1 rad on smaller."""
     return replace(state, theta=state.theta + (nudge if state.theta < 1 else -nudge))
 
 
-def growth(moved, near, nudge):
+def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
     """How many times the nudge (rad) between the starts of two Trajectories grows at most, where both have samples."""
     both = min(len(moved.t), len(near.t))
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / nudge)
@@ -118,17 +146,17 @@ def growth(moved, near, nudge):
 class _Limited:
     """progress, or nothing; True once it was called too often."""
 
-    def __init__(self, progress):
+    def __init__(self, progress: Callable[[float], object] | None) -> None:
         self.progress, self.calls = progress, 0
 
-    def __call__(self, t):
+    def __call__(self, t: float) -> bool:
         self.calls += 1
         if self.progress:
             self.progress(t)
         return self.calls > MOST_CALLS
 
 
-def _checked_edge(edge):
+def _checked_edge(edge: ArrayLike | None) -> Rim | None:
     """(radius, height, rounding), or None."""
     if edge is None:
         return None
@@ -141,9 +169,9 @@ def _checked_edge(edge):
     return edge
 
 
-def _check_balance(top, friction):
+def _check_balance(top: Top, friction: Friction) -> None:
     """F_z must be positive for every direction of u: mu |a| r_z s < I1 + a^2 s^2 (Painleve)."""
-    name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), (None, 0.0))
+    name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), ("", 0.0))
     s, c = np.sin(theta := np.linspace(0, np.pi, 721)), np.cos(theta)
     arm = abs(top.a * (1 - top.a * c)) * s
     with np.errstate(divide="ignore"):
@@ -160,7 +188,9 @@ class _Run:
     the unknowns z are the same but for log|u|, beta in place of v_x, v_y.
     """
 
-    def __init__(self, top, friction, tolerance, edge, flies, progress):
+    def __init__(
+        self, top: Top, friction: Friction, tolerance: float, edge: Rim | None, flies: bool, progress: Progress
+    ) -> None:
         self.top, self.friction, self.tolerance, self.edge, self.progress = top, friction, tolerance, edge, progress
         # an edge on the sphere itself is where its surface ends: rim, cos(theta) there
         b, h, q = edge or (0.0, 0.0, 1.0)
@@ -168,11 +198,15 @@ class _Run:
         if self.rim > -2:
             self.edge = None
         self.flies, self.body = flies, Body(top, friction, tolerance, self.edge, progress)
-        self.sticks = isinstance(friction, Coulomb)
+        self.sticks, self.mu_s = isinstance(friction, Coulomb), holding(friction)
+        self.mu_k = friction.mu_k if isinstance(friction, Coulomb) else 0.0
 
-    def __call__(self, state, times):
+    def __call__(self, state: State, times: Array) -> Trajectory:
         y, modes = self._begin(state, times[0])
-        stretches, events, supports, done = [], [], [], 0
+        stretches: list[Trajectory] = []
+        events: list[tuple[float, str]] = []
+        supports: list[tuple[float, str]] = []
+        done = 0
         _support(supports, float(times[0]), {self._stands_on(state): None} if modes is None else modes)
         if modes == {}:
             events.append((float(times[0]), "lifts off"))
@@ -196,7 +230,7 @@ class _Run:
             stretches.append(self.body.start_alone(y, times[:1], events[-1][1], self._stands_on(state)))
         return _joined(self.top, stretches, tuple(events), tuple(supports))
 
-    def _begin(self, state, t):
+    def _begin(self, state: State, t: float) -> tuple[Array, Modes | None]:
         """y at a State, and the modes (see Body) in which it goes on: {} where it leaves the table at once, or None, as
         settle() has it."""
         y = self._start(state, t)
@@ -212,11 +246,11 @@ class _Run:
             return self.body.on_sphere(y), {}
         return y, {SPHERE: "slip"} if lifts >= LEAST else None
 
-    def _stands_on(self, state):
+    def _stands_on(self, state: State) -> int:
         """The contact that carries at a State."""
         return EDGE if self.edge and gap(self.edge, np.cos(state.theta), np.sin(state.theta)) < 0 else SPHERE
 
-    def _stretch(self, y, times, modes):
+    def _stretch(self, y: Array, times: Array, modes: Modes) -> tuple[Trajectory, Array, str | None, Modes | None]:
         """A Trajectory of the times before the next event, the state then, its name and the modes (see Body) after it.
 
         At the end of the times the name is None.
@@ -254,7 +288,7 @@ class _Run:
 
     # ---- slipping ----
 
-    def _rates(self, tau, z):
+    def _rates(self, tau: float, z: Array) -> Sequence[float]:
         top, z = self.top, z.tolist()
         e, w, L3, carried = turning(top, z)
         (ex, ey, ez), (wx, wy, wz), (px, py, pz, pw) = e, w, z[:4]
@@ -262,7 +296,7 @@ class _Run:
         if self.sticks:
             speed, out_x, out_y = exp(min(z[8], LOG_FAST)), cos(z[9]), sin(z[9])
             vx, vy = speed * out_x + carried[0], speed * out_y + carried[1]
-            push = self.friction.mu_k * out_x, self.friction.mu_k * out_y
+            push = self.mu_k * out_x, self.mu_k * out_y
         else:
             vx, vy = z[8:10]
             push = _push(self.friction, vx - carried[0], vy - carried[1])
@@ -281,7 +315,9 @@ class _Run:
         rates[8:10] = g * (x_dot * out_x + y_dot * out_y), g * (y_dot * out_x - x_dot * out_y)
         return rates
 
-    def _slip_rate(self, e, w, L3, torque, F_h):
+    def _slip_rate(
+        self, e: Vector, w: Vector, L3: float, torque: Vector, F_h: tuple[float, float]
+    ) -> tuple[float, float]:
         """u' = v' - w' x r - w x r', with r' = -a e'."""
         top = self.top
         a, more, (ex, ey, ez), (wx, wy, wz) = top.a, 1 / top.I3 - 1 / top.I1, e, w
@@ -294,7 +330,7 @@ class _Run:
         return (F_h[0] - (wy_ * rz + a * wz_ * ey) + a * (wy * ez_ - wz * ey_),
                 F_h[1] + (wx_ * rz + a * wz_ * ex) + a * (wz * ex_ - wx * ez_))  # fmt: skip
 
-    def _unknowns(self, y):
+    def _unknowns(self, y: Array) -> Array:
         """z of y."""
         z = np.array(y)
         if self.sticks:
@@ -302,7 +338,7 @@ class _Run:
             z[8:10] = np.log(np.hypot(ux, uy)), np.arctan2(uy, ux)
         return z
 
-    def _known(self, z):
+    def _known(self, z: Array) -> Array:
         """y of z (14, ...)."""
         y = np.array(z)
         if self.sticks:
@@ -311,16 +347,16 @@ class _Run:
             y[8], y[9] = speed * np.cos(z[9]) + carried[0], speed * np.sin(z[9]) + carried[1]
         return y
 
-    def _carries(self, z):
+    def _carries(self, z: Sequence[Number] | Array) -> tuple[Number, Number]:
         """F_z times what is left of u_z' by it, and that: below 0 the top lifts off; below LEAST no F_z balances."""
         e, _, L3, carried = turning(self.top, z)
         if self.sticks:
-            push = self.friction.mu_k * np.cos(z[9]), self.friction.mu_k * np.sin(z[9])
+            push = self.mu_k * np.cos(z[9]), self.mu_k * np.sin(z[9])
         else:
             push = _push(self.friction, z[8] - carried[0], z[9] - carried[1])
         return _presses(self.top, z, e, L3), _lifts(self.top, e, push)
 
-    def _slip(self, y, times):
+    def _slip(self, y: Array, times: Array) -> tuple[Trajectory, Array, str | None]:
         """A Trajectory of the times before the next event, the state then, and the event (None: the times are over)."""
         end, z = times[-1], self._unknowns(y)
         atol = np.full(14, self.tolerance)
@@ -362,7 +398,7 @@ class _Run:
         samples[:, 12] = times[:done]
         return self._trajectory(self._known(samples.T), np.array(path).T), self._known(z), event
 
-    def _at(self, times, dense):
+    def _at(self, times: Array, dense: Dense) -> Array:
         """z (n, 13) at times within the last step."""
         if not self.sticks:
             return dense(times).T
@@ -375,19 +411,20 @@ class _Run:
             tau = np.clip(tau + missing * (1 + SLOW / np.exp(z[8])), dense.t_old, limit)
         return dense(tau).T
 
-    def _room(self, z):
+    def _room(self, z: Sequence[Number] | Array) -> Number:
         """Height of the stem's edge above the table."""
         px, py, pz, pw = z[:4]
-        return gap(self.edge, 1 - 2 * (px * px + py * py), 2 * np.sqrt((px * px + py * py) * (pz * pz + pw * pw)))
+        return gap(self.body.edge, 1 - 2 * (px * px + py * py), 2 * np.sqrt((px * px + py * py) * (pz * pz + pw * pw)))
 
-    def _nears(self, z):
+    def _nears(self, z: Array) -> Number:
         """Falls below 0 where the edge is at the table and falls (e_z' < 0), even if it has just left it."""
         (ex, ey, _), (wx, wy, _), _, _ = turning(self.top, z)
         return np.maximum(self._room(z) - self._floor + TOUCH, wx * ey - wy * ex + SLACK)
 
-    def _leaves(self, dense):
+    def _leaves(self, dense: Dense) -> tuple[float, str | None]:
         """The first tau of the last step at which the sphere no longer carries alone, and what happens there."""
         taus, found = np.linspace(dense.t_old, dense.t, 9), (np.inf, None)
+        guards: dict[str, Callable[[Array], Number]]
         guards = {"lifts off": lambda z: self._carries(z)[0], ENDS["balances"]: lambda z: self._carries(z)[1] - LEAST,
                   "rim touches": lambda z: turning(self.top, z)[0][2] - self.rim}  # fmt: skip
         if self.edge:
@@ -405,33 +442,33 @@ class _Run:
 
     # ---- sticking and letting go ----
 
-    def _state(self, y):
+    def _state(self, y: Array) -> State:
         """The State at y, with G's velocity unsaid."""
-        theta, phi, psi, (w1, w2, w3) = (part[..., 0] for part in pose(self.top, y[:, None], y[:, None]))
+        theta, phi, psi, (w1, w2, w3) = (part.T[0] for part in pose(self.top, y[:, None], y[:, None]))
         if theta in (0.0, np.pi):
             pole = np.cos(theta)  # 1' along omega, as it is just after the pole
             lean = np.angle(pole * (w1 + 1j * pole * w2))
             w1, w2, phi, psi = pole * np.hypot(w1, w2), 0.0, phi + lean, psi - pole * lean
         return State(theta, w1, w2, w3, phi, psi, y[10], y[11])
 
-    def _holds(self, y):
+    def _holds(self, y: Array) -> bool:
         """Whether rolling would need no more friction than mu_s F_z here."""
-        return _margin(rolling_force(self.top, self._state(y)), self.friction.mu_s) >= 0
+        return bool(_margin(rolling_force(self.top, self._state(y)), self.mu_s) >= 0)
 
-    def _roll(self, y, times):
+    def _roll(self, y: Array, times: Array) -> tuple[Trajectory, Array, str | None]:
         """As _slip, without slipping: by the exact motion of rolling.py."""
         state = self._state(y)
         rolling = Rolling(self.top, None, state)
 
-        def margin(t):
-            return _margin(rolling(np.append(0.0, t)).force[1:].T, self.friction.mu_s) + SLACK
+        def margin(t: Array) -> Array:
+            return _margin(rolling(np.append(0.0, t)).force[1:].T, self.mu_s) + SLACK
 
-        def tilt(t):
+        def tilt(t: Array) -> Array:
             return rolling.theta(np.append(0.0, t))[1:]
 
-        def room(t):
+        def room(t: Array) -> Array:
             theta = tilt(t)
-            return TOUCH - self._floor + gap(self.edge, np.cos(theta), np.sin(theta))
+            return TOUCH - self._floor + gap(self.body.edge, np.cos(theta), np.sin(theta))
 
         self.progress(float(y[12]))
         ends, event = first_below(margin, rolling.period), "slips"
@@ -447,14 +484,14 @@ class _Run:
         last = _cut(rolling(np.array([0.0, ends])), slice(1, None), y[13])
         return stretch, self._from_trajectory(last, y[12] + ends), event
 
-    def _let_go(self, y):
+    def _let_go(self, y: Array) -> Array:
         """y with the least slip, if it has none, in the direction in which slipping starts: u' along u, outward."""
         if np.hypot(*_slip(self.top, y)) >= STILL:
             return y
         z = np.array(y)
         z[8] = LOG_STILL
 
-        def start(beta):
+        def start(beta: float) -> Sequence[float]:
             """u' at no slip, in the direction beta of u: (outward, across)."""
             z[9] = beta
             return self._rates(0.0, z)[8:10]
@@ -468,7 +505,7 @@ class _Run:
 
     # ---- between y and what is said of it ----
 
-    def _start(self, state, t):
+    def _start(self, state: State, t: float) -> Array:
         """y at a State."""
         s, c = np.sin(state.theta / 2), np.cos(state.theta / 2)
         turn = np.exp(1j * state.phi)
@@ -476,7 +513,7 @@ class _Run:
         return self._y(state.theta, s, c, turn, state.phi + state.psi, (state.theta_dot, state.omega2, state.omega3),
                        v, complex(state.x or 0.0, state.y or 0.0), t, 0.0)  # fmt: skip
 
-    def _from_trajectory(self, one, t):
+    def _from_trajectory(self, one: Trajectory, t: float) -> Array:
         """y at the only instant of a Trajectory."""
         theta, turn = one.theta[0], np.exp(1j * one.phi[0])
         v, m = versines(theta)
@@ -487,7 +524,10 @@ class _Run:
         return self._y(theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[0] + one.psi[0], one.omega[0],
                        complex(vx, vy) * turn, complex(*one.com[0, :2]), t, one.heat[0])  # fmt: skip
 
-    def _y(self, theta, sin_half, cos_half, turn, chi, omega, v, place, t, heat):
+    def _y(
+        self, theta: float, sin_half: Number, cos_half: float, turn: complex, chi: float, omega: Vector | Array,
+        v: complex, place: complex, t: float, heat: float,
+    ) -> Array:  # fmt: skip
         # p = Rz(phi) Rx(theta) Rz(-phi)
         L1, L2, L3 = np.array([self.top.I1, self.top.I1, self.top.I3]) * omega
         s, c = np.sin(theta), np.cos(theta)
@@ -495,7 +535,7 @@ class _Run:
         return np.array([p.real, p.imag, 0.0, cos_half, chi, L.real, L.imag, s * L2 + c * L3,
                          v.real, v.imag, place.real, place.imag, t, heat])  # fmt: skip
 
-    def _trajectory(self, y, path):
+    def _trajectory(self, y: Array, path: Array) -> Trajectory:
         """The Trajectory of slipping at y (14, n); path as in pose."""
         top = self.top
         e, _, L3, carried = turning(top, y)
@@ -506,37 +546,37 @@ class _Run:
 # ---- the equations above, for floats or arrays ----
 
 
-def _slip(top, y):
+def _slip(top: Top, y: Sequence[Number] | Array) -> tuple[Number, Number]:
     """u = v - w x r"""
     carried = turning(top, y)[3]
     return y[8] - carried[0], y[9] - carried[1]
 
 
-def _push(friction, ux, uy):
+def _push(friction: Friction, ux: Number, uy: Number) -> tuple[Number, Number]:
     """k u"""
     k = friction.k(ux * ux + uy * uy)
     return k * ux, k * uy
 
 
-def _presses(top, y, e, L3):
+def _presses(top: Top, y: Sequence[Number] | Array, e: Vector, L3: Number) -> Number:
     """1 - a [L_z (L . e) - e_z L^2]/I1^2"""
     Lx, Ly, Lz = y[5:8]
     return 1 - top.a * (Lz * L3 - e[2] * (Lx * Lx + Ly * Ly + Lz * Lz)) / (top.I1 * top.I1)
 
 
-def _lifts(top, e, push):
+def _lifts(top: Top, e: Vector, push: tuple[Number, Number]) -> Number:
     """1 + (a/I1) [a s^2 - r_z k (u . e)]: what is left of u_z' by F_z"""
     a, (ex, ey, ez), (kx, ky) = top.a, e, push
     return 1 + a / top.I1 * (a * (ex * ex + ey * ey) - (1 - a * ez) * (kx * ex + ky * ey))
 
 
-def _force(top, y, e, L3, push):
+def _force(top: Top, y: Sequence[Number] | Array, e: Vector, L3: Number, push: tuple[Number, Number]) -> Vector:
     """F = F_z (z - k u)"""
     Fz = _presses(top, y, e, L3) / _lifts(top, e, push)
     return -push[0] * Fz, -push[1] * Fz, Fz
 
 
-def rolling_force(top, state):
+def rolling_force(top: Top, state: State) -> Vector:
     """(F_x, F_y, F_z) by (37) to (39) that a top needs at a State in order to roll on without slipping."""
     v, m = versines(state.theta)
     K_R = np.sqrt(f3_2(1 - v, v * m, top)) * state.omega3
@@ -544,7 +584,7 @@ def rolling_force(top, state):
     return contact_force(v, m, top, K_R, w1, w1 * w1, w2, state.omega3)
 
 
-def _margin(force, mu_s):
+def _margin(force: Vector | Array, mu_s: float) -> Number:
     """mu_s F_z - F_h"""
     return mu_s * force[2] - np.hypot(force[0], force[1])
 
@@ -553,12 +593,12 @@ _PARTS = ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "
           "heat")  # fmt: skip
 
 
-def _cut(trajectory, part, heat):
+def _cut(trajectory: Trajectory, part: slice, heat: float) -> Trajectory:
     parts = {name: getattr(trajectory, name)[part] for name in _PARTS}
     return Trajectory(top=trajectory.top, **parts | {"heat": np.full(len(parts["t"]), heat)})
 
 
-def _support(supports, t, modes):
+def _support(supports: list[tuple[float, str]], t: float, modes: Iterable[int]) -> None:
     """Adds (t, what carries); what carried for no time goes."""
     what = SUPPORTS[tuple(sorted(modes))]
     if supports and supports[-1][0] == t:
@@ -567,6 +607,6 @@ def _support(supports, t, modes):
         supports.append((t, what))
 
 
-def _joined(top, stretches, events, supports):
+def _joined(top: Top, stretches: list[Trajectory], events: Happened, supports: Happened) -> Trajectory:
     return Trajectory(top=top, events=events, supports=supports,
                       **{name: np.concatenate([getattr(s, name) for s in stretches]) for name in _PARTS})  # fmt: skip
