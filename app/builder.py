@@ -4,13 +4,15 @@ SI, as in tippe_core.shapes. Where a person reads or sets a dimension it is in t
 """
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
+from typing import Any, TypeAlias
 
 import numpy as np
 import param
 
-from app.explorer import fits
+from app.explorer import Explorer, fits
 from app.text import listed, say, told
 from tippe_core import (
     PRESETS,
@@ -19,7 +21,9 @@ from tippe_core import (
     Constants,
     Lathe,
     LoadedSphere,
+    Measured,
     OrdinaryTop,
+    Preset,
     Scales,
     Shape,
     Solid,
@@ -36,6 +40,7 @@ from tippe_core import (
     save_top,
 )
 from tippe_core.curve import f3_squared
+from tippe_core.shapes import OneMaterial
 from tippe_core.solids import LARGEST
 
 # What a new body is thrown with: the spin near theta = 0 that the paper's top has at K_R = 10, and a tippe top's K_J at
@@ -43,6 +48,10 @@ from tippe_core.solids import LARGEST
 THROWN_SHARE = 7 / pole_constants(Top.paper(), 10.0)[0]
 THROWN_SPIN = 10.0 / f3_squared(0.0, Top.paper()) ** 0.5 * Scales.paper().angular_velocity  # rad/s
 THROWN_TILT = 0.3
+
+Value: TypeAlias = Any  # of a field: a number, a tuple of them or of points, a Solid
+Motion: TypeAlias = Callable[[Shape], tuple[float, float]]  # K_J and K_R
+Edit: TypeAlias = Callable[[tuple[Value, ...], Callable[[tuple[Value, ...], int], Value]], tuple[Value, ...]]
 
 
 @dataclass(frozen=True)
@@ -59,18 +68,18 @@ class Dimension:
     low: float
     high: float
     step: float
-    numbers: tuple = ()
+    numbers: tuple[tuple[str, Value], ...] = ()
 
     @property
-    def words(self):
+    def words(self) -> str:
         return say(f"workshop.dimensions.{self.key}", **dict(self.numbers))
 
 
-def _length(name, key, low, high):
+def _length(name: str, key: str, low: float, high: float) -> Dimension:
     return Dimension(name, key, "mm", 1e3, low, high, 0.1)
 
 
-def _density(name, key, **numbers):
+def _density(name: str, key: str, **numbers: float) -> Dimension:
     return Dimension(name, key, "kg/m³", 1.0, 0, 12_000, 10, tuple(numbers.items()))
 
 
@@ -78,6 +87,7 @@ _MASS = Dimension("M", "mass", "g", 1e3, 0.5, 200, 0.1)
 # of one material: each sets the other
 _WEIGHT = (_MASS, _density("density", "weight"))
 
+FAMILIES: dict[type[Shape], tuple[str, tuple[Dimension, ...]]]
 FAMILIES = {
     TruncatedSphere: ("truncated sphere with a stem", (
         _length("R", "sphere", 2, 40), _length("c", "cut", -20, 40),
@@ -102,7 +112,7 @@ FAMILIES = {
 """{kind of shape: the name of its family, a key in workshop.toml, and the Dimensions that can be set}."""
 
 
-def named(preset):
+def named(preset: str) -> str:
     """What a preset of tippe_core is called on the page."""
     return listed("workshop.presets")[preset]["name"]
 
@@ -116,17 +126,17 @@ class Draft:
     """
 
     shape: Shape
-    messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
+    messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
     name: str = ""
     source: str = ""
 
     @property
-    def family(self):
+    def family(self) -> str:
         """What kind of body it is: a key in workshop.toml."""
         return FAMILIES[type(self.shape)][0]
 
     @property
-    def dimensions(self):
+    def dimensions(self) -> tuple[Dimension, ...]:
         """The Dimensions that can be set."""
         dimensions = FAMILIES[type(self.shape)][1]
         if isinstance(self.shape, Lathe) and isinstance(self.shape.density, tuple):
@@ -146,20 +156,29 @@ class Builder(param.Parameterized):
     request: what takes the Explorer's new inputs, Explorer.param.update or a Pacer's request.
     """
 
-    draft = param.ClassSelector(class_=Draft, constant=True, doc="the body as it stands")
+    # __init__ makes the first one
+    draft: param.ClassSelector[Draft] = param.ClassSelector(  # type: ignore[assignment]
+        class_=Draft, constant=True, doc="the body as it stands"
+    )
 
-    def __init__(self, explorer, request=None):
-        super().__init__()
+    def __init__(self, explorer: Explorer, request: Callable[..., object] | None = None) -> None:
+        super().__init__()  # type: ignore[no-untyped-call]  # of param
         self._explorer, self._request = explorer, request or explorer.param.update
         self._publish(_draft(explorer.shape, self._present))
 
-    def set(self, name, value):
+    def set(self, name: str, value: float | tuple[float, float]) -> None:
         """One dimension, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
         self._try(name, lambda: changed(self.draft.shape, name, value))
 
-    def add_point(self, x=None, z=None):
+    @property
+    def _lathe(self) -> Lathe:
+        """The body, where it is one of points."""
+        assert isinstance(self.draft.shape, Lathe)
+        return self.draft.shape
+
+    def add_point(self, x: float = 0.0, z: float | None = None) -> None:
         """A point of a Lathe's profile: at radius |x| and height z, or in the middle of its longest piece."""
-        points = self.draft.shape.points
+        points = self._lathe.points
         if z is None:
             rows = np.array(points)
             index = int(np.hypot(*np.diff(rows, axis=0).T).argmax()) + 1 if len(rows) > 1 else 1
@@ -168,68 +187,67 @@ class Builder(param.Parameterized):
             index = sum(height <= z for _, height in points)
         self._rows("points", lambda rows, fill: (*rows[:index], fill(rows, index), *rows[index:]), (abs(x), z))
 
-    def remove_point(self, index):
+    def remove_point(self, index: int) -> None:
         """Takes the point away."""
-        self._rows("points", lambda rows, fill: (*rows[:index], *rows[index + 1 :]), None)
+        self._rows("points", lambda rows, fill: (*rows[:index], *rows[index + 1 :]), ())
 
-    def _rows(self, name, edit, point):
+    def _rows(self, name: str, edit: Edit, point: tuple[float, ...]) -> None:
         """The Lathe whose points, and densities if it has one a point, are edited alike."""
-        shape = self.draft.shape
-        rows = {"points": edit(shape.points, lambda rows, index: tuple(round(float(x), 5) for x in point))}
+        shape = self._lathe
+        rows: dict[str, Value] = {"points": edit(shape.points, lambda rows, index: tuple(round(float(x), 5) for x in point))}
         if isinstance(shape.density, tuple):
             rows["density"] = edit(shape.density, lambda rows, index: rows[min(index, len(rows) - 1)])
         self._try(name, lambda: replace(shape, **rows))
 
-    def part_densities(self):
+    def part_densities(self) -> None:
         """A density for each piece of a Lathe instead of one for all, or back to the first."""
-        shape = self.draft.shape
-        parted = isinstance(shape.density, tuple)
-        density = shape.density[0] if parted else (shape.density,) * len(shape.points)
+        shape = self._lathe
+        density = shape.density[0] if isinstance(shape.density, tuple) else (shape.density,) * len(shape.points)
         self._try("density", lambda: replace(shape, density=density))
 
-    def compose(self, kind, density, r, low, high):
+    def compose(self, kind: str, density: float, r: float, low: float, high: float) -> None:
         """Puts a piece on the body, or takes it away where the density (kg/m^3) is negative: a "cylinder" or "cone"
         (its point up) from the height low to high (m), or a "ball" of radius r about (low + high)/2."""
 
-        def made():
+        def made() -> Shape:
             form = {"cylinder": lambda: cylinder(r, low, high), "cone": lambda: frustum(r, 0.0, low, high),
                     "ball": lambda: ball(r, (low + high) / 2)}[kind]()  # fmt: skip
             return self.draft.shape + density * form
 
         self._try("piece", made)
 
-    def take_off(self):
+    def take_off(self) -> None:
         """Undoes the last compose of a Turned body."""
         shape = self.draft.shape
-        self._try("piece", lambda: replace(shape, solid=Solid(shape.solid.slices[:-1])))
+        self._try("piece", lambda: Turned(R=shape.R, solid=Solid(shape.solid.slices[:-1])))
 
-    def choose(self, name):
+    def choose(self, name: str) -> None:
         """The preset of this name, thrown anew."""
         self._take(next(preset for preset in PRESETS if preset.name == name))
 
-    def choose_family(self, family):
+    def choose_family(self, family: str) -> None:
         """The first preset of a family, thrown anew."""
         self._take(next(preset for preset in PRESETS if FAMILIES[type(preset.shape)][0] == family))
 
-    def load(self, text):
+    def load(self, text: str | bytes) -> None:
         """The body in a file that save() wrote, thrown anew."""
         self._try("file", lambda: load_top(text), thrown)
 
-    def refuse_file(self, largest):
+    def refuse_file(self, largest: int) -> None:
         """Says that a file was larger than so many bytes."""
         self._refuse("file", TopError("file", "too large", f"at most {largest} bytes", "A saved top is far smaller."))
 
-    def follow(self):
+    def follow(self) -> None:
         """Shows the body that the Explorer was given by something else."""
         now = _draft(self._explorer.shape, self._present)
         if (now.shape, now.name) != (self.draft.shape, self.draft.name):
             self._publish(now)
 
-    def save(self):
+    def save(self) -> str:
         """The body as the text of a small JSON file."""
         return save_top(self.draft.shape)
 
-    def stl(self):
+    def stl(self) -> bytes | None:
         """The body as the bytes of an STL file, in mm; None, and a sentence at "stl", where there is none."""
         try:
             return self.draft.shape.stl()
@@ -237,29 +255,29 @@ class Builder(param.Parameterized):
             self._refuse("stl", error)
             return None
 
-    def measured(self, *, M, R, a):
+    def measured(self, *, M: float, R: float, a: float) -> None:
         """A sphere of this M and R with a/R as measured and the inertia, in MR^2, of the body on the bench."""
         own = self.draft.shape.top
         self._try("measured", lambda: BareSphere(R=R, M=M, a=a, I1=own.I1, I3=own.I3))
 
-    def attach(self):
+    def attach(self) -> None:
         """Gives the Explorer the body's own a, I1 and I3 back."""
         self._adopt(self.draft.shape, self._keep)
 
     @property
-    def attached(self):
+    def attached(self) -> bool:
         """Whether the Explorer's a, I1 and I3 are the body's."""
         return fits(self.draft.shape, self._present)
 
     @property
-    def _present(self):
+    def _present(self) -> Top:
         """The Explorer's top."""
         return Top(self._explorer.a, self._explorer.I1, self._explorer.I3)
 
-    def _take(self, preset):
+    def _take(self, preset: Preset) -> None:
         self._adopt(preset.shape, top=preset.top)
 
-    def _try(self, name, make, motion=None):
+    def _try(self, name: str, make: Callable[[], Shape], motion: Motion | None = None) -> None:
         try:
             shape = make()
             shape.top  # noqa: B018  (a body may be sound and still stand on no peg)
@@ -268,20 +286,20 @@ class Builder(param.Parameterized):
         else:
             self._adopt(shape, motion or self._keep)
 
-    def _refuse(self, name, error):
+    def _refuse(self, name: str, error: TopError) -> None:
         self._publish(replace(self.draft, messages=MappingProxyType({name: sentence(error)})))
 
-    def _adopt(self, shape, motion=None, top=None):
+    def _adopt(self, shape: Shape, motion: Motion | None = None, top: Top | None = None) -> None:
         top = top or shape.top
         self._publish(_draft(shape, top))
         K_J, K_R = motion(shape) if motion else thrown(shape, top)
         self._request(shape=shape, a=top.a, I1=top.I1, I3=top.I3, K_J=K_J, K_R=K_R)
 
-    def _publish(self, draft):
+    def _publish(self, draft: Draft) -> None:
         with param.edit_constant(self):
             self.draft = draft
 
-    def _keep(self, shape):
+    def _keep(self, shape: Shape) -> tuple[float, float]:
         """K_J and K_R of the same spin in rad/s near theta = 0, and the same share of P, as the Explorer has now."""
         explorer = self._explorer
         if explorer.scene.top == shape.top and explorer.scene.scales == shape.scales:
@@ -294,7 +312,7 @@ class Builder(param.Parameterized):
         return float(share * pole_constants(shape.top, K_R)[0]), float(K_R)
 
 
-def thrown(shape, top=None):
+def thrown(shape: Shape, top: Top | None = None) -> tuple[float, float]:
     """(K_J, K_R) of the throw that a new body is given."""
     spin, top = THROWN_SPIN * shape.scales.time, top or shape.top
     if top.a < 0:
@@ -304,7 +322,7 @@ def thrown(shape, top=None):
     return float(THROWN_SHARE * pole_constants(top, K_R)[0]), float(K_R)
 
 
-def _draft(shape, top):
+def _draft(shape: Shape, top: Top) -> Draft:
     known = [preset for preset in PRESETS if preset.shape == shape]
     if not known:
         return Draft(shape=shape)
@@ -312,7 +330,7 @@ def _draft(shape, top):
     return Draft(shape=shape, name=known.name, source=listed("workshop.presets")[known.name]["source"])
 
 
-def sentence(error):
+def sentence(error: TopError) -> str:
     """A TopError in the units of the sliders: what is in m becomes mm, what is in kg becomes g."""
     value, allowed = error.value, error.allowed
     for unit, smaller in (("m", "mm"), ("kg", "g")):
@@ -327,7 +345,7 @@ def sentence(error):
     return told(error)
 
 
-def _thousandfold(match):
+def _thousandfold(match: re.Match[str]) -> str:
     return f"{1e3 * float(match[0]):g}"
 
 
@@ -341,7 +359,7 @@ class Rocking:
     dD: float
     M: float
 
-    def a(self, shape):
+    def a(self, shape: Shape) -> Measured:
         """a/R with its uncertainty, a tippe_core.Measured, for the I1 (in MR^2) of the shape."""
         try:
             return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
@@ -354,7 +372,7 @@ class Rocking:
             raise
 
 
-def value_of(shape, name):
+def value_of(shape: Shape, name: str) -> Value:
     """The dimension of that name, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
     field, index = _field(name)
     if name == "M":
@@ -362,29 +380,31 @@ def value_of(shape, name):
     return getattr(shape, field) if index is None else getattr(shape, field)[index]
 
 
-def changed(shape, name, value):
+def changed(shape: Shape, name: str, value: Value) -> Shape:
     """The shape with another value of that dimension; a mass where densities are given, or the other way round, keeps
     the form."""
     field, index = _field(name)
     given = {one.name: getattr(shape, one.name) for one in fields(shape)}
     if name == "M" and "M" not in given:
         return shape.with_mass(value)
-    if name == "density" and "M" in given:
+    if name == "density" and isinstance(shape, OneMaterial):
         return type(shape).from_density(value, **{key: size for key, size in given.items() if key != "M"})
     if index is not None:
         rows = list(getattr(shape, field))
         rows[index] = value
-        value = tuple(rows)
-    return replace(shape, **{field: value})
+        given[field] = tuple(rows)
+    else:
+        given[field] = value
+    return replace(shape, **{field: given[field]})
 
 
-def _field(name):
+def _field(name: str) -> tuple[str, int | None]:
     """The field of a shape that a dimension is in, and its row there or None."""
     field, _, index = name.partition(" ")
     return {"point": "points"}.get(field, field), int(index) if index else None
 
 
-def handles(shape):
+def handles(shape: Shape) -> dict[str, tuple[float, float]]:
     """Where the section can be taken hold of: {dimension: (x, z)}, m, x across axis 3 and z above O along it."""
     R = shape.R
     side = (R * np.sqrt(0.5), -R * np.sqrt(0.5))
@@ -408,9 +428,9 @@ def handles(shape):
     return {"R": side} if isinstance(shape, Ball) else {}
 
 
-def pulled(shape, name, x, z):
+def pulled(shape: Shape, name: str, x: float, z: float) -> float | tuple[float, float]:
     """The dimension (SI, to 0.01 mm) at which its handle is nearest to (x, z)."""
-    if name.startswith("point "):
+    if name.startswith("point ") and isinstance(shape, Lathe):
         # no further than its neighbours: the heights of a profile rise
         points, index = shape.points, int(name[6:])
         low = points[index - 1][1] if index else -shape.R

@@ -3,9 +3,11 @@
 Angles in rad; lengths in R, masses in M, accelerations in g, so times in (R/g)^1/2, forces in Mg, energies in MgR.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import param
@@ -18,8 +20,10 @@ from tippe_core import (
     Scales,
     Shape,
     State,
+    Tielines,
     Top,
     TopError,
+    Trajectory,
     TruncatedSphere,
     figures,
     omega2,
@@ -29,6 +33,7 @@ from tippe_core import (
 )
 from tippe_core.curve import f1_squared, f2_squared, rounded_f
 from tippe_core.forces import forces_on_curve
+from tippe_core.types import Array, Indices, Scalars
 
 ROLLS, SLIPS, LIFTS = 0, 1, 2
 WORDS = ("rolls", "would slip here", "would lift off here")
@@ -72,21 +77,21 @@ class Plane:
     least energy that gets there.
     """
 
-    K_J: np.ndarray
-    lift: object
-    slip: object
-    surface: object
-    theta: np.ndarray
-    height: np.ndarray
-    K_J_range: tuple
-    theta_range: tuple
+    K_J: Array
+    lift: Tielines
+    slip: Tielines
+    surface: Tielines
+    theta: Array
+    height: Array
+    K_J_range: tuple[float, float]
+    theta_range: tuple[float, float]
     limit: str
     pole: float
     pole_height: float
-    hover_theta: np.ndarray
-    hover_K_J: np.ndarray
-    hover_E: np.ndarray
-    hover_ratio: np.ndarray
+    hover_theta: Array
+    hover_K_J: Array
+    hover_E: Array
+    hover_ratio: Array
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -98,9 +103,9 @@ class Marks:
     slip: float
     lift: float
     theta_steady: float
-    nodes: np.ndarray
+    nodes: Array
 
-    def energy(self, share):
+    def energy(self, share: float) -> float:
         """0 the steady precession, 1 the limit of friction, 2 that of F_z; straight on beyond 2, and below 0."""
         slopes = np.diff(self.nodes)
         if share < 0:
@@ -109,7 +114,7 @@ class Marks:
             return self.nodes[2] + (share - 2) * (slopes[1] or slopes[0])
         return float(np.interp(share, (0, 1, 2), self.nodes))
 
-    def share(self, energy):
+    def share(self, energy: float) -> float:
         """The inverse of energy(share)."""
         start, middle, end = self.nodes
         if energy < start:
@@ -140,33 +145,33 @@ class Scene:
     state: State
     rolling: Rolling
     plane: Plane
-    turning: tuple
-    curve: np.ndarray
-    trajectory: object
-    force: np.ndarray
-    omega: np.ndarray
-    momentum: np.ndarray
-    normal: np.ndarray
-    ratio: np.ndarray
-    regime: np.ndarray
-    K_J: np.ndarray
-    K_R: np.ndarray
-    E: np.ndarray
+    turning: tuple[float, float]
+    curve: Array
+    trajectory: Trajectory
+    force: Array
+    omega: Array
+    momentum: Array
+    normal: Array
+    ratio: Array
+    regime: Indices
+    K_J: Array
+    K_R: Array
+    E: Array
     upright_spin: float
-    profile: np.ndarray
+    profile: Array
     shape: Shape | None
-    messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
-    notes: tuple = ()
+    messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    notes: tuple[str, ...] = ()
 
     # What not every picture shows is computed when the first one asks.
 
     @cached_property
-    def nutation(self):
+    def nutation(self) -> Trajectory:
         """One nutation from t = 0, closed: the Trajectory at SAMPLES_A_NUTATION + 1 equally spaced times."""
         return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION + 1))
 
     @cached_property
-    def levels(self):
+    def levels(self) -> list[tuple[Array, Array]]:
         """Motions of the same K_J and K_R at other energies, and one at LEVELS[i] of the marks: [(theta, theta_dot)],
         each theta ascending, theta_dot >= 0."""
         curves = []
@@ -181,7 +186,7 @@ class Scene:
         return curves
 
     @cached_property
-    def potential(self):
+    def potential(self) -> tuple[Array, Array]:
         """theta (n,) and the least energy there, E (n,): a motion turns where its energy is that."""
         inner, outer = self.turning
         reach = 0.6 * (outer - inner) + 0.05
@@ -189,7 +194,7 @@ class Scene:
         return theta, least_energy(theta, self.top, self.constants.K_J, self.constants.K_R)
 
     @cached_property
-    def rosette(self):
+    def rosette(self) -> tuple[float, float, float, float] | None:
         """Centre x, y and the least and largest distance of the track from it; None where the track goes straight on.
 
         A nutation turns the motion by phi_advance and moves it: together a turn about one point of the table.
@@ -220,7 +225,9 @@ class Explorer(param.Parameterized):
     omega3 = param.Number(0.0, doc="the angular velocity about the axis of symmetry at t = 0, in (g/R)^1/2")
     phi = param.Number(0.0, doc="the azimuth of 1' at t = 0, in rad")
     psi = param.Number(0.0, doc="the turn about the axis of symmetry at t = 0, in rad")
-    given = param.Selector(default="share", objects=["share", "E", "state"], doc="which of GIVEN holds")
+    given: param.Selector[str] = param.Selector(
+        default="share", objects=["share", "E", "state"], doc="which of GIVEN holds"
+    )
     mu_s = param.Number(0.5, doc="coefficient of static friction")
     a = param.Number(0.070, doc="distance of G below the centre O of the sphere, in R")
     I1 = param.Number(0.399, doc="moment of inertia about an axis through G across the axis of symmetry, in MR^2")
@@ -229,12 +236,17 @@ class Explorer(param.Parameterized):
         class_=Shape, default=TruncatedSphere.paper(), allow_None=False, doc="the body; a, I1, I3 are set with it"
     )
     upper = param.Boolean(True, doc="show the upper hemisphere, like the paper, or all of (0, pi)")
-    limit = param.Selector(default="lift-off", objects=["lift-off", "slip"], doc="which limit Fig. 5 is drawn at")
-    face = param.Selector(
+    limit: param.Selector[str] = param.Selector(
+        default="lift-off", objects=["lift-off", "slip"], doc="which limit Fig. 5 is drawn at"
+    )
+    face: param.Selector[str] = param.Selector(
         default="constants", objects=["constants", "state"], doc="which face the controls show; it changes nothing else"
     )
     cursor = param.Number(0.0, doc="the time looked at, in (R/g)^1/2; moving it solves nothing")
-    scene = param.ClassSelector(class_=Scene, constant=True, doc="the last solution")
+    # __init__ makes the first one
+    scene: param.ClassSelector[Scene] = param.ClassSelector(  # type: ignore[assignment]
+        class_=Scene, constant=True, doc="the last solution"
+    )
 
     GIVEN = MappingProxyType(
         {
@@ -245,14 +257,14 @@ class Explorer(param.Parameterized):
     )
     INPUTS = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3")
 
-    def __init__(self, **inputs):
-        super().__init__(**inputs)
+    def __init__(self, **inputs: Any) -> None:
+        super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
         self._following = False
         motion = {name for names in self.GIVEN.values() for name in names}
         self.param.watch(self._on_inputs, [*motion, "given", "mu_s", "a", "I1", "I3", "shape", "upper", "limit"])
         self._solve()
 
-    def _on_inputs(self, *events):
+    def _on_inputs(self, *events: Any) -> None:
         if self._following:
             return
         changed = {event.name for event in events}
@@ -263,7 +275,7 @@ class Explorer(param.Parameterized):
                 self._follow(given=given)
         self._solve()
 
-    def _follow(self, **values):
+    def _follow(self, **values: Any) -> None:
         self._following = True
         try:
             with param.edit_constant(self):
@@ -271,7 +283,7 @@ class Explorer(param.Parameterized):
         finally:
             self._following = False
 
-    def _solve(self):
+    def _solve(self) -> None:
         try:
             state = {name: getattr(self, name) for name in self.GIVEN["state"]}
             scene = solve(
@@ -299,7 +311,19 @@ class Explorer(param.Parameterized):
         )
 
 
-def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None, *, E=None, state=None):
+def solve(
+    top: Top,
+    K_J: float,
+    K_R: float,
+    mu_s: float,
+    share: float,
+    upper: bool = True,
+    limit: str = "lift-off",
+    shape: Shape | None = None,
+    *,
+    E: float | None = None,
+    state: State | None = None,
+) -> Scene:
     """The Scene of one top and one motion; shape: the body, appendix A's where none is given.
 
     E, where given, is the energy, whatever the share; state, where given, the motion at t = 0, whatever the constants.
@@ -309,7 +333,7 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None, 
     drawn = shape if fits(shape, top) else None
     if state is not None:
         constants = Constants.from_state(top, state.theta, state.theta_dot, state.omega2, state.omega3)
-        K_J, K_R, E = constants.K_J, constants.K_R, constants.E
+        K_J, K_R, E = float(constants.K_J), float(constants.K_R), float(constants.E)
     for name, value in {"K_J": K_J, "K_R": K_R, "mu_s": mu_s, "E": share if E is None else E}.items():
         if not abs(value) <= LARGEST:
             raise TopError(name, value, f"at most {LARGEST:g} either way", "No top is ever so fast, no table so rough.")
@@ -317,12 +341,12 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None, 
         if not least <= (value := getattr(top, name)) <= LARGEST:
             raise TopError(name, value, f"{least:g} to {LARGEST:g} ({unit})", "No body is so thin, or so wide.")
     marks = energy_marks(top, K_J, K_R, mu_s)
-    if state is not None:
-        share = max(marks.share(E), 0.0)  # rounding may leave a steady precession below itself
-    elif E is not None:
-        share = marks.share(E)
-    else:
+    if E is None:
         E = marks.energy(share)
+    elif state is not None:
+        share = max(marks.share(E), 0.0)  # rounding may leave a steady precession below itself
+    else:
+        share = marks.share(E)
     if share < 0 or not np.isfinite(share):
         raise TopError(
             "E",
@@ -380,7 +404,7 @@ def solve(top, K_J, K_R, mu_s, share, upper=True, limit="lift-off", shape=None, 
     )
 
 
-def energy_marks(top, K_J, K_R, mu_s):
+def energy_marks(top: Top, K_J: float, K_R: float, mu_s: float) -> Marks:
     lift, slip = figures(top, [K_J], K_R, mu_s)
     steady, E_slip, E_lift = float(lift.E_steady[0]), float(slip.E[0]), float(lift.E[0])
     nodes = [steady]
@@ -397,16 +421,16 @@ def energy_marks(top, K_J, K_R, mu_s):
     )
 
 
-def frame_times(period, top, constants):
+def frame_times(period: float, top: Top, constants: Constants) -> Array:
     """Some nutations in frames of equal length, short enough that the top turns little between two; (n,)."""
     # (33) bounds the spin: no component is larger than this.
-    fastest = np.sqrt((2 * abs(constants.E) + 4 * abs(top.a)) / min(top.I1, top.I3))
+    fastest = float(np.sqrt((2 * abs(float(constants.E)) + 4 * abs(top.a)) / min(top.I1, top.I3)))
     step = min(period / FRAMES_A_NUTATION, MOST_TURN / fastest)
     frames = min(round(NUTATIONS * period / step), MOST_FRAMES)
-    return step * np.arange(frames + 1)
+    return step * np.arange(frames + 1.0)
 
 
-def axes(theta, phi):
+def axes(theta: Array, phi: Array) -> tuple[Array, Array, Array, Array]:
     """The axes 1', y, 3 and 2' in space, each (n, 3)."""
     zero, s, c = np.zeros_like(theta), np.sin(theta)[:, None], np.cos(theta)[:, None]
     nodal = np.column_stack([np.cos(phi), np.sin(phi), zero])
@@ -415,19 +439,19 @@ def axes(theta, phi):
     return nodal, across, c * up - s * across, s * up + c * across
 
 
-def fits(shape, top):
+def fits(shape: Shape, top: Top) -> bool:
     """Whether a, I1 and I3 are the shape's, to the three digits of appendix A."""
     own = shape.top
     return max(abs(own.a - top.a), abs(own.I1 - top.I1), abs(own.I3 - top.I3)) < ROUNDED
 
 
 @lru_cache(maxsize=8)
-def body(shape):
+def body(shape: Shape) -> Array:
     """The shape's outline, (radius, height above O along axis 3) in R, (k, 2)."""
     return shape.profile(max(OUTLINE_POINTS, len(shape.solid.outline) + 1)) / shape.R
 
 
-def second_part(shape):
+def second_part(shape: Shape | None) -> str:
     """What of a body touches beside the ball: "stem" where that is the end of a stem, or nothing, else "rim"."""
     if shape is None or shape.edge is None:
         return "stem"
@@ -436,7 +460,7 @@ def second_part(shape):
     return "stem" if ends and radius + rounding < 1 else "rim"
 
 
-def outline(top):
+def outline(top: Top) -> Array:
     """A stand-in for the body of a top of which only a, I1 and I3 are known, like body(shape).
 
     Only the sphere that rolls is certain, so a tippe top is drawn as a whole ball, and a top with G above O as
@@ -463,20 +487,20 @@ def outline(top):
     )
 
 
-def between(inner, outer, columns):
+def between(inner: Scalars, outer: Scalars, columns: int) -> Array:
     """Angles from inner to outer, closer together towards the ends; (..., columns)."""
     share = (1 - np.cos(np.linspace(0, np.pi, columns))) / 2
     inner, outer = np.asarray(inner)[..., None], np.asarray(outer)[..., None]
     return inner + (outer - inner) * share
 
 
-def height(theta, top, constants):
+def height(theta: Array, top: Top, constants: Constants) -> Array:
     """f1^2 theta_dot^2 of (36), and 0 at the ends of the last axis where they are turning points in (0, pi)."""
     value = f1_squared(theta, top) * rounded_f(theta, top, constants)
     return np.maximum(value, 0)
 
 
-def K_J_range(top, K_J, K_R, upper):
+def K_J_range(top: Top, K_J: float, K_R: float, upper: bool) -> tuple[float, float]:
     """From 0 to P for the upper hemisphere, like the paper; else past both poles; in any case as far as K_J."""
     poles = pole_constants(top, K_R)
     beyond = 0.25 * max(map(abs, poles))
@@ -492,7 +516,7 @@ def K_J_range(top, K_J, K_R, upper):
 
 
 @lru_cache(maxsize=8)
-def plane(top, K_R, mu_s, upper, limit, low, high):
+def plane(top: Top, K_R: float, mu_s: float, upper: bool, limit: str, low: float, high: float) -> Plane:
     """The Plane. The same arguments give the same object, so a view can tell by identity that nothing changed."""
     poles = pole_constants(top, K_R)
     step = 2.0 ** np.floor(np.log2((high - low) / LEAST_TIELINES))
@@ -531,14 +555,14 @@ def plane(top, K_R, mu_s, upper, limit, low, high):
     )
 
 
-def least_energy(theta, top, K_J, K_R):
+def least_energy(theta: Array, top: Top, K_J: Scalars, K_R: Scalars) -> Array:
     """E of the motion that turns at theta: (33) with theta_dot = 0, 2E' = 2a(1 - c) + f2^2 w2^2."""
     w2 = omega2(theta, top, Constants(K_J, K_R, 0.0))
     two_E_prime = 2 * top.a * (1 - np.cos(theta)) + f2_squared(theta, top) * w2**2
     return (two_E_prime + K_R**2 - top.I1 / top.I3 * K_J**2) / 2
 
 
-def everywhere(top, theta, K_J, K_R, E_limit):
+def everywhere(top: Top, theta: Array, K_J: Array, K_R: float, E_limit: Array) -> tuple[Array, Array]:
     """E and F_h/F_z at (K_J, theta), each (len(K_J), len(theta)); F_h/F_z is inf where F_z <= 0."""
     theta, K_J = theta[None, :], K_J[:, None]
     E = np.fmax(least_energy(theta, top, K_J, K_R), np.where(np.isfinite(E_limit), E_limit, np.nan)[:, None])
@@ -550,7 +574,7 @@ def everywhere(top, theta, K_J, K_R, E_limit):
         return E, np.where(F_z > 0, np.hypot(F_x, F_y) / F_z, np.inf)
 
 
-def remarks(marks, shape, theta_outer):
+def remarks(marks: Marks, shape: Shape | None, theta_outer: float) -> Iterator[str]:
     if shape is None:
         yield say("controls.remarks.stand_in")
     elif shape.touch_angle is not None and theta_outer > shape.touch_angle:

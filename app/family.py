@@ -1,11 +1,25 @@
 """Many tops at once: Figs. 5 and 6 of several side by side, and how much of Fig. 5's region friction leaves them."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from app.builder import named, thrown
-from tippe_core import PRESETS, Constants, Top, TopError, allowed_shares, f, f1_squared, figures, pole_constants
+from tippe_core import (
+    PRESETS,
+    Constants,
+    OrdinaryTop,
+    Tielines,
+    Top,
+    TopError,
+    allowed_shares,
+    f,
+    f1_squared,
+    figures,
+    pole_constants,
+)
+from tippe_core.types import Array
 
 TIELINES, POINTS = 48, 40
 PEGS = (0.0, 0.0036, 0.0072, 0.0108, 0.0162)  # m, the last one the preset's own
@@ -22,14 +36,14 @@ class Region:
     name: str
     top: Top
     pole: float
-    part: np.ndarray
-    lift: object
-    slip: object
-    theta: np.ndarray
-    height: np.ndarray
+    part: Array
+    lift: Tielines
+    slip: Tielines
+    theta: Array
+    height: Array
 
 
-def region(name, top, K_R, mu_s, count=TIELINES):
+def region(name: str, top: Top, K_R: float, mu_s: float, count: int = TIELINES) -> Region:
     """The Region of a top, from tippe_core's own tielines."""
     pole = pole_constants(top, K_R)[0]
     part = (np.arange(count) + 0.5) / count
@@ -47,12 +61,12 @@ def region(name, top, K_R, mu_s, count=TIELINES):
 class Map:
     """The share (m, n) over I3/I1 (m,) and a (n,), nan where there is no such top, or its row is not done."""
 
-    a: np.ndarray
-    ratio: np.ndarray
-    share: np.ndarray
+    a: Array
+    ratio: Array
+    share: Array
 
 
-def share_map(I1, K_R, mu_s, a, ratio):
+def share_map(I1: float, K_R: float, mu_s: float, a: Array, ratio: Array) -> Iterator[tuple[int, Map]]:
     """Yields (tops done, the Map so far) after every row. Whoever stops taking has stopped it."""
     share = np.full((len(ratio), len(a)), np.nan)
     for row, part in enumerate(ratio):
@@ -60,26 +74,27 @@ def share_map(I1, K_R, mu_s, a, ratio):
         yield (row + 1) * len(a), Map(a, ratio, share.copy())
 
 
-def presets():
+def presets() -> list[tuple[str, Top, float]]:
     """[(name, Top, K_R)]: every preset, thrown as a new body is; of two with one shape the first."""
     first = {preset.shape: preset for preset in reversed(PRESETS)}
     return [(named(preset.name), preset.top, thrown(preset.shape, preset.top)[1])
             for preset in PRESETS if first[preset.shape] is preset]  # fmt: skip
 
 
-def pegs():
+def pegs() -> list[tuple[str, Top, float]]:
     """[(name, Top, K_R)]: ordinary tops, the disc on pegs of several lengths, a/R to about -10, all with one spin."""
     disc = ordinary()
     bodies = [replace(disc, h=h) for h in PEGS]
     return [(f"a = {body.top.a:.3g}".replace("-", "−"), body.top, thrown(body)[1]) for body in bodies]
 
 
-def ordinary():
+def ordinary() -> OrdinaryTop:
     """The preset that is an ordinary top with a/R near -10."""
-    return next(preset.shape for preset in PRESETS if preset.shape.top.a < -5)
+    shapes = (preset.shape for preset in PRESETS)
+    return next(shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < -5)
 
 
-def neighbours(top, which):
+def neighbours(top: Top, which: str) -> list[tuple[str, Top]]:
     """[(name, Top)]: up to five tops with "a", or with "I3" at this I1, from half of this top's to one and a half."""
     tops = []
     for factor in (0.5, 0.75, 1.0, 1.25, 1.5):

@@ -5,17 +5,18 @@ A run is made in a thread, which has no page: it is told in which language to sa
 """
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from itertools import groupby
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import param
 
-from app.explorer import axes, body, second_part
-from app.runs import Run, Runs, Stopped
+from app.explorer import Explorer, axes, body, second_part
+from app.runs import Result, Run, Runs, Stopped
 from app.text import say, told
 from tippe_core import (
     SUNK,
@@ -30,6 +31,7 @@ from tippe_core import (
     Stretch,
     Top,
     TopError,
+    Trajectory,
     Viscous,
     beside,
     ending,
@@ -42,6 +44,8 @@ from tippe_core import (
     steady_states,
     sunk,
 )
+from tippe_core.friction import Friction
+from tippe_core.types import Array, Indices, Number, Rim
 
 PLANES = ("rough", "smooth", "sliding")
 LAWS = ("coulomb", "viscous", "smoothed")
@@ -62,6 +66,8 @@ NUDGE, BESIDE = 1e-6, 3.0  # rad, s: a run beside the run starts so much further
 # A run that a newer one replaces may still finish within this, s; later it is stopped.
 PATIENCE = 0.5
 
+Progress: TypeAlias = Callable[[float], object]
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Settings:
@@ -71,7 +77,7 @@ class Settings:
     top: Top
     scales: Scales
     shape: Shape | None
-    profile: np.ndarray
+    profile: Array
     rolling: State | None
     spin: float
     tilt: float
@@ -87,23 +93,29 @@ class Settings:
     seconds: float
 
     @property
-    def friction(self):
+    def friction(self) -> Friction:
         if self.law == "viscous":
             return Viscous(self.gamma)
         return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu_k, self.mu_s)
 
     @property
-    def edge(self):
+    def edge(self) -> Rim | None:
         """The stem's edge where it takes part."""
         return self.shape.edge if self.stem and self.shape is not None else None
 
     @property
-    def part(self):
+    def touch_angle(self) -> float:
+        """theta from which that edge touches, inf where none takes part."""
+        found = self.shape.touch_angle if self.edge and self.shape else None
+        return np.inf if found is None else found
+
+    @property
+    def part(self) -> str:
         """What touches beside the ball, "stem" or "rim"."""
         return second_part(self.shape)
 
     @property
-    def state(self):
+    def state(self) -> State:
         """The State at t = 0. slip 1: G at rest; 0: G moves as rolling needs; in between and beyond in proportion."""
         if self.rolling is not None:
             return self.rolling
@@ -117,14 +129,15 @@ class Settings:
         return State(theta, 0.0, 0.0, spin, vx=-(1 - self.slip) * spin * np.sin(theta), vy=0.0)
 
     @property
-    def times(self):
+    def times(self) -> Array:
         """(n,), short enough a step that the top turns little in it."""
         if not 0 < self.seconds <= MOST_SECONDS:
             raise TopError("seconds", self.seconds, f"more than 0, at most {MOST_SECONDS:g} s")
         start, end = self.state, self.seconds / self.scales.time
         top = self.top
         kinetic = top.I1 * (start.theta_dot**2 + start.omega2**2) + top.I3 * start.omega3**2
-        fastest = np.sqrt((kinetic + start.vx**2 + start.vy**2 + 4 * abs(top.a)) / min(top.I1, top.I3))
+        vx, vy = start.vx or 0.0, start.vy or 0.0
+        fastest = np.sqrt((kinetic + vx**2 + vy**2 + 4 * abs(top.a)) / min(top.I1, top.I3))
         if end * fastest > FARTHEST_TURN * MOST_FRAMES:
             most = FARTHEST_TURN * MOST_FRAMES / fastest * self.scales.time
             raise TopError("seconds", self.seconds, f"at most {most:.3g} s with this spin",
@@ -145,22 +158,22 @@ class Motion:
     sliding plane, what became of it.
     """
 
-    trajectory: object
+    trajectory: Trajectory
     ending: Ending | None
     ended: str
-    t: np.ndarray
-    frames: tuple
-    stretches: tuple
-    drift: MappingProxyType
-    alone: tuple
+    t: Array
+    frames: tuple[Array | Indices, ...]
+    stretches: tuple[tuple[float, float, int], ...]
+    drift: MappingProxyType[str, float]
+    alone: tuple[float, str, float]
 
     @property
-    def slip(self):
+    def slip(self) -> Array:
         """The slip speed, (n,)."""
         return np.hypot(*self.trajectory.slip.T)
 
     @property
-    def ledger(self):
+    def ledger(self) -> dict[str, Array]:
         """Energies in MgR that add up to what it started with, {name: (n,)}; height above G's lowest place."""
         entries, a = self.trajectory.ledger, self.trajectory.top.a
         return {
@@ -172,26 +185,26 @@ class Motion:
         }
 
     @property
-    def crossings(self):
+    def crossings(self) -> Array:
         """The times at which theta passes a right angle, (k,)."""
         theta, t = self._from_right_angle
         at = np.flatnonzero((theta[:-1] < 0) != (theta[1:] < 0))
         return t[at] + (t[at + 1] - t[at]) * theta[at] / (theta[at] - theta[at + 1])
 
     @property
-    def _from_right_angle(self):
+    def _from_right_angle(self) -> tuple[Array, Array]:
         """theta less a right angle, and the time, where that is not 0."""
         theta = self.trajectory.theta - np.pi / 2
         off = np.abs(theta) > 1e-12
         return theta[off], self.trajectory.t[off]
 
     @property
-    def starts_below(self):
+    def starts_below(self) -> bool:
         """Whether it starts below a right angle, or goes below it from there."""
         return bool(np.all(self._from_right_angle[0][:1] < 0))
 
     @property
-    def overturned(self):
+    def overturned(self) -> float:
         """The time at which theta first passes a right angle, nan if it never does, or started past it."""
         found = self.crossings
         return float(found[0]) if len(found) and self.trajectory.theta[0] < np.pi / 2 else np.nan
@@ -217,19 +230,20 @@ class Picture:
 
     settings: Settings
     state: State
-    friction: object
-    motions: MappingProxyType
+    friction: Friction
+    motions: MappingProxyType[str, Motion | None]
     outcome: Outcome
     growth: float | None = None
-    messages: MappingProxyType = field(default_factory=lambda: MappingProxyType({}))
+    messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
 
-    def wells(self, plane):
+    def wells(self, plane: str) -> tuple[Well, ...]:
         """(Well, ...) of the motion on a plane, one for each while of more than SHORT in which no stem touched: a
         second contact changes C_J. Of none, that of the start."""
         motion, shortest = self.motions[plane], SHORT / self.settings.scales.time
         if motion is None:
             return (Well(0.0, 0.0, self.outcome.C_J, self.outcome.steady),)
-        moved, found = motion.trajectory, []
+        moved = motion.trajectory
+        found: list[Well] = []
         spells = motion.ending.stretches if motion.ending else (Stretch(moved.t[0], moved.t[-1], "ball"),)
         for free, group in groupby(spells, key=lambda spell: spell.on in ("ball", "air")):
             group = list(group)
@@ -241,7 +255,7 @@ class Picture:
         return tuple(found) or (Well(-1.0, -1.0, self.outcome.C_J, self.outcome.steady),)
 
 
-def solve(settings, progress=None):
+def solve(settings: Settings, progress: Progress | None = None) -> Picture:
     """The Picture. progress: called with the time reached; what it raises stops the run. Raises TopError, whose name is
     the input at fault."""
     top, state, times = settings.top, settings.state, settings.times
@@ -251,7 +265,8 @@ def solve(settings, progress=None):
         "smooth": lambda: _clear(lambda: glide(top, state, times), settings, state),
         "sliding": lambda: _slid(settings, state, times, progress),
     }
-    motions, messages = {}, {}
+    motions: dict[str, Motion | None] = {}
+    messages: dict[str, str] = {}
     for plane in PLANES:
         try:
             motions[plane] = _motion(runs[plane](), settings, times, plane)
@@ -265,14 +280,14 @@ def solve(settings, progress=None):
     )  # fmt: skip
 
 
-def _slid(settings, state, times, progress):
+def _slid(settings: Settings, state: State, times: Array, progress: Progress | None) -> Trajectory:
     moved = slide(settings.top, state, settings.friction, times, rtol=RTOL, landing=settings.landing,
                   edge=settings.edge, progress=progress)  # fmt: skip
     first = sunk(moved, body(settings.shape)) if settings.edge else len(moved.t)
     return moved if first == len(moved.t) else _until(moved, max(first, 1), float(moved.t[first]), ANOTHER)
 
 
-def _check_room(settings, state):
+def _check_room(settings: Settings, state: State) -> None:
     """TopError where a part of the body that is neither ball nor edge would be below the table at the start."""
     if settings.edge is None:
         return
@@ -286,27 +301,28 @@ def _check_room(settings, state):
                        "Another part of it would be below the table.")  # fmt: skip
 
 
-def _until(trajectory, count, time, event):
+def _until(trajectory: Trajectory, count: int, time: float, event: str) -> Trajectory:
     """The first rows of a Trajectory, which ends at that time with that event."""
+    rows: dict[str, Number]
     rows = {part.name: value[:count] for part in fields(trajectory)
             if isinstance(value := getattr(trajectory, part.name), np.ndarray)}  # fmt: skip
-    before = {name: tuple(each for each in getattr(trajectory, name) if each[0] < time)
-              for name in ("events", "supports")}  # fmt: skip
-    return replace(trajectory, **rows | before | {"events": (*before["events"], (time, event))})
+    events, supports = (tuple(x for x in each if x[0] < time) for each in (trajectory.events, trajectory.supports))
+    return replace(trajectory, events=(*events, (time, event)), supports=supports, **rows)
 
 
-def nudged(picture, progress=None):
+def nudged(picture: Picture, progress: Progress | None = None) -> float:
     """How many times NUDGE, added to the tilt of the start, grows in theta on the sliding plane, at most; BESIDE after
     the first touch is as long as it takes to tell."""
     settings, state, motion = picture.settings, picture.state, picture.motions["sliding"]
+    assert motion is not None and motion.ending is not None  # it hits something there
     moved, until = motion.trajectory, motion.ending.stretches[0].end + BESIDE / settings.scales.time
     near = _slid(settings, beside(state, NUDGE), moved.t[moved.t <= until], progress)
     return growth(moved, near, NUDGE)
 
 
-def _clear(motion, settings, state):
+def _clear(motion: Callable[[], Trajectory], settings: Settings, state: State) -> Trajectory:
     """A motion on the ball alone, motion(), as far as the stem is clear of the table; TopError where it never is."""
-    angle = settings.shape.touch_angle if settings.edge else np.inf
+    angle = settings.touch_angle
     if state.theta >= angle:
         raise TopError("tilt", float(np.degrees(state.theta)),
                        f"less than {np.degrees(angle):.4g} degrees on this plane",
@@ -320,13 +336,13 @@ def _clear(motion, settings, state):
     return _until(trajectory, first, time, "stem touches")
 
 
-def for_reader(error, scales):
+def for_reader(error: TopError, scales: Scales) -> TopError:
     """A TopError of tippe_core in what stands beside the controls: degrees, rev/s, s."""
     names = {"theta": ("tilt", 180 / np.pi), "omega3": ("spin", scales.angular_velocity / (2 * np.pi)),
              "times": ("seconds", scales.time)}  # fmt: skip
     name, size = names.get(error.name, (error.name, 1.0))
 
-    def scaled(words, start, size, unit=""):
+    def scaled(words: str, start: str, size: float, unit: str = "") -> str:
         number = rf"({start})(\d+(?:\.\d+)?(?:e[+-]?\d+)?)"
         return re.sub(number, lambda found: f"{found[1]}{size * float(found[2]):.4g}{unit}", words)
 
@@ -335,7 +351,7 @@ def for_reader(error, scales):
                     scaled(error.remedy, "t = ", scales.time, " s"))  # fmt: skip
 
 
-def _motion(trajectory, settings, times, plane):
+def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str) -> Motion:
     top, F, n = trajectory.top, trajectory.force, len(trajectory.t)
     code = np.array([{"roll": ROLLS, "slip": SLIPS, "air": FLIES}[word] for word in trajectory.regime])
     if plane == "rough":
@@ -371,14 +387,14 @@ def _motion(trajectory, settings, times, plane):
     )
 
 
-def _touches(trajectory, time, settings):
+def _touches(trajectory: Trajectory, time: float, settings: Settings) -> bool:
     """Whether the top is so far tilted at that time, before which it was on its sphere, that the stem touches."""
     before = max(int(np.searchsorted(trajectory.t, time)) - 1, 0)
     theta = trajectory.theta[before] + (time - trajectory.t[before]) * trajectory.omega[before, 0]
-    return abs(theta - settings.shape.touch_angle) < NEAR_TOUCH
+    return bool(abs(theta - settings.touch_angle) < NEAR_TOUCH)
 
 
-def _drift(values):
+def _drift(values: Array) -> float:
     most = np.abs(values).max()
     return float(np.ptp(values) / most) if most else 0.0
 
@@ -386,7 +402,9 @@ def _drift(values):
 # ---- what a person sets ----
 
 
-def _preset(body, spin, tilt, seconds, plane="sliding", **law):
+def _preset(
+    body: str, spin: float, tilt: float, seconds: float, plane: str = "sliding", **law: object
+) -> dict[str, Any]:
     start = {"by": "spin", "spin": spin, "tilt": tilt, "slip": 1.0, "seconds": seconds}
     return {"body": body, "plane": plane} | start | law
 
@@ -413,18 +431,26 @@ class Planes(param.Parameterized):
     newest is made.
     """
 
-    plane = param.Selector(default="sliding", objects=[*PLANES, "compare"], doc="what is looked at; computes nothing")
-    by = param.Selector(default="spin", objects=["spin", "constants"], doc="how the start is given")
+    plane: param.Selector[str] = param.Selector(
+        default="sliding", objects=[*PLANES, "compare"], doc="what is looked at; computes nothing"
+    )
+    by: param.Selector[str] = param.Selector(
+        default="spin", objects=["spin", "constants"], doc="how the start is given"
+    )
     spin = param.Number(20.0, doc="omega_3 at the start, rev/s")
     tilt = param.Number(10.0, doc="theta at the start, degrees")
     slip = param.Number(1.0, doc="slip at the start, of what it is with G at rest")
-    law = param.Selector(default="smoothed", objects=list(LAWS), doc="the law of friction of the sliding plane")
+    law: param.Selector[str] = param.Selector(
+        default="smoothed", objects=list(LAWS), doc="the law of friction of the sliding plane"
+    )
     mu_k = param.Number(0.3, doc="coefficient of sliding friction (Coulomb)")
     mu_s = param.Number(0.4, doc="coefficient of static friction (Coulomb)")
     gamma = param.Number(0.3, doc="viscous friction, in (gR)^-1/2")
     mu = param.Number(0.3, doc="coefficient of smoothed friction")
     eps = param.Number(0.1, doc="slip at which smoothed friction is 0.7 of its full size, in (gR)^1/2")
-    landing = param.Selector(default="plastic", objects=["stop", "plastic"], doc="what follows where it lifts off")
+    landing: param.Selector[str] = param.Selector(
+        default="plastic", objects=["stop", "plastic"], doc="what follows where it lifts off"
+    )
     stem = param.Boolean(True, doc="whether the stem can touch the table")
     seconds = param.Number(5.0, doc="how long a time is computed, s of the real top")
     busy = param.Boolean(False, constant=True, doc="whether a run is under way")
@@ -433,53 +459,55 @@ class Planes(param.Parameterized):
     FRICTION = ("law", "mu_k", "mu_s", "gamma", "mu", "eps")
     INPUTS = ("by", "spin", "tilt", "slip", *FRICTION, "landing", "stem", "seconds")
 
-    def __init__(self, explorer, builder, runs=None):
+    def __init__(self, explorer: Explorer, builder: Any, runs: Runs | None = None) -> None:
         self._explorer, self._builder, self._runs = explorer, builder, runs or Runs()
-        self._run = self._wanted = self._beside = None
+        self._run: Run | None = None
+        self._beside: Run | None = None
+        self._wanted: Settings | None = None
         self._told_to_stop = False
-        super().__init__()
+        super().__init__()  # type: ignore[no-untyped-call]  # of param
 
-    def choose(self, name):
+    def choose(self, name: str) -> None:
         """A preset: the body, thrown anew, and the start."""
         inputs = dict(PRESETS[name])
         self._builder.choose(inputs.pop("body"))
         self.param.update(**inputs)
         self.follow()
 
-    def follow(self, _scene=None):
+    def follow(self, _scene: object = None) -> None:
         """Runs again if the explorer's top, or the motion chosen there, is another than the one last asked for; when
         what is set together with it is set too, as by an undo."""
         self._runs.post(self._follow)
 
-    def _follow(self):
+    def _follow(self) -> None:
         asked, now = self._asked, self._settings()
         same = (asked.top, asked.scales, asked.shape, asked.rolling) == (now.top, now.scales, now.shape, now.rolling)
         if not same:
             self._ask()
 
     @property
-    def elapsed(self):
+    def elapsed(self) -> float:
         """How long the present run has taken, s; 0 without one."""
         return self._run.elapsed if self._run else 0.0
 
     @property
-    def share(self):
+    def share(self) -> float:
         """How much of the present run is done, 0 to 1."""
         return min(1.0, self._reached / self._running.seconds) if self._run else 1.0
 
     @property
-    def _reached(self):
+    def _reached(self) -> float:
         """s of the real top."""
-        return self._run.reached * self._running.scales.time
+        return self._run.reached * self._running.scales.time if self._run else 0.0
 
-    def stop(self):
+    def stop(self) -> None:
         """Ends the present run; the last picture stays, with a sentence."""
         self._wanted = None
         if self._run:
             self._told_to_stop = True
             self._run.stop()
 
-    def _settings(self):
+    def _settings(self) -> Settings:
         scene = self._explorer.scene
         rolling = None
         if self.by == "constants":
@@ -493,7 +521,7 @@ class Planes(param.Parameterized):
         )
 
     @param.depends(*INPUTS, watch=True, on_init=True)
-    def _ask(self):
+    def _ask(self) -> None:
         self._asked = settings = self._settings()
         if self._beside:
             self._beside.forget()
@@ -502,23 +530,22 @@ class Planes(param.Parameterized):
             return
         self._wanted = settings
         if self._run is None:
-            self._begin()
+            self._begin(settings)
         elif self._run.elapsed > PATIENCE:
             self._run.stop()
 
-    def _begin(self):
-        self._running, self._wanted, self._told_to_stop = self._wanted, None, False
-        settings = self._running
+    def _begin(self, settings: Settings) -> None:
+        self._running, self._wanted, self._told_to_stop = settings, None, False
         with param.edit_constant(self):
             self.busy = True
         self._run = Run(lambda run: solve(settings, run.look), self._done)
         self._runs.begin(self._run, "planes")
 
-    def _done(self, result):
+    def _done(self, result: Result) -> None:
         settings, reached, told_to_stop = self._running, self._reached, self._told_to_stop
         self._run = None
         if self._wanted is not None:
-            self._begin()
+            self._begin(self._wanted)
         else:
             with param.edit_constant(self):
                 self.busy = False
@@ -526,7 +553,7 @@ class Planes(param.Parameterized):
             return
         self._publish(settings, result, reached)
 
-    def _publish(self, settings, result, reached=0.0):
+    def _publish(self, settings: Settings, result: Result, reached: float = 0.0) -> None:
         messages = {}
         if isinstance(result, Stopped):
             messages["run"] = say("planes.run.stopped", reached=reached)
@@ -547,14 +574,14 @@ class Planes(param.Parameterized):
             self._beside = Run(lambda run: nudged(result, run.look), partial(self._nudged, result))
             self._runs.begin(self._beside, "nudged")
 
-    def _nudged(self, picture, growth):
+    def _nudged(self, picture: Picture, growth: object) -> None:
         """What the run beside the run tells of it, if that is still what is shown."""
-        if isinstance(growth, float) and self.picture.motions is picture.motions:
+        if isinstance(growth, float) and self.picture is not None and self.picture.motions is picture.motions:
             with param.edit_constant(self):
                 self.picture = replace(self.picture, growth=growth)
 
 
-def _hits(picture):
+def _hits(picture: Picture) -> bool:
     """Whether anything but its ball touched, which is what makes a motion depend on the last digit of its start."""
     motion = picture.motions["sliding"]
-    return motion is not None and len(motion.ending.stretches) > 1
+    return motion is not None and motion.ending is not None and len(motion.ending.stretches) > 1

@@ -9,16 +9,22 @@ import logging
 import threading
 import time
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Hashable
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from contextvars import ContextVar
+from typing import Any, TypeAlias
 
 from app.text import speaking, spoken
 
 # A run rests for NAP after each TURN, s, so that the server gets to its other visitors.
 TURN, NAP = 0.01, 0.001
 
-_NOW = ContextVar("run", default=None)
+_NOW: ContextVar["Run | None"] = ContextVar("run", default=None)
+Piece: TypeAlias = Callable[[], None]
+Post: TypeAlias = Callable[[Piece], None]  # calls it on a session's own thread
+Result: TypeAlias = Any  # whatever a work returns, or the exception that it raised: who began it knows which
+Document: TypeAlias = Any  # Bokeh's, which is not known here
 log = logging.getLogger("tippe")
 
 
@@ -30,18 +36,19 @@ class Pool:
     """A few threads, and who waits for one. Visitors take turns: next is who has the fewest pieces of work under way,
     of these the one whose turn was longest ago. The last free thread is for who has none under way."""
 
-    def __init__(self, threads, name):
+    def __init__(self, threads: int, name: str) -> None:
         self.threads, self._executor = threads, ThreadPoolExecutor(threads, thread_name_prefix=name)
-        self._waiting, self._working = {}, Counter()  # visitor -> his pieces that wait; how many are under way
+        self._waiting: dict[Hashable, list[Piece]] = {}  # visitor -> his pieces that wait
+        self._working: Counter[Hashable] = Counter()  # how many are under way
         self._changing = threading.Lock()
 
-    def add(self, visitor, piece):
+    def add(self, visitor: Hashable, piece: Piece) -> None:
         """Has it called in a thread, when it is its turn."""
         with self._changing:
             self._waiting.setdefault(visitor, []).append(piece)
             self._fill()
 
-    def remove(self, visitor, piece):
+    def remove(self, visitor: Hashable, piece: Piece) -> bool:
         """Whether it still waited; then it is not called."""
         with self._changing:
             waits = piece in self._waiting.get(visitor, ())
@@ -51,12 +58,12 @@ class Pool:
                     del self._waiting[visitor]
         return waits
 
-    def rest(self, visitor):
+    def rest(self, visitor: Hashable) -> float:
         """s for which a piece of this visitor's rests after each turn: he has one share, however many his pieces."""
         alone = len(self._working) < 2
         return NAP if alone else NAP + TURN * (self._working[visitor] - 1)
 
-    def _fill(self):
+    def _fill(self) -> None:
         while self._waiting and (free := self.threads - self._working.total()):
             visitor = min(self._waiting, key=lambda each: self._working[each])
             if self._working[visitor] and free == 1:
@@ -67,7 +74,7 @@ class Pool:
             with suppress(RuntimeError):  # Python ends, and takes no more
                 self._executor.submit(self._do, visitor, piece).add_done_callback(_logged)
 
-    def _do(self, visitor, piece):
+    def _do(self, visitor: Hashable, piece: Piece) -> None:
         try:
             piece()
         finally:
@@ -78,7 +85,7 @@ class Pool:
                 self._put_last(visitor, self._waiting.get(visitor))
                 self._fill()
 
-    def _put_last(self, visitor, waiting):
+    def _put_last(self, visitor: Hashable, waiting: list[Piece] | None) -> None:
         self._waiting.pop(visitor, None)
         if waiting:
             self._waiting[visitor] = waiting
@@ -93,18 +100,20 @@ class Run:
     """One piece of work. work: a function of this Run, called in a thread; done: one of what work returned, or of the
     exception that it raised. reached: how far it is, in a number of its own."""
 
-    def __init__(self, work, done):
+    def __init__(self, work: Callable[["Run"], Result], done: Callable[[Result], None]) -> None:
         self.work, self.done = work, done
         self.begun, self.reached, self.stopped = time.monotonic(), 0.0, False
-        self._rested, self._drop = self.begun, None
-        self._here, self._rest = lambda: True, lambda: NAP
+        self._rested = self.begun
+        self._drop: Piece | None = None
+        self._here: Callable[[], bool] = lambda: True
+        self._rest: Callable[[], float] = lambda: NAP
 
     @property
-    def elapsed(self):
+    def elapsed(self) -> float:
         """How long it has taken so far, s."""
         return time.monotonic() - self.begun
 
-    def stop(self):
+    def stop(self) -> None:
         """Ends it: at once where it still waits for a thread, else at its next look."""
         if self.stopped:
             return
@@ -112,12 +121,12 @@ class Run:
         if self._drop:
             self._drop()
 
-    def forget(self):
+    def forget(self) -> None:
         """Ends it, and it is not told: something else is asked for by now."""
         self.done = lambda result: None
         self.stop()
 
-    def look(self, reached=0.0):
+    def look(self, reached: float = 0.0) -> None:
         """To be called from within, often: raises Stopped where the run is to end."""
         self.reached = reached
         if self.stopped or not self._here():
@@ -126,7 +135,7 @@ class Run:
             time.sleep(self._rest())
             self._rested = time.monotonic()
 
-    def result(self):
+    def result(self) -> Result:
         """What it returns, or the exception that it raises: it is told on another thread."""
         try:
             return self.work(self) if self._here() else Stopped()
@@ -134,17 +143,17 @@ class Run:
             return error
 
 
-def look(reached=0.0):
+def look(reached: float = 0.0) -> None:
     """Run.look of the run that this thread does; nothing where it does none."""
     run = _NOW.get()
     if run is not None:
         run.look(reached)
 
 
-def to_session(document):
+def to_session(document: Document) -> Post:
     """What calls a function on the thread of a Bokeh document's session: for Runs."""
 
-    def post(function):
+    def post(function: Piece) -> None:
         try:
             document.add_next_tick_callback(function)
         except AttributeError:
@@ -155,10 +164,10 @@ def to_session(document):
     return post
 
 
-def connected_to(document):
+def connected_to(document: Document) -> Callable[[], bool]:
     """What tells whether a Bokeh document's page is there, and not only the session that it left: for Runs."""
 
-    def here():
+    def here() -> bool:
         session = document.session_context and document.session_context.session
         return bool(session and session.connection_count)
 
@@ -172,15 +181,16 @@ class Runs:
     thread. here: whether the page is still there; nothing is begun for one that is not, and what it has ends.
     """
 
-    def __init__(self, post=None, here=lambda: True):
-        self._post, self._here, self._under_way, self._left = post, here, {}, False
+    def __init__(self, post: Post | None = None, here: Callable[[], bool] = lambda: True) -> None:
+        self._post, self._here, self._left = post, here, False
+        self._under_way: dict[Run, str] = {}
 
     @property
-    def beside(self):
+    def beside(self) -> bool:
         """Whether there are threads."""
         return self._post is not None
 
-    def begin(self, run, kind, pool=WORK):
+    def begin(self, run: Run, kind: str, pool: Pool = WORK) -> None:
         """Has its work done, in the language of this page, and then tells it on the session's thread. What there is of
         the same kind ends, and is not told: the newest answers."""
         if self._left:
@@ -190,11 +200,11 @@ class Runs:
             return
         language = spoken()
 
-        def tell(result):
+        def tell(result: Result) -> None:
             self._under_way.pop(run, None)
             self.post(lambda: run.done(result))
 
-        def worked():
+        def worked() -> None:
             now = _NOW.set(run)
             try:
                 with speaking(language):
@@ -203,7 +213,7 @@ class Runs:
                 _NOW.reset(now)  # else the thread would keep the page
             tell(result)
 
-        def drop():
+        def drop() -> None:
             if pool.remove(self, worked):
                 tell(Stopped())
 
@@ -214,23 +224,23 @@ class Runs:
         run._drop, run._here, run._rest = drop, self._here, lambda: pool.rest(self)
         pool.add(self, worked)
 
-    def post(self, function):
+    def post(self, function: Piece) -> None:
         """Calls it on the session's thread, unless the page has gone."""
         if self._left:
             return
-        if self.beside:
+        if self._post is not None:
             self._post(function)
         else:
             function()
 
-    def leave(self):
+    def leave(self) -> None:
         """The page has gone: all that it has under way ends."""
         self._left = True
         for run in tuple(self._under_way):
             run.stop()
 
 
-def _logged(future):
+def _logged(future: Future[None]) -> None:
     """What nobody waits for."""
     if not future.cancelled() and future.exception():
         log.error("a run could not be told", exc_info=future.exception())

@@ -7,42 +7,46 @@ files that are saved. English is complete by definition, and the tests compare e
 import re
 import string
 import tomllib
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from pathlib import Path
+from typing import Any
+
+from tippe_core import TopError
 
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 DEFAULT = "en"
 
 
 class _Numbers(string.Formatter):
-    def format_field(self, value, form):
+    def format_field(self, value: object, form: str) -> str:
         said = super().format_field(value, form)
         return said if isinstance(value, str) else said.replace("-", "−")
 
 
 @cache
-def _file(language, name):
+def _file(language: str, name: str) -> dict[str, Any]:
     return tomllib.loads((Path(__file__).parent / language / f"{name}.toml").read_text(encoding="utf-8"))
 
 
-_ask = [lambda: DEFAULT]
-_inside = ContextVar("language", default=None)
+_ask: list[Callable[[], str]] = [lambda: DEFAULT]
+_inside: ContextVar[str | None] = ContextVar("language", default=None)
 
 
-def ask(language):
+def ask(language: Callable[[], str]) -> None:
     """From now on language() tells in which one a page speaks when it says something."""
     _ask[0] = language
 
 
-def spoken():
+def spoken() -> str:
     """The language of the page that is being served now, a key of LANGUAGES."""
     return _inside.get() or _ask[0]()
 
 
 @contextmanager
-def speaking(language):
+def speaking(language: str) -> Iterator[None]:
     """Inside, spoken() is this language: for a thread of its own, which serves no page."""
     before = _inside.set(language)
     try:
@@ -54,9 +58,9 @@ def speaking(language):
 _WISH = re.compile(r"\s*([a-z]{1,8}|\*)(?:-[a-z\d-]+)?\s*(?:;\s*q=(0(?:\.\d{0,3})?|1(?:\.0{0,3})?)\s*)?", re.I | re.A)
 
 
-def preferred(header):
+def preferred(header: str) -> str:
     """The one of LANGUAGES that a browser likes best, by its Accept-Language (RFC 9110); de-AT is as good as de."""
-    likes = {}  # "de" or "*" -> (weight, the earlier the larger)
+    likes: dict[str, tuple[float, int]] = {}  # "de" or "*" -> (weight, the earlier the larger)
     for place, wish in enumerate(header.split(",")[:20]):
         if found := _WISH.fullmatch(wish):
             tag, weight = found[1].lower(), float(found[2] or 1)
@@ -66,7 +70,7 @@ def preferred(header):
     return best if likes.get(best, others)[0] > 0 else DEFAULT
 
 
-def listed(key, language=None):
+def listed(key: str, language: str | None = None) -> Any:
     """What stands under a key, as it is: words, a list of them, or a table."""
     name, *path = key.split(".")
     found = _file(language or spoken(), name)
@@ -75,12 +79,12 @@ def listed(key, language=None):
     return found
 
 
-def say(key, language=None, **numbers):
+def say(key: str, language: str | None = None, **numbers: object) -> str:
     """The words under a key, with these numbers in them. KeyError where there are none, or one lacks its number."""
     return _Numbers().format(listed(key, language), **numbers)
 
 
-def told(error, language=None):
+def told(error: TopError, language: str | None = None) -> str:
     """The sentence of a TopError of the core, in the page's language; as plain text, not HTML."""
     language = language or spoken()
     if language == DEFAULT:
@@ -92,7 +96,7 @@ def told(error, language=None):
     return said + (f" {translated(error.remedy, language)}" if error.remedy else "")
 
 
-def translated(words, language=None):
+def translated(words: str, language: str | None = None) -> str:
     """Words of the core, which speaks English, in the page's language; as they are where they have no translation."""
     language = language or spoken()
     if language == DEFAULT:
@@ -105,7 +109,7 @@ def translated(words, language=None):
 
 
 @cache
-def _patterns(language):
+def _patterns(language: str) -> list[tuple[re.Pattern[str], str]]:
     """[core.words] says what words with numbers {} in them become."""
     return [(re.compile("(.*?)".join(map(re.escape, words.split("{}"))), re.DOTALL), other)
             for words, other in listed("core.words", language).items()]  # fmt: skip
