@@ -194,7 +194,9 @@ class Builder(param.Parameterized):
     def _rows(self, name: str, edit: Edit, point: tuple[float, ...]) -> None:
         """The Lathe whose points, and densities if it has one a point, are edited alike."""
         shape = self._lathe
-        rows: dict[str, Value] = {"points": edit(shape.points, lambda rows, index: tuple(round(float(x), 5) for x in point))}
+        rows: dict[str, Value] = {
+            "points": edit(shape.points, lambda rows, index: tuple(round(float(x), 5) for x in point))
+        }
         if isinstance(shape.density, tuple):
             rows["density"] = edit(shape.density, lambda rows, index: rows[min(index, len(rows) - 1)])
         self._try(name, lambda: replace(shape, **rows))

@@ -7,16 +7,23 @@ limits (27) to (29), R -> 0, are a derivative at R = 0 by a complex step, of the
 Units R, M, g. Vectors are shown along the turning axes: 1', y = z x 1', z. The words are in app/text.
 """
 
-from collections import namedtuple
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.fft import dct
 
+from app.explorer import Scene
 from tippe_core import (
+    Constants,
     Gliding,
+    Rolling,
+    State,
+    Top,
+    Trajectory,
     f,
     f1_squared,
     f2_squared,
@@ -26,8 +33,12 @@ from tippe_core import (
     omega2,
     omega3,
 )
+from tippe_core.types import Array, Complex, Number, Scalars
 
 LONG = np.longdouble
+Long: TypeAlias = NDArray[np.floating]  # of long floats, or where these are not needed of floats
+Of = TypeVar("Of")
+Run: TypeAlias = Callable[[Array], Trajectory]  # of times
 NODES, EDGE = 48, 8  # of each window; next to its ends a derivative is mostly the rounding of its samples
 TURN = 6.0  # rad in a window: so much its polynomial follows
 RESOLVED = 1e-12  # of the largest: below it the last Chebyshev coefficients of a window are rounding
@@ -36,7 +47,7 @@ STEP = 1e-20  # in the imaginary direction, where nothing cancels
 Z = np.array([0.0, 0.0, 1.0])
 
 
-def differentiation(t):
+def differentiation(t: Array) -> Long:
     """The matrix that gives the derivative, at the samples, of the polynomial through them (barycentric)."""
     t = t.astype(LONG)
     gap = t[:, None] - t[None, :]
@@ -48,11 +59,11 @@ def differentiation(t):
     return matrix
 
 
-def dot(p, q):
+def dot(p: Long, q: Long) -> Long:
     return (p * q).sum(axis=1)
 
 
-def column(x):
+def column(x: Long) -> Long:
     return x[:, None]
 
 
@@ -63,7 +74,7 @@ class Window:
     L as the motion says. e1, e2, axis are the unit vectors 1', 2', 3; y = z x 1'.
     """
 
-    def __init__(self, top, motion, constants, state):
+    def __init__(self, top: Top, motion: Trajectory, constants: Constants, state: State) -> None:
         self.top, self.motion, self.constants, self.state = top, motion, constants, state
         self.a, self.I1, self.I3, self.dI = top.a, top.I1, top.I3, top.I3 - top.I1
         self.t, self.theta = motion.t, motion.theta
@@ -91,97 +102,100 @@ class Window:
         self.v = column(v_x) * self.e1 + column(v_y) * self.y + column(v_z) * Z
         self.weight = np.broadcast_to(-Z, self.v.shape)
 
-    def d(self, x):
+    def d(self, x: Long) -> Long:
         return self._matrix @ x
 
-    def turning(self, x):
+    def turning(self, x: Long) -> Long:
         """Components along 1', y, z."""
         return np.column_stack([dot(x, self.e1), dot(x, self.y), x[:, 2]])
 
     # ---- what several lines need ----
 
     @cached_property
-    def L_dot(self):
+    def L_dot(self) -> Long:
         return self.d(self.L)
 
     @cached_property
-    def v_dot(self):
+    def v_dot(self) -> Long:
         return self.d(self.v)
 
     @cached_property
-    def omega_dot(self):
+    def omega_dot(self) -> Long:
         return self.d(self._turn)
 
     @cached_property
-    def r_dot(self):
+    def r_dot(self) -> Long:
         return self.d(self.r)
 
     # theta itself turns sharply next to a pole, cos(theta) does not.
 
     @cached_property
-    def theta_dot(self):
+    def theta_dot(self) -> Long:
         return -self.d(self.axis[:, 2]) / self.s
 
     @cached_property
-    def theta_double_dot(self):
+    def theta_double_dot(self) -> Long:
         return (self.d(self.s * self.w1) - self.c * self.w1**2) / self.s
 
     @cached_property
-    def w3_dot(self):
+    def w3_dot(self) -> Long:
         return self.d(self.w3)
 
     @cached_property
-    def r3(self):
+    def r3(self) -> Long:
         return dot(self.r, self.axis)
 
     @cached_property
-    def r_across(self):
+    def r_across(self) -> Long:
         beside = self.r - column(self.r3) * self.axis
         return np.sqrt(dot(beside, beside))
 
     @cached_property
-    def lean(self):
+    def lean(self) -> Long:
         """omega . (3 x z), which is -sin(theta) theta_dot."""
         return dot(self.omega, np.cross(self.axis, Z))
 
-    def along(self, e):
+    def along(self, e: Long) -> Long:
         return dot(self.omega, e)
 
-    def of(self, function):
+    def of(self, function: Callable[[Array, Top, Constants], Of]) -> Of:
         """f, omega2, ... of tippe_core at these tilts, by the constants alone."""
         return function(self.theta, self.top, self.constants)
 
     @property
-    def sense(self):
+    def sense(self) -> Array:
         return np.where(self.w1 < 0, -1.0, 1.0)
 
     @cached_property
-    def energy(self):
+    def energy(self) -> Long:
         v = self.d(self.com)
         return (dot(self.omega, self.L) + dot(v, v)) / 2 + self.com[:, 2] - (1 - self.a)
 
     # ---- R -> 0: the same body with a pointed peg, at the same tilts; derivatives at R = 0 ----
 
-    def _L3(self, R):
+    def _L3(self, R: complex) -> Complex:
         """(25) for any R, with the spin constant K of R = 0: L_3 = I3 K/f3(R)."""
-        K = self.constants.K_R
+        K: Number = self.constants.K_R
         s2 = np.sin(self.theta) ** 2
         f3 = np.sqrt(self.I3 + R * R * s2 + self.I3 / self.I1 * (R * self.c - self.a) ** 2 + 0j)
         return self.I3 * K / f3
 
     @cached_property
-    def L3_pointed(self):
+    def L3_pointed(self) -> Long:
         return self._L3(0.0).real
 
     @cached_property
-    def L3_slope(self):
+    def L3_slope(self) -> Long:
         """dL_3/dR at R = 0."""
         return self._L3(STEP * 1j).imag / STEP
 
     @cached_property
-    def Lz_pointed(self):
+    def Lz_pointed(self) -> Long:
         """L_z by (13) as R -> 0, less its value at the first of these tilts."""
         return self.a * (self.L3_slope - self.L3_slope[0])
+
+
+Reading: TypeAlias = Callable[[Window], Long]
 
 
 @dataclass(frozen=True)
@@ -193,53 +207,53 @@ class Line:
 
     number: str
     tex: str
-    sides: Callable
+    sides: Callable[[Window], tuple[Long, Long]]
     symbols: str
     plane: str = "rough"
 
     @property
-    def key(self):
+    def key(self) -> str:
         return self.number.strip("()")
 
 
-def isaeva(m):
+def isaeva(m: Window) -> Long:
     """(26) at any state."""
     w_z = m.omega[:, 2]
     w3 = dot(m.omega, m.axis)
     return _isaeva(m, w3, w_z)
 
 
-def _isaeva(m, w3, w_z):
+def _isaeva(m: Window, w3: Number, w_z: Number) -> Number:
     C_J = m.I1 * m.constants.K_J
     return (m.dI * (m.I3 + 1) - m.I3 * m.a**2) * w3**2 - 2 * C_J * w_z + m.I1 * w_z**2
 
 
-def isaeva_elsewhere(m):
+def isaeva_elsewhere(m: Window) -> Long:
     """(26) at another tilt of the same constants: the least of these tilts."""
     theta = m.theta.min()
     w2, w3 = (function(theta, m.top, m.constants) for function in (omega2, omega3))
     return 0 * m.theta + _isaeva(m, w3, w3 * np.cos(theta) + w2 * np.sin(theta))
 
 
-def half_f3(m):
+def half_f3(m: Window) -> Long:
     return (m.I3 + m.r_across**2 + m.I3 / m.I1 * m.r3**2) / 2
 
 
-def tipping(m):
+def tipping(m: Window) -> Long:
     """w3^2 theta_dot sin(theta), of (22)."""
     return m.along(m.axis) ** 2 * m.theta_dot * m.s
 
 
-def falling(m):
+def falling(m: Window) -> Long:
     """-(I3/I1) r3^2 w3 w3_dot - r_across^2 w3 w3_dot, of (22) and (23)."""
     return -(m.I3 / m.I1 * m.r3**2 + m.r_across**2) * m.along(m.axis) * m.w3_dot
 
 
-def carried(m):
+def carried(m: Window) -> Long:
     return np.cross(m.axis, m.v_dot)
 
 
-def start(m):
+def start(m: Window) -> tuple[float, float, float]:
     """E, I3 w3, L_z and the drift of G of the motion's first instant, from its State (smooth plane, G at rest)."""
     state, top = m.state, m.top
     s, c = np.sin(state.theta), np.cos(state.theta)
@@ -249,12 +263,12 @@ def start(m):
     return E, top.I3 * state.omega3, L_z
 
 
-def changing(m):
+def changing(m: Window) -> Long:
     v_z = m.d(m.com)[:, 2]
     return (m.I1 * (m.along(m.e1) ** 2 + m.along(m.e2) ** 2) + v_z**2) / 2 + m.a * (1 - m.c)
 
 
-def constant(m, value):
+def constant(m: Window, value: Scalars) -> Array:
     return 0 * m.theta + value
 
 
@@ -382,19 +396,25 @@ LINES = (
          "L_z I3 w3 theta I1 w2", "smooth"),
 )  # fmt: skip
 
-Symbol = namedtuple("Symbol", "texts value arrow start", defaults=(None, "com"))
-"""texts: how it is written in the MathML, no spaces; value (n,) or (n, 3), turning axes; arrow, start: its vector."""
+
+class Symbol(NamedTuple):
+    """texts: how it is written in the MathML, no spaces; value (n,) or (n, 3), turning axes; arrow, start: a vector."""
+
+    texts: tuple[str, ...]
+    value: Reading
+    arrow: Reading | None = None
+    start: str = "com"
 
 
-def _vector(get, start="com"):
+def _vector(get: Reading, start: str = "com") -> dict[str, Number]:
     return {"value": lambda m: m.turning(get(m)), "arrow": lambda m: m.turning(get(m)), "start": start}
 
 
-def _part(value, arrow, start="com"):
+def _part(value: Reading, arrow: Reading, start: str = "com") -> dict[str, Number]:
     return {"value": value, "arrow": lambda m: m.turning(arrow(m)), "start": start}
 
 
-def _number(value):
+def _number(value: Reading) -> dict[str, Number]:
     return {"value": value}
 
 
@@ -441,14 +461,14 @@ SYMBOLS = {
 }  # fmt: skip
 
 
-def resolved(motion):
+def resolved(motion: Trajectory) -> bool:
     """Whether the polynomial through a window's samples has ended: its last Chebyshev coefficients are rounding."""
     samples = np.column_stack([motion.quaternion, motion.omega[:, 2], motion.com])
     size = np.abs(dct(samples, type=1, axis=0)) / np.maximum(1, np.abs(samples).max(axis=0))
     return size[-6:].max() < RESOLVED
 
 
-def windows(run, period, top, constants, state):
+def windows(run: Run, period: float, top: Top, constants: Constants, state: State) -> Iterator[Window]:
     """Windows that cover one period of a motion, or its first MOST_WINDOWS; run(times) gives its Trajectory."""
     fastest = np.abs(run(np.linspace(0, period, 7)).omega).max()
     width, begin, found = min(0.6 * period, TURN / max(fastest, 1e-3)), 0.0, 0
@@ -463,21 +483,21 @@ def windows(run, period, top, constants, state):
         begin, found, width = begin + width * (1 - 2 * shape[EDGE]), found + 1, 1.4 * width
 
 
-def rolled(scene):
+def rolled(scene: Scene) -> list[Window]:
     """Windows over one nutation of the scene's own motion."""
     return list(windows(_from_zero(scene.rolling), scene.rolling.period, scene.top, scene.constants, scene.state))
 
 
-def glided(scene):
+def glided(scene: Scene) -> list[Window]:
     """Windows of the motion that starts like the scene's, but with G at rest, on a perfectly smooth plane."""
     gliding = Gliding(scene.top, scene.state)
     return list(windows(_from_zero(gliding), gliding.period, scene.top, scene.constants, scene.state))
 
 
-def _from_zero(series):
+def _from_zero(series: Rolling | Gliding) -> Run:
     """A Rolling or Gliding as a function of the time since its start: called, it starts at the first of its times."""
 
-    def run(times):
+    def run(times: Array) -> Trajectory:
         motion = series(np.concatenate([[0.0], times]))
         rows = {name: getattr(motion, name)[1:] for name in (
             "t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "slip", "force", "regime", "velocity",
@@ -487,7 +507,7 @@ def _from_zero(series):
     return run
 
 
-def both_sides(line, parts):
+def both_sides(line: Line, parts: Iterable[Window]) -> tuple[Array, Array, Array]:
     """t (n,), left and right (n, k) of a line, vectors along 1', y, z, away from the windows' ends."""
     rows = []
     for m in parts:
@@ -497,9 +517,10 @@ def both_sides(line, parts):
                 side = np.hstack([m.turning(side[:, i : i + 3]) for i in range(0, side.shape[1], 3)])
             sides.append(np.asarray(side, dtype=float).reshape(len(m.t), -1)[EDGE:-EDGE])
         rows.append((m.t[EDGE:-EDGE], *sides))
-    return tuple(np.concatenate(column) for column in zip(*rows, strict=True))
+    t, left, right = (np.concatenate(column) for column in zip(*rows, strict=True))
+    return t, left, right
 
 
-def difference(left, right):
+def difference(left: Array, right: Array) -> Array:
     """The largest over components, in shares of 1 + the largest that either side gets; (n,)."""
     return np.abs(left - right).max(axis=1) / (1 + max(np.nanmax(np.abs(left)), np.nanmax(np.abs(right))))

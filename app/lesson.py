@@ -4,22 +4,26 @@ Nothing here is a stored key: answer(scene) works it out from the scene's own to
 app/text, under the steps' names.
 """
 
-from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from app.colours import COLOURS, GREY
-from app.explorer import body, second_part, solve
+from app.explorer import Scene, body, second_part, solve
 from app.runs import look
 from app.text import say
 from tippe_core import (
     UPRIGHT,
     Constants,
+    Ending,
+    Shape,
     SmoothedCoulomb,
     State,
+    Tielines,
+    Top,
     Trajectory,
     allowed_shares,
     ending,
@@ -35,6 +39,7 @@ from tippe_core import (
     tielines,
     turning_points,
 )
+from tippe_core.types import Array, Number, Rim
 
 K_R = 10.0  # the paper's, for Figs. 5 and 6
 # At K_R = 10 the paper's toy comes back from its stem, at this it stays there: tests/test_lesson.py.
@@ -47,8 +52,27 @@ HAND = 1e-3  # rad: who lets a top go cannot say its tilt better; where that dec
 CURVE = 750  # points of a curve
 FEW = 24
 
-Curve = namedtuple("Curve", "key colour x y dash", defaults=("solid",))
-Point = namedtuple("Point", "key x y")
+Numbers: TypeAlias = dict[str, Number]  # by their names in the words, some of which stand there as words
+Inputs: TypeAlias = dict[str, Number]  # of the Explorer
+Guessed: TypeAlias = Number  # an option or a number, as the step asks
+
+
+class Curve(NamedTuple):
+    """x, y (n,)."""
+
+    key: str
+    colour: str
+    x: Array
+    y: Array
+    dash: str = "solid"
+
+
+class Point(NamedTuple):
+    """A place on the graph."""
+
+    key: str
+    x: float
+    y: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +81,8 @@ class Picture:
 
     x: str
     y: str
-    curves: tuple
-    points: tuple = ()
+    curves: tuple[Curve, ...]
+    points: tuple[Point, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +96,7 @@ class Answer:
     """
 
     truth: str | float
-    numbers: dict
+    numbers: Numbers
     picture: Picture
     motion: Trajectory | None = None
     told: str = "explain"
@@ -84,9 +108,9 @@ class Answer:
 class Choice:
     """A prediction that is one of a few."""
 
-    options: tuple
+    options: tuple[str, ...]
 
-    def verdict(self, guess, truth):
+    def verdict(self, guess: Guessed, truth: Guessed) -> str:
         return "right" if guess == truth else "off"
 
 
@@ -101,7 +125,7 @@ class Guess:
     share: float
     least: float
 
-    def verdict(self, guess, truth):
+    def verdict(self, guess: Guessed, truth: Guessed) -> str:
         if np.isnan(truth):
             return "never"
         near = max(self.least, self.share * abs(truth))
@@ -117,39 +141,39 @@ class Step:
     """
 
     name: str
-    asks: Callable
-    inputs: Callable
-    answer: Callable
-    tex: tuple
-    sources: tuple
+    asks: Callable[[Scene], Choice | Guess]
+    inputs: Callable[[Top], Inputs]
+    answer: Callable[[Scene], Answer]
+    tex: tuple[str, ...]
+    sources: tuple[str, ...]
     slides: bool = False
 
-    def question(self, scene):
+    def question(self, scene: Scene) -> Numbers:
         """The numbers in the words of its question."""
         return start(scene) if self.slides else self.answer(scene).numbers
 
 
-def at(K_J_share, energy, mu_s=0.5):
+def at(K_J_share: float, energy: float, mu_s: float = 0.5) -> Callable[[Top], Inputs]:
     """Inputs for a motion of K_R = 10 at this share of K_J(P) and of the energy's marks."""
 
-    def inputs(top):
+    def inputs(top: Top) -> Inputs:
         K_J = K_J_share * pole_constants(top, K_R)[0]
         return {"K_J": K_J, "K_R": K_R, "energy": energy, "mu_s": mu_s, "given": "share"}
 
     return inputs
 
 
-def thrown(K_R=K_R):
+def thrown(K_R: float = K_R) -> Callable[[Top], Inputs]:
     """Inputs for a top spun to this K_R and let go, tilted a little."""
 
-    def inputs(top):
+    def inputs(top: Top) -> Inputs:
         state = {"theta": TILT, "theta_dot": 0.0, "omega2": 0.0, "phi": 0.0, "psi": 0.0, "given": "state"}
         return state | {"omega3": float(omega3(TILT, top, Constants(0.0, K_R, 0.0)))}
 
     return inputs
 
 
-def choice(*options):
+def choice(*options: str) -> Callable[[Scene], Choice]:
     return lambda scene: Choice(options)
 
 
@@ -157,7 +181,7 @@ def choice(*options):
 
 
 @lru_cache(maxsize=32)
-def slid(top, spin, edge=None, tilt=TILT):
+def slid(top: Top, spin: float, edge: Rim | None = None, tilt: float = TILT) -> tuple[Trajectory, Ending]:
     """(Trajectory, Ending) of a top let go with this spin on a table that is not rough enough, followed to its end."""
     rtol = 1e-8 if edge is None else 1e-6  # after an impact HAND counts for more, and both contacts take long
     for long in WHILES:
@@ -170,14 +194,14 @@ def slid(top, spin, edge=None, tilt=TILT):
     return motion, found
 
 
-def unsettled(found):
+def unsettled(found: Ending) -> bool:
     """Whether an Ending still changes: not where the shape holds the tilt, on ball and stem both, nor where all that is
     left is to lose the spin, on the stem alone and upside down."""
     leans, stands = found.end == "leaning" and found.on == "both", found.on == "stem" and found.least > np.pi - UPRIGHT
     return found.cut and not (leans or stands)
 
 
-def where(found):
+def where(found: Ending) -> str:
     """An Ending as one of the options of step 1."""
     middle = (found.least + found.most) / 2
     if found.flat or found.end in ("stem", "inverted"):
@@ -185,7 +209,7 @@ def where(found):
     return "upright" if found.end == "upright" or (found.end == "rolling" and middle < UPRIGHT) else "between"
 
 
-def doubt(top, spin, edge, found, shape=None):
+def doubt(top: Top, spin: float, edge: Rim | None, found: Ending, shape: Shape | None = None) -> str:
     """Why it is not certain where this run ends, see Answer. shape: the body, of which slide() knows ball and edge."""
     moved = slid(top, spin, edge)[0]
     if (found.ended and not found.flat) or (edge and shape and sunk(moved, body(shape)) < len(moved.t)):
@@ -198,43 +222,43 @@ def doubt(top, spin, edge, found, shape=None):
     return "scatters" if where(beside) != where(found) or unsettled(beside) else ""
 
 
-def limit_words(E):
+def limit_words(E: float) -> str:
     """An energy that limits a motion: a number, or that there is none, or that it lies below the least."""
     return say(f"learn.limits.{'energy' if np.isfinite(E) else 'always' if np.isnan(E) else 'never'}", E=E)
 
 
-def revolutions(scene, spin):
+def revolutions(scene: Scene, spin: float) -> float:
     """rev/s of the real top."""
     return spin * scene.scales.angular_velocity / (2 * np.pi)
 
 
-def level(key, colour, x, y, dash="dashed"):
+def level(key: str, colour: str, x: Array, y: float, dash: str = "dashed") -> Curve:
     return Curve(key, colour, np.array([x[0], x[-1]]), np.array([y, y]), dash)
 
 
-def start(scene):
+def start(scene: Scene) -> Numbers:
     """How the top is let go, near upright."""
     return {"spin": revolutions(scene, scene.upright_spin), "tilt": np.degrees(TILT)}
 
 
-def curve(key, colour, motion, values):
+def curve(key: str, colour: str, motion: Trajectory, values: Array) -> Curve:
     """Of a Trajectory over its time."""
     every = slice(None, None, max(1, len(motion.t) // CURVE))
     return Curve(key, colour, motion.t[every], values[every])
 
 
-def stem_of(scene):
+def stem_of(scene: Scene) -> Rim | None:
     """The edge of the stem's end, None where the body has none or is not known."""
     return scene.shape.edge if scene.shape else None
 
 
-def only_ball(scene):
+def only_ball(scene: Scene) -> Rim | None:
     """The edge for what is told of a single contact: none where a > 0, the paper's Fig. 2. An ordinary top has its own,
     for its ball alone would fall through the table's plane."""
     return stem_of(scene) if scene.top.a < 0 else None
 
 
-def free(scene):
+def free(scene: Scene) -> Answer:
     top, spin, edge = scene.top, scene.upright_spin, stem_of(scene)
     motion, found = slid(top, spin, edge)
     inner, outer = np.degrees(turning_points(top, Constants.from_state(top, TILT, 0.0, 0.0, spin))[0])
@@ -253,19 +277,19 @@ def free(scene):
                   doubt=doubt(top, spin, edge, found, scene.shape))  # fmt: skip
 
 
-def part(shape):
+def part(shape: Shape | None) -> str:
     """What touches beside the ball, in words."""
     return say(f"learn.parts.{second_part(shape)}")
 
 
-def on_what(found, edge):
+def on_what(found: Ending, edge: Rim | None) -> str:
     """The key of the words on what it ends; a whole sphere has nothing else."""
     if edge is None:
         return "sphere" if found.on == "ball" else "change"
     return "flat" if found.flat else found.on or "change"
 
 
-def jellett(scene):
+def jellett(scene: Scene) -> Answer:
     """dL_z/dL_3 along the motion, by the straight line through its own L_3 and L_z."""
     motion, top = scene.nutation, scene.top
     L_3, L_z = motion.L_3, motion.L_z
@@ -281,12 +305,12 @@ def jellett(scene):
     return Answer(slope, numbers, picture)
 
 
-def lifting(scene):
+def lifting(scene: Scene) -> float:
     """What lifting G from upright to inverted costs, in percent of the spin's kinetic energy."""
     return 100 * 2 * scene.top.a / (scene.top.I3 * scene.upright_spin**2 / 2)
 
 
-def energy(scene):
+def energy(scene: Scene) -> Answer:
     top, spin, motion = scene.top, scene.upright_spin, scene.nutation
     share = lifting(scene)
     ledger, half = motion.ledger, len(motion.t) // 2
@@ -302,12 +326,12 @@ def energy(scene):
     return Answer(share, numbers, Picture("t", "energy", tuple(curves)))
 
 
-def taken(scene):
+def taken(scene: Scene) -> float:
     """What Routh's constant would take of the spin's kinetic energy on the way from upright to inverted, in percent."""
     return 100 * (1 - f3_squared(0.0, scene.top) / f3_squared(np.pi, scene.top))
 
 
-def routh(scene):
+def routh(scene: Scene) -> Answer:
     top, constants = scene.top, scene.constants
     theta = np.linspace(0, np.pi, 181)
     spin = omega3(theta, top, constants)
@@ -326,7 +350,7 @@ def routh(scene):
     return Answer(share, numbers, Picture("degrees", "omega_3", curves))
 
 
-def turning(scene):
+def turning(scene: Scene) -> Answer:
     """Where the motion turns back, in degrees."""
     top, constants = scene.top, scene.constants
     inner, outer = np.degrees(scene.turning)
@@ -347,9 +371,9 @@ def turning(scene):
     return Answer(float(outer), numbers, Picture("degrees", "height", curves, points))
 
 
-def ties(scene):
+def ties(scene: Scene) -> Answer:
     """Where the range of tilt goes as K_J grows towards P: the paper's Fig. 5 from above."""
-    top, (K_J, K_R) = scene.top, (scene.constants.K_J, scene.constants.K_R)
+    top, K_J, K_R = scene.top, float(scene.constants.K_J), float(scene.constants.K_R)
     pole = pole_constants(top, K_R)[0]
     K = np.linspace(0, 1, FEW + 1) * pole
     found, here = tielines(top, K, K_R), tielines(top, [K_J, K_J + 0.1 * pole], K_R)
@@ -364,22 +388,22 @@ def ties(scene):
     return Answer(truth, numbers, Picture("degrees", "K_J", (tied(found, "lift", COLOURS["normal"]), selected(scene))))
 
 
-def tied(found, key, colour):
+def tied(found: Tielines, key: str, colour: str) -> Curve:
     """Tielines as one curve with gaps."""
     gap = np.full(len(found.K_J), np.nan)
     theta = np.column_stack([found.theta_inner, found.theta_outer, gap]).ravel()
     return Curve(key, colour, np.degrees(theta), np.column_stack([found.K_J, found.K_J, gap]).ravel())
 
 
-def selected(scene):
+def selected(scene: Scene) -> Curve:
     K_J = scene.constants.K_J
     return Curve("motion", COLOURS["theta"], np.degrees(scene.turning), np.array([K_J, K_J]))
 
 
-def jump(scene):
+def jump(scene: Scene) -> Answer:
     """Where on the trajectory F_z first reaches 0 as the energy is raised."""
     top, constants = scene.top, scene.constants
-    limit = tielines(top, [constants.K_J], constants.K_R)
+    limit = tielines(top, [float(constants.K_J)], float(constants.K_R))
     E, inner, outer, verge = (float(x[0]) for x in (limit.E, limit.theta_inner, limit.theta_outer, limit.theta_verge))
     theta = np.linspace(*scene.turning, 121)[1:-1]
     curves = [Curve("motion", COLOURS["theta"], np.degrees(theta), normal_force(theta, top, constants))]
@@ -401,9 +425,9 @@ def jump(scene):
     return Answer(truth, numbers, Picture("degrees", "F_z", tuple(curves)), told=told)
 
 
-def slip(scene):
+def slip(scene: Scene) -> Answer:
     """The share of Fig. 5's region that friction takes away, in percent: Fig. 6."""
-    top, K_R, mu_s = scene.top, scene.constants.K_R, scene.mu_s
+    top, K_R, mu_s = scene.top, float(scene.constants.K_R), scene.mu_s
     lost = 100 * (1 - float(allowed_shares(top.a, top.I1, top.I3, K_R, mu_s)))
     K = np.linspace(0, 1, FEW + 1) * pole_constants(top, K_R)[0]
     lift, slips = tielines(top, K, K_R), tielines(top, K, K_R, mu_s)
@@ -415,12 +439,12 @@ def slip(scene):
     return Answer(lost, numbers, Picture("degrees", "K_J", curves))
 
 
-def proof(scene):
+def proof(scene: Scene) -> Answer:
     """What Jellett's and Routh's constants, both of a start near upright, say of the spin at theta = pi."""
     top, spin = scene.top, scene.upright_spin
     start = Constants.from_state(top, TILT, 0.0, 0.0, spin)
     by_routh = float(omega3(np.pi, top, start))
-    by_jellett = -top.I1 / top.I3 * start.K_J / (1 + top.a) if top.a != -1 else np.nan
+    by_jellett = -top.I1 / top.I3 * float(start.K_J) / (1 + top.a) if top.a != -1 else np.nan
     same = abs(by_routh - by_jellett) < 1e-9 * abs(spin)
     truth = "agree" if same else "opposite" if by_routh * by_jellett < 0 else "size"
     motion, found = slid(top, spin, only_ball(scene))
@@ -430,21 +454,17 @@ def proof(scene):
         "toy": revolutions(scene, motion.omega[-1, 2]), "end": np.degrees(motion.theta[-1]),
         "still": say(f"learn.still.{'changes' if unsettled(found) or (found.ended and not found.flat) else 'ends'}"),
     }  # fmt: skip
-    theta = np.linspace(0, np.pi, 121)
+    theta, every = np.linspace(0, np.pi, 121), slice(None, None, max(1, len(motion.t) // CURVE))
     curves = (
         Curve("by_routh", COLOURS["omega"], np.degrees(theta), omega3(theta, top, start)),
-        Curve(
-            "slides",
-            COLOURS["friction"],
-            *(part[:: max(1, len(motion.t) // CURVE)] for part in (np.degrees(motion.theta), motion.omega[:, 2])),
-        ),
+        Curve("slides", COLOURS["friction"], np.degrees(motion.theta)[every], motion.omega[every, 2]),
     )
     points = (Point("jellett_at_pi", 180.0, by_jellett),) if np.isfinite(by_jellett) else ()
     told = "explain" if truth == "opposite" else "size" if points else "nan"
     return Answer(truth, numbers, Picture("degrees", "omega_3", curves, points), told=told)
 
 
-def needed_spin(top):
+def needed_spin(top: Top) -> float:
     """The least spin, in (g/R)^1/2, from which a top let go near upright turns over: nan where none does."""
     limits = thresholds(top)
     if top.a <= 0 or limits.group != "can invert" or limits.upright.stable not in ("below", "never"):
@@ -454,7 +474,7 @@ def needed_spin(top):
     return max(falls, stays)
 
 
-def flip(scene):
+def flip(scene: Scene) -> Answer:
     """The spin that turns it over once it may slip, in rev/s."""
     top = scene.top
     least, spin = needed_spin(top), scene.upright_spin
@@ -488,20 +508,20 @@ def flip(scene):
 # ---- the steps ----
 
 
-def of_torque(scene):
+def of_torque(scene: Scene) -> Guess:
     reach = max(1.0, np.ceil(1.5 * abs(scene.top.a)))
     return Guess(-reach if scene.top.a < 0 else 0.0, reach, 0.01, "", 0.15, 0.02)
 
 
-def decade(least, number):
+def decade(least: float, number: float) -> float:
     """The first of least, 10 least, 100 least, ... that this number fits in."""
     return float(least * 10 ** max(0, np.ceil(np.log10(abs(number) / least)))) if number else float(least)
 
 
-def of_percent(share):
+def of_percent(share: Callable[[Scene], float]) -> Callable[[Scene], Guess]:
     """Asks for a share that share(scene) gives; the slider's ends are decades, which do not tell it."""
 
-    def asks(scene):
+    def asks(scene: Scene) -> Guess:
         found = share(scene)
         low = 0.0 if scene.top.a >= 0 and found >= 0 else -decade(100, min(found, 0.0))
         return Guess(low, decade(100, max(found, 0.0)), 0.5, "%", 0.25, 2.0)
@@ -509,7 +529,7 @@ def of_percent(share):
     return asks
 
 
-def of_spin(scene):
+def of_spin(scene: Scene) -> Guess:
     """rev/s."""
     least = needed_spin(scene.top)
     return Guess(0.0, decade(60, revolutions(scene, least) if np.isfinite(least) else 0.0), 0.1, "rev/s", 0.2, 0.5)
@@ -551,7 +571,7 @@ STEPS = (
 NAMES = tuple(step.name for step in STEPS)
 
 
-def planned(step, scene, shape):
+def planned(step: Step, scene: Scene, shape: Shape | None) -> Scene:
     """The Scene that a step's inputs give this scene's top; shape: the Explorer's."""
     inputs = step.inputs(scene.top)
     state = {name: inputs[name] for name in ("theta", "theta_dot", "omega2", "omega3") if name in inputs}
@@ -560,7 +580,7 @@ def planned(step, scene, shape):
                  state=State(**state) if state else None)  # fmt: skip
 
 
-def judged(step, scene, guess):
+def judged(step: Step, scene: Scene, guess: Guessed | None) -> tuple[str | None, Answer]:
     """(verdict, Answer): "right", "near", "off", "never" where there is no such number, or "open" where the
     answer is not certain; by this scene alone.
 
