@@ -11,6 +11,7 @@ serve: .venv/serve
 test: .venv/test browser proxy redis
 	$(BIN)/ruff check .
 	$(BIN)/lint-imports
+	$(BIN)/mypy
 	$(BIN)/pytest
 
 # Installs without the lock on every Python there is, and on the first with the lowest libraries; lets visitors in.
