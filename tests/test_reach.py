@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
-from visiting import DRAWN, Visit
+from visiting import WHOLE, Visit
 
 from app.text import listed
 
@@ -96,7 +96,7 @@ def test_the_tour_comes_once_covers_nothing_it_shows_and_can_be_skipped(first):
     page.keyboard.press("Escape")
     step.wait_for(state="hidden")
     page.reload()
-    page.wait_for_function(DRAWN)
+    page.wait_for_function(WHOLE)
     assert not page.locator(".stop").is_visible()
     page.locator("body").press("?")
     page.get_by_role("button", name="Take the tour").click()
