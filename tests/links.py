@@ -30,7 +30,7 @@ def known():
 
 @contextmanager
 def kept():
-    """A list of (Keep, owner, {parameter: Field}) of all that a page keeps; its tabs are made when they are asked for."""
+    """A list of (Keep, owner, {parameter: Field}) of all that a page keeps; a tab is made when it is asked for."""
     parts, add = [], Keep.add
 
     def noted(keep, owner, known, *rest, **named):
@@ -43,7 +43,7 @@ def kept():
 
 def opened(link):
     """What a link opens, of numbers, words and truth values: every setting by its name in a link; the language; the
-    top, its body in SI and R, the motion and its turning points in units of R, M and g; and what is said of the link."""
+    top, its body in SI and R, the motion and its turning points in units of R, M, g; what is said of the link."""
     with set_curdoc(Document()), kept() as parts:
         pn.state.location.search = link
         page.page()
