@@ -27,7 +27,7 @@ _CANCELLED = 1e-5  # of the terms of (36): a smaller sum of them has lost more t
 
 
 class SteadyPrecessions(NamedTuple):
-    """theta (k,) in rad, falling nowhere, and stable (k,), whether U is least there."""
+    """theta (k,) in rad, ascending, and stable (k,), whether U is least there."""
 
     theta: Array
     stable: Bools
@@ -165,8 +165,8 @@ def pole_constants(top: Top, K_R: Array) -> tuple[Array, Array]: ...
 def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
     """(K_J at P, K_J at the inverted pole): where the bracket of (36) vanishes at theta = 0 and at theta = pi.
 
-    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others. For K_R a
-    number these are the floats nearest to them, which everything here takes for the poles' own.
+    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others. K_R of any
+    shape; for a number these are the floats nearest to them, which everything here takes for the poles' own.
     """
     if np.ndim(K_R):
         K_R = numbers("K_R", K_R)

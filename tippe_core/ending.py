@@ -130,14 +130,15 @@ def _from_stable(moved: Trajectory, last: Bools) -> float:
 
 
 def lowest(profile: Array, theta: Array) -> Array:
-    """How far the lowest point of a profile, (k, 2) of radius and height above O in R, is above O at each theta."""
+    """How far the lowest point of a profile, (k, 2) of radius and height above O in R, is above O at theta (n,): (n,)."""
     radius, z = profile.T
     return np.array([np.min(z * c - radius * s) for s, c in zip(np.sin(theta), np.cos(theta), strict=True)])
 
 
 def sunk(trajectory: Trajectory, profile: Array) -> int:
     """The first row at which a part of the profile that slide() does not know of is in the table, or how many there
-    are: it knows the sphere and one edge, and an upper rim or another corner may come to the table past these."""
+    are: it knows the sphere and one edge, and an upper rim or another corner may come to the table past these. The
+    profile as in lowest()."""
     height = trajectory.com[:, 2] + trajectory.top.a * np.cos(trajectory.theta) + lowest(profile, trajectory.theta)
     return int(np.argmax(np.append(height < -SUNK, True)))
 
