@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 import param
@@ -257,14 +256,14 @@ class Explorer(param.Parameterized):
     )
     INPUTS = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3")
 
-    def __init__(self, **inputs: Any) -> None:
+    def __init__(self, **inputs: object) -> None:
         super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
         self._following = False
         motion = {name for names in self.GIVEN.values() for name in names}
         self.param.watch(self._on_inputs, [*motion, "given", "mu_s", "a", "I1", "I3", "shape", "upper", "limit"])
         self._solve()
 
-    def _on_inputs(self, *events: Any) -> None:
+    def _on_inputs(self, *events: param.parameterized.Event) -> None:
         if self._following:
             return
         changed = {event.name for event in events}
@@ -275,7 +274,7 @@ class Explorer(param.Parameterized):
                 self._follow(given=given)
         self._solve()
 
-    def _follow(self, **values: Any) -> None:
+    def _follow(self, **values: object) -> None:
         self._following = True
         try:
             with param.edit_constant(self):

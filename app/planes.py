@@ -10,11 +10,12 @@ from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from itertools import groupby
 from types import MappingProxyType
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import param
 
+from app.builder import Builder
 from app.explorer import Explorer, axes, body, second_part
 from app.runs import Result, Run, Runs, Stopped
 from app.text import say, told
@@ -404,7 +405,7 @@ def _drift(values: Array) -> float:
 
 def _preset(
     body: str, spin: float, tilt: float, seconds: float, plane: str = "sliding", **law: object
-) -> dict[str, Any]:
+) -> dict[str, Number]:
     start = {"by": "spin", "spin": spin, "tilt": tilt, "slip": 1.0, "seconds": seconds}
     return {"body": body, "plane": plane} | start | law
 
@@ -459,7 +460,7 @@ class Planes(param.Parameterized):
     FRICTION = ("law", "mu_k", "mu_s", "gamma", "mu", "eps")
     INPUTS = ("by", "spin", "tilt", "slip", *FRICTION, "landing", "stem", "seconds")
 
-    def __init__(self, explorer: Explorer, builder: Any, runs: Runs | None = None) -> None:
+    def __init__(self, explorer: Explorer, builder: Builder, runs: Runs | None = None) -> None:
         self._explorer, self._builder, self._runs = explorer, builder, runs or Runs()
         self._run: Run | None = None
         self._beside: Run | None = None

@@ -130,7 +130,7 @@ def _from_stable(moved: Trajectory, last: Bools) -> float:
 
 
 def lowest(profile: Array, theta: Array) -> Array:
-    """How far the lowest point of a profile, (k, 2) of radius and height above O in R, is above O at theta (n,): (n,)."""
+    """How far the lowest point of a profile, (k, 2) of radius and height above O in R, is above O at theta (n,)."""
     radius, z = profile.T
     return np.array([np.min(z * c - radius * s) for s, c in zip(np.sin(theta), np.cos(theta), strict=True)])
 

@@ -12,12 +12,13 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from tippe_core import TopError
 
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 DEFAULT = "en"
+Found: TypeAlias = Any  # what stands under a key: words, a list of them, or a table
 
 
 class _Numbers(string.Formatter):
@@ -27,7 +28,7 @@ class _Numbers(string.Formatter):
 
 
 @cache
-def _file(language: str, name: str) -> dict[str, Any]:
+def _file(language: str, name: str) -> dict[str, Found]:
     return tomllib.loads((Path(__file__).parent / language / f"{name}.toml").read_text(encoding="utf-8"))
 
 
@@ -70,7 +71,7 @@ def preferred(header: str) -> str:
     return best if likes.get(best, others)[0] > 0 else DEFAULT
 
 
-def listed(key: str, language: str | None = None) -> Any:
+def listed(key: str, language: str | None = None) -> Found:
     """What stands under a key, as it is: words, a list of them, or a table."""
     name, *path = key.split(".")
     found = _file(language or spoken(), name)
