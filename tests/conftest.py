@@ -11,6 +11,7 @@ import urllib.request
 from pathlib import Path
 
 import pytest
+import references
 from evidence import compare as compare
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import sync_playwright
@@ -21,6 +22,20 @@ settings.register_profile(
     "repeatable", derandomize=True, deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("repeatable")
+
+
+def pytest_addoption(parser):
+    parser.addoption("--remake", action="store_true", help="ask the slow oracles again, and keep what they find")
+
+
+def pytest_configure(config):
+    references.REMAKE = config.getoption("--remake")
+
+
+def pytest_sessionfinish(session):
+    """What had to be computed is told by a worker of pytest-xdist too."""
+    if references.COMPUTED and not references.REMAKE:
+        print(f"\ncomputed, for data/ has no such answer (make proof keeps it): {', '.join(references.COMPUTED)}")
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -6,6 +6,7 @@ force from the rigid body's own equations: no formula of the paper, and no linea
 
 import numpy as np
 import rigid_body as rb
+from references import kept
 from scipy.optimize import brentq, minimize_scalar
 
 ENDS = 10.0 ** -np.arange(2.1, 9, 0.05)
@@ -108,3 +109,9 @@ class Family:
             else:
                 good = middle
         return good, *self.ends(theta_p, good), self.worst(bad, mu_s, theta_p)[1]
+
+
+@kept(rb, Family)
+def limit(top, K_J, K_R, mu_s=None):
+    """Family.limit()"""
+    return Family(top, K_J, K_R).limit(mu_s)

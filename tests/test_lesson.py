@@ -7,6 +7,7 @@ import pytest
 import rigid_body as rb
 import stem_body as st
 from cases import BALL, LOADED, ORDINARY, PAPER, TOPS
+from references import kept
 
 from app import lesson
 from app.explorer import Explorer
@@ -125,6 +126,7 @@ def test_group_s_of_the_literature():
 LONG = np.linspace(0.0, 1200.0, 1201)
 
 
+@kept(st)
 def became(top, spin, edge):
     """Where the oracle with a stem is in the last tenth of a long time, an option of step 1, and theta at its end."""
     motion = st.integrate(top, State(lesson.TILT, 0, 0, spin), lesson.FRICTION, LONG, edge, damping=1.0, share=1.0)

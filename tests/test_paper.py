@@ -6,7 +6,7 @@ The table comes from the formulas; tests/limits.py finds the same digits by bise
 import numpy as np
 import pytest
 from high_precision import Curve, mp, mpf
-from limits import Family
+from limits import limit
 
 from tippe_core import (
     Ball,
@@ -66,8 +66,8 @@ def test_tielines_of_fig_6(compare):
 def test_figures_by_bisection_over_a_rigid_body(K, compare):
     """No formula of the paper: energy after energy until the body in space would jump or slip."""
     for row, mu_s in (("Fig. 5", None), ("Fig. 6", 0.5)):
-        lines, family = tielines(TOP, [K], 10.0, mu_s), Family(TOP, K, 10.0)
-        E, inner, outer, _ = family.limit(mu_s)
+        lines = tielines(TOP, [K], 10.0, mu_s)
+        E, inner, outer, _ = limit(TOP, K, 10.0, mu_s)
         found = lines.E[0], lines.theta_inner[0], lines.theta_outer[0]
         compare(row, found, (E, inner, outer), 1e-8, "bisection over trajectories of the rigid body")
 

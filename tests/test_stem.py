@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import sliding_body as sb
 import stem_body as st
+from references import kept
 from test_contacts import ON_BOTH, first_instant, law
 
 from tippe_core import PRESETS, Coulomb, SmoothedCoulomb, State, Top, TruncatedSphere, Viscous, slide
@@ -83,12 +84,13 @@ def starts(name):
         yield state, SmoothedCoulomb(mu, 10 ** rng.uniform(-1.3, 0)) if i % 2 else Coulomb(mu)
 
 
+@kept(st)
 def witness(top, edge, state, friction, n, **table):
-    """theta by the oracle at TIMES[:n]; for Coulomb's law the limit eps -> 0, by the straight line through two."""
+    """(theta,) by the oracle at TIMES[:n]; for Coulomb's law the limit eps -> 0, by the straight line through two."""
     eps = table.pop("eps", 1e-4)
     theta, *half = (st.integrate(top, state, friction, TIMES[:n], edge, eps=eps / m, **table).theta
                     for m in ((1, 2) if isinstance(friction, Coulomb) else (1,)))  # fmt: skip
-    return 2 * half[0] - theta if half else theta
+    return (2 * half[0] - theta if half else theta,)
 
 
 def compared(top, edge, state, friction):
@@ -98,16 +100,16 @@ def compared(top, edge, state, friction):
     moved = slide(top, state, friction, TIMES, landing="plastic", edge=edge)
     n = len(moved.t)
     assert n == len(TIMES) or moved.events[-1][1] in ("stands upright", "rim touches", "too many events"), moved.events
-    theta = witness(top, edge, state, friction, n)
+    (theta,) = witness(top, edge, state, friction, n)
     if np.abs(theta - moved.theta).max() < TENTH:
         return "agrees", moved
-    nudged = witness(top, edge, replace(state, theta=state.theta + 1e-6), friction, n)
+    (nudged,) = witness(top, edge, replace(state, theta=state.theta + 1e-6), friction, n)
     if np.abs(nudged - theta).max() > 1e-3:
         return "a border", moved
-    finer = witness(top, edge, state, friction, n, damping=20.0, k=1e8, eps=3e-5)
+    (finer,) = witness(top, edge, state, friction, n, damping=20.0, k=1e8, eps=3e-5)
     if (off := np.abs(finer - moved.theta).max()) < TENTH:
         return "agrees", moved
-    softer = witness(top, edge, state, friction, n, damping=7.0, k=1e8, eps=3e-5)
+    (softer,) = witness(top, edge, state, friction, n, damping=7.0, k=1e8, eps=3e-5)
     return ("the table" if np.abs(softer - finer).max() > TENTH else float(off)), moved
 
 

@@ -1,12 +1,11 @@
 """Limit energies and tielines against bisection over the trajectories of a rigid body (limits.py)."""
 
-from functools import cache
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from cases import BALL, LOADED, ORDINARY, PAPER, TWO_WELLS
-from limits import Family
+from limits import Family, limit
 
 from tippe_core import (
     Constants,
@@ -77,10 +76,9 @@ LIMITS = {
 }
 
 
-@cache
 def bisected(name):
     top, K_J, K_R, mu_s = LIMITS[name]
-    return Family(top, K_J, K_R).limit(mu_s)
+    return limit(top, K_J, K_R, mu_s)
 
 
 @pytest.mark.parametrize("name", LIMITS)
