@@ -47,6 +47,13 @@ lock:
 	$(BIN)/uv pip compile --quiet --no-annotate --no-header --python-version 3.11 --resolution lowest-direct \
 		--output-file locks/lowest.txt pyproject.toml
 
+# What takes long by nature, kept in the repository: what the slow oracles find, docs/validation.md, and the mutants,
+# some hours, which go on where they were stopped.
+proof: .venv/test
+	$(BIN)/pytest -q --remake -m "not served"
+	$(BIN)/python tests/validation.py
+	$(BIN)/python tests/mutants.py
+
 # Writes docs/validation.md from the results of the tests, with the whole accuracy map: some ten minutes.
 validation: .venv/test
 	$(BIN)/python tests/validation.py

@@ -248,7 +248,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--files", nargs="*", default=FILES)
     options.add_argument("--share", type=int, default=1, help="every so many mutants only")
-    options.add_argument("--seconds", type=int, default=900, help="of processor time for the tests of one change")
+    options.add_argument("--seconds", type=int, default=300, help="of processor time for the first tests of a change")
     options.add_argument("--minutes", type=float, default=float("inf"), help="then write the page with what is known")
     options.add_argument("--tests", type=Path, default=ROOT / "tests", help="the folder of another suite, to compare")
     options.add_argument("--log", type=Path, default=LOG, help="where what is known is kept")
@@ -286,7 +286,9 @@ def main():
                 break
             if key in known and not (slow and known[key]["rest"]):
                 continue
-            by = noticed_by(name, source, folder, tests_of(name, slow, best_of(known, name)), chosen.seconds)
+            by = noticed_by(
+                name, source, folder, tests_of(name, slow, best_of(known, name)), (1 + 2 * slow) * chosen.seconds
+            )
             known[key] = {"file": name, "before": before, "after": after, "by": by, "test": digest_of(folder, by),
                           "rest": not by and not slow, "commit": commit.strip(),
                           "date": str(datetime.date.today())}  # fmt: skip
