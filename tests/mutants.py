@@ -177,10 +177,13 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
 
 class Witness:
-    """A pytest plugin that tells the first test that fails, through a pipe."""
+    """A pytest plugin that tells the first test that fails, through a pipe, and ends the process where one does not end."""
 
-    def __init__(self, pipe):
-        self._pipe = pipe
+    def __init__(self, pipe, seconds):
+        self._pipe, self._seconds = pipe, seconds
+
+    def pytest_runtest_logstart(self):
+        signal.setitimer(signal.ITIMER_VIRTUAL, self._seconds)
 
     def pytest_runtest_logreport(self, report):
         if report.failed:
@@ -205,13 +208,12 @@ def noticed_by(name, source, folder, tests, seconds):
             sink = os.open(os.devnull, os.O_WRONLY)
             os.dup2(sink, 1)
             os.dup2(sink, 2)
-            signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
             sys.meta_path.insert(0, Changed(name, source))
             import pytest
 
             options = ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist"]
             paths = [str(folder / test) for test in tests if (folder / test.split("::")[0]).exists()]
-            code = int(pytest.main([*options, *paths], plugins=[Witness(write)]))
+            code = int(pytest.main([*options, *paths], plugins=[Witness(write, seconds)]))
         finally:
             os._exit(code)
     os.close(write)
@@ -248,7 +250,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--files", nargs="*", default=FILES)
     options.add_argument("--share", type=int, default=1, help="every so many mutants only")
-    options.add_argument("--seconds", type=int, default=300, help="of processor time for the first tests of a change")
+    options.add_argument("--seconds", type=int, default=60, help="of processor time for a test")
     options.add_argument("--minutes", type=float, default=float("inf"), help="then write the page with what is known")
     options.add_argument("--tests", type=Path, default=ROOT / "tests", help="the folder of another suite, to compare")
     options.add_argument("--log", type=Path, default=LOG, help="where what is known is kept")
@@ -286,9 +288,7 @@ def main():
                 break
             if key in known and not (slow and known[key]["rest"]):
                 continue
-            by = noticed_by(
-                name, source, folder, tests_of(name, slow, best_of(known, name)), (1 + 2 * slow) * chosen.seconds
-            )
+            by = noticed_by(name, source, folder, tests_of(name, slow, best_of(known, name)), chosen.seconds)
             known[key] = {"file": name, "before": before, "after": after, "by": by, "test": digest_of(folder, by),
                           "rest": not by and not slow, "commit": commit.strip(),
                           "date": str(datetime.date.today())}  # fmt: skip

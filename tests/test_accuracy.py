@@ -32,6 +32,7 @@ def inside(case, shares=(0.001, 0.1, 0.5, 0.9, 0.999)):
     return [float(inner + (outer - inner) * mpf(share)) for share in shares]
 
 
+@pytest.mark.slow
 def test_f_at_hard_places(hard, compare):
     for theta in inside(hard):
         x = mpf(theta)
@@ -88,12 +89,14 @@ def test_forces_at_hard_places(hard, compare):
             compare("mpmath: forces", got, expected, 1e-14, DIGITS, scale=scale)
 
 
+@pytest.mark.slow
 def test_turning_points_at_hard_places(hard, compare):
     expected = np.array([[float(x) for x in row] for row in hard.curve.turning_points()])
     found = turning_points(hard.top, hard.constants)
     compare("mpmath: turning points", found, expected, 1e-12, DIGITS, scale=np.minimum(expected, 1))
 
 
+@pytest.mark.slow
 def test_periods_at_hard_places(hard, compare):
     found = Rolling(hard.top, hard.constants, well=hard.row).period
     with mp.workdps(30):

@@ -51,6 +51,7 @@ def closed(connection):
         return False
 
 
+@pytest.mark.slow
 def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
     async def crowded(server):
         inside = await Visitor.enter(server.url)
@@ -72,6 +73,7 @@ def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
             each.close()
 
 
+@pytest.mark.slow
 def test_those_who_do_not_read_what_they_asked_for_make_room(tmp_path):
     """And while they are sent it, it is no second open file each."""
     with served(tmp_path / "log", before=UNDER) as server:
@@ -132,6 +134,7 @@ def test_as_many_files_are_asked_for_as_may_be(monkeypatch):
         assert limit[1] == hard and (found is None or limit[0] == found)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="reads Linux's list of limits")
 @pytest.mark.parametrize("command", ["app", "panel serve app"])
 def test_the_server_raises_its_limit(command, tmp_path):

@@ -49,6 +49,7 @@ def lists(value, *others):
         yield value
 
 
+@pytest.mark.slow
 def test_a_dial_passes_over_what_it_never_sends(roll, value, one_line):
     control = roll.controls._controls["K_J"]
     for typed, wish in ((False, 6.0), (True, "6")):
@@ -59,6 +60,7 @@ def test_a_dial_passes_over_what_it_never_sends(roll, value, one_line):
     assert roll.pacer._wanted.get("K_J", roll.pacer.explorer.K_J) == 6.25
 
 
+@pytest.mark.slow
 def test_a_hand_on_a_picture_passes_over_what_it_never_sends(roll, value, one_line):
     while not roll.main.select(Surface3D):
         roll.pacer.later.pop(0)()
@@ -71,6 +73,7 @@ def test_a_hand_on_a_picture_passes_over_what_it_never_sends(roll, value, one_li
     assert math.isfinite(roll.pacer.explorer.scene.constants.K_J)
 
 
+@pytest.mark.slow
 def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line):
     with set_curdoc(Document()):
         explorer = Explorer()

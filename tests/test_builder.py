@@ -555,6 +555,7 @@ def test_many_pieces_have_their_knobs_in_portions(builder, explorer):
     assert list(bench._knobs) == [each.name for each in builder.draft.dimensions] and len(bench._knobs) < KNOBS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [5e-324, 1e-300, 1e-12, 1e3, 1e9, 1e300])
 @pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
 def test_no_number_in_a_field_is_too_small_or_too_large_to_be_answered(builder, preset, value):

@@ -216,6 +216,7 @@ def test_no_transition_without_slipping(compare):
     assert not np.any((lines.theta_inner < np.pi / 2) & (lines.theta_outer > np.pi - 0.5))
 
 
+@pytest.mark.slow
 def test_time_by_quadrature(compare):
     case = CASES["K_J = 7"]
     inner, outer = case.interval

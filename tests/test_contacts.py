@@ -95,6 +95,7 @@ SUPPORTED = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SUPPORTED)
 def test_on_the_stem_and_on_both_against_the_rigid_body(name):
     state, friction, contacts = SUPPORTED[name]
@@ -166,6 +167,7 @@ HANDING = [(State(1.9, 0, 0, -3.0), VISCOUS), (State(1.9, 0, 0, -1.0), Coulomb(0
            (State(2.5, 0, 0, -9.0), SmoothedCoulomb(0.3, 0.1))]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("state", "friction"), HANDING)
 def test_hand_over_landing_and_flight(state, friction):
     """Nothing goes through the table, energy only falls and all of it is in the ledger, forces push within the law."""
@@ -271,6 +273,7 @@ def test_the_flat_end_comes_down_in_a_plane(friction, inertia):
     np.testing.assert_allclose(np.ptp(sum(moved.ledger)), 0, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_rocking_over_against_a_table_that_yields():
     state, friction = State(2.6, 0, 0, 0, vy=-1), SmoothedCoulomb(0.7, 0.1)
     times = np.linspace(0, 4, 41)

@@ -79,6 +79,7 @@ def test_inner_turning_point_next_to_P(distance):
     assert case.curve.f(low) < 0 < case.curve.f(high)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rise", [1e-4, 1e-8, 1e-11, 3e-13])
 @pytest.mark.parametrize("name", ["K_J = 7", "shallow well", "ordinary"])
 def test_narrow_well(name, rise):
@@ -106,6 +107,7 @@ def test_wells_merge_at_the_height_of_the_barrier():
     np.testing.assert_allclose(above[0], [below[0, 0], below[1, 1]], atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES.keys())
 def test_steady_precessions(case):
     """Every minimum of U found in fifty digits is a stable one; every one returned is an extremum of U of its kind."""

@@ -37,6 +37,7 @@ def test_every_equation_is_there_with_its_words():
     assert set(listed("derivation.symbols")) == set(derivation.SYMBOLS)
 
 
+@pytest.mark.slow
 def test_both_sides_agree(motion):
     for line in derivation.LINES:
         t, left, right = derivation.both_sides(line, motion[line.plane])

@@ -21,6 +21,7 @@ def text(page):
     return (DOCS / f"{page}.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", [page for page in PAGES if "```python" in text(page)])
 def test_printed_lines(page):
     for code, printed in re.findall(r"```python\n(.*?)```\n\nprints\n\n```text\n(.*?)```", text(page), re.S):

@@ -40,6 +40,7 @@ def heights(moved):
     return centre - 1, centre + up * c - radius * s
 
 
+@pytest.mark.slow
 def test_on_what_it_stands_is_what_is_at_the_table():
     for spin in (20, 35, 38):
         moved = thrown(spin, 5.0)
@@ -66,6 +67,7 @@ def test_the_default_page_leaves_its_ball_for_8_ms_and_then_leans_on_both():
     assert np.degrees([found.least, found.most]) == pytest.approx(118.79, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("moved", "end", "settled"), [
     (lambda: thrown(25, 5.0), "moving", False),  # on its way back to 0
     (lambda: thrown(38, 5.0), "stem", False),

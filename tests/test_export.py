@@ -77,6 +77,7 @@ MOTIONS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inputs", MOTIONS.values(), ids=MOTIONS)
 def test_the_python_gives_the_same_numbers(inputs, tmp_path, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "agg")
@@ -206,6 +207,7 @@ def test_three_js_reads_the_gltf_and_moves_the_body_as_computed(scene, chromium)
     assert "examples/jsm/loaders/GLTFLoader.js" in asked
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", prints.FIGURES)
 def test_a_figure_for_print(scene, name):
     picture = Image.open(io.BytesIO(prints.draw(scene, name, "png")))
@@ -229,6 +231,7 @@ def test_the_printed_curves_are_the_scenes(scene, motion):
     assert np.array_equal(theta, motion.theta) and np.array_equal(force, motion.force[:, 2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", ["nothing limits it", "an ordinary top"])
 def test_odd_motions_can_be_printed(which):
     scene = scene_of(**MOTIONS[which])
@@ -236,6 +239,7 @@ def test_odd_motions_can_be_printed(which):
         assert prints.draw(scene, name, "svg").startswith(b"<?xml")
 
 
+@pytest.mark.slow
 def test_the_letter_asks_for_nothing(scene):
     page = letter(scene, LINK + '&x="><script>alert(1)</script>').decode()
     assert len(page) < 3_000_000

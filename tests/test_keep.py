@@ -191,6 +191,7 @@ def test_back_and_forth():
     assert (explorer.mu_s, explorer.K_J) == (0.5, 6.7)
 
 
+@pytest.mark.slow
 def test_the_steps_are_bounded():
     explorer = Explorer()
     keep = kept(explorer)

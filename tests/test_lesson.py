@@ -39,6 +39,7 @@ def test_ten_steps_in_the_order_of_the_argument():
 WORDED = TOPS | {"G at the pole": Top(-1.0, 0.731, 0.276), "far from O": Top(0.9, 0.919, 0.981)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("top", WORDED.values(), ids=WORDED.keys())
 @pytest.mark.parametrize("step", lesson.STEPS, ids=lesson.NAMES)
 def test_every_step_has_words_for_every_top(step, top):
@@ -104,6 +105,7 @@ def test_the_answers_are_the_tops_own():
     assert answered("slip", mu_s=5.0).truth < answered("slip", mu_s=0.3).truth
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("top", [PAPER, LOADED], ids=["paper", "loaded"])
 def test_the_spin_that_turns_it_over(top):
     """Just below and just above it, friction itself is asked, and the minimum of V_J."""
@@ -156,6 +158,7 @@ def rolled(scene):
     return theta, motion.omega.astype(float), motion.omega_body[:, 2].astype(float), motion.force.astype(float)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", PRESETS, ids=[preset.name for preset in PRESETS])
 def test_what_slides_against_the_oracle(preset):
     """Steps 1, 9 and 10. With the runs that stopped at the first lift-off, Top S "ended leaning" at 30 degrees."""
@@ -189,6 +192,7 @@ def test_a_rim_is_no_stem_and_ends_what_the_well_says():
     assert answered("flip").numbers["but"] == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", PRESETS, ids=[preset.name for preset in PRESETS])
 def test_what_rolls_against_the_rigid_body(preset):
     """Steps 2 to 8, by one nutation of a body that knows no constant."""

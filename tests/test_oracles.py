@@ -31,6 +31,7 @@ def test_contact_force_solves_newton_and_euler(body):
         np.testing.assert_allclose(np.concatenate([w_dot, force]), solved, atol=1e-12 * scale)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", BODIES)
 def test_integration_halves_its_step_without_change_and_keeps_what_must_be_kept(body):
     q, w = rb.euler_quaternion(0.3, 0.5, 0.2), rb.to_body(0.2, 1.0, 3.0, 8.8)

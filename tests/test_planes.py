@@ -47,6 +47,7 @@ def test_the_first_look_is_a_flip_and_only_where_it_slides(planes):
 
 
 # N. Rutstam, arXiv:1306.2470: launched at 25 rad/s it goes upright, at 60 it hangs at 1.908 +- 0.003, at 90 it inverts.
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name, verdict, low, high",
     [("fast", "turns over", 3.1, np.pi), ("hangs", "hangs", 1.905, 1.914), ("never", "goes upright", 0, 0.01)],
@@ -74,6 +75,7 @@ def test_an_ordinary_top_rises_above_its_own_threshold(planes):
     assert f"{omega * unit:.3g} rev/s" in picture.outcome.sentence
 
 
+@pytest.mark.slow
 def test_all_three_are_tippe_cores_from_one_start(planes):
     planes.param.update(law="coulomb", mu_k=0.2, mu_s=0.3, spin=15.0, tilt=25.0, slip=0.4, stem=False, seconds=2.0)
     picture, scales, top = planes.picture, planes.picture.settings.scales, Top.paper()
@@ -96,6 +98,7 @@ def test_all_three_are_tippe_cores_from_one_start(planes):
     assert words == ["slips", "rolls"]
 
 
+@pytest.mark.slow
 def test_a_start_by_constants_is_the_motion_of_the_tab_roll(explorer, planes):
     planes.by = "constants"
     rough, scene = planes.picture.motions["rough"].trajectory, explorer.scene
@@ -109,6 +112,7 @@ def test_a_start_by_constants_is_the_motion_of_the_tab_roll(explorer, planes):
     assert planes.picture.motions["rough"].trajectory.jellett[0] == pytest.approx(6.0 * 0.399)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [HAND, "Top S hangs", "An ordinary top rises"])
 def test_the_ledger_adds_up_and_heat_only_grows(planes, name):
     motion = chosen(planes, name).motions["sliding"]
@@ -140,6 +144,7 @@ def test_the_stem_ends_what_one_contact_keeps(planes):
     assert planes.picture.motions["sliding"].trajectory.theta[-1] > shape.touch_angle + 0.5
 
 
+@pytest.mark.slow
 def test_a_motion_that_stops_early_stands_still_to_the_end(planes):
     planes.param.update(by="constants", landing="stop", seconds=3.0)
     motion = planes.picture.motions["sliding"]
@@ -190,6 +195,7 @@ def heights(picture):
     return moved.t * picture.settings.scales.time, centre - 1, centre + up * c - radius * s
 
 
+@pytest.mark.slow
 def test_the_default_run_is_told_with_all_its_touches(usual):
     picture, said = ran(usual)
     t, ball, stem = heights(picture)
@@ -203,6 +209,7 @@ def test_the_default_run_is_told_with_all_its_touches(usual):
         assert "8.2 ms lang auf dem Stiel allein" in fate(picture, "sliding")
 
 
+@pytest.mark.slow
 def test_on_its_way_back_it_does_not_turn_over(usual):
     """After 60 s it is upright: what 5 s show of it is cut."""
     for spin in (25.0, 35.0):
@@ -312,6 +319,7 @@ SAID = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("body", "settings", "says", "nots"), SAID)
 def test_what_is_said_is_so(body, settings, says, nots):
     _, said = all_said(of(body, **settings))
@@ -346,6 +354,7 @@ def test_no_other_part_of_the_body_is_below_the_table(body, most):
     assert said.startswith("goes no further") and "nothing is computed here" in said
 
 
+@pytest.mark.slow
 def test_a_start_by_constants_that_is_refused_is_answered_beside_the_constants(planes):
     """The slider of the tilt is not there then."""
     rolling = replace(planes.picture.settings, rolling=planes.picture.state)
@@ -373,6 +382,7 @@ def test_rough_and_smooth_end_where_the_stem_touches(usual):
         assert under.motions[plane] is None and "below the table" in fate(under, plane)
 
 
+@pytest.mark.slow
 def test_a_run_beside_the_run_tells_where_a_nudge_decides(usual, explorer):
     calm, _ = ran(usual, spin=18.0, seconds=3.5)
     wild, _ = ran(usual, spin=38.0, seconds=2.3)
@@ -411,6 +421,7 @@ def test_a_limit_is_told_in_what_stands_beside_the_controls():
     assert error.value == pytest.approx(149.0, abs=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [HAND, "Top S fast"])
 def test_no_frame_turns_the_top_far(planes, name):
     for motion in chosen(planes, name).motions.values():
@@ -433,6 +444,7 @@ BAD = [
 ]
 
 
+@pytest.mark.slow
 def test_a_bad_value_is_said_and_the_last_good_picture_stays(planes):
     planes.param.update(seconds=1.0)
     before = planes.picture
@@ -446,6 +458,7 @@ def test_a_bad_value_is_said_and_the_last_good_picture_stays(planes):
         before = planes.picture
 
 
+@pytest.mark.slow
 def test_at_the_poles_and_without_spin_there_is_an_answer(planes):
     planes.stem = False
     for inputs in ({"tilt": 0.0}, {"tilt": 180.0}, {"tilt": 10.0, "spin": 0.0}, {"tilt": 60.0, "spin": -20.0}):
@@ -460,6 +473,7 @@ def test_a_preset_brings_its_body(explorer, planes):
     assert planes.picture.settings.scales.R == explorer.scene.scales.R == 0.02
 
 
+@pytest.mark.slow
 def test_of_many_asked_for_at_once_the_newest_is_shown_and_a_run_can_be_stopped(explorer):
     posted, shown = Queue(), []
     planes = Planes(explorer, Builder(explorer), Runs(posted.put))

@@ -81,6 +81,7 @@ def test_fifty_nutations(name, start):
     assert_same_motion(roll(case.top, case.constants, times, start, case.row), motion, case.top)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", ["inner", "outer"])
 @pytest.mark.parametrize("pole", POLES.values(), ids=POLES.keys())
 def test_fifty_nutations_through_a_pole(pole, start):
@@ -129,6 +130,7 @@ def test_a_state_at_the_pole():
     assert_same_motion(trajectory, motion, PAPER)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("distance", [1e-3, 1e-7, 1e-11])
 @pytest.mark.parametrize("theta_dot", [0.3, -0.3])
 @pytest.mark.parametrize("pole", [0.0, np.pi])
@@ -144,6 +146,7 @@ def test_a_state_next_to_a_pole(pole, theta_dot, distance):
     assert_same_motion(trajectory, motion, LOADED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theta", [0.0, np.pi])
 def test_sleeping_top(theta):
     """Upright or inverted, spinning without a push: it stays."""
@@ -153,6 +156,7 @@ def test_sleeping_top(theta):
     assert_same_motion(trajectory, motion, PAPER)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("top", "K_J", "K_R"), [(PAPER, 7.0, 10.0), (PAPER, -3.0, 10.0), (ORDINARY, 20.0, 40.0), (LOADED, 3.0, -6.0)]
 )
@@ -199,6 +203,7 @@ def test_small_rocking():
 PHASES = ["K_J = 7", "past the equator", "deep well", "merged wells", "ordinary", "a hair from P", "nearly steady"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PHASES)
 def test_period_and_phase_in_fifty_digits(name):
     """The period, and where the top is at a third of the way out, at once, after 1 and after 400 nutations."""

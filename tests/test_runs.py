@@ -310,6 +310,7 @@ def test_sessions_work_in_the_servers_own_thread():
     assert len(run_async(where())) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["free", "proof", "flip"])
 def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch, name):
     """The page is there while it is computed, and says so; what is asked for meanwhile ends it."""
@@ -373,6 +374,7 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
     assert "Cancelled" in compare.said.object and not compare.start.disabled
 
 
+@pytest.mark.slow
 def test_the_answer_of_a_vote_asked_for_twice_is_told_once(page, busy, monkeypatch, tmp_path):
     monkeypatch.setattr("app.teach.page_address", lambda: "http://localhost/app")
     told, rooms = [], Rooms(Sqlite(tmp_path / "votes"))

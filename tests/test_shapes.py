@@ -397,6 +397,7 @@ def simulated_period(top, amplitude):
     return 2 * (passes[1] - passes[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["The paper's tippe top", "Top S", "Loaded sphere", "cavity"])
 def test_rocking_period_is_the_rolling_bodys_for_small_swings(name):
     """The full body's period tends to the formula's as the square of the amplitude."""

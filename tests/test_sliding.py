@@ -67,6 +67,7 @@ MOTIONS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MOTIONS)
 def test_against_the_rigid_body(name):
     top, state, friction = MOTIONS[name]
@@ -117,6 +118,7 @@ def test_reference_inversion():
     np.testing.assert_allclose(sum(moved.ledger), moved.energy[0], rtol=0, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_the_tolerance():
     """Ten times finer, and after 300 (R/g)^1/2 theta is the same to some 2e4 rtol; so is the time of passing pi/2."""
     times = np.linspace(0, 300, 3001)
@@ -145,6 +147,7 @@ def test_the_three_regimes_of_S(rad_per_s, end):
 GROUPS = [LOADED, Top(a=0.1, I1=0.5, I3=0.4), Top(a=0.1, I1=0.3, I3=0.45), Top(a=-0.3, I1=0.4, I3=0.5)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("top", GROUPS)
 @pytest.mark.parametrize("theta", [0.1, 2.0])
 @pytest.mark.parametrize("spin", [0.5, 1.0, 2.0, 4.0])
@@ -175,6 +178,7 @@ STICK_SLIP = [(7.0, 1.3, Coulomb(0.3, 0.5)), (7.0, 1.3, Coulomb(0.5)), (5.0, 1.0
               (8.0, 1.3, Coulomb(0.5)), (2.0, 1.02, Coulomb(0.3, 0.5))]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("K_J", "share", "friction"), STICK_SLIP)
 def test_sticking_and_slipping(K_J, share, friction):
     times = np.linspace(0, 2, 2001)
@@ -200,6 +204,7 @@ def test_sticking_and_slipping(K_J, share, friction):
         assert list(moved.regime[around]) == (["roll", "slip"] if what == "slips" else ["slip", "roll"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("over", [1e-7, 1e-5, 1e-3, 0.3])
 @pytest.mark.parametrize("K_J", [7.0, 8.0])
 @pytest.mark.parametrize("friction", [Coulomb(0.5), Coulomb(0.4999999, 0.5)])
@@ -378,6 +383,7 @@ def test_bad_input_is_named(name, call):
     assert caught.value.name == name
 
 
+@pytest.mark.slow
 def test_sensitivity_tells_a_start_on_the_barrier_from_one_below_it():
     """Between its thresholds the paper's top stands on either end, and a steady precession in between parts the two."""
     limits = thresholds(PAPER)

@@ -26,6 +26,7 @@ STARTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", STARTS)
 def test_against_the_rigid_body(name):
     top, state = STARTS[name]

@@ -49,6 +49,7 @@ def test_two_contacts_that_stay_closed(friction):
     np.testing.assert_allclose(motion.loads[-1], N, atol=1e-3)
 
 
+@pytest.mark.slow
 def test_halving_its_step_changes_nothing_and_energy_falls():
     times = np.linspace(0, 60, 601)
     for state, friction in ((State(1.9, 0, 0, -3.0), SmoothedCoulomb(0.3, 0.1)), (State(0.5, 2, 1, 3.0), Coulomb(0.3))):
@@ -113,6 +114,7 @@ def compared(top, edge, state, friction):
     return ("the table" if np.abs(softer - finer).max() > TENTH else float(off)), moved
 
 
+@pytest.mark.slow
 def test_random_starts_of_five_bodies():
     """To 0.1 degrees all the way, but at borders; and the starts have all that can happen in them."""
     found, seen = Counter(), Counter()

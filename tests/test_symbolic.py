@@ -104,6 +104,7 @@ def assert_same(compare, motion, push=None):
         compare("Lagrange", motion.force[i], force, 1e-10, AGAINST, scale=size * (1 + abs(motion.top.a)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("top", TOPS.values(), ids=TOPS.keys())
 def test_rolling(top, compare):
     for state in random_states(21, 6):
