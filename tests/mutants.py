@@ -177,7 +177,7 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
 
 class Witness:
-    """A pytest plugin that tells the first test that fails, through a pipe, and ends the process where one does not end."""
+    """A pytest plugin that tells the first test that fails, through a pipe; one that does not end ends the process."""
 
     def __init__(self, pipe, seconds):
         self._pipe, self._seconds = pipe, seconds

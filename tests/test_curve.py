@@ -46,6 +46,7 @@ def test_turning_points(case):
     np.testing.assert_allclose(np.pi - found, np.pi - expected, rtol=0, atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pole", POLES.values(), ids=POLES.keys())
 def test_turning_points_at_a_pole(pole):
     top, K_J, K_R, rise = pole

@@ -71,6 +71,7 @@ def test_every_step_has_words_for_every_top(step, top):
         assert curve.x.shape == curve.y.shape
 
 
+@pytest.mark.slow
 def test_the_papers_top():
     """Gray and Nickel's numbers, and physics.md's for what friction does."""
     assert answered("jellett").truth == pytest.approx(0.070, abs=1e-10)
@@ -96,6 +97,7 @@ def test_turning_points_of_the_table():
     assert answer.truth == "outer" and np.radians(answer.numbers["verge"]) == pytest.approx(1.0040, abs=5e-5)
 
 
+@pytest.mark.slow
 def test_the_answers_are_the_tops_own():
     """No key is stored: another top, another answer."""
     assert answered("proof", ORDINARY).truth == "size"
@@ -181,6 +183,7 @@ def test_what_slides_against_the_oracle(preset):
     assert (answer.numbers["slow_end"], answer.numbers["fast_end"]) == pytest.approx((slow[1], fast[1]), abs=3.0)
 
 
+@pytest.mark.slow
 def test_a_rim_is_no_stem_and_ends_what_the_well_says():
     """The disc's first edge is that of the disc: it comes to lie on it, where Jellett's constant does not stay."""
     disc = next(preset for preset in PRESETS if preset.name == "Disc on a peg")

@@ -123,6 +123,7 @@ def test_the_ledger_adds_up_and_heat_only_grows(planes, name):
     assert all(np.all(part > -1e-12) for part in ledger.values())
 
 
+@pytest.mark.slow
 def test_what_survives_on_each_plane(planes):
     planes.param.update(stem=False, tilt=60.0, spin=4.0, seconds=2.0)
     stays = {
@@ -134,6 +135,7 @@ def test_what_survives_on_each_plane(planes):
     assert min(lost) > 1e-4
 
 
+@pytest.mark.slow
 def test_the_stem_ends_what_one_contact_keeps(planes):
     until, event, drift = planes.picture.motions["sliding"].alone
     shape, moved = planes.picture.settings.shape, planes.picture.motions["sliding"].trajectory
@@ -223,6 +225,7 @@ def test_on_its_way_back_it_does_not_turn_over(usual):
     assert "so it stays" in said
 
 
+@pytest.mark.slow
 def test_the_balls_verdict_is_of_the_ball_alone_and_void_from_the_stems_touch(usual):
     picture, _ = ran(usual, spin=25.0)
     said = re.sub(r"<[^>]*>", "", ball_words(picture))
@@ -327,6 +330,7 @@ def test_what_is_said_is_so(body, settings, says, nots):
     assert not any(words in said for words in nots), said
 
 
+@pytest.mark.slow
 def test_stuck_since_its_last_touch_and_not_before():
     """A touch of 0.16 ms falls between two samples."""
     picture, said = all_said(of(PAPERS, **STICKS | NO_SPIN | {"tilt": 130.0}))
@@ -467,6 +471,7 @@ def test_at_the_poles_and_without_spin_there_is_an_answer(planes):
         assert planes.picture.state.theta == np.radians(inputs["tilt"])
 
 
+@pytest.mark.slow
 def test_a_preset_brings_its_body(explorer, planes):
     body = next(body for body in BODIES if body.name == "Top S")
     assert chosen(planes, "Top S fast").settings.top == body.shape.top == explorer.scene.top
@@ -506,6 +511,7 @@ def test_of_many_asked_for_at_once_the_newest_is_shown_and_a_run_can_be_stopped(
     assert not planes.picture.messages and planes.picture.settings.seconds == 5.0
 
 
+@pytest.mark.slow
 def test_a_place_on_the_map_keeps_I3(explorer, planes):
     view = ThreePlanes(planes, Builder(explorer), explorer.param.update)
     view.pick(0.2, 0.9)
