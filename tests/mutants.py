@@ -237,7 +237,7 @@ def functions_of(folder, file):
 def digest_of(folder, nodeid):
     """Of the text of a test; "" where it is none."""
     file, _, function = nodeid.partition("::")
-    text = functions_of(folder, file).get(function, "")
+    text = functions_of(folder, file).get(function, "") if function else ""
     return hashlib.sha256(text.encode()).hexdigest()[:12] if text else ""
 
 
