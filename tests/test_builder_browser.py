@@ -62,7 +62,9 @@ def choose(visit, preset):
     visit.page.wait_for_function(f"z => Math.abs(({SECTION})('z') - z) < 0.1", arg=1e3 * shape.profile(96)[:, 1].max())
 
 
-def drag(visit, start, end):
+def drag(visit, start, end, rest=0):
+    """rest: for how many ms the hand is down before it moves."""
+
     def places():
         return [visit.page.evaluate(PLACE, ["section", *place]) for place in (start, end)]
 
@@ -70,6 +72,7 @@ def drag(visit, start, end):
     here, there = places()
     visit.page.mouse.move(*here)
     visit.page.mouse.down()
+    visit.page.wait_for_timeout(rest)
     for share in (0.3, 0.6, 1.0):
         visit.page.mouse.move(*(np.array(here) * (1 - share) + np.array(there) * share), steps=3)
     visit.page.mouse.up()
@@ -110,7 +113,7 @@ def test_a_dragged_handle_changes_number_section_and_the_top_in_3d(bench):
 def test_a_changed_top_is_no_preset_and_the_preset_can_be_chosen_again(bench):
     choose(bench, PRESETS[1])
     choose(bench, PRESETS[0])
-    drag(bench, (0, 27.4), (0, 20.2))
+    drag(bench, (0, 27.4), (0, 20.2), rest=500)
     bench.page.get_by_role("combobox").nth(0).filter(has_text="none of these").wait_for()
     choose(bench, PRESETS[0])
     assert download(bench, "Save this top").decode() == save_top(TruncatedSphere.paper())
