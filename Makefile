@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
 
-.PHONY: serve check test proof source pythons lock validation docs bench image browser proxy redis
+.PHONY: serve check quick test proof source pythons lock validation docs bench image browser proxy redis
 
 serve: .venv/serve
 	$(BIN)/python -m app --address localhost --show
@@ -11,8 +11,11 @@ serve: .venv/serve
 # One process a core; a file's tests stay together, for many share a server and a page.
 PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile
 
-# About a minute: all but the tests that start a server or a browser, or wait for an oracle.
-check: .venv/test source
+# About a minute: all but the tests that start a server or a browser, or take seconds.
+check: .venv/test .venv/frontend
+	$(MAKE) --jobs=2 source quick
+
+quick: .venv/test
 	$(PYTEST) -m "not served and not slow"
 
 # The whole suite on this Python.

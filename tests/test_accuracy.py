@@ -18,6 +18,7 @@ def hard(request):
     return CASES[request.param]
 
 
+@pytest.mark.slow
 def test_sample_of_the_map():
     """Nothing is off by 1e-9 of itself, and nothing by more than rounding of the terms it is the sum of."""
     found, said = accuracy.errors(accuracy.FEW)

@@ -87,6 +87,7 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
         assert workshop.builder.draft.shape.R == 0.018
 
 
+@pytest.mark.slow
 def test_what_has_no_word_in_a_link_goes_back_to_what_was(roll, value, one_line):
     keep = Keep()
     keep.add(roll.top, TOP)

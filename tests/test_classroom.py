@@ -217,6 +217,7 @@ def test_a_file_that_cannot_be_is_said_and_one_that_comes_back_is_taken(tmp_path
     assert other.read_text() == "no database " * 100
 
 
+@pytest.mark.slow
 def test_a_file_that_another_holds_is_not_waited_for_for_ever(tmp_path):
     one, other = (Sqlite(tmp_path / "votes") for _ in range(2))
     one.change("key", lambda text: "before")

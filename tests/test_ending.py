@@ -57,6 +57,7 @@ def test_on_what_it_stands_is_what_is_at_the_table():
                     assert np.all(height > -1e-6) and height.max() > 1e-6
 
 
+@pytest.mark.slow
 def test_the_default_page_leaves_its_ball_for_8_ms_and_then_leans_on_both():
     found = ending(thrown(20, 5.0))
     _, (start, end, on), *_, last = found.stretches

@@ -74,6 +74,7 @@ def test_integration_agrees_with_dop853_in_space_axes():
     np.testing.assert_allclose(peer[12:], motion.contact[-1].astype(float), atol=1e-10)
 
 
+@pytest.mark.slow
 def test_high_precision_period_of_the_page():
     """physics.md: K_J = 7, K_R = 10, 2E' = 4 has the period 0.67072906113508 to fourteen figures."""
     curve = Curve(rb.Body(0.070, 0.399, 0.408), 7, 10)
@@ -83,6 +84,7 @@ def test_high_precision_period_of_the_page():
     assert abs(curve.f(inner)) < mpf(10) ** -45 and abs(curve.f(outer)) < mpf(10) ** -45
 
 
+@pytest.mark.slow
 def test_high_precision_period_is_the_rigid_bodys():
     """Two roads to one number: quadrature of (36), and a body integrated through one nutation."""
     body = BODIES[0]

@@ -35,6 +35,7 @@ def test_every_dependency_has_a_lower_and_an_upper_bound(name):
     assert {each.operator for each in BOUNDS[name].specifier} == {">=", "<"}
 
 
+@pytest.mark.slow
 def test_what_is_imported_at_run_time_is_declared():
     """By the name of its package: pip may bring along today what it will not tomorrow."""
     files = [path for part in ("app", "tippe_core") for path in (ROOT / part).rglob("*.py")]

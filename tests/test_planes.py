@@ -39,6 +39,7 @@ def chosen(planes, name):
     return planes.picture
 
 
+@pytest.mark.slow
 def test_the_first_look_is_a_flip_and_only_where_it_slides(planes):
     motions = planes.picture.motions
     assert planes.plane == "sliding" and motions["sliding"].overturned < motions["sliding"].t[-1] / 2
@@ -64,6 +65,7 @@ def test_the_three_regimes_of_top_S(planes, name, verdict, low, high):
     assert chosen(planes, f"no friction: {name}").state == picture.state and planes.plane == "smooth"
 
 
+@pytest.mark.slow
 def test_an_ordinary_top_rises_above_its_own_threshold(planes):
     picture = chosen(planes, "An ordinary top rises")
     top, limits = picture.settings.top, picture.outcome.thresholds
@@ -158,6 +160,7 @@ def test_a_motion_that_stops_early_stands_still_to_the_end(planes):
     assert not flies.ended and "in the air" in {REGIMES[which] for *_, which in flies.stretches}
 
 
+@pytest.mark.slow
 def test_a_stem_that_throws_the_top_up_is_not_the_table_that_lets_it_go(planes):
     """slide() calls both "lifts off"; where it is the stem's first touch, the tilt then is that of the touch."""
     shape = planes.picture.settings.shape
@@ -240,6 +243,7 @@ def test_the_balls_verdict_is_of_the_ball_alone_and_void_from_the_stems_touch(us
     assert "stem" not in ball_words(ran(usual, stem=False, seconds=0.5)[0])
 
 
+@pytest.mark.slow
 def test_true_stick_holds_it_and_the_page_says_when_and_that_it_rises_no_more(usual):
     picture, said = ran(usual, law="coulomb", mu_s=0.3)
     moved = picture.motions["sliding"].trajectory
@@ -366,6 +370,7 @@ def test_a_start_by_constants_that_is_refused_is_answered_beside_the_constants(p
     assert set(planes.picture.messages) == {"by"}
 
 
+@pytest.mark.slow
 def test_a_start_past_the_touch_is_refused_for_that_and_not_for_its_nutation():
     picture = solve(of(PAPERS, spin=0.0, tilt=179.99, seconds=0.1))
     assert "below the table" in fate(picture, "smooth") and "a little" not in fate(picture, "smooth")

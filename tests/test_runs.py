@@ -343,6 +343,7 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
     lesson.slid.cache_clear()
 
 
+@pytest.mark.slow
 def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy, monkeypatch):
     monkeypatch.setattr("app.planes.PATIENCE", 0.0)
     explorer = Explorer()
