@@ -365,3 +365,26 @@ def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, pacer):
         controls._request(name, 0.5, typed=True)
         pacer._hands.clear()
         controls.show(explorer.scene)
+
+
+@pytest.mark.parametrize("upper", [True, False])
+def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
+    """From 0 to P = 8.36508, where the paper draws it, and with half a unit of room beside a K_J outside."""
+    for K_J in (-12.3, -3.4, 0.0, 4.0, 8.3, 9.4, 9.6, 30.2):
+        low, high = app.explorer.K_J_range(Top.paper(), K_J, 10.0, upper)
+        assert low <= 0 and high >= 8.36508 and low <= K_J <= high
+        if K_J < (0 if upper else -10.9):
+            assert 0.5 <= K_J - low < 1.5 and low == round(low)
+        if K_J > (8.37 if upper else 10.5):
+            assert 0.5 <= high - K_J < 1.5 and high == round(high)
+
+
+def test_the_stand_in_of_a_body_that_is_not_known():
+    """A ball, where G is below O or little above it; else a disc about G, on a peg of radius R."""
+    for a in (0.5, 0.07, 0.0, -0.25):
+        radius, height = app.explorer.outline(Top(a, 0.4, 0.4)).T
+        np.testing.assert_allclose(np.hypot(radius, height), 1, atol=1e-12)
+    radius, height = app.explorer.outline(Top(-2.0, 3.0, 2.25)).T
+    wide = radius == radius.max()
+    assert radius.max() == pytest.approx(1.5 * 1.5) and height[wide].mean() == pytest.approx(2.0)
+    assert height.min() == pytest.approx(-1.0)
