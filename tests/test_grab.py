@@ -243,7 +243,7 @@ def test_the_bead_of_each_portrait_goes_with_the_clock_and_the_clock_with_it(vis
             }""", arg=figure)  # fmt: skip
         line = {"phase": 1, "force": 1, "potential": 1}.get(figure, 0)
         t, x, y = (visit.column(figure, line, column).tolist() for column in "txy")
-        visit.page.get_by_role("button", name=name).scroll_into_view_if_needed()
+        visit.page.locator(f"[data-figure={figure}]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
         i = len(t) // 3
         visit.page.mouse.click(*visit.pixel(figure, x[i], y[i]))
         visit.page.wait_for_function(
