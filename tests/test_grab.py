@@ -154,10 +154,8 @@ def test_beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_say
 
 
 def test_the_bead_moves_the_clock_and_nothing_else(visit):
-    visit.pause()
-    visit.page.wait_for_function("Bokeh.documents[0].is_idle")
-    place = selected(visit)
-    aim = 0.6 if place["theta"] > 0.6 else 0.7
+    stop_at_the_start(visit)
+    place, aim = selected(visit), 0.7
     visit.drag(visit.pixel("plane", place["theta"], 7.0), visit.pixel("plane", aim, 7.3))
     visit.sent.clear()
     visit.page.mouse.move(*visit.pixel("plane", aim - 0.02, 7.3))
