@@ -32,12 +32,6 @@ def pytest_configure(config):
     references.REMAKE = config.getoption("--remake")
 
 
-def pytest_sessionfinish(session):
-    """What had to be computed is told by a worker of pytest-xdist too."""
-    if references.COMPUTED and not references.REMAKE:
-        print(f"\ncomputed, for data/ has no such answer (make proof keeps it): {', '.join(references.COMPUTED)}")
-
-
 @pytest.fixture(scope="session", autouse=True)
 def votes():
     """Where the servers of the tests keep votes: not in this user's own file."""

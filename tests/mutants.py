@@ -253,6 +253,7 @@ def main():
     options.add_argument("--seconds", type=int, default=60, help="of processor time for a test")
     options.add_argument("--minutes", type=float, default=float("inf"), help="then write the page with what is known")
     options.add_argument("--tests", type=Path, default=ROOT / "tests", help="the folder of another suite, to compare")
+    options.add_argument("--check", action="store_true", help="first run the tests without any change")
     options.add_argument("--log", type=Path, default=LOG, help="where what is known is kept")
     options.add_argument("--again", action="store_true", help="try anew what no test noticed")
     chosen = options.parse_args()
@@ -278,6 +279,9 @@ def main():
         line = json.loads(text)
         if still_so(line, folder) and not (chosen.again and line["by"] == ""):
             known[line["file"], line["before"], line["after"]] = line
+    if chosen.check and (by := noticed_by("tippe_core.forces", source_of("tippe_core.forces"), folder,
+                                          [*QUICK, *REST, *REST_OF_APP], chosen.seconds)):  # fmt: skip
+        sys.exit(f"the tests fail without any change: {by}")
     chosen_ones = [(name, *mutant) for name in chosen.files for mutant in list(mutants(name))[:: chosen.share]]
     # in the order of their hashes, so that what is known when time is up is a fair sample
     chosen_ones.sort(key=lambda one: hashlib.sha256(repr(one[:4]).encode()).hexdigest())

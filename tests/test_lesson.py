@@ -130,12 +130,17 @@ def test_group_s_of_the_literature():
 LONG = np.linspace(0.0, 1200.0, 1201)
 
 
-@kept(st)
 def became(top, spin, edge):
     """Where the oracle with a stem is in the last tenth of a long time, an option of step 1, and theta at its end."""
-    motion = st.integrate(top, State(lesson.TILT, 0, 0, spin), lesson.FRICTION, LONG, edge, damping=1.0, share=1.0)
-    theta = motion.theta[LONG > 1080]
-    on_stem = motion.spent(st.STEM, since=1080) > 0.99
+    return in_the_end(top, State(lesson.TILT, 0, 0, spin), lesson.FRICTION, LONG, edge)
+
+
+@kept(st)
+def in_the_end(top, state, friction, times, edge):
+    motion = st.integrate(top, state, friction, times, edge, damping=1.0, share=1.0)
+    last = 0.9 * times[-1]
+    theta = motion.theta[times > last]
+    on_stem = motion.spent(st.STEM, since=last) > 0.99
     end = "over" if on_stem or theta.min() > np.pi - 0.3 else "upright" if theta.max() < 0.2 else "between"
     return end, np.degrees(motion.theta[-1])
 

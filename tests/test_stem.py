@@ -86,10 +86,10 @@ def starts(name):
 
 
 @kept(st)
-def witness(top, edge, state, friction, n, **table):
-    """(theta,) by the oracle at TIMES[:n]; for Coulomb's law the limit eps -> 0, by the straight line through two."""
+def witness(top, edge, state, friction, times, **table):
+    """(theta,) by the oracle; for Coulomb's law the limit eps -> 0, by the straight line through two."""
     eps = table.pop("eps", 1e-4)
-    theta, *half = (st.integrate(top, state, friction, TIMES[:n], edge, eps=eps / m, **table).theta
+    theta, *half = (st.integrate(top, state, friction, times, edge, eps=eps / m, **table).theta
                     for m in ((1, 2) if isinstance(friction, Coulomb) else (1,)))  # fmt: skip
     return (2 * half[0] - theta if half else theta,)
 
@@ -99,18 +99,20 @@ def compared(top, edge, state, friction):
     elsewhere after a nudge of 1e-6 rad, "the table" where it does with other impacts; else by how many rad they differ.
     """
     moved = slide(top, state, friction, TIMES, landing="plastic", edge=edge)
-    n = len(moved.t)
-    assert n == len(TIMES) or moved.events[-1][1] in ("stands upright", "rim touches", "too many events"), moved.events
-    (theta,) = witness(top, edge, state, friction, n)
+    times = TIMES[: len(moved.t)]
+    assert len(times) == len(TIMES) or moved.events[-1][1] in ("stands upright", "rim touches", "too many events"), (
+        moved.events
+    )
+    (theta,) = witness(top, edge, state, friction, times)
     if np.abs(theta - moved.theta).max() < TENTH:
         return "agrees", moved
-    (nudged,) = witness(top, edge, replace(state, theta=state.theta + 1e-6), friction, n)
+    (nudged,) = witness(top, edge, replace(state, theta=state.theta + 1e-6), friction, times)
     if np.abs(nudged - theta).max() > 1e-3:
         return "a border", moved
-    (finer,) = witness(top, edge, state, friction, n, damping=20.0, k=1e8, eps=3e-5)
+    (finer,) = witness(top, edge, state, friction, times, damping=20.0, k=1e8, eps=3e-5)
     if (off := np.abs(finer - moved.theta).max()) < TENTH:
         return "agrees", moved
-    (softer,) = witness(top, edge, state, friction, n, damping=7.0, k=1e8, eps=3e-5)
+    (softer,) = witness(top, edge, state, friction, times, damping=7.0, k=1e8, eps=3e-5)
     return ("the table" if np.abs(softer - finer).max() > TENTH else float(off)), moved
 
 
