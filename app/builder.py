@@ -1,6 +1,6 @@
 """The top builder without its widgets: dimensions, presets and files -> a shape, and the motion it is given.
 
-SI, as in tippe_core.shapes. Where a person reads or sets a dimension it is in the unit of its Dimension.
+SI, as in tippe_core.bodies. Where a person reads or sets a dimension it is in the unit of its Dimension.
 """
 
 import re
@@ -39,9 +39,9 @@ from tippe_core import (
     pole_constants,
     save_top,
 )
-from tippe_core.curve import f3_squared
-from tippe_core.shapes import OneMaterial
-from tippe_core.solids import LARGEST
+from tippe_core.bodies.shape import OneMaterial
+from tippe_core.bodies.slices import LARGEST
+from tippe_core.paper.curve import f3_squared
 
 # What a new body is thrown with: the spin near theta = 0 that the paper's top has at K_R = 10, and a tippe top's K_J at
 # the share of P that it has at K_J = 7. An ordinary top is let go at a tilt, or it would not stay up.

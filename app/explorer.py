@@ -30,8 +30,8 @@ from tippe_core import (
     pole_constants,
     turning_points,
 )
-from tippe_core.curve import f1_squared, f2_squared, rounded_f
-from tippe_core.forces import forces_on_curve
+from tippe_core.paper.curve import f1_squared, f2_squared, rounded_f
+from tippe_core.paper.forces import forces_on_curve
 from tippe_core.types import Array, Indices, Scalars
 
 ROLLS, SLIPS, LIFTS = 0, 1, 2

@@ -322,7 +322,7 @@ def python_of_surface(scene):
 import matplotlib.pyplot as plt
 import numpy as np
 from tippe_core import Constants, Top, f1_squared, figures
-from tippe_core.curve import rounded_f
+from tippe_core.paper.curve import rounded_f
 
 tie = figures(top := {scene.top!r}, {_rows(plane)}, K_R={K_R!r}, mu_s={float(scene.mu_s)!r})[{which}]
 K_J, inner, outer = tie.K_J[:, None], tie.theta_inner[:, None], tie.theta_outer[:, None]

@@ -19,7 +19,8 @@ from app import asked
 from app.explorer import Explorer
 from app.text import say, told
 from tippe_core import TopError, load_top, save_top
-from tippe_core.shapes import KINDS, LONGEST
+from tippe_core.bodies.files import LONGEST
+from tippe_core.bodies.shapes import KINDS
 
 # The defaults are part of a version: with others, or with another meaning of a name, this becomes 2.
 VERSION = 1

@@ -45,7 +45,7 @@ from tippe_core import (
     steady_states,
     sunk,
 )
-from tippe_core.friction import Friction
+from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Indices, Number, Rim
 
 PLANES = ("rough", "smooth", "sliding")

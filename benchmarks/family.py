@@ -1,7 +1,7 @@
 """Tops a second of the map of allowed shares: python benchmarks/family.py. Aim: 1,000 on one core, 64 K_J by 256 theta.
 
 The page's own maps, of tippe tops and of ordinary ones; processor time, so that other work on the machine counts less;
-beside it, in the same run, one plain numpy evaluation of f, (36), on a grid of that size, and what tippe_core.tielines
+beside it, in the same run, one plain numpy evaluation of f, (36), on a grid of that size, and what paper/tielines.py
 takes for the same tops, against which the shares are compared too.
 
 Results
@@ -24,7 +24,7 @@ import numpy as np
 
 from app.family import ordinary
 from tippe_core import Constants, Top, allowed_shares, f, figures, pole_constants
-from tippe_core.share import COLUMNS, PART, ROWS
+from tippe_core.paper.share import COLUMNS, PART, ROWS
 
 RATIOS = np.linspace(0.6, 1.9, 30)
 DISC = ordinary().top.I1

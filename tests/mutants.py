@@ -26,7 +26,7 @@ LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
 CORE = ["constants", "curve", "forces", "rolling", "smooth", "friction", "standing", "contacts", "sliding"]
 APP = ["explorer", "planes", "family"]
-FILES = [*(f"tippe_core.{name}" for name in CORE), *(f"app.{name}" for name in APP)]
+FILES = [*CORE, *APP]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
 CONTROL = {"solve", "bisect", "sign_changes", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
@@ -48,9 +48,8 @@ REST_OF_APP = ["test_explorer.py", "test_planes.py", "test_lesson.py", "test_exp
 
 def tests_of(name, slow, best):
     """Those to be tried for a file; slow: those that are left when the first found nothing. best: what goes first."""
-    package, name = name.split(".")
-    first = OF_APP[name] if package == "app" else [*FIRST.get(name, []), *QUICK]
-    rest = REST_OF_APP if package == "app" else REST
+    first = OF_APP[name] if name in APP else [*FIRST.get(name, []), *QUICK]
+    rest = REST_OF_APP if name in APP else REST
     return [test for test in rest if test not in first] if slow else [*dict.fromkeys([*best, *first])]
 
 
@@ -137,8 +136,14 @@ def changes(statement):
             yield statement, "sign", node, "op", ast.UAdd()
 
 
+def path_of(name):
+    """A file keeps its results when it moves to another folder."""
+    (path,) = (ROOT / ("app" if name in APP else "tippe_core")).rglob(f"{name}.py")
+    return path
+
+
 def source_of(name):
-    return (ROOT / f"{name.replace('.', '/')}.py").read_text(encoding="utf-8")
+    return path_of(name).read_text(encoding="utf-8")
 
 
 def mutants(name):
@@ -208,7 +213,8 @@ def noticed_by(name, source, folder, tests, seconds):
             sink = os.open(os.devnull, os.O_WRONLY)
             os.dup2(sink, 1)
             os.dup2(sink, 2)
-            sys.meta_path.insert(0, Changed(name, source))
+            module = ".".join(path_of(name).relative_to(ROOT).with_suffix("").parts)
+            sys.meta_path.insert(0, Changed(module, source))
             import pytest
 
             options = ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist"]
@@ -279,7 +285,7 @@ def main():
         line = json.loads(text)
         if still_so(line, folder) and not (chosen.again and line["by"] == ""):
             known[line["file"], line["before"], line["after"]] = line
-    if chosen.check and (by := noticed_by("tippe_core.forces", source_of("tippe_core.forces"), folder,
+    if chosen.check and (by := noticed_by("forces", source_of("forces"), folder,
                                           [*QUICK, *REST, *REST_OF_APP], chosen.seconds)):  # fmt: skip
         sys.exit(f"the tests fail without any change: {by}")
     chosen_ones = [(name, *mutant) for name in chosen.files for mutant in list(mutants(name))[:: chosen.share]]
@@ -321,7 +327,7 @@ def page(results, chosen):
     yield "| file | changes tried | noticed | not noticed, explained | not noticed |"
     yield "|---|---|---|---|---|"
     for name in [*(name for name in FILES if any(key[0] == name for key in results)), "all"]:
-        rows = [(bool(line["by"]), (file.split(".")[1], after) in EXPLAINED)
+        rows = [(bool(line["by"]), (file, after) in EXPLAINED)
                 for (file, _, after), (line, _) in results.items() if name in (file, "all")]  # fmt: skip
         noticed, explained = sum(seen for seen, _ in rows), sum(not seen and known for seen, known in rows)
         share = 100 * noticed / max(len(rows), 1)
@@ -332,7 +338,7 @@ def page(results, chosen):
     for (file, before, after), (found, line) in results.items():
         if not found["by"]:
             open_ = "the slow tests have not been run" if found["rest"] else "not explained yet"
-            reason = EXPLAINED.get((file.split(".")[1], after), open_)
+            reason = EXPLAINED.get((file, after), open_)
             yield f"- `{file}`, line {line}: {reason}\n\n  ```text\n  {before}\n  {after}\n  ```"
 
 

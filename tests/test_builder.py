@@ -29,7 +29,7 @@ from tippe_core import (
     rocking_period,
     save_top,
 )
-from tippe_core.share import PART, _widths
+from tippe_core.paper.share import PART, _widths
 
 
 @pytest.fixture

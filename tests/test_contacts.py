@@ -26,7 +26,7 @@ from tippe_core import (
     Viscous,
     slide,
 )
-from tippe_core.contacts import gap, impact
+from tippe_core.motion.contacts import gap, impact
 
 STEM = TruncatedSphere.paper()
 EDGE = STEM.edge

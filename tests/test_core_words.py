@@ -12,7 +12,7 @@ from app.planes import PRESETS as STARTS
 from app.planes_words import outcome_words
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide
-from tippe_core.contacts import change
+from tippe_core.motion.contacts import change
 
 
 def quoted(function, start, end):

@@ -23,11 +23,11 @@ from tippe_core import (
     outcome,
     sensitivity,
     slide,
-    sliding,
     steady_states,
     thresholds,
     tielines,
 )
+from tippe_core.motion import sliding
 
 S_SCALES = Scales(R=0.02, M=0.02, g=9.82)
 REFERENCE = State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0)

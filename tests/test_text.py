@@ -211,7 +211,7 @@ def wordings(node, function, module):
 
 def said_by_errors():
     """(place, words) of each TopError in the core and the page: a value in words, what is allowed, and what to do."""
-    for path in (*sorted(CORE.glob("*.py")), *MODULES):
+    for path in (*sorted(CORE.rglob("*.py")), *MODULES):
         inside = {}  # node -> the innermost function around it
         for function in ast.walk(tree(path)):
             if isinstance(function, ast.FunctionDef):
@@ -368,7 +368,7 @@ def strings(path):
 def enumerated():
     """What the core calls things, and the keys under which there are words for them."""
     names = {key.rpartition(".")[2] for key in every(DEFAULT)}
-    return names.union(*(constants(tree(path)) for path in CORE.glob("*.py")))
+    return names.union(*(constants(tree(path)) for path in CORE.rglob("*.py")))
 
 
 @pytest.mark.parametrize("path", [*MODULES, *SCRIPTS], ids=lambda path: path.name)

@@ -9,7 +9,7 @@ from typing import get_type_hints
 
 import tippe_core
 
-MODULES = [importlib.import_module(f"tippe_core.{module.name}") for module in pkgutil.iter_modules(tippe_core.__path__)]
+MODULES = [importlib.import_module(module.name) for module in pkgutil.walk_packages(tippe_core.__path__, "tippe_core.")]
 SPECIAL = ("__init__", "__call__", "__add__", "__sub__", "__rmul__")
 
 

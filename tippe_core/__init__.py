@@ -3,8 +3,22 @@
 Lengths in R, masses in M, accelerations in g. The names below are the public ones.
 """
 
-from .constants import Constants, State
-from .curve import (
+from .bodies.files import load_top, save_top
+from .bodies.presets import PRESETS, Preset
+from .bodies.rocking import Measured, a_from_rocking, dimension_from_rocking, rocking_period
+from .bodies.shape import Shape, Turned
+from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, TruncatedSphere
+from .bodies.solids import Solid, ball, cylinder, frustum, zone
+from .ending import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
+from .errors import NoMotionError, TopError
+from .motion.friction import Coulomb, SmoothedCoulomb, Viscous
+from .motion.rolling import Rolling, roll
+from .motion.sliding import beside, growth, sensitivity, slide
+from .motion.smooth import Gliding, glide
+from .motion.trajectory import Ledger, Trajectory
+from .outcome import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
+from .paper.constants import Constants, State
+from .paper.curve import (
     SteadyPrecessions,
     f,
     f1_squared,
@@ -16,37 +30,10 @@ from .curve import (
     steady_precessions,
     turning_points,
 )
-from .ending import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
-from .errors import NoMotionError, TopError
-from .forces import friction_force, normal_force
-from .friction import Coulomb, SmoothedCoulomb, Viscous
-from .outcome import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
-from .rolling import Rolling, roll
-from .shapes import (
-    PRESETS,
-    Ball,
-    BareSphere,
-    Lathe,
-    LoadedSphere,
-    Measured,
-    OrdinaryTop,
-    Preset,
-    Shape,
-    TruncatedSphere,
-    Turned,
-    a_from_rocking,
-    dimension_from_rocking,
-    load_top,
-    rocking_period,
-    save_top,
-)
-from .share import allowed_shares
-from .sliding import beside, growth, sensitivity, slide
-from .smooth import Gliding, glide
-from .solids import Solid, ball, cylinder, frustum, zone
-from .tielines import Tielines, figures, limit_energy, tielines
-from .top import Scales, Top
-from .trajectory import Ledger, Trajectory
+from .paper.forces import friction_force, normal_force
+from .paper.share import allowed_shares
+from .paper.tielines import Tielines, figures, limit_energy, tielines
+from .paper.top import Scales, Top
 
 __all__ = [
     "PRESETS",

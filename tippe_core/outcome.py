@@ -22,9 +22,9 @@ from typing import NamedTuple, overload
 
 import numpy as np
 
-from .constants import State, versines
 from .errors import TopError, finite
-from .top import Scales, Top
+from .paper.constants import State, versines
+from .paper.top import Scales, Top
 from .types import Array, Bools, Scalars
 
 

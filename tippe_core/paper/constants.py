@@ -7,9 +7,9 @@ from typing import NamedTuple, Self, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .errors import TopError, finite, numbers
+from ..errors import TopError, finite, numbers
+from ..types import Array, Number, Scalars
 from .top import Top
-from .types import Array, Number, Scalars
 
 # The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic
 # in cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34), for which the

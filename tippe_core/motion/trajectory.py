@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .curve import f3_squared
-from .errors import TopError, numbers
-from .top import Top
-from .types import Array
+from ..errors import TopError, numbers
+from ..paper.curve import f3_squared
+from ..paper.top import Top
+from ..types import Array
 
 
 class Ledger(NamedTuple):

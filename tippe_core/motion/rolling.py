@@ -32,13 +32,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.fft import dct, dst
 
-from .constants import EXACT, Constants, Exact, State, f1_2, f2_2, f3_2, versines
-from .curve import ExactCurve, Well, near_pole, omega2_at, wells
-from .errors import TopError
-from .forces import contact_force
-from .top import Top
+from ..errors import TopError
+from ..paper.constants import EXACT, Constants, Exact, State, f1_2, f2_2, f3_2, versines
+from ..paper.curve import ExactCurve, Well, near_pole, omega2_at, wells
+from ..paper.forces import contact_force
+from ..paper.top import Top
+from ..types import Array, Complex, Indices, Number, Scalars
 from .trajectory import Trajectory, checked_times
-from .types import Array, Complex, Indices, Number, Scalars
 
 _NODES_LEAST, _NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that of a merging
 _FEW, _MANY = 64, 512  # harmonics: up to so many each by itself; at once

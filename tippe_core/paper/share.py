@@ -5,9 +5,9 @@ At one theta everything is a polynomial in the bracket B of (36), with coefficie
     U = height + g B^2 ,    F_z and F_y at theta_dot = 0 quadratic in B ,
     the 2E' at which F_z = 0 quadratic in B ,    the one at which F_h = mu_s F_z: Q(B) - (W(B))^1/2, Q and W quadratic
 
-(from tippe_core.tielines, whose notes these are). So a top is some forty passes over an array of K_J by theta that
+(from tielines.py, whose notes these are). So a top is some forty passes over an array of K_J by theta that
 stays in the processor's cache. Between the points of the grid, limits and turning points are placed by cubics. Wells
-narrower than a few points get a grid of their own, and rows with several wells are left to tippe_core.tielines itself.
+narrower than a few points get a grid of their own, and rows with several wells are left to tielines() itself.
 """
 
 from collections.abc import Sequence
@@ -16,11 +16,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..errors import TopError, finite
+from ..types import Array, Bools, Indices, Number
 from .constants import AnyTop, ExactTop, f2_2, f3_2
-from .errors import TopError, finite
 from .tielines import _distance, _mapped, _place, figures
 from .top import Top
-from .types import Array, Bools, Indices, Number
 
 ROWS, COLUMNS = 64, 256  # K_J, theta
 BLOCK = 32  # tops whose coefficients are made together

@@ -35,12 +35,12 @@ import numpy as np
 from scipy.integrate import LSODA, solve_ivp
 from scipy.optimize import brentq
 
-from .errors import TopError
+from ..errors import TopError
+from ..paper.top import Top
+from ..types import Array, Number, Rim, Vector
 from .friction import Coulomb, Friction, holding
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaned, leaning, lies, tipping_energy
-from .top import Top
 from .trajectory import Trajectory
-from .types import Array, Number, Rim, Vector
 
 # SLOW: see sliding.py. REST ((gR)^1/2): slip below which Coulomb's friction may hold.
 # SLACK (Mg), TOUCH (R): less than that is nothing. LEAST: what is left of u_z' by N, of 1 without friction.

@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from ..errors import NoMotionError, finite, numbers
+from ..types import Array, Bools, Number, Scalars
 from .constants import EXACT, AnyTop, Constants, Exact, ExactTop, exact_top, f1_2, f2_2, f3_2, nonzero, versines
-from .errors import NoMotionError, finite, numbers
 from .top import Top
-from .types import Array, Bools, Number, Scalars
 
 _CANCELLED = 1e-5  # of the terms of (36): a smaller sum of them has lost more than five of sixteen figures
 

@@ -28,7 +28,11 @@ from numpy.typing import ArrayLike
 from scipy.integrate import LSODA
 from scipy.optimize import brentq
 
-from .constants import State, f3_2, versines
+from ..errors import TopError, finite, numbers
+from ..paper.constants import State, f3_2, versines
+from ..paper.forces import contact_force
+from ..paper.top import Top
+from ..types import Array, Number, Rim, Vector
 from .contacts import (
     EDGE,
     ENDS,
@@ -47,14 +51,10 @@ from .contacts import (
     record,
     turning,
 )
-from .errors import TopError, finite, numbers
-from .forces import contact_force
 from .friction import Coulomb, Friction, SmoothedCoulomb, Viscous, holding
 from .rolling import Rolling
 from .smooth import first_below
-from .top import Top
 from .trajectory import Trajectory, checked_times
-from .types import Array, Number, Rim, Vector
 
 # STILL: the last of the slip, which takes far less time than the 1e-9 to which events are located. SLACK (Mg): what
 # rolling may need beyond mu_s F_z before it counts as slipping, above what so small a slip does to the forces.

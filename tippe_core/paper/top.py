@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Self
 
-from .errors import TopError, finite
+from ..errors import TopError, finite
 
 
 @dataclass(frozen=True)

@@ -26,11 +26,11 @@ from typing import NamedTuple, TypeAlias, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import TopError, finite
+from ..types import Array, Bools, Complex, Indices, Number, Scalars
 from .constants import AnyTop, ExactTop, f2_2
 from .curve import ExactCurve, angle, bracket_slope, find_stations, pole_gaps, pole_slope, well_slope
-from .errors import TopError, finite
 from .top import Top
-from .types import Array, Bools, Complex, Indices, Number, Scalars
 
 _BLOCK = 256  # K_J at once: more of them leave the processor's caches
 

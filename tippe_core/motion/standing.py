@@ -19,8 +19,8 @@ start flat on the end with nothing but a spin stands, though from a lean of 1e-4
 from collections.abc import Sequence
 from math import acos, atan2, cos, hypot, sin, sqrt
 
-from .top import Top
-from .types import Array, Rim, Vector
+from ..paper.top import Top
+from ..types import Array, Rim, Vector
 
 STANDS, FLAT = 1e-3, 1e-6  # rad: what counts as upright; what counts as flat
 ROUNDING = 1e-13  # what is left of nothing by sin(pi)

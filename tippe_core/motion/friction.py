@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from .errors import TopError, finite
-from .types import Number
+from ..errors import TopError, finite
+from ..types import Number
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,10 @@ from typing import overload
 
 import numpy as np
 
+from ..types import Array, Number, Scalars, Vector
 from .constants import Constants, f1_2, f2_2, f3_2, versines
 from .curve import bracket_slope, f, omega2, omega3
 from .top import Top
-from .types import Array, Number, Scalars, Vector
 
 
 def contact_force(

@@ -22,13 +22,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from .constants import EXACT, ExactTop, State, exact_top, versines
-from .curve import angle, solve
-from .errors import TopError
+from ..errors import TopError
+from ..paper.constants import EXACT, ExactTop, State, exact_top, versines
+from ..paper.curve import angle, solve
+from ..paper.top import Top
+from ..types import Array
 from .rolling import Nutation
-from .top import Top
 from .trajectory import Trajectory, checked_times
-from .types import Array
 
 
 def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:

@@ -1,0 +1,1 @@
+"""Bodies that a person can make, and what they are as a Top."""

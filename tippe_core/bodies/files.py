@@ -1,0 +1,126 @@
+"""A shape as a small JSON document, and back from what a stranger wrote."""
+
+import json
+from collections.abc import Collection
+from dataclasses import fields
+from typing import Any, TypeAlias
+
+from ..errors import TopError
+from .ranges import MOST_PIECES, MOST_POINTS
+from .shape import Shape, Turned
+from .shapes import KINDS
+from .slices import Frustum, Zone
+from .solids import Solid
+
+SCHEMA, VERSION, LONGEST = "tippe-top-explorer/top", 1, 65_536  # bytes
+Json: TypeAlias = Any  # whatever a stranger wrote
+
+
+def save_top(shape: Shape) -> str:
+    """The shape as the text of a small JSON document: its kind, and its dimensions in SI."""
+    dimensions = {field.name: getattr(shape, field.name) for field in fields(shape)}
+    if isinstance(shape, Turned):
+        dimensions["solid"] = [
+            {"piece": type(piece).__name__, **{field.name: getattr(piece, field.name) for field in fields(piece)}}
+            for piece in shape.solid.slices
+        ]
+    document = {"schema": SCHEMA, "version": VERSION, "kind": type(shape).__name__, "dimensions": dimensions}
+    return json.dumps(document, indent=1) + "\n"
+
+
+def load_top(text: str | bytes) -> Shape:
+    """The shape in a document (str or bytes) that save_top wrote, or one like it. Raises TopError, naming the field."""
+    if not isinstance(text, (str, bytes)):
+        raise TopError("file", type(text).__name__, "the text of a saved top")
+    if len(text) > LONGEST:
+        raise TopError("file", f"{len(text)} bytes", f"at most {LONGEST} bytes", "A saved top is far smaller.")
+    try:
+        text = text.decode("utf-8-sig") if isinstance(text, bytes) else text
+        # every number a float: a whole number of a million digits is inf, and refused as such
+        document = json.loads(text, parse_int=float, parse_constant=float, object_pairs_hook=_without_repeats)
+    except TopError:
+        raise
+    except (ValueError, RecursionError) as error:
+        raise TopError("file", "text", "a JSON document", f"{str(error)[:120]}.") from None
+    _fields("file", document, ("schema", "version", "kind", "dimensions"))
+    for name, wanted in (("schema", SCHEMA), ("version", VERSION)):
+        if isinstance(document[name], bool) or document[name] != wanted:
+            raise TopError(name, _short(document[name]), repr(wanted), "This is not a top saved by this program.")
+    kind = KINDS.get(document["kind"]) if isinstance(document["kind"], str) else None
+    if kind is None:
+        raise TopError("kind", _short(document["kind"]), ", ".join(KINDS))
+    dimensions = document["dimensions"]
+    _fields("dimensions", dimensions, [field.name for field in fields(kind)])
+    for name, value in dimensions.items():
+        if name == "points" or (name == "density" and isinstance(value, list)):
+            _numbers(name, value)
+        elif name == "solid":
+            dimensions[name] = _solid(value)
+        else:
+            _number(name, value)
+    return kind(**{name: _frozen(value) for name, value in dimensions.items()})
+
+
+def _solid(pieces: Json) -> Solid:
+    if not isinstance(pieces, list) or not 1 <= len(pieces) <= MOST_PIECES:
+        raise TopError("solid", _short(pieces), f"a list of 1 to {MOST_PIECES} pieces")
+    slices = []
+    for index, piece in enumerate(pieces):
+        name = f"solid[{index}]"
+        word = piece.get("piece") if isinstance(piece, dict) else None
+        kinds: dict[str, type[Zone | Frustum]] = {"Zone": Zone, "Frustum": Frustum}
+        kind = kinds.get(word) if isinstance(word, str) else None
+        if kind is None:
+            raise TopError(f"{name}.piece", _short(word), "Zone, Frustum")
+        _fields(name, piece, ["piece", *(field.name for field in fields(kind))])
+        sizes = {key: value for key, value in piece.items() if key != "piece"}
+        for key, value in sizes.items():
+            _number(f"{name}.{key}", value)
+        try:
+            slices.append(kind(**sizes))
+        except TopError as error:
+            raise TopError(f"{name}.{error.name}", error.value, error.allowed, error.remedy) from None
+    return Solid(tuple(slices))
+
+
+def _without_repeats(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+    names = [name for name, _ in pairs]
+    for name in names:
+        if names.count(name) > 1:
+            raise TopError(_short(name), "given more than once", "one value")
+    return dict(pairs)
+
+
+def _fields(name: str, record: Json, wanted: Collection[str]) -> None:
+    if not isinstance(record, dict):
+        raise TopError(name, _short(record), f"an object with {', '.join(wanted)}")
+    for field in record:
+        if field not in wanted:
+            raise TopError(_short(field), "unknown field", ", ".join(wanted), f"Remove it from {name}.")
+    for field in wanted:
+        if field not in record:
+            raise TopError(field, "missing", ", ".join(wanted), f"Add it to {name}.")
+
+
+def _number(name: str, value: Json) -> None:
+    if not isinstance(value, float):
+        raise TopError(name, _short(value), "a number")
+
+
+def _numbers(name: str, values: Json) -> None:
+    """A list of numbers, or of lists of numbers."""
+    if not isinstance(values, list) or not 1 <= len(values) <= MOST_POINTS:
+        raise TopError(name, _short(values), f"a list of 1 to {MOST_POINTS}")
+    for index, value in enumerate(values):
+        for number in value if name == "points" and isinstance(value, list) else [value]:
+            _number(f"{name}[{index}]", number)
+
+
+def _frozen(value: Json) -> Json:
+    return tuple(_frozen(item) for item in value) if isinstance(value, list) else value
+
+
+def _short(value: Json) -> Json:
+    """What is shown of something a stranger wrote."""
+    shown = value if isinstance(value, (str, float, bool, type(None))) else type(value).__name__
+    return shown[:40] if isinstance(shown, str) else shown

@@ -1,0 +1,59 @@
+"""Bodies with a name for a menu, and where they come from."""
+
+from dataclasses import dataclass
+
+from ..paper.top import Top
+from .shape import Shape
+from .shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, TruncatedSphere
+from .solids import ball
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A shape with a name for a menu and where it comes from; stated: its Top where that is told beside its lengths."""
+
+    name: str
+    shape: Shape
+    source: str
+    stated: Top | None = None
+
+    @property
+    def top(self) -> Top:
+        return self.stated or self.shape.top
+
+
+PRESETS = (
+    Preset(
+        "The paper's tippe top", TruncatedSphere.paper(),
+        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7: a = 0.070, I1 = 0.399, I3 = 0.408 "
+        "(Top.paper()), in the body whose lengths are given there.", Top.paper()),
+    Preset(
+        "Top S", BareSphere(R=0.02, M=0.02, a=0.3, I1=131 / 350, I3=2 / 5),
+        "Simulations of the tippe top by Rauch-Wojciechowski and Rutstam (N. Rutstam, arXiv:1306.2470), with "
+        "g = 9.82 m/s^2. A sphere whose inside is not told; the bracket of (26) is 0."),
+    Preset(
+        "Loaded sphere", LoadedSphere(R=0.02, b=0.008, d=0.010, density=1190.0, core_density=7850.0),
+        "The form of the paper's Fig. 2; dimensions our own: an acrylic ball 40 mm across with a steel ball of 16 mm."),
+    Preset(
+        "Disc on a peg", OrdinaryTop(R=0.0018, h=0.0162, r1=0.025, r2=0.025, t=0.004, r=0.002, l=0.015, M=0.020),
+        "Math. Probl. Eng. 2018, 6132891, Table 2: disc of 25 mm radius, 20 g, G 20 mm above the table. Peg, thickness "
+        "and stem our own; a/R near -10 as in Gray and Nickel's closing remark on ordinary tops."),
+    Preset(
+        "Wooden cone", OrdinaryTop(R=0.006, h=0.0, r1=0.006, r2=0.022, t=0.025, r=0.004, l=0.020, M=0.013),
+        "Dimensions our own: a turned wooden top on a blunt peg."),
+    Preset(
+        "Uniform ball", Ball(R=0.02, M=0.040),
+        "a = 0 and I1 = I3 = 2/5; dimensions our own, an acrylic ball 40 mm across."),
+    Preset(
+        "Hollow tippe top", TruncatedSphere.paper() - TruncatedSphere.paper().density * ball(0.005, 0.002),
+        "The paper's top with a ball of 5 mm radius taken away about 2 mm above O; the cavity is our own."),
+    Preset(
+        "Free profile", Lathe(
+            R=0.005, density=700.0,
+            points=((0.005, 0.0), (0.018, 0.010), (0.022, 0.016), (0.018, 0.021), (0.004, 0.024), (0.003, 0.045))),
+        "Dimensions our own: a turned wooden top whose points can be dragged."),
+    Preset(
+        "Appendix A's shape, a = 0.0698", TruncatedSphere.paper(),
+        "The same body with what its lengths give, not rounded: a = 0.0698, I1 = 0.3991, I3 = 0.4081. Where the stem "
+        "touches, so small a difference may decide where a motion ends."),
+)  # fmt: skip

@@ -1,0 +1,55 @@
+"""What dimensions may be, and what is said where they are not."""
+
+from math import inf, isfinite
+
+import numpy as np
+
+from ..errors import TopError, finite
+from .slices import LARGEST
+
+SMALLEST = 1e-6  # m: no peg is smaller, and no power of it is lost
+LONG = LARGEST / 4  # m: heights that are added stay below LARGEST
+LIGHTEST, THINNEST = 1e-30, 1e-9  # kg, kg/m^3: no product of them is lost
+MOST_POINTS, MOST_PIECES = 400, 64
+
+
+def weight(M: float) -> float:
+    in_range("M", M, 0, inf, "kg", above=True)
+    return in_range("M", M, LIGHTEST, inf, "kg")
+
+
+def check_stem(r: float, l: float) -> None:
+    if (r == 0) != (l == 0):
+        name = "r" if r == 0 else "l"
+        raise TopError(name, 0.0, f"{name} > 0 (m)", "A stem has a radius and a length; with both 0 there is none.")
+    if 0 < l < SMALLEST:
+        raise TopError("l", l, f"0, or l >= {SMALLEST:g} (m)")
+
+
+def in_range(
+    name: str,
+    value: float,
+    low: float,
+    high: float,
+    unit: str,
+    above: bool = False,
+    below: bool = False,
+    remedy: str = "",
+) -> float:
+    """value, or a TopError unless low <= value <= high (< where above, below)."""
+    if (low < value if above else low <= value) and (value < high if below else value <= high) and isfinite(value):
+        return value
+    left = f"{low:g} {'<' if above else '<='} " if isfinite(low) else ""
+    right = f" {'<' if below else '<='} {high:g}" if isfinite(high) else ""
+    raise TopError(name, value, f"{left}{name}{right} ({unit})", remedy)
+
+
+def rows_of(name: str, rows: object, columns: int, most: int) -> tuple[tuple[float, ...], ...]:
+    """A tuple of tuples of floats."""
+    if not isinstance(rows, (list, tuple, np.ndarray)) or not 1 <= len(rows) <= most:
+        raise TopError(name, rows, f"1 to {most} rows of {columns} numbers")
+    for index, row in enumerate(rows):
+        if np.shape(row) != (columns,):
+            raise TopError(f"{name}[{index}]", row, f"{columns} numbers")
+    return tuple(
+        tuple(finite(f"{name}[{index}]", value) for value in row) for index, row in enumerate(rows))  # fmt: skip

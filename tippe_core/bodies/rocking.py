@@ -1,0 +1,114 @@
+"""Rocking at rest: a from a stopwatch."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import hypot, inf, isfinite, pi, sqrt
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ..errors import TopError, finite
+from ..paper.top import Top
+from .ranges import in_range
+from .shape import Shape
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A value with its standard uncertainty, and the share of each input in it, in the value's units."""
+
+    value: float
+    uncertainty: float
+    shares: dict[str, float]
+
+
+def rocking_period(top: Top) -> float:
+    """Period in (R/g)^1/2 of small rocking about theta = 0, without spin and without slipping; needs a > 0.
+
+    T = 2 pi [(I1 + (1 - a)^2)/a]^1/2
+    """
+    if top.a <= 0:
+        raise TopError("a", top.a, "a > 0", "Only a top whose G lies below O rocks about theta = 0.")
+    return 2 * pi * sqrt((top.I1 + (1 - top.a) ** 2) / top.a)
+
+
+def a_from_rocking(
+    *,
+    T: float,
+    R: float,
+    I1: float,
+    g: float = 9.81,
+    dT: float = 0.0,
+    dR: float = 0.0,
+    dI1: float = 0.0,
+    dg: float = 0.0,
+) -> Measured:
+    """a (in R) of a top that rocks with the period T (s): Measured, with the d.. as standard uncertainties.
+
+    R in m, I1 in MR^2 (from the shape), g in m/s^2. With q = (T/2 pi)^2 g/R the period's formula is
+        a^2 - (2 + q) a + 1 + I1 = 0,    a = 2 (1 + I1)/(2 + q + [(2 + q)^2 - 4 (1 + I1)]^1/2),
+    the other root being larger than 1; and (2 + q - 2a) da = dI1 - a dq.
+    Raises TopError where no a < 1 gives so short a period.
+    """
+    given = {"T": T, "R": R, "I1": I1, "g": g}
+    for name, value in given.items():
+        given[name] = in_range(name, finite(name, value), 1e-9, 1e9, "SI; I1 in MR^2")
+    errors = {"T": dT, "R": dR, "I1": dI1, "g": dg}
+    for name, value in errors.items():
+        errors[name] = in_range(f"d{name}", finite(f"d{name}", value), 0, 1e9, "SI; I1 in MR^2")
+    T, R, I1, g = given.values()
+    q = (T / (2 * pi)) ** 2 * g / R
+    # a < 1: at a = 1 the quadratic is I1 - q, so q > I1; and both roots are real
+    least = max(I1, 2 * sqrt(1 + I1) - 2)
+    if not q > least:
+        shortest = 2 * pi * sqrt(least * R / g)
+        raise TopError("T", T, f"T > {shortest:.6g} s for this R, I1 and g", "No top of this kind rocks faster.")
+    root = sqrt((2 + q) ** 2 - 4 * (1 + I1))
+    a = 2 * (1 + I1) / (2 + q + root)
+    slopes = {"T": -a * 2 * q / T, "R": a * q / R, "I1": 1.0, "g": -a * q / g}
+    shares = {name: abs(slope) * errors[name] / root for name, slope in slopes.items()}
+    return Measured(a, hypot(*shares.values()), shares)
+
+
+def dimension_from_rocking(
+    family: Callable[[float], Shape],
+    *,
+    T: float,
+    low: float,
+    high: float,
+    g: float = 9.81,
+    dT: float = 0.0,
+    dg: float = 0.0,
+) -> Measured:
+    """The one unknown dimension of a body that rocks with the period T (s): Measured, in the dimension's unit.
+
+    family(x) is the shape for the dimension x, tried from low to high; where it is no body, or does not rock, x is
+    passed over. Example: lambda d: LoadedSphere(R=.02, b=.008, d=d, density=700, core_density=7800).
+    Raises TopError where none or more than one x in the range has this period.
+    """
+    in_range("T", finite("T", T), 0, inf, "s", above=True)
+    in_range("g", finite("g", g), 0, inf, "m/s^2", above=True)
+
+    def period(x: float) -> float:
+        try:
+            shape = family(float(x))
+            return rocking_period(shape.top) * replace(shape.scales, g=g).time
+        except TopError:
+            return np.nan
+
+    tried = np.linspace(finite("low", low), finite("high", high), 257)
+    periods = np.array([period(x) for x in tried])
+    if np.isnan(periods).all():
+        raise TopError("low", low, "a range with a body in it that rocks", "Give other low and high.")
+    at = np.flatnonzero((periods[:-1] >= T) != (periods[1:] >= T))
+    at = [index for index in at if not np.isnan(periods[index : index + 2]).any()]
+    if len(at) != 1:
+        span = f"{np.nanmin(periods):.6g} to {np.nanmax(periods):.6g} s, and reached once"
+        raise TopError("T", T, span, "Narrow low and high." if at else "Widen low and high.")
+    first, last = tried[at[0]], tried[at[0] + 1]
+    x = brentq(lambda x: period(x) - T, first, last, xtol=1e-15 * max(abs(first), abs(last)), rtol=1e-14)
+    step = (last - first) * 1e-3
+    ahead, behind = (y if isfinite(period(y)) else x for y in (x + step, x - step))
+    slope = (period(ahead) - period(behind)) / (ahead - behind)
+    shares = {"T": finite("dT", dT) / abs(slope), "g": T / (2 * g) * finite("dg", dg) / abs(slope)}
+    return Measured(float(x), float(hypot(*shares.values())), {name: float(share) for name, share in shares.items()})

@@ -1,0 +1,210 @@
+"""Tops as one would draw them: dimensions in SI -> mass properties, outline, Top and Scales. Fig. 7 and others.
+
+O, the centre of the sphere that rolls, is at height 0, and heights are counted along axis 3 (up when theta = 0), so the
+contact is at -R and a tippe top's G below 0. Every shape is a frozen record of its dimensions, keyword-only, and gives
+
+    .solid .mass .com .moments .volume      kg, m (height of G above O, -a), (I1, I3) in kg m^2, m^3
+    .top .scales                            Top(a, I1, I3) and Scales(R, M): what the paper's equations need
+    .profile(n) .touch_angle .edge .stl()   for drawing, for the limits of the round peg, for printing
+
+An impossible body is a TopError that names the dimension.
+"""
+
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from math import acos, atan2, hypot, inf, pi
+from typing import TYPE_CHECKING, ClassVar, Self
+
+from ..errors import TopError, finite
+from ..paper.top import Scales, Top
+from ..types import Array, Number, Rim
+from .ranges import LONG, MOST_PIECES, SMALLEST, THINNEST, in_range, weight
+from .slices import DENSEST
+from .solids import Solid
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shape:
+    """What all shapes share. R (m) is the radius of the sphere that rolls: the body, or its peg."""
+
+    R: float
+
+    _weights: ClassVar[tuple[str, ...]] = ("density",)  # the fields in proportion to which the mass is
+
+    if TYPE_CHECKING:  # it is a field of Turned, which a property here would be in the way of
+
+        @property
+        def solid(self) -> Solid: ...
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            if field.type in (float, "float"):
+                object.__setattr__(self, field.name, finite(field.name, getattr(self, field.name)))
+        in_range("R", self.R, SMALLEST, LONG, "m")
+        self._check()
+
+    def _check(self) -> None:
+        """Raises TopError where the dimensions do not make a body."""
+
+    @property
+    def mass(self) -> float:
+        """M, kg."""
+        return self.solid.mass
+
+    @property
+    def com(self) -> float:
+        """Height of G above O, m: -a in SI."""
+        return self.solid.com
+
+    @property
+    def moments(self) -> tuple[float, float]:
+        """(I1, I3) at G, kg m^2."""
+        return self.solid.I1, self.solid.I3
+
+    @property
+    def volume(self) -> float:
+        """Of the material, m^3."""
+        return self.solid.volume
+
+    @property
+    def scales(self) -> Scales:
+        """Scales(R, M) with g = 9.81 m/s^2."""
+        return Scales(self.R, self.mass)
+
+    @property
+    def top(self) -> Top:
+        """The Top this body is: a/R, I1/(M R^2), I3/(M R^2)."""
+        unit = self.mass * self.R**2
+        I1, I3 = self.moments
+        return Top(a=0.0 - self.com / self.R, I1=I1 / unit, I3=I3 / unit)
+
+    def profile(self, n: int = 200) -> Array:
+        """Radius and height above O (m) from the contact point at (0, -R) to the body's top, corners exact: (n, 2).
+
+        Raises TopError where n is less than the number of corners.
+        """
+        return self.solid.profile(n)
+
+    def stl(self, sides: int = 128) -> bytes:
+        """The body as a binary STL file (bytes), in mm; see Solid.stl."""
+        return self.solid.stl(sides)
+
+    @cached_property
+    def touch_angle(self) -> float | None:
+        """theta in radians from which not only the sphere of radius R touches the table; None if that never happens.
+
+        At theta the table's plane is rho sin(theta) - z cos(theta) = R. A point at the distance D from O, at the angle
+        beta from the lower end of axis 3, comes to it when D cos(theta - beta) = R; the end of the sphere's surface is
+        such a point with D = R. A round part of radius b about a centre at height e does when R + e cos(theta) = b.
+        """
+        return self._touch[0]
+
+    @property
+    def edge(self) -> Rim | None:
+        """What touches there, the edge of the stem's end as a rule: (radius, height above O, rounding) in R, or None.
+
+        A circle about axis 3, 0 where it is a point, rounded by a ball of that radius along it.
+        """
+        return self._touch[1]
+
+    @cached_property
+    def _touch(self) -> tuple[float | None, Rim | None]:
+        found = []
+        for edge in self.solid.outline[1:]:
+            for radius, z in (edge.start, edge.end):
+                D, beta = hypot(radius, z), atan2(radius, -z)
+                if D >= self.R * (1 - 1e-12):
+                    found.append((beta - acos(min(1.0, self.R / D)), (float(radius / self.R), float(z / self.R), 0.0)))
+            if (arc := edge.arc) and abs(arc.R - self.R) < abs(arc.centre):
+                theta = acos((arc.R - self.R) / arc.centre)
+                point = arc.centre - arc.R * (arc.R - self.R) / arc.centre
+                if edge.start[1] < point < edge.end[1]:
+                    found.append((theta, (0.0, float(arc.centre / self.R), float(arc.R / self.R))))
+        angle, edge = min(found, default=(inf, None))
+        return (angle, edge) if angle < pi - 1e-9 else (None, None)
+
+    def with_mass(self, M: float) -> Self:
+        """The same body of a material, or materials, so much denser that it weighs M (kg)."""
+        factor = weight(finite("M", M)) / self.mass
+        return replace(self, **{name: _times(factor, getattr(self, name)) for name in self._weights})
+
+    def __add__(self, other: "Solid | Shape") -> "Turned":
+        """With something put on: a Solid weighed in kg/m^3, or all of another shape."""
+        return Turned(R=self.R, solid=self.solid + (other.solid if isinstance(other, Shape) else other))
+
+    def __sub__(self, other: "Solid | Shape") -> "Turned":
+        """With something taken away: `top - top.density * cylinder(r, low, high)` is bored."""
+        return Turned(R=self.R, solid=self.solid - (other.solid if isinstance(other, Shape) else other))
+
+
+class OneMaterial(Shape):
+    """A shape of one density throughout, given by its mass M (kg)."""
+
+    _weights = ("M",)
+
+    if TYPE_CHECKING:  # M is a field of each kind, in its own place
+
+        @property
+        def M(self) -> float: ...
+        @property
+        def form(self) -> Solid: ...
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        weight(self.M)
+        if not 0 < self.density <= DENSEST:
+            raise TopError("M", self.M, f"at most {DENSEST * self.form.volume:g} kg for this body ({DENSEST:g} kg/m^3)")
+
+    @classmethod
+    def from_density(cls, density: float, **dimensions: float) -> Self:
+        """The shape of a material of that density (kg/m^3)."""
+        in_range("density", finite("density", density), THINNEST, DENSEST, "kg/m^3")
+        body = cls(M=1e-3, **dimensions)  # type: ignore[call-arg]  # a field of each kind
+        return replace(body, M=density * body.form.mass)  # type: ignore[call-arg]
+
+    @cached_property
+    def solid(self) -> Solid:
+        return self.density * self.form
+
+    @property
+    def mass(self) -> float:
+        return self.M
+
+    @property
+    def density(self) -> float:
+        """kg/m^3."""
+        return self.M / self.form.mass
+
+
+@dataclass(frozen=True, kw_only=True)
+class Turned(Shape):
+    """Any Solid that stands on a sphere of radius R (m) about O: what `shape + solid` and `shape - solid` give."""
+
+    R: float
+    solid: Solid
+
+    _weights = ("solid",)
+
+    def _check(self) -> None:
+        if not isinstance(self.solid, Solid) or not 1 <= len(self.solid.slices) <= MOST_PIECES:
+            raise TopError("solid", self.solid, f"a Solid of 1 to {MOST_PIECES} pieces")
+        check_one_piece("solid", self.solid)
+        peg = self.solid.outline[0]
+        near = 1e-9 * self.R
+        if not (peg.arc and abs(peg.arc.R - self.R) <= near and abs(peg.arc.centre) <= near and peg.start[0] == 0
+                and abs(peg.start[1] + self.R) <= near):  # fmt: skip
+            raise TopError("R", self.R, "the radius of the sphere about O at the solid's lowest point",
+                           "Put zone(R, -R, ...) at the bottom, whole.")  # fmt: skip
+
+
+def check_one_piece(name: str, solid: Solid) -> None:
+    if solid.mass <= 0 or solid.pieces != 1:
+        raise TopError(name, f"{solid.pieces} bodies", "one body", "Make its parts overlap or touch.")
+    starts = [id(edge.start) for outline in solid.outlines for edge in outline]
+    through_axis = any(edge.end[0] == 0 for outline in solid.outlines for edge in outline[:-1])
+    if through_axis or len(set(starts)) < len(starts):
+        raise TopError(name, "a point or circle", "a face where parts meet", "Make them overlap, or leave a gap.")
+
+
+def _times(factor: float, weight: Number) -> Number:
+    return tuple(factor * value for value in weight) if isinstance(weight, tuple) else factor * weight

@@ -1,0 +1,220 @@
+"""The kinds of bodies: the tippe top of Fig. 7, the loaded sphere of Fig. 2, ordinary tops, free outlines."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
+from typing import Self
+
+import numpy as np
+
+from ..errors import TopError, finite
+from ..paper.top import Top
+from ..types import Number
+from .ranges import LONG, MOST_POINTS, SMALLEST, THINNEST, check_stem, in_range, rows_of, weight
+from .shape import OneMaterial, Shape, Turned, check_one_piece
+from .slices import DENSEST, LARGEST
+from .solids import Solid, ball, cylinder, frustum, zone
+
+
+@dataclass(frozen=True, kw_only=True)
+class TruncatedSphere(OneMaterial):
+    """Fig. 7: a sphere of radius R cut off by a plane at height c, and on the cut a cylinder, the stem.
+
+    The stem has the radius r and the length l. All in m, M in kg. r = l = 0: no stem. c = R: the whole sphere.
+    """
+
+    R: float
+    c: float
+    l: float
+    r: float
+    M: float
+
+    @classmethod
+    def paper(cls) -> Self:
+        """Appendix A: R = 1.6 cm, c = 0.82 cm, l = 1.92 cm, r = 0.32 cm, M = 11.5 g."""
+        return cls(R=0.016, c=0.0082, l=0.0192, r=0.0032, M=0.0115)
+
+    def _check(self) -> None:
+        in_range("c", self.c, -self.R, self.R, "m, the cut goes through the sphere", above=True)
+        cut = sqrt((self.R - self.c) * (self.R + self.c))
+        in_range("r", self.r, 0, cut, "m, the radius of the cut it stands on", remedy="Lower r, or cut lower.")
+        in_range("l", self.l, 0, LONG, "m")
+        check_stem(self.r, self.l)
+
+    @cached_property
+    def form(self) -> Solid:
+        sphere = zone(self.R, -self.R, self.c)
+        return sphere + cylinder(self.r, self.c, self.c + self.l) if self.l else sphere
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ball(OneMaterial):
+    """A uniform ball of radius R (m) and mass M (kg)."""
+
+    R: float
+    M: float
+
+    @cached_property
+    def form(self) -> Solid:
+        return ball(self.R)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadedSphere(Shape):
+    """Fig. 2: a ball of radius R with a ball of radius b and another density in it, the distance d below O.
+
+    In m and kg/m^3. core_density = 0 is a cavity; d < 0 puts it above O, where a cavity makes a tippe top.
+    """
+
+    R: float
+    b: float
+    d: float
+    density: float
+    core_density: float
+
+    _weights = ("density", "core_density")
+
+    def _check(self) -> None:
+        in_range("b", self.b, SMALLEST, self.R, "m, inside the ball", below=True)
+        room = self.R - self.b
+        in_range("d", self.d, -room, room, "m, or the core sticks out", above=True, below=True)
+        in_range("density", self.density, THINNEST, DENSEST, "kg/m^3")
+        in_range("core_density", self.core_density, 0, DENSEST, "kg/m^3, 0 for a cavity")
+
+    @cached_property
+    def solid(self) -> Solid:
+        sphere = self.density * ball(self.R)
+        if self.core_density == self.density:
+            return sphere
+        return sphere + (self.core_density - self.density) * ball(self.b, -self.d)
+
+
+@dataclass(frozen=True, kw_only=True)
+class OrdinaryTop(OneMaterial):
+    """A top with G above O: a peg, a disc or cone on it, and a stem.
+
+    The peg is a rod of radius R with a round end about O, h long above O. On it stands the body, t thick, of radius r1
+    at its lower face and r2 at its upper one (r1 = r2 is a disc), and on that a stem of radius r and length l
+    (r = l = 0: none). All in m, M in kg.
+    """
+
+    R: float
+    h: float
+    r1: float
+    r2: float
+    t: float
+    r: float
+    l: float
+    M: float
+
+    def _check(self) -> None:
+        in_range("h", self.h, 0, LONG, "m, the peg's rod")
+        in_range("r1", self.r1, 0, LARGEST, "m, or the body hangs on a point", above=True)
+        in_range("r2", self.r2, 0, LARGEST, "m")
+        in_range("t", self.t, SMALLEST, LONG, "m")
+        in_range("r", self.r, 0, self.r2, "m, the radius r2 of the face the stem stands on")
+        in_range("l", self.l, 0, LONG, "m")
+        check_stem(self.r, self.l)
+
+    @cached_property
+    def form(self) -> Solid:
+        face = self.h + self.t
+        form = zone(self.R, -self.R, 0) + frustum(self.r1, self.r2, self.h, face)
+        if self.h:
+            form += cylinder(self.R, 0, self.h)
+        return form + cylinder(self.r, face, face + self.l) if self.l else form
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lathe(Shape):
+    """A free outline on a round peg: points (radius, height above O) in m, from the peg upwards.
+
+    The sphere of radius R about O reaches up to the first point's height; frustums join the points, and a step out or
+    in is two points of one height. density (kg/m^3) is one number, or one a point: the first for the peg up to
+    points[0], the others for the piece from the point before (that of a step counts for nothing).
+    """
+
+    R: float
+    points: tuple[tuple[float, float], ...]
+    density: tuple[float, ...] | float
+
+    def _check(self) -> None:
+        points = rows_of("points", self.points, 2, MOST_POINTS)
+        last = -self.R
+        for index, (radius, height) in enumerate(points):
+            in_range(f"points[{index}] radius", radius, 0, LARGEST, "m")
+            in_range(f"points[{index}] height", height, last, self.R if index == 0 else LARGEST,
+                   "m, from the sphere's lowest point or the point before up", above=index == 0)  # fmt: skip
+            last = height
+        object.__setattr__(self, "points", points)
+        given: Number = self.density  # also of another sequence
+        if np.ndim(given) == 0:
+            density = in_range("density", finite("density", given), THINNEST, DENSEST, "kg/m^3")
+        else:
+            if len(given) != len(points):
+                raise TopError("density", given, f"one number, or as many as points ({len(points)})")
+            density = tuple(finite(f"density[{index}]", value) for index, value in enumerate(given))
+            for index, value in enumerate(density):
+                in_range(f"density[{index}]", value, THINNEST, DENSEST, "kg/m^3")
+        object.__setattr__(self, "density", density)
+        check_one_piece("points", self.solid)
+
+    @cached_property
+    def solid(self) -> Solid:
+        densities = self.density if isinstance(self.density, tuple) else [self.density] * len(self.points)
+        solid = densities[0] * zone(self.R, -self.R, self.points[0][1])
+        for (r_low, low), (r_high, high), density in zip(self.points, self.points[1:], densities[1:], strict=False):
+            if high > low and (r_low or r_high):
+                solid += density * frustum(r_low, r_high, low, high)
+        return solid
+
+
+@dataclass(frozen=True, kw_only=True)
+class BareSphere(Shape):
+    """A ball of radius R (m) and mass M (kg) of whose inside only a, I1, I3 are known (in R and MR^2, as in Top)."""
+
+    R: float
+    M: float
+    a: float
+    I1: float
+    I3: float
+
+    _weights = ("M",)
+
+    def _check(self) -> None:
+        weight(self.M)
+        Top(self.a, self.I1, self.I3)
+        # int r^2 dm <= M R^2 about O, and it is I1 + I3/2 + a^2
+        most = sqrt(max(0.0, 1 - self.I1 - self.I3 / 2))
+        if self.I1 + self.I3 / 2 > 1:
+            raise TopError("I1", self.I1, f"I1 <= 1 - I3/2 = {1 - self.I3 / 2:g}", "More does not fit into the sphere.")
+        in_range("a", self.a, -most, most, "R, or it does not fit into the sphere")
+
+    @property
+    def mass(self) -> float:
+        return self.M
+
+    @property
+    def com(self) -> float:
+        return -self.a * self.R
+
+    @property
+    def moments(self) -> tuple[float, float]:
+        unit = self.M * self.R**2
+        return self.I1 * unit, self.I3 * unit
+
+    @property
+    def top(self) -> Top:
+        return Top(self.a, self.I1, self.I3)
+
+    @cached_property
+    def solid(self) -> Solid:
+        """Its outside: where the mass is inside is not known."""
+        return ball(self.R)
+
+    def stl(self, sides: int = 128) -> bytes:
+        raise TopError("shape", "BareSphere", "a shape whose inside is known", "Give it dimensions to print it.")
+
+
+KINDS: dict[str, type[Shape]]
+KINDS = {kind.__name__: kind for kind in (TruncatedSphere, LoadedSphere, OrdinaryTop, Lathe, Turned, Ball, BareSphere)}
