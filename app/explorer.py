@@ -412,7 +412,7 @@ def energy_marks(top: Top, K_J: float, K_R: float, mu_s: float) -> Marks:
             E = nodes[-1]
         elif not E < steady + LARGEST * (1 + abs(steady)):  # no limit, or one that no top ever reaches
             E = nodes[-1] + UNLIMITED * (1 + abs(steady))
-        nodes.append(E)
+        nodes.append(max(E, nodes[-1]))  # rounding may put a limit below what it is a limit of
     if nodes[2] == nodes[0]:
         nodes[2] += UNLIMITED * (1 + abs(steady))
     return Marks(

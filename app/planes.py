@@ -373,7 +373,7 @@ def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str
     stretches = zip(t[starts], np.append(t[starts[1:]], t[-1]), code[starts], strict=True)
     first = next((event for event in trajectory.events if event[1] not in ("sticks", "slips")), (t[-1], ""))
     until, event = first
-    if event == "lifts off" and plane == "sliding" and settings.edge and _touches(trajectory, until, settings):
+    if event == "lifts off" and plane == "sliding" and settings.edge and touches(trajectory, until, settings):
         event = THROWN
     last = trajectory.events[-1] if ended and trajectory.events else (t[-1], "")
     return Motion(
@@ -388,7 +388,7 @@ def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str
     )
 
 
-def _touches(trajectory: Trajectory, time: float, settings: Settings) -> bool:
+def touches(trajectory: Trajectory, time: float, settings: Settings) -> bool:
     """Whether the top is so far tilted at that time, before which it was on its sphere, that the stem touches."""
     before = max(int(np.searchsorted(trajectory.t, time)) - 1, 0)
     theta = trajectory.theta[before] + (time - trajectory.t[before]) * trajectory.omega[before, 0]

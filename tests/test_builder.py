@@ -448,6 +448,8 @@ def test_a_map_grows_row_by_row_and_has_holes_where_no_top_is():
 def test_neighbours_are_tops():
     assert [top.a for _, top in neighbours(Top.paper(), "a")] == pytest.approx([0.035, 0.0525, 0.07, 0.0875, 0.105])
     assert len(neighbours(Top.paper(), "I3")) == 5
+    for name, top in neighbours(Top.paper(), "I3"):
+        assert float(name.split("=")[1]) == pytest.approx(top.I3 / top.I1, rel=5e-3)
     assert len(neighbours(Top(0.1, 0.3, 0.5), "I3")) == 3  # I3 <= 2 I1
 
 
@@ -461,6 +463,8 @@ def test_fig_5_of_a_region_is_the_papers():
     before, last = found.height[-2:].max(axis=1) * 100
     assert last + (last - before) / 2 == pytest.approx(18.6, abs=0.05)
     assert np.abs(found.height[:, [0, -1]]).max() < 1e-9
+    assert found.theta[:, [0, -1]] == pytest.approx(np.column_stack([found.lift.theta_inner, found.lift.theta_outer]))
+    assert np.all(np.diff(found.theta, axis=1) > 0)
 
 
 def paths(drawing, **attributes):

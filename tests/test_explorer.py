@@ -8,14 +8,19 @@ import pytest
 
 import app.explorer
 from app.controls import Controls
-from app.explorer import LIFTS, ROLLS, SLIPS, Explorer, solve
+from app.explorer import LIFTS, ROLLS, SLIPS, Explorer, Marks, solve
 from app.pacing import Pacer
 from tippe_core import (
     Constants,
+    OrdinaryTop,
+    Rolling,
     State,
     Top,
     TopError,
+    TruncatedSphere,
+    friction_force,
     limit_energy,
+    normal_force,
     omega2,
     omega3,
     roll,
@@ -204,6 +209,85 @@ def test_hover_knows_the_whole_plane(explorer):
         assert plane.hover_E[j, inside] == pytest.approx(plane.slip.E[row], rel=1e-12)
         assert np.all(plane.hover_ratio[j, inside] <= 0.5 + 1e-9)
         assert np.all(plane.hover_E[j, ~inside] > plane.slip.E[row])
+    step = plane.theta_range[1] / len(plane.hover_theta)  # each the middle of its column of the picture
+    assert plane.hover_theta[[0, -1]] == pytest.approx([step / 2, plane.theta_range[1] - step / 2])
+    assert np.nanmax(plane.lift.theta_outer) < plane.theta_range[1]
+    row, column = np.unravel_index(np.argmin(np.abs(plane.hover_ratio - 0.4)), plane.hover_ratio.shape)
+    top, constants = Top.paper(), Constants(plane.hover_K_J[row], 10.0, plane.hover_E[row, column])
+    theta = plane.hover_theta[column]
+    ratio = np.hypot(*friction_force(theta, top, constants)) / normal_force(theta, top, constants)
+    assert plane.hover_ratio[row, column] == pytest.approx(ratio, rel=1e-9)
+
+
+def test_a_plane_that_ends_at_a_whole_step_has_a_tieline_there():
+    plane = app.explorer.plane(Top.paper(), 10.0, 0.5, True, "slip", 0.0, 12.0)
+    assert plane.K_J[0] == 0 and plane.K_J[-1] == plane.hover_K_J[-1] == 12.0
+
+
+@pytest.mark.parametrize("nodes", [(3.0, 5.0, 9.0), (3.0, 3.0, 9.0), (3.0, 9.0, 9.0)])
+def test_the_control_of_the_energy_runs_one_way_and_back(nodes):
+    """Also where friction limits nothing, or all; beyond both ends it goes straight on."""
+    marks = Marks(steady=3.0, slip=nodes[1], lift=9.0, theta_steady=1.0, nodes=np.array(nodes))
+    energies = np.linspace(1.0, 12.0, 56)
+    shares = [marks.share(E) for E in energies]
+    assert np.all(np.diff(shares) > 0)
+    assert [marks.energy(share) for share in shares] == pytest.approx(energies, abs=1e-12)
+
+
+@pytest.mark.parametrize("K_R", [1.0, 10.0])
+def test_where_nothing_limits_the_energy_the_control_has_room(K_R):
+    """A uniform ball (a = 0: F_z = 1, F_h = 0): half as much again as the steady precession has, and some MgR."""
+    marks = app.explorer.energy_marks(Top(0.0, 0.4, 0.4), 1.0, K_R, 0.5)
+    assert np.isinf([marks.slip, marks.lift]).all()
+    assert marks.nodes[2] - marks.steady == pytest.approx(0.5 * (1 + marks.steady))
+
+
+def test_where_the_limit_is_no_more_than_the_steady_precession_the_control_has_room():
+    """So fast a precession that the difference is lost among floats."""
+    marks = app.explorer.energy_marks(Top.paper(), 1e6, 0.0, 0.5)
+    assert marks.lift == pytest.approx(marks.steady, rel=1e-15) and marks.nodes[2] - marks.steady == pytest.approx(
+        0.25 * (1 + marks.steady)
+    )
+
+
+def test_a_limit_far_off_is_marked_where_it_is():
+    """Of a ball with G hardly below O, of a large energy at rest: the limit of F_z, some 1/a beyond."""
+    marks = app.explorer.energy_marks(Top(1e-3, 0.4, 0.4), 30.0, 30.0, 1e3)
+    assert np.isfinite(marks.lift) and marks.nodes[2] == marks.lift
+
+
+def test_no_frame_turns_the_top_far_and_a_nutation_has_many():
+    """A nutation that needs few frames for the turn; and one of a thin top, with many turns about axis 3 in it."""
+    for top, K_J, K_R, E, many in ((Top.paper(), 8.0, 10.0, 29.0, 64), (Top(-1.0, 2.0, 0.05), 0.0, 10.0, 48.96, 400)):
+        constants = Constants(K_J, K_R, E)
+        period = Rolling(top, constants).period
+        times = app.explorer.frame_times(period, top, constants)
+        step = np.diff(times).max()
+        assert many - 1e-9 < period / step < 2 * many
+        assert np.abs(roll(top, constants, times).omega * step).max() < app.explorer.MOST_TURN
+
+
+@pytest.mark.parametrize(
+    "shape, part",
+    [
+        (TruncatedSphere.paper(), "stem"),
+        (TruncatedSphere(R=0.016, c=0.0082, l=0.0192, r=0.0135, M=0.0115), "stem"),
+        (TruncatedSphere(R=0.016, c=0.0, l=0.0, r=0.0, M=0.0115), "rim"),
+        (OrdinaryTop(R=0.0018, h=0.0162, r1=0.025, r2=0.025, t=0.004, r=0.002, l=0.015, M=0.020), "rim"),
+        (None, "stem"),
+    ],
+)
+def test_what_touches_beside_the_ball_has_its_name(shape, part):
+    """The end of a stem; or what is no stem's: the edge of a cut, a disc wider than the ball."""
+    assert app.explorer.second_part(shape) == part
+
+
+def test_a_top_that_rocks_through_upright_has_its_rosette_there(explorer):
+    """Without spin: from upright to one side and back, then to the other, half a turn about the point below."""
+    explorer.param.update(K_J=0.0, K_R=0.0, E=0.05)
+    assert not explorer.scene.messages
+    farthest = explorer.scene.turning[1]  # so far it rolls, in R
+    assert explorer.scene.rosette == pytest.approx((0.0, 0.0, 0.0, farthest), abs=1e-12)
 
 
 def inputs_of(explorer):

@@ -11,14 +11,29 @@ import pytest
 from app import planes_plots
 from app.builder import Builder
 from app.explorer import Explorer
-from app.planes import ENDS, MOST_TURN, PLANES, PRESETS, SLIPS, THROWN, Planes, for_reader, nudged, solve
+from app.planes import (
+    ENDS,
+    LEAST_FRAMES,
+    MOST_FRAMES,
+    MOST_SECONDS,
+    MOST_TURN,
+    PLANES,
+    PRESETS,
+    SLIPS,
+    THROWN,
+    Planes,
+    for_reader,
+    nudged,
+    solve,
+    touches,
+)
 from app.planes_words import ball_words, fate, scatter_words
 from app.runs import Runs
 from app.text import speaking
 from app.three_planes import ThreePlanes
 from app.top3d import REGIMES
 from tippe_core import PRESETS as BODIES
-from tippe_core import Coulomb, Scales, State, Top, TopError, glide, roll, slide
+from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, roll, slide
 
 HAND = next(iter(PRESETS))
 
@@ -428,6 +443,79 @@ def test_a_limit_is_told_in_what_stands_beside_the_controls():
     error = for_reader(TopError("theta", 2.6, "less than 2.07326 for this top"), scales)
     assert (error.name, error.allowed) == ("tilt", "less than 118.8 for this top")
     assert error.value == pytest.approx(149.0, abs=0.05)
+    error = for_reader(TopError("omega3", 10.0, "at most 40"), scales)
+    assert (error.name, error.value) == ("spin", pytest.approx(10 * np.sqrt(9.81 / 0.016) / (2 * np.pi), rel=1e-5))
+
+
+def test_the_longest_time_that_a_refusal_names_is_one_that_is_taken(planes):
+    settings = replace(planes.picture.settings, spin=300.0, seconds=MOST_SECONDS)
+    with pytest.raises(TopError) as error:
+        settings.times  # noqa: B018
+    most = float(re.search(r"at most ([\d.e+]+) s", error.value.allowed)[1])
+    assert len(replace(settings, seconds=0.99 * most).times) == MOST_FRAMES + 1
+    with pytest.raises(TopError):
+        replace(settings, seconds=1.02 * most).times  # noqa: B018
+
+
+def test_the_times_of_a_slow_run_and_of_one_that_precesses_fast(planes):
+    settings = replace(planes.picture.settings, spin=0.0, tilt=0.0, seconds=0.05)
+    assert len(settings.times) == LEAST_FRAMES + 1 and settings.times[-1] * settings.scales.time == pytest.approx(0.05)
+    fast = replace(settings, rolling=State(1.0, 0.0, 60.0, 0.0), seconds=2.0)
+    assert 60.0 * np.diff(fast.times).max() < MOST_TURN
+
+
+@pytest.mark.parametrize("top", [Top.paper(), Top(-2.0, 4.5, 1.0)])
+def test_the_height_in_the_ledger_is_that_of_G_above_its_lowest_place(planes, top):
+    settings = replace(planes.picture.settings, top=top, shape=None, stem=False, tilt=60.0, seconds=0.5)
+    motion = solve(settings).motions["sliding"]
+    height = motion.trajectory.com[:, 2]  # of G above the table, 1 - a cos(theta); least where 3 points up, or down
+    assert motion.ledger["height"] == pytest.approx(height - (1 - abs(top.a)), abs=1e-12)
+
+
+@pytest.mark.parametrize("plane", PLANES)
+def test_the_arrows_of_the_force_obey_newton(planes, plane):
+    """F and the weight, along the axes of space, are what moves G: against second differences of its place."""
+    start = State(1.0, 0.0, 3.0, 2.0, vx=1.0, vy=0.5)
+    settings = replace(planes.picture.settings, stem=False, rolling=start, law="viscous", gamma=0.5, seconds=0.1)
+    motion = solve(settings).motions[plane]
+    t, _, _, com, force, *_ = motion.frames
+    step = t[1]
+    acceleration = (com[2:] - 2 * com[1:-1] + com[:-2]) / step**2
+    assert np.ptp(motion.trajectory.phi) > 1
+    assert force[1:-1] - (0, 0, 1) == pytest.approx(acceleration, abs=0.01)
+
+
+@pytest.mark.parametrize("late, touched", [(0.1, True), (0.01, False)])
+def test_a_lift_off_is_laid_to_the_stem_where_the_top_has_come_to_touch_with_it(planes, late, touched):
+    """A tilt of 0.5 a unit of time, 0.05 short of the touch at the last sample before."""
+    settings = planes.picture.settings
+    moved = roll(Top.paper(), None, [0.0, 1e-3, 1.0], State(settings.touch_angle - 0.05, 0.5, 0.0, 0.0))
+    assert touches(moved, 1e-3 + late, settings) == touched
+
+
+def test_a_run_of_which_no_while_is_on_the_ball_has_the_well_of_its_start_at_no_time(planes):
+    picture = planes.picture
+    motion = picture.motions["sliding"]
+    end = motion.ending
+    on_stem = replace(end, stretches=(Stretch(0.0, motion.t[-1], "stem"),))
+    moved = replace(picture, motions={"sliding": replace(motion, ending=on_stem)})
+    (well,) = moved.wells("sliding")
+    assert well.end < 0 and well.C_J == picture.outcome.C_J
+
+
+def test_a_start_past_a_right_angle_has_not_overturned_where_it_falls_back(planes):
+    """Without spin, 100 degrees up: it falls to the other side of a right angle, which is no turning over."""
+    settings = replace(planes.picture.settings, stem=False, tilt=100.0, spin=0.0, seconds=0.3)
+    motion = solve(settings).motions["sliding"]
+    assert len(motion.crossings) and np.isnan(motion.overturned)
+
+
+def test_a_run_is_done_to_the_share_of_its_seconds(planes):
+    class Halfway:
+        elapsed, reached = 1.0, 0.5 * planes.seconds / planes.picture.settings.scales.time
+
+    planes._run, planes._running = Halfway(), planes.picture.settings
+    assert planes.share == pytest.approx(0.5)
 
 
 @pytest.mark.slow
