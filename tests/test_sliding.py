@@ -20,7 +20,11 @@ from tippe_core import (
     TopError,
     TruncatedSphere,
     Viscous,
+    beside,
+    glide,
+    growth,
     outcome,
+    roll,
     sensitivity,
     slide,
     steady_states,
@@ -397,3 +401,55 @@ def test_sensitivity_tells_a_start_on_the_barrier_from_one_below_it():
     friction, times = Viscous(1.0), np.linspace(0, 5000, 101)
     on, off = (sensitivity(PAPER, start, friction, times) for start in (state, REFERENCE[0]))
     assert on > 100 * off
+
+
+def test_a_start_beside_another_and_how_much_a_nudge_grew():
+    """More tilted, but from 1 rad on less, so that it stays between the poles; growth counts what both have."""
+    assert beside(State(0.5, 0, 0, 1), 1e-6).theta == pytest.approx(0.5 + 1e-6, abs=1e-15)
+    assert beside(State(3.0, 0, 0, 1), 1e-6).theta == pytest.approx(3.0 - 1e-6, abs=1e-15)
+    near, moved = (glide(PAPER, State(theta, 0, 0, 8.8), np.linspace(0, 0.2, n)) for theta, n in ((0.5, 5), (0.6, 3)))
+    assert growth(moved, near, 0.05) == pytest.approx(2.0, rel=0.05)
+
+
+@pytest.mark.parametrize("edge, event", [((0.2, 1.2, 0.0), "lifts off"), ((0.8, 0.6, 0.0), "rim touches")])
+def test_a_top_that_rolls_comes_to_its_stem_when_roll_says_so(edge, event):
+    """Without slip slide() is roll(), until the edge is at the table: a stem throws it up there, at a rim it ends."""
+    state = State(0.9, 1.5, 0.2, 0.5)
+    b, h, _ = edge
+    angle = np.arctan2(b, -h) - np.arccos(1 / np.hypot(b, h)) if np.hypot(b, h) > 1 + 1e-9 else np.arccos(-h)
+    times = np.linspace(0, 6, 6001)
+    rolled = roll(PAPER, None, times, state)
+    first = np.argmax(rolled.theta > angle)
+    assert first
+    expected = np.interp(angle, rolled.theta[first - 1 : first + 1], times[first - 1 : first + 1])
+    w2, w3 = state.omega2, state.omega3
+    s, c = np.sin(state.theta), np.cos(state.theta)
+    vy = -state.theta_dot * (1 - PAPER.a * c)
+    rolling = replace(state, vx=w2 * (c - PAPER.a) - w3 * s, vy=vy)
+    moved = slide(PAPER, rolling, Coulomb(1.0, 100.0), times, edge=edge)
+    assert moved.events == ((pytest.approx(expected, abs=1e-6), event),)
+
+
+@pytest.mark.parametrize("pole, spin", [(0.0, 3.0), (np.pi, -2.0)])
+def test_a_top_that_rolls_through_a_pole_keeps_its_azimuth(pole, spin):
+    """From the pole itself, with any azimuth: no slip, so roll()'s quaternion."""
+    start = State(pole, 1.0, 0.0, spin, phi=0.7, psi=0.4)
+    vy = -np.cos(pole) * (np.cos(pole) - PAPER.a)  # u_y = 0
+    times = np.linspace(0, 1.0, 11)
+    moved = slide(PAPER, replace(start, vx=0.0, vy=vy), Coulomb(5.0), times)
+    assert set(moved.regime) == {"roll"}
+    assert np.abs((moved.quaternion * roll(PAPER, None, times, start).quaternion).sum(axis=1)) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("top", [PAPER, LOADED, ORDINARY])
+def test_painleves_limit_is_where_the_normal_force_has_none(top):
+    """F_z grows like 1/(1 - mu/limit) where friction presses the top down most: twice as large at half the distance."""
+    with pytest.raises(TopError) as error:
+        slide(top, State(1.0, 0, 0, 1.0), Coulomb(1e3), [0, 1.0])
+    limit = float(error.value.allowed.split("<")[1].split()[0])
+
+    def most(mu):
+        starts = [State(theta, 0, 0, 0, vx=0.0, vy=vy) for theta in np.linspace(0, np.pi, 721)[1:-1] for vy in (-1, 1)]
+        return max(slide(top, start, Coulomb(mu * limit), [0.0]).force[0, 2] for start in starts)
+
+    assert most(0.999) / most(0.998) == pytest.approx(2.0, rel=0.02)
