@@ -222,7 +222,7 @@ def said_by_errors():
             arguments = []
             if name_of(node) in ("TopError", "NoMotionError"):
                 arguments = [("{}", argument) for argument in node.args[1:]]
-            elif name_of(node) == "_range":
+            elif name_of(node) == "in_range":
                 remedies = [("{}", keyword.value) for keyword in node.keywords if keyword.arg == "remedy"]
                 arguments = [("{{}} <= x <= {{}} ({})", node.args[4]), *remedies]
             for form, argument in arguments:
