@@ -102,6 +102,24 @@ EXPLAINED = {
     ): "how fast the path is run through, which is the same path",
     ("contacts", "if worst <= SLACK * 2:"): "what counts as nothing",
     ("contacts", "away = -rest[:2] * np.hypot(rest[0], rest[1])"): "how small the first slip is",
+    (
+        "sliding",
+        "if np.all(np.abs(missing) < 1e-13 * (1 - np.abs(times))):",
+    ): "Newton's steps go on to their last, at the same place",
+    (
+        "sliding",
+        "tau, limit = (np.full(len(times), dense.t), 2 * dense.t + dense.t_old)",
+    ): "how far a step of Newton's may go at most",
+    ("sliding", "ez = 1 - 2 * (z[0] * z[0] - z[1] * z[1])"): "steps are looked at for events that have none",
+    ("planes", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
+    (
+        "family",
+        "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
+    ): "the first of the ordinary tops is that one",
+    (
+        "contacts",
+        "if speed < 10 / self.tolerance:",
+    ): "below it a landing is one without an impulse, above it of a small one",
     ("sliding", "if np.all(np.abs(missing) < 1e-13 / (1 + np.abs(times))):"): "one more of Newton's steps",
 }
 
@@ -285,7 +303,8 @@ def main():
     known = {}  # (file, before, after) -> a line of the log
     for text in log.read_text(encoding="utf-8").splitlines() if log.exists() else ():
         line = json.loads(text)
-        if still_so(line, folder) and not (chosen.again and line["by"] == ""):
+        again = chosen.again and line["by"] == "" and (line["file"], line["after"]) not in EXPLAINED
+        if still_so(line, folder) and not again:
             known[line["file"], line["before"], line["after"]] = line
     if chosen.check and (by := noticed_by("forces", source_of("forces"), folder,
                                           [*QUICK, *ROLLS, *SLIDES, *REST_OF_APP], chosen.seconds)):  # fmt: skip
