@@ -110,16 +110,26 @@ EXPLAINED = {
         "sliding",
         "tau, limit = (np.full(len(times), dense.t), 2 * dense.t + dense.t_old)",
     ): "how far a step of Newton's may go at most",
+    ("sliding", "arm = abs(top.a * (1 + top.a * c)) * s"): "the least of it over all theta is the same",
+    (
+        "sliding",
+        "z = z - left * np.array(self._rates(0.0, z)) * (1 + SLOW / exp(z[8]))",
+    ): "the last 1e-13 of the slip",
+    (
+        "sliding",
+        "found = [brentq(lambda beta: start(beta)[1], grid[i], grid[i + 1]) for i in "
+        "np.flatnonzero(across[:-1] / across[1:] <= 0)]",
+    ): "a quotient has the sign of the product",
+    (
+        "explorer",
+        "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
+    ): "two points less of a curve",
     ("sliding", "ez = 1 - 2 * (z[0] * z[0] - z[1] * z[1])"): "steps are looked at for events that have none",
     ("planes", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
     ): "the first of the ordinary tops is that one",
-    (
-        "contacts",
-        "if speed < 10 / self.tolerance:",
-    ): "below it a landing is one without an impulse, above it of a small one",
     ("sliding", "if np.all(np.abs(missing) < 1e-13 / (1 + np.abs(times))):"): "one more of Newton's steps",
 }
 

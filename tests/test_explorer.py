@@ -11,13 +11,16 @@ from app.controls import Controls
 from app.explorer import LIFTS, ROLLS, SLIPS, Explorer, Marks, solve
 from app.pacing import Pacer
 from tippe_core import (
+    Ball,
     Constants,
+    Lathe,
     OrdinaryTop,
     Rolling,
     State,
     Top,
     TopError,
     TruncatedSphere,
+    ball,
     friction_force,
     limit_energy,
     normal_force,
@@ -251,8 +254,8 @@ def test_where_the_limit_is_no_more_than_the_steady_precession_the_control_has_r
 
 
 def test_a_limit_far_off_is_marked_where_it_is():
-    """Of a ball with G hardly below O, of a large energy at rest: the limit of F_z, some 1/a beyond."""
-    marks = app.explorer.energy_marks(Top(1e-3, 0.4, 0.4), 30.0, 30.0, 1e3)
+    """Of a fast ball with G hardly below O: the limit of F_z, some 1/a beyond."""
+    marks = app.explorer.energy_marks(Top(1e-4, 0.4, 0.4), 100.0, 100.0, 1e3)
     assert np.isfinite(marks.lift) and marks.nodes[2] == marks.lift
 
 
@@ -264,6 +267,8 @@ def test_no_frame_turns_the_top_far_and_a_nutation_has_many():
         times = app.explorer.frame_times(period, top, constants)
         step = np.diff(times).max()
         assert many - 1e-9 < period / step < 2 * many
+        longest = app.explorer.MOST_FRAMES * step
+        assert times[-1] == pytest.approx(min(app.explorer.NUTATIONS * period, longest), rel=1e-3)
         assert np.abs(roll(top, constants, times).omega * step).max() < app.explorer.MOST_TURN
 
 
@@ -274,6 +279,7 @@ def test_no_frame_turns_the_top_far_and_a_nutation_has_many():
         (TruncatedSphere(R=0.016, c=0.0082, l=0.0192, r=0.0135, M=0.0115), "stem"),
         (TruncatedSphere(R=0.016, c=0.0, l=0.0, r=0.0, M=0.0115), "rim"),
         (OrdinaryTop(R=0.0018, h=0.0162, r1=0.025, r2=0.025, t=0.004, r=0.002, l=0.015, M=0.020), "rim"),
+        (Ball(R=0.01, M=0.01) + 1000.0 * ball(0.02, 0.02), "rim"),
         (None, "stem"),
     ],
 )
@@ -457,10 +463,31 @@ def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
     for K_J in (-12.3, -3.4, 0.0, 4.0, 8.3, 9.4, 9.6, 30.2):
         low, high = app.explorer.K_J_range(Top.paper(), K_J, 10.0, upper)
         assert low <= 0 and high >= 8.36508 and low <= K_J <= high
+        assert upper or low < -8.708  # the inverted pole's
         if K_J < (0 if upper else -10.9):
             assert 0.5 <= K_J - low < 1.5 and low == round(low)
         if K_J > (8.37 if upper else 10.5):
             assert 0.5 <= high - K_J < 1.5 and high == round(high)
+
+
+def test_a_top_without_spin_has_a_plane_all_the_same():
+    assert app.explorer.K_J_range(Top.paper(), 0.0, 0.0, True) == (-1.0, 1.0)
+
+
+def test_the_curve_of_the_energy_goes_past_both_turning_points(explorer):
+    """Also where they are one, in a steady precession."""
+    for share in (0.0, 1.0):
+        explorer.energy = share
+        theta, least = explorer.scene.potential
+        inner, outer = explorer.scene.turning
+        assert theta[0] < inner - 0.02 and outer + 0.02 < theta[-1]
+        assert least[0] > explorer.scene.constants.E < least[-1]
+
+
+def test_a_body_of_many_corners_is_drawn_with_all_of_them():
+    points = tuple((0.01 + 1e-3 * (i % 2), 1e-4 * i) for i in range(400))
+    drawn = app.explorer.body(Lathe(R=0.01, points=points, density=700.0))
+    assert all(np.hypot(*(drawn - np.array(point) / 0.01).T).min() < 1e-12 for point in points)
 
 
 def test_the_stand_in_of_a_body_that_is_not_known():
@@ -472,3 +499,4 @@ def test_the_stand_in_of_a_body_that_is_not_known():
     wide = radius == radius.max()
     assert radius.max() == pytest.approx(1.5 * 1.5) and height[wide].mean() == pytest.approx(2.0)
     assert height.min() == pytest.approx(-1.0)
+    assert radius[-1] == 0 and height[-1] == height.max() > height[wide].max()

@@ -441,6 +441,13 @@ def test_a_top_that_rolls_through_a_pole_keeps_its_azimuth(pole, spin):
     assert np.abs((moved.quaternion * roll(PAPER, None, times, start).quaternion).sum(axis=1)) == pytest.approx(1)
 
 
+def test_a_stem_that_ends_in_a_ball_may_have_its_centre_within_the_sphere():
+    """It sticks out of the sphere all the same (Leine and Glocker's toy)."""
+    assert slide(PAPER, State(0.1, 0, 0, 5.0), Viscous(0.3), [0, 1.0], edge=(0.0, 13 / 15, 1 / 3)).t[-1] == 1.0
+    with pytest.raises(TopError, match="not inside"):
+        slide(PAPER, State(0.1, 0, 0, 5.0), Viscous(0.3), [0, 1.0], edge=(0.0, 0.6, 1 / 3))
+
+
 @pytest.mark.parametrize("top", [PAPER, LOADED, ORDINARY])
 def test_painleves_limit_is_where_the_normal_force_has_none(top):
     """F_z grows like 1/(1 - mu/limit) where friction presses the top down most: twice as large at half the distance."""
