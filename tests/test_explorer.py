@@ -472,6 +472,7 @@ def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
 
 def test_a_top_without_spin_has_a_plane_all_the_same():
     assert app.explorer.K_J_range(Top.paper(), 0.0, 0.0, True) == (-1.0, 1.0)
+    assert app.explorer.K_J_range(Top.paper(), 5.0, 0.0, True) == (-1.0, 6.0)
 
 
 def test_the_curve_of_the_energy_goes_past_both_turning_points(explorer):
@@ -499,4 +500,4 @@ def test_the_stand_in_of_a_body_that_is_not_known():
     wide = radius == radius.max()
     assert radius.max() == pytest.approx(1.5 * 1.5) and height[wide].mean() == pytest.approx(2.0)
     assert height.min() == pytest.approx(-1.0)
-    assert radius[-1] == 0 and height[-1] == height.max() > height[wide].max()
+    assert radius[-1] == 0 and height[-1] == height[-2] == height.max() > height[wide].max()
