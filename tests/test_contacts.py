@@ -11,6 +11,8 @@ from cases import LOADED, PAPER
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from references import kept
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 from test_sliding import in_space
 
 from tippe_core import (
@@ -595,3 +597,26 @@ def test_bad_input_is_named(name, more):
 
 def test_an_edge_may_reach_out_of_the_sphere_by_its_rounding():
     assert len(slide(PAPER, State(0.1, 0, 0, 1.0), VISCOUS, [0, 1], edge=(0.5, 0.8, 0.1)).t) == 2
+
+
+def test_in_the_air_it_turns_as_a_body_without_torque():
+    """Thrown up by its own turning: the orientation, the turn about axis 3 included, with L constant in space."""
+    start = State(2.5, 6.0, 1.0, 4.0, phi=0.3, psi=0.8)
+    times = np.linspace(0, 0.3, 31)
+    moved = slide(PAPER, start, Coulomb(0.3), times, rtol=1e-12, landing="plastic")
+    air = moved.regime == "air"
+    assert moved.events[0] == (0.0, "lifts off") and air[:10].all()
+    q, omega, *_ = first_instant(moved)
+    inertia = np.diag([PAPER.I1, PAPER.I1, PAPER.I3])
+
+    def rates(_, q):
+        R = Rotation.from_quat(q).as_matrix()
+        w = R @ np.linalg.inv(inertia) @ R.T @ L
+        return 0.5 * (Rotation.from_quat([*w, 0.0]) * Rotation.from_quat(q)).as_quat() * np.linalg.norm(w)
+
+    R = Rotation.from_quat(q).as_matrix()
+    L = R @ inertia @ R.T @ omega
+    turned = solve_ivp(rates, (0, times[-1]), q, t_eval=times[air], rtol=1e-12, atol=1e-13).y.T
+    apart = (Rotation.from_quat(moved.quaternion[air]) * Rotation.from_quat(turned).inv()).magnitude()
+    assert apart.max() < 1e-8
+    assert np.ptp(moved.psi[air]) > 0.1
