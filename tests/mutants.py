@@ -121,6 +121,18 @@ EXPLAINED = {
         "np.flatnonzero(across[:-1] / across[1:] <= 0)]",
     ): "a quotient has the sign of the product",
     (
+        "contacts",
+        "heat -= F[0] * u[0] + F[1] * u[1] - F[2] * u[2]",
+    ): "at a contact that carries u_z is 0",
+    (
+        "contacts",
+        "if abs(t - y[12]) < 1e-13 / (1 + abs(t)):",
+    ): "one more of Newton's steps",
+    (
+        "contacts",
+        "if abs(t - y[12]) < 1e-13 * (1 - abs(t)):",
+    ): "Newton's steps go on to their last, at the same place",
+    (
         "explorer",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",

@@ -620,3 +620,15 @@ def test_in_the_air_it_turns_as_a_body_without_torque():
     apart = (Rotation.from_quat(moved.quaternion[air]) * Rotation.from_quat(turned).inv()).magnitude()
     assert apart.max() < 1e-8
     assert np.ptp(moved.psi[air]) > 0.1
+
+
+@pytest.mark.parametrize("friction", [Viscous(0.3), Coulomb(0.3)])
+def test_on_the_stem_the_body_turns_as_its_omega_says(friction):
+    """The turn about axis 3 included: from one instant to the next but one, against omega at the one between."""
+    times = np.linspace(0, 1.0, 2001)
+    moved = slide(PAPER, State(3.0, 0, 0, -9.0), friction, times, rtol=1e-12, edge=EDGE)
+    assert {what for _, what in moved.supports} == {"stem"}
+    turned = Rotation.from_quat(moved.quaternion)
+    omega = in_space(moved.phi, moved.theta, *moved.omega.T)[1:-1]
+    found = (turned[2:] * turned[:-2].inv()).as_rotvec() / (2 * times[1])
+    assert np.abs(found - omega).max() < 2e-4 * np.abs(omega).max()
