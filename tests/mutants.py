@@ -132,6 +132,7 @@ EXPLAINED = {
         "contacts",
         "if abs(t - y[12]) < 1e-13 * (1 - abs(t)):",
     ): "Newton's steps go on to their last, at the same place",
+    ("contacts", "w3 = L3 * top.I3"): "what the frame is turned by too much, the turn in it is too little",
     (
         "explorer",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
