@@ -1,9 +1,18 @@
 """The top as the paper's equations see it: three numbers, and the scales that turn them into a real one."""
 
 from dataclasses import dataclass
-from typing import Self
+from typing import NamedTuple, Self
 
 from ..errors import TopError, finite
+from ..types import Number
+
+
+class TopNumbers(NamedTuple):
+    """a, I1, I3 of a Top as the equations take them: floats, arrays that broadcast, Decimals, or of a compiled call."""
+
+    a: Number
+    I1: Number
+    I3: Number
 
 
 @dataclass(frozen=True)
@@ -39,6 +48,11 @@ class Top:
     def paper(cls) -> Self:
         """The commercial wooden top of appendix A: a = 0.070, I1 = 0.399, I3 = 0.408."""
         return cls(a=0.070, I1=0.399, I3=0.408)
+
+    @property
+    def numbers(self) -> TopNumbers:
+        """a, I1, I3 as floats, for compiled functions."""
+        return TopNumbers(self.a, self.I1, self.I3)
 
 
 @dataclass(frozen=True)
