@@ -6,7 +6,6 @@ call the old one. So a folder's name holds a hash of all sources of tippe_core, 
 
 import hashlib
 import os
-import platform
 import shutil
 import sys
 import tempfile
@@ -27,20 +26,17 @@ COMPLETE = "complete"  # a file that lists what is kept, each with its size, onc
 @cache
 def name() -> str:
     """Of the folder: kernels-<Python>-<processor>-<hash>."""
-    import llvmlite.binding
     import numba
     import numpy as np
+    from numba.core.registry import cpu_target
 
-    config = numba.config
-    processor = config.CPU_NAME or llvmlite.binding.get_host_cpu_name()
-    known = hashlib.sha256(
-        repr(
-            (sys.version, platform.machine(), numba.__version__, np.__version__, processor, config.CPU_FEATURES)
-        ).encode()
-    )
+    target = (
+        cpu_target.target_context.codegen().magic_tuple()
+    )  # system, processor's name and abilities, as told or found
+    known = hashlib.sha256(repr((sys.version, numba.__version__, np.__version__, target)).encode())
     for path in sorted(PACKAGE.rglob("*.py")):
         known.update(path.relative_to(PACKAGE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
-    return f"kernels-{sys.implementation.cache_tag}-{processor}-{known.hexdigest()[:16]}"
+    return f"kernels-{sys.implementation.cache_tag}-{target[1]}-{known.hexdigest()[:16]}"
 
 
 def places() -> Iterator[Path]:
