@@ -8,22 +8,29 @@ import shutil
 import subprocess
 import sys
 import threading
+from decimal import Decimal
 from importlib import import_module
+from math import inf
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import tippe_core
 from tippe_core import kept
 from tippe_core.ahead import CALLS, compile_all
-from tippe_core.compiled import Kernel, ahead, compiled, not_kept, why_not
+from tippe_core.compiled import Kernel, ahead, compiled, not_kept, shared_with_kernels, why_not
 
 ROOT = Path(__file__).parent.parent
-CALLEE = """from .compiled import compiled
+CALLEE = """from .compiled import compiled, shared_with_kernels
+
+@shared_with_kernels
+def product(x, y):
+    return x * y
 
 @compiled
 def square(x):
-    return x * x
+    return product(x, x)
 """
 CALLER = """from .compiled import compiled
 from .callee import square
@@ -107,7 +114,7 @@ def test_a_kernel_is_compiled_once_and_then_found(package):
 
 def test_a_callee_in_another_file_that_changed_is_noticed(package):
     *_, before = package.run()
-    (package.folder / "callee.py").write_text(CALLEE.replace("x * x", "x - x"))
+    (package.folder / "callee.py").write_text(CALLEE.replace("x * y", "x - y"))
     value, compiled_now, *_, after = package.run()
     assert (value, compiled_now) == (0.0, 1)
     assert package.found() == [Path(after).name] != [Path(before).name]  # and the old ones are gone
@@ -191,6 +198,19 @@ def test_what_imports_the_core_does_not_import_numba():
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0
 
 
+def test_what_is_shared_with_kernels_is_python_elsewhere_and_divides_as_they_do():
+    @shared_with_kernels
+    def inverse(x):
+        return 1 / x
+
+    @compiled
+    def least(x):
+        return -inverse(x)
+
+    assert least(Decimal(4)) if why_not() else least(0.0) == -inf
+    assert inverse(Decimal(4)) == Decimal("0.25") and inverse(np.array([2.0, 4.0])).tolist() == [0.5, 0.25]
+
+
 def test_while_one_thread_compiles_the_others_run_python():
     @compiled
     def double(x):
@@ -220,7 +240,10 @@ def kernels():
 def test_every_kernel_is_compiled_ahead():
     said = []
     assert compile_all(said.append) == not_kept() == ""
-    assert [name for name, kernel in kernels().items() if not kernel.dispatcher.signatures] == []
+    for name, kernel in kernels().items():
+        code = kernel.py_func.__code__
+        files = kept.folder().glob(f"{Path(code.co_filename).stem}.{kernel.__name__}-*-{code.co_firstlineno}.*.nbi")
+        assert list(files), f"{name} is not called by tippe_core.ahead"
     assert "".join(said).count("\n") == len(CALLS)
 
 

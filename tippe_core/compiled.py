@@ -18,6 +18,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 Numba: TypeAlias = Any  # a module, a dispatcher or a type of numba's, which has no types of its own
 
 _making = threading.RLock()
+_shared: list[Callable[..., Any]] = []  # of which numba has not been told yet
 _compiler: int | None = None  # the thread that compiles ahead, while there is one
 _unwritten = ""  # why the last kernel that could not be written could not
 
@@ -26,6 +27,12 @@ def compiled(function: Function) -> Function:
     """function, compiled at its first call and kept on disk. It takes numbers, arrays and named tuples of them, holds
     no lock of Python's while it runs, and divides by 0 as numpy does."""
     return cast(Function, Kernel(function)) if importlib.util.find_spec("numba") else function
+
+
+def shared_with_kernels(function: Function) -> Function:
+    """function as it is, for floats, arrays and Decimals; kernels may call it too, and it is compiled into them."""
+    _shared.append(function)
+    return function
 
 
 class Kernel:
@@ -91,6 +98,8 @@ def _numba() -> Numba:
 def _dispatcher(function: Callable[..., Any]) -> Numba:
     if why_not():
         return function
+    while _shared:
+        importlib.import_module("numba.extending").register_jitable(error_model="numpy")(_shared.pop())
     dispatcher = _numba().njit(nogil=True, error_model="numpy")(function)
     if kept.folder() is not None and Path(function.__code__.co_filename).is_file():
         # Private: where another numba has none of these, kernels are compiled anew by each process.
