@@ -23,6 +23,9 @@ RUN python3 -m venv /opt/build \
     && cd panel/dist/bundled \
     && rm -rf @microsoft abstractvtkplot aceplot bootstrap4 bootstrap5 datatabulator deckglplot echarts font-awesome \
            gridstack jquery jsoneditor material-components-web* perspective plotlyplot quillinput reveal.js* terminal vegaplot
+# Kernels, compiled for any processor of this kind, not for the one that builds, and kept beside their sources. Not here,
+# where the sources that Python would take are others.
+RUN cd / && NUMBA_CPU_NAME=generic /opt/venv/bin/python -m tippe_core
 
 FROM python:3.12-slim
 COPY --from=build /opt/venv /opt/venv
@@ -31,7 +34,8 @@ COPY --from=build /opt/venv /opt/venv
 RUN install -d -o 65534 -g 65534 -m 700 /var/lib/tippe
 VOLUME /var/lib/tippe
 # With the system's malloc the memory of closed pages is given back; Python's own, an eighth faster, keeps it for others.
-ENV PATH=/opt/venv/bin:$PATH PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 PYTHONSAFEPATH=1 \
+# NUMBA_CPU_NAME as above, else the kernels are compiled again.
+ENV PATH=/opt/venv/bin:$PATH NUMBA_CPU_NAME=generic PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 PYTHONSAFEPATH=1 \
     PYTHONMALLOC=malloc MPLCONFIGDIR=/dev/shm/matplotlib TIPPE_VOTES=/var/lib/tippe/votes.sqlite
 USER 65534:65534
 EXPOSE 5006

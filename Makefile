@@ -3,10 +3,14 @@ PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
 
-.PHONY: serve check quick test proof source pythons lock validation docs bench image browser proxy redis
+.PHONY: serve kernels check quick test proof source pythons lock validation docs bench image browser proxy redis
 
-serve: .venv/serve
+serve: kernels
 	$(BIN)/python -m app --address localhost --show
+
+# Compiles what is not kept yet, so that neither a visitor nor a test waits for it; under a second where all is.
+kernels: .venv/serve
+	$(BIN)/python -m tippe_core
 
 # One process a core; a file's tests stay together, for many share a server and a page.
 PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile
@@ -15,11 +19,11 @@ PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile
 check: .venv/test .venv/frontend
 	$(MAKE) --jobs=2 source quick
 
-quick: .venv/test
+quick: .venv/test kernels
 	$(PYTEST) -m "not served and not slow"
 
 # The whole suite on this Python.
-test: .venv/test source browser proxy redis
+test: .venv/test kernels source browser proxy redis
 	$(PYTEST)
 
 # What can be said of the source without a test of Python; node is the one that comes with the build.
@@ -35,7 +39,7 @@ source: .venv/test .venv/frontend
 	$(NODE) --import ./$(FRONTEND)/three.js --test --test-isolation=none --test-reporter=dot '$(FRONTEND)/*.test.js'
 
 # Installs without the lock on every Python there is, and on the first with the lowest libraries; lets visitors in.
-pythons: .venv/test browser
+pythons: .venv/test kernels browser
 	$(BIN)/python tests/pythons.py
 
 # Remakes locks/ with the newest that the bounds in pyproject.toml allow. uv.lock names the index it came from, so it goes.
@@ -52,20 +56,20 @@ lock:
 
 # What takes long by nature, kept in the repository: what the slow oracles find, docs/validation.md, and the mutants,
 # some hours, which go on where they were stopped.
-proof: .venv/test
+proof: .venv/test kernels
 	$(BIN)/pytest -q --remake -m "not served"
 	$(BIN)/python tests/validation.py
 	$(BIN)/python tests/mutants.py --check
 
 # Writes docs/validation.md from the results of the tests, with the whole accuracy map: some ten minutes.
-validation: .venv/test
+validation: .venv/test kernels
 	$(BIN)/python tests/validation.py
 
 docs: .venv/docs
 	$(BIN)/sphinx-build -W -q docs docs/_build
 	@echo "docs/_build/index.html"
 
-bench: .venv/bench .venv/test browser
+bench: .venv/bench .venv/test kernels browser
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/bench.py
 
 image:

@@ -15,6 +15,7 @@ from bokeh.document.models import DocumentModelManager
 from panel.io.resources import CDN_DIST, LOCAL_DIST
 
 from app.arrivals import most_files
+from app.kernels import compile_beside
 
 
 class Here(ThreadPoolExecutor):
@@ -72,13 +73,15 @@ def to_the_last(dispatch):
 
 
 def on_server_loaded(server_context):
-    """Asks for as many open files as may be, and keeps what sessions do in the server's own thread.
+    """Has kernels compiled that are not kept, asks for as many open files as may be, and keeps what sessions do in the
+    server's own thread.
 
     From 3.10 on Bokeh gives it to the event loop's executor, and what is sent to one of its own. That is no faster, for
     one thread at a time has the interpreter (a move costs an eighth more of the processor). But Panel answers some
     messages of a page, such as a dragged slider's, in the event loop without the document's lock: beside a thread, two
     of them would change one session at a time. What takes long is given to app.runs.
     """
+    compile_beside()
     most_files()
     DocumentModelManager.freeze = thawed(DocumentModelManager.freeze)
     for module in (panel.custom, panel.layout.base, panel.layout.grid):

@@ -55,6 +55,7 @@ from app.answers import (
 )
 from app.arrivals import Arrivals, most_files
 from app.door import Door, counted
+from app.kernels import compile_beside
 from app.sockets import LARGEST_FRAGMENT, TOKEN_LASTS, Socket, note, why_not_made
 
 log = logging.getLogger("tippe")
@@ -69,6 +70,7 @@ GRACE = 3.0  # s from SIGTERM to the end, whatever still runs
 
 def serve(settings, sockets, parent=None):
     """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
+    compile_beside()  # before anything is computed
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
     RequestHandler.set_default_headers, RequestHandler.write_error = set_default_headers, write_error

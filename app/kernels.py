@@ -1,0 +1,65 @@
+"""Kernels that nobody has compiled yet are compiled beside the server, which runs them as Python until then."""
+
+import logging
+import os
+import subprocess
+import sys
+import threading
+import time
+from functools import cache
+from pathlib import Path
+
+import tippe_core
+from tippe_core import kept
+from tippe_core.ahead import compile_all
+from tippe_core.compiled import ahead, why_not
+
+NICE = 10  # how far the compiler stands back behind visitors
+log = logging.getLogger("tippe")
+
+
+@cache
+def compile_beside() -> None:
+    """Begins it where it is needed, and says so in the log. To be called before anything is computed; a second call
+    does nothing."""
+    if log.level == logging.NOTSET:  # panel serve, which lets only warnings through
+        log.setLevel(logging.INFO)
+    if reason := why_not():
+        log.info("kernels run as Python, some hundred times slower than compiled: %s", reason)
+    elif not kept.complete(kept.folder()):
+        log.info("no compiled kernels are kept for this version and processor: they are compiled beside the server, "
+                 "which computes in Python until then. `python -m tippe_core` does it ahead")  # fmt: skip
+        begun = threading.Event()
+        threading.Thread(target=_compile, args=(begun,), name="compiler", daemon=True).start()
+        begun.wait()
+
+
+def _compile(begun: threading.Event) -> None:
+    start = time.monotonic()
+    with ahead():
+        begun.set()
+        if sys.platform == "linux":  # elsewhere a thread has no priority of its own
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICE)
+        try:
+            if kept.folder() is not None:
+                _compile_in_a_process()
+            reason = compile_all()  # all that is kept by now is only read
+        except Exception:
+            log.exception("compiling ahead ended early; the rest is compiled when it is needed")
+            return
+    log.info("kernels are compiled, after %.0f s%s", time.monotonic() - start, reason and f", but not kept: {reason}")
+
+
+def _compile_in_a_process() -> None:
+    """A thread that compiles would take turns with this process's others at the interpreter."""
+    home = Path(tippe_core.__file__).parent.parent
+    path = os.pathsep.join(filter(None, (str(home), os.environ.get("PYTHONPATH"))))
+    low = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)  # Windows
+    process = subprocess.Popen([sys.executable, "-m", "tippe_core"], env=os.environ | {"PYTHONPATH": path},
+                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                               text=True, creationflags=low)  # fmt: skip
+    if hasattr(os, "setpriority"):
+        os.setpriority(os.PRIO_PROCESS, process.pid, NICE)
+    said = process.communicate()[1]
+    if process.returncode:
+        log.warning("compiling in a process of its own failed: %s", said.strip().rpartition("\n")[2])

@@ -1,0 +1,260 @@
+"""Kernels: compiled once and kept, never stale, wherever files can or cannot be written, and the same as Python."""
+
+import ast
+import json
+import os
+import pkgutil
+import shutil
+import subprocess
+import sys
+import threading
+from decimal import Decimal
+from importlib import import_module
+from math import inf
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tippe_core
+from tippe_core import kept
+from tippe_core.ahead import CALLS, compile_all
+from tippe_core.compiled import Kernel, ahead, compiled, not_kept, shared_with_kernels, why_not
+
+ROOT = Path(__file__).parent.parent
+CALLEE = """from .compiled import compiled, shared_with_kernels
+
+@shared_with_kernels
+def product(x, y):
+    return x * y
+
+@compiled
+def square(x):
+    return product(x, x)
+"""
+CALLER = """from .compiled import compiled
+from .callee import square
+
+@compiled
+def total(x, n):
+    s = 0 * x
+    for _ in range(n):
+        s += square(x)
+    return s
+"""
+# Prints what came out, how often something was compiled and how often found, and why it is not kept.
+RUN = """import json, os
+import numpy as np
+from tippe_core import kept
+from tippe_core.caller import total
+from tippe_core.compiled import not_kept, why_not
+print(json.dumps([float(total({}, 3)), *(sum(getattr(total.dispatcher.stats, name).values()) for name in
+      ("cache_misses", "cache_hits")), not_kept(), why_not(), os.fspath(kept.folder() or "")]))
+"""
+
+
+class Package:
+    """A tippe_core of two kernels, of which one calls the other in another file."""
+
+    def __init__(self, folder):
+        self.folder = folder / "tippe_core"
+        self.folder.mkdir()
+        for name in ("compiled.py", "kept.py"):
+            shutil.copy(ROOT / "tippe_core" / name, self.folder)
+        (self.folder / "__init__.py").touch()
+        (self.folder / "callee.py").write_text(CALLEE)
+        (self.folder / "caller.py").write_text(CALLER)
+
+    def begin(self, x="2.0", code=RUN, before=(), **environment):
+        kept_out = ("NUMBA", "XDG_CACHE", "PYTHONPATH")
+        inherited = {name: value for name, value in os.environ.items() if not name.startswith(kept_out)}
+        inherited |= {"HOME": str(self.folder.parent / "home"), "PYTHONPATH": str(self.folder.parent)}
+        return subprocess.Popen([*before, sys.executable, "-B", "-c", code.format(x)], env=inherited | environment,
+                                cwd="/", stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+
+    def run(self, *arguments, **named):
+        said, errors = (process := self.begin(*arguments, **named)).communicate()
+        assert process.returncode == 0, errors
+        return json.loads(said)
+
+    def found(self):
+        return sorted(path.name for path in (self.folder / "__pycache__").glob("kernels-*"))
+
+
+@pytest.fixture
+def package(tmp_path):
+    return Package(tmp_path)
+
+
+@pytest.fixture
+def read_only(package, tmp_path):
+    """Makes it so, and the home; what a command begins with to be bound by that."""
+    if os.name != "posix":
+        pytest.skip("knows how to take rights away on POSIX alone")
+    root = os.getuid() == 0
+    if root and not shutil.which("setpriv"):
+        pytest.skip("root writes everywhere, and there is no setpriv")
+
+    def make(*writable):
+        for folder in (tmp_path, package.folder, *package.folder.rglob("*/")):
+            folder.chmod(0o755 if folder in writable else 0o555)
+        return ("setpriv", "--bounding-set=-dac_override") if root else ()
+
+    yield make
+    for folder in (tmp_path, *tmp_path.rglob("*/")):
+        folder.chmod(0o755)
+
+
+def test_a_kernel_is_compiled_once_and_then_found(package):
+    value, compiled_now, found, *reasons, folder = package.run()
+    assert (value, compiled_now, found, reasons) == (12.0, 1, 0, ["", ""])
+    assert Path(folder).parent == package.folder / "__pycache__"
+    assert package.run() == [12.0, 0, 1, "", "", folder]
+
+
+def test_a_callee_in_another_file_that_changed_is_noticed(package):
+    *_, before = package.run()
+    (package.folder / "callee.py").write_text(CALLEE.replace("x * y", "x - y"))
+    value, compiled_now, *_, after = package.run()
+    assert (value, compiled_now) == (0.0, 1)
+    assert package.found() == [Path(after).name] != [Path(before).name]  # and the old ones are gone
+
+
+def test_another_processor_has_kernels_of_its_own(package):
+    here, there = package.run()[-1], package.run(NUMBA_CPU_NAME="generic")[-1]
+    assert here != there and len(package.found()) == 2
+
+
+def test_where_nothing_can_be_written_what_is_kept_is_found(package, read_only):
+    *_, folder = package.run()
+    kept.mark(Path(folder))
+    before = read_only()
+    assert package.run(before=before) == [12.0, 0, 1, "", "", folder]
+    # and what is not among it is compiled, and not kept
+    value, compiled_now, found, reason, *_ = package.run("2", before=before)
+    assert (value, compiled_now, found) == (12.0, 1, 0) and "ermission" in reason
+
+
+def test_where_nothing_can_be_written_and_nothing_is_kept_kernels_are_compiled(package, read_only):
+    value, compiled_now, found, reason, why, folder = package.run(before=read_only())
+    assert (value, compiled_now, found, why, folder) == (12.0, 1, 0, "", "")
+    assert str(package.folder) in reason
+
+
+def test_beside_sources_that_cannot_be_written_kernels_are_in_the_users_cache(package, read_only, tmp_path):
+    home = tmp_path / "home"
+    home.mkdir()
+    before = read_only(home)
+    *_, folder = package.run(before=before)
+    assert Path(folder).is_relative_to(home)
+    assert package.run(before=before) == [12.0, 0, 1, "", "", folder]
+
+
+@pytest.mark.slow
+def test_several_processes_at_once_lose_nothing_and_mix_nothing_up(package):
+    """Each compiles for another type of argument, into the same list."""
+    given = ("2.0", "2", "np.float32(1.5)", "np.array(3.0)", "True")
+    begun = [package.begin(x) for x in given]
+    values = [json.loads(each.communicate()[0])[0] for each in begun]
+    assert values == [12.0, 12.0, 6.75, 27.0, 3.0]
+    assert [package.run(x)[:3] for x in given] == [[value, 0, 1] for value in values]
+
+
+def test_files_cut_short_are_compiled_anew(package):
+    *_, folder = package.run()
+    for path in Path(folder).glob("*.nb?"):
+        path.write_bytes(path.read_bytes()[:100])
+    assert package.run()[:3] == [12.0, 1, 0]
+    assert package.run()[:3] == [12.0, 0, 1]
+
+
+def test_a_folder_is_complete_while_all_its_files_are_there(package):
+    folder = Path(package.run()[-1])
+    assert not kept.complete(folder)
+    kept.mark(folder)
+    assert kept.complete(folder)
+    next(folder.glob("*.nbc")).unlink()
+    assert not kept.complete(folder)
+
+
+def test_without_numba_or_told_not_to_compile_kernels_run_as_python(package):
+    print_all = ("import sys; {}; from tippe_core.caller import total; from tippe_core.compiled import why_not; "
+                 "import json; print(json.dumps([total(2.0, 3), why_not()]))")  # fmt: skip
+    value, why = package.run("sys.modules['numba'] = None", print_all)
+    assert value == 12.0 and "numba" in why
+    value, why = package.run("", print_all.replace("{}; ", ""), NUMBA_DISABLE_JIT="1")
+    assert value == 12.0 and "NUMBA_DISABLE_JIT" in why
+    assert package.found() == []
+
+
+def test_the_command_does_nothing_without_numba():
+    code = "import sys; sys.modules['numba'] = None; import runpy; runpy.run_module('tippe_core', run_name='__main__')"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0 and "in Python" in done.stdout and "numba" in done.stdout
+
+
+def test_what_imports_the_core_does_not_import_numba():
+    code = "import tippe_core, sys; sys.exit('numba' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT).returncode == 0
+
+
+def test_what_is_shared_with_kernels_is_python_elsewhere_and_divides_as_they_do():
+    @shared_with_kernels
+    def inverse(x):
+        return 1 / x
+
+    @compiled
+    def least(x):
+        return -inverse(x)
+
+    assert least(Decimal(4)) if why_not() else least(0.0) == -inf
+    assert inverse(Decimal(4)) == Decimal("0.25") and inverse(np.array([2.0, 4.0])).tolist() == [0.5, 0.25]
+
+
+def test_while_one_thread_compiles_the_others_run_python():
+    @compiled
+    def double(x):
+        return 2 * x
+
+    said = []
+    with ahead():
+        other = threading.Thread(target=lambda: said.append(double(2.0)))
+        other.start()
+        other.join()
+        assert said == [4.0] and "dispatcher" not in vars(double)
+        assert double(3.0) == 6.0 and "dispatcher" in vars(double)
+
+
+def kernels():
+    """All of tippe_core, by name."""
+    found = {}
+    for module in pkgutil.walk_packages(tippe_core.__path__, "tippe_core."):
+        if module.name != "tippe_core.__main__":
+            for name, value in vars(import_module(module.name)).items():
+                if isinstance(value, Kernel) and value.__module__ == module.name:
+                    found[f"{module.name}.{name}"] = value
+    return found
+
+
+@pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
+def test_every_kernel_is_compiled_ahead():
+    said = []
+    assert compile_all(said.append) == not_kept() == ""
+    for name, kernel in kernels().items():
+        code = kernel.py_func.__code__
+        files = kept.folder().glob(f"{Path(code.co_filename).stem}.{kernel.__name__}-*-{code.co_firstlineno}.*.nbi")
+        assert list(files), f"{name} is not called by tippe_core.ahead"
+    assert "".join(said).count("\n") == len(CALLS)
+
+
+def test_no_kernel_starts_threads_or_loosens_arithmetic():
+    """numba's own threads end the process where two of Python's enter them; fastmath gives other numbers elsewhere."""
+    for path in (ROOT / "tippe_core").rglob("*.py"):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        imported = {name.name for node in ast.walk(tree) if isinstance(node, ast.Import) for name in node.names}
+        imported |= {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+        if path.name not in ("compiled.py", "kept.py"):
+            assert not any(str(name).startswith("numba") for name in imported), path
+        named = {word.arg for node in ast.walk(tree) if isinstance(node, ast.Call) for word in node.keywords}
+        if path.name == "compiled.py":
+            assert named & {"nogil", "parallel", "fastmath"} == {"nogil"}

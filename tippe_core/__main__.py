@@ -1,0 +1,35 @@
+"""`python -m tippe_core`: compiles the kernels ahead, so that nobody waits for a compiler later."""
+
+import sys
+from contextlib import nullcontext
+from functools import partial
+
+from . import kept
+from .ahead import compile_all
+from .compiled import why_not
+
+
+def main() -> int:
+    """Prints what it does; returns the exit code, 1 where what it compiled cannot be kept."""
+    reason = why_not()
+    if reason:
+        print(f"tippe_core computes in Python, some hundred times slower than compiled: {reason}.")
+        return 0
+    folder = kept.folder()
+    if kept.complete(folder):
+        print(f"The compiled kernels of tippe_core are kept in {folder}.")
+        return 0
+    print("Compiling the kernels of tippe_core, once for these sources and this processor, so that nobody has to wait "
+          "for it later:", flush=True)  # fmt: skip
+    with kept.locked(folder, "ahead") if folder else nullcontext():  # one compiles, the others wait and find all
+        reason = compile_all(partial(print, end="", flush=True))
+    if reason:
+        print(f"They could not be kept: {reason}.", file=sys.stderr)
+        return 1
+    size = sum(path.stat().st_size for path in folder.iterdir()) if folder else 0
+    print(f"Kept in {folder} ({size / 1e6:.1f} MB).")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

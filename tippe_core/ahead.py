@@ -1,0 +1,97 @@
+"""Compiling ahead: one small call of everything public that uses kernels, so that what is compiled is what is called.
+
+Whoever adds a public function, or another type of argument that reaches a kernel, adds it to CALLS.
+"""
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from . import kept
+from .bodies.shapes import TruncatedSphere
+from .compiled import not_kept
+from .motion.friction import Coulomb, SmoothedCoulomb, Viscous
+from .motion.rolling import roll
+from .motion.sliding import slide
+from .motion.smooth import glide
+from .outcome import outcome
+from .paper.constants import Constants, State
+from .paper.curve import f, omega2, omega3, steady_precessions, turning_points
+from .paper.forces import friction_force, normal_force
+from .paper.share import allowed_shares
+from .paper.tielines import figures, limit_energy, tielines
+from .paper.top import Top
+
+TOP = Top.paper()
+MOTION = Constants(K_J=7.0, K_R=10.0, E=27.0)
+THETA = np.linspace(0.5, 2.5, 4)
+TIMES = np.linspace(0.0, 1.0, 4)
+START = State(theta=0.1, theta_dot=0.0, omega2=0.0, omega3=9.0)
+K_J = np.linspace(0.0, 8.0, 4)
+LAWS = (Coulomb(0.3, 0.35), SmoothedCoulomb(0.3, 0.1), Viscous(0.3))
+
+
+def curve() -> None:
+    """On floats, and on arrays of one and of two dimensions."""
+    surface = Constants(K_J[:, None], MOTION.K_R, MOTION.E)
+    for theta, constants in ((1.0, MOTION), (THETA, MOTION), (THETA, surface)):
+        for function in (f, omega2, omega3, normal_force, friction_force):
+            function(theta, TOP, constants)
+    turning_points(TOP, MOTION)
+    steady_precessions(TOP, float(MOTION.K_J), float(MOTION.K_R))
+
+
+def lines() -> None:
+    limit_energy(TOP, 7.0, 10.0, 0.5)
+    tielines(TOP, K_J, 10.0)
+    figures(TOP, K_J, 10.0, 0.5)
+
+
+def shares() -> None:
+    allowed_shares(np.array([0.05, -0.5]), 0.4, 0.4, 10.0, 0.5)
+
+
+def rolling() -> None:
+    roll(TOP, MOTION, TIMES)
+    roll(TOP, None, TIMES, START)
+
+
+def smooth() -> None:
+    glide(TOP, START, TIMES)
+    outcome(TOP, START)
+
+
+def sliding() -> None:
+    """With each law, as a whole sphere and with the stem's edge, over a landing, and on the stem."""
+    top, edge = TruncatedSphere.paper().top, TruncatedSphere.paper().edge
+    on_the_stem = State(theta=3.0, theta_dot=0.0, omega2=0.0, omega3=-9.0)
+    for law in LAWS:
+        slide(top, START, law, TIMES)
+        slide(top, START, law, TIMES, landing="plastic", edge=edge)
+        slide(top, on_the_stem, law, TIMES, landing="plastic", edge=edge)
+
+
+# In the order in which the page's visitors come to need them.
+CALLS: tuple[tuple[str, Callable[[], None]], ...] = (
+    ("f, the spins and the forces", curve),
+    ("tielines", lines),
+    ("rolling", rolling),
+    ("the smooth plane", smooth),
+    ("sliding, with each law of friction", sliding),
+    ("the shares of many tops", shares),
+)
+
+
+def compile_all(say: Callable[[str], object] = lambda text: None) -> str:
+    """Compiles what is not kept yet, and keeps it. say: told how far it is, in pieces of lines. Returns why it is not
+    kept; empty where it is."""
+    for number, (name, call) in enumerate(CALLS, 1):
+        say(f"  {number} of {len(CALLS)}  {name}: ")
+        start = time.monotonic()
+        call()
+        say(f"{time.monotonic() - start:.1f} s\n")
+    folder, reason = kept.folder(), not_kept()
+    if folder is not None and not reason and not kept.complete(folder):
+        kept.mark(folder)
+    return reason
