@@ -33,10 +33,12 @@ from numpy.typing import ArrayLike
 from scipy.fft import dct, dst
 
 from ..errors import TopError
-from ..paper.constants import EXACT, Constants, Exact, State, f1_2, f2_2, f3_2, versines
-from ..paper.curve import ExactCurve, Well, near_pole, omega2_at, wells
+from ..paper.constants import EXACT, Constants, Exact, State, versines
+from ..paper.equations import f1_2, f2_2, f3_2
 from ..paper.forces import contact_force
+from ..paper.poles import near_pole, omega2_at
 from ..paper.top import Top
+from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex, Indices, Number, Scalars
 from .trajectory import Trajectory, checked_times
 
@@ -404,7 +406,7 @@ class Rolling(Nutation):
                 curve, (inner, outer) = _from_constants(top, constants, start, well)
                 here = inner if start == "inner" else outer
             exact, self._exact = curve.exact, (curve, inner, outer)
-            self.gaps = float(curve.gaps[0]), float(curve.gaps[1])
+            self.gaps = float(curve.offsets[0]), float(curve.offsets[1])
             self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
             self.width = float(inner - outer)
             self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5  # as sin(kappa/2), cos(kappa/2)

@@ -23,9 +23,9 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..errors import TopError
-from ..paper.constants import EXACT, ExactTop, State, exact_top, versines
-from ..paper.curve import angle, solve
-from ..paper.top import Top
+from ..paper.constants import EXACT, State, exact_top, versines
+from ..paper.top import Top, TopNumbers
+from ..paper.wells import angle, solve
 from ..types import Array
 from .rolling import Nutation
 from .trajectory import Trajectory, checked_times
@@ -139,7 +139,9 @@ class Gliding(Nutation):
             force=np.stack([none, none, F_z], axis=1), regime=np.full(len(t), "slip"))  # fmt: skip
 
 
-def _turning(t: ExactTop, e: Decimal, L_z: Decimal, L3: Decimal, here: Decimal, still: bool) -> tuple[Decimal, Decimal]:
+def _turning(
+    t: TopNumbers, e: Decimal, L_z: Decimal, L3: Decimal, here: Decimal, still: bool
+) -> tuple[Decimal, Decimal]:
     """cos(theta) at the turning points, Decimals: the zeros of P on both sides of here."""
 
     def P(c: Decimal) -> tuple[Decimal, Decimal]:
