@@ -11,7 +11,7 @@ from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, T
 from .bodies.solids import Solid, ball, cylinder, frustum, zone
 from .ending import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
-from .motion.friction import Coulomb, SmoothedCoulomb, Viscous
+from .motion.friction import Contensou, Coulomb, SmoothedCoulomb, Viscous
 from .motion.rolling import Rolling, roll
 from .motion.sliding import beside, growth, sensitivity, slide
 from .motion.smooth import Gliding, glide
@@ -43,6 +43,7 @@ __all__ = [
     "BareSphere",
     "Change",
     "Constants",
+    "Contensou",
     "Coulomb",
     "Ending",
     "Gliding",
