@@ -7,7 +7,7 @@ from .bodies.files import load_top, save_top
 from .bodies.presets import PRESETS, Preset
 from .bodies.rocking import Measured, a_from_rocking, dimension_from_rocking, rocking_period
 from .bodies.shape import Shape, Turned
-from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, TruncatedSphere
+from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, StemmedSphere, TruncatedSphere
 from .bodies.solids import Solid, ball, cylinder, frustum, zone
 from .ending import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
@@ -63,6 +63,7 @@ __all__ = [
     "State",
     "SteadyPrecessions",
     "SteadyStates",
+    "StemmedSphere",
     "Stretch",
     "Thresholds",
     "Tielines",
