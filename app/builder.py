@@ -27,6 +27,7 @@ from tippe_core import (
     Scales,
     Shape,
     Solid,
+    StemmedSphere,
     Top,
     TopError,
     TruncatedSphere,
@@ -86,6 +87,9 @@ def _density(name: str, key: str, **numbers: float) -> Dimension:
 _MASS = Dimension("M", "mass", "g", 1e3, 0.5, 200, 0.1)
 # of one material: each sets the other
 _WEIGHT = (_MASS, _density("density", "weight"))
+# of a body whose inside is not known
+_MEASURED = (_MASS, Dimension("a", "a", "", 1.0, -0.9, 0.9, 0.005), Dimension("I1", "I1", "", 1.0, 0.05, 0.7, 0.001),
+             Dimension("I3", "I3", "", 1.0, 0.05, 0.7, 0.001))  # fmt: skip
 
 FAMILIES: dict[type[Shape], tuple[str, tuple[Dimension, ...]]]
 FAMILIES = {
@@ -101,11 +105,10 @@ FAMILIES = {
         _length("t", "thickness", 0.5, 60), _length("r", "stem_radius", 0, 15),
         _length("l", "stem", 0, 60), *_WEIGHT)),
     Ball: ("uniform ball", (_length("R", "radius", 2, 40), *_WEIGHT)),
-    BareSphere: ("sphere of unknown inside", (
-        _length("R", "sphere", 2, 40), _MASS,
-        Dimension("a", "a", "", 1.0, -0.9, 0.9, 0.005),
-        Dimension("I1", "I1", "", 1.0, 0.05, 0.7, 0.001),
-        Dimension("I3", "I3", "", 1.0, 0.05, 0.7, 0.001))),
+    BareSphere: ("sphere of unknown inside", (_length("R", "sphere", 2, 40), *_MEASURED)),
+    StemmedSphere: ("sphere with a round stem, of unknown inside", (
+        _length("R", "sphere", 2, 40), _length("r", "stem_end", 0.5, 20), _length("h", "stem_height", 0.5, 60),
+        *_MEASURED)),
     Lathe: ("turned from points", (_length("R", "peg", 0.5, 40), _density("density", "density"), _MASS)),
     Turned: ("turned from pieces", (_MASS,)),
 }  # fmt: skip
@@ -422,7 +425,8 @@ def handles(shape: Shape) -> dict[str, tuple[float, float]]:
               "t": (-shape.r2, face)}  # fmt: skip
         return at | {"r": (shape.r, face + shape.l / 2), "l": (0.0, face + shape.l)} if shape.l else at
     if isinstance(shape, BareSphere):
-        return {"R": side, "a": (0.0, -shape.a * R)}
+        at = {"R": side, "a": (0.0, -shape.a * R)}
+        return at | {"r": (shape.r, shape.h), "h": (0.0, shape.h)} if isinstance(shape, StemmedSphere) else at
     if isinstance(shape, Lathe):
         half = np.arccos(-shape.points[0][1] / R) / 2
         return {"R": (R * np.sin(half), -R * np.cos(half)),

@@ -21,6 +21,7 @@ from tippe_core import (
     LoadedSphere,
     OrdinaryTop,
     Scales,
+    StemmedSphere,
     Top,
     TopError,
     TruncatedSphere,
@@ -238,6 +239,9 @@ def test_presets():
     assert tops["Uniform ball"].a == 0
     assert tops["Uniform ball"].I1 == pytest.approx(0.4, rel=1e-14)
     assert tops["Loaded sphere"].a > 0 > tops["Wooden cone"].a
+    toy = SHAPES["Leine and Glocker's toy"]
+    assert toy.moments == pytest.approx((8e-7, 7e-7), rel=1e-14) and toy.com == pytest.approx(-0.003, rel=1e-14)
+    assert toy.edge == pytest.approx((0, 13 / 15, 1 / 3), rel=1e-15)
     assert all(preset.source and preset.name for preset in PRESETS)
 
 
@@ -464,6 +468,7 @@ GOOD = {"R": 0.016, "c": 0.0082, "l": 0.0192, "r": 0.0032, "M": 0.0115}
 PEG = {"R": 0.002, "h": 0.01, "r1": 0.02, "r2": 0.02, "t": 0.004, "r": 0.002, "l": 0.01, "M": 0.02}
 CORE = {"R": 0.02, "b": 0.008, "d": 0.01, "density": 700.0, "core_density": 7800.0}
 SPHERE = {"R": 0.02, "M": 0.02, "a": 0.3, "I1": 0.37, "I3": 0.4}
+TOY = {"R": 0.015, "M": 0.006, "a": 0.2, "I1": 0.593, "I3": 0.519, "r": 0.005, "h": 0.013}
 
 
 @pytest.mark.parametrize(
@@ -480,6 +485,8 @@ SPHERE = {"R": 0.02, "M": 0.02, "a": 0.3, "I1": 0.37, "I3": 0.4}
         (LoadedSphere, CORE, "density", 0.0), (LoadedSphere, CORE, "core_density", -1.0),
         (BareSphere, SPHERE, "a", 0.9), (BareSphere, SPHERE, "a", 1.5), (BareSphere, SPHERE, "I1", 0.9),
         (BareSphere, SPHERE, "I3", 0.8), (BareSphere, SPHERE, "M", -1.0),
+        (StemmedSphere, TOY, "r", 0.0), (StemmedSphere, TOY, "r", 0.016), (StemmedSphere, TOY, "h", 0.02),
+        (StemmedSphere, TOY, "h", 0.009), (StemmedSphere, TOY, "a", 0.9), (StemmedSphere, TOY, "I1", 1.3),
         (Ball, {"R": 0.02, "M": 0.04}, "M", None),
     ],
 )  # fmt: skip

@@ -7,11 +7,11 @@ from .bodies.files import load_top, save_top
 from .bodies.presets import PRESETS, Preset
 from .bodies.rocking import Measured, a_from_rocking, dimension_from_rocking, rocking_period
 from .bodies.shape import Shape, Turned
-from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, TruncatedSphere
+from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, StemmedSphere, TruncatedSphere
 from .bodies.solids import Solid, ball, cylinder, frustum, zone
 from .ending import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
-from .motion.friction import Coulomb, SmoothedCoulomb, Viscous
+from .motion.friction import Contensou, Coulomb, SmoothedCoulomb, Viscous
 from .motion.rolling import Rolling, roll
 from .motion.sliding import beside, growth, sensitivity, slide
 from .motion.smooth import Gliding, glide
@@ -34,6 +34,7 @@ __all__ = [
     "BareSphere",
     "Change",
     "Constants",
+    "Contensou",
     "Coulomb",
     "Ending",
     "Gliding",
@@ -53,6 +54,7 @@ __all__ = [
     "State",
     "SteadyPrecessions",
     "SteadyStates",
+    "StemmedSphere",
     "Stretch",
     "Thresholds",
     "Tielines",

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from ..paper.top import Top
 from .shape import Shape
-from .shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, TruncatedSphere
+from .shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, StemmedSphere, TruncatedSphere
 from .solids import ball
 
 
@@ -56,4 +56,9 @@ PRESETS = (
         "Appendix A's shape, a = 0.0698", TruncatedSphere.paper(),
         "The same body with what its lengths give, not rounded: a = 0.0698, I1 = 0.3991, I3 = 0.4081. Where the stem "
         "touches, so small a difference may decide where a motion ends."),
+    Preset(
+        "Leine and Glocker's toy", StemmedSphere(R=0.015, M=0.006, a=1 / 5, I1=16 / 27, I3=14 / 27, r=0.005, h=0.013),
+        "R. I. Leine and Ch. Glocker, Eur. J. Mech. A/Solids 22, 193 (2003): 6 g, a ball of 15 mm radius 3 mm above G "
+        "and a stem that ends in one of 5 mm, 16 mm above G; I1 = 8e-7, I3 = 7e-7 kg m^2. They let it slide with "
+        "mu = 0.3 on a patch of 0.5 mm, Contensou(0.3, 1/30)."),
 )  # fmt: skip

@@ -184,11 +184,19 @@ class BareSphere(Shape):
     def _check(self) -> None:
         weight(self.M)
         Top(self.a, self.I1, self.I3)
-        # int r^2 dm <= M R^2 about O, and it is I1 + I3/2 + a^2
-        most = sqrt(max(0.0, 1 - self.I1 - self.I3 / 2))
-        if self.I1 + self.I3 / 2 > 1:
-            raise TopError("I1", self.I1, f"I1 <= 1 - I3/2 = {1 - self.I3 / 2:g}", "More does not fit into the sphere.")
-        in_range("a", self.a, -most, most, "R, or it does not fit into the sphere")
+        # int r^2 dm <= M reach^2 about O, and it is I1 + I3/2 + a^2
+        room = self._reach**2 - self.I3 / 2
+        if self.I1 > room:
+            raise TopError(
+                "I1", self.I1, f"I1 <= {self._reach**2:g} - I3/2 = {room:g}", "More does not fit into the body."
+            )
+        most = sqrt(room - self.I1)
+        in_range("a", self.a, -most, most, "R, or it does not fit into the body")
+
+    @property
+    def _reach(self) -> float:
+        """How far its outside is from O at most, in R."""
+        return 1.0
 
     @property
     def mass(self) -> float:
@@ -213,8 +221,34 @@ class BareSphere(Shape):
         return ball(self.R)
 
     def stl(self, sides: int = 128) -> bytes:
-        raise TopError("shape", "BareSphere", "a shape whose inside is known", "Give it dimensions to print it.")
+        raise TopError("shape", type(self).__name__, "a shape whose inside is known", "Give it dimensions to print it.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class StemmedSphere(BareSphere):
+    """A BareSphere with a stem that ends round: a ball of radius r about the height h above O sticks out of it (m).
+
+    The two surfaces meet in a circle, R - r < h < R + r. The measured a, I1, I3 are those of the whole.
+    """
+
+    r: float
+    h: float
+
+    def _check(self) -> None:
+        in_range("r", self.r, SMALLEST, self.R, "m, no larger than the sphere")
+        in_range("h", self.h, self.R - self.r, self.R + self.r, "m, where it sticks out", above=True, below=True)
+        super()._check()
+
+    @property
+    def _reach(self) -> float:
+        return (self.h + self.r) / self.R
+
+    @cached_property
+    def solid(self) -> Solid:
+        meet = (self.h**2 + (self.R - self.r) * (self.R + self.r)) / (2 * self.h)
+        return zone(self.R, -self.R, meet) + zone(self.r, meet, self.h + self.r, self.h)
 
 
 KINDS: dict[str, type[Shape]]
-KINDS = {kind.__name__: kind for kind in (TruncatedSphere, LoadedSphere, OrdinaryTop, Lathe, Turned, Ball, BareSphere)}
+KINDS = {kind.__name__: kind for kind in (TruncatedSphere, LoadedSphere, OrdinaryTop, Lathe, Turned, Ball, BareSphere,
+                                          StemmedSphere)}  # fmt: skip

@@ -1,14 +1,58 @@
-"""Laws of friction at a contact: k(u^2), with F_h = -k F_z u and u the slip."""
+"""Laws of friction at a contact, per unit of the normal force F_z.
+
+    F_h = -k F_z u ,     T = -t F_z
+
+u is the slip, omega_n the spin about the normal, k(u^2, omega_n) and t(u^2, omega_n) the law, T its torque about the
+normal. Only Contensou's law knows omega_n and has a torque: its contact is a small patch, not a point. Each law is a
+frozen record of its numbers, and `law` is what kernels take of it.
+"""
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
+import numpy as np
+
+from ..compiled import compiled
 from ..errors import TopError, finite
 from ..types import Number
 
+COULOMB, VISCOUS, SMOOTHED, CONTENSOU = range(4)
+SERIES = 9.0  # (u/(radius omega_n))^2 from which the closed forms lose more digits than the series in its inverse
+LEAST = 1e-300  # radius omega_n below which its inverse overflows: no spin at all
+
+
+class Law(NamedTuple):
+    """A law as kernels take it. mu_s: what holds a contact at rest, 0 where nothing does; width: eps, or the radius."""
+
+    kind: int
+    mu: float
+    mu_s: float
+    width: float
+
 
 @dataclass(frozen=True)
-class Coulomb:
+class _Friction:
+    """What all laws share."""
+
+    @property
+    def law(self) -> Law:
+        raise NotImplementedError
+
+    def k(self, square: Number, omega_n: float = 0.0) -> Number:
+        """k at u^2 = square, a number or an array."""
+        if np.ndim(square) == 0:
+            return push(self.law, float(square), float(omega_n))[0]
+        return np.array([self.k(one, omega_n) for one in square])
+
+    def _positive(self, name: str, zero: bool = False) -> None:
+        value = finite(name, getattr(self, name))
+        if value < 0 or (value == 0 and not zero):
+            raise TopError(name, value, f"{name} {'>=' if zero else '>'} 0")
+        object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True)
+class Coulomb(_Friction):
     """F_h = -mu_k F_z u/|u| where the top slips; where it does not, what keeps it rolling, up to mu_s F_z.
 
     mu_s >= mu_k > 0; mu_s = mu_k where it is not given. Raises TopError for anything else.
@@ -18,19 +62,20 @@ class Coulomb:
     mu_s: float = None  # type: ignore[assignment]  # once made, it has one
 
     def __post_init__(self) -> None:
-        _positive(self, "mu_k")
+        self._positive("mu_k")
         if self.mu_s is None:
             object.__setattr__(self, "mu_s", self.mu_k)
-        _positive(self, "mu_s")
+        self._positive("mu_s")
         if self.mu_s < self.mu_k:
             raise TopError("mu_s", self.mu_s, f"mu_s >= mu_k = {self.mu_k:g}", "Friction at rest is the larger one.")
 
-    def k(self, square: Number) -> Number:
-        return self.mu_k / square**0.5
+    @property
+    def law(self) -> Law:
+        return Law(COULOMB, self.mu_k, self.mu_s, 0.0)
 
 
 @dataclass(frozen=True)
-class Viscous:
+class Viscous(_Friction):
     """F_h = -gamma F_z u, gamma >= 0 in (gR)^-1/2: one of g s/m in SI, F = -g N v, is gamma = g (gR)^1/2 here.
 
     gamma = 0 is the smooth plane. Raises TopError for anything else.
@@ -39,14 +84,15 @@ class Viscous:
     gamma: float
 
     def __post_init__(self) -> None:
-        _positive(self, "gamma", zero=True)
+        self._positive("gamma", zero=True)
 
-    def k(self, square: Number) -> Number:
-        return self.gamma
+    @property
+    def law(self) -> Law:
+        return Law(VISCOUS, self.gamma, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
-class SmoothedCoulomb:
+class SmoothedCoulomb(_Friction):
     """F_h = -mu F_z u/(u^2 + eps^2)^1/2, mu > 0, eps > 0 in (gR)^1/2: Coulomb's law made smooth, so it never sticks.
 
     Raises TopError for anything else.
@@ -56,23 +102,110 @@ class SmoothedCoulomb:
     eps: float
 
     def __post_init__(self) -> None:
-        _positive(self, "mu")
-        _positive(self, "eps")
+        self._positive("mu")
+        self._positive("eps")
 
-    def k(self, square: Number) -> Number:
-        return self.mu / (square + self.eps * self.eps) ** 0.5
-
-
-Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb
+    @property
+    def law(self) -> Law:
+        return Law(SMOOTHED, self.mu, 0.0, self.eps)
 
 
-def holding(law: Friction) -> float:
-    """mu_s of a law that holds; any other never does."""
-    return law.mu_s if isinstance(law, Coulomb) else 0.0
+@dataclass(frozen=True)
+class Contensou(_Friction):
+    """Coulomb's law at each point of a round patch with Hertz's pressure, mu > 0, radius >= 0 in R.
+
+    The patch slides and spins about its normal at once, so its points rub in different directions. The law is the
+    integral over the patch, with u + omega_n x r the slip at r:
+
+        F_h = -mu int p (u + omega_n x r)/|u + omega_n x r| dA ,   p = 3 F_z/(2 pi radius^2) (1 - r^2/radius^2)^1/2 ,
+
+    and T that of r x the same; contensou() gives their closed forms. Nothing holds while it spins. Where u and
+    radius omega_n both vanish it holds up to bounds(); with radius = 0 it is Coulomb(mu). Raises TopError for
+    anything else.
+
+    P. Contensou, in Kreiselprobleme (IUTAM, Springer 1963); for the tippe top R. I. Leine and Ch. Glocker, Eur. J.
+    Mech. A/Solids 22, 193 (2003).
+    """
+
+    mu: float
+    radius: float
+
+    def __post_init__(self) -> None:
+        self._positive("mu")
+        self._positive("radius", zero=True)
+
+    @property
+    def law(self) -> Law:
+        return Law(CONTENSOU, self.mu, self.mu, self.radius)
 
 
-def _positive(law: Friction, name: str, zero: bool = False) -> None:
-    value = finite(name, getattr(law, name))
-    if value < 0 or (value == 0 and not zero):
-        raise TopError(name, value, f"{name} {'>=' if zero else '>'} 0")
-    object.__setattr__(law, name, value)
+Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb | Contensou
+
+
+def holding(friction: Friction) -> float:
+    """mu_s of a law that holds a contact at rest, 0 of any other."""
+    return friction.law.mu_s
+
+
+@compiled
+def push(law: Law, square: float, omega_n: float) -> tuple[float, float]:
+    """(k, t) of a law at u^2 = square and the spin omega_n about the normal.
+
+    Coulomb mu/|u|, viscous mu, smoothed mu/(u^2 + eps^2)^1/2, Contensou contensou(). Where the law is set-valued, at
+    u = 0 and radius omega_n = 0, both are 0: what it holds there is for bounds() to say.
+    """
+    if law.kind == VISCOUS:
+        return law.mu, 0.0
+    if law.kind == SMOOTHED:
+        return law.mu / np.sqrt(square + law.width * law.width), 0.0
+    if law.kind == CONTENSOU and law.width * abs(omega_n) > LEAST:
+        return contensou(law.mu, law.width, square, omega_n)
+    return (law.mu / np.sqrt(square) if square > 0.0 else 0.0), 0.0
+
+
+@compiled
+def bounds(law: Law) -> tuple[float, float]:
+    """The largest |F_h| and |T|, per unit of F_z, of a law where the contact neither slips nor spins: mu_s and, of
+    Contensou's, (3 pi/16) mu radius."""
+    return law.mu_s, (3 * np.pi / 16 * law.mu * law.width if law.kind == CONTENSOU else 0.0)
+
+
+@compiled
+def contensou(mu: float, radius: float, square: float, omega_n: float) -> tuple[float, float]:
+    """(k, t) of Contensou's law where radius omega_n is not 0. With q = |u|/(radius |omega_n|),
+
+        |F_h| = mu F_z (3/4) [q (1 - q^2/4) A + (1/2 + q^2/4) Q]
+        |T| = mu F_z radius (3/8) [(1 - q^2 + 3 q^4/8) A + (3 q/4 - 3 q^3/8) Q]
+        A = asin(min(1, 1/q)) ,   Q = (1 - 1/q^2)^1/2 where q > 1, else 0 .
+
+    Rearranged for q <= 1, where A = pi/2 and |F_h|/|u| has a limit at u = 0; and for large q, where the terms of
+    size q^3 cancel, to the hypergeometric series that the brackets are:
+
+        |F_h| = mu F_z 2F1(-1/2, 1/2; 5/2; 1/q^2) ,   |T| = mu F_z radius/(5 q) 2F1(1/2, 1/2; 7/2; 1/q^2) .
+    """
+    w = radius * abs(omega_n)
+    u = np.sqrt(square)
+    if u <= w:
+        q = u / w
+        k = 3 * np.pi / 8 * mu / w * (1 - q * q / 4)
+        t = 3 * np.pi / 16 * mu * radius * (1 - q * q + 3 * q**4 / 8)
+    elif u * u < SERIES * w * w:
+        q = u / w
+        A, Q = np.arcsin(1 / q), np.sqrt(1 - 1 / (q * q))
+        k = mu / u * 3 / 4 * (q * (1 - q * q / 4) * A + (1 / 2 + q * q / 4) * Q)
+        t = mu * radius * 3 / 8 * ((1 - q * q + 3 * q**4 / 8) * A + (3 * q / 4 - 3 * q**3 / 8) * Q)
+    else:
+        x = w / u
+        k = mu / u * hypergeometric(-0.5, 2.5, x * x)
+        t = mu * radius * x / 5 * hypergeometric(0.5, 3.5, x * x)
+    return k, (t if omega_n > 0 else -t)
+
+
+@compiled
+def hypergeometric(a: float, c: float, x: float) -> float:
+    """2F1(a, 1/2; c; x) for 0 <= x <= 1/SERIES: the sum of (a)_n (1/2)_n/(c)_n x^n/n!, whose terms fall as x^n."""
+    term = total = 1.0
+    for n in range(15):
+        term *= (a + n) * (0.5 + n) / ((c + n) * (1 + n)) * x
+        total += term
+    return total
