@@ -17,11 +17,12 @@ from .motion.sliding import slide
 from .motion.smooth import glide
 from .outcome import outcome
 from .paper.constants import Constants, State
-from .paper.curve import f, omega2, omega3, steady_precessions, turning_points
+from .paper.curve import f, omega2, omega3
 from .paper.forces import friction_force, normal_force
 from .paper.share import allowed_shares
 from .paper.tielines import figures, limit_energy, tielines
 from .paper.top import Top
+from .paper.wells import steady_precessions, turning_points
 
 TOP = Top.paper()
 MOTION = Constants(K_J=7.0, K_R=10.0, E=27.0)
