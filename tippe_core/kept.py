@@ -108,5 +108,6 @@ def locked(path: Path, what: str) -> Iterator[None]:
         yield
         return
     with (path / f"{what}.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+        with suppress(OSError):  # a network's disk that has none
+            fcntl.flock(lock, fcntl.LOCK_EX)
         yield
