@@ -1,4 +1,4 @@
-# One word a task. serve and test do everything by themselves in a fresh clone; the first run takes about a minute.
+# One word a task. serve and test do everything by themselves in a fresh clone; the first run takes a minute or two.
 PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)

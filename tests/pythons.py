@@ -21,7 +21,7 @@ from wire import serving
 
 ROOT = Path(__file__).parent.parent
 FIRST, LAST = 11, 14  # of Python 3; of these it is said where there is none
-SHOWN = ("panel", "bokeh", "param", "panel-material-ui", "numpy", "scipy", "tornado", "matplotlib", "segno")
+SHOWN = ("panel", "bokeh", "param", "panel-material-ui", "numpy", "scipy", "tornado", "matplotlib", "segno", "numba")
 VISITORS = 4
 
 

@@ -15,6 +15,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import visitors
+from wire import serving, until
 
 import tippe_core
 from tippe_core import kept
@@ -258,3 +260,21 @@ def test_no_kernel_starts_threads_or_loosens_arithmetic():
         named = {word.arg for node in ast.walk(tree) if isinstance(node, ast.Call) for word in node.keywords}
         if path.name == "compiled.py":
             assert named & {"nogil", "parallel", "fastmath"} == {"nogil"}
+
+
+@pytest.mark.served
+@pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
+@pytest.mark.parametrize("command", ["app", "panel serve app"])
+def test_a_server_that_finds_no_kernels_answers_while_they_are_compiled(command, tmp_path):
+    log = tmp_path / "log"
+    told = ["env", f"NUMBA_CACHE_DIR={tmp_path / 'kernels'}", sys.executable, "-m", *command.split()]
+    with serving(told, log, ROOT) as server:
+        assert visitors.main(server.url, 1) == 0
+        until(lambda: "kernels are compiled" in log.read_text(), 300)
+    said = log.read_text()
+    assert said.count("no compiled kernels are kept") == said.count("kernels are compiled, after") == 1
+    assert "ended early" not in said and "but not kept" not in said
+    assert kept.complete(next((tmp_path / "kernels").iterdir()))
+    with serving(told, log, ROOT):
+        pass
+    assert "kernels" not in log.read_text()

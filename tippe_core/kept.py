@@ -40,9 +40,10 @@ def name() -> str:
 
 
 def places() -> Iterator[Path]:
-    """Folders in which it may be: where numba is told to keep its own, beside the sources, and in the user's cache."""
+    """Folders in which it may be: where numba is told to keep its own, else beside the sources and the user's cache."""
     if told := os.environ.get("NUMBA_CACHE_DIR"):
         yield Path(told)
+        return
     yield PACKAGE / "__pycache__"
     with suppress(RuntimeError):  # a user without a home
         yield _users_cache() / "tippe-top-explorer"
@@ -107,5 +108,6 @@ def locked(path: Path, what: str) -> Iterator[None]:
         yield
         return
     with (path / f"{what}.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+        with suppress(OSError):  # a network's disk that has none
+            fcntl.flock(lock, fcntl.LOCK_EX)
         yield
