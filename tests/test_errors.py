@@ -43,7 +43,7 @@ PAPER = TruncatedSphere.paper()
 LATER = {"constants.py", "contacts.py", "curve.py", "outcome.py", "rolling.py", "share.py", "sliding.py", "smooth.py",
          "tielines.py", "top.py", "trajectory.py"}  # fmt: skip
 # What stands in a formula of what is allowed and is no English: units, quantities, the core's classes.
-NOTATION = {"rad", "kg", "mu", "mu_s", "mu_k", "eps", "gamma", "theta", "tilt", "seconds", "str", "bytes",
+NOTATION = {"rad", "kg", "mu", "mu_s", "mu_k", "eps", "gamma", "theta", "tilt", "seconds", "str", "bytes", "in",
             "high", "low", "rtol", "pi", "well", "radius", "height", "rounding", "times"}  # fmt: skip
 
 
