@@ -240,7 +240,9 @@ class Builder(param.Parameterized):
 
     def refuse_file(self, largest: int) -> None:
         """Says that a file was larger than so many bytes."""
-        self._refuse("file", TopError("file", "too large", f"at most {largest} bytes", "A saved top is far smaller."))
+        self._refuse("file", TopError(
+            "file", "too large", "at most {most} bytes", "A saved top is far smaller.", code="file-too-large",
+            most=largest))  # fmt: skip
 
     def follow(self) -> None:
         """Shows the body that the Explorer was given by something else."""
@@ -337,21 +339,19 @@ def _draft(shape: Shape, top: Top) -> Draft:
 
 def sentence(error: TopError) -> str:
     """A TopError in the units of the sliders: what is in m becomes mm, what is in kg becomes g."""
-    value, allowed = error.value, error.allowed
-    for unit, smaller in (("m", "mm"), ("kg", "g")):
-        if isinstance(value, float) and re.search(rf"\({unit}[,)]| {unit} for this body", allowed):
-            value *= 1e3
-            allowed = re.sub(r"(?<![\w./])-?\d+(\.\d+)?(e[+-]?\d+)?(?![\w.])(?! kg/m)", _thousandfold, allowed)
-            allowed = re.sub(rf"(\(|\d ){unit}(?=[,)]| for)", rf"\g<1>{smaller}", allowed)
-            value = float(f"{value:.6g}")
-            shown = f"{value:.10g}"  # as in TopError
-            said = told(TopError(error.name, value, allowed, error.remedy))
-            return said.replace(f" = {shown} ", f" = {shown} {smaller} ", 1)
-    return told(error)
+    unit = {"m": "mm", "kg": "g"}.get(error.numbers.get("unit", ""))
+    if unit is None or not isinstance(error.value, float):
+        return told(error)
+    numbers = {name: _thousandfold(error.numbers[name]) for name in ("range", "most") if name in error.numbers}
+    value = float(f"{1e3 * error.value:.6g}")
+    return told(error.replaced(error.name, value, unit=unit, **numbers), unit=unit)
 
 
-def _thousandfold(match: re.Match[str]) -> str:
-    return f"{1e3 * float(match[0]):g}"
+def _thousandfold(number: Value) -> Value:
+    """A number, or all those in a formula such as 0 < R <= 0.5, a thousand times as large."""
+    if not isinstance(number, str):
+        return 1e3 * number
+    return re.sub(r"(?<![\w./[])-?\d+(\.\d+)?(e[+-]?\d+)?(?![\w.])", lambda x: f"{1e3 * float(x[0]):g}", number)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -371,9 +371,17 @@ class Rocking:
         except TopError as error:
             # what was measured is the diameter
             if error.name == "R":
-                raise TopError(say("workshop.own.diameter"), self.D, "2e-09 to 2e+09 (m)") from None
+                raise TopError(
+                    say("workshop.own.diameter"), self.D, "{range} ({unit})", range="2e-09 <= D <= 2e+09", unit="m"
+                ) from None
             if error.name == "dR":
-                raise TopError(say("workshop.own.diameter_uncertainty"), self.dD, "0 to 2e+09 (m)") from None
+                raise TopError(
+                    say("workshop.own.diameter_uncertainty"),
+                    self.dD,
+                    "{range} ({unit})",
+                    range="0 <= dD <= 2e+09",
+                    unit="m",
+                ) from None
             raise
 
 

@@ -335,10 +335,12 @@ def solve(
         K_J, K_R, E = float(constants.K_J), float(constants.K_R), float(constants.E)
     for name, value in {"K_J": K_J, "K_R": K_R, "mu_s": mu_s, "E": share if E is None else E}.items():
         if not abs(value) <= LARGEST:
-            raise TopError(name, value, f"at most {LARGEST:g} either way", "No top is ever so fast, no table so rough.")
+            raise TopError(name, value, "at most {most:g} either way", "No top is ever so fast, no table so rough.",
+                           code="too-large", most=LARGEST)  # fmt: skip
     for name, least, unit in (("a", -LARGEST, "R"), ("I1", LEAST_INERTIA, "MR^2"), ("I3", LEAST_INERTIA, "MR^2")):
         if not least <= (value := getattr(top, name)) <= LARGEST:
-            raise TopError(name, value, f"{least:g} to {LARGEST:g} ({unit})", "No body is so thin, or so wide.")
+            raise TopError(name, value, "{least:g} to {most:g} ({unit})", "No body is so thin, or so wide.",
+                           code="no-such-body", least=least, most=LARGEST, unit=unit)  # fmt: skip
     marks = energy_marks(top, K_J, K_R, mu_s)
     if E is None:
         E = marks.energy(share)
@@ -350,8 +352,12 @@ def solve(
         raise TopError(
             "E",
             E,
-            f"E >= {marks.steady:.6g} MgR at K_J = {K_J:g} and K_R = {K_R:g}",
+            "E >= {least:.10g} MgR at K_J = {K_J:g} and K_R = {K_R:g}",
             "Below the steady precession there is no motion: move the energy up.",
+            code="no-motion",
+            least=float(f"{marks.steady:.6g}"),
+            K_J=K_J,
+            K_R=K_R,
         )
     constants = Constants(K_J, K_R, E)
     if state is not None:

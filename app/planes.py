@@ -4,7 +4,6 @@ It computes and publishes, and knows no widgets. In units of R, M and g but for 
 A run is made in a thread, which has no page: it is told in which language to say why there is no motion.
 """
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import partial
@@ -121,10 +120,10 @@ class Settings:
         if self.rolling is not None:
             return self.rolling
         if not 0 <= self.tilt <= 180:
-            raise TopError("tilt", self.tilt, "0 to 180 degrees")
+            raise TopError("tilt", self.tilt, "0 <= tilt <= 180 (°)")
         for name in ("spin", "slip"):
             if not np.isfinite(getattr(self, name)):
-                raise TopError(name, getattr(self, name), "a finite number")
+                raise TopError(name, getattr(self, name), "a finite number", code="not-finite")
         theta = float(np.radians(self.tilt))
         spin = 2 * np.pi * self.spin / self.scales.angular_velocity
         return State(theta, 0.0, 0.0, spin, vx=-(1 - self.slip) * spin * np.sin(theta), vy=0.0)
@@ -133,7 +132,7 @@ class Settings:
     def times(self) -> Array:
         """(n,), short enough a step that the top turns little in it."""
         if not 0 < self.seconds <= MOST_SECONDS:
-            raise TopError("seconds", self.seconds, f"more than 0, at most {MOST_SECONDS:g} s")
+            raise TopError("seconds", self.seconds, f"0 < seconds <= {MOST_SECONDS:g} (s)")
         start, end = self.state, self.seconds / self.scales.time
         top = self.top
         kinetic = top.I1 * (start.theta_dot**2 + start.omega2**2) + top.I3 * start.omega3**2
@@ -141,8 +140,8 @@ class Settings:
         fastest = np.sqrt((kinetic + vx**2 + vy**2 + 4 * abs(top.a)) / min(top.I1, top.I3))
         if end * fastest > FARTHEST_TURN * MOST_FRAMES:
             most = FARTHEST_TURN * MOST_FRAMES / fastest * self.scales.time
-            raise TopError("seconds", self.seconds, f"at most {most:.3g} s with this spin",
-                           "More turns than that are too many to show.")  # fmt: skip
+            raise TopError("seconds", self.seconds, "at most {most:.3g} s with this spin",
+                           "More turns than that are too many to show.", code="too-many-turns", most=most)  # fmt: skip
         frames = np.clip(np.ceil(end * fastest / MOST_TURN), LEAST_FRAMES, MOST_FRAMES)
         return np.linspace(0, end, int(frames) + 1)
 
@@ -298,8 +297,8 @@ def _check_room(settings: Settings, state: State) -> None:
     below = stands + lowest(body(settings.shape), theta) < -SUNK
     if below[-1]:
         most = np.degrees(theta[max(int(np.argmax(below)) - 1, 0)])
-        raise TopError("tilt", float(np.degrees(state.theta)), f"at most {most:.4g} degrees for this body",
-                       "Another part of it would be below the table.")  # fmt: skip
+        raise TopError("tilt", float(np.degrees(state.theta)), "at most {most:.4g} degrees for this body",
+                       "Another part of it would be below the table.", code="body-below-table", most=most)  # fmt: skip
 
 
 def _until(trajectory: Trajectory, count: int, time: float, event: str) -> Trajectory:
@@ -326,8 +325,9 @@ def _clear(motion: Callable[[], Trajectory], settings: Settings, state: State) -
     angle = settings.touch_angle
     if state.theta >= angle:
         raise TopError("tilt", float(np.degrees(state.theta)),
-                       f"less than {np.degrees(angle):.4g} degrees on this plane",
-                       "Its stem or rim would be below the table.")  # fmt: skip
+                       "less than {most:.4g} degrees on this plane",
+                       "Its stem or rim would be below the table.", code="stem-below-table",
+                       most=np.degrees(angle))  # fmt: skip
     trajectory = motion()
     theta, t = trajectory.theta, trajectory.t
     if theta.max() < angle:
@@ -343,13 +343,13 @@ def for_reader(error: TopError, scales: Scales) -> TopError:
              "times": ("seconds", scales.time)}  # fmt: skip
     name, size = names.get(error.name, (error.name, 1.0))
 
-    def scaled(words: str, start: str, size: float, unit: str = "") -> str:
-        number = rf"({start})(\d+(?:\.\d+)?(?:e[+-]?\d+)?)"
-        return re.sub(number, lambda found: f"{found[1]}{size * float(found[2]):.4g}{unit}", words)
-
     value = float(f"{size * error.value:.6g}") if name != error.name and isinstance(error.value, float) else error.value
-    return TopError(name, value, scaled(error.allowed, "less than |at most ", size),
-                    scaled(error.remedy, "t = ", scales.time, " s"))  # fmt: skip
+    numbers: dict[str, Number] = {}
+    if "most" in error.numbers:
+        numbers["most"] = float(f"{size * error.numbers['most']:.4g}")
+    if "t" in error.numbers:
+        numbers |= {"t": float(f"{scales.time * error.numbers['t']:.4g}"), "unit": " s"}
+    return error.replaced(name, value, **numbers)
 
 
 def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str) -> Motion:

@@ -438,12 +438,13 @@ def test_a_run_that_can_go_no_further_shows_what_was_computed_and_says_why(usual
 
 def test_a_limit_is_told_in_what_stands_beside_the_controls():
     scales = Scales.paper()
-    error = for_reader(TopError("times", 1500.0, "at most 1357.06", "followed past t = 1357.06."), scales)
+    error = for_reader(TopError("times", 1500.0, "at most {most:g}", "followed past t = {t:g}{unit}.",
+                                most=1357.06, t=1357.06, unit=""), scales)  # fmt: skip
     assert (error.name, error.allowed) == ("seconds", "at most 54.81") and "t = 54.81 s" in error.remedy
-    error = for_reader(TopError("theta", 2.6, "less than 2.07326 for this top"), scales)
+    error = for_reader(TopError("theta", 2.6, "less than {most:g} for this top", most=2.07326), scales)
     assert (error.name, error.allowed) == ("tilt", "less than 118.8 for this top")
     assert error.value == pytest.approx(149.0, abs=0.05)
-    error = for_reader(TopError("omega3", 10.0, "at most 40"), scales)
+    error = for_reader(TopError("omega3", 10.0, "at most {most:g}", most=40), scales)
     assert (error.name, error.value) == ("spin", pytest.approx(10 * np.sqrt(9.81 / 0.016) / (2 * np.pi), rel=1e-5))
 
 

@@ -68,7 +68,7 @@ class Ending:
 def ending(trajectory: Trajectory) -> Ending:
     """The Ending of a Trajectory of slide()."""
     if not isinstance(trajectory, Trajectory):
-        raise TopError("trajectory", trajectory, "a Trajectory")
+        raise TopError("trajectory", trajectory, "Trajectory", code="wrong-kind")
     moved, found, ended = trajectory, stretches(trajectory), _ended(trajectory)
     since = moved.t[-1] - LAST * (moved.t[-1] - moved.t[0])
     last = moved.t >= since

@@ -1,28 +1,101 @@
-"""What is said when a value cannot be used: its name, the value, the allowed range, what to do."""
+"""What is said when a value cannot be used: a code, its name, the value, the allowed range, what to do."""
 
 import math
-from typing import SupportsFloat
+from typing import Any, Self, SupportsFloat
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .types import Array
 
+CODES = {
+    # any quantity
+    "out-of-range": "outside the range that `allowed` gives as a formula",
+    "not-finite": "nan, infinity, or no number at all",
+    "wrong-kind": "of another type than those that `allowed` names as Python does",
+    "wrong-count": "too many values, or too few",
+    "not-whole": "not a whole number of that range",
+    "falling": "a value less than the one before it",
+    "shapes-differ": "arrays that do not broadcast together",
+    "too-large": "a number no top comes near to",
+    # tops and what they do
+    "too-high": "the centre of mass is not above the contact point",
+    "too-flat": "I3 > 2 I1, which no body has",
+    "no-times": "times that are no one-dimensional array of finite numbers, or none",
+    "no-motion": "the energy is below the bottom of every well of f",
+    "no-direction": "omega_2' on the vertical axis, where axis 2' has no direction",
+    "contradiction": "given twice, and not alike",
+    "energy-not-resolved": "an energy whose nutation takes almost for ever",
+    "start-not-resolved": "a start whose nutation takes almost for ever",
+    # friction and contacts
+    "below-sliding": "friction at rest smaller than that of sliding",
+    "too-strong": "friction that no normal force balances (Painleve's paradox)",
+    "not-followed": "friction under which the equations could not be integrated",
+    "beyond-rim": "a tilt at which the sphere has ended",
+    "inside-sphere": "an edge that cannot touch the table before the sphere does",
+    # bodies
+    "too-dense": "more mass than so large a body has",
+    "cut-misses": "a cut that does not go through the sphere",
+    "stem-too-wide": "a stem wider than the face it stands on",
+    "half-a-stem": "a stem without a length, or without a radius",
+    "core-sticks-out": "a core that is not inside the ball",
+    "hangs-on-a-point": "a body joined to its peg by a point alone",
+    "does-not-fit": "moments of inertia, or a centre of mass, that the body is too small for",
+    "several-bodies": "a solid in more than one piece, or in none",
+    "meets-in-a-point": "parts of a solid that meet in a point or a circle alone",
+    "more-taken-away": "a negative density",
+    "outside-sphere": "a zone that is not of its sphere",
+    "no-peg": "a solid that does not stand on a sphere about O",
+    "inside-unknown": "a body whose inside would have to be known",
+    # the measured period of rocking
+    "does-not-rock": "a top that does not rock about theta = 0",
+    "none-rocks": "a range without a body that rocks",
+    "too-fast": "a period shorter than any such top has",
+    "reached-twice": "a period that more than one body has",
+    "not-reached": "a period that no body has",
+    # files
+    "file-too-large": "more bytes than a saved top has",
+    "not-json": "text that is no JSON document",
+    "not-ours": "a document that is no saved top, or of another version",
+    "no-object": "something else in the place of an object with fields",
+    "unknown-field": "a field that does not belong there",
+    "missing-field": "a field that is not there",
+    "repeated-field": "a field that is there more than once",
+}
+"""{code: what is wrong}: every code that a TopError of this package has."""
+
 
 class TopError(ValueError):
     """A quantity outside the range in which it means anything.
 
-    Attributes name, value, allowed and remedy hold the parts of the sentence; str() is the sentence.
+    Attributes: code, a key of CODES, for a program that chooses words of its own; name, value, allowed and remedy, the
+    parts of the sentence, and numbers, what stands in them, {name: value}; str() is the sentence. allowed is a formula
+    or Python's notation where the code says the rest.
+
+    Where numbers are given, allowed and remedy are formats of them, such as "at most {most:g}".
     """
 
-    def __init__(self, name: str, value: object, allowed: str, remedy: str = "") -> None:
-        self.name, self.value, self.allowed, self.remedy = name, value, allowed, remedy
-        shown = f"{value:.10g}" if isinstance(value, float) else repr(value)
-        super().__init__(f"{name} = {shown} is not possible: allowed is {allowed}." + (f" {remedy}" if remedy else ""))
+    def __init__(
+        self, name: str, value: object, allowed: str, remedy: str = "", *, code: str = "out-of-range", **numbers: Any
+    ) -> None:
+        self.code, self.name, self.value, self.numbers = code, name, value, numbers
+        self._formats = allowed, remedy
+        self.allowed, self.remedy = (words.format(**numbers) if numbers else words for words in self._formats)
+        said = f"{name} = {shown(value)} is not possible: allowed is {self.allowed}."
+        super().__init__(f"{said} {self.remedy}" if self.remedy else said)
+
+    def replaced(self, name: str, value: object, **numbers: Any) -> Self:
+        """The same error of a quantity called, or measured, otherwise: with these numbers in place of its own."""
+        return type(self)(name, value, *self._formats, code=self.code, **self.numbers | numbers)
 
 
 class NoMotionError(TopError):
-    """The energy is below the bottom of every well of f: no such motion exists."""
+    """The energy is below the bottom of every well of f: no such motion exists. Its code is "no-motion"."""
+
+
+def shown(value: object) -> str:
+    """A value as it stands in a sentence."""
+    return f"{value:.10g}" if isinstance(value, float) else repr(value)
 
 
 def finite(name: str, value: SupportsFloat) -> float:
@@ -32,7 +105,7 @@ def finite(name: str, value: SupportsFloat) -> float:
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if isinstance(value, bool) or not math.isfinite(number):
-        raise TopError(name, value, "a finite number")
+        raise TopError(name, value, "a finite number", code="not-finite")
     return number
 
 
@@ -43,8 +116,8 @@ def numbers(name: str, values: ArrayLike) -> Array:
     except (TypeError, ValueError, OverflowError):
         array = np.array("")
     if array.dtype.kind not in "iuf":
-        raise TopError(name, values, "finite numbers")
+        raise TopError(name, values, "finite numbers", code="not-finite")
     array = array.astype(float)
     if not np.all(np.isfinite(array)):
-        raise TopError(name, float(array[~np.isfinite(array)].flat[0]), "a finite number")
+        raise TopError(name, float(array[~np.isfinite(array)].flat[0]), "a finite number", code="not-finite")
     return array

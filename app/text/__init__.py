@@ -15,9 +15,17 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from tippe_core import TopError
+from tippe_core.errors import shown
 
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 DEFAULT = "en"
+CODES = {
+    "no-such-body": "a body thinner or wider than any",
+    "too-many-turns": "a motion too long to be shown, as fast as it turns",
+    "stem-below-table": "a tilt at which a stem or rim is below the table",
+    "body-below-table": "a tilt at which another part is",
+}
+"""{code: what is wrong}: those of the page itself, beside tippe_core.errors.CODES."""
 Found: TypeAlias = Any  # what stands under a key: words, a list of them, or a table
 
 
@@ -85,32 +93,32 @@ def say(key: str, language: str | None = None, **numbers: object) -> str:
     return _Numbers().format(listed(key, language), **numbers)
 
 
-def told(error: TopError, language: str | None = None) -> str:
-    """The sentence of a TopError of the core, in the page's language; as plain text, not HTML."""
+def told(error: TopError, language: str | None = None, unit: str = "") -> str:
+    """The sentence of a TopError in the page's language, as plain text, not HTML; unit: what its value is shown in.
+
+    English is the core's own. Another language has words for each code in errors.toml: what is allowed and what to do
+    where the core says these in words, or a whole sentence.
+    """
+    language = language or spoken()
+    value = shown(error.value)
+    if language == DEFAULT:
+        said = str(error)
+    else:
+        words = listed(f"errors.codes.{error.code}", language)
+        allowed = words["allowed"].format(**error.numbers) if "allowed" in words else error.allowed
+        parts = error.numbers | {"name": called(error.name, language), "value": value, "allowed": allowed}
+        said = words.get("sentence", listed("errors.sentence", language)).format(**parts)
+        if "remedy" in words:
+            said += " " + words["remedy"].format(**error.numbers)
+    return said.replace(f" = {value} ", f" = {value} {unit} ", 1) if unit else said
+
+
+def called(name: str, language: str | None = None) -> str:
+    """What the quantity of a TopError is called on the page: as in the core where [names] of errors.toml has no word
+    for it; points[2] is a row of points[]."""
     language = language or spoken()
     if language == DEFAULT:
-        return str(error)
-    value = error.value
-    shown = f"{value:.10g}" if isinstance(value, float) else translated(str(value), language)
-    parts = {"name": translated(error.name, language), "allowed": translated(error.allowed, language)}
-    said = say("core.sentence", language, shown=shown, **parts)
-    return said + (f" {translated(error.remedy, language)}" if error.remedy else "")
-
-
-def translated(words: str, language: str | None = None) -> str:
-    """Words of the core, which speaks English, in the page's language; as they are where they have no translation."""
-    language = language or spoken()
-    if language == DEFAULT:
-        return words
-    for pattern, other in _patterns(language):
-        found = pattern.fullmatch(words)
-        if found:
-            return other.format(*found.groups())
-    return words
-
-
-@cache
-def _patterns(language: str) -> list[tuple[re.Pattern[str], str]]:
-    """[core.words] says what words with numbers {} in them become."""
-    return [(re.compile("(.*?)".join(map(re.escape, words.split("{}"))), re.DOTALL), other)
-            for words, other in listed("core.words", language).items()]  # fmt: skip
+        return name
+    rows = re.findall(r"\[\d+\]", name)
+    words = listed("errors.names", language).get(re.sub(r"\[\d+\]", "[]", name))
+    return words.replace("[]", rows[0], 1) if words and rows else words or name

@@ -31,9 +31,10 @@ def save_top(shape: Shape) -> str:
 def load_top(text: str | bytes) -> Shape:
     """The shape in a document (str or bytes) that save_top wrote, or one like it. Raises TopError, naming the field."""
     if not isinstance(text, (str, bytes)):
-        raise TopError("file", type(text).__name__, "the text of a saved top")
+        raise TopError("file", type(text).__name__, "str | bytes", code="wrong-kind")
     if len(text) > LONGEST:
-        raise TopError("file", f"{len(text)} bytes", f"at most {LONGEST} bytes", "A saved top is far smaller.")
+        raise TopError("file", f"{len(text)} bytes", "at most {most} bytes", "A saved top is far smaller.",
+                       code="file-too-large", most=LONGEST)  # fmt: skip
     try:
         text = text.decode("utf-8-sig") if isinstance(text, bytes) else text
         # every number a float: a whole number of a million digits is inf, and refused as such
@@ -41,14 +42,17 @@ def load_top(text: str | bytes) -> Shape:
     except TopError:
         raise
     except (ValueError, RecursionError) as error:
-        raise TopError("file", "text", "a JSON document", f"{str(error)[:120]}.") from None
+        line, column = getattr(error, "lineno", 1), getattr(error, "colno", 1)
+        raise TopError("file", "text", "a JSON document", "{why}.", code="not-json", why=str(error)[:120], line=line,
+                       column=column) from None  # fmt: skip
     _fields("file", document, ("schema", "version", "kind", "dimensions"))
     for name, wanted in (("schema", SCHEMA), ("version", VERSION)):
         if isinstance(document[name], bool) or document[name] != wanted:
-            raise TopError(name, _short(document[name]), repr(wanted), "This is not a top saved by this program.")
+            raise TopError(name, _short(document[name]), repr(wanted), "This is not a top saved by this program.",
+                           code="not-ours")  # fmt: skip
     kind = KINDS.get(document["kind"]) if isinstance(document["kind"], str) else None
     if kind is None:
-        raise TopError("kind", _short(document["kind"]), ", ".join(KINDS))
+        raise TopError("kind", _short(document["kind"]), " | ".join(KINDS), code="wrong-kind")
     dimensions = document["dimensions"]
     _fields("dimensions", dimensions, [field.name for field in fields(kind)])
     for name, value in dimensions.items():
@@ -63,7 +67,9 @@ def load_top(text: str | bytes) -> Shape:
 
 def _solid(pieces: Json) -> Solid:
     if not isinstance(pieces, list) or not 1 <= len(pieces) <= MOST_PIECES:
-        raise TopError("solid", _short(pieces), f"a list of 1 to {MOST_PIECES} pieces")
+        raise TopError(
+            "solid", _short(pieces), "a list of {count} pieces", code="wrong-count", count=f"1 - {MOST_PIECES}"
+        )
     slices = []
     for index, piece in enumerate(pieces):
         name = f"solid[{index}]"
@@ -71,7 +77,7 @@ def _solid(pieces: Json) -> Solid:
         kinds: dict[str, type[Zone | Frustum]] = {"Zone": Zone, "Frustum": Frustum}
         kind = kinds.get(word) if isinstance(word, str) else None
         if kind is None:
-            raise TopError(f"{name}.piece", _short(word), "Zone, Frustum")
+            raise TopError(f"{name}.piece", _short(word), "Zone | Frustum", code="wrong-kind")
         _fields(name, piece, ["piece", *(field.name for field in fields(kind))])
         sizes = {key: value for key, value in piece.items() if key != "piece"}
         for key, value in sizes.items():
@@ -79,7 +85,7 @@ def _solid(pieces: Json) -> Solid:
         try:
             slices.append(kind(**sizes))
         except TopError as error:
-            raise TopError(f"{name}.{error.name}", error.value, error.allowed, error.remedy) from None
+            raise error.replaced(f"{name}.{error.name}", error.value) from None
     return Solid(tuple(slices))
 
 
@@ -87,30 +93,32 @@ def _without_repeats(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
     names = [name for name, _ in pairs]
     for name in names:
         if names.count(name) > 1:
-            raise TopError(_short(name), "given more than once", "one value")
+            raise TopError(_short(name), "given more than once", "one value", code="repeated-field")
     return dict(pairs)
 
 
 def _fields(name: str, record: Json, wanted: Collection[str]) -> None:
     if not isinstance(record, dict):
-        raise TopError(name, _short(record), f"an object with {', '.join(wanted)}")
+        raise TopError(name, _short(record), "an object with {fields}", code="no-object", fields=", ".join(wanted))
     for field in record:
         if field not in wanted:
-            raise TopError(_short(field), "unknown field", ", ".join(wanted), f"Remove it from {name}.")
+            raise TopError(_short(field), "unknown field", "{fields}", "Remove it from {record}.",
+                           code="unknown-field", fields=", ".join(wanted), record=name)  # fmt: skip
     for field in wanted:
         if field not in record:
-            raise TopError(field, "missing", ", ".join(wanted), f"Add it to {name}.")
+            raise TopError(field, "missing", "{fields}", "Add it to {record}.", code="missing-field",
+                           fields=", ".join(wanted), record=name)  # fmt: skip
 
 
 def _number(name: str, value: Json) -> None:
     if not isinstance(value, float):
-        raise TopError(name, _short(value), "a number")
+        raise TopError(name, _short(value), "a number", code="not-finite")
 
 
 def _numbers(name: str, values: Json) -> None:
     """A list of numbers, or of lists of numbers."""
     if not isinstance(values, list) or not 1 <= len(values) <= MOST_POINTS:
-        raise TopError(name, _short(values), f"a list of 1 to {MOST_POINTS}")
+        raise TopError(name, _short(values), "a list of {count}", code="wrong-count", count=f"1 - {MOST_POINTS}")
     for index, value in enumerate(values):
         for number in value if name == "points" and isinstance(value, list) else [value]:
             _number(f"{name}[{index}]", number)

@@ -13,7 +13,7 @@ from .outline import Edge
 def stl(outlines: Iterable[Sequence[Edge]], sides: int) -> bytes:
     """The surface within the outlines (m) as a binary STL file, in mm: see Solid.stl."""
     if isinstance(sides, bool) or not isinstance(sides, (int, np.integer)) or not 3 <= sides <= 1024:
-        raise TopError("sides", sides, "a whole number from 3 to 1024")
+        raise TopError("sides", sides, "a whole number from {low} to {high}", code="not-whole", low=3, high=1024)
     turn = 2 * np.pi * np.arange(sides) / sides
     around, onwards = np.column_stack([np.cos(turn), np.sin(turn)]), np.roll(np.arange(sides), -1)
     triangles = []

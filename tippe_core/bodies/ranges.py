@@ -21,9 +21,10 @@ def weight(M: float) -> float:
 def check_stem(r: float, l: float) -> None:
     if (r == 0) != (l == 0):
         name = "r" if r == 0 else "l"
-        raise TopError(name, 0.0, f"{name} > 0 (m)", "A stem has a radius and a length; with both 0 there is none.")
-    if 0 < l < SMALLEST:
-        raise TopError("l", l, f"0, or l >= {SMALLEST:g} (m)")
+        raise TopError(name, 0.0, "{range} ({unit})", "A stem has a radius and a length; with both 0 there is none.",
+                       code="half-a-stem", range=f"{name} > 0", unit="m")  # fmt: skip
+    if l:
+        in_range("l", l, SMALLEST, inf, "m")
 
 
 def in_range(
@@ -34,22 +35,26 @@ def in_range(
     unit: str,
     above: bool = False,
     below: bool = False,
+    *,
+    code: str = "out-of-range",
+    why: str = "",
     remedy: str = "",
 ) -> float:
-    """value, or a TopError unless low <= value <= high (< where above, below)."""
+    """value, or a TopError unless low <= value <= high (< where above, below). why: what the range is, in words."""
     if (low < value if above else low <= value) and (value < high if below else value <= high) and isfinite(value):
         return value
     left = f"{low:g} {'<' if above else '<='} " if isfinite(low) else ""
     right = f" {'<' if below else '<='} {high:g}" if isfinite(high) else ""
-    raise TopError(name, value, f"{left}{name}{right} ({unit})", remedy)
+    allowed = f"{{range}} ({{unit}}, {why})" if why else "{range} ({unit})"
+    raise TopError(name, value, allowed, remedy, code=code, range=f"{left}{name}{right}", unit=unit)
 
 
 def rows_of(name: str, rows: object, columns: int, most: int) -> tuple[tuple[float, ...], ...]:
     """A tuple of tuples of floats."""
     if not isinstance(rows, (list, tuple, np.ndarray)) or not 1 <= len(rows) <= most:
-        raise TopError(name, rows, f"1 to {most} rows of {columns} numbers")
+        raise TopError(name, rows, "{count} rows of numbers", code="wrong-count", count=f"1 - {most}")
     for index, row in enumerate(rows):
         if np.shape(row) != (columns,):
-            raise TopError(f"{name}[{index}]", row, f"{columns} numbers")
+            raise TopError(f"{name}[{index}]", row, "{count} numbers", code="wrong-count", count=columns)
     return tuple(
         tuple(finite(f"{name}[{index}]", value) for value in row) for index, row in enumerate(rows))  # fmt: skip

@@ -28,7 +28,8 @@ def rocking_period(top: Top) -> float:
     T = 2 pi [(I1 + (1 - a)^2)/a]^1/2
     """
     if top.a <= 0:
-        raise TopError("a", top.a, "a > 0", "Only a top whose G lies below O rocks about theta = 0.")
+        raise TopError("a", top.a, "a > 0", "Only a top whose G lies below O rocks about theta = 0.",
+                       code="does-not-rock")  # fmt: skip
     return 2 * pi * sqrt((top.I1 + (1 - top.a) ** 2) / top.a)
 
 
@@ -62,7 +63,8 @@ def a_from_rocking(
     least = max(I1, 2 * sqrt(1 + I1) - 2)
     if not q > least:
         shortest = 2 * pi * sqrt(least * R / g)
-        raise TopError("T", T, f"T > {shortest:.6g} s for this R, I1 and g", "No top of this kind rocks faster.")
+        raise TopError("T", T, "T > {least:.6g} s for this R, I1 and g", "No top of this kind rocks faster.",
+                       code="too-fast", least=shortest)  # fmt: skip
     root = sqrt((2 + q) ** 2 - 4 * (1 + I1))
     a = 2 * (1 + I1) / (2 + q + root)
     slopes = {"T": -a * 2 * q / T, "R": a * q / R, "I1": 1.0, "g": -a * q / g}
@@ -99,12 +101,15 @@ def dimension_from_rocking(
     tried = np.linspace(finite("low", low), finite("high", high), 257)
     periods = np.array([period(x) for x in tried])
     if np.isnan(periods).all():
-        raise TopError("low", low, "a range with a body in it that rocks", "Give other low and high.")
+        raise TopError(
+            "low", low, "a range with a body in it that rocks", "Give other low and high.", code="none-rocks"
+        )
     at = np.flatnonzero((periods[:-1] >= T) != (periods[1:] >= T))
     at = [index for index in at if not np.isnan(periods[index : index + 2]).any()]
     if len(at) != 1:
-        span = f"{np.nanmin(periods):.6g} to {np.nanmax(periods):.6g} s, and reached once"
-        raise TopError("T", T, span, "Narrow low and high." if at else "Widen low and high.")
+        code, remedy = ("reached-twice", "Narrow low and high.") if at else ("not-reached", "Widen low and high.")
+        raise TopError("T", T, "{low:.6g} to {high:.6g} s, and reached once", remedy, code=code,
+                       low=np.nanmin(periods), high=np.nanmax(periods))  # fmt: skip
     first, last = tried[at[0]], tried[at[0] + 1]
     x = brentq(lambda x: period(x) - T, first, last, xtol=1e-15 * max(abs(first), abs(last)), rtol=1e-14)
     step = (last - first) * 1e-3

@@ -153,7 +153,8 @@ class OneMaterial(Shape):
         super().__post_init__()
         weight(self.M)
         if not 0 < self.density <= DENSEST:
-            raise TopError("M", self.M, f"at most {DENSEST * self.form.volume:g} kg for this body ({DENSEST:g} kg/m^3)")
+            raise TopError("M", self.M, "at most {most:g} {unit} for this body ({densest:g} kg/m^3)",
+                           code="too-dense", most=DENSEST * self.form.volume, densest=DENSEST, unit="kg")  # fmt: skip
 
     @classmethod
     def from_density(cls, density: float, **dimensions: float) -> Self:
@@ -187,23 +188,27 @@ class Turned(Shape):
 
     def _check(self) -> None:
         if not isinstance(self.solid, Solid) or not 1 <= len(self.solid.slices) <= MOST_PIECES:
-            raise TopError("solid", self.solid, f"a Solid of 1 to {MOST_PIECES} pieces")
+            raise TopError(
+                "solid", self.solid, "a Solid of {count} pieces", code="wrong-count", count=f"1 - {MOST_PIECES}"
+            )
         check_one_piece("solid", self.solid)
         peg = self.solid.outline[0]
         near = 1e-9 * self.R
         if not (peg.arc and abs(peg.arc.R - self.R) <= near and abs(peg.arc.centre) <= near and peg.start[0] == 0
                 and abs(peg.start[1] + self.R) <= near):  # fmt: skip
             raise TopError("R", self.R, "the radius of the sphere about O at the solid's lowest point",
-                           "Put zone(R, -R, ...) at the bottom, whole.")  # fmt: skip
+                           "Put zone(R, -R, ...) at the bottom, whole.", code="no-peg")  # fmt: skip
 
 
 def check_one_piece(name: str, solid: Solid) -> None:
     if solid.mass <= 0 or solid.pieces != 1:
-        raise TopError(name, f"{solid.pieces} bodies", "one body", "Make its parts overlap or touch.")
+        raise TopError(name, f"{solid.pieces} bodies", "one body", "Make its parts overlap or touch.",
+                       code="several-bodies", pieces=solid.pieces)  # fmt: skip
     starts = [id(edge.start) for outline in solid.outlines for edge in outline]
     through_axis = any(edge.end[0] == 0 for outline in solid.outlines for edge in outline[:-1])
     if through_axis or len(set(starts)) < len(starts):
-        raise TopError(name, "a point or circle", "a face where parts meet", "Make them overlap, or leave a gap.")
+        raise TopError(name, "a point or circle", "a face where parts meet", "Make them overlap, or leave a gap.",
+                       code="meets-in-a-point")  # fmt: skip
 
 
 def _times(factor: float, weight: Number) -> Number:

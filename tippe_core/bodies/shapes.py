@@ -35,9 +35,11 @@ class TruncatedSphere(OneMaterial):
         return cls(R=0.016, c=0.0082, l=0.0192, r=0.0032, M=0.0115)
 
     def _check(self) -> None:
-        in_range("c", self.c, -self.R, self.R, "m, the cut goes through the sphere", above=True)
+        in_range("c", self.c, -self.R, self.R, "m", above=True, code="cut-misses",
+                 why="the cut goes through the sphere")  # fmt: skip
         cut = sqrt((self.R - self.c) * (self.R + self.c))
-        in_range("r", self.r, 0, cut, "m, the radius of the cut it stands on", remedy="Lower r, or cut lower.")
+        in_range("r", self.r, 0, cut, "m", code="stem-too-wide", why="the radius of the face it stands on",
+                 remedy="Make it thinner, or the face wider.")  # fmt: skip
         in_range("l", self.l, 0, LONG, "m")
         check_stem(self.r, self.l)
 
@@ -75,11 +77,12 @@ class LoadedSphere(Shape):
     _weights = ("density", "core_density")
 
     def _check(self) -> None:
-        in_range("b", self.b, SMALLEST, self.R, "m, inside the ball", below=True)
+        in_range("b", self.b, SMALLEST, self.R, "m", below=True, code="core-sticks-out", why="or the core sticks out")
         room = self.R - self.b
-        in_range("d", self.d, -room, room, "m, or the core sticks out", above=True, below=True)
+        in_range("d", self.d, -room, room, "m", above=True, below=True, code="core-sticks-out",
+                 why="or the core sticks out")  # fmt: skip
         in_range("density", self.density, THINNEST, DENSEST, "kg/m^3")
-        in_range("core_density", self.core_density, 0, DENSEST, "kg/m^3, 0 for a cavity")
+        in_range("core_density", self.core_density, 0, DENSEST, "kg/m^3")
 
     @cached_property
     def solid(self) -> Solid:
@@ -108,11 +111,14 @@ class OrdinaryTop(OneMaterial):
     M: float
 
     def _check(self) -> None:
-        in_range("h", self.h, 0, LONG, "m, the peg's rod")
-        in_range("r1", self.r1, 0, LARGEST, "m, or the body hangs on a point", above=True)
+        in_range("h", self.h, 0, LONG, "m")
+        in_range(
+            "r1", self.r1, 0, LARGEST, "m", above=True, code="hangs-on-a-point", why="or the body hangs on a point"
+        )
         in_range("r2", self.r2, 0, LARGEST, "m")
         in_range("t", self.t, SMALLEST, LONG, "m")
-        in_range("r", self.r, 0, self.r2, "m, the radius r2 of the face the stem stands on")
+        in_range("r", self.r, 0, self.r2, "m", code="stem-too-wide", why="the radius of the face it stands on",
+                 remedy="Make it thinner, or the face wider.")  # fmt: skip
         in_range("l", self.l, 0, LONG, "m")
         check_stem(self.r, self.l)
 
@@ -143,8 +149,9 @@ class Lathe(Shape):
         last = -self.R
         for index, (radius, height) in enumerate(points):
             in_range(f"points[{index}] radius", radius, 0, LARGEST, "m")
-            in_range(f"points[{index}] height", height, last, self.R if index == 0 else LARGEST,
-                   "m, from the sphere's lowest point or the point before up", above=index == 0)  # fmt: skip
+            in_range(
+                f"points[{index}] height", height, last, self.R if index == 0 else LARGEST, "m", above=index == 0,
+                code="falling", remedy="Each is at least as high as the one before.")  # fmt: skip
             last = height
         object.__setattr__(self, "points", points)
         given: Number = self.density  # also of another sequence
@@ -152,7 +159,8 @@ class Lathe(Shape):
             density = in_range("density", finite("density", given), THINNEST, DENSEST, "kg/m^3")
         else:
             if len(given) != len(points):
-                raise TopError("density", given, f"one number, or as many as points ({len(points)})")
+                raise TopError("density", given, "one number, or as many as points ({count})", code="wrong-count",
+                               count=len(points))  # fmt: skip
             density = tuple(finite(f"density[{index}]", value) for index, value in enumerate(given))
             for index, value in enumerate(density):
                 in_range(f"density[{index}]", value, THINNEST, DENSEST, "kg/m^3")
@@ -187,11 +195,10 @@ class BareSphere(Shape):
         # int r^2 dm <= M reach^2 about O, and it is I1 + I3/2 + a^2
         room = self._reach**2 - self.I3 / 2
         if self.I1 > room:
-            raise TopError(
-                "I1", self.I1, f"I1 <= {self._reach**2:g} - I3/2 = {room:g}", "More does not fit into the body."
-            )
+            raise TopError("I1", self.I1, f"I1 <= {self._reach**2:g} - I3/2 = {room:g}",
+                           "More does not fit into the body.", code="does-not-fit")  # fmt: skip
         most = sqrt(room - self.I1)
-        in_range("a", self.a, -most, most, "R, or it does not fit into the body")
+        in_range("a", self.a, -most, most, "R", code="does-not-fit", remedy="More does not fit into the body.")
 
     @property
     def _reach(self) -> float:
@@ -221,7 +228,8 @@ class BareSphere(Shape):
         return ball(self.R)
 
     def stl(self, sides: int = 128) -> bytes:
-        raise TopError("shape", type(self).__name__, "a shape whose inside is known", "Give it dimensions to print it.")
+        raise TopError("shape", type(self).__name__, "a shape whose inside is known", "Give it dimensions to print it.",
+                       code="inside-unknown")  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -235,8 +243,8 @@ class StemmedSphere(BareSphere):
     h: float
 
     def _check(self) -> None:
-        in_range("r", self.r, SMALLEST, self.R, "m, no larger than the sphere")
-        in_range("h", self.h, self.R - self.r, self.R + self.r, "m, where it sticks out", above=True, below=True)
+        in_range("r", self.r, SMALLEST, self.R, "m")
+        in_range("h", self.h, self.R - self.r, self.R + self.r, "m", above=True, below=True)
         super()._check()
 
     @property

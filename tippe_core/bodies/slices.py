@@ -38,9 +38,9 @@ class Slice(ABC):
             object.__setattr__(self, name, finite(name, getattr(self, name)))
             most = DENSEST if name == "density" else LARGEST
             if abs(getattr(self, name)) > most:
-                raise TopError(name, getattr(self, name), f"-{most:g} to {most:g} (SI)")
+                raise TopError(name, getattr(self, name), f"-{most:g} <= {name} <= {most:g} (SI)")
         if not self.low < self.high:
-            raise TopError("high", self.high, f"high > low = {self.low:g} m", "A piece has a height.")
+            raise TopError("high", self.high, "{range} ({unit})", range=f"high > low = {self.low:g}", unit="m")
 
     @property
     @abstractmethod
@@ -79,12 +79,13 @@ class Zone(Slice):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.R <= 0:
-            raise TopError("R", self.R, "R > 0 (m)")
+            raise TopError("R", self.R, "{range} ({unit})", range="R > 0", unit="m")
         bottom, crown = self.centre - self.R, self.centre + self.R
         rounding = 1e-12 * (abs(self.centre) + self.R)
         for name in ("low", "high"):
             if not bottom - rounding <= getattr(self, name) <= crown + rounding:
-                raise TopError(name, getattr(self, name), f"{bottom:g} to {crown:g} m, within the sphere")
+                raise TopError(name, getattr(self, name), "{range} ({unit}, within the sphere)", code="outside-sphere",
+                               range=f"{bottom:g} <= {name} <= {crown:g}", unit="m")  # fmt: skip
 
     @property
     def widest(self) -> float:
@@ -110,7 +111,7 @@ class Frustum(Slice):
         super().__post_init__()
         for name in ("r_low", "r_high"):
             if getattr(self, name) < 0:
-                raise TopError(name, getattr(self, name), f"{name} >= 0 (m)")
+                raise TopError(name, getattr(self, name), "{range} ({unit})", range=f"{name} >= 0", unit="m")
 
     @property
     def widest(self) -> float:

@@ -90,7 +90,8 @@ class Solid:
                 if density < -EMPTY * most:
                     raise TopError(
                         "density", density, "0 or more everywhere",
-                        f"More is taken away than there is at the height {middle:g} m.")  # fmt: skip
+                        "More is taken away than there is at the height {middle:g} m.", code="more-taken-away",
+                        middle=middle)  # fmt: skip
                 if (density > EMPTY * most) != full:
                     full = not full
                     curves.append(piece)
@@ -150,7 +151,8 @@ class Solid:
         """
         corners = len(self.outline) + 1
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or not corners <= n <= 1_000_000:
-            raise TopError("n", n, f"a whole number of points from {corners} (the corners) to 1000000")
+            raise TopError("n", n, "a whole number of points from {low} (the corners) to {high}", code="not-whole",
+                           low=corners, high=1_000_000)  # fmt: skip
         arcs = np.array([edge.length if edge.arc else 0.0 for edge in self.outline])
         lengths = arcs if arcs.any() else np.array([edge.length for edge in self.outline])
         shares = np.concatenate([[0], np.cumsum(lengths)]) / lengths.sum()
