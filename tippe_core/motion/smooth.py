@@ -27,7 +27,7 @@ from ..paper.constants import EXACT, ExactTop, State, exact_top, versines
 from ..paper.curve import angle, solve
 from ..paper.top import Top
 from ..types import Array
-from .rolling import Nutation
+from .nutation import Nutation
 from .trajectory import Trajectory, checked_times
 
 
