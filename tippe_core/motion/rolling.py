@@ -1,24 +1,47 @@
 """Motion on the rough plane: exact, for any length of time, by Fourier series of one nutation (nutation.py).
 
-Q, of which dt = Q^-1/2 dkappa, is the divided difference of s^2 f over c1, c2 and c. Written out by the product rule of
+Q, of which dt/dkappa = Q^-1/2, is the divided difference of s^2 f over c1, c2 and c. Written out by the product rule of
 divided differences, nothing cancels however near c1 and c2 are to each other: a steady precession is no special case.
 """
 
 from decimal import Decimal, localcontext
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..compiled import compiled
 from ..errors import TopError
-from ..paper.constants import EXACT, Constants, Exact, State, f1_2, f2_2, f3_2, versines
-from ..paper.curve import ExactCurve, Well, near_pole, omega2_at, wells
-from ..paper.forces import contact_force
-from ..paper.top import Top
-from ..types import Array, Complex, Number
-from .nutation import NODES_MOST, Nutation
-from .series import evaluate, part_turn
+from ..paper.constants import EXACT, Constants, Exact, State, versines
+from ..paper.curve import ExactCurve, Well, wells
+from ..paper.top import Top, TopNumbers
+from ..types import Array, Complex
+from . import interim_equations as eq
+from .interim_equations import near_pole
+from .nutation import NODES_MOST, Nodes, Nutation
+from .pose import Pose, Swing, cis, half_sigma_rate, pole_factor, theta_dot
+from .series import part_turn
 from .trajectory import Trajectory, checked_times
+
+
+class Path(NamedTuple):
+    """Of the contact point: the rate in the phase of the axes in which its velocity is periodic, the slowest rate of its
+    terms in space, that term's amplitude, the constant term's displacement, and dt/dtau."""
+
+    rate: float
+    slow: float
+    amplitude: float
+    still: float
+    scale: float
+
+
+class Track(NamedTuple):
+    """The series that a Path needs, (1, K) each: of the real part, and of the imaginary one, turned by -1."""
+
+    sines: Array
+    cosines: Array
+    path: Path
 
 
 def roll(
@@ -39,8 +62,8 @@ def roll(
 class Rolling(Nutation):
     """The motion without slipping, for any times: arguments as in roll(); it starts at the times[0] of each call.
 
-    period (of the nutation, in (R/g)^1/2), phi_advance and psi_advance (rad in a period);
-    theta(times) alone, or called with times for the whole Trajectory.
+    start (the State at the start, a turning point included), period (of the nutation, in (R/g)^1/2), turning_points (2,),
+    phi_advance and psi_advance (rad in a period); theta(times) alone, or called with times for the whole Trajectory.
     """
 
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
@@ -52,61 +75,38 @@ class Rolling(Nutation):
                 curve, (inner, outer) = _from_constants(top, constants, start, well)
                 here = inner if start == "inner" else outer
             exact, self._exact = curve.exact, (curve, inner, outer)
-            self.gaps = float(curve.gaps[0]), float(curve.gaps[1])
-            self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
-            self.width = float(inner - outer)
-            self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5  # as sin(kappa/2), cos(kappa/2)
+            self.swing = Swing(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *curve.gaps)))
+            self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5
             self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
-        self._given = isinstance(start, State)
-        self.start = start if isinstance(start, State) else State(0.0, 0.0, 0.0, 0.0)
-        self._inward = self.start.theta_dot < 0
+        self._given = start if isinstance(start, State) else None
+        self._inward = isinstance(start, State) and start.theta_dot < 0
 
-    def _h(self, v: Array, m: Array) -> Array:
-        """Q^-1/2."""
-        top, c, c1, c2 = self.top, 1 - v, 1 - self.v1, 1 - self.v2
-        gamma, a = top.I3 / top.I1, top.a
-        # second divided differences over (c1, c2, c), first ones over (c1, c2) and (c2, c), of y = f3,
-        places = (c1, self.v1 * self.m1), (c2, self.v2 * self.m2), (c, v * m)
-        y1, y2, y = (np.sqrt(f3_2(x, s2, top)) for x, s2 in places)
-        y_12 = ((gamma - 1) * (c1 + c2) - 2 * gamma * a) / (y1 + y2)
-        y_2c = ((gamma - 1) * (c2 + c) - 2 * gamma * a) / (y2 + y)
-        y_12c = (gamma - 1 - y_12 * y_2c) / (y1 + y)
-        # of 1/f3,
-        r_12, r_2c = -y_12 / (y1 * y2), -y_2c / (y2 * y)
-        r_12c = -(y_12c / y1 + r_12 * y_2c) / y
-        # of B = K_J - (I3/I1) K_R (c - a)/f3,
-        k = -gamma * self.K_R
-        B_12, B_2c, B_12c = k * ((c1 - a) * r_12 + 1 / y2), k * ((c2 - a) * r_2c + 1 / y), k * ((c1 - a) * r_12c + r_2c)
-        (B1, B2), B = self._bracket_ends, self._bracket(v, m)
-        # of f2^2 B^2, and of s^2 (2E' - 2a(1 - c))
-        F1, F_12, F_12c = f2_2(c1, self.v1 * self.m1, top), (1 - 1 / gamma) * (c1 + c2) - 2 * a, 1 - 1 / gamma
-        kinetic = F1 * (B1 * B_12c + B_12 * B_2c + B_12c * B) + F_12 * B_2c * (B2 + B) + F_12c * B * B
-        potential = -(self.e - 2 * a) - 2 * a * (c1 + c2 + c)
-        Q = (kinetic - potential) / f1_2(c, top)
-        if self.width == 0 and not np.all(Q > 0):
-            return np.ones_like(Q)  # at rest on an unstable steady precession: any rate of kappa will do
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return 1 / np.sqrt(Q)
+    @cached_property
+    def start(self) -> State:  # type: ignore[override]
+        """The instant at which the motion starts: the State given, or that of the turning point; phi = psi = 0 there."""
+        if self._given:
+            return self._given
+        at_inner = self._place[0] == 0
+        ch, sh = (np.array([float(x)]) for x in (at_inner, not at_inner))
+        v, m = self._versines(ch, sh)
+        w1, w2, w3 = omega(ch, sh, v, m, self._dt_dkappa(v, m), self.top.numbers, self.K_R, self.swing)[0]
+        pole = v[0] * m[0] == 0
+        return State(self.turning_points[0 if at_inner else 1], w1 if pole else 0.0, 0.0 if pole else w2, w3)
 
-    def _h_exact(self, ch: Array, sh: Array) -> Array:
-        """dt/dkappa with the digits of EXACT."""
+    def _dt_dkappa(self, v: Array, m: Array) -> Array:
+        return dt_dkappa(v, m, self.top.numbers, self.e, self.K_R, self.swing)
+
+    def _exact_dt_dkappa(self, ch: Array, sh: Array) -> Array:
         curve, inner, outer = self._exact
         with localcontext(EXACT):
             c = [inner - (inner - outer) * Decimal(down) if down < up else outer + (inner - outer) * Decimal(up)
                  for up, down in zip((ch**2).tolist(), (sh**2).tolist(), strict=True)]  # fmt: skip
-            return np.array([float(((inner - x) * (x - outer) * f1_2(x, curve.top) / curve.D(x)[0]).sqrt()) for x in c])
-
-    def _bracket(self, v: Array, m: Array) -> Array:
-        d, x, C = near_pole(v, m, self.top, self.K_R, self.gaps)
-        return d + x * C
-
-    @cached_property
-    def _bracket_ends(self) -> Array:
-        return self._bracket(np.array([self.v1, self.v2]), np.array([self.m1, self.m2]))
+            return np.array(
+                [float(((inner - x) * (x - outer) * eq.f1_2(x, curve.top) / curve.D(x)[0]).sqrt()) for x in c])  # fmt: skip
 
     def _too_near(self) -> TopError:
         if self._given:
-            return TopError("theta", self.start.theta, f"a start whose nutation {NODES_MOST} nodes resolve",
+            return TopError("theta", self._given.theta, f"a start whose nutation {NODES_MOST} nodes resolve",
                             "It is too near to an unstable steady precession, or f1 or f3 nearly vanishes in the "
                             "well; change the start a little.")  # fmt: skip
         E = (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
@@ -114,77 +114,185 @@ class Rolling(Nutation):
                         "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "
                         "well; change E a little.")  # fmt: skip
 
-    def _slopes(self, v: Array, m: Array) -> list[Array]:
-        gap, nearer, C = near_pole(v, m, self.top, self.K_R, self.gaps)
-        B = gap + nearer * C
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return [np.where(near, C, (B - d) / x)
-                    for near, x, d in zip((v <= m, m <= v), (v, m), self.gaps, strict=True)]  # fmt: skip
+    def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
+        return sigma_rates(v, m, dt_dkappa, self.top.numbers, self.K_R, self.swing)
 
-    def _w3(self, v: Array, m: Array) -> Array:
-        return self.K_R / np.sqrt(f3_2(1 - v, v * m, self.top))
+    def _omega(self, place: Nodes | Pose) -> Array:
+        ch, sh, v, m, *_ = place
+        return omega(ch, sh, v, m, self._dt_dkappa(v, m), self.top.numbers, self.K_R, self.swing)
 
-    def _omega(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> tuple[Array, Array, Array]:
-        w2 = omega2_at(v, m, self.top, self.K_R, self.gaps)
-        return self._w1(ch, sh, v, m, h), w2, self._w3(v, m)
+    def _contact_velocity(self, nodes: Nodes) -> Complex:
+        return contact_velocity(*nodes[:5], self.top.numbers, self.K_R, self.swing)
 
-    def _carried(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> Complex:
-        """The velocity of the contact point, (w2 c - w3 s, -w1) in the turning axes."""
-        A = self._pole_factor(ch, sh, 0) * self._pole_factor(ch, sh, 1)
-        w1, w2, w3 = self._omega(ch, sh, v, m, h)
-        s = np.sqrt(v * m)
-        direction = np.where(s > 0, A / np.where(s > 0, s, 1), 1)
-        return direction * (w2 * (1 - v) - w3 * s - 1j * w1)
-
-    def _state(  # type: ignore[override]  # more is its own
-        self, turns: Array, half: Array, rest: Array
-    ) -> dict[str, Number]:
-        """And the contact point counted from phase 0."""
-        mean, minus, _, forward, backward, constant = self._orientation
-        rate = mean.sum()
-        k = np.arange(1, len(minus) + 1)
+    @cached_property
+    def _track(self) -> Track:
+        """The contact point's path, by integration of its velocity, term by term."""
+        mean, _, (forward, backward), constant = self._orientation
+        rate = float(mean.sum())
+        k = np.arange(1, len(forward) + 1)
         resonant = -round(rate)
-        x = rate + resonant  # the one term of the velocity that may hardly turn, taken by itself
         amplitude = constant if resonant == 0 else 0.0
-        denominators = []
-        for sign, p in ((1, forward), (-1, backward)):
-            turning = sign * k + rate
+        shares = []
+        for sign, coefficients in ((1, forward), (-1, backward)):
             hit = sign * k == resonant
-            amplitude = p[hit][0] if hit.any() else amplitude
-            denominators.append(np.where(hit, 0, p / np.where(hit, 1, turning)))
-        ahead, back = denominators
+            amplitude = float(coefficients[hit][0]) if hit.any() else amplitude
+            shares.append(np.where(hit, 0, coefficients / np.where(hit, 1, sign * k + rate)))
+        ahead, back = shares
         still = 0.0 if resonant == 0 else constant / rate
-        now = super()._state(turns, half, rest, ahead - back)
-        tau, (Y_re,) = np.pi * half + rest, now["more"]
-        Y_im = evaluate(half, rest, (ahead + back)[None], cosine=True)[0]
-        scale = self.period / (2 * np.pi)
-        Y, Y0 = Y_re - 1j * (Y_im + still), -1j * ((ahead + back).sum() + still)
-        part = part_turn(turns, x)
-        whole = np.exp(2j * np.pi * part)
-        periods = 2 * np.exp(1j * np.pi * part) * np.sin(np.pi * part) / x if x else 2 * np.pi * turns
-        along = periods + whole * tau * np.exp(0.5j * x * tau) * np.sinc(x * tau / (2 * np.pi))
-        contact = scale * (whole * np.exp(1j * rate * tau) * Y - Y0 + amplitude * along)
-        return now | {"contact": contact}
+        return Track((ahead - back)[None], (ahead + back)[None],
+                     Path(rate, rate + resonant, amplitude, still, self.period / (2 * np.pi)))  # fmt: skip
+
+    def _more_series(self) -> tuple[Array, Array]:
+        return self._track.sines, self._track.cosines
+
+    @cached_property
+    def _first(self) -> tuple[complex, complex]:
+        """At the start: the contact point on the track that starts at phase 0, turned as the start is, and G from it."""
+        phases, (d_phi, d_psi) = self._at_start, self._turn_of_start
+        pose, (Y_re, Y_im) = self._pose(phases, d_phi, d_psi)
+        return path(*phases, Y_re, Y_im, self._track.path, d_phi)[0], 1j * pose.s_exp_phi[0] * self.top.a
 
     def __call__(self, times: ArrayLike) -> Trajectory:
         """The Trajectory at the times (n,)."""
         top, start, t = self.top, self.start, checked_times(times)
-        first, now, d_phi = self._posed(t)
-        x, y = start.x, start.y
-        lean = 1j * first["s_exp_phi"][0] * np.exp(1j * d_phi) * top.a  # from the contact point to G
-        origin = complex(0 if x is None else x - lean.real, 0 if y is None else y - lean.imag)
-        contact = (now["contact"] - first["contact"][0]) * np.exp(1j * d_phi) + origin
-        v, m = now["v"], now["m"]
-        w = np.array(now["omega"])
-        G = contact + 1j * now["s_exp_phi"] * np.exp(1j * d_phi) * top.a
-        force = contact_force(v, m, top, self.K_R, w[0], w[0] ** 2, w[1], w[2])
+        phases, (d_phi, d_psi), (first, lean) = self._phases(t), self._turn_of_start, self._first
+        pose, (Y_re, Y_im) = self._pose(phases, d_phi, d_psi)
+        origin = complex(0 if start.x is None else start.x - lean.real, 0 if start.y is None else start.y - lean.imag)
+        contact = path(*phases, Y_re, Y_im, self._track.path, d_phi) + (origin - first)
+        w = self._omega(pose)
+        at, com, force = contact_and_force(pose.v, pose.m, w, contact, pose.s_exp_phi, top.numbers)
         return Trajectory(
-            top=top, t=t, theta=now["theta"], phi=now["phi"], psi=now["psi"],
-            quaternion=now["quaternion"],
-            contact=np.stack([contact.real, contact.imag], axis=1),
-            com=np.stack([G.real, G.imag, 1 - top.a + top.a * v], axis=1),
-            omega=w.T.copy(), slip=np.zeros((len(t), 2)), force=np.stack(force, axis=1),
-            regime=np.full(len(t), "roll"))  # fmt: skip
+            top=top, t=t, theta=pose.theta, phi=pose.phi, psi=pose.psi, quaternion=pose.quaternion, contact=at, com=com,
+            omega=w, slip=np.zeros((len(t), 2)), force=force, regime=np.full(len(t), "roll"))  # fmt: skip
+
+
+# ---- the loops over nodes and times ----
+
+
+@compiled
+def dt_dkappa(v: Array, m: Array, top: TopNumbers, e: float, K_R: float, swing: Swing) -> Array:
+    """Q^-1/2 (n,) at v = 1 - c, m = 1 + c, (n,). A lower index 1, 2 or c stands for the places c1, c2 and c."""
+    gamma, a, c1, c2 = top.I3 / top.I1, top.a, 1 - swing.v1, 1 - swing.v2
+    y1, y2 = np.sqrt(eq.f3_2(c1, swing.v1 * swing.m1, top)), np.sqrt(eq.f3_2(c2, swing.v2 * swing.m2, top))
+    B1, B2 = bracket(swing.v1, swing.m1, top, K_R, swing), bracket(swing.v2, swing.m2, top, K_R, swing)
+    f2_sq = eq.f2_2(c1, swing.v1 * swing.m1, top)
+    found = np.empty(len(v))
+    for i in range(len(v)):
+        c = 1 - v[i]
+        # second divided differences over (c1, c2, c), first ones over (c1, c2) and (c2, c), of y = f3,
+        y = np.sqrt(eq.f3_2(c, v[i] * m[i], top))
+        y_12 = ((gamma - 1) * (c1 + c2) - 2 * gamma * a) / (y1 + y2)
+        y_2c = ((gamma - 1) * (c2 + c) - 2 * gamma * a) / (y2 + y)
+        y_12c = (gamma - 1 - y_12 * y_2c) / (y1 + y)
+        # of 1/f3,
+        r_12, r_2c = -y_12 / (y1 * y2), -y_2c / (y2 * y)
+        r_12c = -(y_12c / y1 + r_12 * y_2c) / y
+        # of B = K_J - (I3/I1) K_R (c - a)/f3,
+        k = -gamma * K_R
+        B_12, B_2c, B_12c = k * ((c1 - a) * r_12 + 1 / y2), k * ((c2 - a) * r_2c + 1 / y), k * ((c1 - a) * r_12c + r_2c)
+        B = bracket(v[i], m[i], top, K_R, swing)
+        # of f2^2 B^2, and of s^2 (2E' - 2a(1 - c))
+        f_12, f_12c = (1 - 1 / gamma) * (c1 + c2) - 2 * a, 1 - 1 / gamma
+        kinetic = f2_sq * (B1 * B_12c + B_12 * B_2c + B_12c * B) + f_12 * B_2c * (B2 + B) + f_12c * B * B
+        potential = -(e - 2 * a) - 2 * a * (c1 + c2 + c)
+        Q = (kinetic - potential) / eq.f1_2(c, top)
+        if Q > 0:
+            found[i] = 1 / np.sqrt(Q)
+        else:  # at rest on an unstable steady precession any rate of kappa will do
+            found[i] = 1.0 if swing.width == 0 else np.nan
+    return found
+
+
+@compiled
+def bracket(v: float, m: float, top: TopNumbers, K_R: float, swing: Swing) -> float:
+    """B of (36), which is s w2, without cancellation next to the poles."""
+    d, x, C = near_pole(v, m, top, K_R, (swing.north, swing.south))
+    return d + x * C
+
+
+@compiled
+def omega(
+    ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: float, swing: Swing
+) -> Array:
+    """(n, 3): omega about 1', 2', 3."""
+    w = np.empty((len(v), 3))
+    for i in range(len(v)):
+        d, x, C = near_pole(v[i], m[i], top, K_R, (swing.north, swing.south))
+        w[i, 0] = theta_dot(ch[i], sh[i], v[i], m[i], dt_dkappa[i], swing.width)
+        w[i, 1] = (0.0 if d == 0 else d / np.sqrt(v[i] * m[i])) + np.sqrt(x / (2 - x)) * C
+        w[i, 2] = eq.omega3(1 - v[i], v[i] * m[i], K_R, top)
+    return w
+
+
+@compiled
+def sigma_rates(v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: float, swing: Swing) -> Array:
+    """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
+    rates = np.empty((2, len(v)))
+    for i in range(len(v)):
+        w3 = eq.omega3(1 - v[i], v[i] * m[i], K_R, top)
+        d, x, C = near_pole(v[i], m[i], top, K_R, (swing.north, swing.south))
+        B = d + x * C
+        slope_v = C if v[i] <= m[i] else (B - swing.north) / v[i]  # (w2 s - d)/(1 - c), and of 1 + c
+        slope_m = C if m[i] < v[i] else (B - swing.south) / m[i]
+        rates[0, i] = half_sigma_rate(v[i], swing.v1, swing.v2, swing.north, dt_dkappa[i], slope_v - w3)
+        rates[1, i] = half_sigma_rate(m[i], swing.m1, swing.m2, swing.south, dt_dkappa[i], slope_m + w3)
+    return rates
+
+
+@compiled
+def contact_velocity(
+    ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: float, swing: Swing
+) -> Complex:
+    """(n,): the velocity of the contact point, (w2 c - w3 s, -w1) in the turning axes, over exp i(sigma_- + sigma_+)."""
+    velocity = np.empty(len(v), np.complex128)
+    w = omega(ch, sh, v, m, dt_dkappa, top, K_R, swing)
+    for i in range(len(v)):
+        s = np.sqrt(v[i] * m[i])
+        north = pole_factor(ch[i], sh[i], swing.v1, swing.v2, swing.north)
+        south = pole_factor(ch[i], sh[i], swing.m1, swing.m2, swing.south)
+        direction = north * south / s if s > 0 else 1.0 + 0.0j
+        velocity[i] = direction * complex(w[i, 1] * (1 - v[i]) - w[i, 2] * s, -w[i, 0])
+    return velocity
+
+
+@compiled
+def path(turns: Array, half: Array, rest: Array, Y_re: Array, Y_im: Array, of: Path, d_phi: float) -> Complex:
+    """(n,): the contact point at the phases, from the sums of its series (n,), all turned by d_phi."""
+    contact = np.empty(len(rest), np.complex128)
+    turned = of.scale * cis(d_phi)
+    before, whole, periods = np.nan, turned, turned
+    for i in range(len(rest)):
+        tau = np.pi * half[i] + rest[i]
+        if turns[i] != before:
+            before = turns[i]
+            part = np.pi * part_turn(turns[i], of.slow)
+            whole = turned * cis(2 * part)
+            # the one term of the velocity that may hardly turn, over whole periods
+            periods = turned * (2 * cis(part) * np.sin(part) / of.slow if of.slow else 2 * np.pi * turns[i] + 0j)
+        x = of.slow * tau / 2
+        along = periods + whole * tau * cis(x) * (np.sin(x) / x if x else 1.0)
+        contact[i] = whole * cis(of.rate * tau) * complex(Y_re[i], -(Y_im[i] + of.still)) + of.amplitude * along
+    return contact
+
+
+@compiled
+def contact_and_force(
+    v: Array, m: Array, w: Array, contact: Complex, s_exp_phi: Complex, top: TopNumbers
+) -> tuple[Array, Array, Array]:
+    """The contact point (n, 2), G (n, 3), and the force (n, 3) in the turning axes."""
+    n = len(v)
+    at, com, force = np.empty((n, 2)), np.empty((n, 3)), np.empty((n, 3))
+    for i in range(n):
+        at[i, 0], at[i, 1] = contact[i].real, contact[i].imag
+        # from the contact point to G
+        com[i, 0], com[i, 1] = at[i, 0] - s_exp_phi[i].imag * top.a, at[i, 1] + s_exp_phi[i].real * top.a
+        com[i, 2] = 1 - top.a + top.a * v[i]
+        w1, w2, w3 = w[i, 0], w[i, 1], w[i, 2]
+        force[i, 0], force[i, 1], force[i, 2] = eq.force(1 - v[i], np.sqrt(v[i] * m[i]), w1, w1 * w1, w2, w3, top)
+    return at, com, force
+
+
+# ---- what the motion starts from ----
 
 
 def _from_constants(top: Top, constants: Constants | None, start: str, well: int) -> tuple[ExactCurve, Well]:

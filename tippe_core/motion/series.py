@@ -1,88 +1,155 @@
-"""Fourier series of the phase tau of a nutation: their coefficients from midpoints, and their sums."""
+"""Fourier series of one nutation: coefficients from the midpoints of half a period, and sums.
 
-from collections.abc import Callable
+An even function of an angle eta, of period 2 pi, is c_0/2 + sum c_k cos(k eta); n midpoints eta_j = (j + 1/2) pi/n give
+its coefficients by the midpoint rule, to rounding once they resolve it. Sums are plain: of the usual 32 midpoints they
+cost less than the call of a fast transform.
+"""
 
 import numpy as np
-from scipy.fft import dst
 
-from ..types import Array, Complex, Indices, Scalars
+from ..compiled import compiled
+from ..types import Array
 
-_FEW, _MANY = 64, 512  # harmonics: up to so many each by itself; at once
-
-
-def part_turn(turns: Array, rate: float) -> Array:
-    """turns * rate less its whole part, to the digits of rate: the product with its leading 24 bits is exact."""
-    leading = float(np.float32(rate))
-    whole = turns * leading
-    return np.fmod(whole, 1) + turns * (rate - leading) - (np.trunc(turns * rate) - np.trunc(whole))
+AFRESH = 16  # harmonics after which cos(k tau), sin(k tau) are computed anew, so that rounding does not add up
 
 
-def integral(cosines: Array) -> Array:
-    """At the midpoints, the integral from 0 of the even function with these cosine coefficients."""
-    n = len(cosines)
-    k = np.arange(1, n)
-    sines = np.append(cosines[1:] / k, 0.0)
-    return cosines[0] / 2 * (np.arange(n) + 0.5) * np.pi / n + dst(sines, type=3) / 2
+@compiled
+def cosine_coefficients(values: Array) -> Array:
+    """(r, n): c_k, k = 0 to n - 1, of r even functions, from their values (r, n) at the midpoints."""
+    rows, n = values.shape
+    cosine = np.cos(np.arange(4 * n) * (np.pi / (2 * n)))
+    found = np.zeros((rows, n))
+    for r in range(rows):
+        for k in range(n):
+            total, place = 0.0, k  # of k eta_j = k (2j + 1) pi/(2n) in the table
+            for j in range(n):
+                total += values[r, j] * cosine[place]
+                place = (place + 2 * k) % (4 * n)
+            found[r, k] = 2 * total / n
+    return found
 
 
-def phase(h: Array) -> Array:
-    """tau at the midpoints, from the cosine coefficients of h."""
-    return integral(h) * 2 / h[0]
+@compiled
+def resolved(coefficients: Array) -> bool:
+    """Whether the cosine series (r, n) have ended within what n midpoints resolve: below 1e-15 of the first row's, or
+    of their own, largest; or small and not falling, which is rounding."""
+    rows, n = coefficients.shape
+    size = np.abs(coefficients)
+    for r in range(rows):
+        tail, noise = size[r, n // 2 :].max(), size[r, 7 * n // 8 :].max()
+        scale = max(size[r].max(), size[0].max())
+        if not (tail < 1e-15 * scale or (tail < 1e-11 * scale and noise > tail / 8)):
+            return False
+    return True
 
 
-def most_harmonics(n: int, tau: Array) -> int:
-    """The harmonics of tau that n midpoints of kappa resolve."""
-    return int(n / (np.diff(tau).max() * n / np.pi))
+@compiled
+def integral(c: Array) -> Array:
+    """(n,): at the midpoints, the integral from 0 of the even function with the cosine coefficients c (n,)."""
+    n = len(c)
+    sine = np.sin(np.arange(4 * n) * (np.pi / (2 * n)))
+    found = np.empty(n)
+    for j in range(n):
+        total, place = 0.0, 2 * j + 1
+        for k in range(1, n):
+            total += c[k] / k * sine[place]
+            place = (place + 2 * j + 1) % (4 * n)
+        found[j] = c[0] / 2 * (j + 0.5) * np.pi / n + total
+    return found
 
 
-def wave(k: Indices, tau: Array) -> Complex:
-    """exp(-i k tau) for consecutive k, (len(k), len(tau)); where they are many, as products of few."""
-    if len(k) <= _FEW:
-        return np.exp(-1j * np.outer(k, tau))
-    near, far = np.exp(-1j * np.outer(k[:_FEW] - k[0], tau)), np.exp(-1j * np.outer(k[::_FEW], tau))
-    return (far[:, None] * near).reshape(-1, len(tau))[: len(k)]
+@compiled
+def integral_to(angle: float, c: Array) -> float:
+    """The same integral from 0 to any angle."""
+    total = c[0] / 2 * angle
+    for k in range(1, len(c)):
+        total += c[k] / k * np.sin(k * angle)
+    return total
 
 
-def converged(coefficients: Callable[[Indices], Array], most: int) -> Array | None:
-    """coefficients(k) (rows, len(k)) for k = 1, 2, ..., doubled until all rows have ended; None if that takes over
-    `most`.
+@compiled
+def phase(dt_deta: Array) -> Array:
+    """(n,): tau at the midpoints, from the cosine coefficients of dt/deta."""
+    return integral(dt_deta) * (2 / dt_deta[0])
+
+
+@compiled
+def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
+    """(r, K): sum_j [even_j cos(k tau_j) + odd_j sin(k tau_j)] for k = 1 to K, from even, odd (r, n) and tau (n,).
+
+    The first `rates` rows are of a function's rate, and become those of the function: divided by k. K is such that all
+    rows have ended; 0 where they do not within the harmonics that the midpoints resolve.
+    """
+    rows, n = even.shape
+    most = int(np.pi / np.diff(tau).max())
+    found = np.zeros((rows, most))
+    step_cos, step_sin = np.cos(tau), np.sin(tau)
+    cos, sin = np.ones(n), np.zeros(n)
+    done, count = 0, 8
+    while count < most:
+        count = min(2 * count, most)
+        for k in range(done + 1, count + 1):
+            for j in range(n):
+                if k % AFRESH == 0:
+                    cos[j], sin[j] = np.cos(k * tau[j]), np.sin(k * tau[j])
+                else:
+                    cos[j], sin[j] = (cos[j] * step_cos[j] - sin[j] * step_sin[j],
+                                      sin[j] * step_cos[j] + cos[j] * step_sin[j])  # fmt: skip
+                for r in range(rows):
+                    found[r, k - 1] += even[r, j] * cos[j] + odd[r, j] * sin[j]
+            found[:rates, k - 1] /= k
+        done = count
+        kept = length(found[:, :count])
+        if kept:
+            return found[:, :kept].copy()
+    return np.zeros((rows, 0))
+
+
+@compiled
+def length(series: Array) -> int:
+    """How many harmonics of the series (r, K) are more than rounding; 0 where a row has not ended.
 
     A row has ended where its last quarter is rounding: below 1e-16 of the sum of its sizes, or small and not falling.
     """
-    done: list[Array] = []
-    count = 8
-    while count < most:
-        first, count = sum(part.shape[1] for part in done), min(2 * count, most)
-        done += [coefficients(np.arange(k, min(k + _MANY, count + 1))) for k in range(first + 1, count + 1, _MANY)]
-        size = np.abs(rows := np.hstack(done))
-        scale = np.maximum(1, size.sum(axis=1))
-        last, before = (part.max(axis=1) for part in (size[:, 3 * count // 4 :], size[:, count // 2 : 3 * count // 4]))
-        if np.all((last < 1e-16 * scale) | ((last < 1e-12 * scale) & (last > before / 4))):
-            kept = np.flatnonzero((size > np.maximum(1e-17 * scale, 2 * last)[:, None]).any(axis=0))
-            return rows[:, : kept[-1] + 1 if kept.size else 1]
-    return None
+    rows, count = series.shape
+    kept = 1
+    for r in range(rows):
+        size = np.abs(series[r])
+        scale = max(1.0, size.sum())
+        before, last = size[count // 2 : 3 * count // 4].max(), size[3 * count // 4 :].max()
+        if not (last < 1e-16 * scale or (last < 1e-12 * scale and last > before / 4)):
+            return 0
+        k = count
+        while k > kept and size[k - 1] <= max(1e-17 * scale, 2 * last):
+            k -= 1
+        kept = max(kept, k)
+    return kept
 
 
-def half_angle(half: Scalars, rest: Scalars, series: Scalars) -> tuple[Array, Array]:
-    """cos and sin of kappa/2 = (pi half + rest + series)/2."""
-    s = np.sin((rest + series) / 2)  # within pi/4 or so of 0
-    c = np.sqrt(1 - s * s)
-    return np.where(half, -s, c), np.where(half, c, s)
+@compiled
+def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
+    """(r + q, n): sum_k sines[k - 1] sin(k tau), then sum_k cosines[k - 1] cos(k tau), at tau = pi half + rest (n,).
+
+    sines (r, K), cosines (q, K).
+    """
+    r, q, K, n = len(sines), len(cosines), sines.shape[1], len(rest)
+    found = np.zeros((r + q, n))
+    for i in range(n):
+        sign = 1 - 2 * half[i]
+        step_cos, step_sin = sign * np.cos(rest[i]), sign * np.sin(rest[i])
+        cos, sin = step_cos, step_sin
+        for k in range(K):
+            for row in range(r):
+                found[row, i] += sines[row, k] * sin
+            for row in range(q):
+                found[r + row, i] += cosines[row, k] * cos
+            cos, sin = cos * step_cos - sin * step_sin, sin * step_cos + cos * step_sin
+    return found
 
 
-def evaluate(half: Array, rest: Array, rows: Array, cosine: bool = False) -> Array:
-    """(rows, n): the sums over k >= 1 of rows[:, k - 1] sin(k tau), or cos(k tau), at tau = pi half + rest."""
-    count = rows.shape[1]
-    out = np.empty((len(rows), len(rest)))
-    step = max(1, 2**18 // count)
-    for i in range(0, len(rest), step):
-        s, sign = np.sin(rest[i : i + step] / 2), 1 - 2 * half[i : i + step]
-        wave = np.empty((count, len(s)), complex)
-        wave[0].real, wave[0].imag = sign * (1 - 2 * s * s), sign * 2 * s * np.sqrt(1 - s * s)
-        done = 1
-        while done < count:
-            more = min(done, count - done)
-            np.multiply(wave[:more], wave[done - 1], out=wave[done : done + more])
-            done += more
-        out[:, i : i + step] = rows @ np.ascontiguousarray(wave.real if cosine else wave.imag)
-    return out
+@compiled
+def part_turn(turns: float, rate: float) -> float:
+    """turns * rate less its whole part, to the digits of rate: the product with its leading 24 bits is exact."""
+    leading = np.float64(np.float32(rate))
+    whole = turns * leading
+    return np.fmod(whole, 1) + turns * (rate - leading) - (np.trunc(turns * rate) - np.trunc(whole))

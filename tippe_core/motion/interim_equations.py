@@ -1,0 +1,206 @@
+"""The paper's equations, each once: for floats, arrays, Decimals and compiled kernels alike.
+
+The paper's letters, in units of R, M and g: c = cos(theta), s = sin(theta), w1, w2, w3 the angular velocities about 1',
+2' and 3; top: TopNumbers(a, I1, I3), or a Top. Besides these s2 = s^2, v = 1 - c and w1_2 = w1^2, w2_2 = w2^2 are given
+where they are known better than from c, s, w1 or w2. np.sqrt of a Decimal is its own square root.
+
+The printed form of an equation stands first in its docstring. Next to a pole the bracket of (36) loses its figures:
+poles.py takes it apart there.
+"""
+
+from typing import TypeAlias
+
+import numpy as np
+from numba.extending import register_jitable as shared_with_kernels
+from ..types import Number, Vector
+from ..paper.top import Top, TopNumbers
+
+AnyTop: TypeAlias = Top | TopNumbers  # a Top in Python; kernels take its numbers
+
+# ---- the constants of the motion ----
+
+
+@shared_with_kernels
+def energy(w1: Number, w2: Number, w3: Number, velocity_2: Number, v: Number, top: AnyTop) -> Number:
+    """(6)  E = (1/2) omega . L + (1/2) M v . v + M g z,  with v . v the square of G's velocity, z = a(1 - c)"""
+    return (top.I1 * (w1 * w1 + w2 * w2) + top.I3 * w3 * w3 + velocity_2) / 2 + top.a * v
+
+
+@shared_with_kernels
+def C_J(c: Number, s: Number, w2: Number, w3: Number, top: AnyTop) -> Number:
+    """(14)  C_J = L . r = I1 s w2 + I3 (c - a) w3,  which by (30) is I1 K_J"""
+    return top.I1 * K_J(c, s, w2, w3, top)
+
+
+@shared_with_kernels
+def K_J(c: Number, s: Number, w2: Number, w3: Number, top: AnyTop) -> Number:
+    """(30)  K_J = s w2 + (I3/I1)(c - a) w3"""
+    return s * w2 + K_J_of_spin(c, w3, top)
+
+
+@shared_with_kernels
+def K_J_of_spin(c: Number, w3: Number, top: AnyTop) -> Number:
+    """(30)  (I3/I1)(c - a) w3, the part of K_J that is axis 3's: all of it where w2 = 0, or at a pole"""
+    return top.I3 / top.I1 * (c - top.a) * w3
+
+
+@shared_with_kernels
+def K_R(c: Number, s2: Number, w3: Number, top: AnyTop) -> Number:
+    """(31)  K_R = f3 w3"""
+    return np.sqrt(f3_2(c, s2, top)) * w3
+
+
+@shared_with_kernels
+def omega3(c: Number, s2: Number, K_R: Number, top: AnyTop) -> Number:
+    """(31)  w3 = K_R/f3"""
+    return K_R / np.sqrt(f3_2(c, s2, top))
+
+
+@shared_with_kernels
+def f3_2(c: Number, s2: Number, top: AnyTop) -> Number:
+    """(32)  f3^2 = I3 + s^2 + (I3/I1)(c - a)^2"""
+    return top.I3 + s2 + top.I3 / top.I1 * (c - top.a) ** 2
+
+
+@shared_with_kernels
+def two_E_prime(E: Number, K_J: Number, K_R: Number, top: AnyTop) -> Number:
+    """(33)  2E' = 2E - K_R^2 + (I1/I3) K_J^2"""
+    return 2 * E - K_R * K_R + top.I1 / top.I3 * K_J * K_J
+
+
+@shared_with_kernels
+def E_of(e: Number, K_J: Number, K_R: Number, top: AnyTop) -> Number:
+    """(33)  E from 2E' = e"""
+    return (e - two_E_prime(0, K_J, K_R, top)) / 2
+
+
+@shared_with_kernels
+def two_E_prime_of_motion(w1_2: Number, U: Number, c: Number, top: AnyTop) -> Number:
+    """(33)  2E' = 2a(1 - c) + f2^2 w2^2 + f1^2 w1^2 = U + f1^2 w1^2"""
+    return U + f1_2(c, top) * w1_2
+
+
+@shared_with_kernels
+def f2_2(c: Number, s2: Number, top: AnyTop) -> Number:
+    """(34)  f2^2 = I1 + (I1/I3) s^2 + (c - a)^2"""
+    return top.I1 + top.I1 / top.I3 * s2 + (c - top.a) ** 2
+
+
+@shared_with_kernels
+def f1_2(c: Number, top: AnyTop) -> Number:
+    """(35)  f1^2 = I1 + 1 + a^2 - 2 a c"""
+    return top.I1 + 1 + top.a * top.a - 2 * top.a * c
+
+
+# ---- theta alone ----
+
+
+@shared_with_kernels
+def bracket(c: Number, s2: Number, K_J: Number, K_R: Number, top: AnyTop) -> Number:
+    """(36)  B = K_J - (I3/I1)(c - a) K_R/f3,  which by (30) is s w2"""
+    return K_J - K_J_of_spin(c, omega3(c, s2, K_R, top), top)
+
+
+@shared_with_kernels
+def U(v: Number, c: Number, s2: Number, w2_2: Number, top: AnyTop) -> Number:
+    """(33)  U = 2a(1 - c) + f2^2 w2^2,  2E' at theta_dot = 0: the tilt energy, with w2^2 = B^2/s^2"""
+    return 2 * top.a * v + f2_2(c, s2, top) * w2_2
+
+
+@shared_with_kernels
+def theta_dot_2(e: Number, U: Number, c: Number, top: AnyTop) -> Number:
+    """(36)  f1^2 theta_dot^2 = 2E' - 2a(1 - c) - (f2^2/s^2) [K_J - (I3/I1)(c - a) K_R/f3]^2 = e - U"""
+    return (e - U) / f1_2(c, top)
+
+
+@shared_with_kernels
+def bracket_slope(c: Number, s2: Number, K_R: Number, top: AnyTop) -> Number:
+    """of (36)  dB/dc = -(I3/I1) K_R (I3 + 1 - a c)/f3^3"""
+    return -top.I3 / top.I1 * omega3(c, s2, K_R, top) * (top.I3 + 1 - top.a * c) / f3_2(c, s2, top)
+
+
+@shared_with_kernels
+def s4_U_slope(c: Number, s2: Number, B: Number, dB: Number, top: AnyTop) -> Number:
+    """of (36)  dU/dc = -2a + d(f2^2/s^2)/dc B^2 + 2 (f2^2/s^2) B dB/dc
+
+    s^4 dU/dc = -2a s^4 + 2 [(c - a)(1 - a c) + I1 c] B^2 + 2 f2^2 s^2 B dB/dc: rearranged, because U is infinite at the
+    poles; its zeros are the steady precessions.
+    """
+    a = top.a
+    return -2 * a * s2 * s2 + 2 * B * (((c - a) * (1 - a * c) + top.I1 * c) * B + f2_2(c, s2, top) * s2 * dB)
+
+
+# ---- the forces ----
+
+
+@shared_with_kernels
+def force_terms(
+    c: Number, s: Number, w2: Number, w3: Number, top: AnyTop
+) -> tuple[Number, Number, Number, Number, Number]:
+    """X, Y0, Y1, Z0, Z1 of F_x = X w1,  F_y = Y0 + Y1 w1^2,  F_z = Z0 + Z1 w1^2,  with w1 = theta_dot, w1^2 = f:
+
+    (37)  F_z = 1 + a (s f'/2 + c f)
+    (38)  F_x = -(I3 K_R f^(1/2)/f3^3) [c - (I3/I1)(c - a)]
+    (39)  (1 - a c) F_y = a s F_z + I1 f'/2 - I1 (c/s) w2^2 + I3 w2 w3
+
+    rearranged, because (39) is 0/0 at a c = 1 and all three lose their figures at the poles: with f' carried out and
+    (31), where q = w1^2 + w2^2,
+
+    F_z = 1 + (a/f1^2) {[c (I1 + 1 + a^2) - a (1 + c^2)] q - a s^2 - (I3 + 1 - a c) s w2 w3}
+    F_x = -(I3 w3/f3^2) [c - (I3/I1)(c - a)] w1
+    F_y = (a s/f1^2) {1 - a c + [a (c - a) - I1] q} + (w2 w3/f1^2) [I3 (1 - a c) - I1 - a^2 s^2]
+    """
+    a, I1, I3 = top.a, top.I1, top.I3
+    f1_sq, s2, w2_2 = f1_2(c, top), s * s, w2 * w2
+    X = -I3 * w3 / f3_2(c, s2, top) * (c - I3 / I1 * (c - a))
+    Y1 = a * s / f1_sq * (a * (c - a) - I1)
+    Y0 = a * s / f1_sq * (1 - a * c) + Y1 * w2_2 + w2 * w3 / f1_sq * (I3 * (1 - a * c) - I1 - a * a * s2)
+    Z1 = a / f1_sq * (c * (I1 + 1 + a * a) - a * (1 + c * c))
+    Z0 = 1 - a / f1_sq * (a * s2 + (I3 + 1 - a * c) * s * w2 * w3) + Z1 * w2_2
+    return X, Y0, Y1, Z0, Z1
+
+
+@shared_with_kernels
+def force(c: Number, s: Number, w1: Number, w1_2: Number, w2: Number, w3: Number, top: AnyTop) -> Vector:
+    """(38), (39), (37)  F_x, F_y, F_z at the contact point without slipping; F_x turns its sign with theta_dot"""
+    X, Y0, Y1, Z0, Z1 = force_terms(c, s, w2, w3, top)
+    return X * w1, Y0 + Y1 * w1_2, Z0 + Z1 * w1_2
+
+
+# ---- beyond the numbered ones ----
+
+
+@shared_with_kernels
+def rolling_velocity(c: Number, s: Number, w1: Number, w2: Number, w3: Number, top: AnyTop) -> tuple[Number, Number]:
+    """(4)  v = omega x r, G's velocity without slipping along x and y: w2 (c - a) - w3 s,  -w1 (1 - a c)"""
+    return w2 * (c - top.a) - w3 * s, -w1 * (1 - top.a * c)
+
+
+@shared_with_kernels
+def I_eff(c: Number, s2: Number, top: AnyTop) -> Number:
+    """note 58  I_eff = I1 s^2 + I3 (c - a)^2,  of the turn about r: the least kinetic energy at C_J is C_J^2/(2 I_eff)"""
+    return top.I1 * s2 + top.I3 * (c - top.a) ** 2
+
+
+@shared_with_kernels
+def near_pole(v: Number, m: Number, top: AnyTop, K_R: Number, offsets: Number) -> Vector:
+    """d, x and C of B = d + x C, where x is the smaller of v = 1 - c and m = 1 + c."""
+    if v <= m:
+        return offsets[0], v, pole_slope(v, top.a, K_R, top)
+    return offsets[1], m, pole_slope(m, -top.a, -K_R, top)
+
+
+@shared_with_kernels
+def pole_slope(x: Number, a: Number, K_R: Number, top: AnyTop) -> Number:
+    """C at x = 1 - c next to the upright pole; at the inverted one x = 1 + c and the signs of a and K_R turned."""
+    gamma = top.I3 / top.I1
+    p = 1 - a
+    q, far = p - x, 2 - x
+    f3_pole, f3 = np.sqrt(top.I3 + gamma * p * p), np.sqrt(top.I3 + x * far + gamma * q * q)
+    if p * q > 0:
+        C = (p * p * far + top.I3 * (p + q)) / (f3_pole * f3 * (p * f3 + q * f3_pole))
+    elif p == 0:
+        C = 1 / f3
+    else:
+        C = (p / f3_pole - q / f3) / x
+    return gamma * K_R * C
