@@ -13,7 +13,7 @@ Near a pole phi and psi turn by nearly pi at once, and at the pole they mean not
     q_x + i q_y = sin(theta/2) exp i(phi - psi)/2 = (v1^1/2 cos(kappa/2) +- i v2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_-
     q_w + i q_z = cos(theta/2) exp i(phi + psi)/2 = (m1^1/2 cos(kappa/2) +- i m2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_+
 
-(the sign that of d, the pole offset) take all of that turn into the first factor, exactly, because f1 = f2 at the poles;
+(the sign that of the pole offset d) take all of that turn into the first factor, exactly, because f1 = f2 at the poles;
 the rates of sigma_- and sigma_+ are smooth for every trajectory, also through a pole. So is the velocity of the contact
 point.
 """
@@ -259,7 +259,7 @@ class Nutation(ABC):
         return NONE, NONE
 
     def _pose(self, phases: Phases, *turn: float) -> tuple[Pose, Array]:
-        """The Pose at the phases, phi and psi further by the turn (d_phi, d_psi), and the sums of the series besides."""
+        """The Pose at the phases, with phi and psi further by turn = (d_phi, d_psi), and the sums of more series."""
         _, half, rest = phases
         series = sums(half, rest, *self._series)
         return pose(*phases, series, self._orientation.mean, self.swing, *turn), series[3:]

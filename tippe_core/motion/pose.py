@@ -12,8 +12,8 @@ from .series import part_turn
 class Swing(NamedTuple):
     """What poses need to know of a nutation.
 
-    v = 1 - c and m = 1 + c at the inner turning point (1) and the outer (2), width = c1 - c2, and the pole offsets: s w2
-    at theta = 0 (north) and at theta = pi (south), were the motion to go there.
+    v = 1 - c and m = 1 + c at the inner turning point (1) and the outer (2), width = c1 - c2, and the pole offsets:
+    s w2 at theta = 0 (north) and at theta = pi (south), were the motion to go there.
     """
 
     v1: float
@@ -26,8 +26,8 @@ class Swing(NamedTuple):
 
 
 class Pose(NamedTuple):
-    """At n instants, (n,) each: cos(kappa/2) and sin(kappa/2), v = 1 - c, m = 1 + c, the angles in rad, s exp(i phi), and
-    the quaternion (n, 4)."""
+    """At n instants, (n,) each: cos(kappa/2) and sin(kappa/2), v = 1 - c, m = 1 + c, the angles in rad, s exp(i phi);
+    and the quaternion (n, 4)."""
 
     ch: Array
     sh: Array
@@ -154,7 +154,8 @@ def theta_dot(ch: float, sh: float, v: float, m: float, dt_dkappa: float, width:
 def half_sigma_rate(x: float, x1: float, x2: float, offset: float, dt_dkappa: float, slope: float) -> float:
     """d sigma/dkappa, half of dt/dkappa (offset/x + slope) less the turn at the pole, +- (x1 x2)^1/2/(2x).
 
-    x = v for sigma_-, where phi_dot (1 + c) - w3 = offset/v + slope, and m for sigma_+, where it is phi_dot (1 - c) + w3.
+    x = v for sigma_-, where phi_dot (1 + c) - w3 = offset/v + slope; for sigma_+ x = m and
+    phi_dot (1 - c) + w3 = offset/m + slope.
     """
     peak = 0.0 if x <= 0 else (dt_dkappa * offset - np.copysign(np.sqrt(x1 * x2), offset)) / x
     return (peak + dt_dkappa * slope) / 2

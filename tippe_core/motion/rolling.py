@@ -26,8 +26,8 @@ from .trajectory import Trajectory, checked_times
 
 
 class Path(NamedTuple):
-    """Of the contact point: the rate in the phase of the axes in which its velocity is periodic, the slowest rate of its
-    terms in space, that term's amplitude, the constant term's displacement, and dt/dtau."""
+    """Of the contact point: the rate in the phase of the axes in which its velocity is periodic, the slowest rate of
+    its terms in space, that term's amplitude, the constant term's displacement, and dt/dtau."""
 
     rate: float
     slow: float
@@ -62,8 +62,8 @@ def roll(
 class Rolling(Nutation):
     """The motion without slipping, for any times: arguments as in roll(); it starts at the times[0] of each call.
 
-    start (the State at the start, a turning point included), period (of the nutation, in (R/g)^1/2), turning_points (2,),
-    phi_advance and psi_advance (rad in a period); theta(times) alone, or called with times for the whole Trajectory.
+    start, the State at the start; period (of the nutation, in (R/g)^1/2), turning_points (2,) in rad, phi_advance and
+    psi_advance (rad in a period); theta(times) alone, or called with times for the whole Trajectory.
     """
 
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
@@ -83,7 +83,7 @@ class Rolling(Nutation):
 
     @cached_property
     def start(self) -> State:  # type: ignore[override]
-        """The instant at which the motion starts: the State given, or that of the turning point; phi = psi = 0 there."""
+        """The instant of the start: the State given, or that of the turning point, with phi = psi = 0."""
         if self._given:
             return self._given
         at_inner = self._place[0] == 0
@@ -101,8 +101,8 @@ class Rolling(Nutation):
         with localcontext(EXACT):
             c = [inner - (inner - outer) * Decimal(down) if down < up else outer + (inner - outer) * Decimal(up)
                  for up, down in zip((ch**2).tolist(), (sh**2).tolist(), strict=True)]  # fmt: skip
-            return np.array(
-                [float(((inner - x) * (x - outer) * eq.f1_2(x, curve.top) / curve.D(x)[0]).sqrt()) for x in c])  # fmt: skip
+            Q = [curve.D(x)[0] / ((inner - x) * (x - outer) * eq.f1_2(x, curve.top)) for x in c]
+            return np.array([float(1 / x.sqrt()) for x in Q])
 
     def _too_near(self) -> TopError:
         if self._given:
@@ -147,7 +147,7 @@ class Rolling(Nutation):
 
     @cached_property
     def _first(self) -> tuple[complex, complex]:
-        """At the start: the contact point on the track that starts at phase 0, turned as the start is, and G from it."""
+        """At the start: the contact point, where the path is as path() has it, and the way from it to G."""
         phases, (d_phi, d_psi) = self._at_start, self._turn_of_start
         pose, (Y_re, Y_im) = self._pose(phases, d_phi, d_psi)
         return path(*phases, Y_re, Y_im, self._track.path, d_phi)[0], 1j * pose.s_exp_phi[0] * self.top.a
@@ -160,10 +160,11 @@ class Rolling(Nutation):
         origin = complex(0 if start.x is None else start.x - lean.real, 0 if start.y is None else start.y - lean.imag)
         contact = path(*phases, Y_re, Y_im, self._track.path, d_phi) + (origin - first)
         w = self._omega(pose)
-        at, com, force = contact_and_force(pose.v, pose.m, w, contact, pose.s_exp_phi, top.numbers)
+        at, com, velocity, force = contact_and_force(pose.v, pose.m, w, contact, pose.s_exp_phi, top.numbers)
         return Trajectory(
-            top=top, t=t, theta=pose.theta, phi=pose.phi, psi=pose.psi, quaternion=pose.quaternion, contact=at, com=com,
-            omega=w, slip=np.zeros((len(t), 2)), force=force, regime=np.full(len(t), "roll"))  # fmt: skip
+            top=top, t=t, theta=pose.theta, phi=pose.phi, psi=pose.psi, quaternion=pose.quaternion,
+            contact=at, com=com, velocity=velocity, omega=w, slip=np.zeros((len(t), 2)), force=force,
+            regime=np.full(len(t), "roll"))  # fmt: skip
 
 
 # ---- the loops over nodes and times ----
@@ -243,7 +244,7 @@ def sigma_rates(v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: floa
 def contact_velocity(
     ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: float, swing: Swing
 ) -> Complex:
-    """(n,): the velocity of the contact point, (w2 c - w3 s, -w1) in the turning axes, over exp i(sigma_- + sigma_+)."""
+    """(n,): the contact point's velocity, (w2 c - w3 s, -w1) in the turning axes, over exp i(sigma_- + sigma_+)."""
     velocity = np.empty(len(v), np.complex128)
     w = omega(ch, sh, v, m, dt_dkappa, top, K_R, swing)
     for i in range(len(v)):
@@ -278,18 +279,20 @@ def path(turns: Array, half: Array, rest: Array, Y_re: Array, Y_im: Array, of: P
 @compiled
 def contact_and_force(
     v: Array, m: Array, w: Array, contact: Complex, s_exp_phi: Complex, top: TopNumbers
-) -> tuple[Array, Array, Array]:
-    """The contact point (n, 2), G (n, 3), and the force (n, 3) in the turning axes."""
+) -> tuple[Array, Array, Array, Array]:
+    """The contact point (n, 2), G and its velocity (n, 3), and the force (n, 3) in the turning axes."""
     n = len(v)
-    at, com, force = np.empty((n, 2)), np.empty((n, 3)), np.empty((n, 3))
+    at, com, velocity, force = np.empty((n, 2)), np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3))
     for i in range(n):
         at[i, 0], at[i, 1] = contact[i].real, contact[i].imag
         # from the contact point to G
         com[i, 0], com[i, 1] = at[i, 0] - s_exp_phi[i].imag * top.a, at[i, 1] + s_exp_phi[i].real * top.a
         com[i, 2] = 1 - top.a + top.a * v[i]
-        w1, w2, w3 = w[i, 0], w[i, 1], w[i, 2]
-        force[i, 0], force[i, 1], force[i, 2] = eq.force(1 - v[i], np.sqrt(v[i] * m[i]), w1, w1 * w1, w2, w3, top)
-    return at, com, force
+        c, s, w1, w2, w3 = 1 - v[i], np.sqrt(v[i] * m[i]), w[i, 0], w[i, 1], w[i, 2]
+        velocity[i, 0], velocity[i, 1] = eq.rolling_velocity(c, s, w1, w2, w3, top)
+        velocity[i, 2] = top.a * s * w1
+        force[i, 0], force[i, 1], force[i, 2] = eq.force(c, s, w1, w1 * w1, w2, w3, top)
+    return at, com, velocity, force
 
 
 # ---- what the motion starts from ----

@@ -12,6 +12,8 @@ from ..types import Array
 
 AFRESH = 16  # harmonics after which cos(k tau), sin(k tau) are computed anew, so that rounding does not add up
 
+BLOCK = 256  # instants whose sums the processor keeps at hand
+
 
 @compiled
 def cosine_coefficients(values: Array) -> Array:
@@ -74,6 +76,13 @@ def phase(dt_deta: Array) -> Array:
 
 
 @compiled
+def next_harmonic(cos: Array, sin: Array, step_cos: Array, step_sin: Array) -> None:
+    """cos and sin (n,) of k tau become those of (k + 1) tau, by the angle's own, step_cos and step_sin."""
+    for j in range(len(cos)):
+        cos[j], sin[j] = cos[j] * step_cos[j] - sin[j] * step_sin[j], sin[j] * step_cos[j] + cos[j] * step_sin[j]
+
+
+@compiled
 def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
     """(r, K): sum_j [even_j cos(k tau_j) + odd_j sin(k tau_j)] for k = 1 to K, from even, odd (r, n) and tau (n,).
 
@@ -89,12 +98,11 @@ def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
     while count < most:
         count = min(2 * count, most)
         for k in range(done + 1, count + 1):
+            if k % AFRESH:
+                next_harmonic(cos, sin, step_cos, step_sin)
+            else:
+                cos, sin = np.cos(k * tau), np.sin(k * tau)
             for j in range(n):
-                if k % AFRESH == 0:
-                    cos[j], sin[j] = np.cos(k * tau[j]), np.sin(k * tau[j])
-                else:
-                    cos[j], sin[j] = (cos[j] * step_cos[j] - sin[j] * step_sin[j],
-                                      sin[j] * step_cos[j] + cos[j] * step_sin[j])  # fmt: skip
                 for r in range(rows):
                     found[r, k - 1] += even[r, j] * cos[j] + odd[r, j] * sin[j]
             found[:rates, k - 1] /= k
@@ -132,19 +140,28 @@ def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
 
     sines (r, K), cosines (q, K).
     """
-    r, q, K, n = len(sines), len(cosines), sines.shape[1], len(rest)
-    found = np.zeros((r + q, n))
-    for i in range(n):
-        sign = 1 - 2 * half[i]
-        step_cos, step_sin = sign * np.cos(rest[i]), sign * np.sin(rest[i])
-        cos, sin = step_cos, step_sin
-        for k in range(K):
-            for row in range(r):
-                found[row, i] += sines[row, k] * sin
-            for row in range(q):
-                found[r + row, i] += cosines[row, k] * cos
-            cos, sin = cos * step_cos - sin * step_sin, sin * step_cos + cos * step_sin
+    r, n = len(sines), len(rest)
+    found = np.zeros((r + len(cosines), n))
+    step_cos, step_sin, cos, sin = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
+    for first in range(0, n, BLOCK):
+        size = min(BLOCK, n - first)
+        for j in range(size):
+            sign = 1 - 2 * half[first + j]
+            cos[j], sin[j] = sign * np.cos(rest[first + j]), sign * np.sin(rest[first + j])
+            step_cos[j], step_sin[j] = cos[j], sin[j]
+        for k in range(sines.shape[1]):
+            for row in range(len(found)):
+                wave, b = (sin, sines[row, k]) if row < r else (cos, cosines[row - r, k])
+                add(found[row, first : first + size], b, wave)
+            next_harmonic(cos, sin, step_cos, step_sin)
     return found
+
+
+@compiled
+def add(total: Array, b: float, wave: Array) -> None:
+    """total += b wave"""
+    for j in range(len(total)):
+        total[j] += b * wave[j]
 
 
 @compiled

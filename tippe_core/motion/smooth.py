@@ -1,4 +1,4 @@
-"""Motion on the smooth plane (appendix B): exact, for any length of time, by the same Fourier series as rolling (nutation.py).
+"""Motion on the smooth plane (appendix B): exact, for any length of time, by the Fourier series of nutation.py.
 
 No horizontal force acts: G moves uniformly, and w3 and L_z = I3 w3 c + I1 w2 s are constant. With e = 2E - I3 w3^2, E
 without the drift of G, c_dot^2 = s^2 theta_dot^2 is a cubic over I1 + a^2 s^2,
@@ -7,9 +7,9 @@ without the drift of G, c_dot^2 = s^2 theta_dot^2 is a cubic over I1 + a^2 s^2,
     (I1 + a^2 s^2) c_dot^2 = P = s^2 [e - 2a(1 - c)] - (L_z - I3 w3 c)^2/I1 = (c1 - c)(c - c2) Q ,
     Q = e + (I3 w3)^2/I1 - 2a(1 - c - c1 - c2) ,
 
-so with the kappa of nutation.py dt = [(I1 + a^2 s^2)/Q]^1/2 dkappa. Its regular orientation next to a pole holds too: for it
-w2 = B/s with B = (L_z - I3 w3 c)/I1 = d + v I3 w3/I1, and theta_dot and w2 have the same inertia at a pole. The table
-pushes with
+so with the kappa of nutation.py dt = [(I1 + a^2 s^2)/Q]^1/2 dkappa. Its regular orientation next to a pole holds too:
+for it w2 = B/s with B = (L_z - I3 w3 c)/I1 = d + v I3 w3/I1, and theta_dot and w2 have the same inertia at a pole. The
+table pushes with
 
     F_z = 1 + d^2/dt^2 (-a c) = {I1 + a [I1 c (w1^2 + w2^2) - I3 w3 s w2]}/(I1 + a^2 s^2) .
 """
