@@ -1,11 +1,11 @@
 """Fourier series of one nutation: coefficients from the midpoints of half a period, and sums.
 
 An even function of an angle eta, of period 2 pi, is c_0/2 + sum c_k cos(k eta); n midpoints eta_j = (j + 1/2) pi/n give
-its coefficients by the midpoint rule, to rounding once they resolve it. Sums are plain: of the usual 32 midpoints they
-cost less than the call of a fast transform.
+its coefficients by the midpoint rule, to rounding once they resolve it.
 """
 
 import numpy as np
+from scipy.fft import dct, dst
 
 from ..compiled import compiled
 from ..types import Array
@@ -15,20 +15,9 @@ AFRESH = 16  # harmonics after which cos(k tau), sin(k tau) are computed anew, s
 BLOCK = 256  # instants whose sums the processor keeps at hand
 
 
-@compiled
 def cosine_coefficients(values: Array) -> Array:
     """(r, n): c_k, k = 0 to n - 1, of r even functions, from their values (r, n) at the midpoints."""
-    rows, n = values.shape
-    cosine = np.cos(np.arange(4 * n) * (np.pi / (2 * n)))
-    found = np.zeros((rows, n))
-    for r in range(rows):
-        for k in range(n):
-            total, place = 0.0, k  # of k eta_j = k (2j + 1) pi/(2n) in the table
-            for j in range(n):
-                total += values[r, j] * cosine[place]
-                place = (place + 2 * k) % (4 * n)
-            found[r, k] = 2 * total / n
-    return found
+    return dct(values, type=2, axis=1) / values.shape[1]
 
 
 @compiled
@@ -45,19 +34,12 @@ def resolved(coefficients: Array) -> bool:
     return True
 
 
-@compiled
 def integral(c: Array) -> Array:
     """(n,): at the midpoints, the integral from 0 of the even function with the cosine coefficients c (n,)."""
     n = len(c)
-    sine = np.sin(np.arange(4 * n) * (np.pi / (2 * n)))
-    found = np.empty(n)
-    for j in range(n):
-        total, place = 0.0, 2 * j + 1
-        for k in range(1, n):
-            total += c[k] / k * sine[place]
-            place = (place + 2 * j + 1) % (4 * n)
-        found[j] = c[0] / 2 * (j + 0.5) * np.pi / n + total
-    return found
+    k, sines = np.arange(n), np.zeros(n)
+    sines[:-1] = c[1:] / k[1:]
+    return c[0] * np.pi / (2 * n) * (k + 0.5) + dst(sines, type=3) / 2
 
 
 @compiled
@@ -69,17 +51,9 @@ def integral_to(angle: float, c: Array) -> float:
     return total
 
 
-@compiled
 def phase(dt_deta: Array) -> Array:
     """(n,): tau at the midpoints, from the cosine coefficients of dt/deta."""
     return integral(dt_deta) * (2 / dt_deta[0])
-
-
-@compiled
-def next_harmonic(cos: Array, sin: Array, step_cos: Array, step_sin: Array) -> None:
-    """cos and sin (n,) of k tau become those of (k + 1) tau, by the angle's own, step_cos and step_sin."""
-    for j in range(len(cos)):
-        cos[j], sin[j] = cos[j] * step_cos[j] - sin[j] * step_sin[j], sin[j] * step_cos[j] + cos[j] * step_sin[j]
 
 
 @compiled
@@ -99,12 +73,10 @@ def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
         count = min(2 * count, most)
         for k in range(done + 1, count + 1):
             if k % AFRESH:
-                next_harmonic(cos, sin, step_cos, step_sin)
+                cos, sin = cos * step_cos - sin * step_sin, sin * step_cos + cos * step_sin
             else:
                 cos, sin = np.cos(k * tau), np.sin(k * tau)
-            for j in range(n):
-                for r in range(rows):
-                    found[r, k - 1] += even[r, j] * cos[j] + odd[r, j] * sin[j]
+            found[:, k - 1] = even @ cos + odd @ sin
             found[:rates, k - 1] /= k
         done = count
         kept = length(found[:, :count])
@@ -142,7 +114,7 @@ def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
     """
     r, n = len(sines), len(rest)
     found = np.zeros((r + len(cosines), n))
-    step_cos, step_sin, cos, sin = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
+    step_cos, step_sin, cos, sin = np.zeros(BLOCK), np.zeros(BLOCK), np.zeros(BLOCK), np.zeros(BLOCK)
     for first in range(0, n, BLOCK):
         size = min(BLOCK, n - first)
         for j in range(size):
@@ -162,6 +134,13 @@ def add(total: Array, b: float, wave: Array) -> None:
     """total += b wave"""
     for j in range(len(total)):
         total[j] += b * wave[j]
+
+
+@compiled
+def next_harmonic(cos: Array, sin: Array, step_cos: Array, step_sin: Array) -> None:
+    """cos and sin (n,) of k tau become those of (k + 1) tau, by the angle's own, step_cos and step_sin."""
+    for j in range(len(cos)):
+        cos[j], sin[j] = cos[j] * step_cos[j] - sin[j] * step_sin[j], sin[j] * step_cos[j] + cos[j] * step_sin[j]
 
 
 @compiled
