@@ -18,22 +18,13 @@ from .motion.smooth import Gliding, glide
 from .motion.trajectory import Ledger, Trajectory
 from .outcome import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
 from .paper.constants import Constants, State
-from .paper.curve import (
-    SteadyPrecessions,
-    f,
-    f1_squared,
-    f2_squared,
-    f3_squared,
-    omega2,
-    omega3,
-    pole_constants,
-    steady_precessions,
-    turning_points,
-)
+from .paper.curve import f, f1_squared, f2_squared, f3_squared, omega2, omega3
 from .paper.forces import friction_force, normal_force
+from .paper.poles import pole_constants
 from .paper.share import allowed_shares
 from .paper.tielines import Tielines, figures, limit_energy, tielines
 from .paper.top import Scales, Top
+from .paper.wells import SteadyPrecessions, steady_precessions, turning_points
 
 __all__ = [
     "PRESETS",

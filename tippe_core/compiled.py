@@ -7,6 +7,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 try:
     import numba
+    import numba.extending
 except ImportError:
     numba = None
 
@@ -17,3 +18,10 @@ def compiled(function: Function) -> Function:
     if numba is None:
         return function
     return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+
+
+def shared_with_kernels(function: Function) -> Function:
+    """function as it is, for floats, arrays and Decimals; kernels may call it too, and it is compiled into them."""
+    if numba is None:
+        return function
+    return numba.extending.register_jitable(function)

@@ -23,6 +23,7 @@ from typing import NamedTuple, overload
 import numpy as np
 
 from .errors import TopError, finite
+from .paper import equations as eq
 from .paper.constants import State, versines
 from .paper.top import Scales, Top
 from .types import Array, Bools, Scalars
@@ -101,7 +102,7 @@ def jellett_potential(theta: Array, top: Top, C_J: Scalars) -> Array: ...
 def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
     """V_J = a(1 - c) + C_J^2/(2 I_eff) in MgR. theta in rad and C_J broadcast; inf where I_eff = 0 and C_J is not."""
     v, m = versines(theta)
-    I_eff = top.I1 * v * m + top.I3 * (1 - v - top.a) ** 2
+    I_eff = eq.I_eff(1 - v, v * m, top)
     with np.errstate(divide="ignore", invalid="ignore"):
         return top.a * v + np.where(np.equal(C_J, 0), 0.0, np.square(C_J) / (2 * I_eff))
 
@@ -115,9 +116,9 @@ def steady_states(top: Top, C_J: float) -> SteadyStates:
     C_J = finite("C_J", C_J)
     if abs(C_J) > 1e50:
         raise TopError("C_J", C_J, "at most 1e50 in size")
-    a, I1, I3 = top.a, top.I1, top.I3
-    I_eff = np.poly1d([I3 - I1, -2 * I3 * a, I1 + I3 * a * a])
-    slope = C_J**2 * np.poly1d([I1 - I3, I3 * a]) - a * I_eff**2  # I_eff^2 dV_J/dc
+    cosine = np.poly1d([1.0, 0.0])
+    I_eff = eq.I_eff(cosine, 1 - cosine**2, top)
+    slope = -(C_J**2) / 2 * I_eff.deriv() - top.a * I_eff**2  # I_eff^2 dV_J/dc
     c = [x.real for x in slope.roots if abs(x.imag) < 1e-9 and abs(x.real) < 1]
     places = np.array([1.0, *sorted(c, reverse=True), -1.0])
     between = slope((places[:-1] + places[1:]) / 2)  # > 0 where V_J falls as theta grows
@@ -161,11 +162,10 @@ def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
         raise TopError("state", state, "a State")
     if scales is not None and not isinstance(scales, Scales):
         raise TopError("scales", scales, "Scales, or None")
-    a, I1, I3 = top.a, top.I1, top.I3
     s, c, w1, w2, w3 = np.sin(state.theta), np.cos(state.theta), state.theta_dot, state.omega2, state.omega3
-    C_J = I1 * s * w2 + I3 * (c - a) * w3
-    velocity = (state.vx or 0.0) ** 2 + (state.vy or 0.0) ** 2 + (a * s * w1) ** 2
-    E = (I1 * (w1**2 + w2**2) + I3 * w3**2 + velocity) / 2 + a * versines(state.theta)[0]
+    C_J = eq.C_J(c, s, w2, w3, top)
+    velocity_2 = (state.vx or 0.0) ** 2 + (state.vy or 0.0) ** 2 + (top.a * s * w1) ** 2
+    E = eq.energy(w1, w2, w3, velocity_2, versines(state.theta)[0], top)
     steady, limits = steady_states(top, C_J), thresholds(top)
     V = jellett_potential(steady.theta, top, C_J)
     here = float(jellett_potential(state.theta, top, C_J))
@@ -175,15 +175,15 @@ def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
     else:
         end = _downhill(state.theta, steady, V, here)
         theta, certain = float(steady.theta[end]), _reachable_minima(state.theta, steady, V, E) <= 1
-        far = "falls over" if a < 0 else "stays inverted" if state.theta > np.pi / 2 else "turns over"
+        far = "falls over" if top.a < 0 else "stays inverted" if state.theta > np.pi / 2 else "turns over"
         verdict = "goes upright" if end == 0 else far if end == len(V) - 1 else "hangs"
         if _balances(state.theta, steady, V, E):
             verdict, nudged = "stays as it is", verdict
-    launch = C_J / (I3 * (1 - a))
+    launch = C_J / eq.C_J(1.0, 0.0, 0.0, 1.0, top)
     sentence = _sentence(verdict, nudged, theta, certain, launch, limits, scales)
     theta = state.theta if nudged else theta
-    I_eff = I1 * np.sin(theta) ** 2 + I3 * (np.cos(theta) - a) ** 2
-    omega3 = C_J * (np.cos(theta) - a) / I_eff if I_eff else 0.0
+    I_eff = eq.I_eff(np.cos(theta), np.sin(theta) ** 2, top)
+    omega3 = C_J * (np.cos(theta) - top.a) / I_eff if I_eff else 0.0
     return Outcome(verdict, nudged, theta, float(omega3), certain, float(C_J), float(launch), steady, limits, sentence)
 
 

@@ -207,15 +207,15 @@ class Nutation(ABC):
     @property
     def phi_advance(self) -> float:
         """Advance of phi in a period, rad."""
-        north, south = np.copysign(1, self.swing.north), np.copysign(1, self.swing.south)
-        return 2 * np.pi * self._orientation.mean.sum() + np.pi * (north + south)
+        upright, inverted = np.copysign(1, self.swing.upright), np.copysign(1, self.swing.inverted)
+        return 2 * np.pi * self._orientation.mean.sum() + np.pi * (upright + inverted)
 
     @property
     def psi_advance(self) -> float:
         """Advance of psi in a period, rad."""
-        north, south = np.copysign(1, self.swing.north), np.copysign(1, self.swing.south)
+        upright, inverted = np.copysign(1, self.swing.upright), np.copysign(1, self.swing.inverted)
         minus, plus = self._orientation.mean
-        return 2 * np.pi * (plus - minus) + np.pi * (south - north)
+        return 2 * np.pi * (plus - minus) + np.pi * (inverted - upright)
 
     # ---- at any time ----
 

@@ -13,7 +13,7 @@ class Swing(NamedTuple):
     """What poses need to know of a nutation.
 
     v = 1 - c and m = 1 + c at the inner turning point (1) and the outer (2), width = c1 - c2, and the pole offsets:
-    s w2 at theta = 0 (north) and at theta = pi (south), were the motion to go there.
+    what s w2 would be at theta = 0 (upright) and at theta = pi (inverted), were the motion to go there.
     """
 
     v1: float
@@ -21,8 +21,8 @@ class Swing(NamedTuple):
     m1: float
     m2: float
     width: float
-    north: float
-    south: float
+    upright: float
+    inverted: float
 
 
 class Pose(NamedTuple):
@@ -83,6 +83,12 @@ def cis(angle: float) -> complex:
 
 
 @compiled
+def nearer_pole(v: float, m: float, swing: Swing) -> tuple[float, float, float]:
+    """cos(theta) of the nearer pole, the distance of c to it, and its offset."""
+    return (1.0, v, swing.upright) if v <= m else (-1.0, m, swing.inverted)
+
+
+@compiled
 def pole_factor(ch: float, sh: float, x1: float, x2: float, offset: float) -> complex:
     """x1^1/2 cos(kappa/2) +- i x2^1/2 sin(kappa/2), of x = v at theta = 0, of x = m at pi; the sign is the offset's."""
     return complex(np.sqrt(x1) * ch, np.copysign(np.sqrt(x2), offset) * sh)
@@ -121,20 +127,20 @@ def pose(
         cos_half[i], sin_half[i] = ch, sh
         v[i], m[i] = swing.v1 + swing.width * sh * sh, swing.m2 + swing.width * ch * ch
         theta[i] = 2 * np.arctan2(np.sqrt(v[i]), np.sqrt(m[i]))
-        north = pole_factor(ch, sh, swing.v1, swing.v2, swing.north)
-        south = pole_factor(ch, sh, swing.m1, swing.m2, swing.south)
+        upright = pole_factor(ch, sh, swing.v1, swing.v2, swing.upright)
+        inverted = pole_factor(ch, sh, swing.m1, swing.m2, swing.inverted)
         tau = np.pi * half[i] + rest[i]
         minus, plus = mean[0] * tau + series[1, i], mean[1] * tau + series[2, i]
-        xy, zw = north * exp_minus * cis(minus), south * exp_plus * cis(plus)
+        xy, zw = upright * exp_minus * cis(minus), inverted * exp_plus * cis(plus)
         s_exp_phi[i] = xy * zw
         quaternion[i, 0], quaternion[i, 1] = xy.real * np.sqrt(0.5), xy.imag * np.sqrt(0.5)
         quaternion[i, 2], quaternion[i, 3] = zw.imag * np.sqrt(0.5), zw.real * np.sqrt(0.5)
         minus += whole_minus + 2 * np.pi * np.trunc(turns[i] * mean[0])
         plus += whole_plus + 2 * np.pi * np.trunc(turns[i] * mean[1])
-        at_north = pole_angle(north, swing.north, np.pi / 2, turns[i])
-        at_south = pole_angle(south, swing.south, np.pi, turns[i])
-        phi[i] = plus + minus + at_north + at_south + d_phi
-        psi[i] = plus - minus + at_south - at_north + d_psi
+        at_upright = pole_angle(upright, swing.upright, np.pi / 2, turns[i])
+        at_inverted = pole_angle(inverted, swing.inverted, np.pi, turns[i])
+        phi[i] = plus + minus + at_upright + at_inverted + d_phi
+        psi[i] = plus - minus + at_inverted - at_upright + d_psi
     return Pose(cos_half, sin_half, v, m, theta, phi, psi, s_exp_phi, quaternion)
 
 

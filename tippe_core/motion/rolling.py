@@ -13,14 +13,14 @@ from numpy.typing import ArrayLike
 
 from ..compiled import compiled
 from ..errors import TopError
+from ..paper import equations as eq
 from ..paper.constants import EXACT, Constants, Exact, State, versines
-from ..paper.curve import ExactCurve, Well, wells
+from ..paper.poles import bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
+from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
-from . import interim_equations as eq
-from .interim_equations import near_pole
 from .nutation import NODES_MOST, Nodes, Nutation
-from .pose import Pose, Swing, cis, half_sigma_rate, pole_factor, theta_dot
+from .pose import Pose, Swing, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot
 from .series import part_turn
 from .trajectory import Trajectory, checked_times
 
@@ -75,7 +75,7 @@ class Rolling(Nutation):
                 curve, (inner, outer) = _from_constants(top, constants, start, well)
                 here = inner if start == "inner" else outer
             exact, self._exact = curve.exact, (curve, inner, outer)
-            self.swing = Swing(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *curve.gaps)))
+            self.swing = Swing(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *curve.offsets)))
             self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5
             self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
         self._given = start if isinstance(start, State) else None
@@ -207,8 +207,8 @@ def dt_dkappa(v: Array, m: Array, top: TopNumbers, e: float, K_R: float, swing: 
 @compiled
 def bracket(v: float, m: float, top: TopNumbers, K_R: float, swing: Swing) -> float:
     """B of (36), which is s w2, without cancellation next to the poles."""
-    d, x, C = near_pole(v, m, top, K_R, (swing.north, swing.south))
-    return d + x * C
+    side, x, d = nearer_pole(v, m, swing)
+    return bracket_near(side, x, d, K_R, top)
 
 
 @compiled
@@ -218,7 +218,8 @@ def omega(
     """(n, 3): omega about 1', 2', 3."""
     w = np.empty((len(v), 3))
     for i in range(len(v)):
-        d, x, C = near_pole(v[i], m[i], top, K_R, (swing.north, swing.south))
+        side, x, d = nearer_pole(v[i], m[i], swing)
+        C = pole_slope(x, side * K_R, seen_from(side, top))
         w[i, 0] = theta_dot(ch[i], sh[i], v[i], m[i], dt_dkappa[i], swing.width)
         w[i, 1] = (0.0 if d == 0 else d / np.sqrt(v[i] * m[i])) + np.sqrt(x / (2 - x)) * C
         w[i, 2] = eq.omega3(1 - v[i], v[i] * m[i], K_R, top)
@@ -231,12 +232,13 @@ def sigma_rates(v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: floa
     rates = np.empty((2, len(v)))
     for i in range(len(v)):
         w3 = eq.omega3(1 - v[i], v[i] * m[i], K_R, top)
-        d, x, C = near_pole(v[i], m[i], top, K_R, (swing.north, swing.south))
+        side, x, d = nearer_pole(v[i], m[i], swing)
+        C = pole_slope(x, side * K_R, seen_from(side, top))
         B = d + x * C
-        slope_v = C if v[i] <= m[i] else (B - swing.north) / v[i]  # (w2 s - d)/(1 - c), and of 1 + c
-        slope_m = C if m[i] < v[i] else (B - swing.south) / m[i]
-        rates[0, i] = half_sigma_rate(v[i], swing.v1, swing.v2, swing.north, dt_dkappa[i], slope_v - w3)
-        rates[1, i] = half_sigma_rate(m[i], swing.m1, swing.m2, swing.south, dt_dkappa[i], slope_m + w3)
+        slope_v = C if v[i] <= m[i] else (B - swing.upright) / v[i]  # (w2 s - d)/(1 - c), and of 1 + c
+        slope_m = C if m[i] < v[i] else (B - swing.inverted) / m[i]
+        rates[0, i] = half_sigma_rate(v[i], swing.v1, swing.v2, swing.upright, dt_dkappa[i], slope_v - w3)
+        rates[1, i] = half_sigma_rate(m[i], swing.m1, swing.m2, swing.inverted, dt_dkappa[i], slope_m + w3)
     return rates
 
 
@@ -249,9 +251,9 @@ def contact_velocity(
     w = omega(ch, sh, v, m, dt_dkappa, top, K_R, swing)
     for i in range(len(v)):
         s = np.sqrt(v[i] * m[i])
-        north = pole_factor(ch[i], sh[i], swing.v1, swing.v2, swing.north)
-        south = pole_factor(ch[i], sh[i], swing.m1, swing.m2, swing.south)
-        direction = north * south / s if s > 0 else 1.0 + 0.0j
+        upright = pole_factor(ch[i], sh[i], swing.v1, swing.v2, swing.upright)
+        inverted = pole_factor(ch[i], sh[i], swing.m1, swing.m2, swing.inverted)
+        direction = upright * inverted / s if s > 0 else 1.0 + 0.0j
         velocity[i] = direction * complex(w[i, 1] * (1 - v[i]) - w[i, 2] * s, -w[i, 0])
     return velocity
 

@@ -29,7 +29,8 @@ from scipy.integrate import LSODA
 from scipy.optimize import brentq
 
 from ..errors import TopError, finite, numbers
-from ..paper.constants import State, f3_2, versines
+from ..paper.constants import State, versines
+from ..paper.equations import f3_2
 from ..paper.forces import contact_force
 from ..paper.top import Top
 from ..types import Array, Number, Rim, Vector

@@ -25,12 +25,12 @@ from scipy.optimize import brentq
 
 from ..compiled import compiled
 from ..errors import TopError
-from ..paper.constants import EXACT, ExactTop, State, exact_top, versines
-from ..paper.curve import solve
+from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.top import Top, TopNumbers
+from ..paper.wells import solve
 from ..types import Array
 from .nutation import Nodes, Nutation
-from .pose import Pose, Swing, half_sigma_rate, theta_dot
+from .pose import Pose, Swing, half_sigma_rate, nearer_pole, theta_dot
 from .trajectory import Trajectory, checked_times
 
 
@@ -146,9 +146,9 @@ def omega(ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, B_slope: f
     """(n, 3): omega about 1', 2', 3. B = d + v I3 w3/I1 = d - m I3 w3/I1, with the d of either pole."""
     w = np.empty((len(v), 3))
     for i in range(len(v)):
-        d, x, C = (swing.north, v[i], B_slope) if v[i] <= m[i] else (swing.south, m[i], -B_slope)
+        side, x, d = nearer_pole(v[i], m[i], swing)
         w[i, 0] = theta_dot(ch[i], sh[i], v[i], m[i], dt_dkappa[i], swing.width)
-        w[i, 1] = (0.0 if d == 0 else d / np.sqrt(v[i] * m[i])) + np.sqrt(x / (2 - x)) * C
+        w[i, 1] = (0.0 if d == 0 else d / np.sqrt(v[i] * m[i])) + np.sqrt(x / (2 - x)) * side * B_slope
         w[i, 2] = w3
     return w
 
@@ -158,8 +158,8 @@ def sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float,
     """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
     rates = np.empty((2, len(v)))
     for i in range(len(v)):
-        rates[0, i] = half_sigma_rate(v[i], swing.v1, swing.v2, swing.north, dt_dkappa[i], B_slope - w3)
-        rates[1, i] = half_sigma_rate(m[i], swing.m1, swing.m2, swing.south, dt_dkappa[i], w3 - B_slope)
+        rates[0, i] = half_sigma_rate(v[i], swing.v1, swing.v2, swing.upright, dt_dkappa[i], B_slope - w3)
+        rates[1, i] = half_sigma_rate(m[i], swing.m1, swing.m2, swing.inverted, dt_dkappa[i], w3 - B_slope)
     return rates
 
 
@@ -176,7 +176,7 @@ def normal_force(v: Array, m: Array, omega: Array, top: TopNumbers) -> Array:
 
 
 def turning_cosines(
-    t: ExactTop, e: Decimal, L_z: Decimal, L3: Decimal, here: Decimal, still: bool
+    t: TopNumbers, e: Decimal, L_z: Decimal, L3: Decimal, here: Decimal, still: bool
 ) -> tuple[Decimal, Decimal]:
     """cos(theta) at the turning points, Decimals: the zeros of P on both sides of here."""
 

@@ -2,53 +2,26 @@
 
 from dataclasses import dataclass, fields
 from decimal import Context, Decimal, localcontext
-from typing import NamedTuple, Self, TypeAlias
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import TopError, finite, numbers
-from ..types import Array, Number, Scalars
-from .top import Top
+from ..types import Array, Scalars
+from . import equations as eq
+from .equations import AnyTop
+from .top import Top, TopNumbers
 
-# The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic
-# in cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34), for which the
-# standard library is enough.
+# The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic in
+# cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34), by Python's own.
 EXACT = Context(prec=60, Emin=-999999, Emax=999999)
 LARGEST = 1e12  # of a State: no top is as fast or as far by far, and EXACT keeps 36 figures of squares as large
 
 
-class ExactTop(NamedTuple):
-    """A Top in Decimals, or one of long floats or of arrays."""
-
-    a: Number
-    I1: Number
-    I3: Number
-
-
-AnyTop: TypeAlias = Top | ExactTop
-
-
-def exact_top(top: Top) -> ExactTop:
-    return ExactTop(Decimal(top.a), Decimal(top.I1), Decimal(top.I3))
-
-
-# f1^2, f2^2, f3^2 of (35), (34), (32), with c = cos(theta) and s2 = sin(theta)^2: floats, arrays or Decimals alike.
-
-
-def f1_2(c: Number, top: AnyTop) -> Number:
-    """(35)  f1^2 = I1 + 1 + a^2 - 2 a c"""
-    return top.I1 + 1 + top.a * top.a - 2 * top.a * c
-
-
-def f2_2(c: Number, s2: Number, top: AnyTop) -> Number:
-    """(34)  f2^2 = I1 + (I1/I3) s^2 + (c - a)^2"""
-    return top.I1 + top.I1 / top.I3 * s2 + (c - top.a) ** 2
-
-
-def f3_2(c: Number, s2: Number, top: AnyTop) -> Number:
-    """(32)  f3^2 = I3 + s^2 + (I3/I1)(c - a)^2"""
-    return top.I3 + s2 + top.I3 / top.I1 * (c - top.a) ** 2
+def exact_top(top: AnyTop) -> TopNumbers:
+    """a, I1, I3 as Decimals."""
+    return TopNumbers(Decimal(top.a), Decimal(top.I1), Decimal(top.I3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +61,7 @@ class Constants:
     def two_E_prime(self, top: Top) -> Scalars:
         """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33). Correctly rounded for scalars."""
         if any(np.ndim(x) for x in (self.K_J, self.K_R, self.E)):
-            return 2 * self.E - self.K_R**2 + top.I1 / top.I3 * self.K_J**2
+            return eq.two_E_prime(self.E, self.K_J, self.K_R, top)
         return float(Exact.of(self, top).e)
 
     @classmethod
@@ -99,7 +72,7 @@ class Constants:
         """
         exact = Exact.of_state(State(theta, theta_dot, omega2, omega3), top)
         with localcontext(EXACT):
-            E = (exact.e + exact.K_R**2 - Decimal(top.I1) / Decimal(top.I3) * exact.K_J**2) / 2
+            E = eq.E_of(exact.e, exact.K_J, exact.K_R, exact_top(top))
         return cls(float(exact.K_J), float(exact.K_R), float(E))
 
 
@@ -152,7 +125,7 @@ class Exact:
             raise TopError("constants", constants, "numbers K_J, K_R and E here, not arrays")
         with localcontext(EXACT):
             K_J, K_R, E = (Decimal(float(x)) for x in (constants.K_J, constants.K_R, constants.E))
-            return cls(nonzero(K_J), nonzero(K_R), 2 * E - K_R**2 + Decimal(top.I1) / Decimal(top.I3) * K_J**2)
+            return cls(nonzero(K_J), nonzero(K_R), eq.two_E_prime(E, K_J, K_R, exact_top(top)))
 
     @classmethod
     def of_state(cls, state: State, top: Top) -> Self:
@@ -163,9 +136,9 @@ class Exact:
             v = Decimal(float(v)) if v <= m else 2 - Decimal(float(m))
             c, s2 = 1 - v, v * (2 - v)
             w1, w2, w3 = Decimal(state.theta_dot), Decimal(state.omega2), Decimal(state.omega3)
-            K_J = s2.sqrt() * w2 + t.I3 / t.I1 * (c - t.a) * w3
-            K_R = f3_2(c, s2, t).sqrt() * w3
-            return cls(nonzero(K_J), nonzero(K_R), 2 * t.a * v + f2_2(c, s2, t) * w2**2 + f1_2(c, t) * w1**2)
+            K_J, K_R = eq.K_J(c, s2.sqrt(), w2, w3, t), eq.K_R(c, s2, w3, t)
+            e = eq.two_E_prime_of_motion(w1 * w1, eq.U(v, c, s2, w2 * w2, t), c, t)
+            return cls(nonzero(K_J), nonzero(K_R), e)
 
 
 def nonzero(K: Decimal) -> Decimal:
@@ -178,3 +151,16 @@ def versines(theta: ArrayLike) -> tuple[Array, Array]:
     theta = np.asarray(theta, dtype=float)
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
     return v, np.where(theta == np.pi, 0.0, m)
+
+
+def exact_versine(theta: float) -> Decimal:
+    """1 - cos(theta) with the digits of EXACT, theta from 0 to pi; the float pi is the inverted pole."""
+    if theta == np.pi:
+        return Decimal(2)
+    x2, k = Decimal(theta) ** 2, 2
+    term = total = x2 / 2
+    while abs(term) > total * Decimal("1e-50"):
+        k += 2
+        term *= -x2 / (k * (k - 1))
+        total += term
+    return total

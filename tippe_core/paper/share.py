@@ -18,9 +18,10 @@ from numpy.typing import ArrayLike
 
 from ..errors import TopError, finite
 from ..types import Array, Bools, Indices, Number
-from .constants import AnyTop, ExactTop, f2_2, f3_2
+from .equations import AnyTop, f2_2, f3_2
 from .tielines import _distance, _mapped, _place, figures
 from .top import Top
+from .top import TopNumbers as ExactTop
 
 ROWS, COLUMNS = 64, 256  # K_J, theta
 BLOCK = 32  # tops whose coefficients are made together

@@ -28,9 +28,36 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import TopError, finite
 from ..types import Array, Bools, Complex, Indices, Number, Scalars
-from .constants import AnyTop, ExactTop, f2_2
-from .curve import ExactCurve, angle, bracket_slope, find_stations, pole_gaps, pole_slope, well_slope
-from .top import Top
+from . import equations as eq
+from .equations import AnyTop, f2_2
+from .poles import pole_offsets
+from .top import Top, TopNumbers
+from .wells import ExactCurve, angle, find_stations
+
+
+def pole_slope(x: Number, a: Number, K_R: Number, top: AnyTop) -> Number:
+    """C at x = 1 - c next to the upright pole; at the inverted one x = 1 + c and the signs of a and K_R turned."""
+    gamma = top.I3 / top.I1
+    p = 1 - a
+    q, far = p - x, 2 - x
+    f3_pole, f3 = np.sqrt(top.I3 + gamma * p * p), np.sqrt(top.I3 + x * far + gamma * q * q)
+    # p/f3_pole - q/f3, divided by x, with the difference multiplied out; as it stands where p and q differ in sign
+    with np.errstate(divide="ignore", invalid="ignore"):
+        C = (p * p * far + top.I3 * (p + q)) / (f3_pole * f3 * (p * f3 + q * f3_pole))
+        opposite = p * q <= 0
+        if np.any(opposite):
+            C = np.where(opposite, np.where(p == 0, 1 / f3, (p / f3_pole - q / f3) / x), C)
+    return gamma * K_R * C
+
+
+def bracket_slope(c: Number, s2: Number, top: AnyTop, K_R: Number) -> Number:
+    """-dB/dc = (I3/I1) K_R (I3 + 1 - a c)/f3^3"""
+    return top.I3 / top.I1 * K_R * (top.I3 + 1 - top.a * c) / eq.f3_2(c, s2, top) ** 1.5
+
+
+well_slope = eq.s4_U_slope
+pole_gaps = pole_offsets
+ExactTop = TopNumbers
 
 _BLOCK = 256  # K_J at once: more of them leave the processor's caches
 
@@ -327,13 +354,13 @@ class _Wells:
         for i in np.flatnonzero(astray):
             found = [s for s in find_stations(ExactCurve.of(self.top, self.K_J[i], self.K_R)) if s.bottom]
             # flat to the last digit, as at rest with G in O: any tilt is as low
-            theta[i] = angle(max(found, key=lambda s: s.gap).c) if found else GRID[self.lowest[i]]
+            theta[i] = angle(max(found, key=lambda s: s.kinetic).c) if found else GRID[self.lowest[i]]
         return theta
 
     def _barriers(self, i: np.intp) -> list[tuple[float, float]]:
         """(theta, U) of the largest U that separate the wells of one K_J."""
         stations = find_stations(ExactCurve.of(self.top, self.K_J[i], self.K_R))
-        return [(angle(s.c), -float(s.gap)) for s in stations if not s.bottom and s.gap.is_finite()]
+        return [(angle(s.c), -float(s.kinetic)) for s in stations if not s.bottom and s.kinetic.is_finite()]
 
     def columns(self, limits: Sequence[float | None]) -> Iterator[tuple[Number, ...]]:
         """The columns of Tielines for each of the limits."""

@@ -11,9 +11,10 @@ poles.py takes it apart there.
 from typing import TypeAlias
 
 import numpy as np
-from numba.extending import register_jitable as shared_with_kernels
+
+from ..compiled import shared_with_kernels
 from ..types import Number, Vector
-from ..paper.top import Top, TopNumbers
+from .top import Top, TopNumbers
 
 AnyTop: TypeAlias = Top | TopNumbers  # a Top in Python; kernels take its numbers
 
@@ -96,9 +97,9 @@ def f1_2(c: Number, top: AnyTop) -> Number:
 
 
 @shared_with_kernels
-def bracket(c: Number, s2: Number, K_J: Number, K_R: Number, top: AnyTop) -> Number:
-    """(36)  B = K_J - (I3/I1)(c - a) K_R/f3,  which by (30) is s w2"""
-    return K_J - K_J_of_spin(c, omega3(c, s2, K_R, top), top)
+def bracket(c: Number, K_J: Number, w3: Number, top: AnyTop) -> Number:
+    """(36)  B = K_J - (I3/I1)(c - a) K_R/f3,  with K_R/f3 = w3; by (30) it is s w2"""
+    return K_J - K_J_of_spin(c, w3, top)
 
 
 @shared_with_kernels
@@ -114,9 +115,9 @@ def theta_dot_2(e: Number, U: Number, c: Number, top: AnyTop) -> Number:
 
 
 @shared_with_kernels
-def bracket_slope(c: Number, s2: Number, K_R: Number, top: AnyTop) -> Number:
-    """of (36)  dB/dc = -(I3/I1) K_R (I3 + 1 - a c)/f3^3"""
-    return -top.I3 / top.I1 * omega3(c, s2, K_R, top) * (top.I3 + 1 - top.a * c) / f3_2(c, s2, top)
+def bracket_slope(c: Number, s2: Number, w3: Number, top: AnyTop) -> Number:
+    """of (36)  dB/dc = -(I3/I1) K_R (I3 + 1 - a c)/f3^3,  with K_R/f3 = w3"""
+    return -top.I3 / top.I1 * w3 * (top.I3 + 1 - top.a * c) / f3_2(c, s2, top)
 
 
 @shared_with_kernels
@@ -178,29 +179,5 @@ def rolling_velocity(c: Number, s: Number, w1: Number, w2: Number, w3: Number, t
 
 @shared_with_kernels
 def I_eff(c: Number, s2: Number, top: AnyTop) -> Number:
-    """note 58  I_eff = I1 s^2 + I3 (c - a)^2,  of the turn about r: the least kinetic energy at C_J is C_J^2/(2 I_eff)"""
+    """note 58  I_eff = I1 s^2 + I3 (c - a)^2,  of a turn about r: the least kinetic energy at C_J is C_J^2/(2 I_eff)"""
     return top.I1 * s2 + top.I3 * (c - top.a) ** 2
-
-
-@shared_with_kernels
-def near_pole(v: Number, m: Number, top: AnyTop, K_R: Number, offsets: Number) -> Vector:
-    """d, x and C of B = d + x C, where x is the smaller of v = 1 - c and m = 1 + c."""
-    if v <= m:
-        return offsets[0], v, pole_slope(v, top.a, K_R, top)
-    return offsets[1], m, pole_slope(m, -top.a, -K_R, top)
-
-
-@shared_with_kernels
-def pole_slope(x: Number, a: Number, K_R: Number, top: AnyTop) -> Number:
-    """C at x = 1 - c next to the upright pole; at the inverted one x = 1 + c and the signs of a and K_R turned."""
-    gamma = top.I3 / top.I1
-    p = 1 - a
-    q, far = p - x, 2 - x
-    f3_pole, f3 = np.sqrt(top.I3 + gamma * p * p), np.sqrt(top.I3 + x * far + gamma * q * q)
-    if p * q > 0:
-        C = (p * p * far + top.I3 * (p + q)) / (f3_pole * f3 * (p * f3 + q * f3_pole))
-    elif p == 0:
-        C = 1 / f3
-    else:
-        C = (p / f3_pole - q / f3) / x
-    return gamma * K_R * C

@@ -1,0 +1,135 @@
+"""Next to a pole, where the bracket B of (36) loses all its figures on every trajectory that comes near one.
+
+There it is taken apart: at theta = 0, with x = 1 - c, B = d + x C, where the pole's offset d = K_J - K_J(P) is known
+with more digits than K_J, and C has no cancellation. Seen from the inverted pole, the top is another one: the equations
+read the same with a -> -a, c -> -c, K_R -> -K_R, and 2E' is less by 4a.
+"""
+
+from collections.abc import Sequence
+from decimal import Decimal, localcontext
+from functools import lru_cache
+from typing import overload
+
+import numpy as np
+
+from ..compiled import shared_with_kernels
+from ..errors import finite, numbers
+from ..types import Array, Bools, Number, Scalars
+from . import equations as eq
+from .constants import EXACT, exact_top
+from .equations import AnyTop
+from .top import Top, TopNumbers
+
+
+@shared_with_kernels
+def seen_from(side: Number, top: AnyTop) -> TopNumbers:
+    """The top as the pole of cos(theta) = side sees it, 1 the upright and -1 the inverted one."""
+    return TopNumbers(side * top.a, top.I1, top.I3)
+
+
+@shared_with_kernels
+def bracket_near(side: Number, x: Number, d: Number, K_R: Number, top: AnyTop) -> Number:
+    """B at the distance x of cos(theta) to that pole, whose offset is d."""
+    return d + x * pole_slope(x, side * K_R, seen_from(side, top))
+
+
+@shared_with_kernels
+def pole_slope(x: Number, K_R: Number, top: AnyTop) -> Number:
+    """C of B = d + x C at x = 1 - c, a number: x C = K_J(P) - (I3/I1)(c - a) K_R/f3.
+
+    Rearranged, because it is 0/0 at x = 0: with p = 1 - a, q = c - a and f3(P), f3 at the pole and at x,
+    p/f3(P) - q/f3 = (p f3 - q f3(P))/(f3(P) f3) = x {p^2 (2 - x) + I3 (p + q)}/{f3(P) f3 (p f3 + q f3(P))}
+    """
+    p, q = 1 - top.a, 1 - top.a - x
+    f3_P, f3 = np.sqrt(eq.f3_2(1.0, 0.0, top)), np.sqrt(eq.f3_2(1 - x, x * (2 - x), top))
+    unit = top.I3 / top.I1 * K_R / (f3_P * f3)
+    if p * q > 0:
+        return unit * one_sign(x, p, q, f3_P, f3, top)
+    return unit * (f3_P if p == 0 else two_signs(x, p, q, f3_P, f3))
+
+
+@shared_with_kernels
+def one_sign(x: Number, p: Number, q: Number, f3_P: Number, f3: Number, top: AnyTop) -> Number:
+    """(p f3 - q f3(P))/x, where p f3 and q f3(P) cancel"""
+    return (p * p * (2 - x) + top.I3 * (p + q)) / (p * f3 + q * f3_P)
+
+
+@shared_with_kernels
+def two_signs(x: Number, p: Number, q: Number, f3_P: Number, f3: Number) -> Number:
+    """(p f3 - q f3(P))/x, where they do not"""
+    return (p * f3 - q * f3_P) / x
+
+
+@overload
+def pole_constants(top: Top, K_R: float) -> tuple[float, float]: ...
+@overload
+def pole_constants(top: Top, K_R: Array) -> tuple[Array, Array]: ...
+def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
+    """(K_J at P, K_J at the inverted pole): where the bracket of (36) vanishes at theta = 0 and at theta = pi.
+
+    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others. K_R of any
+    shape; for a number these are the floats nearest to them, which everything here takes for the poles' own.
+    """
+    if np.ndim(K_R):
+        K_R = numbers("K_R", K_R)
+        upright, inverted = (float(ratio) * K_R for ratio in pole_ratios(top))
+        return upright, inverted
+    upright, inverted = exact_pole_constants(top, Decimal(finite("K_R", K_R)))
+    return float(upright), float(inverted)
+
+
+@lru_cache(256)
+def pole_ratios(top: Top) -> tuple[Decimal, Decimal]:
+    """K_J/K_R at P and at the inverted pole."""
+    t = exact_top(top)
+    with localcontext(EXACT):
+        one, zero = Decimal(1), Decimal(0)
+        upright, inverted = (eq.K_J_of_spin(c, eq.omega3(c, zero, one, t), t) for c in (one, -one))
+        return upright, inverted
+
+
+def exact_pole_constants(top: Top, K_R: Decimal) -> tuple[Decimal, Decimal]:
+    """K_J at P and at the inverted pole."""
+    with localcontext(EXACT):
+        upright, inverted = pole_ratios(top)
+        return upright * K_R, inverted * K_R
+
+
+def pole_offsets(top: Top, K_J: Scalars, K_R: Scalars) -> tuple[Array, Array]:
+    """d = K_J - K_J(P), and the same at the inverted pole, without the rounding of K_J(P)."""
+    each = [exact_pole_constants(top, Decimal(K)) for K in np.ravel(K_R).tolist()]
+    offsets = []
+    for exact in zip(*each, strict=True):
+        nearest = [float(K) for K in exact]
+        with localcontext(EXACT):
+            rest = [float(K - Decimal(near)) for K, near in zip(exact, nearest, strict=True)]
+        d = (K_J - np.reshape(nearest, np.shape(K_R))) - np.reshape(rest, np.shape(K_R))
+        offsets.append(np.where(at_pole(d, K_J), 0.0, d))
+    return offsets[0], offsets[1]
+
+
+def at_pole(d: Number, K_J: Scalars) -> Bools:
+    """Whether K_J is the pole's own to the last digit: its float cannot be nearer to it."""
+    return np.abs(d) <= 0.51 * np.spacing(np.abs(K_J))
+
+
+# ---- for arrays ----
+
+
+def near_pole(v: Array, m: Array, top: Top, K_R: Scalars, offsets: Sequence[Scalars]) -> tuple[Array, Array, Array]:
+    """d, x and C of B = d + x C, where x is the smaller of v = 1 - c and m = 1 + c."""
+    upright, x = v <= m, np.minimum(v, m)
+    sign = np.where(upright, 1.0, -1.0)
+    p, f3 = 1 - sign * top.a, np.sqrt(eq.f3_2(sign * (1 - x), v * m, top))
+    q, f3_P = p - x, np.sqrt(eq.f3_2(sign, 0.0, top))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        apart = np.where(p == 0, f3_P, two_signs(x, p, q, f3_P, f3))
+        C = np.where(p * q > 0, one_sign(x, p, q, f3_P, f3, top), apart)
+    return np.where(upright, *offsets), x, top.I3 / top.I1 * sign * K_R / (f3_P * f3) * C
+
+
+def omega2_at(v: Array, m: Array, top: Top, K_R: Scalars, offsets: Sequence[Scalars]) -> Array:
+    """w2 = B/s (30) from v = 1 - c and m = 1 + c."""
+    d, x, C = near_pole(v, m, top, K_R, offsets)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(d == 0, 0.0, d / np.sqrt(v * m)) + np.sqrt(x / (2 - x)) * C

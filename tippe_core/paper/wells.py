@@ -1,0 +1,325 @@
+"""The wells of U, where f >= 0 of (36): turning points, and the steady precessions at their bottom.
+
+Floats find them, on a grid and by zero(); Decimals take the last steps and decide what floats cannot: next to a pole,
+next to a steady precession, and where wells merge.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from decimal import ROUND_CEILING, Context, Decimal, localcontext
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from ..compiled import compiled, shared_with_kernels
+from ..errors import NoMotionError, finite
+from ..types import Array, Bools
+from . import equations as eq
+from .constants import EXACT, Constants, Exact, exact_top, nonzero, versines
+from .poles import at_pole, bracket_near, exact_pole_constants
+from .search import zero
+from .top import Top, TopNumbers
+
+
+class SteadyPrecessions(NamedTuple):
+    """theta (k,) in rad, ascending, and stable (k,), whether U is least there."""
+
+    theta: Array
+    stable: Bools
+
+
+class Well(NamedTuple):
+    """cos(theta) at the turning points."""
+
+    inner: Decimal
+    outer: Decimal
+
+
+class Station(NamedTuple):
+    """cos(theta), e - U there, and whether U is least there."""
+
+    c: Decimal
+    kinetic: Decimal
+    bottom: bool
+
+
+class ExactCurve:
+    """U, e - U and its like as functions of c = cos(theta), Decimals, for one K_J, K_R and e = 2E'."""
+
+    def __init__(self, top: Top, exact: Exact, rounded: bool = True) -> None:
+        """rounded: K_J, K_R and E were given as floats, and mean what the nearest float can mean."""
+        self.rounded_top, self.top = top.numbers, exact_top(top)
+        with localcontext(EXACT):
+            poles = exact_pole_constants(top, exact.K_R)
+            for K_J in poles:
+                if rounded and at_pole(float(exact.K_J - K_J), float(exact.K_J)):
+                    exact = replace(exact, K_J=K_J)
+            # a state's K_J and K_R are exact but for a square root
+            negligible = abs(exact.K_J) * Decimal("1e-55")
+            self.offsets = tuple(exact.K_J - K_J if abs(exact.K_J - K_J) > negligible else Decimal(0) for K_J in poles)
+        self.exact, self.rounded = exact, rounded
+        self.rounded_K = float(exact.K_R), *map(float, self.offsets)
+
+    @classmethod
+    def of(cls, top: Top, K_J: float, K_R: float) -> Self:
+        """With no energy."""
+        K_J, K_R = (nonzero(Decimal(finite(name, K))) for name, K in (("K_J", K_J), ("K_R", K_R)))
+        return cls(top, Exact(K_J, K_R, Decimal(0)))
+
+    def U(self, c: Decimal) -> Decimal:
+        """Infinite at a pole unless the bracket vanishes there too: then it is the height alone."""
+        s2 = 1 - c * c
+        if s2:
+            B = eq.bracket(c, self.exact.K_J, eq.omega3(c, s2, self.exact.K_R, self.top), self.top)
+            return eq.U(1 - c, c, s2, B * B / s2, self.top)
+        return Decimal("Infinity") if self.offsets[c < 0] else eq.U(1 - c, c, s2, Decimal(0), self.top)
+
+    def kinetic(self, c: Decimal) -> tuple[Decimal, Decimal | None]:
+        """e - U and its slope, for where U is finite; at a pole the slope is left out."""
+        s2 = 1 - c * c
+        return self.exact.e - self.U(c), -self.N(c) / (s2 * s2) if s2 else None
+
+    def D(self, c: Decimal) -> tuple[Decimal, Decimal]:
+        """s^2 (e - U), which is finite at the poles too, and its slope there between them."""
+        s2 = 1 - c * c
+        w3 = eq.omega3(c, s2, self.exact.K_R, self.top)
+        B = eq.bracket(c, self.exact.K_J, w3, self.top)
+        N = eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
+        kinetic = self.exact.e - eq.U(1 - c, c, s2, B * B / s2, self.top)
+        return s2 * kinetic, -2 * c * kinetic - N / s2
+
+    def N(self, c: Decimal) -> Decimal:
+        """s^4 dU/dc"""
+        s2 = 1 - c * c
+        w3 = eq.omega3(c, s2, self.exact.K_R, self.top)
+        B = eq.bracket(c, self.exact.K_J, w3, self.top)
+        return eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
+
+
+# ---- in floats: x is the distance of cos(theta) to the pole of cos(theta) = side, d that pole's offset ----
+
+_GRID_V, _GRID_M = versines(np.linspace(0, np.pi, 513))  # 1 - c and 1 + c
+
+
+@shared_with_kernels
+def N_near(x: float, side: float, d: float, K_R: float, top: TopNumbers) -> float:
+    """s^4 dU/dc"""
+    c, s2 = side * (1 - x), x * (2 - x)
+    dB = eq.bracket_slope(c, s2, eq.omega3(c, s2, K_R, top), top)
+    return eq.s4_U_slope(c, s2, bracket_near(side, x, d, K_R, top), dB, top)
+
+
+@shared_with_kernels
+def D_near(x: float, side: float, d: float, K_R: float, top: TopNumbers, e: float) -> float:
+    """s^2 (e - U)"""
+    c, s2 = side * (1 - x), x * (2 - x)
+    if s2 == 0:
+        return -eq.f2_2(c, s2, top) * d * d
+    B = bracket_near(side, x, d, K_R, top)
+    return s2 * (e - eq.U(x if side > 0 else 2 - x, c, s2, B * B / s2, top))
+
+
+@compiled
+def extrema_near(V: Array, M: Array, K_R: float, upright: float, inverted: float, top: TopNumbers) -> Array:
+    """The zeros of N from theta = 0 on, found on the grid 1 - c = V, 1 + c = M: rows of side, x, its bracket in x, and
+    dN/dx. upright, inverted: the offsets of the poles. Where N only dips towards zero, a golden section looks deeper.
+    """
+    n, half, rows, found = len(V) - 1, len(V) // 2, 0, np.empty((2 * len(V), 5))
+    N = np.empty(n + 1)
+    for i in range(n + 1):
+        side, d, x = (1.0, upright, V[i]) if i <= half else (-1.0, inverted, M[i])
+        N[i] = N_near(x, side, d, K_R, top)
+    for i in range(n):
+        side, d, X = (1.0, upright, V) if i < half else (-1.0, inverted, M)
+        args = side, d, K_R, top
+        places = [X[i], X[i + 1]] if N[i] * N[i + 1] < 0 else [X[i]][:0]
+        if i > 0 and N[i] == 0:
+            places = [X[i - 1], X[i + 1]]
+        elif i > 0 and N[i - 1] * N[i] > 0 and N[i] * N[i + 1] > 0 and abs(N[i]) <= min(abs(N[i - 1]), abs(N[i + 1])):
+            low, high = X[i - 1], X[i + 1]
+            for _ in range(60):
+                x1, x2 = high - 0.6180339887498949 * (high - low), low + 0.6180339887498949 * (high - low)
+                y1, y2 = N_near(x1, *args), N_near(x2, *args)
+                if min(y1 * N[i], y2 * N[i]) < 0:
+                    places = [X[i - 1], x1 if y1 * N[i] < 0 else x2, X[i + 1]]
+                    break
+                low, high = (x1, high) if abs(y2) < abs(y1) else (low, x2)
+        for j in range(len(places) - 1):
+            low, high = min(places[j], places[j + 1]), max(places[j], places[j + 1])
+            x = zero(N_near, low, high, args)
+            h = 1e-5 * min(x, 2 - x)
+            slope = (N_near(x + h, *args) - N_near(x - h, *args)) / (2 * h)
+            found[rows] = side, x, low, high, slope
+            rows += 1
+    return found[:rows]
+
+
+def extrema(curve: ExactCurve) -> list[Decimal]:
+    """cos(theta) of all zeros of N in (0, pi), from theta = 0 on: where U is least or largest."""
+    if curve.exact.K_J == curve.exact.K_R == 0:
+        return []  # U is the height alone
+    zeros = []
+    K_R, upright, inverted = curve.rounded_K
+    for side, x, low, high, slope in extrema_near(_GRID_V, _GRID_M, K_R, upright, inverted, curve.rounded_top).tolist():
+        ends = exact_cosine(side, low), exact_cosine(side, high)
+        slopes = iter([Decimal(-side * slope)])  # only next to the guess
+
+        def N(c: Decimal, slopes: Iterator[Decimal] = slopes) -> tuple[Decimal, Decimal | None]:
+            return curve.N(c), next(slopes, None)
+
+        zeros.append(solve(N, min(ends), max(ends), -side * slope > 0, exact_cosine(side, x)))
+    return [c for c in zeros if abs(c) < 1]
+
+
+def exact_cosine(side: float, x: float) -> Decimal:
+    return 1 - Decimal(x) if side > 0 else Decimal(x) - 1
+
+
+def solve(
+    function: Callable[[Decimal], tuple[Decimal, Decimal | None]],
+    low: Decimal, high: Decimal, rises: bool, guess: Decimal | None = None,
+) -> Decimal:  # fmt: skip
+    """The zero of function(c) -> (value, slope or None) between low and high (Decimals); rises: from below 0 to above.
+
+    Newton's step, or the secant's, kept inside the bracket; bisection, in the distance to a pole on a logarithmic
+    scale, where a step leaves it. Ends when a step moves 1 - c or 1 + c by less than 1e-13 of itself, and the steps
+    fall as fast as they do off a double zero.
+    """
+    c, previous, last = guess if guess and low < guess < high else bisect(low, high), None, Decimal(1)
+    for _ in range(400):
+        value, slope = function(c)
+        if value == 0:
+            return c
+        if (value > 0) == rises:
+            high = c
+        else:
+            low = c
+        if slope is None and previous is not None and previous[1] != value:
+            slope = (value - previous[1]) / (c - previous[0])
+        previous = (c, value)
+        following = c - value / slope if slope else bisect(low, high)
+        step, small = abs(following - c), min(1 - c, 1 + c) * Decimal("1e-13")
+        if slope and step <= small and (step <= last / 1000 or step <= small / 10**9):
+            return min(max(following, low), high)
+        last = step
+        if not low < following < high:
+            following = bisect(low, high)
+        if high - low <= small / 10**9:
+            return c
+        c = following
+    return c
+
+
+def bisect(low: Decimal, high: Decimal) -> Decimal:
+    for near, far, sign in ((1 - high, 1 - low, 1), (1 + low, 1 + high, -1)):
+        if near < far / 16 and near < Decimal("0.1"):
+            x = (near * far).sqrt() if near > 0 else far * Decimal("1e-4")
+            return sign * (1 - x)
+    return (low + high) / 2
+
+
+# ---- steady precessions, wells, turning points ----
+
+
+def steady_precessions(top: Top, K_J: float, K_R: float) -> SteadyPrecessions:
+    """The steady precessions f = f' = 0 at K_J and K_R (numbers): SteadyPrecessions(theta, stable), arrays by theta.
+
+    theta in rad in (0, pi), and 0 or pi itself where K_J is exactly the pole's; stable (f'' < 0) means that U is least.
+    """
+    with localcontext(EXACT):
+        stations = [s for s in find_stations(ExactCurve.of(top, K_J, K_R)) if s.kinetic.is_finite()]
+        return SteadyPrecessions(np.array([angle(s.c) for s in stations]), np.array([s.bottom for s in stations], bool))
+
+
+def angle(c: Decimal) -> float:
+    """theta of an exact cos(theta)."""
+    with localcontext(EXACT):
+        v, m = 1 - c, 1 + c
+    return 2 * float(np.arctan2(float(v) ** 0.5, float(m) ** 0.5))
+
+
+def find_stations(curve: ExactCurve) -> list[Station]:
+    """The poles and the extrema between them: U is monotone from each to the next."""
+    with localcontext(EXACT):
+        places = [Decimal(1), *extrema(curve), Decimal(-1)]
+        U = [curve.U(c) for c in places]
+        infinite = Decimal("Infinity")
+        around = zip([infinite, *U], U, [*U[1:], infinite], strict=False)
+        bottoms = [(here < left and here < right) or here == left == right for left, here, right in around]
+        return [Station(c, curve.exact.e - u, b) for c, u, b in zip(places, U, bottoms, strict=True)]
+
+
+def wells(curve: ExactCurve) -> list[Well]:
+    """The allowed intervals of cos(theta), from theta = 0 on: list of Well.
+
+    An energy given as a float that differs from that of the bottom of a well by no more than its own rounding is the
+    one of the steady precession.
+    """
+    with localcontext(EXACT):
+        exact, stations = curve.exact, find_stations(curve)
+        size = max(abs(exact.e), exact.K_R**2, exact.K_J**2)
+        rounding = size * (Decimal(2) ** -50 if curve.rounded else Decimal("1e-50"))
+        found, inner = [], Decimal(1)
+        for before, here in zip([None, *stations], stations, strict=False):
+            if here.bottom and abs(here.kinetic) <= rounding:
+                found.append(Well(here.c, here.c))
+            elif here.kinetic > 0:
+                if before is None or (before.bottom and abs(before.kinetic) <= rounding):
+                    inner = here.c if before is None else before.c
+                elif before.kinetic <= 0:
+                    inner = turning_point(curve, here, before)
+                if here is stations[-1]:
+                    found.append(Well(inner, here.c))
+            elif before is not None and before.kinetic > 0 and not (before.bottom and abs(before.kinetic) <= rounding):
+                found.append(Well(inner, turning_point(curve, here, before)))
+        found = found or [Well(s.c, s.c) for s in stations if s.kinetic == 0][:1]  # a ball at rest
+    if not found:
+        raise no_motion(curve, max(s.kinetic for s in stations))
+    return found
+
+
+def no_motion(curve: ExactCurve, most: Decimal) -> NoMotionError:
+    """The error to raise where e - U is nowhere more than this."""
+    with localcontext(EXACT):
+        exact = curve.exact
+        E, E_least = (eq.E_of(e, exact.K_J, exact.K_R, curve.top) for e in (exact.e, exact.e - most))
+    constants = f"K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) + 0.0:.10g}"
+    return NoMotionError("E", float(E), f"E >= {no_less(E_least):.10g} for this top, {constants}",
+                         "Below it is no motion, at it the steady precession of least energy.")  # fmt: skip
+
+
+def no_less(x: Decimal) -> float:
+    """x in ten figures, none of them rounded down: typed in again it is no smaller."""
+    return float(Context(prec=10, rounding=ROUND_CEILING).plus(x))
+
+
+@compiled
+def turning_near(low: float, high: float, side: float, d: float, K_R: float, top: TopNumbers, e: float) -> float:
+    """x of the zero of e - U between two x at which it differs in sign."""
+    return zero(D_near, low, high, (side, d, K_R, top, e))
+
+
+def turning_point(curve: ExactCurve, one: Station, other: Station) -> Decimal:
+    """The zero of e - U between two stations at which it differs in sign."""
+    low, high = sorted((one, other))  # by cos(theta)
+    for end in (low, high):
+        if end.kinetic == 0:
+            return end.c
+    through_pole = any(
+        abs(end.c) == 1 and end.kinetic.is_finite() for end in (one, other)
+    )  # there D is 0 whatever e is
+    if through_pole:
+        return solve(curve.kinetic, low.c, high.c, high.kinetic > 0)
+    K_R, upright, inverted = curve.rounded_K
+    side, d = (1, upright) if low.c + high.c > 0 else (-1, inverted)
+    near, far = sorted(float(1 - side * end.c) for end in (low, high))
+    guess = exact_cosine(side, turning_near(near, far, float(side), d, K_R, curve.rounded_top, float(curve.exact.e)))
+    return solve(curve.D, low.c, high.c, high.kinetic > 0, guess)
+
+
+def turning_points(top: Top, constants: Constants) -> Array:
+    """The allowed intervals f >= 0: (k, 2) array of theta (rad), a row each, from theta = 0 on.
+
+    The constants are numbers. Steady precession: both ends equal. Raises NoMotionError below the lowest well.
+    """
+    return np.array([[angle(w.inner), angle(w.outer)] for w in wells(ExactCurve(top, Exact.of(constants, top)))])
