@@ -362,8 +362,7 @@ def solve(
     constants = Constants(K_J, K_R, E)
     if state is not None:
         rolling = Rolling(top, None, start=state)
-        ends = (rolling.v1, rolling.m1), (rolling.v2, rolling.m2)
-        inner, outer = (2 * np.arctan2(v**0.5, m**0.5) for v, m in ends)
+        inner, outer = rolling.turning_points
     else:
         wells = turning_points(top, constants)
         well = int(np.argmin(np.abs(wells - marks.theta_steady).min(axis=1)))

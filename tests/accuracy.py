@@ -98,9 +98,7 @@ def of_the_state(top, state):
     K_J, K_R = first + second, f3 * w3
     curve = Curve(top, K_J, K_R, E)
     rolling = Rolling(top, None, state)
-    for name, v in (("inner turning point", rolling.v1), ("outer turning point", rolling.v2)):
-        m = rolling.m1 if name.startswith("inner") else rolling.m2
-        place = 2 * np.arctan2(v**0.5, m**0.5)
+    for name, place in zip(("inner turning point", "outer turning point"), rolling.turning_points, strict=True):
         yield name, place, zero_next_to(curve, place), mp.pi
 
 

@@ -1,4 +1,4 @@
-"""Motion on the smooth plane (appendix B): exact, for any length of time, by the same Fourier series as rolling.
+"""Motion on the smooth plane (appendix B): exact, for any length of time, by the Fourier series of nutation.py.
 
 No horizontal force acts: G moves uniformly, and w3 and L_z = I3 w3 c + I1 w2 s are constant. With e = 2E - I3 w3^2, E
 without the drift of G, c_dot^2 = s^2 theta_dot^2 is a cubic over I1 + a^2 s^2,
@@ -7,9 +7,9 @@ without the drift of G, c_dot^2 = s^2 theta_dot^2 is a cubic over I1 + a^2 s^2,
     (I1 + a^2 s^2) c_dot^2 = P = s^2 [e - 2a(1 - c)] - (L_z - I3 w3 c)^2/I1 = (c1 - c)(c - c2) Q ,
     Q = e + (I3 w3)^2/I1 - 2a(1 - c - c1 - c2) ,
 
-so with rolling.py's kappa dt = [(I1 + a^2 s^2)/Q]^1/2 dkappa. Its regular orientation next to a pole holds too: for it
-w2 = B/s with B = (L_z - I3 w3 c)/I1 = d + v I3 w3/I1, and theta_dot and w2 have the same inertia at a pole. The table
-pushes with
+so with the kappa of nutation.py dt = [(I1 + a^2 s^2)/Q]^1/2 dkappa. Its regular orientation next to a pole holds too:
+for it w2 = B/s with B = (L_z - I3 w3 c)/I1 = d + v I3 w3/I1, and theta_dot and w2 have the same inertia at a pole. The
+table pushes with
 
     F_z = 1 + d^2/dt^2 (-a c) = {I1 + a [I1 c (w1^2 + w2^2) - I3 w3 s w2]}/(I1 + a^2 s^2) .
 """
@@ -17,17 +17,20 @@ pushes with
 from collections.abc import Callable
 from dataclasses import replace
 from decimal import Decimal, localcontext
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from ..compiled import compiled
 from ..errors import TopError
 from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.top import Top, TopNumbers
-from ..paper.wells import angle, solve
+from ..paper.wells import solve
 from ..types import Array
-from .rolling import Nutation
+from .nutation import Nodes, Nutation
+from .pose import Pose, Swing, half_sigma_rate, nearer_pole, theta_dot
 from .trajectory import Trajectory, checked_times
 
 
@@ -68,78 +71,111 @@ class Gliding(Nutation):
             L3 = t.I3 * w3
             L_z = L3 * here + t.I1 * w2 * s2.sqrt()
             e = t.I1 * (w1 * w1 + w2 * w2) + t.a * t.a * s2 * w1 * w1 + 2 * t.a * v
-            inner, outer = _turning(t, e, L_z, L3, here, still=state.theta_dot == 0)
-            self.turning_points = np.array([angle(inner), angle(outer)])
-            self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
-            self.width = float(inner - outer)
+            inner, outer = turning_cosines(t, e, L_z, L3, here, still=state.theta_dot == 0)
+            offsets = (L_z - L3) / t.I1, (L_z + L3) / t.I1
+            self.swing = Swing(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *offsets)))
             self._place = float(max(inner - here, Decimal(0))) ** 0.5, float(max(here - outer, Decimal(0))) ** 0.5
-            self.gaps = float((L_z - L3) / t.I1), float((L_z + L3) / t.I1)
             self._Q_outer = float(e + L3 * L3 / t.I1 - 2 * t.a * (1 - inner - 2 * outer))
-            self._C = float(L3 / t.I1)
+            self._B_slope = float(L3 / t.I1)
             self.E = float(e + L3 * w3) / 2
 
-    def _h(self, v: Array, m: Array) -> Array:
-        Q = self._Q_outer + 2 * self.top.a * (self.v2 - v)
-        if self.width == 0 and not np.all(Q > 0):
-            return np.ones_like(Q)  # at rest on an unstable steady precession: any rate of kappa will do
-        with np.errstate(invalid="ignore", divide="ignore"):
-            return np.sqrt((self.top.I1 + self.top.a**2 * v * m) / Q)
+    def _dt_dkappa(self, v: Array, m: Array) -> Array:
+        return dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.swing)
 
-    def _h_exact(self, ch: Array, sh: Array) -> Array:
-        return self._h(*self._versines(ch, sh))  # Q has nothing to cancel
+    def _exact_dt_dkappa(self, ch: Array, sh: Array) -> Array:
+        return self._dt_dkappa(*self._versines(ch, sh))  # Q has nothing to cancel
 
     def _too_near(self) -> TopError:
         return TopError("theta", self.start.theta, "a start further from an unstable steady precession",
                         "So near to it the nutation takes almost for ever; change the start a little.")  # fmt: skip
 
-    def _slopes(self, v: Array, m: Array) -> tuple[float, float]:
-        return self._C, -self._C
+    def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
+        return sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.swing)
 
-    def _w3(self, v: Array, m: Array) -> float:
-        return self.start.omega3
+    def _omega(self, place: Nodes | Pose) -> Array:
+        ch, sh, v, m, *_ = place
+        return omega(ch, sh, v, m, self._dt_dkappa(v, m), self._B_slope, self.start.omega3, self.swing)
 
-    def _omega(self, ch: Array, sh: Array, v: Array, m: Array, h: Array) -> tuple[Array, Array, Array]:
-        x, d, C = np.minimum(v, m), np.where(v <= m, *self.gaps), np.where(v <= m, self._C, -self._C)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            w2 = np.where(d == 0, 0.0, d / np.sqrt(v * m)) + np.sqrt(x / (2 - x)) * C
-        return self._w1(ch, sh, v, m, h), w2, np.full_like(w2, self.start.omega3)
-
-    def _F_z(self, v: Array, m: Array, w1: Array, w2: Array) -> Array:
-        a, I1, s, c = self.top.a, self.top.I1, np.sqrt(v * m), 1 - v
-        return (I1 + a * I1 * (c * (w1**2 + w2**2) - self._C * s * w2)) / (I1 + a * a * s * s)
-
-    @property
+    @cached_property
     def lift_off(self) -> float:
         """Time from the start to where F_z falls to 0, in (R/g)^1/2; inf if it never does."""
 
         def F_z(t: Array) -> Array:
-            now = self._state(*self._clock(np.append(0.0, t)))
-            w1, w2, _ = now["omega"]
-            return self._F_z(now["v"], now["m"], w1, w2)[1:]
+            moved, _ = self._pose(self._phases(np.append(0.0, t)), 0.0, 0.0)
+            return normal_force(moved.v, moved.m, self._omega(moved), self.top.numbers)[1:]
 
         return first_below(F_z, self.period)
 
     def __call__(self, times: ArrayLike) -> Trajectory:
         """The Trajectory at the times (n,)."""
         top, start, t = self.top, self.start, checked_times(times)
-        _, now, d_phi = self._posed(t)
-        phi = now["phi"]
-        drift = complex(start.vx or 0.0, start.vy or 0.0) * np.exp(1j * start.phi)
+        moved, _ = self._pose(self._phases(t), *self._turn_of_start)
+        omega, drift = self._omega(moved), complex(start.vx or 0.0, start.vy or 0.0) * np.exp(1j * start.phi)
         G = complex(start.x or 0.0, start.y or 0.0) + drift * (t - t[0])
-        contact = G - 1j * now["s_exp_phi"] * np.exp(1j * d_phi) * top.a
-        v, m, (w1, w2, w3) = now["v"], now["m"], now["omega"]
-        s, c, moving = np.sqrt(v * m), 1 - v, drift * np.exp(-1j * phi)
-        slip = moving.real - (w2 * (c - top.a) - w3 * s), moving.imag + w1 * (1 - top.a * c)
-        F_z, none = self._F_z(v, m, w1, w2), np.zeros(len(t))
+        contact = G - 1j * moved.s_exp_phi * top.a
+        v, m, (w1, w2, w3) = moved.v, moved.m, omega.T
+        s, c, velocity = np.sqrt(v * m), 1 - v, drift * np.exp(-1j * moved.phi)
+        slip = velocity.real - (w2 * (c - top.a) - w3 * s), velocity.imag + w1 * (1 - top.a * c)
+        none = np.zeros(len(t))
         return Trajectory(
-            top=top, t=t, theta=now["theta"], phi=phi, psi=now["psi"], quaternion=now["quaternion"],
+            top=top, t=t, theta=moved.theta, phi=moved.phi, psi=moved.psi, quaternion=moved.quaternion,
             contact=np.stack([contact.real, contact.imag], axis=1),
-            com=np.stack([G.real, G.imag, 1 - top.a + top.a * v], axis=1),
-            omega=np.stack([w1, w2, w3], axis=1), slip=np.stack(slip, axis=1),
-            force=np.stack([none, none, F_z], axis=1), regime=np.full(len(t), "slip"))  # fmt: skip
+            com=np.stack([G.real, G.imag, 1 - top.a + top.a * v], axis=1), omega=omega, slip=np.stack(slip, axis=1),
+            force=np.stack([none, none, normal_force(v, m, omega, top.numbers)], axis=1),
+            regime=np.full(len(t), "slip"))  # fmt: skip
 
 
-def _turning(
+# ---- the loops over nodes and times ----
+
+
+@compiled
+def dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, swing: Swing) -> Array:
+    """[(I1 + a^2 s^2)/Q]^1/2 (n,) at v = 1 - c, m = 1 + c, (n,), from Q at the outer turning point."""
+    found = np.empty(len(v))
+    for i in range(len(v)):
+        Q = Q_outer + 2 * top.a * (swing.v2 - v[i])
+        if Q > 0:
+            found[i] = np.sqrt((top.I1 + top.a**2 * v[i] * m[i]) / Q)
+        else:  # at rest on an unstable steady precession any rate of kappa will do
+            found[i] = 1.0 if swing.width == 0 else np.nan
+    return found
+
+
+@compiled
+def omega(ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, swing: Swing) -> Array:
+    """(n, 3): omega about 1', 2', 3. B = d + v I3 w3/I1 = d - m I3 w3/I1, with the d of either pole."""
+    w = np.empty((len(v), 3))
+    for i in range(len(v)):
+        side, x, d = nearer_pole(v[i], m[i], swing)
+        w[i, 0] = theta_dot(ch[i], sh[i], v[i], m[i], dt_dkappa[i], swing.width)
+        w[i, 1] = (0.0 if d == 0 else d / np.sqrt(v[i] * m[i])) + np.sqrt(x / (2 - x)) * side * B_slope
+        w[i, 2] = w3
+    return w
+
+
+@compiled
+def sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, swing: Swing) -> Array:
+    """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
+    rates = np.empty((2, len(v)))
+    for i in range(len(v)):
+        rates[0, i] = half_sigma_rate(v[i], swing.v1, swing.v2, swing.upright, dt_dkappa[i], B_slope - w3)
+        rates[1, i] = half_sigma_rate(m[i], swing.m1, swing.m2, swing.inverted, dt_dkappa[i], w3 - B_slope)
+    return rates
+
+
+@compiled
+def normal_force(v: Array, m: Array, omega: Array, top: TopNumbers) -> Array:
+    """F_z (n,) = {I1 + a [I1 c (w1^2 + w2^2) - I3 w3 s w2]}/(I1 + a^2 s^2)"""
+    a, I1, I3 = top.a, top.I1, top.I3
+    F_z = np.empty(len(v))
+    for i in range(len(v)):
+        w1, w2, w3 = omega[i, 0], omega[i, 1], omega[i, 2]
+        s, c = np.sqrt(v[i] * m[i]), 1 - v[i]
+        F_z[i] = (I1 + a * (I1 * c * (w1 * w1 + w2 * w2) - I3 * w3 * s * w2)) / (I1 + a * a * s * s)
+    return F_z
+
+
+def turning_cosines(
     t: TopNumbers, e: Decimal, L_z: Decimal, L3: Decimal, here: Decimal, still: bool
 ) -> tuple[Decimal, Decimal]:
     """cos(theta) at the turning points, Decimals: the zeros of P on both sides of here."""

@@ -1,0 +1,279 @@
+"""One nutation as Fourier series: the motion between two turning points, exact for any length of time.
+
+With c = cos(theta), c_dot^2 = s^2 f is analytic between its zeros c1 (inner) and c2 (outer). On c = (c1 + c2)/2 +
+(c1 - c2)/2 cos(kappa) it becomes kappa_dot^2 = Q, where s^2 f = (c1 - c)(c - c2) Q, so dt/dkappa = Q^-1/2 is smooth and
+periodic. Where it has a peak, kappa is replaced by an angle eta (crowding.py), otherwise the same.
+
+Integrals over eta by the midpoint rule converge geometrically, and so do the Fourier coefficients in the phase
+tau = 2 pi t/T, for which kappa need not be inverted: the coefficient of sin(k tau) in kappa - tau is
+2/(pi k) times the integral of cos(k tau(kappa)) from 0 to pi (Bessel's solution of Kepler's equation).
+
+Near a pole phi and psi turn by nearly pi at once, and at the pole they mean nothing. With v = 1 - c, m = 1 + c,
+
+    q_x + i q_y = sin(theta/2) exp i(phi - psi)/2 = (v1^1/2 cos(kappa/2) +- i v2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_-
+    q_w + i q_z = cos(theta/2) exp i(phi + psi)/2 = (m1^1/2 cos(kappa/2) +- i m2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_+
+
+(the sign that of the pole offset d) take all of that turn into the first factor, exactly, because f1 = f2 at the poles;
+the rates of sigma_- and sigma_+ are smooth for every trajectory, also through a pole. So is the velocity of the contact
+point.
+"""
+
+from abc import ABC, abstractmethod
+from functools import cached_property
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import TopError
+from ..paper.constants import State
+from ..paper.top import Top
+from ..types import Array, Complex
+from .crowding import Crowding, crowded, crowding, eta_halves
+from .pose import Pose, Swing, clock, pose, theta_at
+from .series import cosine_coefficients, harmonics, integral, integral_to, phase, resolved, sums
+from .trajectory import checked_times
+
+NODES_LEAST, NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that of a merging
+SHARP = 3.0  # dt/dkappa that varies more than so many times may have a peak
+Phases: TypeAlias = tuple[Array, Array, Array]  # whole periods, half periods (0 or 1), the rest of the phase; (n,) each
+NONE = np.zeros((0, 1))  # no series
+
+
+class Nodes(NamedTuple):
+    """At midpoints of eta, (n,) each: cos(kappa/2), sin(kappa/2), v, m, and the three rates."""
+
+    ch: Array
+    sh: Array
+    v: Array
+    m: Array
+    dt_dkappa: Array
+    dt_deta: Array
+    stretch: Array
+
+
+class Time(NamedTuple):
+    """How many midpoints resolve dt/deta, and its cosine coefficients (n,)."""
+
+    n: int
+    dt_deta: Array
+
+
+class Orientation(NamedTuple):
+    """In the phase: mean rates (2,) of sigma_- and sigma_+, sine coefficients (2, K) of what varies of them; and of the
+    contact's velocity, in axes that turn at the mean rate, the Fourier coefficients forward and backward (2, K) and the
+    constant one: none, where its point is not asked for."""
+
+    mean: Array
+    sigma: Array
+    velocity: Array
+    constant: float
+
+
+class Nutation(ABC):
+    """A motion whose c_dot^2 is analytic between two turning points, as a function of time since its start."""
+
+    top: Top
+    start: State
+    swing: Swing
+    _inward: bool  # whether theta falls at first
+    _place: tuple[float, float]  # as sin(kappa/2), cos(kappa/2) at the start
+
+    @abstractmethod
+    def _dt_dkappa(self, v: Array, m: Array) -> Array:
+        """dt/dkappa (n,) at v = 1 - c, m = 1 + c, (n,)."""
+
+    @abstractmethod
+    def _exact_dt_dkappa(self, ch: Array, sh: Array) -> Array:
+        """The same with all figures, at cos(kappa/2) and sin(kappa/2)."""
+
+    @abstractmethod
+    def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
+        """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
+
+    @abstractmethod
+    def _omega(self, place: Nodes | Pose) -> Array:
+        """(n, 3): omega about 1', 2', 3."""
+
+    @abstractmethod
+    def _too_near(self) -> TopError:
+        """The error to raise where no number of nodes is enough."""
+
+    def _contact_velocity(self, nodes: Nodes) -> Complex | None:
+        """The contact point's velocity over exp i(sigma_- + sigma_+), (n,) complex, where its path follows from it."""
+        return None
+
+    @property
+    def turning_points(self) -> Array:
+        """theta at the inner and the outer turning point, (2,) in rad."""
+        v1, v2, m1, m2, *_ = self.swing
+        return 2 * np.arctan2(np.sqrt([v1, v2]), np.sqrt([m1, m2]))
+
+    # ---- one nutation, on nodes ----
+
+    @cached_property
+    def _plain(self) -> Nodes:
+        """The least midpoints of kappa itself."""
+        ch, sh, stretch = crowded(NODES_LEAST, None)
+        v, m = self._versines(ch, sh)
+        dt_dkappa = self._dt_dkappa(v, m)
+        return Nodes(ch, sh, v, m, dt_dkappa, dt_dkappa, stretch)
+
+    @cached_property
+    def _crowding(self) -> Crowding | None:
+        dt_dkappa = self._plain.dt_dkappa
+        if self.swing.width == 0 or dt_dkappa.max() < SHARP * dt_dkappa.min():
+            return None
+
+        def Q(y: Array) -> Array:
+            up, down = np.maximum((1 + y) / 2, 1e-20), np.maximum((1 - y) / 2, 1e-20)
+            return self._exact_dt_dkappa(np.sqrt(up), np.sqrt(down)) ** -2
+
+        return crowding(Q, NODES_LEAST)
+
+    @cached_property
+    def _known_nodes(self) -> dict[int, Nodes]:
+        return {}
+
+    def _nodes(self, n: int) -> Nodes:
+        """n midpoints of eta."""
+        if n == NODES_LEAST and not self._crowding:
+            return self._plain
+        if n not in self._known_nodes:  # time, kappa and orientation ask for the same ones, and exact ones are slow
+            ch, sh, stretch = crowded(n, self._crowding)
+            dt_dkappa = self._exact_dt_dkappa(ch, sh)  # where Q nearly vanishes its terms cancel after all
+            self._known_nodes[n] = Nodes(ch, sh, *self._versines(ch, sh), dt_dkappa, dt_dkappa * stretch, stretch)
+        return self._known_nodes[n]
+
+    def _versines(self, ch: Array, sh: Array) -> tuple[Array, Array]:
+        return self.swing.v1 + self.swing.width * (sh * sh), self.swing.m2 + self.swing.width * (ch * ch)
+
+    @cached_property
+    def _time(self) -> Time:
+        n = NODES_LEAST
+        while n <= NODES_MOST:
+            dt_deta = self._nodes(n).dt_deta
+            if np.isfinite(dt_deta).all():
+                coefficients = cosine_coefficients(dt_deta[None])
+                if resolved(coefficients):
+                    return Time(n, coefficients[0])
+            n *= 2
+        raise self._too_near()
+
+    @property
+    def period(self) -> float:
+        """Period of the nutation in (R/g)^1/2."""
+        return float(self._time.dt_deta[0] * np.pi)
+
+    @cached_property
+    def _kappa(self) -> Array:
+        """Sine coefficients (1, K) in tau of kappa - tau."""
+        n, dt_deta = self._time
+        while True:
+            rate = 2 / n * self._nodes(n).stretch[None]
+            series = harmonics(phase(dt_deta), rate, np.zeros_like(rate), 1)
+            if series.size:
+                return series
+            if n >= NODES_MOST:
+                raise self._too_near()
+            n *= 2
+            dt_deta = cosine_coefficients(self._nodes(n).dt_deta[None])[0]
+
+    @cached_property
+    def _orientation(self) -> Orientation:
+        n = self._time.n
+        while True:
+            nodes = self._nodes(n)
+            rates = self._sigma_rates(nodes.v, nodes.m, nodes.dt_dkappa) * nodes.stretch
+            coefficients = cosine_coefficients(np.concatenate([nodes.dt_deta[None], rates]))
+            if resolved(coefficients):
+                dt_deta, minus, plus = coefficients
+                tau, mean = phase(dt_deta), np.array([minus[0], plus[0]]) / 2  # over eta, and so over tau
+                even, odd = 2 / n * rates, np.zeros_like(rates)
+                velocity = self._contact_velocity(nodes)
+                if velocity is not None:
+                    turn = integral(minus) + integral(plus) - mean.sum() * tau
+                    velocity = velocity * np.exp(1j * turn) * (nodes.dt_deta * (2 / (dt_deta[0] * n)))
+                    even = np.concatenate([even, [velocity.real, velocity.real]])
+                    odd = np.concatenate([odd, [velocity.imag, -velocity.imag]])
+                series = harmonics(tau, even, odd, 2)
+                if series.size:
+                    constant = 0.0 if velocity is None else velocity.real.sum()
+                    return Orientation(mean, series[:2], series[2:], constant)
+            if n >= NODES_MOST:
+                raise self._too_near()
+            n *= 2
+
+    @property
+    def phi_advance(self) -> float:
+        """Advance of phi in a period, rad."""
+        upright, inverted = np.copysign(1, self.swing.upright), np.copysign(1, self.swing.inverted)
+        return 2 * np.pi * self._orientation.mean.sum() + np.pi * (upright + inverted)
+
+    @property
+    def psi_advance(self) -> float:
+        """Advance of psi in a period, rad."""
+        upright, inverted = np.copysign(1, self.swing.upright), np.copysign(1, self.swing.inverted)
+        minus, plus = self._orientation.mean
+        return 2 * np.pi * (plus - minus) + np.pi * (inverted - upright)
+
+    # ---- at any time ----
+
+    @cached_property
+    def _start_phase(self) -> tuple[float, float]:
+        """Half period and the rest of the phase at the start, to full precision next to either turning point."""
+        sine, cosine = self._place
+        if self.swing.width == 0:
+            return 0.0, 0.0
+        half = float(sine > cosine)
+        s_eta, c_eta = eta_halves(sine, cosine, self._crowding)
+        dt_deta = self._time.dt_deta
+        if half:  # seen from the outer turning point every other coefficient has the other sign
+            s_eta, c_eta, dt_deta = c_eta, s_eta, dt_deta * (-1.0) ** np.arange(len(dt_deta))
+        tau = integral_to(2 * np.arctan2(s_eta, c_eta), dt_deta) * (2 / dt_deta[0])
+        return half, -tau if self._inward != bool(half) else tau
+
+    def _phases(self, times: ArrayLike) -> Phases:
+        """At the times, since the first of which the motion runs."""
+        t = checked_times(times)
+        return clock(t - t[0], self.period, *self._start_phase)
+
+    def theta(self, times: ArrayLike) -> Array:
+        """theta (n,) in rad at the times (n,)."""
+        _, half, rest = self._phases(times)
+        return theta_at(half, rest, sums(half, rest, self._kappa, NONE)[0], self.swing)
+
+    @cached_property
+    def _series(self) -> tuple[Array, Array]:
+        """The sine series of kappa, sigma_- and sigma_+ and of what else poses need, (3 or more, K), and the cosine
+        series (q, K) of it."""
+        kappa, sigma = self._kappa, self._orientation.sigma
+        sines, cosines = self._more_series()
+        rows = np.zeros((3 + len(sines), max(kappa.shape[1], sigma.shape[1])))
+        rows[0, : kappa.shape[1]] = kappa[0]
+        rows[1:3, : sigma.shape[1]], rows[3:, : sigma.shape[1]] = sigma, sines
+        return rows, np.pad(cosines, ((0, 0), (0, rows.shape[1] - cosines.shape[1])))
+
+    def _more_series(self) -> tuple[Array, Array]:
+        """Sine and cosine series of what a subclass has besides."""
+        return NONE, NONE
+
+    def _pose(self, phases: Phases, *turn: float) -> tuple[Pose, Array]:
+        """The Pose at the phases, with phi and psi further by turn = (d_phi, d_psi), and the sums of more series."""
+        _, half, rest = phases
+        series = sums(half, rest, *self._series)
+        return pose(*phases, series, self._orientation.mean, self.swing, *turn), series[3:]
+
+    @cached_property
+    def _at_start(self) -> Phases:
+        half, rest = self._start_phase
+        return np.zeros(1), np.array([half]), np.array([rest])
+
+    @cached_property
+    def _turn_of_start(self) -> tuple[float, float]:
+        """What phi and psi are further by than phase 0 makes them, for the start to have its own."""
+        first, _ = self._pose(self._at_start, 0.0, 0.0)
+        d_phi, d_psi = self.start.phi - first.phi[0], self.start.psi - first.psi[0]
+        if self.start.theta_dot * self._omega(first)[0, 0] < 0:  # at a pole, where the motion goes on along -1'
+            d_phi, d_psi = d_phi + np.pi, d_psi + (np.pi if first.m[0] < first.v[0] else -np.pi)
+        return float(d_phi), float(d_psi)

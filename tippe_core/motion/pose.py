@@ -1,0 +1,167 @@
+"""The pose at any phase of a nutation, from the sums of its series (nutation.py): the loops over times."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..compiled import compiled
+from ..types import Array, Complex
+from .series import part_turn
+
+
+class Swing(NamedTuple):
+    """What poses need to know of a nutation.
+
+    v = 1 - c and m = 1 + c at the inner turning point (1) and the outer (2), width = c1 - c2, and the pole offsets:
+    what s w2 would be at theta = 0 (upright) and at theta = pi (inverted), were the motion to go there.
+    """
+
+    v1: float
+    v2: float
+    m1: float
+    m2: float
+    width: float
+    upright: float
+    inverted: float
+
+
+class Pose(NamedTuple):
+    """At n instants, (n,) each: cos(kappa/2) and sin(kappa/2), v = 1 - c, m = 1 + c, the angles in rad, s exp(i phi);
+    and the quaternion (n, 4)."""
+
+    ch: Array
+    sh: Array
+    v: Array
+    m: Array
+    theta: Array
+    phi: Array
+    psi: Array
+    s_exp_phi: Complex
+    quaternion: Array
+
+
+@compiled
+def clock(passed: Array, period: float, half: float, rest: float) -> tuple[Array, Array, Array]:
+    """Whole periods, half periods (0 or 1) and the rest of the phase, -pi/2 to pi/2, (n,) each, when times (n,) have
+    passed since the phase was pi half + rest."""
+    n = len(passed)
+    turns, halves, rests = np.empty(n), np.empty(n), np.empty(n)
+    # whole periods exactly: the phase is then as smooth in t after 10,000 periods as in the first
+    leading = np.float64(np.float32(period))
+    for i in range(n):
+        whole = np.floor(passed[i] / period)
+        angle = ((passed[i] - whole * leading) - whole * (period - leading)) * (2 * np.pi / period)
+        count = np.round((angle + rest) / np.pi)
+        rests[i] = (angle - count * np.pi) + rest
+        turn = np.floor((half + count) / 2)
+        turns[i], halves[i] = turn + whole, half + count - 2 * turn
+    return turns, halves, rests
+
+
+@compiled
+def half_angle(half: float, rest: float, series: float) -> tuple[float, float]:
+    """cos and sin of kappa/2 = (pi half + rest + series)/2."""
+    s = np.sin((rest + series) / 2)  # within pi/4 or so of 0
+    c = np.sqrt(1 - s * s)
+    return (-s, c) if half else (c, s)
+
+
+@compiled
+def theta_at(half: Array, rest: Array, kappa: Array, swing: Swing) -> Array:
+    """theta (n,) at the phases pi half + rest (n,), where kappa (n,) is kappa less the phase."""
+    theta = np.empty(len(rest))
+    for i in range(len(rest)):
+        ch, sh = half_angle(half[i], rest[i], kappa[i])
+        theta[i] = 2 * np.arctan2(np.sqrt(swing.v1 + swing.width * sh * sh), np.sqrt(swing.m2 + swing.width * ch * ch))
+    return theta
+
+
+@compiled
+def cis(angle: float) -> complex:
+    """exp(i angle)"""
+    return complex(np.cos(angle), np.sin(angle))
+
+
+@compiled
+def nearer_pole(v: float, m: float, swing: Swing) -> tuple[float, float, float]:
+    """cos(theta) of the nearer pole, the distance of c to it, and its offset."""
+    return (1.0, v, swing.upright) if v <= m else (-1.0, m, swing.inverted)
+
+
+@compiled
+def pole_factor(ch: float, sh: float, x1: float, x2: float, offset: float) -> complex:
+    """x1^1/2 cos(kappa/2) +- i x2^1/2 sin(kappa/2), of x = v at theta = 0, of x = m at pi; the sign is the offset's."""
+    return complex(np.sqrt(x1) * ch, np.copysign(np.sqrt(x2), offset) * sh)
+
+
+@compiled
+def pole_angle(factor: complex, offset: float, at_pole: float, turns: float) -> float:
+    """The factor's argument after so many periods; where it is 0, at the pole itself, the one just after."""
+    angle = np.copysign(at_pole, offset) if factor == 0 else np.arctan2(factor.imag, factor.real)
+    return angle + np.pi * turns * np.copysign(1.0, offset)
+
+
+@compiled
+def pose(
+    turns: Array, half: Array, rest: Array, series: Array, mean: Array, swing: Swing, d_phi: float, d_psi: float
+) -> Pose:
+    """The Pose at the phases 2 pi turns + pi half + rest (n,), with phi and psi d_phi and d_psi further.
+
+    series (3 or more, n): kappa, sigma_- and sigma_+ less their mean rates (mean (2,)) times the phase.
+    """
+    n = len(rest)
+    cos_half, sin_half, v, m = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    theta, phi, psi, quaternion = np.empty(n), np.empty(n), np.empty(n), np.empty((n, 4))
+    s_exp_phi = np.empty(n, np.complex128)
+    turn_minus, turn_plus = cis((d_phi - d_psi) / 2), cis((d_phi + d_psi) / 2)
+    before, whole_minus, whole_plus, exp_minus, exp_plus = np.nan, 0.0, 0.0, 1.0 + 0.0j, 1.0 + 0.0j
+    for i in range(n):
+        if turns[i] != before:
+            # whole turns apart: rounded with them, the angles of late periods would not be smooth in time
+            before = turns[i]
+            whole_minus = 2 * np.pi * part_turn(turns[i], mean[0])
+            whole_plus = 2 * np.pi * part_turn(turns[i], mean[1])
+            parity = -1.0 if np.remainder(turns[i], 2.0) == 1 else 1.0
+            exp_minus, exp_plus = parity * turn_minus * cis(whole_minus), parity * turn_plus * cis(whole_plus)
+        ch, sh = half_angle(half[i], rest[i], series[0, i])
+        cos_half[i], sin_half[i] = ch, sh
+        v[i], m[i] = swing.v1 + swing.width * sh * sh, swing.m2 + swing.width * ch * ch
+        theta[i] = 2 * np.arctan2(np.sqrt(v[i]), np.sqrt(m[i]))
+        upright = pole_factor(ch, sh, swing.v1, swing.v2, swing.upright)
+        inverted = pole_factor(ch, sh, swing.m1, swing.m2, swing.inverted)
+        tau = np.pi * half[i] + rest[i]
+        minus, plus = mean[0] * tau + series[1, i], mean[1] * tau + series[2, i]
+        xy, zw = upright * exp_minus * cis(minus), inverted * exp_plus * cis(plus)
+        s_exp_phi[i] = xy * zw
+        quaternion[i, 0], quaternion[i, 1] = xy.real * np.sqrt(0.5), xy.imag * np.sqrt(0.5)
+        quaternion[i, 2], quaternion[i, 3] = zw.imag * np.sqrt(0.5), zw.real * np.sqrt(0.5)
+        minus += whole_minus + 2 * np.pi * np.trunc(turns[i] * mean[0])
+        plus += whole_plus + 2 * np.pi * np.trunc(turns[i] * mean[1])
+        at_upright = pole_angle(upright, swing.upright, np.pi / 2, turns[i])
+        at_inverted = pole_angle(inverted, swing.inverted, np.pi, turns[i])
+        phi[i] = plus + minus + at_upright + at_inverted + d_phi
+        psi[i] = plus - minus + at_inverted - at_upright + d_psi
+    return Pose(cos_half, sin_half, v, m, theta, phi, psi, s_exp_phi, quaternion)
+
+
+@compiled
+def theta_dot(ch: float, sh: float, v: float, m: float, dt_dkappa: float, width: float) -> float:
+    """w1; where it turns its sign, at a pole, as just after it."""
+    if width == 0:
+        return 0.0
+    if v == 0:
+        return np.sqrt(width / 2) / dt_dkappa
+    if m == 0:
+        return -np.sqrt(width / 2) / dt_dkappa
+    return width * sh * ch / (dt_dkappa * np.sqrt(v * m))
+
+
+@compiled
+def half_sigma_rate(x: float, x1: float, x2: float, offset: float, dt_dkappa: float, slope: float) -> float:
+    """d sigma/dkappa, half of dt/dkappa (offset/x + slope) less the turn at the pole, +- (x1 x2)^1/2/(2x).
+
+    x = v for sigma_-, where phi_dot (1 + c) - w3 = offset/v + slope; for sigma_+ x = m and
+    phi_dot (1 - c) + w3 = offset/m + slope.
+    """
+    peak = 0.0 if x <= 0 else (dt_dkappa * offset - np.copysign(np.sqrt(x1 * x2), offset)) / x
+    return (peak + dt_dkappa * slope) / 2
