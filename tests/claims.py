@@ -103,6 +103,7 @@ ROWS = {
         "MuJoCo: smooth": ("frictionless contact", "glide"),
         "MuJoCo: viscous": ("contact with a force -gamma F_z u", "slide, Viscous"),
         "MuJoCo: Coulomb": ("its own elliptic cone, slow slip, until after sticking", "slide, Coulomb"),
+        "Contensou": ("a patch that slides 0.01 to 1,000 times as fast as its rim turns", "Contensou"),
         "rigid body": ("the rolling body in space, 80-bit collocation", "roll"),
     },
 }

@@ -35,7 +35,8 @@ ROLLS = ["test_smooth.py", "test_accuracy.py", "test_rolling.py", "test_sliding.
          "test_tielines.py", "test_properties.py"]  # fmt: skip
 SLIDES = ["test_stem.py", "test_ending.py", "test_planes.py", "test_outcome.py", "test_properties.py"]
 REST = {name: SLIDES for name in ("friction", "standing", "contacts", "sliding")}
-FIRST = {"friction": ["test_mujoco.py", "test_sliding.py"], "contacts": ["test_contacts.py", "test_sliding.py"],
+FIRST = {"friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py"],
+         "contacts": ["test_contacts.py", "test_sliding.py"],
          "standing": ["test_contacts.py"],
          "sliding": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py"],
          "smooth": ["test_equations.py", "test_smooth.py"],
