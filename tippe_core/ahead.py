@@ -8,21 +8,32 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import kept
-from .bodies.shapes import TruncatedSphere
+from . import (
+    Constants,
+    Coulomb,
+    SmoothedCoulomb,
+    State,
+    Top,
+    TruncatedSphere,
+    Viscous,
+    allowed_shares,
+    f,
+    figures,
+    friction_force,
+    glide,
+    kept,
+    limit_energy,
+    normal_force,
+    omega2,
+    omega3,
+    outcome,
+    roll,
+    slide,
+    steady_precessions,
+    tielines,
+    turning_points,
+)
 from .compiled import not_kept
-from .motion.friction import Coulomb, SmoothedCoulomb, Viscous
-from .motion.rolling import roll
-from .motion.sliding import slide
-from .motion.smooth import glide
-from .outcome import outcome
-from .paper.constants import Constants, State
-from .paper.curve import f, omega2, omega3
-from .paper.forces import friction_force, normal_force
-from .paper.share import allowed_shares
-from .paper.tielines import figures, limit_energy, tielines
-from .paper.top import Top
-from .paper.wells import steady_precessions, turning_points
 
 TOP = Top.paper()
 MOTION = Constants(K_J=7.0, K_R=10.0, E=27.0)

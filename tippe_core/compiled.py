@@ -17,6 +17,7 @@ from . import kept
 Function = TypeVar("Function", bound=Callable[..., Any])
 Numba: TypeAlias = Any  # a module, a dispatcher or a type of numba's, which has no types of its own
 
+_INSTALLED = importlib.util.find_spec("numba") is not None  # which does not import it
 _making = threading.RLock()
 _shared: list[Callable[..., Any]] = []  # of which numba has not been told yet
 _compiler: int | None = None  # the thread that compiles ahead, while there is one
@@ -26,7 +27,7 @@ _unwritten = ""  # why the last kernel that could not be written could not
 def compiled(function: Function) -> Function:
     """function, compiled at its first call and kept on disk. It takes numbers, arrays and named tuples of them, holds
     no lock of Python's while it runs, and divides by 0 as numpy does."""
-    return cast(Function, Kernel(function)) if importlib.util.find_spec("numba") else function
+    return cast(Function, Kernel(function)) if _INSTALLED else function
 
 
 def shared_with_kernels(function: Function) -> Function:

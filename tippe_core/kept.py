@@ -68,12 +68,12 @@ def folder() -> Path | None:
 
 
 def complete(path: Path | None) -> bool:
-    """Whether all that compiling ahead makes is there."""
+    """Whether all that compiling ahead makes is there; lists may have become longer since."""
     if path is None:
         return False
     try:
         listed = [line.split(" ", 1) for line in (path / COMPLETE).read_text(encoding="utf-8").splitlines()]
-        return all((path / file).stat().st_size == int(size) for size, file in listed)
+        return all((path / file).stat().st_size >= int(size) for size, file in listed)
     except (OSError, ValueError):
         return False
 
