@@ -6,7 +6,7 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array, Complex
-from .series import part_turn
+from .series import part_turn, sine
 
 
 class Swing(NamedTuple):
@@ -59,21 +59,29 @@ def clock(passed: Array, period: float, half: float, rest: float) -> tuple[Array
 
 
 @compiled
+def versines(ch: Array, sh: Array, swing: Swing) -> tuple[Array, Array]:
+    """v = 1 - c and m = 1 + c where cos(kappa/2), sin(kappa/2) are ch, sh; (n,) each, or numbers."""
+    return swing.v1 + swing.width * (sh * sh), swing.m2 + swing.width * (ch * ch)
+
+
+@compiled
 def half_angle(half: float, rest: float, series: float) -> tuple[float, float]:
     """cos and sin of kappa/2 = (pi half + rest + series)/2."""
-    s = np.sin((rest + series) / 2)  # within pi/4 or so of 0
+    s = sine((rest + series) / 2)
     c = np.sqrt(1 - s * s)
     return (-s, c) if half else (c, s)
 
 
 @compiled
-def theta_at(half: Array, rest: Array, kappa: Array, swing: Swing) -> Array:
-    """theta (n,) at the phases pi half + rest (n,), where kappa (n,) is kappa less the phase."""
-    theta = np.empty(len(rest))
-    for i in range(len(rest)):
+def tilt_halves(half: Array, rest: Array, kappa: Array, swing: Swing) -> tuple[Array, Array]:
+    """What sin(theta/2) and cos(theta/2) are as, at the phases pi half + rest; kappa less the phase; all (n,)."""
+    n = len(rest)
+    sin_half, cos_half = np.empty(n), np.empty(n)
+    for i in range(n):
         ch, sh = half_angle(half[i], rest[i], kappa[i])
-        theta[i] = 2 * np.arctan2(np.sqrt(swing.v1 + swing.width * sh * sh), np.sqrt(swing.m2 + swing.width * ch * ch))
-    return theta
+        sin_half[i] = np.sqrt(swing.v1 + swing.width * sh * sh)
+        cos_half[i] = np.sqrt(swing.m2 + swing.width * ch * ch)
+    return sin_half, cos_half
 
 
 @compiled

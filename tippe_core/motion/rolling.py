@@ -14,13 +14,14 @@ from numpy.typing import ArrayLike
 from ..compiled import compiled
 from ..errors import TopError
 from ..paper import equations as eq
-from ..paper.constants import EXACT, Constants, Exact, State, versines
+from ..paper.constants import EXACT, Constants, Exact, State
+from ..paper.constants import versines as versines_of
 from ..paper.poles import bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
 from .nutation import NODES_MOST, Nodes, Nutation
-from .pose import Pose, Swing, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot
+from .pose import Pose, Swing, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot, versines
 from .series import part_turn
 from .trajectory import Trajectory, checked_times
 
@@ -88,7 +89,7 @@ class Rolling(Nutation):
             return self._given
         at_inner = self._place[0] == 0
         ch, sh = (np.array([float(x)]) for x in (at_inner, not at_inner))
-        v, m = self._versines(ch, sh)
+        v, m = versines(ch, sh, self.swing)
         w1, w2, w3 = omega(ch, sh, v, m, self._dt_dkappa(v, m), self.top.numbers, self.K_R, self.swing)[0]
         pole = v[0] * m[0] == 0
         return State(self.turning_points[0 if at_inner else 1], w1 if pole else 0.0, 0.0 if pole else w2, w3)
@@ -314,7 +315,7 @@ def _from_constants(top: Top, constants: Constants | None, start: str, well: int
 
 def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[ExactCurve, Well, Decimal]:
     exact = Exact.of_state(state, top)
-    v, m = (float(x) for x in versines(state.theta))
+    v, m = (float(x) for x in versines_of(state.theta))
     here = 1 - Decimal(v) if v <= m else Decimal(m) - 1
     rolling = {"vx": state.omega2 * (float(here) - top.a) - state.omega3 * np.sin(state.theta),
                "vy": -state.theta_dot * (1 - top.a * float(here))}  # fmt: skip
