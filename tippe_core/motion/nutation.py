@@ -237,8 +237,9 @@ class Nutation(ABC):
 
     def theta(self, times: ArrayLike) -> Array:
         """theta (n,) in rad at the times (n,)."""
-        _, half, rest = self._phases(times)
-        return 2 * np.arctan2(*tilt_halves(half, rest, sums(half, rest, self._kappa, NONE)[0], self.swing))
+        t = checked_times(times)
+        tilt = np.arctan2(*tilt_halves(t - t[0], self.period, *self._start_phase, self._kappa, self.swing))
+        return np.multiply(tilt, 2, out=tilt)
 
     @cached_property
     def _series(self) -> tuple[Array, Array]:
