@@ -25,7 +25,7 @@ from scipy.optimize import brentq
 from ..errors import TopError
 from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.top import Top, TopNumbers
-from ..paper.wells import angle, solve
+from ..paper.wells import exact_angle, solve
 from ..types import Array
 from .rolling import Nutation
 from .trajectory import Trajectory, checked_times
@@ -69,7 +69,7 @@ class Gliding(Nutation):
             L_z = L3 * here + t.I1 * w2 * s2.sqrt()
             e = t.I1 * (w1 * w1 + w2 * w2) + t.a * t.a * s2 * w1 * w1 + 2 * t.a * v
             inner, outer = _turning(t, e, L_z, L3, here, still=state.theta_dot == 0)
-            self.turning_points = np.array([angle(inner), angle(outer)])
+            self.turning_points = np.array([exact_angle(inner), exact_angle(outer)])
             self.v1, self.v2, self.m1, self.m2 = (float(x) for x in (1 - inner, 1 - outer, 1 + inner, 1 + outer))
             self.width = float(inner - outer)
             self._place = float(max(inner - here, Decimal(0))) ** 0.5, float(max(here - outer, Decimal(0))) ** 0.5
