@@ -29,7 +29,7 @@ from tippe_core import (
     rocking_period,
     save_top,
 )
-from tippe_core.paper.share import PART, _widths
+from tippe_core.paper.share import GRID_M, GRID_V, PART, widths
 
 
 @pytest.fixture
@@ -416,8 +416,8 @@ def test_a_width_is_that_of_the_slow_search(a, I1, I3, K_R, mu_s, row):
     """limits.py walks trajectory after trajectory with a rigid body's own forces."""
     top = Top(a, I1, I3)
     with np.errstate(all="ignore"):
-        widths = _widths(*np.array([[[a]], [[I1]], [[I3]]]), K_R, mu_s)[:, 0, row]
-    for width, mu in zip(widths, (None, mu_s), strict=True):
+        found = widths(GRID_V, GRID_M, *np.array([[a], [I1], [I3]]), K_R, mu_s, PART)[:, 0, row]
+    for width, mu in zip(found, (None, mu_s), strict=True):
         _, inner, outer, _ = limit(top, PART[row] * pole_constants(top, K_R)[0], K_R, mu)
         assert width == pytest.approx(np.nan_to_num(outer - inner), rel=1e-3)
 

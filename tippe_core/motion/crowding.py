@@ -27,15 +27,15 @@ class Crowding(NamedTuple):
 
 
 @lru_cache(16)
-def midpoints(n: int) -> tuple[Array, Array]:
-    """cos(eta/2) and sin(eta/2) at the midpoints of n parts of 0 to pi: (n,), not to be written to."""
+def midpoints(n: int) -> tuple[Array, Array, Array]:
+    """cos(eta/2), sin(eta/2) and 1 at the midpoints of n parts of 0 to pi: (n,), not to be written to."""
     half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
-    return np.cos(half), np.sin(half)
+    return np.cos(half), np.sin(half), np.ones(n)
 
 
 def crowding(Q: Callable[[Array], Array], n: int) -> Crowding | None:
     """What resolves the least of Q(cos(kappa)), sought from n midpoints and the ends on; None where it is not sharp."""
-    cos, sin = midpoints(n)
+    cos, sin, _ = midpoints(n)
     y = np.concatenate([[1], cos**2 - sin**2, [-1]])
     values = Q(y)
     i = int(values.argmin())
@@ -58,9 +58,9 @@ def crowding(Q: Callable[[Array], Array], n: int) -> Crowding | None:
 
 def crowded(n: int, crowd: Crowding | None) -> tuple[Array, Array, Array]:
     """cos(kappa/2), sin(kappa/2) and dkappa/deta at n midpoints of eta, (n,) each; kappa = eta where crowd is None."""
-    cos, sin = midpoints(n)
+    cos, sin, stretch = midpoints(n)
     if not crowd:
-        return cos, sin, np.ones(n)
+        return cos, sin, stretch
     _, eps, alpha, x0 = crowd
     up, down = cos**2, sin**2
     x = up - down

@@ -30,8 +30,8 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Complex
 from .crowding import Crowding, crowded, crowding, eta_halves
-from .pose import Pose, Swing, clock, pose, theta_at
-from .series import cosine_coefficients, harmonics, integral, integral_to, phase, resolved, sums
+from .pose import Pose, Swing, clock, pose, tilt_halves, versines
+from .series import cosine_coefficients, harmonics, integral, integral_to, of_time, resolved, sums
 from .trajectory import checked_times
 
 NODES_LEAST, NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that of a merging
@@ -53,10 +53,12 @@ class Nodes(NamedTuple):
 
 
 class Time(NamedTuple):
-    """How many midpoints resolve dt/deta, and its cosine coefficients (n,)."""
+    """How many midpoints resolve dt/deta, its cosine coefficients (n,), and the sine coefficients (1, K) in tau of
+    kappa - tau, where so many midpoints resolve them."""
 
     n: int
     dt_deta: Array
+    kappa: Array
 
 
 class Orientation(NamedTuple):
@@ -115,7 +117,7 @@ class Nutation(ABC):
     def _plain(self) -> Nodes:
         """The least midpoints of kappa itself."""
         ch, sh, stretch = crowded(NODES_LEAST, None)
-        v, m = self._versines(ch, sh)
+        v, m = versines(ch, sh, self.swing)
         dt_dkappa = self._dt_dkappa(v, m)
         return Nodes(ch, sh, v, m, dt_dkappa, dt_dkappa, stretch)
 
@@ -142,21 +144,18 @@ class Nutation(ABC):
         if n not in self._known_nodes:  # time, kappa and orientation ask for the same ones, and exact ones are slow
             ch, sh, stretch = crowded(n, self._crowding)
             dt_dkappa = self._exact_dt_dkappa(ch, sh)  # where Q nearly vanishes its terms cancel after all
-            self._known_nodes[n] = Nodes(ch, sh, *self._versines(ch, sh), dt_dkappa, dt_dkappa * stretch, stretch)
+            self._known_nodes[n] = Nodes(ch, sh, *versines(ch, sh, self.swing), dt_dkappa, dt_dkappa * stretch, stretch)
         return self._known_nodes[n]
-
-    def _versines(self, ch: Array, sh: Array) -> tuple[Array, Array]:
-        return self.swing.v1 + self.swing.width * (sh * sh), self.swing.m2 + self.swing.width * (ch * ch)
 
     @cached_property
     def _time(self) -> Time:
         n = NODES_LEAST
         while n <= NODES_MOST:
-            dt_deta = self._nodes(n).dt_deta
-            if np.isfinite(dt_deta).all():
-                coefficients = cosine_coefficients(dt_deta[None])
-                if resolved(coefficients):
-                    return Time(n, coefficients[0])
+            nodes = self._nodes(n)
+            if np.isfinite(nodes.dt_deta).all():
+                dt_deta, kappa = of_time(nodes.dt_deta[None], nodes.stretch[None])
+                if dt_deta.size:
+                    return Time(n, dt_deta[0], kappa)
             n *= 2
         raise self._too_near()
 
@@ -168,16 +167,13 @@ class Nutation(ABC):
     @cached_property
     def _kappa(self) -> Array:
         """Sine coefficients (1, K) in tau of kappa - tau."""
-        n, dt_deta = self._time
-        while True:
-            rate = 2 / n * self._nodes(n).stretch[None]
-            series = harmonics(phase(dt_deta), rate, np.zeros_like(rate), 1)
-            if series.size:
-                return series
-            if n >= NODES_MOST:
-                raise self._too_near()
+        n, _, kappa = self._time
+        while not kappa.size:  # dt/deta needed fewer nodes
             n *= 2
-            dt_deta = cosine_coefficients(self._nodes(n).dt_deta[None])[0]
+            if n > NODES_MOST:
+                raise self._too_near()
+            _, kappa = of_time(self._nodes(n).dt_deta[None], self._nodes(n).stretch[None])
+        return kappa
 
     @cached_property
     def _orientation(self) -> Orientation:
@@ -188,7 +184,8 @@ class Nutation(ABC):
             coefficients = cosine_coefficients(np.concatenate([nodes.dt_deta[None], rates]))
             if resolved(coefficients):
                 dt_deta, minus, plus = coefficients
-                tau, mean = phase(dt_deta), np.array([minus[0], plus[0]]) / 2  # over eta, and so over tau
+                tau = integral(dt_deta) * (2 / dt_deta[0])
+                mean = np.array([minus[0], plus[0]]) / 2  # over eta, and so over tau
                 even, odd = 2 / n * rates, np.zeros_like(rates)
                 velocity = self._contact_velocity(nodes)
                 if velocity is not None:
@@ -240,8 +237,9 @@ class Nutation(ABC):
 
     def theta(self, times: ArrayLike) -> Array:
         """theta (n,) in rad at the times (n,)."""
-        _, half, rest = self._phases(times)
-        return theta_at(half, rest, sums(half, rest, self._kappa, NONE)[0], self.swing)
+        t = checked_times(times)
+        tilt = np.arctan2(*tilt_halves(t - t[0], self.period, *self._start_phase, self._kappa, self.swing))
+        return np.multiply(tilt, 2, out=tilt)
 
     @cached_property
     def _series(self) -> tuple[Array, Array]:

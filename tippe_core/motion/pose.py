@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import compiled
-from ..types import Array, Complex
-from .series import part_turn
+from ..types import Array, Complex, Number
+from .series import BLOCK, part_turn, sine, sums
 
 
 class Swing(NamedTuple):
@@ -59,21 +59,33 @@ def clock(passed: Array, period: float, half: float, rest: float) -> tuple[Array
 
 
 @compiled
+def versines(ch: Number, sh: Number, swing: Swing) -> tuple[Number, Number]:
+    """v = 1 - c and m = 1 + c where cos(kappa/2), sin(kappa/2) are ch, sh; (n,) each, or numbers."""
+    return swing.v1 + swing.width * (sh * sh), swing.m2 + swing.width * (ch * ch)
+
+
+@compiled
 def half_angle(half: float, rest: float, series: float) -> tuple[float, float]:
     """cos and sin of kappa/2 = (pi half + rest + series)/2."""
-    s = np.sin((rest + series) / 2)  # within pi/4 or so of 0
+    s = sine((rest + series) / 2)
     c = np.sqrt(1 - s * s)
     return (-s, c) if half else (c, s)
 
 
 @compiled
-def theta_at(half: Array, rest: Array, kappa: Array, swing: Swing) -> Array:
-    """theta (n,) at the phases pi half + rest (n,), where kappa (n,) is kappa less the phase."""
-    theta = np.empty(len(rest))
-    for i in range(len(rest)):
-        ch, sh = half_angle(half[i], rest[i], kappa[i])
-        theta[i] = 2 * np.arctan2(np.sqrt(swing.v1 + swing.width * sh * sh), np.sqrt(swing.m2 + swing.width * ch * ch))
-    return theta
+def tilt_halves(
+    passed: Array, period: float, half: float, rest: float, kappa: Array, swing: Swing
+) -> tuple[Array, Array]:
+    """What sin(theta/2) and cos(theta/2) are as, (n,): arguments as in clock(), and kappa - tau's series (1, K)."""
+    n = len(passed)
+    sin_half, cos_half = np.empty(n), np.empty(n)
+    for first in range(0, n, BLOCK):
+        _, halves, rests = clock(passed[first : first + BLOCK], period, half, rest)
+        series = sums(halves, rests, kappa, kappa[:0])
+        for j in range(len(rests)):
+            v, m = versines(*half_angle(halves[j], rests[j], series[0, j]), swing)
+            sin_half[first + j], cos_half[first + j] = np.sqrt(v), np.sqrt(m)
+    return sin_half, cos_half
 
 
 @compiled
@@ -125,7 +137,7 @@ def pose(
             exp_minus, exp_plus = parity * turn_minus * cis(whole_minus), parity * turn_plus * cis(whole_plus)
         ch, sh = half_angle(half[i], rest[i], series[0, i])
         cos_half[i], sin_half[i] = ch, sh
-        v[i], m[i] = swing.v1 + swing.width * sh * sh, swing.m2 + swing.width * ch * ch
+        v[i], m[i] = versines(ch, sh, swing)
         theta[i] = 2 * np.arctan2(np.sqrt(v[i]), np.sqrt(m[i]))
         upright = pole_factor(ch, sh, swing.v1, swing.v2, swing.upright)
         inverted = pole_factor(ch, sh, swing.m1, swing.m2, swing.inverted)

@@ -14,13 +14,14 @@ from numpy.typing import ArrayLike
 from ..compiled import compiled
 from ..errors import TopError
 from ..paper import equations as eq
-from ..paper.constants import EXACT, Constants, Exact, State, versines
-from ..paper.poles import bracket_near, pole_slope, seen_from
+from ..paper.constants import EXACT, Constants, Exact, State
+from ..paper.constants import versines as versines_of
+from ..paper.poles import Floats, bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
 from .nutation import NODES_MOST, Nodes, Nutation
-from .pose import Pose, Swing, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot
+from .pose import Pose, Swing, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot, versines
 from .series import part_turn
 from .trajectory import Trajectory, checked_times
 
@@ -78,6 +79,7 @@ class Rolling(Nutation):
             self.swing = Swing(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *curve.offsets)))
             self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5
             self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
+        self._curve = Floats(top.numbers, self.K_R, self.swing.upright, self.swing.inverted)
         self._given = start if isinstance(start, State) else None
         self._inward = isinstance(start, State) and start.theta_dot < 0
 
@@ -88,13 +90,13 @@ class Rolling(Nutation):
             return self._given
         at_inner = self._place[0] == 0
         ch, sh = (np.array([float(x)]) for x in (at_inner, not at_inner))
-        v, m = self._versines(ch, sh)
-        w1, w2, w3 = omega(ch, sh, v, m, self._dt_dkappa(v, m), self.top.numbers, self.K_R, self.swing)[0]
+        v, m = versines(ch, sh, self.swing)
+        w1, w2, w3 = omega(ch, sh, v, m, self._dt_dkappa(v, m), self._curve, self.swing.width)[0]
         pole = v[0] * m[0] == 0
         return State(self.turning_points[0 if at_inner else 1], w1 if pole else 0.0, 0.0 if pole else w2, w3)
 
     def _dt_dkappa(self, v: Array, m: Array) -> Array:
-        return dt_dkappa(v, m, self.top.numbers, self.e, self.K_R, self.swing)
+        return dt_dkappa(v, m, self._curve, self.e, self.swing)
 
     def _exact_dt_dkappa(self, ch: Array, sh: Array) -> Array:
         curve, inner, outer = self._exact
@@ -115,14 +117,14 @@ class Rolling(Nutation):
                         "well; change E a little.")  # fmt: skip
 
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return sigma_rates(v, m, dt_dkappa, self.top.numbers, self.K_R, self.swing)
+        return sigma_rates(v, m, dt_dkappa, self._curve, self.swing)
 
     def _omega(self, place: Nodes | Pose) -> Array:
         ch, sh, v, m, *_ = place
-        return omega(ch, sh, v, m, self._dt_dkappa(v, m), self.top.numbers, self.K_R, self.swing)
+        return omega(ch, sh, v, m, self._dt_dkappa(v, m), self._curve, self.swing.width)
 
     def _contact_velocity(self, nodes: Nodes) -> Complex:
-        return contact_velocity(*nodes[:5], self.top.numbers, self.K_R, self.swing)
+        return contact_velocity(*nodes[:5], self._curve, self.swing)
 
     @cached_property
     def _track(self) -> Track:
@@ -171,11 +173,12 @@ class Rolling(Nutation):
 
 
 @compiled
-def dt_dkappa(v: Array, m: Array, top: TopNumbers, e: float, K_R: float, swing: Swing) -> Array:
+def dt_dkappa(v: Array, m: Array, curve: Floats, e: float, swing: Swing) -> Array:
     """Q^-1/2 (n,) at v = 1 - c, m = 1 + c, (n,). A lower index 1, 2 or c stands for the places c1, c2 and c."""
-    gamma, a, c1, c2 = top.I3 / top.I1, top.a, 1 - swing.v1, 1 - swing.v2
+    top, a, gamma = curve.top, curve.top.a, curve.top.I3 / curve.top.I1
+    c1, c2 = 1 - swing.v1, 1 - swing.v2
     y1, y2 = np.sqrt(eq.f3_2(c1, swing.v1 * swing.m1, top)), np.sqrt(eq.f3_2(c2, swing.v2 * swing.m2, top))
-    B1, B2 = bracket(swing.v1, swing.m1, top, K_R, swing), bracket(swing.v2, swing.m2, top, K_R, swing)
+    (B1, _), (B2, _) = bracket(swing.v1, swing.m1, curve), bracket(swing.v2, swing.m2, curve)
     f2_sq = eq.f2_2(c1, swing.v1 * swing.m1, top)
     found = np.empty(len(v))
     for i in range(len(v)):
@@ -189,9 +192,9 @@ def dt_dkappa(v: Array, m: Array, top: TopNumbers, e: float, K_R: float, swing: 
         r_12, r_2c = -y_12 / (y1 * y2), -y_2c / (y2 * y)
         r_12c = -(y_12c / y1 + r_12 * y_2c) / y
         # of B = K_J - (I3/I1) K_R (c - a)/f3,
-        k = -gamma * K_R
+        k = -gamma * curve.K_R
         B_12, B_2c, B_12c = k * ((c1 - a) * r_12 + 1 / y2), k * ((c2 - a) * r_2c + 1 / y), k * ((c1 - a) * r_12c + r_2c)
-        B = bracket(v[i], m[i], top, K_R, swing)
+        B, _ = bracket(v[i], m[i], curve)
         # of f2^2 B^2, and of s^2 (2E' - 2a(1 - c))
         f_12, f_12c = (1 - 1 / gamma) * (c1 + c2) - 2 * a, 1 - 1 / gamma
         kinetic = f2_sq * (B1 * B_12c + B_12 * B_2c + B_12c * B) + f_12 * B_2c * (B2 + B) + f_12c * B * B
@@ -205,35 +208,32 @@ def dt_dkappa(v: Array, m: Array, top: TopNumbers, e: float, K_R: float, swing: 
 
 
 @compiled
-def bracket(v: float, m: float, top: TopNumbers, K_R: float, swing: Swing) -> float:
-    """B of (36), which is s w2, without cancellation next to the poles."""
-    side, x, d = nearer_pole(v, m, swing)
-    return bracket_near(side, x, d, K_R, top)
+def bracket(v: float, m: float, curve: Floats) -> tuple[float, float]:
+    """B of (36), which is s w2, without cancellation next to the poles; and w3."""
+    return bracket_near(1.0, v, curve) if v <= m else bracket_near(-1.0, m, curve)
 
 
 @compiled
-def omega(
-    ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: float, swing: Swing
-) -> Array:
+def omega(ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, width: float) -> Array:
     """(n, 3): omega about 1', 2', 3."""
     w = np.empty((len(v), 3))
     for i in range(len(v)):
-        side, x, d = nearer_pole(v[i], m[i], swing)
-        C = pole_slope(x, side * K_R, seen_from(side, top))
-        w[i, 0] = theta_dot(ch[i], sh[i], v[i], m[i], dt_dkappa[i], swing.width)
-        w[i, 1] = (0.0 if d == 0 else d / np.sqrt(v[i] * m[i])) + np.sqrt(x / (2 - x)) * C
-        w[i, 2] = eq.omega3(1 - v[i], v[i] * m[i], K_R, top)
+        B, w[i, 2] = bracket(v[i], m[i], curve)
+        s = np.sqrt(v[i] * m[i])
+        w[i, 1] = B / s if s > 0 else 0.0
+        w[i, 0] = theta_dot(ch[i], sh[i], v[i], m[i], dt_dkappa[i], width)
     return w
 
 
 @compiled
-def sigma_rates(v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: float, swing: Swing) -> Array:
+def sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, swing: Swing) -> Array:
     """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
     rates = np.empty((2, len(v)))
     for i in range(len(v)):
-        w3 = eq.omega3(1 - v[i], v[i] * m[i], K_R, top)
         side, x, d = nearer_pole(v[i], m[i], swing)
-        C = pole_slope(x, side * K_R, seen_from(side, top))
+        f3 = np.sqrt(eq.f3_2(1 - v[i], v[i] * m[i], curve.top))
+        w3 = curve.K_R / f3
+        C = pole_slope(x, f3, side * w3, seen_from(side, curve.top))
         B = d + x * C
         slope_v = C if v[i] <= m[i] else (B - swing.upright) / v[i]  # (w2 s - d)/(1 - c), and of 1 + c
         slope_m = C if m[i] < v[i] else (B - swing.inverted) / m[i]
@@ -244,11 +244,11 @@ def sigma_rates(v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: floa
 
 @compiled
 def contact_velocity(
-    ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, top: TopNumbers, K_R: float, swing: Swing
+    ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, swing: Swing
 ) -> Complex:
     """(n,): the contact point's velocity, (w2 c - w3 s, -w1) in the turning axes, over exp i(sigma_- + sigma_+)."""
     velocity = np.empty(len(v), np.complex128)
-    w = omega(ch, sh, v, m, dt_dkappa, top, K_R, swing)
+    w = omega(ch, sh, v, m, dt_dkappa, curve, swing.width)
     for i in range(len(v)):
         s = np.sqrt(v[i] * m[i])
         upright = pole_factor(ch[i], sh[i], swing.v1, swing.v2, swing.upright)
@@ -314,7 +314,7 @@ def _from_constants(top: Top, constants: Constants | None, start: str, well: int
 
 def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[ExactCurve, Well, Decimal]:
     exact = Exact.of_state(state, top)
-    v, m = (float(x) for x in versines(state.theta))
+    v, m = (float(x) for x in versines_of(state.theta))
     here = 1 - Decimal(v) if v <= m else Decimal(m) - 1
     rolling = {"vx": state.omega2 * (float(here) - top.a) - state.omega3 * np.sin(state.theta),
                "vy": -state.theta_dot * (1 - top.a * float(here))}  # fmt: skip

@@ -5,19 +5,37 @@ its coefficients by the midpoint rule, to rounding once they resolve it.
 """
 
 import numpy as np
-from scipy.fft import dct, dst
 
 from ..compiled import compiled
 from ..types import Array
 
-AFRESH = 16  # harmonics after which cos(k tau), sin(k tau) are computed anew, so that rounding does not add up
-
+AFRESH = 8  # harmonics after which cos(k tau), sin(k tau) are computed anew, so that rounding does not add up
+C2, C4, C6, C8, C10, C12, C14, C16, C18, C20 = (1 / (k * (k + 1)) for k in range(2, 22, 2))  # of the series of sine
 BLOCK = 256  # instants whose sums the processor keeps at hand
 
 
+# ---- coefficients ----
+
+
+@compiled
+def transform(angle: Array, even: Array, odd: Array, count: int) -> Array:
+    """(r, count): sum_j [even_j cos(k angle_j) + odd_j sin(k angle_j)] for k = 0 to count - 1, of r rows (r, n)."""
+    found = np.empty((len(even), count))
+    step_cos, step_sin = np.cos(angle), np.sin(angle)
+    cos, sin = np.ones(len(angle)), np.zeros(len(angle))
+    for k in range(count):
+        if k % AFRESH == 0:
+            cos, sin = np.cos(k * angle), np.sin(k * angle)
+        found[:, k] = even @ cos + odd @ sin
+        cos, sin = cos * step_cos - sin * step_sin, sin * step_cos + cos * step_sin
+    return found
+
+
+@compiled
 def cosine_coefficients(values: Array) -> Array:
     """(r, n): c_k, k = 0 to n - 1, of r even functions, from their values (r, n) at the midpoints."""
-    return dct(values, type=2, axis=1) / values.shape[1]
+    n = values.shape[1]
+    return transform((np.arange(n) + 0.5) * (np.pi / n), 2 / n * values, np.zeros_like(values), n)
 
 
 @compiled
@@ -34,12 +52,14 @@ def resolved(coefficients: Array) -> bool:
     return True
 
 
+@compiled
 def integral(c: Array) -> Array:
     """(n,): at the midpoints, the integral from 0 of the even function with the cosine coefficients c (n,)."""
     n = len(c)
-    k, sines = np.arange(n), np.zeros(n)
-    sines[:-1] = c[1:] / k[1:]
-    return c[0] * np.pi / (2 * n) * (k + 0.5) + dst(sines, type=3) / 2
+    half = np.floor(np.arange(n) / (n / 2))
+    sines = (c[1:] / np.arange(1, n)).reshape(1, n - 1)
+    midpoint = np.arange(n) + 0.5
+    return c[0] / 2 * np.pi / n * midpoint + sums(half, np.pi / n * (midpoint - n * half), sines, sines[:0])[0]
 
 
 @compiled
@@ -51,11 +71,6 @@ def integral_to(angle: float, c: Array) -> float:
     return total
 
 
-def phase(dt_deta: Array) -> Array:
-    """(n,): tau at the midpoints, from the cosine coefficients of dt/deta."""
-    return integral(dt_deta) * (2 / dt_deta[0])
-
-
 @compiled
 def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
     """(r, K): sum_j [even_j cos(k tau_j) + odd_j sin(k tau_j)] for k = 1 to K, from even, odd (r, n) and tau (n,).
@@ -63,26 +78,15 @@ def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
     The first `rates` rows are of a function's rate, and become those of the function: divided by k. K is such that all
     rows have ended; 0 where they do not within the harmonics that the midpoints resolve.
     """
-    rows, n = even.shape
-    most = int(np.pi / np.diff(tau).max())
-    found = np.zeros((rows, most))
-    step_cos, step_sin = np.cos(tau), np.sin(tau)
-    cos, sin = np.ones(n), np.zeros(n)
-    done, count = 0, 8
+    most, count = int(np.pi / np.diff(tau).max()), 8
     while count < most:
         count = min(2 * count, most)
-        for k in range(done + 1, count + 1):
-            if k % AFRESH:
-                cos, sin = cos * step_cos - sin * step_sin, sin * step_cos + cos * step_sin
-            else:
-                cos, sin = np.cos(k * tau), np.sin(k * tau)
-            found[:, k - 1] = even @ cos + odd @ sin
-            found[:rates, k - 1] /= k
-        done = count
-        kept = length(found[:, :count])
+        found = transform(tau, even, odd, count + 1)[:, 1:]
+        found[:rates] /= np.arange(1, count + 1)
+        kept = length(found)
         if kept:
             return found[:, :kept].copy()
-    return np.zeros((rows, 0))
+    return np.zeros((len(even), 0))
 
 
 @compiled
@@ -107,6 +111,33 @@ def length(series: Array) -> int:
 
 
 @compiled
+def of_time(dt_deta: Array, stretch: Array) -> tuple[Array, Array]:
+    """The cosine coefficients of dt/deta (1, n), and the sine coefficients in tau of kappa - tau (1, K).
+
+    From dt/deta and dkappa/deta at the midpoints, (1, n) each. n or K is 0 for what they do not resolve.
+    """
+    n = dt_deta.shape[1]
+    c, none = cosine_coefficients(dt_deta), np.zeros((1, 0))
+    if not resolved(c):
+        return none, none
+    return c, harmonics(integral(c[0]) * (2 / c[0, 0]), 2 / n * stretch, np.zeros_like(stretch), 1)
+
+
+# ---- sums ----
+
+
+@compiled
+def sine(x: float) -> float:
+    """sin(x) for |x| <= pi/2: x - x^3/3! + ... + x^21/21!, which is rounding less.
+
+    A polynomial, because a processor can do several at once of these, but not of the library's sines.
+    """
+    y = x * x
+    return x * (1 - y * C2 * (1 - y * C4 * (1 - y * C6 * (1 - y * C8 * (1 - y * C10 * (
+        1 - y * C12 * (1 - y * C14 * (1 - y * C16 * (1 - y * C18 * (1 - y * C20))))))))))  # fmt: skip
+
+
+@compiled
 def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
     """(r + q, n): sum_k sines[k - 1] sin(k tau), then sum_k cosines[k - 1] cos(k tau), at tau = pi half + rest (n,).
 
@@ -114,12 +145,12 @@ def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
     """
     r, n = len(sines), len(rest)
     found = np.zeros((r + len(cosines), n))
-    step_cos, step_sin, cos, sin = np.zeros(BLOCK), np.zeros(BLOCK), np.zeros(BLOCK), np.zeros(BLOCK)
     for first in range(0, n, BLOCK):
         size = min(BLOCK, n - first)
+        step_cos, step_sin, cos, sin = np.empty(size), np.empty(size), np.empty(size), np.empty(size)
         for j in range(size):
-            sign = 1 - 2 * half[first + j]
-            cos[j], sin[j] = sign * np.cos(rest[first + j]), sign * np.sin(rest[first + j])
+            sign, s = 1 - 2 * half[first + j], sine(rest[first + j] / 2)
+            cos[j], sin[j] = sign * (1 - 2 * s * s), sign * 2 * s * np.sqrt(1 - s * s)
             step_cos[j], step_sin[j] = cos[j], sin[j]
         for k in range(sines.shape[1]):
             for row in range(len(found)):

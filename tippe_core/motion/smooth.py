@@ -25,12 +25,13 @@ from scipy.optimize import brentq
 
 from ..compiled import compiled
 from ..errors import TopError
-from ..paper.constants import EXACT, State, exact_top, versines
+from ..paper.constants import EXACT, State, exact_top
+from ..paper.constants import versines as versines_of
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import solve
 from ..types import Array
 from .nutation import Nodes, Nutation
-from .pose import Pose, Swing, half_sigma_rate, nearer_pole, theta_dot
+from .pose import Pose, Swing, half_sigma_rate, nearer_pole, theta_dot, versines
 from .trajectory import Trajectory, checked_times
 
 
@@ -63,7 +64,7 @@ class Gliding(Nutation):
         if not isinstance(state, State):
             raise TopError("state", state, "a State")
         self.top, self.start, self._inward = top, state, state.theta_dot < 0
-        v, m = (float(x) for x in versines(state.theta))
+        v, m = (float(x) for x in versines_of(state.theta))
         with localcontext(EXACT):
             t, w1, w2, w3 = exact_top(top), *(Decimal(w) for w in (state.theta_dot, state.omega2, state.omega3))
             v = Decimal(v) if v <= m else 2 - Decimal(m)
@@ -83,7 +84,7 @@ class Gliding(Nutation):
         return dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.swing)
 
     def _exact_dt_dkappa(self, ch: Array, sh: Array) -> Array:
-        return self._dt_dkappa(*self._versines(ch, sh))  # Q has nothing to cancel
+        return self._dt_dkappa(*versines(ch, sh, self.swing))  # Q has nothing to cancel
 
     def _too_near(self) -> TopError:
         return TopError("theta", self.start.theta, "a start further from an unstable steady precession",

@@ -9,7 +9,7 @@ from ..compiled import compiled, shared_with_kernels
 from ..types import Array, Bools, Scalars
 from . import equations as eq
 from .constants import EXACT, Constants, Exact, exact_versine, versines
-from .poles import bracket_near, omega2_at, pole_offsets
+from .poles import Floats, bracket_near, omega2_at, pole_offsets
 from .top import Top, TopNumbers
 from .wells import ExactCurve
 
@@ -127,7 +127,7 @@ def theta_dot_2_on(
                 side[j] = 1.0 if at(V, i, j) <= at(M, i, j) else -1.0
                 x = min(at(V, i, j), at(M, i, j))
                 c[j], s2[j] = side[j] * (1 - x), x * (2 - x)
-                xC[j] = bracket_near(side[j], x, 0.0, at(K_R, i, j), top)
+                xC[j], _ = bracket_near(side[j], x, Floats(top, at(K_R, i, j), 0.0, 0.0))
             d[j] = at(upright if side[j] > 0 else inverted, i, j)
         for j in range(m):
             B = d[j] + xC[j]

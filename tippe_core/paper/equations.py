@@ -152,12 +152,13 @@ def force_terms(
     F_y = (a s/f1^2) {1 - a c + [a (c - a) - I1] q} + (w2 w3/f1^2) [I3 (1 - a c) - I1 - a^2 s^2]
     """
     a, I1, I3 = top.a, top.I1, top.I3
-    f1_sq, s2, w2_2 = f1_2(c, top), s * s, w2 * w2
+    s2, w2_2, f1_sq = s * s, w2 * w2, f1_2(c, top)
+    lever = a / f1_sq
     X = -I3 * w3 / f3_2(c, s2, top) * (c - I3 / I1 * (c - a))
-    Y1 = a * s / f1_sq * (a * (c - a) - I1)
-    Y0 = a * s / f1_sq * (1 - a * c) + Y1 * w2_2 + w2 * w3 / f1_sq * (I3 * (1 - a * c) - I1 - a * a * s2)
-    Z1 = a / f1_sq * (c * (I1 + 1 + a * a) - a * (1 + c * c))
-    Z0 = 1 - a / f1_sq * (a * s2 + (I3 + 1 - a * c) * s * w2 * w3) + Z1 * w2_2
+    Y1 = lever * s * (a * (c - a) - I1)
+    Y0 = lever * s * (1 - a * c) + Y1 * w2_2 + w2 * w3 / f1_sq * (I3 * (1 - a * c) - I1 - a * a * s2)
+    Z1 = lever * (c * (I1 + 1 + a * a) - a * (1 + c * c))
+    Z0 = 1 - lever * (a * s2 + (I3 + 1 - a * c) * s * w2 * w3) + Z1 * w2_2
     return X, Y0, Y1, Z0, Z1
 
 

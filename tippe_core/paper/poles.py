@@ -8,7 +8,7 @@ read the same with a -> -a, c -> -c, K_R -> -K_R, and 2E' is less by 4a.
 from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from functools import lru_cache
-from typing import overload
+from typing import NamedTuple, overload
 
 import numpy as np
 
@@ -27,22 +27,40 @@ def seen_from(side: Number, top: AnyTop) -> TopNumbers:
     return TopNumbers(side * top.a, top.I1, top.I3)
 
 
-@shared_with_kernels
-def bracket_near(side: Number, x: Number, d: Number, K_R: Number, top: AnyTop) -> Number:
-    """B at the distance x of cos(theta) to that pole, whose offset is d."""
-    return d + x * pole_slope(x, side * K_R, seen_from(side, top))
+class Floats(NamedTuple):
+    """A top, K_J and K_R as kernels take them: K_J by the offsets of the upright and of the inverted pole."""
+
+    top: TopNumbers
+    K_R: float
+    upright: float
+    inverted: float
 
 
 @shared_with_kernels
-def pole_slope(x: Number, K_R: Number, top: AnyTop) -> Number:
+def bracket_near(side: Number, x: Number, curve: Floats) -> tuple[Number, Number]:
+    """B and w3 at the distance x of cos(theta) to the pole of cos(theta) = side."""
+    c, s2 = side * (1 - x), x * (2 - x)
+    d, w3 = curve.upright if side > 0 else curve.inverted, eq.omega3(c, s2, curve.K_R, curve.top)
+    C = pole_slope(x, np.sqrt(eq.f3_2(c, s2, curve.top)), side * w3, seen_from(side, curve.top))
+    return d + x * C, w3
+
+
+@shared_with_kernels
+def angle(x: float, side: float) -> float:
+    """theta there."""
+    turned = 2 * np.arctan2(np.sqrt(x), np.sqrt(2 - x))
+    return turned if side > 0 else np.pi - turned
+
+
+@shared_with_kernels
+def pole_slope(x: Number, f3: Number, w3: Number, top: AnyTop) -> Number:
     """C of B = d + x C at x = 1 - c, a number: x C = K_J(P) - (I3/I1)(c - a) K_R/f3.
 
     Rearranged, because it is 0/0 at x = 0: with p = 1 - a, q = c - a and f3(P), f3 at the pole and at x,
     p/f3(P) - q/f3 = (p f3 - q f3(P))/(f3(P) f3) = x {p^2 (2 - x) + I3 (p + q)}/{f3(P) f3 (p f3 + q f3(P))}
     """
-    p, q = 1 - top.a, 1 - top.a - x
-    f3_P, f3 = np.sqrt(eq.f3_2(1.0, 0.0, top)), np.sqrt(eq.f3_2(1 - x, x * (2 - x), top))
-    unit = top.I3 / top.I1 * K_R / (f3_P * f3)
+    p, q, f3_P = 1 - top.a, 1 - top.a - x, np.sqrt(eq.f3_2(1.0, 0.0, top))
+    unit = top.I3 / top.I1 * w3 / f3_P
     if p * q > 0:
         return unit * one_sign(x, p, q, f3_P, f3, top)
     return unit * (f3_P if p == 0 else two_signs(x, p, q, f3_P, f3))
@@ -72,10 +90,15 @@ def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
     """
     if np.ndim(K_R):
         K_R = numbers("K_R", K_R)
-        upright, inverted = (float(ratio) * K_R for ratio in pole_ratios(top))
-        return upright, inverted
+        return K_J_of_pole(1.0, K_R, top), K_J_of_pole(-1.0, K_R, top)
     upright, inverted = exact_pole_constants(top, Decimal(finite("K_R", K_R)))
     return float(upright), float(inverted)
+
+
+@shared_with_kernels
+def K_J_of_pole(side: Number, K_R: Number, top: AnyTop) -> Number:
+    """K_J of the trajectories through the pole of cos(theta) = side."""
+    return eq.K_J_of_spin(side, eq.omega3(side, 0, K_R, top), top)
 
 
 @lru_cache(256)
@@ -83,9 +106,8 @@ def pole_ratios(top: Top) -> tuple[Decimal, Decimal]:
     """K_J/K_R at P and at the inverted pole."""
     t = exact_top(top)
     with localcontext(EXACT):
-        one, zero = Decimal(1), Decimal(0)
-        upright, inverted = (eq.K_J_of_spin(c, eq.omega3(c, zero, one, t), t) for c in (one, -one))
-        return upright, inverted
+        one = Decimal(1)
+        return K_J_of_pole(one, one, t), K_J_of_pole(-one, one, t)
 
 
 def exact_pole_constants(top: Top, K_R: Decimal) -> tuple[Decimal, Decimal]:

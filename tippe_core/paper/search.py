@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from ..compiled import shared_with_kernels
 
 Arguments: TypeAlias = tuple[Any, ...]  # of the function, after x
@@ -39,3 +41,35 @@ def zero(function: Callable[..., float], low: float, high: float, args: Argument
                 ) * y_opposite / (y_last - y_opposite)
         share = min(max(share, within), 1 - within)
     return x
+
+
+@shared_with_kernels
+def least(
+    function: Callable[..., float], low: float, at: float, high: float, args: Arguments, part: float = 1e-15
+) -> float:
+    """A minimum of function(x, *args) between low and high, where it is less at `at`: to this part of its value.
+
+    The vertex of the parabola through the last three points where it falls inside, else a golden section.
+    """
+    y_low, y, y_high = function(low, *args), function(at, *args), function(high, *args)
+    near = 1e-3 * (high - low)
+    for _ in range(60):
+        left, right = (y_low - y) * (high - at), (y_high - y) * (at - low)
+        step = (left * (high - at) - right * (at - low)) / (2 * (left + right)) if left + right > 0 else np.nan
+        parabola = low < at + step < high and abs(step) < (high - low) / 3  # neither for nan nor inf
+        if not parabola:
+            step = 0.38 * ((high - at) if high - at > at - low else (low - at))
+        new = at + step
+        y_new = function(new, *args)
+        if parabola and abs(step) < near and abs(y_new - y) <= part * abs(y):
+            return new if y_new < y else at
+        if high - low <= 1e-9 * high:
+            return at
+        if y_new < y:
+            low, y_low, high, y_high = (at, y, high, y_high) if new > at else (low, y_low, at, y)
+            at, y = new, y_new
+        elif new > at:
+            high, y_high = new, y_new
+        else:
+            low, y_low = new, y_new
+    return at

@@ -16,9 +16,9 @@ from ..errors import NoMotionError, finite
 from ..types import Array, Bools
 from . import equations as eq
 from .constants import EXACT, Constants, Exact, exact_top, nonzero, versines
-from .poles import at_pole, bracket_near, exact_pole_constants
+from .poles import Floats, angle, at_pole, bracket_near, exact_pole_constants
 from .search import zero
-from .top import Top, TopNumbers
+from .top import Top
 
 
 class SteadyPrecessions(NamedTuple):
@@ -48,7 +48,7 @@ class ExactCurve:
 
     def __init__(self, top: Top, exact: Exact, rounded: bool = True) -> None:
         """rounded: K_J, K_R and E were given as floats, and mean what the nearest float can mean."""
-        self.rounded_top, self.top = top.numbers, exact_top(top)
+        self.top = exact_top(top)
         with localcontext(EXACT):
             poles = exact_pole_constants(top, exact.K_R)
             for K_J in poles:
@@ -58,7 +58,8 @@ class ExactCurve:
             negligible = abs(exact.K_J) * Decimal("1e-55")
             self.offsets = tuple(exact.K_J - K_J if abs(exact.K_J - K_J) > negligible else Decimal(0) for K_J in poles)
         self.exact, self.rounded = exact, rounded
-        self.rounded_K = float(exact.K_R), *map(float, self.offsets)
+        upright, inverted = map(float, self.offsets)
+        self.floats = Floats(top.numbers, float(exact.K_R), upright, inverted)
 
     @classmethod
     def of(cls, top: Top, K_J: float, K_R: float) -> Self:
@@ -96,42 +97,44 @@ class ExactCurve:
         return eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
 
 
-# ---- in floats: x is the distance of cos(theta) to the pole of cos(theta) = side, d that pole's offset ----
+# ---- in floats: x is the distance of cos(theta) to the pole of cos(theta) = side ----
 
 _GRID_V, _GRID_M = versines(np.linspace(0, np.pi, 513))  # 1 - c and 1 + c
 
 
 @shared_with_kernels
-def N_near(x: float, side: float, d: float, K_R: float, top: TopNumbers) -> float:
-    """s^4 dU/dc"""
-    c, s2 = side * (1 - x), x * (2 - x)
-    dB = eq.bracket_slope(c, s2, eq.omega3(c, s2, K_R, top), top)
-    return eq.s4_U_slope(c, s2, bracket_near(side, x, d, K_R, top), dB, top)
+def U_near(x: float, side: float, curve: Floats) -> float:
+    """U"""
+    c, s2, (B, _) = side * (1 - x), x * (2 - x), bracket_near(side, x, curve)
+    w2_2 = B * B / s2 if s2 > 0 else 0.0 if B == 0 else np.inf
+    return eq.U(x if side > 0 else 2 - x, c, s2, w2_2, curve.top)
 
 
 @shared_with_kernels
-def D_near(x: float, side: float, d: float, K_R: float, top: TopNumbers, e: float) -> float:
-    """s^2 (e - U)"""
-    c, s2 = side * (1 - x), x * (2 - x)
-    if s2 == 0:
-        return -eq.f2_2(c, s2, top) * d * d
-    B = bracket_near(side, x, d, K_R, top)
-    return s2 * (e - eq.U(x if side > 0 else 2 - x, c, s2, B * B / s2, top))
+def N_near(x: float, side: float, curve: Floats) -> float:
+    """s^4 dU/dc"""
+    c, s2, (B, w3) = side * (1 - x), x * (2 - x), bracket_near(side, x, curve)
+    dB = eq.bracket_slope(c, s2, w3, curve.top)
+    return eq.s4_U_slope(c, s2, B, dB, curve.top)
+
+
+@shared_with_kernels
+def D_near(x: float, side: float, curve: Floats, e: float) -> float:
+    """s^2 (e - U), at the pole itself its limit"""
+    s2, (B, _) = x * (2 - x), bracket_near(side, x, curve)
+    return s2 * (e - U_near(x, side, curve)) if s2 > 0 else -eq.f2_2(side, s2, curve.top) * B * B
 
 
 @compiled
-def extrema_near(V: Array, M: Array, K_R: float, upright: float, inverted: float, top: TopNumbers) -> Array:
+def extrema_near(V: Array, M: Array, curve: Floats) -> Array:
     """The zeros of N from theta = 0 on, found on the grid 1 - c = V, 1 + c = M: rows of side, x, its bracket in x, and
-    dN/dx. upright, inverted: the offsets of the poles. Where N only dips towards zero, a golden section looks deeper.
-    """
+    dN/dx. Where N only dips towards zero, a golden section looks deeper."""
     n, half, rows, found = len(V) - 1, len(V) // 2, 0, np.empty((2 * len(V), 5))
     N = np.empty(n + 1)
     for i in range(n + 1):
-        side, d, x = (1.0, upright, V[i]) if i <= half else (-1.0, inverted, M[i])
-        N[i] = N_near(x, side, d, K_R, top)
+        N[i] = N_near(V[i], 1.0, curve) if i <= half else N_near(M[i], -1.0, curve)
     for i in range(n):
-        side, d, X = (1.0, upright, V) if i < half else (-1.0, inverted, M)
-        args = side, d, K_R, top
+        side, X = (1.0, V) if i < half else (-1.0, M)
         places = [X[i], X[i + 1]] if N[i] * N[i + 1] < 0 else [X[i]][:0]
         if i > 0 and N[i] == 0:
             places = [X[i - 1], X[i + 1]]
@@ -139,16 +142,16 @@ def extrema_near(V: Array, M: Array, K_R: float, upright: float, inverted: float
             low, high = X[i - 1], X[i + 1]
             for _ in range(60):
                 x1, x2 = high - 0.6180339887498949 * (high - low), low + 0.6180339887498949 * (high - low)
-                y1, y2 = N_near(x1, *args), N_near(x2, *args)
+                y1, y2 = N_near(x1, side, curve), N_near(x2, side, curve)
                 if min(y1 * N[i], y2 * N[i]) < 0:
                     places = [X[i - 1], x1 if y1 * N[i] < 0 else x2, X[i + 1]]
                     break
                 low, high = (x1, high) if abs(y2) < abs(y1) else (low, x2)
         for j in range(len(places) - 1):
             low, high = min(places[j], places[j + 1]), max(places[j], places[j + 1])
-            x = zero(N_near, low, high, args)
+            x = zero(N_near, low, high, (side, curve))
             h = 1e-5 * min(x, 2 - x)
-            slope = (N_near(x + h, *args) - N_near(x - h, *args)) / (2 * h)
+            slope = (N_near(x + h, side, curve) - N_near(x - h, side, curve)) / (2 * h)
             found[rows] = side, x, low, high, slope
             rows += 1
     return found[:rows]
@@ -159,8 +162,7 @@ def extrema(curve: ExactCurve) -> list[Decimal]:
     if curve.exact.K_J == curve.exact.K_R == 0:
         return []  # U is the height alone
     zeros = []
-    K_R, upright, inverted = curve.rounded_K
-    for side, x, low, high, slope in extrema_near(_GRID_V, _GRID_M, K_R, upright, inverted, curve.rounded_top).tolist():
+    for side, x, low, high, slope in extrema_near(_GRID_V, _GRID_M, curve.floats).tolist():
         ends = exact_cosine(side, low), exact_cosine(side, high)
         slopes = iter([Decimal(-side * slope)])  # only next to the guess
 
@@ -228,14 +230,15 @@ def steady_precessions(top: Top, K_J: float, K_R: float) -> SteadyPrecessions:
     """
     with localcontext(EXACT):
         stations = [s for s in find_stations(ExactCurve.of(top, K_J, K_R)) if s.kinetic.is_finite()]
-        return SteadyPrecessions(np.array([angle(s.c) for s in stations]), np.array([s.bottom for s in stations], bool))
+        return SteadyPrecessions(
+            np.array([exact_angle(s.c) for s in stations]), np.array([s.bottom for s in stations], bool)
+        )
 
 
-def angle(c: Decimal) -> float:
+def exact_angle(c: Decimal) -> float:
     """theta of an exact cos(theta)."""
     with localcontext(EXACT):
-        v, m = 1 - c, 1 + c
-    return 2 * float(np.arctan2(float(v) ** 0.5, float(m) ** 0.5))
+        return float(angle(float(1 - c), 1.0) if c > 0 else angle(float(1 + c), -1.0))
 
 
 def find_stations(curve: ExactCurve) -> list[Station]:
@@ -294,9 +297,9 @@ def no_less(x: Decimal) -> float:
 
 
 @compiled
-def turning_near(low: float, high: float, side: float, d: float, K_R: float, top: TopNumbers, e: float) -> float:
+def turning_near(low: float, high: float, side: float, curve: Floats, e: float) -> float:
     """x of the zero of e - U between two x at which it differs in sign."""
-    return zero(D_near, low, high, (side, d, K_R, top, e))
+    return zero(D_near, low, high, (side, curve, e))
 
 
 def turning_point(curve: ExactCurve, one: Station, other: Station) -> Decimal:
@@ -310,10 +313,9 @@ def turning_point(curve: ExactCurve, one: Station, other: Station) -> Decimal:
     )  # there D is 0 whatever e is
     if through_pole:
         return solve(curve.kinetic, low.c, high.c, high.kinetic > 0)
-    K_R, upright, inverted = curve.rounded_K
-    side, d = (1, upright) if low.c + high.c > 0 else (-1, inverted)
-    near, far = sorted(float(1 - side * end.c) for end in (low, high))
-    guess = exact_cosine(side, turning_near(near, far, float(side), d, K_R, curve.rounded_top, float(curve.exact.e)))
+    side = 1.0 if low.c + high.c > 0 else -1.0
+    near, far = sorted(float(1 - int(side) * end.c) for end in (low, high))
+    guess = exact_cosine(side, turning_near(near, far, side, curve.floats, float(curve.exact.e)))
     return solve(curve.D, low.c, high.c, high.kinetic > 0, guess)
 
 
@@ -322,4 +324,6 @@ def turning_points(top: Top, constants: Constants) -> Array:
 
     The constants are numbers. Steady precession: both ends equal. Raises NoMotionError below the lowest well.
     """
-    return np.array([[angle(w.inner), angle(w.outer)] for w in wells(ExactCurve(top, Exact.of(constants, top)))])
+    return np.array(
+        [[exact_angle(w.inner), exact_angle(w.outer)] for w in wells(ExactCurve(top, Exact.of(constants, top)))]
+    )
