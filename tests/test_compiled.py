@@ -122,6 +122,13 @@ def test_a_callee_in_another_file_that_changed_is_noticed(package):
     assert package.found() == [Path(after).name] != [Path(before).name]  # and the old ones are gone
 
 
+def test_what_a_process_had_to_compile_is_known(package):
+    code = ("import json; from tippe_core.caller import total; from tippe_core import compiled; total({}, 3); "
+            "print(json.dumps([name.partition('(')[0] for name in compiled.made]))")  # fmt: skip
+    assert package.run(code=code) == ["tippe_core.callee.square", "tippe_core.caller.total"]
+    assert package.run(code=code) == []
+
+
 def test_another_processor_has_kernels_of_its_own(package):
     here, there = package.run()[-1], package.run(NUMBA_CPU_NAME="generic")[-1]
     assert here != there and len(package.found()) == 2
@@ -247,6 +254,38 @@ def test_every_kernel_is_compiled_ahead():
         files = kept.folder().glob(f"{Path(code.co_filename).stem}.{kernel.__name__}-*-{code.co_firstlineno}.*.nbi")
         assert list(files), f"{name} is not called by tippe_core.ahead"
     assert "".join(said).count("\n") == len(CALLS)
+
+
+PAGE = """from tippe_core import compiled
+from tippe_core.ahead import compile_all
+assert compile_all() == ""
+compiled.made.clear()
+
+from app import family, lesson
+from app.builder import Builder
+from app.explorer import Explorer
+from app.planes import LAWS, Planes
+explorer = Explorer()
+for step in lesson.STEPS:
+    explorer.param.update(**step.inputs(explorer.scene.top))
+    step.answer(explorer.scene)
+planes = Planes(explorer, Builder(explorer))
+for law in LAWS:
+    planes.param.update(law=law, seconds=0.5)
+    planes.param.update(by="constants")
+    planes.param.update(by="spin")
+for name, top, K_R in family.presets() + family.pegs():
+    family.region(name, top, K_R, 0.5, 4)
+next(family.share_map(0.4, 10.0, 0.5, [0.1, -0.2], [1.0, 1.1]))
+print(*compiled.made, sep="\\n")
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
+def test_nothing_that_the_page_computes_is_compiled_when_it_is_asked_for():
+    done = subprocess.run([sys.executable, "-c", PAGE], cwd=ROOT, capture_output=True, text=True)
+    assert (done.returncode, done.stdout.strip()) == (0, ""), done.stderr
 
 
 def test_no_kernel_starts_threads_or_loosens_arithmetic():

@@ -21,6 +21,9 @@ _INSTALLED = importlib.util.find_spec("numba") is not None  # which does not imp
 _making = threading.RLock()
 _shared: list[Callable[..., Any]] = []  # of which numba has not been told yet
 _compiler: int | None = None  # the thread that compiles ahead, while there is one
+made: list[
+    str
+] = []  # what this process had to compile, since it was not kept: kernels, and the types of their arguments
 _unwritten = ""  # why the last kernel that could not be written could not
 
 
@@ -139,6 +142,7 @@ def _cache() -> Numba:
 
         def save_overload(self, signature: Numba, result: Numba) -> None:
             global _unwritten
+            made.append(f"{self._py_func.__module__}.{self._py_func.__qualname__}{signature}")
             try:
                 with kept.locked(Path(self.cache_path), "write"):
                     super().save_overload(signature, result)
