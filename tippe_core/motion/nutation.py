@@ -247,12 +247,16 @@ class Nutation(ABC):
     def _series(self) -> tuple[Array, Array]:
         """The sine series of kappa, sigma_- and sigma_+ and of what else poses need, (3 or more, K), and the cosine
         series (q, K) of it."""
-        kappa, sigma = self._kappa, self._orientation.sigma
-        sines, cosines = self._more_series()
-        rows = np.zeros((3 + len(sines), max(kappa.shape[1], sigma.shape[1])))
-        rows[0, : kappa.shape[1]] = kappa[0]
-        rows[1:3, : sigma.shape[1]], rows[3:, : sigma.shape[1]] = sigma, sines
-        return rows, np.pad(cosines, ((0, 0), (0, rows.shape[1] - cosines.shape[1])))
+        more, cosines = self._more_series()
+        parts = self._kappa, self._orientation.sigma, more
+        length = max(part.shape[1] for part in (*parts, cosines))
+
+        def longer(rows: Array) -> Array:
+            found = np.zeros((len(rows), length))
+            found[:, : rows.shape[1]] = rows
+            return found
+
+        return np.concatenate([longer(part) for part in parts]), longer(cosines)
 
     def _more_series(self) -> tuple[Array, Array]:
         """Sine and cosine series of what a subclass has besides."""

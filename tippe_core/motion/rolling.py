@@ -102,8 +102,8 @@ class Rolling(Nutation):
         with localcontext(EXACT):
             c = [inner - (inner - outer) * Decimal(down) if down < up else outer + (inner - outer) * Decimal(up)
                  for up, down in zip((cos_half**2).tolist(), (sin_half**2).tolist(), strict=True)]  # fmt: skip
-            Q = [curve.D(x)[0] / ((inner - x) * (x - outer) * eq.f1_2(x, curve.top)) for x in c]
-            return np.array([float(1 / x.sqrt()) for x in Q])
+            inverse_Q = [(inner - x) * (x - outer) * eq.f1_2(x, curve.top) / curve.D(x)[0] for x in c]
+            return np.array([float(x.sqrt()) for x in inverse_Q])
 
     def _too_near(self) -> TopError:
         if self._given:
