@@ -115,10 +115,12 @@ def scan(path: Array, toward: float, far: float, points: int, curve: Floats, lim
     for j in range(1, points + MORE):
         share = max(1 - j / points, 0.0)
         distance = far + (near - far) * share * share
-        if far == 0 and j >= points and not through:
-            distance = path[k - 1, DISTANCE] / 4  # up the wall of U at the pole
-        elif j > points:
-            break
+        if j > points or (
+            j == points and far == 0 and not through
+        ):  # farther and farther, up the wall of U at the pole
+            if distance == 0 and through:
+                break
+            distance = max(3 * path[k - 1, DISTANCE] - 2 * path[k - 2, DISTANCE], path[k - 1, DISTANCE] / 4)
         x, side = place(distance, toward)
         add(path, k, distance, x, side, path[k - 1, BASE], curve, limit)
         if path[k, BASE] > path[k - 1, BASE]:
@@ -187,13 +189,12 @@ def dips(paths: Array, counts: Indices, curve: Floats, limit: Limit, part: float
             before = path[k - 1] if k > 0 else paths[1, 1]
             if (k == 0 and counts[1] < 2) or not path[k, MARGIN] >= 0 or path[k, FIRST] == np.inf:
                 continue
-            rise = max(before[FIRST], path[k + 1, FIRST]) - path[k, FIRST]
-            if min(before[FIRST], path[k + 1, FIRST]) < path[k, FIRST] or not path[k, FIRST] - rise < found:
+            if min(before[FIRST], path[k + 1, FIRST]) < path[k, FIRST]:
                 continue
             side, barrier = path[k, SIDE], before[BASE] if k > 0 else path[0, BASE]
             low, high = seen(before, side), seen(path[k + 1], side)
             args = side, barrier, curve, limit
-            x = least(first_at, min(low, high), path[k, X], max(low, high), args, 10 * part)
+            x = least(first_at, min(low, high), path[k, X], max(low, high), args, part * part * 10)
             if first_at(x, *args) < found:
                 found, x_found, side_found = first_at(x, *args), x, side
     return found, x_found, side_found
@@ -219,20 +220,19 @@ def limit_of(
     """2E', theta_inner, theta_outer, theta_verge and F_z there, from the steady precession at x on, to this part of x.
 
     paths (2, points + MORE + 2, 6) to write on; far: to where, at most, the paths lead, at last where they do."""
-    counts, best = np.ones(2, np.intp), np.inf
+    counts = np.ones(2, np.intp)
     for way, toward in ((0, 1.0), (1, -1.0)):
         add(paths[way], 0, angle(x, side * toward), x, side, -np.inf, curve, limit)
     if not paths[0, 0, MARGIN] >= -1e-12:
         return np.nan, np.nan, np.nan, np.nan, np.nan
     for closer in range(12):
-        done = True
+        done, best = True, np.inf
         for way, toward in ((0, 1.0), (1, -1.0)):
-            if paths[way, 0, DISTANCE] > 0 and (closer == 0 or counts[way] < 0.75 * points):
+            if paths[way, 0, DISTANCE] > 0 and (closer == 0 or counts[way] < points / 2):
                 counts[way] = k = scan(paths[way], toward, far[way], points, curve, limit, best)
-                for i in range(k):
-                    best = min(best, paths[way, i, FIRST])
+                best = paths[way, :k, FIRST].min()
                 far[way] = paths[way, k - 1, DISTANCE]
-                done = done and k >= 0.75 * points
+                done = done and k >= points / 2
         if done:
             break
     for way in range(2):
@@ -280,7 +280,7 @@ def lowest_of(V: Array, M: Array, top: TopNumbers, K_R: float, offsets: Array) -
     """Rows of x, side and whether that is sure, of lowest(), for the rows of offsets."""
     found = np.empty((len(offsets), 3))
     for i in range(len(offsets)):
-        x, side, sure = lowest(V, M, Floats(top, K_R, offsets[i, 0], offsets[i, 1]), 1e-16)
+        x, side, sure = lowest(V, M, Floats(top, K_R, offsets[i, 0], offsets[i, 1]), 1e-8)
         found[i, 0], found[i, 1], found[i, 2] = x, side, sure
     return found
 
@@ -299,7 +299,7 @@ def limits_of(
         for j in range(len(limits)):
             if j > 0 and limits[j - 1, 1] > 0:
                 far[:] = 0  # only what lifts off bounds what slips
-            columns = limit_of(paths, x, side, points, curve, (limits[j, 0], limits[j, 1]), far, 1e-16)
+            columns = limit_of(paths, x, side, points, curve, (limits[j, 0], limits[j, 1]), far, 1e-8)
             for row in range(5):
                 found[j, row, i] = columns[row]
     return found, at_rest

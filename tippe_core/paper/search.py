@@ -11,11 +11,11 @@ Arguments: TypeAlias = tuple[Any, ...]  # of the function, after x
 
 
 @shared_with_kernels
-def zero(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-16) -> float:
-    """A zero of function(x, *args) between low and high, 0 <= low < high, where its signs differ: to this part of x.
+def zero(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-8) -> float:
+    """The zero of function(x, *args) between low and high, 0 <= low < high, where its signs differ.
 
-    Inverse quadratic interpolation where it is safe, else bisection (T. R. Chandrupatla, Adv. Eng. Softw. 28, 145
-    (1997)).
+    Inverse quadratic interpolation where that is safe, else bisection (T. R. Chandrupatla, Adv. Eng. Softw. 28, 145
+    (1997)), until the bracket is this part of x; then the zero of its chord, which is off by the square of that.
     """
     x, y = high, function(high, *args)  # the newest
     opposite, y_opposite = low, function(low, *args)
@@ -28,19 +28,18 @@ def zero(function: Callable[..., float], low: float, high: float, args: Argument
         else:
             last, y_last, opposite, y_opposite = opposite, y_opposite, x, y
         x, y = new, y_new
-        best = x if abs(y) < abs(y_opposite) else opposite
-        within = part * best / abs(opposite - x) if opposite != x else 1.0
+        within = part * (x if abs(y) < abs(y_opposite) else opposite) / abs(opposite - x)
         if y == 0 or within > 0.5:
-            return best
+            break
         share = 0.5
-        if y_last != y and y_last != y_opposite:
+        if y_last not in (y, y_opposite):
             place, height = (x - opposite) / (last - opposite), (y - y_opposite) / (y_last - y_opposite)
             if height * height < place and (1 - height) * (1 - height) < 1 - place:
-                share = y / (y_opposite - y) * y_last / (y_opposite - y_last) + (last - x) / (opposite - x) * y / (
-                    y_last - y
-                ) * y_opposite / (y_last - y_opposite)
+                near, far = y / (y_opposite - y), y / (y_last - y)
+                share = near * y_last / (y_opposite - y_last)
+                share += (last - x) / (opposite - x) * far * y_opposite / (y_last - y_opposite)
         share = min(max(share, within), 1 - within)
-    return x
+    return x + y / (y - y_opposite) * (opposite - x) if y != y_opposite else x
 
 
 @shared_with_kernels
@@ -49,16 +48,19 @@ def least(
 ) -> float:
     """A minimum of function(x, *args) between low and high, where it is less at `at`: to this part of its value.
 
-    The vertex of the parabola through the last three points where it falls inside, else a golden section.
+    The vertex of the parabola through the last three points where it falls inside and the steps shrink, else a golden
+    section (R. P. Brent, Algorithms for Minimization Without Derivatives (1973), ch. 5).
     """
     y_low, y, y_high = function(low, *args), function(at, *args), function(high, *args)
-    near = 1e-3 * (high - low)
-    for _ in range(60):
+    last = before = high - low
+    near = 1e-3 * last
+    for _ in range(80):
         left, right = (y_low - y) * (high - at), (y_high - y) * (at - low)
         step = (left * (high - at) - right * (at - low)) / (2 * (left + right)) if left + right > 0 else np.nan
-        parabola = low < at + step < high and abs(step) < (high - low) / 3  # neither for nan nor inf
+        parabola = low < at + step < high and abs(step) < before / 2  # neither for nan nor for inf
         if not parabola:
-            step = 0.38 * ((high - at) if high - at > at - low else (low - at))
+            step = 0.381966 * ((high - at) if high - at > at - low else (low - at))
+        before, last = last, abs(step)
         new = at + step
         y_new = function(new, *args)
         if parabola and abs(step) < near and abs(y_new - y) <= part * abs(y):

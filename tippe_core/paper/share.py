@@ -14,7 +14,7 @@ from .top import TopNumbers
 
 ROWS = 64  # K_J
 PART = (np.arange(ROWS) + 0.5) / ROWS  # of K_J(P)
-POINTS, CLOSE = 12, 1e-6  # on each side of a steady precession; how close, a part, a zero is placed
+POINTS, CLOSE = 10, 1e-4  # on each side of a steady precession; how close, a part, a zero is placed
 GRID_V, GRID_M = versines(crowded(48))
 
 

@@ -16,7 +16,7 @@ from .poles import pole_offsets
 from .top import Top
 from .wells import ExactCurve, find_stations
 
-POINTS = 24  # on each side of the steady precession
+POINTS = 20  # on each side of the steady precession
 
 
 def crowded(cells: int) -> Array:
