@@ -101,6 +101,35 @@ def test_fifty_nutations_through_a_pole(pole, start):
     assert_same_motion(trajectory, rolled(top, q, omega, times), top)
 
 
+@pytest.mark.parametrize(("name", "start"), [(name, end) for name in CASES for end in ("inner", "outer")])
+def test_the_start_is_the_state_at_the_turning_point(name, start):
+    """Its constants, by the vectors of the rigid body, are those asked for, and theta is where f vanishes."""
+    case = CASES[name]
+    state = Rolling(case.top, case.constants, start, case.row).start
+    assert state.theta == pytest.approx(float(case.interval[start == "outer"]), abs=1e-12)
+    assert state.theta_dot == 0
+    q = rb.euler_quaternion(0, state.theta, 0)
+    found = rb.constants(rb.Body.of(case.top), q, rb.to_body(0, 0, state.omega2, state.omega3))
+    np.testing.assert_allclose(
+        [float(x) for x in found], [case.K_J, case.K_R, case.constants.E], rtol=1e-12, atol=1e-12
+    )
+
+
+@pytest.mark.parametrize("start", ["inner", "outer"])
+@pytest.mark.parametrize("pole", POLES.values(), ids=POLES.keys())
+def test_from_the_start_of_a_motion_through_a_pole_the_same_motion_begins(pole, start):
+    top, K_J, K_R, rise = pole
+    curve = Curve(top, K_J, K_R)
+    constants = Constants(K_J, K_R, float(curve.energy_of(min(curve.U(x) for x in curve.grid()) + rise)))
+    times = np.linspace(0, 3, 31)
+    state = Rolling(top, constants, start).start
+    again, moved = roll(top, None, times, state), roll(top, constants, times, start)
+    assert {0.0, np.pi} & {float(x) for x in Rolling(top, constants).turning_points}
+    q = again.quaternion * np.sign((again.quaternion * moved.quaternion).sum(axis=1))[:, None]
+    np.testing.assert_allclose(q, moved.quaternion, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(again.contact, moved.contact, rtol=0, atol=1e-11)
+
+
 @pytest.mark.parametrize("top", [PAPER, ORDINARY, LOADED], ids=["paper", "ordinary", "loaded"])
 @pytest.mark.parametrize("theta_dot", [0.4, -0.4])
 def test_fifty_nutations_from_a_state(top, theta_dot):

@@ -115,6 +115,8 @@ def test_lift_off_is_where_sliding_without_friction_puts_it():
     assert moved.events[0][1] == "lifts off" == slid.events[0][1]
     assert moved.events[0][0] == pytest.approx(slid.events[0][0], abs=1e-9)
     assert len(moved.t) == len(slid.t) and moved.force[:, 2].min() > 0
+    gliding = Gliding(PAPER, state)
+    assert vars(gliding).get("lift_off") is None and gliding.lift_off == vars(gliding)["lift_off"]  # sought once
 
 
 @pytest.mark.parametrize(("name", "call"), [("state", lambda: glide(PAPER, 3, [0, 1])),

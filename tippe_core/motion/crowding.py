@@ -64,9 +64,9 @@ def crowded(n: int, crowd: Crowding | None) -> tuple[Array, Array, Array]:
     _, eps, alpha, x0 = crowd
     up, down = cos**2, sin**2
     x = up - down
-    ch, sh = (np.sqrt(eps * np.cosh(alpha * (middle - x0)) * np.sinh(alpha * part))
+    cos_half, sin_half = (np.sqrt(eps * np.cosh(alpha * (middle - x0)) * np.sinh(alpha * part))
               for middle, part in (((x - 1) / 2, up), ((x + 1) / 2, down)))  # fmt: skip
-    return ch, sh, eps * alpha * np.cosh(alpha * (x - x0)) * np.sqrt(up * down) / (sh * ch)
+    return cos_half, sin_half, eps * alpha * np.cosh(alpha * (x - x0)) * np.sqrt(up * down) / (sin_half * cos_half)
 
 
 def eta_halves(sine: float, cosine: float, crowd: Crowding | None) -> tuple[float, float]:

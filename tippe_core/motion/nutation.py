@@ -30,7 +30,7 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Complex
 from .crowding import Crowding, crowded, crowding, eta_halves
-from .pose import Pose, Swing, clock, pose, tilt_halves, versines
+from .pose import Pose, Swing, clock, pose, tilt_halves, v_and_m
 from .series import cosine_coefficients, harmonics, integral, integral_to, of_time, resolved, sums
 from .trajectory import checked_times
 
@@ -43,8 +43,8 @@ NONE = np.zeros((0, 1))  # no series
 class Nodes(NamedTuple):
     """At midpoints of eta, (n,) each: cos(kappa/2), sin(kappa/2), v, m, and the three rates."""
 
-    ch: Array
-    sh: Array
+    cos_half: Array
+    sin_half: Array
     v: Array
     m: Array
     dt_dkappa: Array
@@ -86,7 +86,7 @@ class Nutation(ABC):
         """dt/dkappa (n,) at v = 1 - c, m = 1 + c, (n,)."""
 
     @abstractmethod
-    def _exact_dt_dkappa(self, ch: Array, sh: Array) -> Array:
+    def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
         """The same with all figures, at cos(kappa/2) and sin(kappa/2)."""
 
     @abstractmethod
@@ -116,10 +116,10 @@ class Nutation(ABC):
     @cached_property
     def _plain(self) -> Nodes:
         """The least midpoints of kappa itself."""
-        ch, sh, stretch = crowded(NODES_LEAST, None)
-        v, m = versines(ch, sh, self.swing)
+        cos_half, sin_half, stretch = crowded(NODES_LEAST, None)
+        v, m = v_and_m(cos_half, sin_half, self.swing)
         dt_dkappa = self._dt_dkappa(v, m)
-        return Nodes(ch, sh, v, m, dt_dkappa, dt_dkappa, stretch)
+        return Nodes(cos_half, sin_half, v, m, dt_dkappa, dt_dkappa, stretch)
 
     @cached_property
     def _crowding(self) -> Crowding | None:
@@ -142,9 +142,11 @@ class Nutation(ABC):
         if n == NODES_LEAST and not self._crowding:
             return self._plain
         if n not in self._known_nodes:  # time, kappa and orientation ask for the same ones, and exact ones are slow
-            ch, sh, stretch = crowded(n, self._crowding)
-            dt_dkappa = self._exact_dt_dkappa(ch, sh)  # where Q nearly vanishes its terms cancel after all
-            self._known_nodes[n] = Nodes(ch, sh, *versines(ch, sh, self.swing), dt_dkappa, dt_dkappa * stretch, stretch)
+            cos_half, sin_half, stretch = crowded(n, self._crowding)
+            dt_dkappa = self._exact_dt_dkappa(cos_half, sin_half)  # where Q nearly vanishes its terms cancel after all
+            self._known_nodes[n] = Nodes(
+                cos_half, sin_half, *v_and_m(cos_half, sin_half, self.swing), dt_dkappa, dt_dkappa * stretch, stretch
+            )
         return self._known_nodes[n]
 
     @cached_property
@@ -245,12 +247,16 @@ class Nutation(ABC):
     def _series(self) -> tuple[Array, Array]:
         """The sine series of kappa, sigma_- and sigma_+ and of what else poses need, (3 or more, K), and the cosine
         series (q, K) of it."""
-        kappa, sigma = self._kappa, self._orientation.sigma
-        sines, cosines = self._more_series()
-        rows = np.zeros((3 + len(sines), max(kappa.shape[1], sigma.shape[1])))
-        rows[0, : kappa.shape[1]] = kappa[0]
-        rows[1:3, : sigma.shape[1]], rows[3:, : sigma.shape[1]] = sigma, sines
-        return rows, np.pad(cosines, ((0, 0), (0, rows.shape[1] - cosines.shape[1])))
+        more, cosines = self._more_series()
+        parts = self._kappa, self._orientation.sigma, more
+        length = max(part.shape[1] for part in (*parts, cosines))
+
+        def longer(rows: Array) -> Array:
+            found = np.zeros((len(rows), length))
+            found[:, : rows.shape[1]] = rows
+            return found
+
+        return np.concatenate([longer(part) for part in parts]), longer(cosines)
 
     def _more_series(self) -> tuple[Array, Array]:
         """Sine and cosine series of what a subclass has besides."""

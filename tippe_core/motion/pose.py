@@ -29,8 +29,8 @@ class Pose(NamedTuple):
     """At n instants, (n,) each: cos(kappa/2) and sin(kappa/2), v = 1 - c, m = 1 + c, the angles in rad, s exp(i phi);
     and the quaternion (n, 4)."""
 
-    ch: Array
-    sh: Array
+    cos_half: Array
+    sin_half: Array
     v: Array
     m: Array
     theta: Array
@@ -59,9 +59,9 @@ def clock(passed: Array, period: float, half: float, rest: float) -> tuple[Array
 
 
 @compiled
-def versines(ch: Number, sh: Number, swing: Swing) -> tuple[Number, Number]:
-    """v = 1 - c and m = 1 + c where cos(kappa/2), sin(kappa/2) are ch, sh; (n,) each, or numbers."""
-    return swing.v1 + swing.width * (sh * sh), swing.m2 + swing.width * (ch * ch)
+def v_and_m(cos_half: Number, sin_half: Number, swing: Swing) -> tuple[Number, Number]:
+    """v = 1 - c and m = 1 + c where cos(kappa/2), sin(kappa/2) are cos_half, sin_half; (n,) each, or numbers."""
+    return swing.v1 + swing.width * (sin_half * sin_half), swing.m2 + swing.width * (cos_half * cos_half)
 
 
 @compiled
@@ -78,14 +78,14 @@ def tilt_halves(
 ) -> tuple[Array, Array]:
     """What sin(theta/2) and cos(theta/2) are as, (n,): arguments as in clock(), and kappa - tau's series (1, K)."""
     n = len(passed)
-    sin_half, cos_half = np.empty(n), np.empty(n)
+    sqrt_v, sqrt_m = np.empty(n), np.empty(n)
     for first in range(0, n, BLOCK):
         _, halves, rests = clock(passed[first : first + BLOCK], period, half, rest)
         series = sums(halves, rests, kappa, kappa[:0])
         for j in range(len(rests)):
-            v, m = versines(*half_angle(halves[j], rests[j], series[0, j]), swing)
-            sin_half[first + j], cos_half[first + j] = np.sqrt(v), np.sqrt(m)
-    return sin_half, cos_half
+            v, m = v_and_m(*half_angle(halves[j], rests[j], series[0, j]), swing)
+            sqrt_v[first + j], sqrt_m[first + j] = np.sqrt(v), np.sqrt(m)
+    return sqrt_v, sqrt_m
 
 
 @compiled
@@ -101,9 +101,9 @@ def nearer_pole(v: float, m: float, swing: Swing) -> tuple[float, float, float]:
 
 
 @compiled
-def pole_factor(ch: float, sh: float, x1: float, x2: float, offset: float) -> complex:
+def pole_factor(cos_half: float, sin_half: float, x1: float, x2: float, offset: float) -> complex:
     """x1^1/2 cos(kappa/2) +- i x2^1/2 sin(kappa/2), of x = v at theta = 0, of x = m at pi; the sign is the offset's."""
-    return complex(np.sqrt(x1) * ch, np.copysign(np.sqrt(x2), offset) * sh)
+    return complex(np.sqrt(x1) * cos_half, np.copysign(np.sqrt(x2), offset) * sin_half)
 
 
 @compiled
@@ -122,7 +122,7 @@ def pose(
     series (3 or more, n): kappa, sigma_- and sigma_+ less their mean rates (mean (2,)) times the phase.
     """
     n = len(rest)
-    cos_half, sin_half, v, m = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    cos_halves, sin_halves, v, m = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
     theta, phi, psi, quaternion = np.empty(n), np.empty(n), np.empty(n), np.empty((n, 4))
     s_exp_phi = np.empty(n, np.complex128)
     turn_minus, turn_plus = cis((d_phi - d_psi) / 2), cis((d_phi + d_psi) / 2)
@@ -135,12 +135,12 @@ def pose(
             whole_plus = 2 * np.pi * part_turn(turns[i], mean[1])
             parity = -1.0 if np.remainder(turns[i], 2.0) == 1 else 1.0
             exp_minus, exp_plus = parity * turn_minus * cis(whole_minus), parity * turn_plus * cis(whole_plus)
-        ch, sh = half_angle(half[i], rest[i], series[0, i])
-        cos_half[i], sin_half[i] = ch, sh
-        v[i], m[i] = versines(ch, sh, swing)
+        cos_half, sin_half = half_angle(half[i], rest[i], series[0, i])
+        cos_halves[i], sin_halves[i] = cos_half, sin_half
+        v[i], m[i] = v_and_m(cos_half, sin_half, swing)
         theta[i] = 2 * np.arctan2(np.sqrt(v[i]), np.sqrt(m[i]))
-        upright = pole_factor(ch, sh, swing.v1, swing.v2, swing.upright)
-        inverted = pole_factor(ch, sh, swing.m1, swing.m2, swing.inverted)
+        upright = pole_factor(cos_half, sin_half, swing.v1, swing.v2, swing.upright)
+        inverted = pole_factor(cos_half, sin_half, swing.m1, swing.m2, swing.inverted)
         tau = np.pi * half[i] + rest[i]
         minus, plus = mean[0] * tau + series[1, i], mean[1] * tau + series[2, i]
         xy, zw = upright * exp_minus * cis(minus), inverted * exp_plus * cis(plus)
@@ -153,11 +153,11 @@ def pose(
         at_inverted = pole_angle(inverted, swing.inverted, np.pi, turns[i])
         phi[i] = plus + minus + at_upright + at_inverted + d_phi
         psi[i] = plus - minus + at_inverted - at_upright + d_psi
-    return Pose(cos_half, sin_half, v, m, theta, phi, psi, s_exp_phi, quaternion)
+    return Pose(cos_halves, sin_halves, v, m, theta, phi, psi, s_exp_phi, quaternion)
 
 
 @compiled
-def theta_dot(ch: float, sh: float, v: float, m: float, dt_dkappa: float, width: float) -> float:
+def theta_dot(cos_half: float, sin_half: float, v: float, m: float, dt_dkappa: float, width: float) -> float:
     """w1; where it turns its sign, at a pole, as just after it."""
     if width == 0:
         return 0.0
@@ -165,7 +165,7 @@ def theta_dot(ch: float, sh: float, v: float, m: float, dt_dkappa: float, width:
         return np.sqrt(width / 2) / dt_dkappa
     if m == 0:
         return -np.sqrt(width / 2) / dt_dkappa
-    return width * sh * ch / (dt_dkappa * np.sqrt(v * m))
+    return width * sin_half * cos_half / (dt_dkappa * np.sqrt(v * m))
 
 
 @compiled

@@ -14,14 +14,13 @@ from numpy.typing import ArrayLike
 from ..compiled import compiled
 from ..errors import TopError
 from ..paper import equations as eq
-from ..paper.constants import EXACT, Constants, Exact, State
-from ..paper.constants import versines as versines_of
+from ..paper.constants import EXACT, Constants, Exact, State, versines
 from ..paper.poles import Floats, bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
 from .nutation import NODES_MOST, Nodes, Nutation
-from .pose import Pose, Swing, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot, versines
+from .pose import Pose, Swing, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot, v_and_m
 from .series import part_turn
 from .trajectory import Trajectory, checked_times
 
@@ -89,22 +88,22 @@ class Rolling(Nutation):
         if self._given:
             return self._given
         at_inner = self._place[0] == 0
-        ch, sh = (np.array([float(x)]) for x in (at_inner, not at_inner))
-        v, m = versines(ch, sh, self.swing)
-        w1, w2, w3 = omega(ch, sh, v, m, self._dt_dkappa(v, m), self._curve, self.swing.width)[0]
+        cos_half, sin_half = (np.array([float(x)]) for x in (at_inner, not at_inner))
+        v, m = v_and_m(cos_half, sin_half, self.swing)
+        w1, w2, w3 = omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.swing.width)[0]
         pole = v[0] * m[0] == 0
         return State(self.turning_points[0 if at_inner else 1], w1 if pole else 0.0, 0.0 if pole else w2, w3)
 
     def _dt_dkappa(self, v: Array, m: Array) -> Array:
         return dt_dkappa(v, m, self._curve, self.e, self.swing)
 
-    def _exact_dt_dkappa(self, ch: Array, sh: Array) -> Array:
+    def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
         curve, inner, outer = self._exact
         with localcontext(EXACT):
             c = [inner - (inner - outer) * Decimal(down) if down < up else outer + (inner - outer) * Decimal(up)
-                 for up, down in zip((ch**2).tolist(), (sh**2).tolist(), strict=True)]  # fmt: skip
-            Q = [curve.D(x)[0] / ((inner - x) * (x - outer) * eq.f1_2(x, curve.top)) for x in c]
-            return np.array([float(1 / x.sqrt()) for x in Q])
+                 for up, down in zip((cos_half**2).tolist(), (sin_half**2).tolist(), strict=True)]  # fmt: skip
+            inverse_Q = [(inner - x) * (x - outer) * eq.f1_2(x, curve.top) / curve.D(x)[0] for x in c]
+            return np.array([float(x.sqrt()) for x in inverse_Q])
 
     def _too_near(self) -> TopError:
         if self._given:
@@ -120,8 +119,8 @@ class Rolling(Nutation):
         return sigma_rates(v, m, dt_dkappa, self._curve, self.swing)
 
     def _omega(self, place: Nodes | Pose) -> Array:
-        ch, sh, v, m, *_ = place
-        return omega(ch, sh, v, m, self._dt_dkappa(v, m), self._curve, self.swing.width)
+        cos_half, sin_half, v, m, *_ = place
+        return omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.swing.width)
 
     def _contact_velocity(self, nodes: Nodes) -> Complex:
         return contact_velocity(*nodes[:5], self._curve, self.swing)
@@ -214,14 +213,14 @@ def bracket(v: float, m: float, curve: Floats) -> tuple[float, float]:
 
 
 @compiled
-def omega(ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, width: float) -> Array:
+def omega(cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, width: float) -> Array:
     """(n, 3): omega about 1', 2', 3."""
     w = np.empty((len(v), 3))
     for i in range(len(v)):
         B, w[i, 2] = bracket(v[i], m[i], curve)
         s = np.sqrt(v[i] * m[i])
         w[i, 1] = B / s if s > 0 else 0.0
-        w[i, 0] = theta_dot(ch[i], sh[i], v[i], m[i], dt_dkappa[i], width)
+        w[i, 0] = theta_dot(cos_half[i], sin_half[i], v[i], m[i], dt_dkappa[i], width)
     return w
 
 
@@ -244,15 +243,15 @@ def sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, swing: Swin
 
 @compiled
 def contact_velocity(
-    ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, swing: Swing
+    cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, swing: Swing
 ) -> Complex:
     """(n,): the contact point's velocity, (w2 c - w3 s, -w1) in the turning axes, over exp i(sigma_- + sigma_+)."""
     velocity = np.empty(len(v), np.complex128)
-    w = omega(ch, sh, v, m, dt_dkappa, curve, swing.width)
+    w = omega(cos_half, sin_half, v, m, dt_dkappa, curve, swing.width)
     for i in range(len(v)):
         s = np.sqrt(v[i] * m[i])
-        upright = pole_factor(ch[i], sh[i], swing.v1, swing.v2, swing.upright)
-        inverted = pole_factor(ch[i], sh[i], swing.m1, swing.m2, swing.inverted)
+        upright = pole_factor(cos_half[i], sin_half[i], swing.v1, swing.v2, swing.upright)
+        inverted = pole_factor(cos_half[i], sin_half[i], swing.m1, swing.m2, swing.inverted)
         direction = upright * inverted / s if s > 0 else 1.0 + 0.0j
         velocity[i] = direction * complex(w[i, 1] * (1 - v[i]) - w[i, 2] * s, -w[i, 0])
     return velocity
@@ -314,7 +313,7 @@ def _from_constants(top: Top, constants: Constants | None, start: str, well: int
 
 def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[ExactCurve, Well, Decimal]:
     exact = Exact.of_state(state, top)
-    v, m = (float(x) for x in versines_of(state.theta))
+    v, m = (float(x) for x in versines(state.theta))
     here = 1 - Decimal(v) if v <= m else Decimal(m) - 1
     rolling = {"vx": state.omega2 * (float(here) - top.a) - state.omega3 * np.sin(state.theta),
                "vy": -state.theta_dot * (1 - top.a * float(here))}  # fmt: skip

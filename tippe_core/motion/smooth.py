@@ -25,13 +25,12 @@ from scipy.optimize import brentq
 
 from ..compiled import compiled
 from ..errors import TopError
-from ..paper.constants import EXACT, State, exact_top
-from ..paper.constants import versines as versines_of
+from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import solve
 from ..types import Array
 from .nutation import Nodes, Nutation
-from .pose import Pose, Swing, half_sigma_rate, nearer_pole, theta_dot, versines
+from .pose import Pose, Swing, half_sigma_rate, nearer_pole, theta_dot, v_and_m
 from .trajectory import Trajectory, checked_times
 
 
@@ -64,7 +63,7 @@ class Gliding(Nutation):
         if not isinstance(state, State):
             raise TopError("state", state, "a State")
         self.top, self.start, self._inward = top, state, state.theta_dot < 0
-        v, m = (float(x) for x in versines_of(state.theta))
+        v, m = (float(x) for x in versines(state.theta))
         with localcontext(EXACT):
             t, w1, w2, w3 = exact_top(top), *(Decimal(w) for w in (state.theta_dot, state.omega2, state.omega3))
             v = Decimal(v) if v <= m else 2 - Decimal(m)
@@ -83,8 +82,8 @@ class Gliding(Nutation):
     def _dt_dkappa(self, v: Array, m: Array) -> Array:
         return dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.swing)
 
-    def _exact_dt_dkappa(self, ch: Array, sh: Array) -> Array:
-        return self._dt_dkappa(*versines(ch, sh, self.swing))  # Q has nothing to cancel
+    def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
+        return self._dt_dkappa(*v_and_m(cos_half, sin_half, self.swing))  # Q has nothing to cancel
 
     def _too_near(self) -> TopError:
         return TopError("theta", self.start.theta, "a start further from an unstable steady precession",
@@ -94,8 +93,8 @@ class Gliding(Nutation):
         return sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.swing)
 
     def _omega(self, place: Nodes | Pose) -> Array:
-        ch, sh, v, m, *_ = place
-        return omega(ch, sh, v, m, self._dt_dkappa(v, m), self._B_slope, self.start.omega3, self.swing)
+        cos_half, sin_half, v, m, *_ = place
+        return omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._B_slope, self.start.omega3, self.swing)
 
     @cached_property
     def lift_off(self) -> float:
@@ -143,12 +142,14 @@ def dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, swing: Swing)
 
 
 @compiled
-def omega(ch: Array, sh: Array, v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, swing: Swing) -> Array:
+def omega(
+    cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, swing: Swing
+) -> Array:
     """(n, 3): omega about 1', 2', 3. B = d + v I3 w3/I1 = d - m I3 w3/I1, with the d of either pole."""
     w = np.empty((len(v), 3))
     for i in range(len(v)):
         side, x, d = nearer_pole(v[i], m[i], swing)
-        w[i, 0] = theta_dot(ch[i], sh[i], v[i], m[i], dt_dkappa[i], swing.width)
+        w[i, 0] = theta_dot(cos_half[i], sin_half[i], v[i], m[i], dt_dkappa[i], swing.width)
         w[i, 1] = (0.0 if d == 0 else d / np.sqrt(v[i] * m[i])) + np.sqrt(x / (2 - x)) * side * B_slope
         w[i, 2] = w3
     return w
