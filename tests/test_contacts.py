@@ -28,12 +28,27 @@ from tippe_core import (
     Viscous,
     slide,
 )
-from tippe_core.motion.contacts import gap, impact
+from tippe_core.motion.impact import impact as four
+from tippe_core.motion.records import LAW, new
 
 STEM = TruncatedSphere.paper()
 EDGE = STEM.edge
 TOUCH = STEM.touch_angle
 VISCOUS = Viscous(0.3)
+
+
+def gap(edge, c, s):
+    radius, height, rounding = edge
+    return 1 + height * c - radius * s - rounding
+
+
+def impact(W, u0, friction):
+    """The impulse alone, of a body that does not spin about the vertical."""
+    law = new(LAW)
+    law.kind, law.mu, law.mu_s, law.width = friction.law
+    whole = np.zeros((4, 4))
+    whole[:3, :3], whole[3, 3] = W, 1.0
+    return four(whole, np.append(u0, 0.0), law)[:3]
 
 
 def law(friction):

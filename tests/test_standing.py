@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 from tippe_core import Top
 from tippe_core.motion.standing import FLAT, crossed, energy_above_rest, lies, tipping_energy
 
-TOP = Top(0.07, 0.399, 0.408)
-HEAVY = Top(-0.9, 1.5, 1.0)  # G is so near to the stem's end that it comes to the ball before G is over the rim
+TOP = Top(0.07, 0.399, 0.408).numbers
+HEAVY = Top(-0.9, 1.5, 1.0).numbers  # G is so near to the stem's end that it comes to the ball before G is over the rim
 RNG = np.random.default_rng(24)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import (
     Constants,
+    Contensou,
     Coulomb,
     SmoothedCoulomb,
     State,
@@ -41,7 +42,7 @@ THETA = np.linspace(0.5, 2.5, 4)
 TIMES = np.linspace(0.0, 1.0, 4)
 START = State(theta=0.1, theta_dot=0.0, omega2=0.0, omega3=9.0)
 K_J = np.linspace(0.0, 8.0, 4)
-LAWS = (Coulomb(0.3, 0.35), SmoothedCoulomb(0.3, 0.1), Viscous(0.3))
+LAWS = (Coulomb(0.3, 0.35), SmoothedCoulomb(0.3, 0.1), Viscous(0.3), Contensou(0.3, 0.01))
 
 
 def curve() -> None:

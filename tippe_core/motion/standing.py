@@ -16,69 +16,74 @@ little to take it beyond FLAT again: then it lies on all of its rim, whatever it
 start flat on the end with nothing but a spin stands, though from a lean of 1e-4 rad the same spin rocks it.
 """
 
-from collections.abc import Sequence
-from math import acos, atan2, cos, hypot, sin, sqrt
+import numpy as np
 
-from ..paper.top import Top
-from ..types import Array, Rim, Vector
+from ..compiled import compiled
+from ..types import Array, Number, Rim, Vector
+from .dynamics import kinetic
 
 STANDS, FLAT = 1e-3, 1e-6  # rad: what counts as upright; what counts as flat
 ROUNDING = 1e-13  # what is left of nothing by sin(pi)
 
 
-def tipping_energy(top: Top, edge: Rim) -> float:
+@compiled
+def tipping_energy(top: Number, edge: Rim) -> float:
     """What G must rise from flat on the stem's end for the top to tip over its rim, or onto its ball."""
     b, h, q = edge
     H = top.a + h
-    onto_ball = atan2(b, h) + acos(min(1.0, (1 - q) / hypot(b, h)))  # h cos(alpha) + b sin(alpha) = 1 - q
-    alpha = min(atan2(b, H), onto_ball)
-    return H * (cos(alpha) - 1) + b * sin(alpha)
+    onto_ball = np.arctan2(b, h) + np.arccos(min(1.0, (1 - q) / np.hypot(b, h)))  # h cos(alpha) + b sin(alpha) = 1 - q
+    alpha = min(np.arctan2(b, H), onto_ball)
+    return H * (np.cos(alpha) - 1) + b * np.sin(alpha)
 
 
-def energy_above_rest(top: Top, edge: Rim, y: Sequence[float] | Array, L3: float) -> float:
-    """The energy at y (16) above that of rest, flat on the stem's end."""
-    L_squared, v_squared = y[5] * y[5] + y[6] * y[6] + y[7] * y[7], y[8] * y[8] + y[9] * y[9] + y[14] * y[14]
-    kinetic = (L_squared / top.I1 + (1 / top.I3 - 1 / top.I1) * L3 * L3 + v_squared) / 2
-    return kinetic + y[15] - (top.a + edge[1] + edge[2])
+@compiled
+def energy_above_rest(top: Number, edge: Rim, y: Array, L3: float) -> float:
+    """The energy at y above that of rest, flat on the stem's end."""
+    return kinetic(y, L3, top) + y[15] - (top.a + edge[1] + edge[2])
 
 
+@compiled
 def leaning(e: Vector, w: Vector) -> tuple[float, float]:
     """sin(theta) and its rate."""
-    (ex, ey, ez), (wx, wy, wz) = e, w
-    s = sqrt(ex * ex + ey * ey)
-    return s, (ex * (wy * ez - wz * ey) + ey * (wz * ex - wx * ez)) / s
+    s = np.sqrt(e[0] * e[0] + e[1] * e[1])
+    rate = e[0] * (w[1] * e[2] - w[2] * e[1]) + e[1] * (w[2] * e[0] - w[0] * e[2])
+    return s, (rate / s if s > 0.0 else 0.0)
 
 
-def lies(top: Top, edge: Rim, e: Vector, w: Vector) -> bool:
+@compiled
+def lies(top: Number, edge: Rim, e: Vector, w: Vector) -> bool:
     """Whether e' takes it no further than FLAT from flat: 1/2 (I1 + H^2 + b^2) e'^2 < b FLAT, on a rim that holds."""
     b, h, _ = edge
-    (ex, ey, ez), (wx, wy, wz) = e, w
-    square = (wy * ez - wz * ey) ** 2 + (wz * ex - wx * ez) ** 2
+    square = (w[1] * e[2] - w[2] * e[1]) ** 2 + (w[2] * e[0] - w[0] * e[2]) ** 2
     return (top.I1 + (top.a + h) ** 2 + b * b) * square < 2 * b * FLAT
 
 
+@compiled
 def crossed(y: Array, e: Vector) -> Array:
-    """y (16) leaning as much to the other side, G as high."""
-    return _turned(y, -e[1], e[0], -e[2])  # by 2 alpha about z cross e
+    """y leaning as much to the other side, G as high."""
+    return turned(y, -e[1], e[0], -e[2])  # by 2 alpha about z cross e
 
 
+@compiled
 def leaned(y: Array, e: Vector, w: Vector) -> Array:
-    """y (16) of a start flat on the end, leaning to where it turns, or else slides; of any other as it is."""
-    (wx, wy, _), tiny = w, FLAT / 1000
-    s, rate = leaning(e, w)
+    """y of a start flat on the end, leaning to where it turns, or else slides; of any other as it is."""
+    tiny, (s, rate) = FLAT / 1000, leaning(e, w)
     if e[2] > 0 or s > FLAT or (rate >= 0 and s > tiny):
         return y
     if s > tiny:
         return crossed(y, e)
-    if hypot(wx, wy) <= ROUNDING * hypot(*w):
-        wx, wy = (-y[9], y[8]) if hypot(y[8], y[9]) > ROUNDING else (1.0, 0.0)
-    moves = hypot(wx, wy)
-    return _turned(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0)
+    wx, wy = w[0], w[1]
+    if np.hypot(wx, wy) <= ROUNDING * np.sqrt(wx * wx + wy * wy + w[2] * w[2]):
+        wx, wy = (-y[9], y[8]) if np.hypot(y[8], y[9]) > ROUNDING else (1.0, 0.0)
+    moves = np.hypot(wx, wy)
+    return turned(y, tiny / 2 * wx / moves, tiny / 2 * wy / moves, 1.0)
 
 
-def _turned(y: Array, i: float, j: float, w: float) -> Array:
+@compiled
+def turned(y: Array, i: float, j: float, w: float) -> Array:
     """y turned by the quaternion (i, j, 0, w)."""
-    px, py, pz, pw = y[:4]
+    px, py, pz, pw = y[0], y[1], y[2], y[3]
     y = y.copy()
-    y[:4] = w * px + i * pw + j * pz, w * py - i * pz + j * pw, w * pz + i * py - j * px, w * pw - i * px - j * py
+    y[0], y[1] = w * px + i * pw + j * pz, w * py - i * pz + j * pw
+    y[2], y[3] = w * pz + i * py - j * px, w * pw - i * px - j * py
     return y

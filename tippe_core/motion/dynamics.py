@@ -1,0 +1,303 @@
+"""Newton and Euler for a top on a table: in the air, on its ball, on the edge of its stem's end, or on both.
+
+In space axes, e along axis 3, L about G, v of G, contacts at rho_i from G, k = 1/I3 - 1/I1:
+
+    v' = sum F_i - z ,   L' = sum (rho_i x F_i + M_i) - drag w ,   e' = w x e ,
+    w = L/I1 + k (L . e) e ,   w' = L'/I1 + k [(L' . e) e + (L . e) e'] ,
+    u_i = v + w x rho_i ,   u_i' = v' + w' x rho_i + w x rho_i' ,
+
+    ball     rho = a e - z ,
+    stem     rho = (a + h) e - b n - q z ,   n = (z - e_z e)/s ,
+
+the stem's edge being a circle of radius b about axis 3 at the height h above O, rounded by a ball of radius q. A contact
+that slips pushes with F = N (z - k(u) u) and the moment of pivoting M = -N t(u, w_z) z, the law of friction; one that
+sticks with any F, and where its law has a moment of pivoting with any M along z. Rolling resistance adds
+M = -N delta w_h/|w_h|. There are as many unknowns as conditions: u_z' = 0, and where it sticks u' = 0 (and w_z' = 0).
+Two contacts that stick leave the friction along the line between them open: the least will do.
+
+No Euler angle: the orientation is that of a frame that has e as third axis and does not turn about it (quaternion p),
+and the angle chi by which the body has turned in it, chi' = w_3. Both are smooth through theta = 0 and pi. So a state is
+
+    y = (p_x, p_y, p_z, p_w, chi, L_x, L_y, L_z, v_x, v_y, x, y, t, heat, v_z, z) .
+
+v_z and z follow from the rest where a contact carries, v_x and v_y where the first that carries sticks.
+
+Coulomb's friction has no direction at u = 0. So log|u| and the direction beta of the slowest contact's u take the place
+of v_x and v_y, and the motion is followed in tau, where dt = dtau |u|/(|u| + SLOW): on the way to sticking and out of it
+|u| falls or grows exponentially in tau and beta is smooth. That is a change of variables, not of the law.
+"""
+
+from typing import TypeAlias
+
+import numpy as np
+
+from ..compiled import compiled
+from ..types import Array, Vector
+from .friction import CONTENSOU, COULOMB, push
+from .records import Record
+
+OPEN, SLIP, STICK = range(3)  # modes of a contact
+BALL, STEM = range(2)  # the contacts
+NO_ONE = -1  # the slowest contact, where none slips by Coulomb's law
+SLOW = 0.01  # ((gR)^1/2)
+STEADY = 10.0  # ((g/R)^1/2): rate at which what the tolerance does to closed contacts is undone
+ROLLS = 1e-3  # ((g/R)^1/2): w_h below which rolling resistance falls to nothing
+POLE = 1e-12  # sin(theta) below which the stem's lowest point is anywhere on its rim
+LOG_FAST = 100.0  # a trial step with log|u| above that is too long anyway, and its exponential may overflow
+
+Turning: TypeAlias = tuple[Vector, Vector, float]  # e, w, L . e
+
+
+@compiled
+def cross(x: Vector, y: Vector) -> Vector:
+    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
+
+
+@compiled
+def row(rows: Array, i: int) -> Vector:
+    return rows[i, 0], rows[i, 1], rows[i, 2]
+
+
+@compiled
+def turning(y: Array, P: Record) -> Turning:
+    """e, w = L/I1 + k (L . e) e, and L . e."""
+    px, py, pz, pw, L = y[0], y[1], y[2], y[3], (y[5], y[6], y[7])
+    e = 2 * (px * pz + pw * py), 2 * (py * pz - pw * px), 1 - 2 * (px * px + py * py)
+    L3 = L[0] * e[0] + L[1] * e[1] + L[2] * e[2]
+    along = (1 / P.I3 - 1 / P.I1) * L3
+    return e, (L[0] / P.I1 + along * e[0], L[1] / P.I1 + along * e[1], L[2] / P.I1 + along * e[2]), L3
+
+
+@compiled
+def place(e: Vector, w: Vector, P: Record, C: Record) -> None:
+    """rho and rho' of each contact."""
+    e_dot = cross(w, e)
+    for i in range(1 + P.stem):
+        along, turns, down = P.a, 0.0, P.a * e[2] - 1.0
+        if i == STEM:
+            along, down = P.a + P.h, (P.a + P.h) * e[2] - P.q
+            if P.b > 0.0:  # rho = (a + h + b e_z/s) e - (b/s + q) z
+                s = max(np.sqrt(e[0] * e[0] + e[1] * e[1]), POLE)
+                along, turns, down = along + P.b * e[2] / s, P.b * e_dot[2] / (s * s * s), down - P.b * s
+        C.rho[i, 0], C.rho[i, 1], C.rho[i, 2] = along * e[0], along * e[1], down
+        C.rho_dot[i, 0], C.rho_dot[i, 1] = along * e_dot[0] + turns * e[0], along * e_dot[1] + turns * e[1]
+        C.rho_dot[i, 2] = along * e_dot[2]
+
+
+@compiled
+def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) -> Turning:
+    """Into C where the contacts are and how they slip, and v and z of G, with those that carry on the table."""
+    e, w, L3 = turning(y, P)
+    place(e, w, P, C)
+    G = C.G
+    G[0], G[1], G[2], G[3] = y[8], y[9], y[14], y[15]
+    ux, uy = 0.0, 0.0
+    if slowest != NO_ONE:
+        speed, carried = np.exp(min(y[8], LOG_FAST)), cross(w, row(C.rho, slowest))
+        ux, uy = speed * np.cos(y[9]), speed * np.sin(y[9])
+        G[0], G[1] = ux - carried[0], uy - carried[1]
+    if ball != OPEN or stem != OPEN:
+        first, mode = (BALL, ball) if ball != OPEN else (STEM, stem)
+        carried = cross(w, row(C.rho, first))
+        G[2], G[3] = -carried[2], -C.rho[first, 2]
+        if mode == STICK and slowest == NO_ONE:
+            G[0], G[1] = -carried[0], -carried[1]
+    for i in range(1 + P.stem):
+        carried = cross(w, row(C.rho, i))
+        C.u[i, 0], C.u[i, 1], C.u[i, 2] = G[0] + carried[0], G[1] + carried[1], G[2] + carried[2]
+        C.height[i] = G[3] + C.rho[i, 2]
+    if slowest != NO_ONE:  # with all its digits
+        C.u[slowest, 0], C.u[slowest, 1] = ux, uy
+    return e, w, L3
+
+
+@compiled
+def angular(torque: Vector, e: Vector, P: Record) -> Vector:
+    """L'/I1 + k (L' . e) e: w' by a torque."""
+    along = (1 / P.I3 - 1 / P.I1) * (torque[0] * e[0] + torque[1] * e[1] + torque[2] * e[2])
+    return torque[0] / P.I1 + along * e[0], torque[1] / P.I1 + along * e[1], torque[2] / P.I1 + along * e[2]
+
+
+@compiled
+def column(C: Record, n: int, i: int, part: int, F: Vector, M: Vector) -> int:
+    """One more unknown, the size of the force F and the moment M beside rho x F at contact i; the next one's place.
+
+    part: of u_i' (2: u_z'), or 3: w_z', what the unknown is to make 0.
+    """
+    C.owner[n], C.part[n] = i, part
+    torque = cross(row(C.rho, i), F)
+    for axis in range(3):
+        C.columns[n, axis], C.columns[n, 3 + axis] = F[axis], torque[axis] + M[axis]
+    return n + 1
+
+
+@compiled
+def component(C: Record, F: Vector, w_dot: Vector, i: int, part: int) -> float:
+    """Of v' + w' x rho_i, or (3) w_z'."""
+    if part == 3:
+        return w_dot[2]
+    return F[part] + cross(w_dot, row(C.rho, i))[part]
+
+
+@compiled
+def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
+    """Their columns, and how many they are."""
+    n, w_h = 0, np.sqrt(w[0] * w[0] + w[1] * w[1] + ROLLS * ROLLS)
+    rolls = -P.delta * w[0] / w_h, -P.delta * w[1] / w_h
+    for i in range(1 + P.stem):
+        mode = ball if i == BALL else stem
+        if mode == SLIP:
+            ux, uy = C.u[i, 0], C.u[i, 1]
+            k, t = push(P.law, ux * ux + uy * uy, w[2])
+            n = column(C, n, i, 2, (-k * ux, -k * uy, 1.0), (rolls[0], rolls[1], -t))
+        elif mode == STICK:
+            n = column(C, n, i, 2, (0.0, 0.0, 1.0), (rolls[0], rolls[1], 0.0))
+            n = column(C, n, i, 0, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+            n = column(C, n, i, 1, (0.0, 1.0, 0.0), (0.0, 0.0, 0.0))
+            if P.law.kind == CONTENSOU and (ball == OPEN or stem == OPEN):
+                n = column(C, n, i, 3, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    return n
+
+
+@compiled
+def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
+    """Into C the forces and moments of the contacts and the accelerations, after arrange().
+
+    Returns the least principal minor of u_z' by the N of the contacts that slip, not above 0 beyond Painleve's limit.
+    """
+    e, w, L3 = turn
+    e_dot, k = cross(w, e), 1 / P.I3 - 1 / P.I1
+    drag = -P.drag * w[0], -P.drag * w[1], -P.drag * w[2]
+    free = angular(drag, e, P)
+    free = free[0] + k * L3 * e_dot[0], free[1] + k * L3 * e_dot[1], free[2] + k * L3 * e_dot[2]
+    n, minor = unknowns(w, ball, stem, P, C), 1.0
+    for i in range(1 + P.stem):
+        turns, swings = cross(w, row(C.rho_dot, i)), cross(free, row(C.rho, i))
+        for axis in range(3):
+            C.free[i, axis] = turns[axis] + swings[axis] - (1.0 if axis == 2 else 0.0)
+            C.F[i, axis] = C.M[i, axis] = 0.0
+    for j in range(n):
+        F, w_dot = row(C.columns, j), angular((C.columns[j, 3], C.columns[j, 4], C.columns[j, 5]), e, P)
+        for r in range(n):
+            C.matrix[r, j] = component(C, F, w_dot, C.owner[r], C.part[r])
+        i, part = C.owner[j], C.part[j]
+        if part == 2 and (ball if i == BALL else stem) == SLIP:
+            minor = min(minor, C.matrix[j, j])
+        C.right[j] = -(free[2] + STEADY * w[2]) if part == 3 else -C.free[i, part] - 2 * STEADY * C.u[i, part]
+        if part == 2:
+            C.right[j] -= STEADY * STEADY * C.height[i]
+    both = ball != OPEN and stem != OPEN
+    if both and ball == STICK and stem == STICK:
+        least_along_the_line(C)
+        solve(C.matrix, C.right, n)
+    else:
+        determinant = solve(C.matrix, C.right, n)
+        minor = min(minor, determinant) if both else minor
+    for axis in range(3):
+        C.v_dot[axis], C.L_dot[axis] = (-1.0 if axis == 2 else 0.0), drag[axis]
+    for j in range(n):
+        i, size, at = C.owner[j], C.right[j], cross(row(C.rho, C.owner[j]), row(C.columns, j))
+        for axis in range(3):
+            C.F[i, axis] += size * C.columns[j, axis]
+            C.M[i, axis] += size * (C.columns[j, 3 + axis] - at[axis])
+            C.v_dot[axis] += size * C.columns[j, axis]
+            C.L_dot[axis] += size * C.columns[j, 3 + axis]
+    w_dot = angular((C.L_dot[0], C.L_dot[1], C.L_dot[2]), e, P)
+    for axis in range(3):
+        C.w_dot[axis] = w_dot[axis] + k * L3 * e_dot[axis]
+    return minor
+
+
+@compiled
+def least_along_the_line(C: Record) -> None:
+    """Both contacts stick: forces d and -d along the line between them change nothing. M + n n^T for n = (d, -d) makes
+    the equations regular, and their solution the one without such a part."""
+    dx, dy = C.rho[STEM, 0] - C.rho[BALL, 0], C.rho[STEM, 1] - C.rho[BALL, 1]
+    far = np.sqrt(dx * dx + dy * dy)
+    along = (0.0, dx / far, dy / far, 0.0, -dx / far, -dy / far)
+    for r in range(6):
+        for j in range(6):
+            C.matrix[r, j] += along[r] * along[j]
+
+
+@compiled
+def solve(matrix: Array, right: Array, n: int) -> float:
+    """matrix x = right for the first n, x into right, by elimination; returns the determinant."""
+    determinant = 1.0
+    for j in range(n):
+        best = j
+        for r in range(j + 1, n):
+            if abs(matrix[r, j]) > abs(matrix[best, j]):
+                best = r
+        if best != j:
+            determinant = -determinant
+            right[j], right[best] = right[best], right[j]
+            for c in range(j, n):
+                matrix[j, c], matrix[best, c] = matrix[best, c], matrix[j, c]
+        pivot = matrix[j, j]
+        determinant *= pivot
+        for r in range(j + 1, n):
+            share = matrix[r, j] / pivot
+            right[r] -= share * right[j]
+            for c in range(j + 1, n):
+                matrix[r, c] -= share * matrix[j, c]
+    for j in range(n - 1, -1, -1):
+        for c in range(j + 1, n):
+            right[j] -= matrix[j, c] * right[c]
+        right[j] /= matrix[j, j]
+    return determinant
+
+
+@compiled
+def slip_rate(w: Vector, i: int, part: int, C: Record) -> float:
+    """u_i' = v' + w' x rho_i + w x rho_i', after forces()."""
+    w_dot = C.w_dot[0], C.w_dot[1], C.w_dot[2]
+    return C.v_dot[part] + cross(w_dot, row(C.rho, i))[part] + cross(w, row(C.rho_dot, i))[part]
+
+
+@compiled
+def clock(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
+    """dt/dtau: the product of |u|/(|u| + SLOW) of the contacts that may come to stick; |u|^2 + (radius w_z)^2 in place
+    of |u|^2 where the patch also spins."""
+    g = 1.0
+    if P.law.kind == COULOMB or P.law.kind == CONTENSOU:
+        spin = P.law.width * w_z
+        for i in range(1 + P.stem):
+            if (ball if i == BALL else stem) == SLIP:
+                speed = np.sqrt(C.u[i, 0] ** 2 + C.u[i, 1] ** 2 + spin * spin)
+                g *= speed / (speed + SLOW)
+    return g
+
+
+@compiled
+def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, out: Array) -> float:
+    """dy/dtau into out; returns what forces() does."""
+    e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
+    minor = forces(turn, ball, stem, P, C)
+    px, py, pz, pw, w3 = y[0], y[1], y[2], y[3], L3 / P.I3
+    ox, oy, oz = (w[0] - w3 * e[0]) / 2, (w[1] - w3 * e[1]) / 2, (w[2] - w3 * e[2]) / 2  # half the frame's rate
+    out[0], out[1] = ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz
+    out[2], out[3] = oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz
+    heat = P.drag * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+    for i in range(1 + P.stem):
+        for axis in range(3):
+            heat -= C.F[i, axis] * C.u[i, axis] + C.M[i, axis] * w[axis]
+    out[4], out[5], out[6], out[7] = w3, C.L_dot[0], C.L_dot[1], C.L_dot[2]
+    out[8], out[9], out[10], out[11] = C.v_dot[0], C.v_dot[1], C.G[0], C.G[1]
+    out[12], out[13], out[14], out[15] = 1.0, heat, C.v_dot[2], C.G[2]
+    g = clock(ball, stem, w[2], P, C)
+    if g != 1.0:
+        for j in range(16):
+            out[j] *= g
+    if slowest != NO_ONE:  # log|u|' = |u|'/|u|, and beta' = u' across u over |u|
+        speed, along, across = np.exp(min(y[8], LOG_FAST)), np.cos(y[9]), np.sin(y[9])
+        x_dot, y_dot = slip_rate(w, slowest, 0, C), slip_rate(w, slowest, 1, C)
+        out[8], out[9] = (x_dot * along + y_dot * across) * g / speed, (y_dot * along - x_dot * across) * g / speed
+    return minor
+
+
+@compiled
+def kinetic(y: Array, L3: float, P: Record) -> float:
+    """L^2/(2 I1) + k (L . e)^2/2 + v^2/2"""
+    L_squared, v_squared = y[5] * y[5] + y[6] * y[6] + y[7] * y[7], y[8] * y[8] + y[9] * y[9] + y[14] * y[14]
+    return (L_squared / P.I1 + (1 / P.I3 - 1 / P.I1) * L3 * L3 + v_squared) / 2

@@ -1,0 +1,149 @@
+"""What an impact does: a contact that closes at some speed, without a bounce.
+
+Friction is in proportion to N, so while N is as good as infinite for an instant, the same law with the normal impulse P
+in place of time says what happens (Routh; Keller, J. Appl. Mech. 53, 1, 1986):
+
+    d(impulse)/dP = z - k(u) u ,   d(moment)/dP = -t(u, w_z)   until u_z = 0 (plastic) ,
+
+and where the law holds a contact at rest, it may stop the slip on the way. Rolling resistance and the air take no part.
+"""
+
+from typing import TypeAlias
+
+import numpy as np
+
+from ..compiled import compiled
+from ..types import Array
+from .dynamics import SLOW, solve
+from .friction import CONTENSOU, COULOMB, bounds, push
+from .records import Record
+from .stepper import STAGES, A, B, error, factor, stage
+
+STOPPED = 1e-9  # of the speed of the impact: a slip below that has come to rest
+DIGITS = 1e-12  # to which each step is kept, of the same
+MOST_STEPS = 10_000
+Slip: TypeAlias = tuple[float, float, float, float]  # u, w_z
+
+
+@compiled
+def impact(W: Array, start: Array, law: Record) -> Array:
+    """The impulse and the moment about z, (4,), for (u, w_z) = start + W impulse, W (4, 4), start (4,)."""
+    scale, holds = np.sqrt(start[0] ** 2 + start[1] ** 2 + start[2] ** 2), law.mu_s > 0.0
+    K, J, new, at = np.zeros((STAGES + 1, 4)), np.zeros(4), np.zeros(4), np.zeros(4)
+    allowed, h = np.full(4, DIGITS * scale), 0.01 * scale
+    for _ in range(MOST_STEPS):
+        q = after(W, start, J)
+        if holds and spread(q, law) <= STOPPED * scale:
+            rest = held(W, q, law)
+            most, twists = bounds(law)
+            if np.hypot(rest[0], rest[1]) <= most * rest[2] and (rest[3] == 0.0 or abs(rest[3]) <= twists * rest[2]):
+                return J + rest
+            J, holds = J + away(W, q, rest, scale), False
+        found = attempt(W, start, law, scale, J, h, K, at, new, allowed)
+        if not found < 1.0:
+            h *= factor(found)
+            continue
+        if after(W, start, new)[2] >= 0.0:
+            return closing(W, start, law, scale, J, h, K, at, new, allowed)
+        J[:] = new
+        h *= factor(found)
+    return J
+
+
+@compiled
+def after(W: Array, start: Array, J: Array) -> Slip:
+    """(u, w_z) = start + W J."""
+    return (
+        start[0] + W[0, 0] * J[0] + W[0, 1] * J[1] + W[0, 2] * J[2] + W[0, 3] * J[3],
+        start[1] + W[1, 0] * J[0] + W[1, 1] * J[1] + W[1, 2] * J[2] + W[1, 3] * J[3],
+        start[2] + W[2, 0] * J[0] + W[2, 1] * J[1] + W[2, 2] * J[2] + W[2, 3] * J[3],
+        start[3] + W[3, 0] * J[0] + W[3, 1] * J[1] + W[3, 2] * J[2] + W[3, 3] * J[3],
+    )
+
+
+@compiled
+def spread(q: Slip, law: Record) -> float:
+    """The speed with which the contact slips, that of its patch's spin included."""
+    return np.sqrt(q[0] * q[0] + q[1] * q[1] + (law.width * q[3]) ** 2)
+
+
+@compiled
+def held(W: Array, q: Slip, law: Record) -> Array:
+    """The impulse that brings (u, w_z) = q to rest; w_z only where the law has a moment."""
+    matrix, J = W.copy(), np.array([-q[0], -q[1], -q[2], -q[3]])
+    if law.kind != CONTENSOU:
+        J[3] = 0.0
+    solve(matrix, J, 4 if law.kind == CONTENSOU else 3)
+    return J
+
+
+@compiled
+def away(W: Array, q: Slip, rest: Array, scale: float) -> Array:
+    """The impulse by which it slips on: slowly, against the one that would have held it."""
+    size, matrix, J = np.hypot(rest[0], rest[1]), W.copy(), np.zeros(4)
+    J[0], J[1] = -2 * STOPPED * scale * rest[0] / size - q[0], -2 * STOPPED * scale * rest[1] / size - q[1]
+    solve(matrix, J, 3)
+    return J
+
+
+@compiled
+def attempt(
+    W: Array,
+    start: Array,
+    law: Record,
+    scale: float,
+    J: Array,
+    h: float,
+    K: Array,
+    at: Array,
+    new: Array,
+    allowed: Array,
+) -> float:
+    """J a step later into new; its error over what is allowed."""
+    grow(W, start, law, scale, J, K[0])
+    for s in range(1, STAGES):
+        stage(J, K, A[s], s, h, at)
+        grow(W, start, law, scale, at, K[s])
+    stage(J, K, B, STAGES, h, new)
+    grow(W, start, law, scale, new, K[STAGES])
+    return error(K, allowed, h)
+
+
+@compiled
+def grow(W: Array, start: Array, law: Record, scale: float, J: Array, out: Array) -> None:
+    """d(impulse)/dP into out; where the slip may stop, times |u|/(|u| + SLOW), as in dynamics.py."""
+    q = after(W, start, J)
+    k, t = push(law, q[0] * q[0] + q[1] * q[1], q[3])
+    g = 1.0
+    if law.kind == COULOMB or law.kind == CONTENSOU:
+        speed = spread(q, law)
+        g = speed / (speed + SLOW * scale)
+    out[0], out[1], out[2], out[3] = -k * q[0] * g, -k * q[1] * g, g, -t * g
+
+
+@compiled
+def closing(
+    W: Array,
+    start: Array,
+    law: Record,
+    scale: float,
+    J: Array,
+    h: float,
+    K: Array,
+    at: Array,
+    new: Array,
+    allowed: Array,
+) -> Array:
+    """The impulse where u_z = 0 within the step of length h from J, by steps of other lengths (false position)."""
+    low, high, f_low, f_high, side = 0.0, h, after(W, start, J)[2], after(W, start, new)[2], 0
+    for _ in range(60):
+        x = high - f_high * (high - low) / (f_high - f_low)
+        attempt(W, start, law, scale, J, x, K, at, new, allowed)
+        f = after(W, start, new)[2]
+        if abs(f) < 1e-15 * scale or high - low < 1e-15 * h:
+            break
+        if f > 0.0:
+            high, f_high, f_low, side = x, f, (f_low / 2 if side > 0 else f_low), 1
+        else:
+            low, f_low, f_high, side = x, f, (f_high / 2 if side < 0 else f_high), -1
+    return new

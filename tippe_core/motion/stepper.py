@@ -1,0 +1,110 @@
+"""One step of Dormand and Prince's method of order 8 (Hairer, Norsett and Wanner, Solving Ordinary Differential
+Equations I, II.5 and II.6, DOP853), the polynomial of order 7 through it, and roots within it.
+
+For dz/dtau = rates(z) of dynamics.py; impact.py uses the same table. The coefficients are those that scipy publishes
+with its DOP853.
+"""
+
+import numpy as np
+from scipy.integrate import DOP853
+
+from ..compiled import compiled
+from ..types import Array
+from .dynamics import rates
+from .records import Record
+
+A, B, E3, E5 = (np.ascontiguousarray(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
+A_DENSE, D = np.ascontiguousarray(DOP853.A_EXTRA), np.ascontiguousarray(DOP853.D)
+STAGES = 12
+SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.9, 0.2, 10.0
+
+
+@compiled
+def stage(z: Array, K: Array, weights: Array, count: int, h: float, out: Array) -> None:
+    """z + h sum_j weights_j K_j into out."""
+    n = len(z)
+    for i in range(n):
+        out[i] = 0.0
+    for j in range(count):
+        weight = weights[j]
+        if weight != 0.0:
+            for i in range(n):
+                out[i] += weight * K[j, i]
+    for i in range(n):
+        out[i] = z[i] + h * out[i]
+
+
+@compiled
+def error(K: Array, scale: Array, h: float) -> float:
+    """The estimated error of a step over the scales: |h| e5^2/(e5^2 + e3^2/100)^1/2, their root mean squares."""
+    n, fifth, third = len(scale), 0.0, 0.0
+    for i in range(n):
+        e5 = e3 = 0.0
+        for j in range(STAGES + 1):
+            e5 += E5[j] * K[j, i]
+            e3 += E3[j] * K[j, i]
+        fifth += (e5 / scale[i]) ** 2
+        third += (e3 / scale[i]) ** 2
+    if fifth == 0.0 and third == 0.0:
+        return 0.0
+    return abs(h) * fifth / np.sqrt((fifth + 0.01 * third) * n)
+
+
+@compiled
+def factor(found: float) -> float:
+    """By how much to change h after a step whose error was this share of what is allowed."""
+    if not np.isfinite(found):
+        return LEAST_FACTOR
+    return min(MOST_FACTOR, max(LEAST_FACTOR, SAFETY * max(found, 1e-12) ** -0.125))
+
+
+@compiled
+def densely(S: Record, h: float, slowest: int, ball: int, stem: int, P: Record, C: Record) -> None:
+    """The polynomial of the step from S.z to S.new, whose stages are in S.K."""
+    K, F = S.K, S.polynomial
+    for s in range(3):
+        stage(S.z, K, A_DENSE[s], STAGES + 1 + s, h, S.at)
+        rates(S.at, slowest, ball, stem, P, C, K[STAGES + 1 + s])
+    for i in range(16):
+        moved = S.new[i] - S.z[i]
+        F[0, i], F[1, i], F[2, i] = moved, h * K[0, i] - moved, 2 * moved - h * (K[STAGES, i] + K[0, i])
+        for m in range(4):
+            total = 0.0
+            for j in range(16):
+                total += D[m, j] * K[j, i]
+            F[3 + m, i] = h * total
+
+
+@compiled
+def within(S: Record, x: float, i: int) -> float:
+    """Component i of the polynomial at the share x of the step."""
+    total = 0.0
+    for m in range(6, -1, -1):
+        total = (total + S.polynomial[m, i]) * (x if m % 2 == 0 else 1 - x)
+    return S.z[i] + total
+
+
+@compiled
+def at_share(S: Record, x: float, out: Array) -> None:
+    """The polynomial at the share x of the step into out."""
+    for i in range(16):
+        out[i] = within(S, x, i)
+
+
+@compiled
+def when(S: Record, t: float) -> float:
+    """The share of the step at which its component t is this, by the method of false position (Illinois)."""
+    low, high, f_low, f_high = 0.0, 1.0, S.z[12] - t, S.new[12] - t
+    x, side = 1.0, 0
+    for _ in range(60):
+        if f_high - f_low <= 0.0:
+            break
+        x = high - f_high * (high - low) / (f_high - f_low)
+        f = within(S, x, 12) - t
+        if abs(f) < 1e-14 * (1.0 + abs(t)):
+            break
+        if f > 0.0:
+            high, f_high, f_low, side = x, f, (f_low / 2 if side > 0 else f_low), 1
+        else:
+            low, f_low, f_high, side = x, f, (f_high / 2 if side < 0 else f_high), -1
+    return x
