@@ -21,9 +21,7 @@ _INSTALLED = importlib.util.find_spec("numba") is not None  # which does not imp
 _making = threading.RLock()
 _shared: list[Callable[..., Any]] = []  # of which numba has not been told yet
 _compiler: int | None = None  # the thread that compiles ahead, while there is one
-made: list[
-    str
-] = []  # what this process had to compile, since it was not kept: kernels, and the types of their arguments
+made: list[str] = []  # kernels that this process had to compile, each with the types of its arguments
 _unwritten = ""  # why the last kernel that could not be written could not
 
 
@@ -56,7 +54,9 @@ class Kernel:
     def dispatcher(self) -> Numba:
         """numba's; where it cannot compile, the function itself."""
         with _making:
-            return self.__dict__.get("dispatcher") or _dispatcher(self.py_func)
+            if "dispatcher" not in self.__dict__:  # that another thread has made meanwhile
+                self.__dict__["dispatcher"] = _dispatcher(self.py_func)
+            return self.__dict__["dispatcher"]
 
     @property
     def _numba_type_(self) -> Numba:
