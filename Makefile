@@ -1,4 +1,4 @@
-# One word a task. serve and test do everything by themselves in a fresh clone; the first run takes a minute or two.
+# One word a task. serve and test do everything by themselves in a fresh clone; the first run takes some three minutes.
 PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js)
@@ -8,7 +8,7 @@ BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/p
 serve: kernels
 	$(BIN)/python -m app --address localhost --show
 
-# Compiles what is not kept yet, so that neither a visitor nor a test waits for it; under a second where all is.
+# Compiles what is not kept yet, so that neither a visitor nor a test waits for it; a second where all is.
 kernels: .venv/serve
 	$(BIN)/python -m tippe_core
 

@@ -14,7 +14,7 @@ from tippe_core import kept
 from tippe_core.ahead import compile_all
 from tippe_core.compiled import ahead, why_not
 
-NICE = 10  # how far the compiler stands back behind visitors
+NICE = 5  # how far the compiler stands back behind visitors; until it is done they are answered more slowly
 log = logging.getLogger("tippe")
 
 
