@@ -111,7 +111,7 @@ def length(series: Array) -> int:
 
 
 @compiled
-def of_time(dt_deta: Array, stretch: Array) -> tuple[Array, Array]:
+def of_time(dt_deta: Array, dkappa_deta: Array) -> tuple[Array, Array]:
     """The cosine coefficients of dt/deta (1, n), and the sine coefficients in tau of kappa - tau (1, K).
 
     From dt/deta and dkappa/deta at the midpoints, (1, n) each. n or K is 0 for what they do not resolve.
@@ -120,7 +120,7 @@ def of_time(dt_deta: Array, stretch: Array) -> tuple[Array, Array]:
     c, none = cosine_coefficients(dt_deta), np.zeros((1, 0))
     if not resolved(c):
         return none, none
-    return c, harmonics(integral(c[0]) * (2 / c[0, 0]), 2 / n * stretch, np.zeros_like(stretch), 1)
+    return c, harmonics(integral(c[0]) * (2 / c[0, 0]), 2 / n * dkappa_deta, np.zeros_like(dkappa_deta), 1)
 
 
 # ---- sums ----
