@@ -30,7 +30,7 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Complex
 from .crowding import Crowding, crowded, crowding, eta_halves
-from .phase import Ends, Pose, clock, pose, tilt_halves, v_and_m
+from .phase import Ends, Pose, clock, pose, tilts, v_and_m
 from .series import cosine_coefficients, harmonics, integral, integral_to, of_time, resolved, sums
 from .trajectory import checked_times
 
@@ -245,8 +245,7 @@ class Nutation(ABC):
     def theta(self, times: ArrayLike) -> Array:
         """theta (n,) in rad at the times (n,)."""
         t = checked_times(times)
-        tilt = np.arctan2(*tilt_halves(t - t[0], self.period, *self._start_phase, self._kappa, self.ends))
-        return np.multiply(tilt, 2, out=tilt)
+        return np.arctan2(*tilts(t - t[0], self.period, *self._start_phase, self._kappa, self.ends))
 
     @cached_property
     def _series(self) -> tuple[Array, Array]:

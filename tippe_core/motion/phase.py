@@ -73,19 +73,19 @@ def half_angle(half: float, rest: float, series: float) -> tuple[float, float]:
 
 
 @compiled
-def tilt_halves(
-    passed: Array, period: float, half: float, rest: float, kappa: Array, ends: Ends
-) -> tuple[Array, Array]:
-    """What sin(theta/2) and cos(theta/2) are as, (n,): arguments as in clock(), and kappa - tau's series (1, K)."""
-    n = len(passed)
-    sqrt_v, sqrt_m = np.empty(n), np.empty(n)
-    for first in range(0, n, BLOCK):
+def tilts(passed: Array, period: float, half: float, rest: float, kappa: Array, ends: Ends) -> tuple[Array, Array]:
+    """sin(theta) and cos(theta), (n,): arguments as in clock(), and the series (1, K) of kappa - tau."""
+    s, c = np.empty(len(passed)), np.empty(len(passed))
+    for first in range(0, len(passed), BLOCK):
         _, halves, rests = clock(passed[first : first + BLOCK], period, half, rest)
         series = sums(halves, rests, kappa, kappa[:0])
         for j in range(len(rests)):
-            v, m = v_and_m(*half_angle(halves[j], rests[j], series[0, j]), ends)
-            sqrt_v[first + j], sqrt_m[first + j] = np.sqrt(v), np.sqrt(m)
-    return sqrt_v, sqrt_m
+            # s^2 of kappa/2 at the inner turning point, c^2 at the outer one
+            small = sine((rests[j] + series[0, j]) / 2) ** 2
+            up, down = (small, 1 - small) if halves[j] else (1 - small, small)
+            v, m = ends.v1 + ends.width * down, ends.m2 + ends.width * up
+            s[first + j], c[first + j] = np.sqrt(v * m), (m - v) / 2
+    return s, c
 
 
 @compiled
