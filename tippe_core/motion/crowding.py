@@ -58,9 +58,9 @@ def crowding(Q: Callable[[Array], Array], n: int) -> Crowding | None:
 
 def crowded(n: int, crowd: Crowding | None) -> tuple[Array, Array, Array]:
     """cos(kappa/2), sin(kappa/2) and dkappa/deta at n midpoints of eta, (n,) each; kappa = eta where crowd is None."""
-    cos, sin, stretch = midpoints(n)
+    cos, sin, dkappa_deta = midpoints(n)
     if not crowd:
-        return cos, sin, stretch
+        return cos, sin, dkappa_deta
     _, eps, alpha, x0 = crowd
     up, down = cos**2, sin**2
     x = up - down

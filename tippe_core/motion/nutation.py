@@ -30,7 +30,7 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Complex
 from .crowding import Crowding, crowded, crowding, eta_halves
-from .pose import Pose, Swing, clock, pose, tilt_halves, v_and_m
+from .phase import Ends, Pose, clock, pose, tilts, v_and_m
 from .series import cosine_coefficients, harmonics, integral, integral_to, of_time, resolved, sums
 from .trajectory import checked_times
 
@@ -49,7 +49,7 @@ class Nodes(NamedTuple):
     m: Array
     dt_dkappa: Array
     dt_deta: Array
-    stretch: Array
+    dkappa_deta: Array
 
 
 class Time(NamedTuple):
@@ -77,7 +77,7 @@ class Nutation(ABC):
 
     top: Top
     start: State
-    swing: Swing
+    ends: Ends
     _inward: bool  # whether theta falls at first
     _place: tuple[float, float]  # as sin(kappa/2), cos(kappa/2) at the start
 
@@ -108,7 +108,7 @@ class Nutation(ABC):
     @property
     def turning_points(self) -> Array:
         """theta at the inner and the outer turning point, (2,) in rad."""
-        v1, v2, m1, m2, *_ = self.swing
+        v1, v2, m1, m2, *_ = self.ends
         return 2 * np.arctan2(np.sqrt([v1, v2]), np.sqrt([m1, m2]))
 
     # ---- one nutation, on nodes ----
@@ -116,15 +116,15 @@ class Nutation(ABC):
     @cached_property
     def _plain(self) -> Nodes:
         """The least midpoints of kappa itself."""
-        cos_half, sin_half, stretch = crowded(NODES_LEAST, None)
-        v, m = v_and_m(cos_half, sin_half, self.swing)
+        cos_half, sin_half, dkappa_deta = crowded(NODES_LEAST, None)
+        v, m = v_and_m(cos_half, sin_half, self.ends)
         dt_dkappa = self._dt_dkappa(v, m)
-        return Nodes(cos_half, sin_half, v, m, dt_dkappa, dt_dkappa, stretch)
+        return Nodes(cos_half, sin_half, v, m, dt_dkappa, dt_dkappa, dkappa_deta)
 
     @cached_property
     def _crowding(self) -> Crowding | None:
         dt_dkappa = self._plain.dt_dkappa
-        if self.swing.width == 0 or dt_dkappa.max() < SHARP * dt_dkappa.min():
+        if self.ends.width == 0 or dt_dkappa.max() < SHARP * dt_dkappa.min():
             return None
 
         def Q(y: Array) -> Array:
@@ -142,10 +142,15 @@ class Nutation(ABC):
         if n == NODES_LEAST and not self._crowding:
             return self._plain
         if n not in self._known_nodes:  # time, kappa and orientation ask for the same ones, and exact ones are slow
-            cos_half, sin_half, stretch = crowded(n, self._crowding)
+            cos_half, sin_half, dkappa_deta = crowded(n, self._crowding)
             dt_dkappa = self._exact_dt_dkappa(cos_half, sin_half)  # where Q nearly vanishes its terms cancel after all
             self._known_nodes[n] = Nodes(
-                cos_half, sin_half, *v_and_m(cos_half, sin_half, self.swing), dt_dkappa, dt_dkappa * stretch, stretch
+                cos_half,
+                sin_half,
+                *v_and_m(cos_half, sin_half, self.ends),
+                dt_dkappa,
+                dt_dkappa * dkappa_deta,
+                dkappa_deta,
             )
         return self._known_nodes[n]
 
@@ -155,7 +160,7 @@ class Nutation(ABC):
         while n <= NODES_MOST:
             nodes = self._nodes(n)
             if np.isfinite(nodes.dt_deta).all():
-                dt_deta, kappa = of_time(nodes.dt_deta[None], nodes.stretch[None])
+                dt_deta, kappa = of_time(nodes.dt_deta[None], nodes.dkappa_deta[None])
                 if dt_deta.size:
                     return Time(n, dt_deta[0], kappa)
             n *= 2
@@ -174,7 +179,7 @@ class Nutation(ABC):
             n *= 2
             if n > NODES_MOST:
                 raise self._too_near()
-            _, kappa = of_time(self._nodes(n).dt_deta[None], self._nodes(n).stretch[None])
+            _, kappa = of_time(self._nodes(n).dt_deta[None], self._nodes(n).dkappa_deta[None])
         return kappa
 
     @cached_property
@@ -182,7 +187,7 @@ class Nutation(ABC):
         n = self._time.n
         while True:
             nodes = self._nodes(n)
-            rates = self._sigma_rates(nodes.v, nodes.m, nodes.dt_dkappa) * nodes.stretch
+            rates = self._sigma_rates(nodes.v, nodes.m, nodes.dt_dkappa) * nodes.dkappa_deta
             coefficients = cosine_coefficients(np.concatenate([nodes.dt_deta[None], rates]))
             if resolved(coefficients):
                 dt_deta, minus, plus = coefficients
@@ -206,13 +211,13 @@ class Nutation(ABC):
     @property
     def phi_advance(self) -> float:
         """Advance of phi in a period, rad."""
-        upright, inverted = np.copysign(1, self.swing.upright), np.copysign(1, self.swing.inverted)
+        upright, inverted = np.copysign(1, self.ends.upright), np.copysign(1, self.ends.inverted)
         return 2 * np.pi * self._orientation.mean.sum() + np.pi * (upright + inverted)
 
     @property
     def psi_advance(self) -> float:
         """Advance of psi in a period, rad."""
-        upright, inverted = np.copysign(1, self.swing.upright), np.copysign(1, self.swing.inverted)
+        upright, inverted = np.copysign(1, self.ends.upright), np.copysign(1, self.ends.inverted)
         minus, plus = self._orientation.mean
         return 2 * np.pi * (plus - minus) + np.pi * (inverted - upright)
 
@@ -222,7 +227,7 @@ class Nutation(ABC):
     def _start_phase(self) -> tuple[float, float]:
         """Half period and the rest of the phase at the start, to full precision next to either turning point."""
         sine, cosine = self._place
-        if self.swing.width == 0:
+        if self.ends.width == 0:
             return 0.0, 0.0
         half = float(sine > cosine)
         s_eta, c_eta = eta_halves(sine, cosine, self._crowding)
@@ -240,8 +245,7 @@ class Nutation(ABC):
     def theta(self, times: ArrayLike) -> Array:
         """theta (n,) in rad at the times (n,)."""
         t = checked_times(times)
-        tilt = np.arctan2(*tilt_halves(t - t[0], self.period, *self._start_phase, self._kappa, self.swing))
-        return np.multiply(tilt, 2, out=tilt)
+        return np.arctan2(*tilts(t - t[0], self.period, *self._start_phase, self._kappa, self.ends))
 
     @cached_property
     def _series(self) -> tuple[Array, Array]:
@@ -266,7 +270,7 @@ class Nutation(ABC):
         """The Pose at the phases, with phi and psi further by turn = (d_phi, d_psi), and the sums of more series."""
         _, half, rest = phases
         series = sums(half, rest, *self._series)
-        return pose(*phases, series, self._orientation.mean, self.swing, *turn), series[3:]
+        return pose(*phases, series, self._orientation.mean, self.ends, *turn), series[3:]
 
     @cached_property
     def _at_start(self) -> Phases:

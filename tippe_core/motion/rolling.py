@@ -20,7 +20,7 @@ from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
 from ..types import Array, Complex
 from .nutation import NODES_MOST, Nodes, Nutation
-from .pose import Pose, Swing, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot, v_and_m
+from .phase import Ends, Pose, cis, half_sigma_rate, nearer_pole, pole_factor, theta_dot, v_and_m
 from .series import part_turn
 from .trajectory import Trajectory, checked_times
 
@@ -75,10 +75,10 @@ class Rolling(Nutation):
                 curve, (inner, outer) = _from_constants(top, constants, start, well)
                 here = inner if start == "inner" else outer
             exact, self._exact = curve.exact, (curve, inner, outer)
-            self.swing = Swing(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *curve.offsets)))
+            self.ends = Ends(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *curve.offsets)))
             self._place = float(inner - here) ** 0.5, float(here - outer) ** 0.5
             self.e, self.K_J, self.K_R = float(exact.e), float(exact.K_J), float(exact.K_R)
-        self._curve = Floats(top.numbers, self.K_R, self.swing.upright, self.swing.inverted)
+        self._curve = Floats(top.numbers, self.K_R, self.ends.upright, self.ends.inverted)
         self._given = start if isinstance(start, State) else None
         self._inward = isinstance(start, State) and start.theta_dot < 0
 
@@ -89,13 +89,13 @@ class Rolling(Nutation):
             return self._given
         at_inner = self._place[0] == 0
         cos_half, sin_half = (np.array([float(x)]) for x in (at_inner, not at_inner))
-        v, m = v_and_m(cos_half, sin_half, self.swing)
-        w1, w2, w3 = omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.swing.width)[0]
+        v, m = v_and_m(cos_half, sin_half, self.ends)
+        w1, w2, w3 = omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.ends.width)[0]
         pole = v[0] * m[0] == 0
         return State(self.turning_points[0 if at_inner else 1], w1 if pole else 0.0, 0.0 if pole else w2, w3)
 
     def _dt_dkappa(self, v: Array, m: Array) -> Array:
-        return dt_dkappa(v, m, self._curve, self.e, self.swing)
+        return dt_dkappa(v, m, self._curve, self.e, self.ends)
 
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
         curve, inner, outer = self._exact
@@ -116,14 +116,14 @@ class Rolling(Nutation):
                         "well; change E a little.")  # fmt: skip
 
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return sigma_rates(v, m, dt_dkappa, self._curve, self.swing)
+        return sigma_rates(v, m, dt_dkappa, self._curve, self.ends)
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
-        return omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.swing.width)
+        return omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._curve, self.ends.width)
 
     def _contact_velocity(self, nodes: Nodes) -> Complex:
-        return contact_velocity(*nodes[:5], self._curve, self.swing)
+        return contact_velocity(*nodes[:5], self._curve, self.ends)
 
     @cached_property
     def _track(self) -> Track:
@@ -172,13 +172,13 @@ class Rolling(Nutation):
 
 
 @compiled
-def dt_dkappa(v: Array, m: Array, curve: Floats, e: float, swing: Swing) -> Array:
+def dt_dkappa(v: Array, m: Array, curve: Floats, e: float, ends: Ends) -> Array:
     """Q^-1/2 (n,) at v = 1 - c, m = 1 + c, (n,). A lower index 1, 2 or c stands for the places c1, c2 and c."""
     top, a, gamma = curve.top, curve.top.a, curve.top.I3 / curve.top.I1
-    c1, c2 = 1 - swing.v1, 1 - swing.v2
-    y1, y2 = np.sqrt(eq.f3_2(c1, swing.v1 * swing.m1, top)), np.sqrt(eq.f3_2(c2, swing.v2 * swing.m2, top))
-    (B1, _), (B2, _) = bracket(swing.v1, swing.m1, curve), bracket(swing.v2, swing.m2, curve)
-    f2_sq = eq.f2_2(c1, swing.v1 * swing.m1, top)
+    c1, c2 = 1 - ends.v1, 1 - ends.v2
+    y1, y2 = np.sqrt(eq.f3_2(c1, ends.v1 * ends.m1, top)), np.sqrt(eq.f3_2(c2, ends.v2 * ends.m2, top))
+    (B1, _), (B2, _) = bracket(ends.v1, ends.m1, curve), bracket(ends.v2, ends.m2, curve)
+    f2_sq = eq.f2_2(c1, ends.v1 * ends.m1, top)
     found = np.empty(len(v))
     for i in range(len(v)):
         c = 1 - v[i]
@@ -202,7 +202,7 @@ def dt_dkappa(v: Array, m: Array, curve: Floats, e: float, swing: Swing) -> Arra
         if Q > 0:
             found[i] = 1 / np.sqrt(Q)
         else:  # at rest on an unstable steady precession any rate of kappa will do
-            found[i] = 1.0 if swing.width == 0 else np.nan
+            found[i] = 1.0 if ends.width == 0 else np.nan
     return found
 
 
@@ -225,33 +225,33 @@ def omega(cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array
 
 
 @compiled
-def sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, swing: Swing) -> Array:
+def sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, ends: Ends) -> Array:
     """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
     rates = np.empty((2, len(v)))
     for i in range(len(v)):
-        side, x, d = nearer_pole(v[i], m[i], swing)
-        f3 = np.sqrt(eq.f3_2(1 - v[i], v[i] * m[i], curve.top))
-        w3 = curve.K_R / f3
-        C = pole_slope(x, f3, side * w3, seen_from(side, curve.top))
+        side, x, d = nearer_pole(v[i], m[i], ends)
+        c, s2 = 1 - v[i], v[i] * m[i]
+        w3 = eq.omega3(c, s2, curve.K_R, curve.top)
+        C = pole_slope(x, np.sqrt(eq.f3_2(c, s2, curve.top)), side * w3, seen_from(side, curve.top))
         B = d + x * C
-        slope_v = C if v[i] <= m[i] else (B - swing.upright) / v[i]  # (w2 s - d)/(1 - c), and of 1 + c
-        slope_m = C if m[i] < v[i] else (B - swing.inverted) / m[i]
-        rates[0, i] = half_sigma_rate(v[i], swing.v1, swing.v2, swing.upright, dt_dkappa[i], slope_v - w3)
-        rates[1, i] = half_sigma_rate(m[i], swing.m1, swing.m2, swing.inverted, dt_dkappa[i], slope_m + w3)
+        slope_v = C if v[i] <= m[i] else (B - ends.upright) / v[i]  # (w2 s - d)/(1 - c), and of 1 + c
+        slope_m = C if m[i] < v[i] else (B - ends.inverted) / m[i]
+        rates[0, i] = half_sigma_rate(v[i], ends.v1, ends.v2, ends.upright, dt_dkappa[i], slope_v - w3)
+        rates[1, i] = half_sigma_rate(m[i], ends.m1, ends.m2, ends.inverted, dt_dkappa[i], slope_m + w3)
     return rates
 
 
 @compiled
 def contact_velocity(
-    cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, swing: Swing
+    cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, ends: Ends
 ) -> Complex:
     """(n,): the contact point's velocity, (w2 c - w3 s, -w1) in the turning axes, over exp i(sigma_- + sigma_+)."""
     velocity = np.empty(len(v), np.complex128)
-    w = omega(cos_half, sin_half, v, m, dt_dkappa, curve, swing.width)
+    w = omega(cos_half, sin_half, v, m, dt_dkappa, curve, ends.width)
     for i in range(len(v)):
         s = np.sqrt(v[i] * m[i])
-        upright = pole_factor(cos_half[i], sin_half[i], swing.v1, swing.v2, swing.upright)
-        inverted = pole_factor(cos_half[i], sin_half[i], swing.m1, swing.m2, swing.inverted)
+        upright = pole_factor(cos_half[i], sin_half[i], ends.v1, ends.v2, ends.upright)
+        inverted = pole_factor(cos_half[i], sin_half[i], ends.m1, ends.m2, ends.inverted)
         direction = upright * inverted / s if s > 0 else 1.0 + 0.0j
         velocity[i] = direction * complex(w[i, 1] * (1 - v[i]) - w[i, 2] * s, -w[i, 0])
     return velocity

@@ -19,14 +19,19 @@ BLOCK = 256  # instants whose sums the processor keeps at hand
 
 @compiled
 def transform(angle: Array, even: Array, odd: Array, count: int) -> Array:
-    """(r, count): sum_j [even_j cos(k angle_j) + odd_j sin(k angle_j)] for k = 0 to count - 1, of r rows (r, n)."""
+    """(r, count): sum_j [even_j cos(k angle_j) + odd_j sin(k angle_j)] for k = 0 to count - 1.
+
+    even (r, n), odd (r, n), or (0, n) for none, angle (n,).
+    """
     found = np.empty((len(even), count))
     step_cos, step_sin = np.cos(angle), np.sin(angle)
     cos, sin = np.ones(len(angle)), np.zeros(len(angle))
     for k in range(count):
         if k % AFRESH == 0:
             cos, sin = np.cos(k * angle), np.sin(k * angle)
-        found[:, k] = even @ cos + odd @ sin
+        found[:, k] = even @ cos
+        if len(odd):
+            found[:, k] += odd @ sin
         cos, sin = cos * step_cos - sin * step_sin, sin * step_cos + cos * step_sin
     return found
 
@@ -35,7 +40,7 @@ def transform(angle: Array, even: Array, odd: Array, count: int) -> Array:
 def cosine_coefficients(values: Array) -> Array:
     """(r, n): c_k, k = 0 to n - 1, of r even functions, from their values (r, n) at the midpoints."""
     n = values.shape[1]
-    return transform((np.arange(n) + 0.5) * (np.pi / n), 2 / n * values, np.zeros_like(values), n)
+    return transform((np.arange(n) + 0.5) * (np.pi / n), 2 / n * values, values[:0], n)
 
 
 @compiled
@@ -73,7 +78,7 @@ def integral_to(angle: float, c: Array) -> float:
 
 @compiled
 def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
-    """(r, K): sum_j [even_j cos(k tau_j) + odd_j sin(k tau_j)] for k = 1 to K, from even, odd (r, n) and tau (n,).
+    """(r, K): sum_j [even_j cos(k tau_j) + odd_j sin(k tau_j)] for k = 1 to K, as transform() has it.
 
     The first `rates` rows are of a function's rate, and become those of the function: divided by k. K is such that all
     rows have ended; 0 where they do not within the harmonics that the midpoints resolve.
@@ -111,7 +116,7 @@ def length(series: Array) -> int:
 
 
 @compiled
-def of_time(dt_deta: Array, stretch: Array) -> tuple[Array, Array]:
+def of_time(dt_deta: Array, dkappa_deta: Array) -> tuple[Array, Array]:
     """The cosine coefficients of dt/deta (1, n), and the sine coefficients in tau of kappa - tau (1, K).
 
     From dt/deta and dkappa/deta at the midpoints, (1, n) each. n or K is 0 for what they do not resolve.
@@ -120,7 +125,7 @@ def of_time(dt_deta: Array, stretch: Array) -> tuple[Array, Array]:
     c, none = cosine_coefficients(dt_deta), np.zeros((1, 0))
     if not resolved(c):
         return none, none
-    return c, harmonics(integral(c[0]) * (2 / c[0, 0]), 2 / n * stretch, np.zeros_like(stretch), 1)
+    return c, harmonics(integral(c[0]) * (2 / c[0, 0]), 2 / n * dkappa_deta, dkappa_deta[:0], 1)
 
 
 # ---- sums ----
@@ -146,18 +151,27 @@ def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
     r, n = len(sines), len(rest)
     found = np.zeros((r + len(cosines), n))
     for first in range(0, n, BLOCK):
-        size = min(BLOCK, n - first)
-        step_cos, step_sin, cos, sin = np.empty(size), np.empty(size), np.empty(size), np.empty(size)
-        for j in range(size):
-            sign, s = 1 - 2 * half[first + j], sine(rest[first + j] / 2)
-            cos[j], sin[j] = sign * (1 - 2 * s * s), sign * 2 * s * np.sqrt(1 - s * s)
-            step_cos[j], step_sin[j] = cos[j], sin[j]
+        block = slice(first, min(first + BLOCK, n))
+        step_cos, step_sin = cos_and_sin(half[block], rest[block])
+        cos, sin = step_cos.copy(), step_sin.copy()
         for k in range(sines.shape[1]):
-            for row in range(len(found)):
-                wave, b = (sin, sines[row, k]) if row < r else (cos, cosines[row - r, k])
-                add(found[row, first : first + size], b, wave)
-            next_harmonic(cos, sin, step_cos, step_sin)
+            if k:
+                next_harmonic(cos, sin, step_cos, step_sin)
+            for row in range(r):
+                add(found[row, block], sines[row, k], sin)
+            for row in range(len(cosines)):
+                add(found[r + row, block], cosines[row, k], cos)
     return found
+
+
+@compiled
+def cos_and_sin(half: Array, rest: Array) -> tuple[Array, Array]:
+    """Of pi half + rest, (n,), with |rest| at most pi/2."""
+    cos, sin = np.empty(len(rest)), np.empty(len(rest))
+    for j in range(len(rest)):
+        s, sign = sine(rest[j] / 2), 1 - 2 * half[j]
+        cos[j], sin[j] = sign * (1 - 2 * s * s), sign * 2 * s * np.sqrt(1 - s * s)
+    return cos, sin
 
 
 @compiled

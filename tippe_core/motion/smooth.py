@@ -30,7 +30,7 @@ from ..paper.top import Top, TopNumbers
 from ..paper.wells import solve
 from ..types import Array
 from .nutation import Nodes, Nutation
-from .pose import Pose, Swing, half_sigma_rate, nearer_pole, theta_dot, v_and_m
+from .phase import Ends, Pose, half_sigma_rate, nearer_pole, theta_dot, v_and_m
 from .trajectory import Trajectory, checked_times
 
 
@@ -73,28 +73,28 @@ class Gliding(Nutation):
             e = t.I1 * (w1 * w1 + w2 * w2) + t.a * t.a * s2 * w1 * w1 + 2 * t.a * v
             inner, outer = turning_cosines(t, e, L_z, L3, here, still=state.theta_dot == 0)
             offsets = (L_z - L3) / t.I1, (L_z + L3) / t.I1
-            self.swing = Swing(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *offsets)))
+            self.ends = Ends(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *offsets)))
             self._place = float(max(inner - here, Decimal(0))) ** 0.5, float(max(here - outer, Decimal(0))) ** 0.5
             self._Q_outer = float(e + L3 * L3 / t.I1 - 2 * t.a * (1 - inner - 2 * outer))
             self._B_slope = float(L3 / t.I1)
             self.E = float(e + L3 * w3) / 2
 
     def _dt_dkappa(self, v: Array, m: Array) -> Array:
-        return dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.swing)
+        return dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.ends)
 
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
-        return self._dt_dkappa(*v_and_m(cos_half, sin_half, self.swing))  # Q has nothing to cancel
+        return self._dt_dkappa(*v_and_m(cos_half, sin_half, self.ends))  # Q has nothing to cancel
 
     def _too_near(self) -> TopError:
         return TopError("theta", self.start.theta, "a start further from an unstable steady precession",
                         "So near to it the nutation takes almost for ever; change the start a little.")  # fmt: skip
 
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
-        return sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.swing)
+        return sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.ends)
 
     def _omega(self, place: Nodes | Pose) -> Array:
         cos_half, sin_half, v, m, *_ = place
-        return omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._B_slope, self.start.omega3, self.swing)
+        return omega(cos_half, sin_half, v, m, self._dt_dkappa(v, m), self._B_slope, self.start.omega3, self.ends)
 
     @cached_property
     def lift_off(self) -> float:
@@ -129,39 +129,40 @@ class Gliding(Nutation):
 
 
 @compiled
-def dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, swing: Swing) -> Array:
+def dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, ends: Ends) -> Array:
     """[(I1 + a^2 s^2)/Q]^1/2 (n,) at v = 1 - c, m = 1 + c, (n,), from Q at the outer turning point."""
     found = np.empty(len(v))
     for i in range(len(v)):
-        Q = Q_outer + 2 * top.a * (swing.v2 - v[i])
+        Q = Q_outer + 2 * top.a * (ends.v2 - v[i])
         if Q > 0:
             found[i] = np.sqrt((top.I1 + top.a**2 * v[i] * m[i]) / Q)
         else:  # at rest on an unstable steady precession any rate of kappa will do
-            found[i] = 1.0 if swing.width == 0 else np.nan
+            found[i] = 1.0 if ends.width == 0 else np.nan
     return found
 
 
 @compiled
 def omega(
-    cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, swing: Swing
+    cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, ends: Ends
 ) -> Array:
     """(n, 3): omega about 1', 2', 3. B = d + v I3 w3/I1 = d - m I3 w3/I1, with the d of either pole."""
     w = np.empty((len(v), 3))
     for i in range(len(v)):
-        side, x, d = nearer_pole(v[i], m[i], swing)
-        w[i, 0] = theta_dot(cos_half[i], sin_half[i], v[i], m[i], dt_dkappa[i], swing.width)
-        w[i, 1] = (0.0 if d == 0 else d / np.sqrt(v[i] * m[i])) + np.sqrt(x / (2 - x)) * side * B_slope
+        side, x, d = nearer_pole(v[i], m[i], ends)
+        w[i, 0] = theta_dot(cos_half[i], sin_half[i], v[i], m[i], dt_dkappa[i], ends.width)
+        B, s = d + x * side * B_slope, np.sqrt(v[i] * m[i])
+        w[i, 1] = B / s if s > 0 else 0.0
         w[i, 2] = w3
     return w
 
 
 @compiled
-def sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, swing: Swing) -> Array:
+def sigma_rates(v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, ends: Ends) -> Array:
     """(2, n): d sigma_-/dkappa and d sigma_+/dkappa."""
     rates = np.empty((2, len(v)))
     for i in range(len(v)):
-        rates[0, i] = half_sigma_rate(v[i], swing.v1, swing.v2, swing.upright, dt_dkappa[i], B_slope - w3)
-        rates[1, i] = half_sigma_rate(m[i], swing.m1, swing.m2, swing.inverted, dt_dkappa[i], w3 - B_slope)
+        rates[0, i] = half_sigma_rate(v[i], ends.v1, ends.v2, ends.upright, dt_dkappa[i], B_slope - w3)
+        rates[1, i] = half_sigma_rate(m[i], ends.m1, ends.m2, ends.inverted, dt_dkappa[i], w3 - B_slope)
     return rates
 
 

@@ -9,8 +9,8 @@ from ..types import Array, Complex, Number
 from .series import BLOCK, part_turn, sine, sums
 
 
-class Swing(NamedTuple):
-    """What poses need to know of a nutation.
+class Ends(NamedTuple):
+    """The turning points of a nutation, and what becomes of it at the poles, as the loops take them.
 
     v = 1 - c and m = 1 + c at the inner turning point (1) and the outer (2), width = c1 - c2, and the pole offsets:
     what s w2 would be at theta = 0 (upright) and at theta = pi (inverted), were the motion to go there.
@@ -59,9 +59,9 @@ def clock(passed: Array, period: float, half: float, rest: float) -> tuple[Array
 
 
 @compiled
-def v_and_m(cos_half: Number, sin_half: Number, swing: Swing) -> tuple[Number, Number]:
+def v_and_m(cos_half: Number, sin_half: Number, ends: Ends) -> tuple[Number, Number]:
     """v = 1 - c and m = 1 + c where cos(kappa/2), sin(kappa/2) are cos_half, sin_half; (n,) each, or numbers."""
-    return swing.v1 + swing.width * (sin_half * sin_half), swing.m2 + swing.width * (cos_half * cos_half)
+    return ends.v1 + ends.width * (sin_half * sin_half), ends.m2 + ends.width * (cos_half * cos_half)
 
 
 @compiled
@@ -73,19 +73,19 @@ def half_angle(half: float, rest: float, series: float) -> tuple[float, float]:
 
 
 @compiled
-def tilt_halves(
-    passed: Array, period: float, half: float, rest: float, kappa: Array, swing: Swing
-) -> tuple[Array, Array]:
-    """What sin(theta/2) and cos(theta/2) are as, (n,): arguments as in clock(), and kappa - tau's series (1, K)."""
-    n = len(passed)
-    sqrt_v, sqrt_m = np.empty(n), np.empty(n)
-    for first in range(0, n, BLOCK):
+def tilts(passed: Array, period: float, half: float, rest: float, kappa: Array, ends: Ends) -> tuple[Array, Array]:
+    """sin(theta) and cos(theta), (n,): arguments as in clock(), and the series (1, K) of kappa - tau."""
+    s, c = np.empty(len(passed)), np.empty(len(passed))
+    for first in range(0, len(passed), BLOCK):
         _, halves, rests = clock(passed[first : first + BLOCK], period, half, rest)
         series = sums(halves, rests, kappa, kappa[:0])
         for j in range(len(rests)):
-            v, m = v_and_m(*half_angle(halves[j], rests[j], series[0, j]), swing)
-            sqrt_v[first + j], sqrt_m[first + j] = np.sqrt(v), np.sqrt(m)
-    return sqrt_v, sqrt_m
+            # s^2 of kappa/2 at the inner turning point, c^2 at the outer one
+            small = sine((rests[j] + series[0, j]) / 2) ** 2
+            up, down = (small, 1 - small) if halves[j] else (1 - small, small)
+            v, m = ends.v1 + ends.width * down, ends.m2 + ends.width * up
+            s[first + j], c[first + j] = np.sqrt(v * m), (m - v) / 2
+    return s, c
 
 
 @compiled
@@ -95,9 +95,9 @@ def cis(angle: float) -> complex:
 
 
 @compiled
-def nearer_pole(v: float, m: float, swing: Swing) -> tuple[float, float, float]:
+def nearer_pole(v: float, m: float, ends: Ends) -> tuple[float, float, float]:
     """cos(theta) of the nearer pole, the distance of c to it, and its offset."""
-    return (1.0, v, swing.upright) if v <= m else (-1.0, m, swing.inverted)
+    return (1.0, v, ends.upright) if v <= m else (-1.0, m, ends.inverted)
 
 
 @compiled
@@ -115,7 +115,7 @@ def pole_angle(factor: complex, offset: float, at_pole: float, turns: float) -> 
 
 @compiled
 def pose(
-    turns: Array, half: Array, rest: Array, series: Array, mean: Array, swing: Swing, d_phi: float, d_psi: float
+    turns: Array, half: Array, rest: Array, series: Array, mean: Array, ends: Ends, d_phi: float, d_psi: float
 ) -> Pose:
     """The Pose at the phases 2 pi turns + pi half + rest (n,), with phi and psi d_phi and d_psi further.
 
@@ -137,10 +137,10 @@ def pose(
             exp_minus, exp_plus = parity * turn_minus * cis(whole_minus), parity * turn_plus * cis(whole_plus)
         cos_half, sin_half = half_angle(half[i], rest[i], series[0, i])
         cos_halves[i], sin_halves[i] = cos_half, sin_half
-        v[i], m[i] = v_and_m(cos_half, sin_half, swing)
+        v[i], m[i] = v_and_m(cos_half, sin_half, ends)
         theta[i] = 2 * np.arctan2(np.sqrt(v[i]), np.sqrt(m[i]))
-        upright = pole_factor(cos_half, sin_half, swing.v1, swing.v2, swing.upright)
-        inverted = pole_factor(cos_half, sin_half, swing.m1, swing.m2, swing.inverted)
+        upright = pole_factor(cos_half, sin_half, ends.v1, ends.v2, ends.upright)
+        inverted = pole_factor(cos_half, sin_half, ends.m1, ends.m2, ends.inverted)
         tau = np.pi * half[i] + rest[i]
         minus, plus = mean[0] * tau + series[1, i], mean[1] * tau + series[2, i]
         xy, zw = upright * exp_minus * cis(minus), inverted * exp_plus * cis(plus)
@@ -149,8 +149,8 @@ def pose(
         quaternion[i, 2], quaternion[i, 3] = zw.imag * np.sqrt(0.5), zw.real * np.sqrt(0.5)
         minus += whole_minus + 2 * np.pi * np.trunc(turns[i] * mean[0])
         plus += whole_plus + 2 * np.pi * np.trunc(turns[i] * mean[1])
-        at_upright = pole_angle(upright, swing.upright, np.pi / 2, turns[i])
-        at_inverted = pole_angle(inverted, swing.inverted, np.pi, turns[i])
+        at_upright = pole_angle(upright, ends.upright, np.pi / 2, turns[i])
+        at_inverted = pole_angle(inverted, ends.inverted, np.pi, turns[i])
         phi[i] = plus + minus + at_upright + at_inverted + d_phi
         psi[i] = plus - minus + at_inverted - at_upright + d_psi
     return Pose(cos_halves, sin_halves, v, m, theta, phi, psi, s_exp_phi, quaternion)
