@@ -29,6 +29,7 @@ from .friction import CONTENSOU, COULOMB
 from .poses import record, turned
 from .records import Record
 from .standing import leaning, lies
+from .tally import tally
 from .stepper import STAGES, A, B, at_share, densely, error, factor, stage, when, within
 
 # How following ends for now: the times are over; more steps are needed; Coulomb's friction holds the ball; for good.
@@ -88,7 +89,7 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     h, near = accept(W, P, slowest, end - y[12] if timed else np.inf)
     if timed:  # without the rounding of its integration
         S.new[12] = end if h == end - y[12] else y[12] + h
-    event, share, k = NO_ONE, 1.0, W.samples
+    event, share, k, N = NO_ONE, 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
     if near < NEAR or S.new[12] > end or (k < len(times) and times[k] <= S.new[12]):
         densely(S, h, slowest, ball, stem, P, C)
     if near < NEAR:
@@ -110,6 +111,7 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     before = moved(W, P, slowest, t)
     if event == NO_ONE and share == 1.0:
         event = comes_to_rest(W, P, slowest, before)
+    tally(W, P, 0.0 if LEAVES <= event < LEAVES + 2 else N if share == 1.0 else np.inf)
     return event
 
 
@@ -136,8 +138,8 @@ def change_variables(W: Record, P: Record) -> int:
     W.steady = 0
     if slowest != NO_ONE and least < P.tolerance ** (2 / 3):
         S.at[:] = S.z
-        _, attracts, grows = steady_direction(W, P, slowest)
-        W.steady = attracts > STIFF * abs(grows)
+        beta, attracts, grows = steady_direction(W, P, slowest)
+        W.steady = attracts > STIFF * abs(grows) and abs(beta - S.z[9]) < SLIPS_LITTLE
     return slowest
 
 
@@ -234,8 +236,8 @@ def first_event(W: Record, P: Record, slowest: int) -> tuple[int, float]:
 def watched(W: Record, P: Record, slowest: int, x: float) -> None:
     """The guards at the share x of the step."""
     C = W.contacts
-    at_share(W.step, x, W.step.K[0])
-    guards(W.step.K[0], slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
+    at_share(W.step, x, W.step.at)
+    guards(W.step.at, slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
 
 
 @compiled
@@ -354,6 +356,8 @@ def happens(W: Record, P: Record, log: Array, event: int, flies: bool) -> bool:
         noted(W, log, names, ball, stem)
         return True
     W.begins = 1
+    if event == TOUCHES + STEM and np.isnan(W.tally.time_stem):
+        W.tally.time_stem = y[12]
     goes_on = settle(y, event, W.floor, W.modes, P, W.step, C)
     turned(y, W.angles)
     if not goes_on:
@@ -384,6 +388,7 @@ def noted(W: Record, log: Array, name: int, ball: int, stem: int) -> None:
     n = W.events
     log[n, 0], log[n, 1] = W.y[12], name
     log[n, 2] = (1 if ball != OPEN else 0) + (2 if stem != OPEN else 0)
+    W.tally.hops += name == LIFTS_OFF
     W.events = n + 1
 
 

@@ -39,9 +39,13 @@ CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(
 # of the polynomial.
 STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7, 16))
 
+# What is said of a motion as a whole, tally.py.
+TALLY = kind(since=float, C_J=float, drift=float, time_90=float, time_stem=float, hops="i8", F_z_least=float,
+             least=float, most=float, seen="i8", slips="i8")  # fmt: skip
+
 # A motion: y, the modes of ball and stem, heights that count as the table's (what the tolerance took from those of
 # contacts that just parted), angles as poses.py has them, the next step, the guards; how many samples, events and steps
 # there are, and whether a stretch begins; the slowest contact, log|u| and beta of it, and whether beta is
 # kept steady.
 MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(10,), samples="i8", events="i8",
-              steps="i8", begins="i8", slowest="i8", polar=(2,), steady="i8", step=STEP, contacts=CONTACTS)  # fmt: skip
+              steps="i8", begins="i8", slowest="i8", polar=(2,), steady="i8", step=STEP, contacts=CONTACTS, tally=TALLY)  # fmt: skip

@@ -94,18 +94,12 @@ def slide(
     t = checked_times(times)
     if np.any(np.diff(t) < 0):
         raise TopError("times", times, "times that do not fall", "Friction has no way back.")
-    _check_balance(top, friction)
-    rtol = finite("rtol", rtol)
-    if not 1e-13 <= rtol <= 1e-3:
-        raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
+    check_balance(top, friction)
+    rtol = checked_rtol(rtol)
     if landing not in ("stop", "plastic"):
         raise TopError("landing", landing, '"stop" or "plastic"')
-    losses = []
-    for name, loss in (("rolling_resistance", rolling_resistance), ("air_drag", air_drag)):
-        losses.append(finite(name, loss))
-        if losses[-1] < 0:
-            raise TopError(name, loss, f"{name} >= 0")
-    P = problem(top, friction, _checked_edge(edge), *losses, rtol)
+    losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
+    P = problem(top, friction, checked_edge(edge), losses, rtol)
     return _Run(top, P, landing == "plastic", progress)(state, t)
 
 
@@ -132,7 +126,23 @@ def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / nudge)
 
 
-def _checked_edge(edge: ArrayLike | None) -> Rim | None:
+def checked_rtol(rtol: float) -> float:
+    """rtol as a float in its range."""
+    rtol = finite("rtol", rtol)
+    if not 1e-13 <= rtol <= 1e-3:
+        raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
+    return rtol
+
+
+def checked_loss(name: str, loss: float) -> float:
+    """A loss as a float, not negative."""
+    loss = finite(name, loss)
+    if loss < 0:
+        raise TopError(name, loss, f"{name} >= 0")
+    return loss
+
+
+def checked_edge(edge: ArrayLike | None) -> Rim | None:
     """(radius, height, rounding), or None."""
     if edge is None:
         return None
@@ -145,7 +155,7 @@ def _checked_edge(edge: ArrayLike | None) -> Rim | None:
     return edge
 
 
-def _check_balance(top: Top, friction: Friction) -> None:
+def check_balance(top: Top, friction: Friction) -> None:
     """F_z must be positive for every direction of u: mu |a| r_z s < I1 + a^2 s^2 (Painleve)."""
     name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), ("", 0.0))
     s, c = np.sin(theta := np.linspace(0, np.pi, 721)), np.cos(theta)
@@ -157,7 +167,7 @@ def _check_balance(top: Top, friction: Friction) -> None:
                        "More friction than that no normal force balances (Painleve's paradox).")  # fmt: skip
 
 
-def problem(top: Top, friction: Friction, edge: Rim | None, delta: float, drag: float, rtol: float) -> Record:
+def problem(top: Top, friction: Friction, edge: Rim | None, losses: tuple[float, float], rtol: float) -> Record:
     """The Problem. An edge on the sphere itself is where its surface ends."""
     (b, h, q), rim, law = edge or (0.0, 0.0, 0.0), -2.0, friction.law
     if edge and np.hypot(b, h) + q < 1 + 1e-6:
@@ -167,7 +177,7 @@ def problem(top: Top, friction: Friction, edge: Rim | None, delta: float, drag: 
     P = new(PROBLEM)
     P.a, P.I1, P.I3 = top.numbers
     P.law, P.stem, P.b, P.h, P.q, P.rim = tuple(law), edge is not None, b, h, q, rim
-    P.delta, P.drag, P.tolerance = delta, drag, SHARE * rtol
+    P.delta, P.drag, P.tolerance = *losses, SHARE * rtol
     return P
 
 
