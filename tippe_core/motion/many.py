@@ -15,12 +15,23 @@ from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
 from .dynamics import NO_ONE, arrange, kinetic, turning
-from .following import ENDED, MORE, NAMES, STANDS_UPRIGHT
+from .following import ENDED, MORE
 from .friction import CONTENSOU, Contensou, Coulomb, SmoothedCoulomb, Viscous
+from .happening import STANDS_UPRIGHT
 from .poses import WIDTH, record
+from .preparing import (
+    beginning,
+    check_balance,
+    checked_edge,
+    checked_loss,
+    checked_rtol,
+    motion,
+    problem,
+    start,
+)
 from .records import Record
 from .repeats import run_all
-from .sliding import beginning, beside, checked_edge, checked_loss, checked_rtol, check_balance, motion, problem, start
+from .sliding import beside
 from .tally import begin_tally
 
 LAST = 0.1  # the share of the time by which the end is told
@@ -78,7 +89,7 @@ class Many:
     end: NDArray[np.str_]
 
 
-NUMBERS = ("time_90", "time_stem", "hops", "F_z_least", "heat", "energy_error", "C_J_drift", "growth")
+NUMBERS = ("time_90", "time_stem", "F_z_least", "heat", "energy_error", "C_J_drift", "growth")
 
 
 def slide_many(
@@ -129,11 +140,13 @@ def _cells(given: Any, *kinds: type) -> NDArray[np.object_]:
     """An array of what makes one of the kinds: an instance, or the kind and its arguments."""
     if isinstance(given, kinds):
         return _objects([given], ())
-    if isinstance(given, list | tuple) and not hasattr(given, "_fields") or isinstance(given, np.ndarray):
+    if (isinstance(given, list | tuple) and not hasattr(given, "_fields")) or isinstance(given, np.ndarray):
         return np.array(given, dtype=object)
     for kind in kinds:
         names = [field.name for field in fields(kind) if getattr(given, field.name, None) is not None]
-        needed = [field.name for field in fields(kind) if field.default is field.default_factory or field.name == "mu_k"]
+        needed = [
+            field.name for field in fields(kind) if field.default is field.default_factory or field.name == "mu_k"
+        ]
         if set(needed) <= set(names):
             arrays = np.broadcast_arrays(*(np.asarray(getattr(given, name), float) for name in names))
             rows = zip(*(array.ravel().tolist() for array in arrays), strict=True)
@@ -142,7 +155,9 @@ def _cells(given: Any, *kinds: type) -> NDArray[np.object_]:
     raise TopError(kinds[0].__name__.lower(), given, f"{wanted}, a list of such, or their fields as arrays")
 
 
-def _all(cell: Callable[[int, threading.Event], Any], count: int, progress: Callable[[float], object] | None) -> list[Any]:
+def _all(
+    cell: Callable[[int, threading.Event], Any], count: int, progress: Callable[[float], object] | None
+) -> list[Any]:
     """cell(i, stop) of each, in a thread for each core that the process may use."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     stop, found, done = threading.Event(), [None] * count, 0
@@ -207,12 +222,13 @@ def _followed(state: State, P: Record, t_end: float, stop: threading.Event) -> d
         status = MORE
         while status == MORE and W.steps < MOST_STEPS and not stop.is_set():
             status = run_all(W, P, log, t_end, EACH)
-    T, stands = W.tally, status == ENDED and W.events > 0 and NAMES[int(log[W.events - 1, 1])] == NAMES[STANDS_UPRIGHT]
+    T, stands = W.tally, status == ENDED and W.events > 0 and log[W.events - 1, 1] == STANDS_UPRIGHT
     refused = not goes_on or status == MORE or (status == ENDED and not stands) or not np.all(np.isfinite(W.y))
+    drift = T.drift / (abs(T.C_J) or 1.0)
     pivots = P.law.kind == CONTENSOU or P.drag > 0 or P.delta > 0
     return {"state": _state(W, P), "time_90": T.time_90, "time_stem": T.time_stem, "hops": T.hops,
             "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[13],
-            "energy_error": _energy(W, P) + W.y[13] - E, "C_J_drift": np.nan if pivots else T.drift / (abs(T.C_J) or 1.0),
+            "energy_error": _energy(W, P) + W.y[13] - E, "C_J_drift": np.nan if pivots else drift,
             "end": "refused" if refused else "stem" if stands else _end(T)}  # fmt: skip
 
 
@@ -241,14 +257,15 @@ def _end(T: Record) -> str:
 
 
 def _many(found: list[dict[str, Any]], shape: tuple[int, ...]) -> Many:
-    def gathered(values: list[Any], kind: type) -> Any:
-        array = np.array(values, kind).reshape(shape)
+    def gathered(values: Any, kind: type) -> Any:
+        array: Any = np.array(values, kind).reshape(shape)
         array.flags.writeable = False
         return array
 
-    states = np.array([one.get("state", [np.nan] * len(States._fields)) for one in found]).reshape(len(found), -1)
-    parts = {name: gathered([one.get(name, np.nan) for one in found], float) for name in NUMBERS if name != "hops"}
-    hops = gathered([one.get("hops", 0) for one in found], int)
-    return Many(theta_end=gathered(states[:, 0].tolist(), float), hops=hops, flew=gathered((hops > 0).ravel().tolist(), bool),
-                state_end=States(*(gathered(column.tolist(), float) for column in states.T)),
+    lost = [np.nan] * len(States._fields)
+    states = np.array([one.get("state", lost) for one in found]).reshape(len(found), -1).T
+    parts = {name: gathered([one.get(name, np.nan) for one in found], float) for name in NUMBERS}
+    hops = np.array([one.get("hops", 0) for one in found])
+    return Many(theta_end=gathered(states[0], float), state_end=States(*(gathered(x, float) for x in states)),
+                hops=gathered(hops, int), flew=gathered(hops > 0, bool),
                 end=gathered([one["end"] for one in found], str), **parts)  # fmt: skip

@@ -1,12 +1,14 @@
-"""Rolling for good. Where Coulomb's friction holds the ball and a whole nutation passed without an event, the same comes
-again and again, each time turned by the same angle about the vertical and moved on: so whole nutations are skipped."""
+"""Rolling for good. Where Coulomb's friction holds the ball and a whole nutation passed without an event, the same
+comes again and again, each time turned by the same angle about the vertical and moved on: so whole nutations are
+skipped."""
 
 import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
 from .dynamics import turning
-from .following import ENDED, MORE, OVER, ROLLS, follow, happens, run
+from .following import ENDED, MORE, OVER, ROLLS, follow
+from .happening import happens, run
 from .poses import turned
 from .records import Record
 from .stepper import at_share, densely

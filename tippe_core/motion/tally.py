@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..compiled import compiled
-from .dynamics import BALL, OPEN, STEM, STICK, turning
+from .dynamics import BALL, OPEN, STEM, STICK, carried, turning
 from .records import Record
 
 
@@ -32,7 +32,7 @@ def tally(W: Record, P: Record, N: float) -> None:
     if y[12] >= T.since:
         theta = 2 * np.arctan2(np.hypot(y[0], y[1]), np.hypot(y[2], y[3]))
         T.least, T.most = min(T.least, theta), max(T.most, theta)
-        T.seen |= 1 << ((1 if ball != OPEN else 0) + (2 if stem != OPEN else 0))
+        T.seen |= 1 << carried(ball, stem)
         if ball not in (OPEN, STICK) or stem not in (OPEN, STICK) or (ball == OPEN and stem == OPEN):
             T.slips = 1
 
@@ -47,7 +47,7 @@ def passes_90(W: Record, P: Record) -> float:
     for _ in range(50):
         x = (low + high) / 2
         across = e1[2] - e[2]
-        now = (e[2] + x * across + x * (1 - x) * ((rate - across) * (1 - x) - (rate1 - across) * x))
+        now = e[2] + x * across + x * (1 - x) * ((rate - across) * (1 - x) - (rate1 - across) * x)
         if now * e[2] > 0.0:
             low = x
         else:
