@@ -12,6 +12,7 @@ from .bodies.solids import Solid, ball, cylinder, frustum, zone
 from .ending import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
 from .motion.friction import Contensou, Coulomb, SmoothedCoulomb, Viscous
+from .motion.many import Many, States, slide_many
 from .motion.rolling import Rolling, roll
 from .motion.sliding import beside, growth, sensitivity, slide
 from .motion.smooth import Gliding, glide
@@ -41,6 +42,7 @@ __all__ = [
     "Lathe",
     "Ledger",
     "LoadedSphere",
+    "Many",
     "Measured",
     "NoMotionError",
     "OrdinaryTop",
@@ -52,6 +54,7 @@ __all__ = [
     "SmoothedCoulomb",
     "Solid",
     "State",
+    "States",
     "SteadyPrecessions",
     "SteadyStates",
     "StemmedSphere",
@@ -94,6 +97,7 @@ __all__ = [
     "save_top",
     "sensitivity",
     "slide",
+    "slide_many",
     "steady_precessions",
     "steady_states",
     "sunk",

@@ -8,7 +8,7 @@ these equations. Where nothing presses (without forces u_z' > 0) the contact par
 import numpy as np
 
 from ..compiled import compiled
-from ..types import Array, Indices
+from ..types import Array, Bools, Indices
 from .dynamics import (
     BALL,
     NO_ONE,
@@ -16,20 +16,16 @@ from .dynamics import (
     SLIP,
     STEM,
     STICK,
-    angular,
     arrange,
-    column,
-    component,
-    cross,
     forces,
     kinetic,
     rates,
-    row,
     slip_rate,
     turning,
 )
 from .friction import CONTENSOU, bounds
 from .impact import held, impact
+from .impulses import mobility, moving, pushed, rests
 from .records import Record
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
 
@@ -37,10 +33,10 @@ from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping
 BALANCES, LEAVES, SLIPS, TOUCHES, STANDS_UP, ROCKS, RIM, GUARDS = 0, 1, 3, 5, 7, 8, 9, 10
 HALTS, STARTS = 10, 12
 
-# STILL: the last of the slip, which takes far less time than the 1e-9 to which events are located. REST ((gR)^1/2):
-# slip below which a law may hold. SLACK (Mg), TOUCH (R): less than that is nothing. LEAST: what is left of u_z' by N,
-# of 1 without friction. CLOSED (R): a contact as near is closed.
-STILL, REST, SLACK, TOUCH, LEAST, CLOSED = 1e-13, 1e-11, 1e-10, 1e-11, 1e-6, 1e-9
+# STILL: the last of the slip, which takes far less time than the 1e-9 to which events are located. SLACK (Mg),
+# TOUCH (R): less than that is nothing. LEAST: what is left of u_z' by N, of 1 without friction. CLOSED (R): a contact
+# as near is closed.
+STILL, SLACK, TOUCH, LEAST, CLOSED = 1e-13, 1e-10, 1e-11, 1e-6, 1e-9
 FALLS = 1e-12  # ((gR)^1/2): a closed contact that falls more slowly is at rest
 NUDGE = 1e-9  # of slip, ((gR)^1/2), by which a patch lets go
 SINKS = 1e-6  # (g): a contact that is let go and sinks faster would have to carry
@@ -119,53 +115,7 @@ def first_negative(found: Array) -> int:
     return NO_ONE
 
 
-# ---- impulses ----
-
-
-@compiled
-def mobility(i: int, j: int, y: Array, P: Record, C: Record) -> Array:
-    """(4, 4): (u_i, w_z) by an impulse, and a moment about z, at contact j."""
-    e, W, zero = turning(y, P)[0], np.zeros((4, 4)), (0.0, 0.0, 0.0)
-    for axis in range(4):
-        one = (1.0 if axis == 0 else 0.0, 1.0 if axis == 1 else 0.0, 1.0 if axis == 2 else 0.0)
-        column(C, 0, j, 2, one, (0.0, 0.0, 1.0) if axis == 3 else zero)
-        w_dot = angular((C.columns[0, 3], C.columns[0, 4], C.columns[0, 5]), e, P)
-        for part in range(4):
-            W[part, axis] = component(C, one, w_dot, i, part)
-    return W
-
-
-@compiled
-def pushed(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
-    """y after the impulse and the moment J (4,) at contact i; the energy that takes is heat."""
-    before, impulse = kinetic(y, turning(y, P)[2], P), (J[0], J[1], J[2])
-    torque = cross(row(C.rho, i), impulse)
-    y[5], y[6], y[7] = y[5] + torque[0], y[6] + torque[1], y[7] + torque[2] + J[3]
-    y[8], y[9], y[14] = y[8] + J[0], y[9] + J[1], y[14] + J[2]
-    y[13] += before - kinetic(y, turning(y, P)[2], P)
-
-
-@compiled
-def moving(y: Array, i: int, P: Record, C: Record) -> Array:
-    """(u, w_z) of contact i, and where the contacts are into C."""
-    _, w, _ = arrange(y, NO_ONE, OPEN, OPEN, P, C)
-    return np.array([C.u[i, 0], C.u[i, 1], C.u[i, 2], w[2]])
-
-
-@compiled
-def rests(y: Array, i: int, P: Record, C: Record) -> bool:
-    """Whether friction may hold contact i."""
-    if P.law.mu_s == 0.0:
-        return False
-    q = moving(y, i, P, C)
-    return np.sqrt(q[0] ** 2 + q[1] ** 2 + (P.law.width * q[3]) ** 2) < REST
-
-
-@compiled
-def halted(y: Array, i: int, P: Record, C: Record) -> None:
-    """y with the last of the slip of contact i gone."""
-    q = moving(y, i, P, C)
-    pushed(y, i, held(mobility(i, i, y, P, C), (q[0], q[1], q[2], q[3]), P.law), P, C)
+# ---- touching, leaving ----
 
 
 @compiled
@@ -272,7 +222,7 @@ def settle(y: Array, event: int, floor: Array, modes: Indices, P: Record, S: Rec
 
 
 @compiled
-def choose(y: Array, options: Array, modes: Indices, P: Record, S: Record, C: Record) -> bool:
+def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Record) -> bool:
     """The contacts that carry from here on into modes: none pulls, none sinks in, none holds more than it can.
 
     Where all fail, those that fail least; False beyond Painleve's limit.
@@ -304,7 +254,7 @@ def choose(y: Array, options: Array, modes: Indices, P: Record, S: Record, C: Re
 
 
 @compiled
-def lacks(w: tuple[float, float, float], ball: int, stem: int, options: Array, P: Record, C: Record) -> float:
+def lacks(w: tuple[float, float, float], ball: int, stem: int, options: Bools, P: Record, C: Record) -> float:
     """By how much the worst of the contacts pulls, sinks in, or holds too much."""
     worst = -np.inf
     for i in range(1 + P.stem):
@@ -320,7 +270,7 @@ def lacks(w: tuple[float, float, float], ball: int, stem: int, options: Array, P
 
 
 @compiled
-def soften(y: Array, closed: Array, P: Record, C: Record) -> None:
+def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
     """y with both contacts closed for good, where they touch too softly to tell and both would carry.
 
     For else ever smaller bounces would follow without end, down to heights below the tolerance; the energy is its

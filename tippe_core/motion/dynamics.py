@@ -9,22 +9,22 @@ In space axes, e along axis 3, L about G, v of G, contacts at rho_i from G, k = 
     ball     rho = a e - z ,
     stem     rho = (a + h) e - b n - q z ,   n = (z - e_z e)/s ,
 
-the stem's edge being a circle of radius b about axis 3 at the height h above O, rounded by a ball of radius q. A contact
-that slips pushes with F = N (z - k(u) u) and the moment of pivoting M = -N t(u, w_z) z, the law of friction; one that
-sticks with any F, and where its law has a moment of pivoting with any M along z. Rolling resistance adds
+the stem's edge being a circle of radius b about axis 3 at the height h above O, rounded by a ball of radius q. A
+contact that slips pushes with F = N (z - k(u) u) and the moment of pivoting M = -N t(u, w_z) z, the law of friction;
+one that sticks with any F, and where its law has a moment of pivoting with any M along z. Rolling resistance adds
 M = -N delta w_h/|w_h|. There are as many unknowns as conditions: u_z' = 0, and where it sticks u' = 0 (and w_z' = 0).
 Two contacts that stick leave the friction along the line between them open: the least will do.
 
 No Euler angle: the orientation is that of a frame that has e as third axis and does not turn about it (quaternion p),
-and the angle chi by which the body has turned in it, chi' = w_3. Both are smooth through theta = 0 and pi. So a state is
+and the angle chi by which the body has turned in it, chi' = w_3. Both are smooth through theta = 0 and pi. A state is
 
     y = (p_x, p_y, p_z, p_w, chi, L_x, L_y, L_z, v_x, v_y, x, y, t, heat, v_z, z) .
 
 v_z and z follow from the rest where a contact carries, v_x and v_y where the first that carries sticks.
 
-Coulomb's friction has no direction at u = 0. So log|u| and the direction beta of the slowest contact's u take the place
-of v_x and v_y, and the motion is followed in tau, where dt = dtau |u|/(|u| + SLOW): on the way to sticking and out of it
-|u| falls or grows exponentially in tau and beta is smooth. That is a change of variables, not of the law.
+Coulomb's friction has no direction at u = 0. So log|u| and the direction beta of the slowest contact's u take the
+place of v_x and v_y, and the motion is followed in tau, where dt = dtau |u|/(|u| + SLOW): on the way to sticking and
+out of it |u| falls or grows exponentially in tau and beta is smooth. That is a change of variables, not of the law.
 """
 
 from typing import TypeAlias
@@ -46,6 +46,12 @@ POLE = 1e-12  # sin(theta) below which the stem's lowest point is anywhere on it
 LOG_FAST = 100.0  # a trial step with log|u| above that is too long anyway, and its exponential may overflow
 
 Turning: TypeAlias = tuple[Vector, Vector, float]  # e, w, L . e
+
+
+@compiled
+def carried(ball: int, stem: int) -> int:
+    """What carries in these modes: 0 nothing, 1 the ball, 2 the stem, 3 both."""
+    return (1 if ball != OPEN else 0) + (2 if stem != OPEN else 0)
 
 
 @compiled

@@ -1,50 +1,25 @@
-"""A motion followed from event to event: steps of stepper.py with the dynamics of dynamics.py, guards watched on the
-way, events located on the step's polynomial, and contacts.py to say how it goes on."""
+"""A motion followed to its next event: steps of stepper.py with the dynamics of dynamics.py, watched on the way."""
 
 import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .contacts import (
-    BALANCES,
-    GUARDS,
-    HALTS,
-    LEAVES,
-    LOG_STILL,
-    RIM,
-    ROCKS,
-    SLIPS,
-    STANDS_UP,
-    TOUCHES,
-    first_negative,
-    guards,
-    halted,
-    known,
-    margin,
-    may_stick,
-    settle,
-)
-from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, STICK, arrange, forces, rates, turning
+from .contacts import HALTS, LEAVES, LOG_STILL, SLIPS, first_negative, guards, known, margin, may_stick
+from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, forces, rates
 from .friction import CONTENSOU, COULOMB
+from .impulses import halted
 from .poses import record, turned
 from .records import Record
-from .standing import leaning, lies
 from .stepper import STAGES, A, B, at_share, densely, error, factor, stage, when, within
+from .tally import tally
+from .watching import first_event
 
 # How following ends for now: the times are over; more steps are needed; Coulomb's friction holds the ball; for good.
 OVER, MORE, ROLLS, ENDED = -1, -2, -3, -4
-# events by number
-STICKS, SLIPS_OFF, LIFTS_OFF, LANDS, LANDS_ON_STEM, STEM_TOUCHES, BALL_TOUCHES, STEM_LEAVES, STANDS_ON_STEM = range(9)
-FALLS_BACK, ROCKS_OVER, RIM_TOUCHES, STANDS_UPRIGHT, PAINLEVE, TOO_MANY_EVENTS, TOO_MANY_TURNS = range(9, 16)
-NAMES = ("sticks", "slips", "lifts off", "lands", "lands on its stem", "stem touches", "ball touches", "stem leaves",
-         "stands on its stem", "falls back on its ball", "rocks over", "rim touches", "stands upright",
-         "Painleve's limit", "too many events", "too many turns")  # fmt: skip
-SUPPORTS = ("none", "ball", "stem", "both")  # by ball + 2 stem
 
 FIRST = 1e-3  # (R/g)^1/2: a first step; it grows fast
 SMALLEST = 1e-13  # (R/g)^1/2: no step is smaller
 NEAR = 0.1  # a guard as near to 0 is looked at along the step
-LOOKS = 8  # so many times
 SLIPS_LITTLE = 1e-3  # relative precision of a slip at least
 STIFF = 10.0  # times faster than a slip changes its direction is attracted, where it is kept steady
 NEARLY_STILL = 1e5  # times the tolerance: a slip and spin of a patch at which it may come to rest
@@ -88,7 +63,7 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     h, near = accept(W, P, slowest, end - y[12] if timed else np.inf)
     if timed:  # without the rounding of its integration
         S.new[12] = end if h == end - y[12] else y[12] + h
-    event, share, k = NO_ONE, 1.0, W.samples
+    event, share, k, N = NO_ONE, 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
     if near < NEAR or S.new[12] > end or (k < len(times) and times[k] <= S.new[12]):
         densely(S, h, slowest, ball, stem, P, C)
     if near < NEAR:
@@ -110,6 +85,7 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     before = moved(W, P, slowest, t)
     if event == NO_ONE and share == 1.0:
         event = comes_to_rest(W, P, slowest, before)
+    tally(W, P, 0.0 if LEAVES <= event < LEAVES + 2 else N if share == 1.0 else np.inf)
     return event
 
 
@@ -136,8 +112,8 @@ def change_variables(W: Record, P: Record) -> int:
     W.steady = 0
     if slowest != NO_ONE and least < P.tolerance ** (2 / 3):
         S.at[:] = S.z
-        _, attracts, grows = steady_direction(W, P, slowest)
-        W.steady = attracts > STIFF * abs(grows)
+        beta, attracts, grows = steady_direction(W, P, slowest)
+        W.steady = attracts > STIFF * abs(grows) and abs(beta - S.z[9]) < SLIPS_LITTLE
     return slowest
 
 
@@ -153,13 +129,12 @@ def scales(W: Record, P: Record, slowest: int) -> None:
     S.scale[8] = S.scale[9] = S.scale[14] = tolerance * v
     S.scale[13] = tolerance * max(1.0, L * L / P.I1)
     if slowest != NO_ONE:
-        S.scale[8] = S.scale[9] = max(min(tolerance * v / np.exp(S.z[8]), SLIPS_LITTLE), tolerance)
+        S.scale[8] = S.scale[9] = max(min(0.1 * tolerance / np.exp(S.z[8]), SLIPS_LITTLE), tolerance)
 
 
 @compiled
 def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, float]:
     """A step from step.z to step.new within the tolerance, not longer than most: its length, and margin()'s least."""
-    S, factors = W.step, 0.0
     while True:
         h = min(W.h, most)
         found, near = attempt(W, P, slowest, h)
@@ -208,63 +183,6 @@ def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, 
         if abs(out[9]) < 1e-12 * attracts:
             break
     return beta, attracts, out[8]
-
-
-@compiled
-def first_event(W: Record, P: Record, slowest: int) -> tuple[int, float]:
-    """The first guard that falls below 0 within the step, or NO_ONE, and the share of the step at which it does."""
-    before, event, share = 0.0, NO_ONE, 1.0
-    for n in range(1, LOOKS + 1):
-        x = n / LOOKS
-        watched(W, P, slowest, x)
-        if first_negative(W.guards) == NO_ONE:
-            before = x
-            continue
-        negative = W.guards < 0
-        for i in range(GUARDS):
-            if negative[i]:
-                at = crossing(W, P, slowest, i, before, x)
-                if event == NO_ONE or at < share:
-                    event, share = i, at
-        break
-    return event, share
-
-
-@compiled
-def watched(W: Record, P: Record, slowest: int, x: float) -> None:
-    """The guards at the share x of the step."""
-    C = W.contacts
-    at_share(W.step, x, W.step.K[0])
-    guards(W.step.K[0], slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
-
-
-@compiled
-def height_or_guard(W: Record, P: Record, slowest: int, i: int, x: float, touches: bool) -> float:
-    """Guard i at the share x of the step; of one that touches, the height."""
-    watched(W, P, slowest, x)
-    return W.contacts.height[i - TOUCHES] if touches else W.guards[i]
-
-
-@compiled
-def crossing(W: Record, P: Record, slowest: int, i: int, low: float, high: float) -> float:
-    """The share of the step at which guard i falls below 0, between two, by false position and bisection in turns."""
-    touches = TOUCHES <= i < TOUCHES + 2 and height_or_guard(W, P, slowest, i, low, True) > 0.0
-    f_low = height_or_guard(W, P, slowest, i, low, touches)
-    f_high = height_or_guard(W, P, slowest, i, high, touches)
-    if f_low <= 0.0:
-        return low
-    for n in range(60):
-        if high - low < 1e-14:
-            break
-        x = (low + high) / 2 if n % 3 == 2 else low + (high - low) * f_low / (f_low - f_high)
-        f = height_or_guard(W, P, slowest, i, x, touches)
-        if f > 0.0:
-            low, f_low = x, f
-        else:
-            high, f_high = x, f
-        if f == 0.0:
-            break
-    return high
 
 
 @compiled
@@ -324,84 +242,3 @@ def sample(W: Record, P: Record, z: Array, slowest: int, t: float, rows: Array) 
     turned(z, W.angles)
     record(z, t, turn, W.angles, ball, stem, P, C, rows[k])
     W.samples = k + 1
-
-
-# ---- from event to event ----
-
-
-@compiled
-def run(
-    W: Record, P: Record, log: Array, times: Array, rows: Array, end: float, flies: bool, hands_over: bool, steps: int
-) -> int:
-    """On over events: OVER, MORE after so many steps, ROLLS where asked to hand that over, or ENDED; see log."""
-    limit = W.steps + steps
-    while True:
-        if hands_over and W.modes[BALL] == STICK and W.modes[STEM] == OPEN and P.law.kind == COULOMB:
-            return ROLLS
-        event = follow(W, P, times, rows, end, limit)
-        if event in (OVER, MORE):
-            return event
-        if happens(W, P, log, event, flies):
-            return ENDED
-
-
-@compiled
-def happens(W: Record, P: Record, log: Array, event: int, flies: bool) -> bool:
-    """The event, into the log, and the modes after it; whether the motion ends there."""
-    y, C, ball, stem = W.y, W.contacts, W.modes[BALL], W.modes[STEM]
-    if event in (BALANCES, STANDS_UP, RIM):
-        names = PAINLEVE if event == BALANCES else STANDS_UPRIGHT if event == STANDS_UP else RIM_TOUCHES
-        noted(W, log, names, ball, stem)
-        return True
-    W.begins = 1
-    goes_on = settle(y, event, W.floor, W.modes, P, W.step, C)
-    turned(y, W.angles)
-    if not goes_on:
-        W.modes[BALL], W.modes[STEM] = ball, stem
-        left_ball, left_stem = (OPEN if event == LEAVES else ball), (OPEN if event == LEAVES + 1 else stem)
-        noted(W, log, change(ball, stem, left_ball, left_stem, event), ball, stem)
-        noted(W, log, PAINLEVE, ball, stem)
-        return True
-    ends, (e, w, _) = False, turning(y, P)
-    if event == ROCKS and W.modes[STEM] != OPEN:
-        ends = leaning(e, w)[1] <= 0.0 or lies(P, (P.b, P.h, P.q), e, w)
-    name = STANDS_UPRIGHT if ends else change(ball, stem, W.modes[BALL], W.modes[STEM], event)
-    if e[2] < P.rim:
-        name, ends = RIM_TOUCHES, True
-    ends = ends or (name == LIFTS_OFF and not flies)
-    if ends:
-        W.modes[BALL], W.modes[STEM] = ball, stem
-    noted(W, log, name, W.modes[BALL], W.modes[STEM])
-    if W.events >= len(log) - 2 and not ends:
-        noted(W, log, TOO_MANY_EVENTS, W.modes[BALL], W.modes[STEM])
-        return True
-    return ends
-
-
-@compiled
-def noted(W: Record, log: Array, name: int, ball: int, stem: int) -> None:
-    """One more line of the log."""
-    n = W.events
-    log[n, 0], log[n, 1] = W.y[12], name
-    log[n, 2] = (1 if ball != OPEN else 0) + (2 if stem != OPEN else 0)
-    W.events = n + 1
-
-
-@compiled
-def change(ball_before: int, stem_before: int, ball: int, stem: int, event: int) -> int:
-    """What to call the change of modes after an event."""
-    before = (1 if ball_before != OPEN else 0) + (2 if stem_before != OPEN else 0)
-    after = (1 if ball != OPEN else 0) + (2 if stem != OPEN else 0)
-    if before == 0:
-        return LANDS_ON_STEM if after >= 2 or (after == 0 and event == TOUCHES + STEM) else LANDS
-    if before == after or after == 3:
-        if event == ROCKS:
-            return ROCKS_OVER
-        if event >= HALTS:
-            return STICKS
-        if SLIPS <= event < SLIPS + 2:
-            return SLIPS_OFF
-        return STEM_TOUCHES if (event - LEAVES) % 2 == STEM else BALL_TOUCHES
-    if before == 3 and after == 1:
-        return STEM_LEAVES
-    return LIFTS_OFF if after == 0 else FALLS_BACK if after == 1 else STANDS_ON_STEM

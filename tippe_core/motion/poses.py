@@ -13,7 +13,8 @@ REGIMES = np.array(["air", "slip", "roll"])
 # columns of a row
 COLUMNS = {"t": slice(0, 1), "theta": slice(1, 2), "phi": slice(2, 3), "psi": slice(3, 4), "quaternion": slice(4, 8),
            "contact": slice(8, 10), "com": slice(10, 13), "omega": slice(13, 16), "slip": slice(16, 18),
-           "force": slice(18, 21), "velocity": slice(21, 24), "heat": slice(24, 25), "regime": slice(25, 26)}  # fmt: skip
+           "force": slice(18, 21), "velocity": slice(21, 24), "heat": slice(24, 25), "regime": slice(25, 26),
+           }  # fmt: skip
 WIDTH = 26
 
 

@@ -10,8 +10,12 @@ Record: TypeAlias = Any  # an np.record of one of these types
 
 def kind(**fields: object) -> Any:
     """A type of records: a float for each name, or an array of the given shape, or what the given type says."""
-    parts = [(name, *what) if isinstance(what, tuple) and what and isinstance(what[0], str) else
-             (name, np.float64, what) if isinstance(what, tuple) else (name, what) for name, what in fields.items()]  # fmt: skip
+    parts: list[tuple[Any, ...]] = []
+    for name, what in fields.items():
+        if isinstance(what, tuple):  # a shape, or a type and a shape
+            parts.append((name, *what) if isinstance(what[0], str) else (name, float, what))
+        else:
+            parts.append((name, what))
     return np.dtype((np.record, np.dtype(parts, align=True)))
 
 
@@ -23,14 +27,14 @@ def new(kind: Any) -> Record:
 # A law of friction, friction.Law.
 LAW = kind(kind="i8", mu=float, mu_s=float, width=float)
 
-# What stays the same in a motion. b, h, q: of the stem's edge, where stem is 1; rim: cos(theta) where the ball's surface
-# ends, -2 if it does not; delta, drag: of rolling resistance and of the air; tolerance: of a step.
+# What stays the same in a motion. b, h, q: of the stem's edge, where stem is 1; rim: cos(theta) where the ball's
+# surface ends, -2 if it does not; delta, drag: of rolling resistance and of the air; tolerance: of a step.
 PROBLEM = kind(a=float, I1=float, I3=float, law=LAW, stem="i8", b=float, h=float, q=float, rim=float, delta=float,
                drag=float, tolerance=float)  # fmt: skip
 
-# What is found at an instant. Rows of ball and stem: rho, rho', u, u' but for the forces, F, M (moments beside rho x F);
-# heights above the table; G: v and z of G; v', L', w'. Then columns, the force and the moment about G of each unknown;
-# the contact, and the component of its u', that each is for; and the equations for them.
+# What is found at an instant. Rows of ball and stem: rho, rho', u, u' but for the forces, F, M (moments beside
+# rho x F); heights above the table; G: v and z of G; v', L', w'. Then columns, the force and the moment about G of each
+# unknown; the contact, and the component of its u', that each is for; and the equations for them.
 CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(2, 3), height=(2,), G=(4,), v_dot=(3,),
                 L_dot=(3,), w_dot=(3,), columns=(7, 6), owner=("i8", (7,)), part=("i8", (7,)), matrix=(7, 7),
                 right=(7,))  # fmt: skip
@@ -39,9 +43,14 @@ CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(
 # of the polynomial.
 STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7, 16))
 
+# What is said of a motion as a whole, tally.py.
+TALLY = kind(since=float, C_J=float, drift=float, time_90=float, time_stem=float, hops="i8", F_z_least=float,
+             least=float, most=float, seen="i8", slips="i8")  # fmt: skip
+
 # A motion: y, the modes of ball and stem, heights that count as the table's (what the tolerance took from those of
 # contacts that just parted), angles as poses.py has them, the next step, the guards; how many samples, events and steps
 # there are, and whether a stretch begins; the slowest contact, log|u| and beta of it, and whether beta is
 # kept steady.
 MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(10,), samples="i8", events="i8",
-              steps="i8", begins="i8", slowest="i8", polar=(2,), steady="i8", step=STEP, contacts=CONTACTS)  # fmt: skip
+              steps="i8", begins="i8", slowest="i8", polar=(2,), steady="i8", step=STEP, contacts=CONTACTS,
+              tally=TALLY)  # fmt: skip

@@ -10,38 +10,38 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError, finite, numbers
+from ..errors import TopError
 from ..paper.constants import State, versines
 from ..paper.top import Top
-from ..types import Array, Number, Rim
-from . import following
-from .contacts import SLACK, SLIPS, STARTS, TOUCH, TOUCHES, settle
-from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, turning
-from .following import (
-    LIFTS_OFF,
-    MORE,
-    NAMES,
-    PAINLEVE,
-    ROLLS,
-    STANDS_UPRIGHT,
-    SUPPORTS,
-    TOO_MANY_TURNS,
-    happens,
-    noted,
-    run,
-)
-from .friction import CONTENSOU, COULOMB, Contensou, Coulomb, Friction, Law, SmoothedCoulomb, Viscous
+from ..types import Array, Number
+from .contacts import RIM, SLACK, SLIPS, TOUCH, TOUCHES
+from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, carried
+from .following import MORE, ROLLS
+from .friction import Contensou, Coulomb, Friction, SmoothedCoulomb, Viscous
+from .happening import LIFTS_OFF, NAMES, PAINLEVE, STANDS_UPRIGHT, SUPPORTS, TOO_MANY_TURNS, happens, noted, run
 from .poses import COLUMNS, REGIMES, ROLLING, WIDTH, record
-from .records import MOTION, PROBLEM, Record, new
+from .preparing import (
+    beginning,
+    check_balance,
+    checked_edge,
+    checked_loss,
+    checked_rtol,
+    gap,
+    motion,
+    on_table,
+    problem,
+    start,
+    y_of,
+)
+from .records import Record
 from .rolling import Rolling
 from .smooth import first_below
-from .standing import leaned
 from .trajectory import Trajectory, checked_times
 
 MOST_EVENTS = 10_000
 MOST_STEPS = 4_000_000  # about half a minute
 EACH = 32  # steps between two calls of progress
-SHARE = 0.1  # of rtol, for a step
+LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
 
 
 def slide(
@@ -67,8 +67,8 @@ def slide(
     1e-3 for wood (smooth below 1e-3 (g/R)^1/2). air_drag: k in MR^2 (g/R)^1/2, a moment -k omega. Both enter the heat.
     progress: called now and then with the time reached; what it raises stops the run and passes through.
 
-    events: (time, what), located to 1e-9: "sticks" and "slips" (laws that hold; "slips" also where the slip goes through
-    0 without a halt and turns round), "lifts off" and "lands", or "lands on its
+    events: (time, what), located to 1e-9: "sticks" and "slips" (laws that hold; "slips" also where the slip goes
+    through 0 without a halt and turns round), "lifts off" and "lands", or "lands on its
     stem"; "stem touches" or "ball touches" (the other carries on), "stem leaves", "stands on its stem" (the ball has
     left), "falls back on its ball". How many of ever smaller bounces between the two are listed depends on rtol. The
     Trajectory ends early, without a sample at the event, with
@@ -88,24 +88,18 @@ def slide(
     """
     if not isinstance(state, State):
         raise TopError("state", state, "a State")
-    if not isinstance(friction, Coulomb | Viscous | SmoothedCoulomb | Contensou):
-        raise TopError("friction", friction,
-                       "Coulomb(mu_k, mu_s), Viscous(gamma), SmoothedCoulomb(mu, eps) or Contensou(mu, radius)")  # fmt: skip
+    if not isinstance(friction, LAWS):
+        allowed = "Coulomb(mu_k, mu_s), Viscous(gamma), SmoothedCoulomb(mu, eps) or Contensou(mu, radius)"
+        raise TopError("friction", friction, allowed)
     t = checked_times(times)
     if np.any(np.diff(t) < 0):
         raise TopError("times", times, "times that do not fall", "Friction has no way back.")
-    _check_balance(top, friction)
-    rtol = finite("rtol", rtol)
-    if not 1e-13 <= rtol <= 1e-3:
-        raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
+    check_balance(top, friction)
+    rtol = checked_rtol(rtol)
     if landing not in ("stop", "plastic"):
         raise TopError("landing", landing, '"stop" or "plastic"')
-    losses = []
-    for name, loss in (("rolling_resistance", rolling_resistance), ("air_drag", air_drag)):
-        losses.append(finite(name, loss))
-        if losses[-1] < 0:
-            raise TopError(name, loss, f"{name} >= 0")
-    P = problem(top, friction, _checked_edge(edge), *losses, rtol)
+    losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
+    P = problem(top, friction, checked_edge(edge), losses, rtol)
     return _Run(top, P, landing == "plastic", progress)(state, t)
 
 
@@ -132,73 +126,6 @@ def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / nudge)
 
 
-def _checked_edge(edge: ArrayLike | None) -> Rim | None:
-    """(radius, height, rounding), or None."""
-    if edge is None:
-        return None
-    parts = numbers("edge", edge)
-    if parts.shape not in ((2,), (3,)) or parts[0] < 0 or (parts[2:] < 0).any():
-        raise TopError("edge", edge, "(radius >= 0, height above O, rounding >= 0) in R, or None")
-    radius, height, rounding = edge = tuple(np.append(parts, 0.0)[:3].tolist())
-    if np.hypot(radius, height) + rounding < 1 - 1e-6:
-        raise TopError("edge", edge, "an edge not inside the sphere that rolls")
-    return edge
-
-
-def _check_balance(top: Top, friction: Friction) -> None:
-    """F_z must be positive for every direction of u: mu |a| r_z s < I1 + a^2 s^2 (Painleve)."""
-    name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), ("", 0.0))
-    s, c = np.sin(theta := np.linspace(0, np.pi, 721)), np.cos(theta)
-    arm = abs(top.a * (1 - top.a * c)) * s
-    with np.errstate(divide="ignore"):
-        most = np.min((top.I1 + (top.a * s) ** 2) / arm)
-    if mu >= most:
-        raise TopError(name, mu, f"{name} < {most:.6g} for this top",
-                       "More friction than that no normal force balances (Painleve's paradox).")  # fmt: skip
-
-
-def problem(top: Top, friction: Friction, edge: Rim | None, delta: float, drag: float, rtol: float) -> Record:
-    """The Problem. An edge on the sphere itself is where its surface ends."""
-    (b, h, q), rim, law = edge or (0.0, 0.0, 0.0), -2.0, friction.law
-    if edge and np.hypot(b, h) + q < 1 + 1e-6:
-        edge, rim = None, float(-h / np.hypot(b, h))
-    if law.kind == CONTENSOU and law.width == 0.0:
-        law = Law(COULOMB, law.mu, law.mu_s, 0.0)
-    P = new(PROBLEM)
-    P.a, P.I1, P.I3 = top.numbers
-    P.law, P.stem, P.b, P.h, P.q, P.rim = tuple(law), edge is not None, b, h, q, rim
-    P.delta, P.drag, P.tolerance = delta, drag, SHARE * rtol
-    return P
-
-
-def beginning(state: State, t: float, P: Record) -> tuple[Array, Array]:
-    """y at a State, on the ball or the stem, and the angles of poses.py."""
-    s, c, turn = np.sin(state.theta / 2), np.cos(state.theta / 2), np.exp(1j * state.phi)
-    v = complex(state.vx or 0.0, state.vy or 0.0) * turn
-    place = complex(state.x or 0.0, state.y or 0.0)
-    return y_of(P, state.theta, s, c, turn, state.phi + state.psi, (state.theta_dot, state.omega2, state.omega3), v,
-                place, t, 0.0), np.array([0.0, state.phi])  # fmt: skip
-
-
-def y_of(
-    P: Record, theta: float, sin_half: float, cos_half: float, turn: complex, chi: float, omega: ArrayLike, v: complex,
-    place: complex, t: float, heat: float,
-) -> Array:  # fmt: skip
-    """y, with p = Rz(phi) Rx(theta) Rz(-phi)."""
-    L1, L2, L3 = np.array([P.I1, P.I1, P.I3]) * omega
-    s, c = np.sin(theta), np.cos(theta)
-    p, L = sin_half * turn, complex(L1, c * L2 - s * L3) * turn
-    return np.array([p.real, p.imag, 0.0, cos_half, chi, L.real, L.imag, s * L2 + c * L3,
-                     v.real, v.imag, place.real, place.imag, t, heat, 0.0, 0.0])  # fmt: skip
-
-
-def motion(y: Array, angles: Array) -> Record:
-    """Room for a motion that begins at y."""
-    W = new(MOTION)
-    W.y[:], W.angles[:], W.begins = y, angles, 1
-    return W
-
-
 class _Run:
     """One motion."""
 
@@ -207,25 +134,19 @@ class _Run:
 
     def __call__(self, state: State, times: Array) -> Trajectory:
         P = self.P
-        if np.cos(state.theta) < P.rim:
-            raise TopError("theta", state.theta, f"less than {np.arccos(P.rim):.6g} for this top",
-                           "The sphere's surface ends there.")  # fmt: skip
         y, angles = beginning(state, times[0], P)
         W = self.motion = motion(y, angles)
         self.log = np.zeros((MOST_EVENTS + 2, 3))
         self.times, self.rows = times, np.zeros((len(times), WIDTH))
         stands_on, goes_on = start(W, P, state.theta)
-        first = W.modes if goes_on else [OPEN, OPEN]
-        supports = [
-            (float(times[0]), SUPPORTS[(first[0] > 0) + 2 * (first[1] > 0)] if goes_on else SUPPORTS[1 + stands_on])
-        ]
+        first = carried(*W.modes) if goes_on else 1 + stands_on
+        supports = [(float(times[0]), SUPPORTS[first])]
         if not goes_on:
-            noted(W, self.log, PAINLEVE, 0, 0)
-        else:
-            if not any(W.modes):
-                noted(W, self.log, LIFTS_OFF, 0, 0)
-            if any(W.modes) or self.flies:
-                self._follow()
+            noted(W, self.log, PAINLEVE, OPEN, OPEN)
+        elif first == 0:
+            noted(W, self.log, LIFTS_OFF, OPEN, OPEN)
+        if goes_on and (first or self.flies):
+            self._follow()
         count = int(W.samples)
         if not count:
             self._alone(stands_on, int(self.log[0, 1]))
@@ -234,10 +155,9 @@ class _Run:
             raise TopError("friction", P.law, "weaker friction for this top", "The equations could not be followed.")
         log = self.log[: W.events]
         events = tuple((float(t), NAMES[int(name)]) for t, name, _ in log)
-        for t, name, carries in log:
-            if name == PAINLEVE:
-                continue
-            _support(supports, float(t), SUPPORTS[int(carries)])
+        for t, name, what in log:
+            if name != PAINLEVE:
+                _support(supports, float(t), SUPPORTS[int(what)])
         parts = {name: np.ascontiguousarray(self.rows[:count, column]) for name, column in COLUMNS.items()}
         for name in ("t", "theta", "phi", "psi", "heat"):
             parts[name] = parts[name][:, 0]
@@ -279,8 +199,8 @@ class _Run:
     def _roll(self) -> bool:
         """Rolling on the ball, by the exact motion of rolling.py, until an event; whether the motion ends with it."""
         W, P, y, times, top = self.motion, self.P, self.motion.y, self.times, self.top
-        rolling, b, h, q = Rolling(top, None, self._state(y)), P.b, P.h, P.q
-        floor = min(gap(P, np.cos(self._state(y).theta), np.sin(self._state(y).theta)), 0.0)
+        state = self._state(y)
+        rolling, floor = Rolling(top, None, state), min(gap(P, np.cos(state.theta), np.sin(state.theta)), 0.0)
 
         def margin(t: Array) -> Array:
             F = rolling(np.append(0.0, t)).force[1:].T
@@ -297,7 +217,7 @@ class _Run:
         if P.stem:
             found.append((first_below(room_left, rolling.period), TOUCHES + STEM))
         if P.rim > -2:
-            found.append((first_below(lambda t: np.cos(tilt(t)) - P.rim, rolling.period), following.RIM))
+            found.append((first_below(lambda t: np.cos(tilt(t)) - P.rim, rolling.period), RIM))
         ends, event = min(found)
         done = int(W.samples)
         last = y[12] + ends
@@ -329,28 +249,6 @@ class _Run:
         W.contacts.F[stands_on, 2] = float(event == STANDS_UPRIGHT)
         record(y, self.times[0], turn, W.angles, modes[0], modes[1], P, W.contacts, self.rows[0])
         self.rows[0, 16:18] = 0.0
-
-
-def gap(P: Record, c: Number, s: Number) -> Number:
-    """Height of the stem's lowest point above the table while the ball stands on it."""
-    return 1 + P.h * c - P.b * s - P.q
-
-
-def on_table(y: Array, i: int, P: Record, W: Record) -> None:
-    """v_z and z into y with contact i on the table."""
-    arrange(y, NO_ONE, SLIP if i == BALL else OPEN, SLIP if i == STEM else OPEN, P, W.contacts)
-    y[14], y[15] = W.contacts.G[2], W.contacts.G[3]
-
-
-def start(W: Record, P: Record, theta: float) -> tuple[int, bool]:
-    """The contact on which y begins, with y there and the modes in which it goes on; False beyond Painleve's limit."""
-    y = W.y
-    e, w, _ = turning(y, P)
-    i = STEM if P.stem and gap(P, np.cos(theta), np.sin(theta)) < 0 else BALL
-    if i == STEM and P.b > 0:
-        y[:] = leaned(y, e, w)
-    on_table(y, i, P, W)
-    return i, bool(settle(y, STARTS + i, W.floor, W.modes, P, W.step, W.contacts))
 
 
 def _rows(moved: Trajectory, heat: float) -> Array:

@@ -1,0 +1,271 @@
+"""Many motions with friction at a time, on all cores: what maps stand on."""
+
+import os
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, fields
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import TopError, finite, numbers
+from ..paper.constants import State
+from ..paper.top import Top
+from ..types import Array, Bools
+from .dynamics import NO_ONE, arrange, kinetic, turning
+from .following import ENDED, MORE
+from .friction import CONTENSOU, Contensou, Coulomb, SmoothedCoulomb, Viscous
+from .happening import STANDS_UPRIGHT
+from .poses import WIDTH, record
+from .preparing import (
+    beginning,
+    check_balance,
+    checked_edge,
+    checked_loss,
+    checked_rtol,
+    motion,
+    problem,
+    start,
+)
+from .records import Record
+from .repeats import run_all
+from .sliding import beside
+from .tally import begin_tally
+
+LAST = 0.1  # the share of the time by which the end is told
+UPRIGHT, LEANS = 0.2, 0.05  # rad: so near to a pole; so little change of the tilt
+MOST_EVENTS, MOST_STEPS = 4000, 1_000_000  # of one motion
+EACH = 20_000  # steps after which a stop is looked for
+CELLS = 16  # motions a thread takes at a time
+LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
+
+
+class States(NamedTuple):
+    """States as arrays, one for each field of State."""
+
+    theta: Array
+    theta_dot: Array
+    omega2: Array
+    omega3: Array
+    phi: Array
+    psi: Array
+    x: Array
+    y: Array
+    vx: Array
+    vy: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Many:
+    """What became of many motions: read-only arrays of the shape to which what was asked for broadcasts.
+
+    theta_end, state_end  at t_end, or where the motion ended before: theta; States, as slide_many() takes them
+    time_90, time_stem    when theta first passes 90 degrees, when the stem first touches; nan if never
+    hops, flew            how many times it left the table; whether it ever did
+    F_z_least             the least load of the table while it touched, at the ends of steps
+    heat                  what friction, the losses and impacts took
+    energy_error          energy and heat at the end, less the energy at the start
+    C_J_drift             the largest change of C_J until the stem touches, over C_J; nan with a moment of pivoting
+    growth                how many times a nudge of the start's theta has grown by the end; nan without one
+    end                   by the last tenth of the time, in this order: "refused" (no such top, start or friction;
+                          Painleve's limit, the ball's surface ends, more events or turns than are followed), "stem"
+                          (on its stem alone), "upright" (on its ball, theta < 0.2), "inverted" (on its ball,
+                          theta > pi - 0.2), "leaning" (theta within 0.05 rad), "rolling" (sticks, nutating), "moving"
+    """
+
+    theta_end: Array
+    state_end: States
+    time_90: Array
+    time_stem: Array
+    hops: NDArray[np.int64]
+    F_z_least: Array
+    flew: Bools
+    heat: Array
+    energy_error: Array
+    C_J_drift: Array
+    growth: Array
+    end: NDArray[np.str_]
+
+
+NUMBERS = ("time_90", "time_stem", "F_z_least", "heat", "energy_error", "C_J_drift", "growth")
+
+
+def slide_many(
+    top: Any, state: Any, friction: Any, t_end: ArrayLike, edge: ArrayLike | None = None, rtol: float = 1e-6,
+    nudge: float | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
+    progress: Callable[[float], object] | None = None,
+) -> Many:  # fmt: skip
+    """Many motions as slide() follows one with landing="plastic", from 0 to t_end, on all cores: Many.
+
+    top, state, friction: each a Top, a State and a law of friction; or a list or an array of such; or anything with
+    their fields as arrays (types.SimpleNamespace(a=..., I1=..., I3=...); of a law mu_k and perhaps mu_s, gamma, mu and
+    eps, or mu and radius). t_end: a number or an array, in (R/g)^1/2. edge: (..., 2 or 3) as in slide(). All of these
+    broadcast together. A cell that slide() would raise a TopError for is "refused", and its numbers are nan.
+    rtol: 1e-13 to 1e-3. nudge: in rad, as in sensitivity(); each motion is then followed twice.
+    progress: called from time to time with the share that is done; what it raises stops all and passes through.
+    The numbers do not depend on how many cores there are. Raises TopError for what does not broadcast, and for a bad
+    rtol, nudge or loss.
+    """
+    rtol, nudge = checked_rtol(rtol), None if nudge is None else finite("nudge", nudge)
+    losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
+    times = numbers("t_end", t_end)
+    rims = np.empty((), object) if edge is None else _objects([tuple(rim) for rim in _rows(edge)], np.shape(edge)[:-1])
+    parts = [_cells(top, Top), _cells(state, State), _cells(friction, *LAWS), times, rims]
+    try:
+        shape = np.broadcast_shapes(*(part.shape for part in parts))
+    except ValueError:
+        shapes = ", ".join(str(part.shape) for part in parts)
+        raise TopError("t_end", shapes, "shapes of top, state, friction, t_end and edge that broadcast") from None
+    flat = [np.broadcast_to(part, shape).ravel() for part in parts]
+    found = _all(lambda i, stop: _cell([part[i] for part in flat], rtol, nudge, losses, stop), len(flat[0]), progress)
+    return _many(found, shape)
+
+
+def _rows(edge: ArrayLike) -> Array:
+    rows = numbers("edge", edge)
+    if rows.ndim == 0 or rows.shape[-1] not in (2, 3):
+        raise TopError("edge", edge, "(..., 2 or 3): radius, height above O and rounding in R")
+    return rows.reshape(-1, rows.shape[-1])
+
+
+def _objects(items: list[Any], shape: tuple[int, ...]) -> NDArray[np.object_]:
+    cells = np.empty(len(items), object)
+    cells[:] = items
+    return cells.reshape(shape)
+
+
+def _cells(given: Any, *kinds: type) -> NDArray[np.object_]:
+    """An array of what makes one of the kinds: an instance, or the kind and its arguments."""
+    if isinstance(given, kinds):
+        return _objects([given], ())
+    if (isinstance(given, list | tuple) and not hasattr(given, "_fields")) or isinstance(given, np.ndarray):
+        return np.array(given, dtype=object)
+    for kind in kinds:
+        names = [field.name for field in fields(kind) if getattr(given, field.name, None) is not None]
+        needed = [
+            field.name for field in fields(kind) if field.default is field.default_factory or field.name == "mu_k"
+        ]
+        if set(needed) <= set(names):
+            arrays = np.broadcast_arrays(*(np.asarray(getattr(given, name), float) for name in names))
+            rows = zip(*(array.ravel().tolist() for array in arrays), strict=True)
+            return _objects([(kind, dict(zip(names, row, strict=True))) for row in rows], arrays[0].shape)
+    wanted = " or ".join(kind.__name__ for kind in kinds)
+    raise TopError(kinds[0].__name__.lower(), given, f"{wanted}, a list of such, or their fields as arrays")
+
+
+def _all(
+    cell: Callable[[int, threading.Event], Any], count: int, progress: Callable[[float], object] | None
+) -> list[Any]:
+    """cell(i, stop) of each, in a thread for each core that the process may use."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    stop, found, done = threading.Event(), [None] * count, 0
+
+    def some(first: int) -> int:
+        last = min(first + CELLS, count)
+        for i in range(first, last):
+            if stop.is_set():
+                break
+            found[i] = cell(i, stop)
+        return last - first
+
+    with ThreadPoolExecutor(cores) as pool:
+        jobs = [pool.submit(some, first) for first in range(0, count, CELLS)]
+        try:
+            for job in as_completed(jobs):
+                done += job.result()
+                if progress:
+                    progress(done / count)
+        except BaseException:
+            stop.set()
+            pool.shutdown(cancel_futures=True)
+            raise
+    return found
+
+
+def _made(cell: Any) -> Any:
+    """What a cell of _cells() stands for."""
+    if isinstance(cell, tuple):
+        return cell[0](**cell[1])
+    if not isinstance(cell, (Top, State, *LAWS)):
+        raise TopError("cell", cell, "a Top, a State or a law of friction")
+    return cell
+
+
+def _cell(
+    parts: list[Any], rtol: float, nudge: float | None, losses: tuple[float, float], stop: threading.Event
+) -> dict[str, Any]:
+    """One motion's part of Many, or that it is refused."""
+    try:
+        top, state, friction, t_end = *(_made(part) for part in parts[:3]), finite("t_end", parts[3])
+        if t_end < 0:
+            raise TopError("t_end", t_end, "t_end >= 0")
+        check_balance(top, friction)
+        P = problem(top, friction, checked_edge(parts[4]), losses, rtol)
+        found = _followed(state, P, t_end, stop)
+        if nudge is not None:
+            beside_it = _followed(beside(state, nudge), P, t_end, stop)
+            found["growth"] = abs(beside_it["state"][0] - found["state"][0]) / abs(nudge)
+        return found
+    except TopError:
+        return {"end": "refused"}
+
+
+def _followed(state: State, P: Record, t_end: float, stop: threading.Event) -> dict[str, Any]:
+    y, angles = beginning(state, 0.0, P)
+    W, log, status = motion(y, angles), np.zeros((MOST_EVENTS + 2, 3)), ENDED
+    _, goes_on = start(W, P, state.theta)
+    E = _energy(W, P)
+    begin_tally(W, P, (1 - LAST) * t_end)
+    if goes_on:
+        status = MORE
+        while status == MORE and W.steps < MOST_STEPS and not stop.is_set():
+            status = run_all(W, P, log, t_end, EACH)
+    T, stands = W.tally, status == ENDED and W.events > 0 and log[W.events - 1, 1] == STANDS_UPRIGHT
+    refused = not goes_on or status == MORE or (status == ENDED and not stands) or not np.all(np.isfinite(W.y))
+    drift = T.drift / (abs(T.C_J) or 1.0)
+    pivots = P.law.kind == CONTENSOU or P.drag > 0 or P.delta > 0
+    return {"state": _state(W, P), "time_90": T.time_90, "time_stem": T.time_stem, "hops": T.hops,
+            "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[13],
+            "energy_error": _energy(W, P) + W.y[13] - E, "C_J_drift": np.nan if pivots else drift,
+            "end": "refused" if refused else "stem" if stands else _end(T)}  # fmt: skip
+
+
+def _energy(W: Record, P: Record) -> float:
+    return float(kinetic(W.y, turning(W.y, P)[2], P) + W.y[15])
+
+
+def _state(W: Record, P: Record) -> list[float]:
+    """The fields of State at the end."""
+    row, C, y = np.zeros(WIDTH), W.contacts, W.y
+    record(y, y[12], arrange(y, NO_ONE, 0, 0, P, C), W.angles, 0, 0, P, C, row)
+    return [row[1], *row[13:16], row[2], row[3], y[10], y[11], row[21], row[22]]
+
+
+def _end(T: Record) -> str:
+    """By the tilt and what carried in the last of the time: bits 1, 2, 4, 8 of seen for none, ball, stem, both."""
+    if T.seen == 4:
+        return "stem"
+    if T.seen == 2 and T.most < UPRIGHT:
+        return "upright"
+    if T.seen == 2 and T.least > np.pi - UPRIGHT:
+        return "inverted"
+    if T.most - T.least < LEANS:
+        return "leaning"
+    return "moving" if T.slips else "rolling"
+
+
+def _many(found: list[dict[str, Any]], shape: tuple[int, ...]) -> Many:
+    def gathered(values: Any, kind: type) -> Any:
+        array: Any = np.array(values, kind).reshape(shape)
+        array.flags.writeable = False
+        return array
+
+    lost = [np.nan] * len(States._fields)
+    states = np.array([one.get("state", lost) for one in found]).reshape(len(found), -1).T
+    parts = {name: gathered([one.get(name, np.nan) for one in found], float) for name in NUMBERS}
+    hops = np.array([one.get("hops", 0) for one in found])
+    return Many(theta_end=gathered(states[0], float), state_end=States(*(gathered(x, float) for x in states)),
+                hops=gathered(hops, int), flew=gathered(hops > 0, bool),
+                end=gathered([one["end"] for one in found], str), **parts)  # fmt: skip

@@ -1,0 +1,124 @@
+"""What is asked of a motion with friction, checked, and as the kernels take it."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import TopError, finite, numbers
+from ..paper.constants import State
+from ..paper.top import Top
+from ..types import Array, Number, Rim, Vector
+from .contacts import STARTS, settle
+from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, turning
+from .friction import CONTENSOU, COULOMB, Friction, Law
+from .records import MOTION, PROBLEM, Record, new
+from .standing import leaned
+
+SHARE = 0.1  # of rtol, for a step
+
+
+def checked_rtol(rtol: float) -> float:
+    """rtol as a float in its range."""
+    rtol = finite("rtol", rtol)
+    if not 1e-13 <= rtol <= 1e-3:
+        raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
+    return rtol
+
+
+def checked_loss(name: str, loss: float) -> float:
+    """A loss as a float, not negative."""
+    loss = finite(name, loss)
+    if loss < 0:
+        raise TopError(name, loss, f"{name} >= 0")
+    return loss
+
+
+def checked_edge(edge: ArrayLike | None) -> Rim | None:
+    """(radius, height, rounding), or None."""
+    if edge is None:
+        return None
+    parts = numbers("edge", edge)
+    if parts.shape not in ((2,), (3,)) or parts[0] < 0 or (parts[2:] < 0).any():
+        raise TopError("edge", edge, "(radius >= 0, height above O, rounding >= 0) in R, or None")
+    radius, height, rounding = edge = tuple(np.append(parts, 0.0)[:3].tolist())
+    if np.hypot(radius, height) + rounding < 1 - 1e-6:
+        raise TopError("edge", edge, "an edge not inside the sphere that rolls")
+    return edge
+
+
+def check_balance(top: Top, friction: Friction) -> None:
+    """F_z must be positive for every direction of u: mu |a| r_z s < I1 + a^2 s^2 (Painleve)."""
+    name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), ("", 0.0))
+    s, c = np.sin(theta := np.linspace(0, np.pi, 721)), np.cos(theta)
+    arm = abs(top.a * (1 - top.a * c)) * s
+    with np.errstate(divide="ignore"):
+        most = np.min((top.I1 + (top.a * s) ** 2) / arm)
+    if mu >= most:
+        raise TopError(name, mu, f"{name} < {most:.6g} for this top",
+                       "More friction than that no normal force balances (Painleve's paradox).")  # fmt: skip
+
+
+def problem(top: Top, friction: Friction, edge: Rim | None, losses: tuple[float, float], rtol: float) -> Record:
+    """The record PROBLEM. An edge on the sphere itself is where its surface ends."""
+    (b, h, q), rim, law = edge or (0.0, 0.0, 0.0), -2.0, friction.law
+    if edge and np.hypot(b, h) + q < 1 + 1e-6:
+        edge, rim = None, float(-h / np.hypot(b, h))
+    if law.kind == CONTENSOU and law.width == 0.0:
+        law = Law(COULOMB, law.mu, law.mu_s, 0.0)
+    P = new(PROBLEM)
+    P.a, P.I1, P.I3 = top.numbers
+    P.law, P.stem, P.b, P.h, P.q, P.rim = tuple(law), edge is not None, b, h, q, rim
+    P.delta, P.drag, P.tolerance = *losses, SHARE * rtol
+    return P
+
+
+def beginning(state: State, t: float, P: Record) -> tuple[Array, Array]:
+    """y at a State, on the ball or the stem, and the angles of poses.py."""
+    if np.cos(state.theta) < P.rim:
+        raise TopError("theta", state.theta, f"less than {np.arccos(P.rim):.6g} for this top",
+                       "The sphere's surface ends there.")  # fmt: skip
+    s, c, turn = np.sin(state.theta / 2), np.cos(state.theta / 2), np.exp(1j * state.phi)
+    v = complex(state.vx or 0.0, state.vy or 0.0) * turn
+    place = complex(state.x or 0.0, state.y or 0.0)
+    return y_of(P, state.theta, s, c, turn, state.phi + state.psi, (state.theta_dot, state.omega2, state.omega3), v,
+                place, t, 0.0), np.array([0.0, state.phi])  # fmt: skip
+
+
+def y_of(
+    P: Record, theta: float, sin_half: Number, cos_half: float, turn: complex, chi: float, omega: Vector | Array,
+    v: complex, place: complex, t: float, heat: float,
+) -> Array:  # fmt: skip
+    """y, with p = Rz(phi) Rx(theta) Rz(-phi)."""
+    L1, L2, L3 = P.I1 * omega[0], P.I1 * omega[1], P.I3 * omega[2]
+    s, c = np.sin(theta), np.cos(theta)
+    p, L = sin_half * turn, complex(L1, c * L2 - s * L3) * turn
+    return np.array([p.real, p.imag, 0.0, cos_half, chi, L.real, L.imag, s * L2 + c * L3,
+                     v.real, v.imag, place.real, place.imag, t, heat, 0.0, 0.0])  # fmt: skip
+
+
+def motion(y: Array, angles: Array) -> Record:
+    """Room for a motion that begins at y."""
+    W = new(MOTION)
+    W.y[:], W.angles[:], W.begins = y, angles, 1
+    return W
+
+
+def gap(P: Record, c: Number, s: Number) -> Number:
+    """Height of the stem's lowest point above the table while the ball stands on it."""
+    return 1 + P.h * c - P.b * s - P.q
+
+
+def on_table(y: Array, i: int, P: Record, W: Record) -> None:
+    """v_z and z into y with contact i on the table."""
+    arrange(y, NO_ONE, SLIP if i == BALL else OPEN, SLIP if i == STEM else OPEN, P, W.contacts)
+    y[14], y[15] = W.contacts.G[2], W.contacts.G[3]
+
+
+def start(W: Record, P: Record, theta: float) -> tuple[int, bool]:
+    """The contact on which y begins, with y there and the modes in which it goes on; False beyond Painleve's limit."""
+    y = W.y
+    e, w, _ = turning(y, P)
+    i = STEM if P.stem and gap(P, np.cos(theta), np.sin(theta)) < 0 else BALL
+    if i == STEM and P.b > 0:
+        y[:] = leaned(y, e, w)
+    on_table(y, i, P, W)
+    return i, bool(settle(y, STARTS + i, W.floor, W.modes, P, W.step, W.contacts))

@@ -1,0 +1,66 @@
+"""Guards along a step: whether one falls below 0, and where."""
+
+from ..compiled import compiled
+from .contacts import GUARDS, TOUCHES, first_negative, guards
+from .dynamics import BALL, NO_ONE, STEM
+from .records import Record
+from .stepper import at_share
+
+LOOKS = 8  # so many times a guard is looked at along a step
+
+
+@compiled
+def first_event(W: Record, P: Record, slowest: int) -> tuple[int, float]:
+    """The first guard that falls below 0 within the step, or NO_ONE, and the share of the step at which it does."""
+    before, event, share = 0.0, NO_ONE, 1.0
+    for n in range(1, LOOKS + 1):
+        x = n / LOOKS
+        watched(W, P, slowest, x)
+        if first_negative(W.guards) == NO_ONE:
+            before = x
+            continue
+        negative = W.guards < 0
+        for i in range(GUARDS):
+            if negative[i]:
+                at = crossing(W, P, slowest, i, before, x)
+                if event == NO_ONE or at < share:
+                    event, share = i, at
+        break
+    return event, share
+
+
+@compiled
+def watched(W: Record, P: Record, slowest: int, x: float) -> None:
+    """The guards at the share x of the step."""
+    C = W.contacts
+    at_share(W.step, x, W.step.at)
+    guards(W.step.at, slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
+
+
+@compiled
+def height_or_guard(W: Record, P: Record, slowest: int, i: int, x: float, touches: bool) -> float:
+    """Guard i at the share x of the step; of one that touches, the height."""
+    watched(W, P, slowest, x)
+    return W.contacts.height[i - TOUCHES] if touches else W.guards[i]
+
+
+@compiled
+def crossing(W: Record, P: Record, slowest: int, i: int, low: float, high: float) -> float:
+    """The share of the step at which guard i falls below 0, between two, by false position and bisection in turns."""
+    touches = TOUCHES <= i < TOUCHES + 2 and height_or_guard(W, P, slowest, i, low, True) > 0.0
+    f_low = height_or_guard(W, P, slowest, i, low, touches)
+    f_high = height_or_guard(W, P, slowest, i, high, touches)
+    if f_low <= 0.0:
+        return low
+    for n in range(60):
+        if high - low < 1e-14:
+            break
+        x = (low + high) / 2 if n % 3 == 2 else low + (high - low) * f_low / (f_low - f_high)
+        f = height_or_guard(W, P, slowest, i, x, touches)
+        if f > 0.0:
+            low, f_low = x, f
+        else:
+            high, f_high = x, f
+        if f == 0.0:
+            break
+    return high
