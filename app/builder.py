@@ -50,6 +50,8 @@ THROWN_SHARE = 7 / pole_constants(Top.paper(), 10.0)[0]
 THROWN_SPIN = 10.0 / f3_squared(0.0, Top.paper()) ** 0.5 * Scales.paper().angular_velocity  # rad/s
 THROWN_TILT = 0.3
 
+LARGEST_FILE = 64 * 1024  # bytes, of a saved top
+
 Value: TypeAlias = Any  # of a field: a number, a tuple of them or of points, a Solid
 Motion: TypeAlias = Callable[[Shape], tuple[float, float]]  # K_J and K_R
 Edit: TypeAlias = Callable[[tuple[Value, ...], Callable[[tuple[Value, ...], int], Value]], tuple[Value, ...]]

@@ -2,10 +2,16 @@
 
 from pathlib import Path
 
+import numpy as np
 import param
 from panel.custom import JSComponent
 
 from app.text import listed
+
+
+def pack(values):
+    """The float32 bytes, row by row, that the array parameters of components take."""
+    return np.asarray(values, "<f4").tobytes()
 
 
 class Bundled(JSComponent):

@@ -3,9 +3,17 @@
 import html
 
 import panel as pn
+import panel_material_ui as pmui
 
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
 LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light and on dark
+UNSEEN_LABEL = {
+    "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
+                             "clipPath": "inset(50%)"},
+    "& legend": {"display": "none"},
+    "& fieldset": {"top": 0},
+}  # fmt: skip
+FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
 # Two rows fill a screen; a phone, where the rows of buttons wrap, needs more.
 HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
@@ -113,3 +121,13 @@ def grid(*cards, narrowest=480):
             "padding": "12px",
         },
     )
+
+
+def field(value, label, **options):
+    """label: for the ear; beside it stands the same to be seen."""
+    options = {"width": 84, "margin": 0} | options
+    return pmui.TextInput(value=value, label=label, size="small", sx=FIELD | UNSEEN_LABEL, **options)
+
+
+def beside(label, entry):
+    return pn.Row(words(label, sizing_mode=None, margin=(5, 4, 0, 0)), entry, margin=0)

@@ -10,7 +10,7 @@ from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMappe
 from bokeh.palettes import Viridis256
 
 from app.builder import thrown
-from app.cards import BUTTON, PLAIN, alert, flow, note, on_click, progress, swatch, words
+from app.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, swatch, words
 from app.colours import COLOURS, FAINT, INK
 from app.controls import typed_number
 from app.drawings import LINE, side_by_side
@@ -18,7 +18,6 @@ from app.family import neighbours, ordinary, pegs, presets, region, share_map
 from app.plots import plain
 from app.runs import Run, Runs, Stopped
 from app.text import listed, say, told
-from app.workshop import beside, field
 from tippe_core import TopError
 
 PICTURE_EVERY = 0.5  # s

@@ -10,6 +10,7 @@ import param
 from bokeh.models import ColumnDataSource, CustomJS, Range1d
 
 from app import lesson
+from app.bundle import pack
 from app.cards import PLAIN, alert, card, grid, note, on_click, px, swatch, words
 from app.colours import COLOURS, GREY, INK
 from app.explorer import axes, outline
@@ -17,12 +18,10 @@ from app.keep import SECRET, Field, OneOf
 from app.lines import Derivation
 from app.plots import plain
 from app.poll import option, prediction
-from app.roll import show_top
 from app.runs import Run, Runs
-from app.surface3d import pack
 from app.teach import Key, history_view, teach_view
 from app.text import listed, say, told
-from app.top3d import REGIMES, Top3D, pack_frames
+from app.top3d import REGIMES, Top3D, pack_frames, show_top
 from tippe_core import TopError
 
 CLOCK = "learn"

@@ -17,10 +17,9 @@ from app.controls import SYMBOLS
 from app.export import parameters
 from app.plots import Motion, PlaneFigure, TimeFigures
 from app.portraits import Curve, Force, Phase, Potential, Track
-from app.roll import show_surface, show_top
-from app.surface3d import Surface3D
+from app.surface3d import Surface3D, show_surface
 from app.text import say, spoken
-from app.top3d import Top3D
+from app.top3d import Top3D, show_top
 
 PAGE = Template("""<!doctype html>
 <!-- $notices -->

@@ -16,9 +16,9 @@ from app.look import Look
 from app.pacing import Pacer, at_once
 from app.plots import Motion, PlaneFigure, TimeFigures
 from app.portraits import Curve, Force, Phase, Potential, Ring, Track
-from app.surface3d import Surface3D, pack
+from app.surface3d import Surface3D, show_surface
 from app.text import say
-from app.top3d import Top3D, pack_frames
+from app.top3d import Top3D, show_top
 
 
 def plane_symbols():
@@ -88,49 +88,6 @@ def spoken(scene):
     slips = say("roll.says.slip", E=scene.marks.slip) if np.isfinite(scene.marks.slip) else ""
     motion = say("roll.says.motion", worst=worst(scene), inner=inner, outer=outer, turns=turns, E=scene.constants.E)
     return motion + slips
-
-
-def show_top(top, scene):
-    motion = scene.trajectory
-    if top.shown is motion:
-        top.mu_s = scene.mu_s
-        return
-    top.shown = motion
-    top.param.update(
-        mu_s=scene.mu_s,
-        profile=pack(scene.profile),
-        seconds=scene.scales.time,
-        frames=pack_frames(
-            motion.t,
-            motion.quaternion,
-            motion.contact,
-            motion.com,
-            scene.force,
-            scene.omega,
-            scene.momentum,
-            scene.regime,
-        ),
-    )
-
-
-def show_surface(surface, scene):
-    plane, motion = scene.plane, scene.constants
-    if surface.shown is not plane:
-        surface.shown = plane
-        surface.param.update(
-            K_J=pack(plane.K_J),
-            theta=pack(plane.theta),
-            heights=pack(plane.height),
-            energy=pack(plane.surface.E),
-            verge=pack(np.column_stack([plane.surface.theta_verge, plane.K_J])),
-            steady=pack(np.column_stack([plane.lift.theta_steady, plane.K_J])),
-            P=pack([0, plane.pole, plane.pole_height]),
-            theta_max=plane.theta_range[1],
-            limit=plane.limit,
-        )
-    surface.param.update(
-        selected=pack([motion.K_J, *scene.turning, scene.regime.max()]), selected_curve=pack(scene.curve)
-    )
 
 
 class Switch:

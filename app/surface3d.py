@@ -3,12 +3,7 @@
 import numpy as np
 import param
 
-from app.bundle import Bundled
-
-
-def pack(values):
-    """The float32 bytes, row by row, that the array parameters of this module take."""
-    return np.asarray(values, "<f4").tobytes()
+from app.bundle import Bundled, pack
 
 
 class Surface3D(Bundled):
@@ -36,3 +31,23 @@ class Surface3D(Bundled):
         "its 'line', or a 'point' that is on no tieline.",
     )
     picked = param.List(default=[], doc="[K_J, theta] of the point that was clicked; the browser writes it.")
+
+
+def show_surface(surface, scene):
+    plane, motion = scene.plane, scene.constants
+    if surface.shown is not plane:
+        surface.shown = plane
+        surface.param.update(
+            K_J=pack(plane.K_J),
+            theta=pack(plane.theta),
+            heights=pack(plane.height),
+            energy=pack(plane.surface.E),
+            verge=pack(np.column_stack([plane.surface.theta_verge, plane.K_J])),
+            steady=pack(np.column_stack([plane.lift.theta_steady, plane.K_J])),
+            P=pack([0, plane.pole, plane.pole_height]),
+            theta_max=plane.theta_range[1],
+            limit=plane.limit,
+        )
+    surface.param.update(
+        selected=pack([motion.K_J, *scene.turning, scene.regime.max()]), selected_curve=pack(scene.curve)
+    )

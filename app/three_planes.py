@@ -4,13 +4,13 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
+from app.bundle import pack
 from app.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_click, progress, swatch, words
 from app.controls import Control
 from app.keep import Field, Number, OneOf
 from app.planes import LAWS, PATIENCE, PLANES, PRESETS
 from app.planes_plots import CLOCK, LEDGER, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
 from app.planes_words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
-from app.surface3d import pack
 from app.text import listed, say
 from app.top3d import Top3D, pack_frames
 

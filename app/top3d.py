@@ -3,7 +3,7 @@
 import numpy as np
 import param
 
-from app.bundle import Bundled
+from app.bundle import Bundled, pack
 
 REGIMES = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "the motion ends here")
 """What the codes 0 to 5 in the last column of the frames mean; browser.toml says it."""
@@ -77,3 +77,26 @@ class Top3D(Bundled):
         "browser writes it; empty: the first view.",
     )
     follow = param.Boolean(default=True, doc="Whether the camera goes along with the top.")
+
+
+def show_top(top, scene):
+    motion = scene.trajectory
+    if top.shown is motion:
+        top.mu_s = scene.mu_s
+        return
+    top.shown = motion
+    top.param.update(
+        mu_s=scene.mu_s,
+        profile=pack(scene.profile),
+        seconds=scene.scales.time,
+        frames=pack_frames(
+            motion.t,
+            motion.quaternion,
+            motion.contact,
+            motion.com,
+            scene.force,
+            scene.omega,
+            scene.momentum,
+            scene.regime,
+        ),
+    )

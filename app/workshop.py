@@ -12,12 +12,11 @@ import param
 from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d
 
 from app import asked
-from app.builder import FAMILIES, Rocking, handles, named, pulled, sentence, value_of
-from app.cards import BUTTON, alert, flow, note, on_click, words
+from app.builder import FAMILIES, LARGEST_FILE, Rocking, handles, named, pulled, sentence, value_of
+from app.cards import BUTTON, alert, beside, field, flow, note, on_click, words
 from app.colours import COLOURS, FAINT, INK
 from app.controls import Dial, asked_of, number, typed_number, wording
 from app.explorer import body
-from app.messages import LARGEST_FILE
 from app.pacing import at_once
 from app.plots import plain
 from app.text import listed, say
@@ -30,12 +29,6 @@ FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
 KNOBS = 32  # made at a time
 OWN = ""  # a select has no way to show that nothing is chosen
-UNSEEN_LABEL = {
-    "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
-                             "clipPath": "inset(50%)"},
-    "& legend": {"display": "none"},
-    "& fieldset": {"top": 0},
-}  # fmt: skip
 # Where a hand goes down: a quick one is elsewhere by the time it counts as dragging.
 PRESS = """
 if (pressed.followed) return
@@ -44,19 +37,12 @@ const {canvas_view: {events_el}, frame: {x_scale, y_scale}} = Bokeh.index.find_o
 const press = ({offsetX, offsetY}) => { pressed.data = {x: [x_scale.invert(offsetX)], z: [y_scale.invert(offsetY)]} }
 events_el.addEventListener("pointerdown", press, {capture: true})
 """
-FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
 
 
 def symbol(name):
     if name.startswith("density "):
         return SYMBOLS["density"]
     return SYMBOLS.get(name, f"<i>{name}</i>")
-
-
-def field(value, label, **options):
-    """label: for the ear; beside it stands the same to be seen."""
-    options = {"width": 84, "margin": 0} | options
-    return pmui.TextInput(value=value, label=label, size="small", sx=FIELD | UNSEEN_LABEL, **options)
 
 
 def grid(*content):
@@ -66,10 +52,6 @@ def grid(*content):
         styles={"display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 215px), 1fr))",
                 "column-gap": "22px"},
     )  # fmt: skip
-
-
-def beside(label, entry):
-    return pn.Row(words(label, sizing_mode=None, margin=(5, 4, 0, 0)), entry, margin=0)
 
 
 class Section:

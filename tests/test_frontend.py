@@ -11,10 +11,10 @@ import panel as pn
 import pytest
 from visiting import free_port, wait
 
-from app.bundle import Bundled
+from app.bundle import Bundled, pack
 from app.colours import COLOURS
 from app.controls import Control
-from app.surface3d import Surface3D, pack
+from app.surface3d import Surface3D
 from app.top3d import Top3D, pack_frames
 
 pytestmark = pytest.mark.served

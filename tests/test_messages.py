@@ -13,7 +13,8 @@ from bokeh.model import DataModel
 from visiting import Visit
 from wire import Visitor, event, megabytes, run, served
 
-from app.messages import CHANGES, LARGEST_FILE, MOST, Refused, look_at
+from app.builder import LARGEST_FILE
+from app.messages import CHANGES, MOST, Refused, look_at
 from tippe_core import LoadedSphere, save_top
 
 pytestmark = pytest.mark.served
