@@ -1,11 +1,11 @@
-"""`python -m app`: see app.server."""
+"""`python -m app`: see app.server.server."""
 
 import logging
 import os
 import signal
 import sys
 
-from app.settings import Settings
+from app.server.settings import Settings
 
 
 def run():
@@ -16,8 +16,8 @@ def run():
     except ValueError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
-    from app.classroom import DESK
-    from app.server import main
+    from app.model.classroom import DESK
+    from app.server.server import main
 
     DESK.keep(settings.votes, settings.votes_per_address)
     code = main(settings)

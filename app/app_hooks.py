@@ -14,8 +14,8 @@ import panel.reactive
 from bokeh.document.models import DocumentModelManager
 from panel.io.resources import CDN_DIST, LOCAL_DIST
 
-from app.arrivals import most_files
 from app.kernels import compile_beside
+from app.server.arrivals import most_files
 
 
 class Here(ThreadPoolExecutor):
@@ -79,7 +79,7 @@ def on_server_loaded(server_context):
     From 3.10 on Bokeh gives it to the event loop's executor, and what is sent to one of its own. That is no faster, for
     one thread at a time has the interpreter (a move costs an eighth more of the processor). But Panel answers some
     messages of a page, such as a dragged slider's, in the event loop without the document's lock: beside a thread, two
-    of them would change one session at a time. What takes long is given to app.runs.
+    of them would change one session at a time. What takes long is given to app.model.runs.
     """
     compile_beside()
     most_files()

@@ -11,10 +11,10 @@ from pathlib import Path
 import panel_material_ui as pmui
 from panel.custom import JSComponent
 
-from app.bundle import Bundled
-from app.cards import HEIGHT_OF_A_CARD
 from app.text import LANGUAGES
-from app.top3d import Top3D
+from app.widgets.bundle import Bundled
+from app.widgets.cards import HEIGHT_OF_A_CARD
+from app.widgets.top3d import Top3D
 
 PAGE = Path(__file__).with_name("first.html")
 

@@ -8,23 +8,23 @@ import panel_material_ui as pmui
 import param
 
 from app import first, text
-from app.builder import Builder
-from app.cards import PLAIN, card, grid
-from app.compare import Compare
-from app.connection import Connection
-from app.failure import attempt, failure
-from app.keep import Field, OneOf, explorer_of, read
-from app.learn import Learn, kept
-from app.look import widgets
-from app.planes import Planes
-from app.roll import Roll
-from app.runs import Runs, connected_to, to_session
-from app.share import Share
-from app.student import student_page
-from app.tabs import tabs
+from app.model.builder import Builder
+from app.model.planes import Planes
+from app.model.runs import Runs, connected_to, to_session
+from app.share.share import Share
+from app.state.keep import Field, OneOf, explorer_of, read
+from app.tabs.build.workshop import Measure, Workshop
+from app.tabs.families.compare import Compare
+from app.tabs.learn.learn import Learn, kept
+from app.tabs.learn.student import student_page
+from app.tabs.planes.three_planes import KEPT, ThreePlanes
+from app.tabs.roll.roll import Roll
 from app.text import say
-from app.three_planes import KEPT, ThreePlanes
-from app.workshop import Measure, Workshop
+from app.widgets.cards import PLAIN, card, grid
+from app.widgets.connection import Connection
+from app.widgets.failure import attempt, failure
+from app.widgets.look import widgets
+from app.widgets.tabs import tabs
 
 STILL = {"@media (prefers-reduced-motion: reduce)": {"&, & *": {"transition": "none !important",
                                                                 "animation": "none !important"}}}  # fmt: skip

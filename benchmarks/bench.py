@@ -40,7 +40,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 import rigid_body as rb
 import sliding
 
-from app.explorer import Explorer
+from app.model.explorer import Explorer
 from tippe_core import (
     Constants,
     Rolling,

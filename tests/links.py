@@ -17,8 +17,9 @@ import panel as pn
 from bokeh.document import Document
 from panel.io.state import set_curdoc
 
-from app import page, tabs, text
-from app.keep import Body, Keep
+from app import page, text
+from app.state.keep import Body, Keep
+from app.widgets import tabs
 
 FILE = Path(__file__).parent / "data" / "links.json"
 

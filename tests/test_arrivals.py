@@ -15,7 +15,7 @@ from tornado.netutil import bind_sockets
 from tornado.web import Application
 from wire import Visitor, get, run, served, serving, until
 
-from app import arrivals
+from app.server import arrivals
 
 pytestmark = pytest.mark.served
 

@@ -7,13 +7,13 @@ import pytest
 from bokeh.document import Document
 from panel.io.state import set_curdoc
 
-from app.builder import Builder
-from app.explorer import Explorer
-from app.keep import Field, Keep, Numbers, OneOf
-from app.roll import Roll
-from app.share import TOP
-from app.surface3d import Surface3D
-from app.workshop import Workshop
+from app.model.builder import Builder
+from app.model.explorer import Explorer
+from app.share.share import TOP
+from app.state.keep import Field, Keep, Numbers, OneOf
+from app.tabs.build.workshop import Workshop
+from app.tabs.roll.roll import Roll
+from app.widgets.surface3d import Surface3D
 
 VALUES = {"None": None, "True": True, "-1": -1, "10**400": 10**400, "1e308": 1e308, "nan": math.nan, "empty": "",
           "long": "x" * 5000, "list": [], "dict": {}, "nested": [[{"a": [None]}], {"b": 1}]}  # fmt: skip

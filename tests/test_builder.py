@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from limits import limit
 
-from app.builder import FAMILIES, Builder, Rocking, changed, handles, pulled, sentence, value_of
-from app.compare import Compare
-from app.explorer import Explorer
-from app.family import neighbours, pegs, presets, region, share_map
-from app.workshop import KNOBS, Workshop
+from app.model.builder import FAMILIES, Builder, Rocking, changed, handles, pulled, sentence, value_of
+from app.model.explorer import Explorer
+from app.model.family import neighbours, pegs, presets, region, share_map
+from app.tabs.build.workshop import KNOBS, Workshop
+from app.tabs.families.compare import Compare
 from tippe_core import (
     PRESETS,
     Ball,
@@ -506,8 +506,10 @@ def test_the_map_of_the_other_kind_starts_from_a_top_of_that_kind():
 
 
 def test_a_map_of_either_kind_fills_and_shows_this_top(explorer, monkeypatch):
-    monkeypatch.setattr("app.compare.RATIOS", np.array([0.9, 1.1]))
-    monkeypatch.setattr("app.compare.SPANS", {"tippe": np.array([0.1, 0.2]), "ordinary": np.array([-10.0, -5.0])})
+    monkeypatch.setattr("app.tabs.families.compare.RATIOS", np.array([0.9, 1.1]))
+    monkeypatch.setattr(
+        "app.tabs.families.compare.SPANS", {"tippe": np.array([0.1, 0.2]), "ordinary": np.array([-10.0, -5.0])}
+    )
     compare = Compare(explorer)
     for kind, own in (("tippe", 1), ("ordinary", 0)):
         compare.kind.value = kind
@@ -527,7 +529,7 @@ def test_a_map_stops_when_told_and_refuses_what_cannot_be(explorer, monkeypatch)
         asked.append("more")
 
     share_map_of_nothing = next(share_map(0.4, 10.0, 0.5, np.array([0.07]), np.array([1.0, 1.1])))[1]
-    monkeypatch.setattr("app.compare.share_map", slowly)
+    monkeypatch.setattr("app.tabs.families.compare.share_map", slowly)
     compare = Compare(explorer)
     compare.compute()
     assert not asked and "Cancelled" in compare.said.object and not compare.start.disabled

@@ -10,9 +10,9 @@ import pytest
 from visiting import free_port
 from wire import redis_serving, until
 
-from app import ballots, classroom
-from app.ballots import Away, Sqlite, store, usual
-from app.classroom import BETWEEN, LASTS, MOST_VOTES, ROOMS_OF_ADDRESS, USED, Desk, Refused, Room, Rooms
+from app.model import ballots, classroom
+from app.model.ballots import Away, Sqlite, store, usual
+from app.model.classroom import BETWEEN, LASTS, MOST_VOTES, ROOMS_OF_ADDRESS, USED, Desk, Refused, Room, Rooms
 
 CHOICE = {"step": "free", "numbers": {"spin": 34.5}, "asks": {"options": ["over", "between"]}, "top": {"a": ".07"}}
 GUESS = CHOICE | {"asks": {"low": 0.0, "high": 10.0, "step": 0.1, "unit": "%"}}

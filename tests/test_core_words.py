@@ -5,11 +5,11 @@ import re
 import numpy as np
 import pytest
 
-from app.builder import FAMILIES, Builder, sentence
-from app.explorer import Explorer
-from app.planes import ANOTHER, THROWN
-from app.planes import PRESETS as STARTS
-from app.planes_words import outcome_words
+from app.model.builder import FAMILIES, Builder, sentence
+from app.model.explorer import Explorer
+from app.model.planes import ANOTHER, THROWN
+from app.model.planes import PRESETS as STARTS
+from app.tabs.planes.words import outcome_words
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide
 from tippe_core.motion.contacts import HALTS, LEAVES, SLIPS, TOUCHES

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app import derivation
-from app.explorer import Explorer
+from app.model import derivation
+from app.model.explorer import Explorer
 from app.text import listed
 from tippe_core import Gliding, State, Top
 

@@ -8,7 +8,7 @@ from string import Formatter
 import numpy as np
 import pytest
 
-from app.builder import sentence
+from app.model.builder import sentence
 from app.text import CODES as OF_THE_PAGE
 from app.text import DEFAULT, LANGUAGES, listed, speaking, told
 from tippe_core import (
@@ -61,7 +61,7 @@ def words_of(node):
 
 def raised():
     """(place, codes, value, allowed, remedy, numbers) of every TopError that is raised, the words as lists."""
-    for path in sorted([*(ROOT / "tippe_core").rglob("*.py"), *(ROOT / "app").glob("*.py")]):
+    for path in sorted([*(ROOT / "tippe_core").rglob("*.py"), *(ROOT / "app").rglob("*.py")]):
         module = ast.parse(path.read_text(encoding="utf-8"))
         for function in ast.walk(module):
             if not isinstance(function, ast.FunctionDef) or function.name == "replaced":

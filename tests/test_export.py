@@ -12,9 +12,9 @@ import pygltflib
 import pytest
 from PIL import Image
 
-from app import export, prints
-from app.explorer import Explorer
-from app.letter import letter
+from app.model.explorer import Explorer
+from app.share import export, prints
+from app.share.letter import letter
 from tippe_core import PRESETS, Constants, Top, TruncatedSphere, figures, roll
 
 LINK = "http://localhost/app?v=1&KJ=6.5"

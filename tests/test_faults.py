@@ -138,7 +138,7 @@ def test_the_page_needs_no_place_to_write():
     code = """
 import sys
 import app.page
-print("matplotlib" in sys.modules, "app.prints" in sys.modules)"""
+print("matplotlib" in sys.modules, "app.share.prints" in sys.modules)"""
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=120)
     assert done.stdout.split()[-2:] == ["False", "True"], done.stderr[-2000:]
 

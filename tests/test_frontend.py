@@ -11,11 +11,11 @@ import panel as pn
 import pytest
 from visiting import free_port, wait
 
-from app.bundle import Bundled
-from app.colours import COLOURS
-from app.controls import Control
-from app.surface3d import Surface3D, pack
-from app.top3d import Top3D, pack_frames
+from app.model.colours import COLOURS
+from app.widgets.bundle import Bundled, pack
+from app.widgets.controls import Control
+from app.widgets.surface3d import Surface3D
+from app.widgets.top3d import Top3D, pack_frames
 
 pytestmark = pytest.mark.served
 

@@ -19,7 +19,7 @@ from tornado.websocket import WebSocketClosedError
 from wire import Closed, Visitor, megabytes, run, served
 
 import app.page  # noqa: F401  (all components)
-from app.messages import CHANGES
+from app.server.messages import CHANGES
 
 pytestmark = pytest.mark.served
 

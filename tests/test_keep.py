@@ -11,11 +11,11 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from app.explorer import Explorer
-from app.keep import EXPLORER, LONGEST_QUERY, STEPS, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
-from app.share import Clock
+from app.model.explorer import Explorer
+from app.share.share import Clock
+from app.state.keep import EXPLORER, LONGEST_QUERY, STEPS, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
 from app.text import say
-from app.top3d import Top3D
+from app.widgets.top3d import Top3D
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
 
 # Version 1 of the links: a default or a name that is not as here makes old links mean something else.

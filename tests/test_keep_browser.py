@@ -10,7 +10,7 @@ import zxingcpp
 from PIL import Image
 from visiting import Visit
 
-from app.explorer import Explorer, solve
+from app.model.explorer import Explorer, solve
 from tippe_core import Top
 
 pytestmark = pytest.mark.served

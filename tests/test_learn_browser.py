@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from visiting import Visit
 
-from app import derivation, lesson
-from app.explorer import Explorer
-from app.keep import Body
+from app.model import derivation, lesson
+from app.model.explorer import Explorer
+from app.state.keep import Body
 from app.text import listed, say
 from tippe_core import PRESETS
 
@@ -218,8 +218,8 @@ def test_step_1_tells_who_is_right_that_he_is_right(browser, server, body, langu
 
 
 def test_the_links_of_the_teacher_set_up_their_motion():
-    from app.keep import explorer_of, read
-    from app.teach import link
+    from app.state.keep import explorer_of, read
+    from app.tabs.learn.teach import link
 
     for step in lesson.STEPS:
         texts, wrong = read(link(step))

@@ -36,8 +36,8 @@ def here():
 @pytest.fixture
 def idle(monkeypatch):
     """Pages compute nothing that takes long."""
-    monkeypatch.setattr("app.planes.solve", lambda settings, look=None: None)
-    monkeypatch.setattr("app.compare.share_map", lambda *asked: iter(()))
+    monkeypatch.setattr("app.model.planes.solve", lambda settings, look=None: None)
+    monkeypatch.setattr("app.tabs.families.compare.share_map", lambda *asked: iter(()))
 
 
 # --- in every order
@@ -121,13 +121,13 @@ async def fails(page, monkeypatch, part, act):
 async def ask_of_a_broken_server(here, monkeypatch):
     page = await visitors.come(here.url, "de")
     share = page.labelled("Button", say("share.share", "de"))
-    await fails(page, monkeypatch, "app.share.segno.make", lambda: page.click(share))
+    await fails(page, monkeypatch, "app.share.share.segno.make", lambda: page.click(share))
     await page.click(share)  # and can be asked for again
     await page.until(lambda: page.visitor.find("Download"))
 
     table = page.visitor.find("Download")[16]
     assert page.now(table, "filename") == "tippe-top-motion.csv"
-    await fails(page, monkeypatch, "app.export._columns", lambda: page.set(table, "clicks", 1))
+    await fails(page, monkeypatch, "app.share.export._columns", lambda: page.set(table, "clicks", 1))
     await page.set(table, "clicks", 2)
     await page.until(lambda: page.now(table, "file", [0])[0] == 1)
     before = page.now(table, "file")[1]
@@ -135,7 +135,9 @@ async def ask_of_a_broken_server(here, monkeypatch):
     await page.until(lambda: page.now(table, "file") == [2, before])
 
     dial, known = page.visitor.find("Dial")[0], len(page.visitor.models)
-    await fails(page, monkeypatch, "app.explorer.Explorer._solve", lambda: page.set(dial, "asked", [1, 5.5, False]))
+    await fails(
+        page, monkeypatch, "app.model.explorer.Explorer._solve", lambda: page.set(dial, "asked", [1, 5.5, False])
+    )
     await page.set(dial, "asked", [2, 5.6, False])
     await page.until(lambda: page.now(dial, "told")[:2] == [2, 5.6])
 
@@ -143,7 +145,7 @@ async def ask_of_a_broken_server(here, monkeypatch):
     await page.set(tabs, "active", 3)
     await page.until(lambda: len(page.visitor.models) > known + 50)
     start = page.labelled("Button", say("family.map.start", "de"))
-    await fails(page, monkeypatch, "app.compare.share_map", lambda: page.click(start))
+    await fails(page, monkeypatch, "app.tabs.families.compare.share_map", lambda: page.click(start))
     await page.click(start)
     await page.vanish()
     await asyncio.to_thread(here.wait_for_sessions, 0)
@@ -165,7 +167,7 @@ async def flood(here, monkeypatch):
         go.get(timeout=PATIENCE)
         return b"figure"
 
-    monkeypatch.setattr("app.share.draw", draw)
+    monkeypatch.setattr("app.share.share.draw", draw)
     pages = {}
     for who, K_J in (("flood", 5.5), ("other", 6.5)):
         pages[who] = page = await visitors.come(f"{here.url}?KJ={K_J}")

@@ -9,8 +9,8 @@ import stem_body as st
 from cases import BALL, LOADED, ORDINARY, PAPER, TOPS
 from references import kept
 
-from app import lesson
-from app.explorer import Explorer
+from app.model import lesson
+from app.model.explorer import Explorer
 from app.text import listed, say
 from tippe_core import PRESETS, Scales, State, Top, Viscous, outcome, slide, thresholds
 

@@ -3,11 +3,11 @@
 import pytest
 from links import known, opened
 
-from app import learn
-from app.keep import EXPLORER
 from app.page import Tongue
-from app.share import LOOK, TOP, Clock
-from app.three_planes import KEPT
+from app.share.share import LOOK, TOP, Clock
+from app.state.keep import EXPLORER
+from app.tabs.learn import learn
+from app.tabs.planes.three_planes import KEPT
 
 LINKS = known()
 

@@ -13,7 +13,8 @@ from bokeh.model import DataModel
 from visiting import Visit
 from wire import Visitor, event, megabytes, run, served
 
-from app.messages import CHANGES, LARGEST_FILE, MOST, Refused, look_at
+from app.model.builder import LARGEST_FILE
+from app.server.messages import CHANGES, MOST, Refused, look_at
 from tippe_core import LoadedSphere, save_top
 
 pytestmark = pytest.mark.served
@@ -225,7 +226,7 @@ def test_every_component_of_the_page_is_in_the_table(server):
 
 def test_the_table_has_what_our_scripts_change():
     """model.x = ... in a component's JavaScript."""
-    scripts = [*(APP / "frontend/src").glob("*.js"), *APP.glob("*.py")]
+    scripts = [*(APP / "frontend/src").rglob("*.js"), *APP.rglob("*.py")]
     changed = {name for path in scripts
                for name in re.findall(r"\bmodel\.(\w+) (?:\+?=) ", path.read_text(encoding="utf-8"))}  # fmt: skip
     assert {"asked", "painted", "tilted", "page"} <= changed

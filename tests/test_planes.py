@@ -8,10 +8,9 @@ from queue import Queue
 import numpy as np
 import pytest
 
-from app import planes_plots
-from app.builder import Builder
-from app.explorer import Explorer
-from app.planes import (
+from app.model.builder import Builder
+from app.model.explorer import Explorer
+from app.model.planes import (
     ENDS,
     LEAST_FRAMES,
     MOST_FRAMES,
@@ -27,11 +26,12 @@ from app.planes import (
     solve,
     touches,
 )
-from app.planes_words import ball_words, fate, scatter_words
-from app.runs import Runs
+from app.model.runs import Runs
+from app.tabs.planes import plots
+from app.tabs.planes.three_planes import ThreePlanes
+from app.tabs.planes.words import ball_words, fate, scatter_words
 from app.text import speaking
-from app.three_planes import ThreePlanes
-from app.top3d import REGIMES
+from app.widgets.top3d import REGIMES
 from tippe_core import PRESETS as BODIES
 from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, roll, slide
 
@@ -290,7 +290,7 @@ def test_exactly_upright_it_stays_so_and_nobody_says_that_it_will_turn_over(usua
 def test_no_bead_is_above_the_energy_that_it_has(usual):
     """V_J is the least energy at its J: drawn with another J it is not."""
     picture, _ = ran(usual, spin=25.0)
-    well = planes_plots.Well()
+    well = plots.Well()
     well.show(picture, "sliding")
     t, V, E, which = (np.array(well.path.data[name]) for name in ("t", "V", "E", "well"))
     assert np.all(V[which >= 0] <= E[which >= 0] + 1e-9)

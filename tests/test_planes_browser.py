@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from visiting import PIXEL, Visit
 
-from app.builder import Builder
-from app.explorer import Explorer
-from app.planes import Planes
+from app.model.builder import Builder
+from app.model.explorer import Explorer
+from app.model.planes import Planes
 from tippe_core import PRESETS
 
 pytestmark = pytest.mark.served

@@ -20,17 +20,17 @@ from panel.io.state import set_curdoc
 from wire import run as run_async
 from wire import until
 
-from app import lesson
-from app.ballots import Sqlite
-from app.builder import Builder
-from app.classroom import Rooms
-from app.compare import Compare
-from app.explorer import Explorer
-from app.family import share_map
-from app.learn import Learn
-from app.planes import Planes
-from app.runs import TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
-from app.teach import Vote
+from app.model import lesson
+from app.model.ballots import Sqlite
+from app.model.builder import Builder
+from app.model.classroom import Rooms
+from app.model.explorer import Explorer
+from app.model.family import share_map
+from app.model.planes import Planes
+from app.model.runs import TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
+from app.tabs.families.compare import Compare
+from app.tabs.learn.learn import Learn
+from app.tabs.learn.teach import Vote
 from app.text import say, speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
 
@@ -345,7 +345,7 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
 
 @pytest.mark.slow
 def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy, monkeypatch):
-    monkeypatch.setattr("app.planes.PATIENCE", 0.0)
+    monkeypatch.setattr("app.model.planes.PATIENCE", 0.0)
     explorer = Explorer()
     planes = Planes(explorer, Builder(explorer), page.runs)
     planes.spin = 21.0
@@ -362,7 +362,7 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
             yield 10, nothing
 
     nothing = next(share_map(0.4, 10.0, 0.5, np.array([0.07]), np.array([1.0, 1.1])))[1]
-    monkeypatch.setattr("app.compare.share_map", slowly)
+    monkeypatch.setattr("app.tabs.families.compare.share_map", slowly)
     compare = Compare(Explorer(), page.runs)
     compare.compute()
     first = compare._run
@@ -377,7 +377,7 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
 
 @pytest.mark.slow
 def test_the_answer_of_a_vote_asked_for_twice_is_told_once(page, busy, monkeypatch, tmp_path):
-    monkeypatch.setattr("app.teach.page_address", lambda: "http://localhost/app")
+    monkeypatch.setattr("app.tabs.learn.teach.page_address", lambda: "http://localhost/app")
     told, rooms = [], Rooms(Sqlite(tmp_path / "votes"))
     with set_curdoc(Document()):
         vote = Vote(Explorer(), page.runs, SimpleNamespace(room=""))

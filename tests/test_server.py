@@ -29,10 +29,10 @@ from visiting import free_port
 from wire import TOKEN, Closed, Visitor, answers, get, run, served, until
 
 from app.app_hooks import to_the_last
-from app.door import Budget, Turns, budget, counted
-from app.messages import Refused, look_at
-from app.settings import Settings
-from app.sockets import Socket
+from app.server.door import Budget, Turns, budget, counted
+from app.server.messages import Refused, look_at
+from app.server.settings import Settings
+from app.server.sockets import Socket
 from app.text import say
 
 pytestmark = pytest.mark.served
@@ -133,7 +133,7 @@ class Clock:
 
     def __init__(self, monkeypatch):
         self.now = 0.0
-        monkeypatch.setattr("app.door.time", self)
+        monkeypatch.setattr("app.server.door.time", self)
 
     def thread_time(self):
         return self.now
@@ -388,7 +388,7 @@ def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):
     async def nothing(*_):
         return SimpleNamespace(msgtype="PULL-DOC-REQ")
 
-    monkeypatch.setattr("app.sockets.asyncio", SimpleNamespace(sleep=asleep))
+    monkeypatch.setattr("app.server.sockets.asyncio", SimpleNamespace(sleep=asleep))
     socket = Socket.__new__(Socket)
     socket.connection = SimpleNamespace(session=SimpleNamespace())
     socket.request, socket.receiver = SimpleNamespace(remote_ip="10.0.0.7"), SimpleNamespace(consume=nothing)

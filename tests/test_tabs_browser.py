@@ -49,7 +49,7 @@ Viewable._preprocess = fails_in_hooks
 # The view waits for a file, and so does the whole server; the first map is never done.
 SLOW = """
 import os, sys, time
-import app.compare as compare, app.page as page
+import app.tabs.families.compare as compare, app.page as page
 real_view, real_map, maps = page.family_view, compare.share_map, []
 def late(*arguments):
     while not os.path.exists(GO):

@@ -1,6 +1,7 @@
 """Every language says the same things with the same numbers; what the code asks for is there; no English beside it."""
 
 import ast
+import importlib
 import itertools
 import re
 from fnmatch import fnmatch
@@ -12,12 +13,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.bundle import Bundled
 from app.text import DEFAULT, LANGUAGES, listed, preferred
+from app.widgets.bundle import Bundled
 
 APP = Path(__file__).parent.parent / "app"
 CORE = APP.parent / "tippe_core"
-SCRIPTS = sorted((APP / "frontend/src").glob("*.js"))
+SCRIPTS = sorted((APP / "frontend/src").rglob("*.js"))
 OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 
 # Values that are one in every language, by file.table.key: names, and keys of other tables.
@@ -89,7 +90,7 @@ def tree(path):
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
-MODULES = sorted(APP.glob("*.py"))
+MODULES = sorted(path for path in APP.rglob("*.py") if not {"node_modules", "text"} & {*path.parts})
 
 
 def name_of(call):
@@ -143,15 +144,15 @@ def modules_of(script):
     while new:
         path = new.pop()
         found.add(path)
-        imports = re.findall(r'from "\./(\w+\.js)"', path.read_text(encoding="utf-8"))
-        new |= {path.parent / name for name in imports} - found
+        imports = re.findall(r'from "(\.[\w./]+\.js)"', path.read_text(encoding="utf-8"))
+        new |= {(path.parent / name).resolve() for name in imports} - found
     return found
 
 
 def components():
     """(name, script) of the bundle's index."""
     index = (APP / "frontend/src/index.js").read_text(encoding="utf-8")
-    scripts = dict(re.findall(r'import { (\w+) } from "\./(\w+\.js)"', index))
+    scripts = dict(re.findall(r'import { (\w+) } from "\./([\w/]+\.js)"', index))
     shown = re.findall(r"(\w+): { render: (\w+)", index)
     return [(name, APP / "frontend/src" / scripts[render]) for name, render in shown]
 
@@ -160,7 +161,7 @@ def components():
 @pytest.mark.parametrize(("name", "script"), components(), ids=[name for name, _ in components()])
 def test_what_the_bundle_asks_for_is_there(name, script, language):
     module = next(path for path in MODULES if re.search(rf"^class {name}\(Bundled\)", path.read_text("utf-8"), re.M))
-    __import__(f"app.{module.stem}")
+    importlib.import_module(".".join(module.relative_to(APP.parent).with_suffix("").parts))
     [component] = [kind for kind in Bundled.__subclasses__() if kind.__name__ == name]
     known = set().union(*(listed("browser", language).get(table, {}) for table in (*component.SAYS, name)))
     wanted = {

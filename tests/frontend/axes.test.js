@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Scale } from "../../app/frontend/src/axes.js";
+import { Scale } from "../../app/frontend/src/three/axes.js";
 import { near } from "./helping.js";
 
 test("ticks are round numbers, all that there are from end to end", () => {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
-import { Body } from "../../app/frontend/src/body.js";
+import { Body } from "../../app/frontend/src/three/body.js";
 import { near } from "./helping.js";
 
 function bodyOf(profile) {

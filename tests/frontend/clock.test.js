@@ -5,7 +5,7 @@ import { motion, near } from "./helping.js";
 const window = (globalThis.window = new EventTarget());
 let still = false; // whether a person prefers less motion
 globalThis.matchMedia = () => ({ matches: still });
-const { Place } = await import("../../app/frontend/src/clock.js");
+const { Place } = await import("../../app/frontend/src/motion/clock.js");
 
 function topOn(clock, { inView = true, wide = 1, rows = [0, 1, 2, 4], ...more } = {}) {
   const listeners = {}, model = {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { spoken } from "../../app/frontend/src/dial.js";
+import { spoken } from "../../app/frontend/src/widgets/dial.js";
 
 const texts = { beyond: "beyond {mark}", between: "{percent} percent of the way from {from} to {to}" };
 

@@ -14,7 +14,7 @@ const inPython = {
 
 export default [
   { ignores: ["app/static"] }, // the bundle
-  { files: ["app/*.py"], plugins: { python: { processors: { esm: inPython } } }, processor: "python/esm" },
+  { files: ["app/**/*.py"], plugins: { python: { processors: { esm: inPython } } }, processor: "python/esm" },
   js.configs.recommended,
   {
     files: ["**/*.js"],
@@ -34,6 +34,6 @@ export default [
       "prefer-const": "error",
     },
   },
-  { files: ["app/*.py/*.js"], rules: { eqeqeq: "off", "no-useless-assignment": "off" } },
+  { files: ["app/**/*.py/*.js"], rules: { eqeqeq: "off", "no-useless-assignment": "off" } },
   { files: ["tests/frontend/*.js"], languageOptions: { globals: globals.node } },
 ];

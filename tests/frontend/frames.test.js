@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Frames, emptyPose } from "../../app/frontend/src/frames.js";
+import { Frames, emptyPose } from "../../app/frontend/src/motion/frames.js";
 import { motion, near } from "./helping.js";
 
 const times = [1, 2, 4, 4.5, 8];

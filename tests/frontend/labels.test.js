@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Group, PerspectiveCamera, Vector3 } from "three";
-import { Handle } from "../../app/frontend/src/handle.js";
-import { Labels } from "../../app/frontend/src/labels.js";
+import { Handle } from "../../app/frontend/src/three/handle.js";
+import { Labels } from "../../app/frontend/src/three/labels.js";
 import { element, near } from "./helping.js";
 
 // A camera on the x axis that looks at O, with z up: 90 degrees high, and the picture twice as wide as high.

@@ -2,9 +2,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
-import { Arrow } from "../../app/frontend/src/arrow.js";
-import { WideLine } from "../../app/frontend/src/lines.js";
-import { Ribbon, Thread } from "../../app/frontend/src/ribbon.js";
+import { Arrow } from "../../app/frontend/src/three/arrow.js";
+import { WideLine } from "../../app/frontend/src/three/lines.js";
+import { Ribbon, Thread } from "../../app/frontend/src/three/ribbon.js";
 import { near } from "./helping.js";
 
 const points = [[0, 0, 0], [1, 2, 3], [4, 4, 4], [-1, 0.5, 8]];

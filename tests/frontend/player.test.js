@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Player } from "../../app/frontend/src/player.js";
+import { Player } from "../../app/frontend/src/motion/player.js";
 import { motion, near } from "./helping.js";
 
 function playerOf(...times) {

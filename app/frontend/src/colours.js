@@ -1,4 +1,4 @@
-// Okabe and Ito's colour-blind safe palette; app/colours.py has the same names and values for the plots.
+// Okabe and Ito's colour-blind safe palette; app/model/colours.py has the same names and values for the plots.
 export const colours = {
   theta: "#0072B2",
   normal: "#009E73",

@@ -1,8 +1,8 @@
 // The top of the page's first view, moving before the session has come: app/first.py wrote into the page what its model
 // will say. A stand-in for that model draws it, and hands the picture over when the model is there.
 import { float32 } from "./data.js";
-import { pace, REST } from "./stage.js";
-import { renderTop3D } from "./top3d.js";
+import { pace, REST } from "./three/stage.js";
+import { renderTop3D } from "./three/top3d.js";
 
 const MEANWHILE = 5 * REST; // where the processor draws, it has a page to make
 /** @type {Omit<Rendering<TopModel>, "model"> & { values: TopModel, become: (model: TopModel) => void, place: HTMLElement } | null} */

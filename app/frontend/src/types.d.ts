@@ -6,7 +6,7 @@ type Axis = "x" | "y" | "z";
 type XYZ = [x: number, y: number, z: number];
 type Later = { (): void; cancel(): void };
 
-// The top at one moment, in the axes of space; app/top3d.py says what each is.
+// The top at one moment, in the axes of space; app/widgets/top3d.py says what each is.
 type Pose = Record<"contact" | "com" | "force" | "omega" | "momentum", import("three").Vector3> & {
   quaternion: import("three").Quaternion;
   regime: number;

@@ -1,0 +1,98 @@
+// The trajectory that Python computed, and reading between its samples.
+import { Quaternion, Vector3 } from "three";
+import { float32 } from "../data.js";
+
+// Columns of a row; app/widgets/top3d.py packs them in the same order.
+const WIDTH = 20;
+const T = 0, QUATERNION = 1, CONTACT = 5, COM = 7, FORCE = 10, OMEGA = 13, MOMENTUM = 16, REGIME = 19;
+
+export class Frames {
+  /** @param {Bytes} [bytes] */
+  constructor(bytes) {
+    this.rows = float32(bytes);
+    this.count = Math.floor(this.rows.length / WIDTH);
+  }
+
+  get start() {
+    return this.count ? this.time(0) : 0;
+  }
+
+  get end() {
+    return this.count ? this.time(this.count - 1) : 0;
+  }
+
+  /** @param {number} i */
+  time(i) {
+    return this.rows[i * WIDTH + T];
+  }
+
+  /** @param {number} i @returns {[number, number]} */
+  contact(i) {
+    return [this.rows[i * WIDTH + CONTACT], this.rows[i * WIDTH + CONTACT + 1]];
+  }
+
+  /** @param {number} i @param {Put} put */
+  com(i, put) {
+    const at = i * WIDTH + COM;
+    put(this.rows[at], this.rows[at + 1], this.rows[at + 2]);
+  }
+
+  // Where t lies among the rows, as a fraction: 3.25 is a quarter of the way from row 3 to row 4.
+  /** @param {number} t */
+  place(t) {
+    let low = 0, high = this.count - 1;
+    if (!(t > this.time(0))) return 0;
+    if (t >= this.time(high)) return high;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.time(middle) <= t) low = middle;
+      else high = middle;
+    }
+    return low + (t - this.time(low)) / (this.time(high) - this.time(low));
+  }
+
+  /** @param {number} t */
+  nearest(t) {
+    return Math.round(this.place(t));
+  }
+
+  // The largest length of a vector over all rows: sets how long its arrow is drawn.
+  largest(column) {
+    let most = 0;
+    for (let i = 0, at = column; i < this.count; i++, at += WIDTH) {
+      most = Math.max(most, Math.hypot(this.rows[at], this.rows[at + 1], this.rows[at + 2]));
+    }
+    return most;
+  }
+
+  get scales() {
+    return { force: this.largest(FORCE), omega: this.largest(OMEGA), momentum: this.largest(MOMENTUM) };
+  }
+
+  // The pose at a place: on a row exactly that row, between two the shortest turn and the straight line.
+  /** @param {number} place @param {Pose} pose */
+  read(place, pose) {
+    const low = Math.min(Math.floor(place), this.count - 1);
+    const high = Math.min(low + 1, this.count - 1);
+    const share = place - low;
+    const a = low * WIDTH, b = high * WIDTH, rows = this.rows;
+    pose.quaternion.fromArray(rows, a + QUATERNION);
+    if (share) pose.quaternion.slerp(other.fromArray(rows, b + QUATERNION), share);
+    const mix = (column) => rows[a + column] + share * (rows[b + column] - rows[a + column]);
+    const vector = (out, column) => out.set(mix(column), mix(column + 1), mix(column + 2));
+    pose.contact.set(mix(CONTACT), mix(CONTACT + 1), 0);
+    vector(pose.com, COM);
+    vector(pose.force, FORCE);
+    vector(pose.omega, OMEGA);
+    vector(pose.momentum, MOMENTUM);
+    pose.regime = rows[a + REGIME];
+  }
+}
+
+const other = new Quaternion();
+
+/** @returns {Pose} */
+export function emptyPose() {
+  const [contact, com, force, omega, momentum] = Array.from({ length: 5 }, () => new Vector3());
+  return { quaternion: new Quaternion(), contact, com, force, omega, momentum, regime: 0 };
+}

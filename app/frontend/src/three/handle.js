@@ -1,0 +1,100 @@
+// The handle at the end of the axis of a paused top: dragged, or moved by the arrow keys, it asks for another tilt.
+import { Vector3 } from "three";
+/** @import { Body } from "./body.js" */
+/** @import { Labels } from "./labels.js" */
+/** @import { Player } from "../motion/player.js" */
+/** @import { Stage } from "./stage.js" */
+
+const BEYOND = 0.25; // how far beyond the body, in R
+const LEAST = 0.01; // rad from the vertical, where a lean has no direction
+const TRIES = 400;
+const KEY_STEP = 0.01;
+
+export class Handle {
+  /** @param {Stage} stage @param {Labels} labels @param {TopModel} model @param {Player} player */
+  constructor(stage, labels, model, player) {
+    this.stage = stage;
+    this.model = model;
+    this.player = player;
+    this.grasp = 0;
+    this.axis = new Vector3();
+    this.from = new Vector3();
+    this.lean = [1, 0];
+    this.t = this.theta = this.reach = 0;
+    this.held = this.asked = false;
+    this.label = labels.add("", "handle");
+    const { element } = this.label;
+    element.tabIndex = 0;
+    element.removeAttribute("aria-hidden");
+    element.setAttribute("role", "slider");
+    element.setAttribute("aria-label", model.texts.handle);
+    element.setAttribute("aria-valuemin", "0");
+    element.setAttribute("aria-valuemax", "3.14");
+    element.title = model.texts.handle_hint;
+    element.addEventListener("pointerdown", (event) => {
+      event.preventDefault();
+      element.focus({ preventScroll: true });
+      element.setPointerCapture(event.pointerId);
+      this.take();
+      this.held = true;
+    });
+    element.addEventListener("pointermove", (event) => this.held && this.ask(this.under(event)));
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) element.addEventListener(end, () => (this.held = false));
+    element.addEventListener("keydown", (event) => {
+      const step = { ArrowUp: -KEY_STEP, ArrowLeft: -KEY_STEP, ArrowDown: KEY_STEP, ArrowRight: KEY_STEP }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      event.stopPropagation(); // the arrows are not the clock's here
+      this.take();
+      this.ask(this.theta + step);
+      this.asked = true;
+    });
+  }
+
+  // What is under the hand now: the upright plane of the axis, and the instant.
+  take() {
+    this.grasp += 1;
+    this.t = this.player.t;
+    const { x, y } = this.axis, lean = Math.hypot(x, y);
+    this.lean = lean > 1e-6 ? [x / lean, y / lean] : [1, 0];
+  }
+
+  /** @param {number} theta */
+  ask(theta) {
+    const most = Math.PI - LEAST;
+    this.model.tilted = [Math.min(Math.max(theta, LEAST), most), this.t, this.grasp];
+  }
+
+  // The tilt whose handle is nearest to the pointer on the screen.
+  /** @param {PointerEvent} event */
+  under({ clientX, clientY }) {
+    const { camera, width, height, holder } = this.stage, box = holder.getBoundingClientRect(), point = new Vector3();
+    let found = this.theta, least = Infinity;
+    for (let i = 0; i <= TRIES; i++) {
+      const theta = (i / TRIES) * Math.PI, s = Math.sin(theta);
+      point.set(this.lean[0] * s, this.lean[1] * s, Math.cos(theta)).multiplyScalar(this.reach).add(this.from).project(camera);
+      const away = Math.hypot(((point.x + 1) / 2) * width - (clientX - box.left), ((1 - point.y) / 2) * height - (clientY - box.top));
+      if (away < least) [found, least] = [theta, away];
+    }
+    return found;
+  }
+
+  // Whether the motion that came is the hand's, which holds its beginning.
+  begins() {
+    const mine = this.held || this.asked;
+    this.asked = false;
+    return mine;
+  }
+
+  // Where the body is now.
+  /** @param {Body} body @param {boolean} shown */
+  follow(body, shown) {
+    this.label.visible = shown;
+    this.from.copy(body.position);
+    this.axis.set(0, 0, 1).applyQuaternion(body.quaternion);
+    this.theta = Math.acos(Math.min(Math.max(this.axis.z, -1), 1));
+    this.reach = (body.top ?? 1) + BEYOND;
+    this.label.at.copy(this.axis).multiplyScalar(this.reach).add(this.from);
+    this.label.element.setAttribute("aria-valuenow", this.theta.toFixed(3));
+  }
+}

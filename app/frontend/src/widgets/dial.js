@@ -1,0 +1,124 @@
+import { fill } from "../data.js";
+
+// One control: its name, a slider, a number to type, words below. What a person does goes to Python as a numbered
+// request, and what Python tells is taken only if it had heard the last of them: nothing late moves a hand back.
+const style = `
+:host { display: block; font: calc(13px * var(--type, 1))/1.35 system-ui, sans-serif; color: var(--ink, #22303c); }
+.head { display: flex; align-items: center; gap: 8px; }
+.name { flex: 1; font-size: 1.08em; } .name[title], .words [title] { cursor: help; }
+i, sub, sup { font-family: Georgia, serif; } .name i { font-size: 1.2em; } sub, sup { font-size: 0.75em; line-height: 0; }
+input { font: inherit; color: inherit; box-sizing: border-box; margin: 0; }
+input[type=text] { width: calc(100px * var(--type, 1)); flex: none; height: calc(28px * var(--type, 1)); padding: 2px 8px; text-align: right;
+  background: transparent; border: 1px solid var(--edge, #7b8794); border-radius: 4px; font-variant-numeric: tabular-nums; }
+input[type=text][aria-invalid=true] { border-color: var(--alert, #b3261e); }
+input:focus-visible { outline: 2px solid var(--focus, #0072B2); outline-offset: 1px; border-radius: 4px; }
+input[type=range] { display: block; width: 100%; height: 26px; accent-color: var(--focus, #0072B2); cursor: pointer; touch-action: pan-y; }
+.marks { position: relative; height: 1.5em; margin: -3px 8px 2px; font-size: 12px; color: var(--faint, #5b6875); }
+.marks span { position: absolute; transform: translateX(-50%); white-space: nowrap; }
+.marks span:first-child { transform: translateX(-8px); }
+.marks span::before { content: ""; position: absolute; left: 50%; top: -4px; height: 4px; border-left: 1px solid; }
+.marks span:first-child::before { left: 8px; }
+.note { color: var(--faint, #5b6875); } .alert { color: var(--alert, #b3261e); font-weight: 500; }
+`;
+const PAGE = 10; // steps that Page Up and Page Down go
+const KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: PAGE, PageDown: -PAGE };
+
+const written = (number) => String(Number(number.toPrecision(6))).replace("-", "−");
+
+// A value in words: with its unit, or where it stands among the marks.
+/** @param {number} value @param {Pick<DialModel, "marks" | "unit" | "texts">} model */
+export function spoken(value, { marks, unit, texts }) {
+  if (!marks.length) return `${written(value)} ${unit}`;
+  const passed = Math.max(marks.filter(([at]) => at <= value).length, 1), [from, to] = [marks[passed - 1], marks[passed]];
+  if (value === from[0]) return from[1];
+  if (!to) return fill(texts.beyond, { mark: from[1] });
+  const percent = Math.round((100 * (value - from[0])) / (to[0] - from[0]));
+  return fill(texts.between, { percent, from: from[1], to: to[1] });
+}
+
+let made = 0;
+
+/** @param {Rendering<DialModel>} rendering */
+export function renderDial({ model, el }) {
+  const id = `dial-${(made += 1)}`;
+  el.innerHTML = `<style>${style}</style>
+    <div class="head"><label class="name" for="${id}"></label><input type="text" autocomplete="off" spellcheck="false" maxlength="60"></div>
+    <input type="range" id="${id}" step="any"><div class="marks" aria-hidden="true"></div><div class="words" id="${id}-words"></div>`;
+  /** @returns {any} */
+  const part = (selector) => el.querySelector(selector);
+  /** @type {HTMLElement[]} */
+  const [name, marks, words] = [".name", ".marks", ".words"].map(part);
+  /** @type {HTMLInputElement[]} */
+  const [entry, slider] = ["input[type=text]", "input[type=range]"].map(part);
+  let count = 0; // of what was asked
+  let value = 0; // the slider's, to the last digit
+  let typing = false; // whether there is something in the entry that was not asked for yet
+
+  name.innerHTML = model.title;
+  name.title = model.hint;
+  slider.dataset.input = model.input;
+  slider.setAttribute("aria-label", model.spoken);
+  entry.setAttribute("aria-label", model.unit ? fill(model.texts.entry, { name: model.spoken, unit: model.unit }) : model.spoken);
+  for (const input of [slider, entry]) input.setAttribute("aria-describedby", words.id);
+
+  function place() {
+    slider.min = String(Math.min(model.start, value));
+    slider.max = String(Math.max(model.end, value));
+    slider.value = String(value);
+    slider.setAttribute("aria-valuetext", spoken(value, model));
+    const [low, high] = [Number(slider.min), Number(slider.max)];
+    marks.hidden = !model.marks.length;
+    marks.innerHTML = model.marks.map(([at, word]) => `<span style="left: ${(100 * (at - low)) / (high - low)}%">${word}</span>`).join("");
+  }
+  function ask(wish, typed) {
+    count += 1;
+    model.asked = [count, wish, typed];
+  }
+  function slide(wish) {
+    const next = Math.min(Math.max(Number(wish.toPrecision(12)), Number(slider.min)), Number(slider.max));
+    if (next === value) return place();
+    value = next;
+    if (!model.marks.length) entry.value = written(value);
+    typing = false;
+    place();
+    ask(value, false);
+  }
+  function type() {
+    if (!typing) return;
+    typing = false;
+    ask(entry.value, true);
+  }
+
+  slider.addEventListener("input", () => slide(Math.round(Number(slider.value) / model.step) * model.step));
+  slider.addEventListener("keydown", (event) => {
+    const steps = KEYS[event.key], end = { Home: slider.min, End: slider.max }[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey || (steps === undefined && end === undefined)) return;
+    event.preventDefault();
+    slide(steps === undefined ? Number(end) : value + steps * model.step);
+  });
+  entry.addEventListener("input", () => (typing = true));
+  entry.addEventListener("change", type);
+  entry.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") type();
+    if (event.key !== "Escape" || !typing) return;
+    typing = false;
+    entry.value = model.told[2];
+  });
+
+  function take() {
+    const [heard, number, text] = model.told;
+    if (heard !== count) return;
+    value = number;
+    if (!typing) entry.value = text;
+    place();
+  }
+  function say() {
+    words.innerHTML = model.words;
+    words.style.minHeight = model.lines ? `${1.35 * model.lines}em` : "";
+    entry.setAttribute("aria-invalid", String(model.wrong));
+  }
+  for (const what of ["told", "start", "end"]) model.on(what, take);
+  for (const what of ["words", "wrong"]) model.on(what, say);
+  take();
+  say();
+}

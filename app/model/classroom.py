@@ -1,0 +1,333 @@
+"""Votes of a class: rooms that all workers see, no names, bounded; a room is its teacher's, by a key of his own.
+
+A room is plain data: {"step", "numbers", "asks", "top", "owner", "used", "votes": {phone: [value, address, when]}}.
+"""
+
+import hashlib
+import hmac
+import ipaddress
+import json
+import logging
+import math
+import os
+import queue
+import re
+import secrets
+import threading
+import time
+from dataclasses import dataclass
+
+from app.model.ballots import Away, store
+
+MOST_ROOMS, ROOMS_OF_ADDRESS = 1000, 40
+MOST_VOTES, VOTES_OF_ADDRESS = 400, 250  # of a room
+LASTS = 6 * 3600.0  # s after its last use
+USED = 600.0  # s: no oftener is it written that a room is in use
+BETWEEN = 1.0  # s between two votes of one phone
+LETTERS = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ"  # none that is taken for another
+CODE_LENGTH = 6
+CODE = re.compile(rf"[{LETTERS}]{{{CODE_LENGTH}}}")
+KEY = re.compile(rf"{CODE.pattern}\.[\w-]{{22}}", re.ASCII)  # the room's code, and its owner's secret
+MARK = re.compile(r"[0-9a-f]{32}", re.ASCII)  # what a phone is known by
+LOOK_EVERY = 0.5  # s
+PAUSE = 2.0  # s for which a store that did not answer is not asked again
+MOST_WAITING = 1000
+REGISTER = "rooms"  # the key of {code: [used, address]}: no code is so short
+
+log = logging.getLogger("tippe")
+
+
+class Refused(Exception):
+    """A vote or a room that cannot be; its text is a key under [student] or [vote] in teach.toml."""
+
+
+@dataclass(frozen=True)
+class Room:
+    """One question to a class, which each page says in its own language, and the votes so far.
+
+    step: the name of a lesson.Step; numbers: for the words of its question; asks: the fields of a lesson.Choice or
+    Guess; top: the motion's, as a link has it.
+    """
+
+    code: str
+    step: str
+    numbers: dict
+    asks: dict
+    top: dict
+    votes: tuple
+
+    @classmethod
+    def of(cls, code, text):
+        """Of what a store has under its code."""
+        if text is None:
+            return None
+        record = json.loads(text)
+        votes = tuple(value for value, _, _ in record["votes"].values())
+        return cls(code, record["step"], record["numbers"], record["asks"], record["top"], votes)
+
+
+def possible(asks, value):
+    """Whether a vote is an answer."""
+    if "options" in asks:
+        return value in asks["options"]
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return number and asks["low"] <= value <= asks["high"]
+
+
+def network(address):
+    """What one person has all of: an address, of IPv6 the first half."""
+    try:
+        found = ipaddress.ip_address(address)
+    except ValueError:
+        return address
+    if found.version == 6:
+        found = found.ipv4_mapped or int(found) >> 64
+    return str(found)
+
+
+def mixed(*parts):
+    """A number from which nobody gets its parts back, in hexadecimal."""
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+class Rooms:
+    """The rooms in a store. clock: s, the same for all hosts."""
+
+    def __init__(self, store, votes_of_address=VOTES_OF_ADDRESS, clock=time.time):
+        self._store, self._clock, self._votes_of_address = store, clock, votes_of_address
+
+    def open(self, address, **question):
+        """(Room, key): a new one, with these fields of it; Refused("full" or "crowded") where there are too many."""
+        now, old, found = self._clock(), [], []
+        # so many addresses have the same: which one it was is not kept
+        address = mixed(network(address))[:6]
+
+        def entered(text):
+            all_of = json.loads(text) if text else {}
+            register = {code: entry for code, entry in all_of.items() if now - entry[0] <= LASTS}
+            old[:] = all_of.keys() - register.keys()
+            if len(register) >= MOST_ROOMS:
+                raise Refused("full")
+            if sum(entry[1] == address for entry in register.values()) >= ROOMS_OF_ADDRESS:
+                raise Refused("crowded")
+            while (code := "".join(secrets.choice(LETTERS) for _ in range(CODE_LENGTH))) in all_of:
+                pass
+            found[:] = [code]
+            return json.dumps(register | {code: [now, address]})
+
+        self._store.change(REGISTER, entered)
+        for gone in old:
+            self._store.change(gone, lambda text: None)
+        [code], secret = found, secrets.token_urlsafe(16)
+        text = json.dumps({**question, "owner": mixed(secret), "used": now, "votes": {}})
+        self._store.change(code, lambda _: text)
+        return Room.of(code, text), f"{code}.{secret}"
+
+    def _living(self, text):
+        """The record in a text, or None."""
+        record = json.loads(text) if text else None
+        return record if record and self._clock() - record["used"] <= LASTS else None
+
+    def _read(self, code):
+        """(text, record) of a room, which this uses; (None, None) where there is none."""
+        text = self._store.read([code]).get(code) if CODE.fullmatch(code) else None
+        record = self._living(text)
+        if record is None:
+            return None, None
+        self._use(code, record)
+        return text, record
+
+    def _use(self, code, record):
+        if self._clock() - record["used"] > USED:
+            self.use(code)
+
+    def use(self, code):
+        """Lets a room last from now on."""
+        now = self._clock()
+
+        def in_register(text):
+            register = json.loads(text) if text else {}
+            return json.dumps(register | {code: [now, register.get(code, [now, ""])[1]]})
+
+        def in_room(text):
+            record = self._living(text)
+            return json.dumps(record | {"used": now}) if record else text
+
+        self._store.change(REGISTER, in_register)  # first: a room that lasts is never thought to be old
+        self._store.change(code, in_room)
+
+    def owned(self, key):
+        """The Room of a teacher's key; Refused("over") where there is none, or it is another's."""
+        code, secret = key.split(".")
+        text, record = self._read(code)
+        if record is None or not hmac.compare_digest(record["owner"], mixed(secret)):
+            raise Refused("over")
+        return Room.of(code, text)
+
+    def close(self, key):
+        """Forgets a teacher's room and its votes, if it is there."""
+        try:
+            code = self.owned(key).code
+        except Refused:
+            return
+        self._store.change(code, lambda text: None)
+        self._store.change(REGISTER, lambda text: json.dumps(
+            {each: entry for each, entry in json.loads(text or "{}").items() if each != code}))  # fmt: skip
+
+    def ballot(self, code, phone):
+        """(Room, the vote of this phone or None); (None, None) where there is no room."""
+        text, record = self._read(code)
+        if record is None:
+            return None, None
+        mine = record["votes"].get(mixed(code, phone))
+        return Room.of(code, text), mine[0] if mine else None
+
+    def vote(self, code, phone, address, value):
+        """Counts the vote of a phone (any text that it is known by) in place of its earlier one, or raises Refused."""
+        if not CODE.fullmatch(code):
+            raise Refused("gone")
+        phone, address, now = mixed(code, phone), mixed(code, network(address))[:6], self._clock()
+        found = []
+
+        def counted(text):
+            record = self._living(text)
+            if record is None:
+                raise Refused("gone")
+            if not possible(record["asks"], value):
+                raise Refused("wrong")
+            votes = record["votes"]
+            if phone in votes:
+                if abs(now - votes[phone][2]) < BETWEEN:
+                    raise Refused("fast")
+            elif len(votes) >= MOST_VOTES:
+                raise Refused("full")
+            elif sum(each[1] == address for each in votes.values()) >= self._votes_of_address:
+                raise Refused("crowded")
+            found[:] = [record]
+            votes[phone] = [value, address, now]
+            return json.dumps(record)
+
+        self._store.change(code, counted)
+        self._use(code, *found)
+
+    def look(self, codes):
+        """{code: text} of those that are there; Room.of reads a text, where it is another than before."""
+        return self._store.read(codes)
+
+
+class Desk:
+    """The one thread of this process that talks to the store: pages ask, and are told in that thread.
+
+    Who does not answer keeps no page waiting; and what 250 pages look at is read once.
+    """
+
+    def __init__(self, where=None, votes_of_address=VOTES_OF_ADDRESS):
+        self._where, self._votes_of_address = where, votes_of_address
+        self._asked, self._watches, self._used = queue.Queue(MOST_WAITING), set(), {}
+        self._thread, self._lock, self._rooms, self._away = None, threading.Lock(), None, (-math.inf, None)
+
+    def keep(self, where, votes_of_address):
+        """To be called first, if at all: where votes are kept, as TIPPE_VOTES says it."""
+        self._where, self._votes_of_address = where, votes_of_address
+
+    def ask(self, work, done):
+        """Has done(result of work(Rooms)) called; or of the exception: Refused, Away, or else a bug."""
+        with self._lock:
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._serve, name="votes", daemon=True)
+                self._thread.start()
+        try:
+            self._asked.put_nowait((work, done))
+        except queue.Full:
+            done(Away("full"))
+
+    def watch(self, code, told, votes=True):
+        """Has told(Room) called now and whenever its votes change (not without votes), told(None) when it is closed,
+        told(Away) while nobody can say. Returns what ends this."""
+        watch = Watch(code, told, votes)
+        self._watches.add(watch)
+        self.ask(lambda rooms: None, lambda result: None)  # it may sleep
+        return lambda: self._watches.discard(watch)
+
+    def _serve(self):
+        due = 0.0
+        while True:
+            try:
+                left = max(0.0, due - time.monotonic()) if self._watches else None
+                self._answer(*self._asked.get(timeout=left))
+            except queue.Empty:
+                pass
+            if time.monotonic() >= due and self._watches:
+                self._answer(self._look, self._tell)
+                due = time.monotonic() + LOOK_EVERY
+
+    def _answer(self, work, done):
+        when, error = self._away
+        if time.monotonic() - when < PAUSE:
+            result = error
+        else:
+            try:
+                result = work(self._opened())
+            except Away as away:
+                if error is None:
+                    log.error("votes are away: %.300s", " ".join(str(away).split()))
+                result, self._away = away, (time.monotonic(), away)
+            except Exception as error:
+                result = error
+            else:
+                self._away = (-math.inf, None)
+        try:
+            done(result)
+        except Exception:
+            log.exception("a page could not be told of its votes")
+
+    def _opened(self):
+        if self._rooms is None:
+            try:
+                where = os.environ.get("TIPPE_VOTES", "") if self._where is None else self._where
+                self._rooms = Rooms(store(where, LASTS + 2 * USED), self._votes_of_address)
+            except ValueError as error:
+                raise Away(f"TIPPE_VOTES is {where!r}; allowed is {error}.") from None
+        return self._rooms
+
+    def _look(self, rooms):
+        watches = tuple(self._watches)
+        now, used = time.monotonic(), {watch.code for watch in watches if watch.votes}  # by those who own them
+        self._used = {code: self._used.get(code, now) for code in used}
+        for code, since in self._used.items():
+            if now - since > USED:
+                rooms.use(code)
+                self._used[code] = now
+        return watches, rooms.look({watch.code for watch in watches})
+
+    def _tell(self, result):
+        if isinstance(result, Away):
+            for watch in tuple(self._watches):
+                watch.tell(result, result)
+        elif isinstance(result, Exception):
+            raise result
+        else:
+            watches, texts = result
+            for watch in watches:
+                watch.tell(texts.get(watch.code))
+
+
+class Watch:
+    """One page that looks at a room."""
+
+    def __init__(self, code, told, votes):
+        self.code, self.votes, self._told, self._last = code, votes, told, ...
+
+    def tell(self, text, away=None):
+        """What is there now, if that is news to it."""
+        if away is not None:
+            news, now = self.votes and not isinstance(self._last, Away), away
+        else:
+            news, now = text != self._last and (self.votes or text is None), text
+        self._last = now
+        if news:
+            self._told(away or Room.of(self.code, text))
+
+
+DESK = Desk()
+"""That of this process."""

@@ -1,0 +1,526 @@
+"""The paper's equations (1) to (39) and (B1) to (B4), both sides of each on a motion, by different routes.
+
+Time derivatives are those of the polynomial through the motion's own poses at 48 times (barycentric, in the longest
+float), the angular velocity that of its quaternions; what the constants of the motion say stands on the other side. The
+limits (27) to (29), R -> 0, are a derivative at R = 0 by a complex step, of the formula for any R.
+
+Units R, M, g. Vectors are shown along the turning axes: 1', y = z x 1', z. The words are in app/text.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple, TypeAlias, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import dct
+
+from app.model.explorer import Scene
+from tippe_core import (
+    Constants,
+    Gliding,
+    Rolling,
+    State,
+    Top,
+    Trajectory,
+    f,
+    f1_squared,
+    f2_squared,
+    f3_squared,
+    friction_force,
+    normal_force,
+    omega2,
+    omega3,
+)
+from tippe_core.types import Array, Complex, Number, Scalars
+
+LONG = np.longdouble
+Long: TypeAlias = NDArray[np.floating]  # of long floats, or where these are not needed of floats
+Of = TypeVar("Of")
+Run: TypeAlias = Callable[[Array], Trajectory]  # of times
+NODES, EDGE = 48, 8  # of each window; next to its ends a derivative is mostly the rounding of its samples
+TURN = 6.0  # rad in a window: so much its polynomial follows
+RESOLVED = 1e-12  # of the largest: below it the last Chebyshev coefficients of a window are rounding
+MOST_WINDOWS, NARROWEST = 48, 1e-5
+STEP = 1e-20  # in the imaginary direction, where nothing cancels
+Z = np.array([0.0, 0.0, 1.0])
+
+
+def differentiation(t: Array) -> Long:
+    """The matrix that gives the derivative, at the samples, of the polynomial through them (barycentric)."""
+    t = t.astype(LONG)
+    gap = t[:, None] - t[None, :]
+    np.fill_diagonal(gap, 1)
+    weight = 1 / np.prod(gap / ((t[-1] - t[0]) / 4), axis=1)
+    matrix = weight[None, :] / weight[:, None] / gap
+    np.fill_diagonal(matrix, 0)
+    np.fill_diagonal(matrix, -matrix.sum(axis=1))
+    return matrix
+
+
+def dot(p: Long, q: Long) -> Long:
+    return (p * q).sum(axis=1)
+
+
+def column(x: Long) -> Long:
+    return x[:, None]
+
+
+class Window:
+    """A stretch of a motion: its vectors in space, a row a time, and d(x), the time derivative of any of it.
+
+    Names are the paper's: r, v, L, F, omega; omega and axis by differentiating the quaternions returned, w1, w2, w3 and
+    L as the motion says. e1, e2, axis are the unit vectors 1', 2', 3; y = z x 1'.
+    """
+
+    def __init__(self, top: Top, motion: Trajectory, constants: Constants, state: State) -> None:
+        self.top, self.motion, self.constants, self.state = top, motion, constants, state
+        self.a, self.I1, self.I3, self.dI = top.a, top.I1, top.I3, top.I3 - top.I1
+        self.t, self.theta = motion.t, motion.theta
+        self.s, self.c = np.sin(self.theta), np.cos(self.theta)
+        self._matrix = differentiation(motion.t)
+        x, y, z, w = q = motion.quaternion.astype(LONG).T
+        dx, dy, dz, dw = (self._matrix @ q.T).T
+        # omega = 2 q_dot q^-1 and the third column of the rotation
+        self.omega = 2 * np.stack([w * dx - x * dw + y * dz - z * dy, w * dy - y * dw + z * dx - x * dz,
+                                   w * dz - z * dw + x * dy - y * dx], axis=1)  # fmt: skip
+        self.axis = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)], axis=1)
+        across = np.cross(Z, self.axis)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            self.e1 = across / np.sqrt(dot(across, across))[:, None]
+        self.e2, self.y = np.cross(self.axis, self.e1), np.cross(Z, self.e1)
+        self.w1, self.w2, self.w3 = w1, w2, w3 = motion.omega.astype(LONG).T
+        across = column(w1) * self.e1 + column(w2) * self.e2
+        self.L = top.I1 * across + top.I3 * column(w3) * self.axis
+        self._turn = across + column(w3) * self.axis
+        F_x, F_y, F_z = motion.force.T
+        self.F = column(F_x) * self.e1 + column(F_y) * self.y + column(F_z) * Z
+        self.com = motion.com.astype(LONG)
+        self.r = self.com - np.column_stack([motion.contact, 0 * self.t])
+        v_x, v_y, v_z = motion.velocity.T
+        self.v = column(v_x) * self.e1 + column(v_y) * self.y + column(v_z) * Z
+        self.weight = np.broadcast_to(-Z, self.v.shape)
+
+    def d(self, x: Long) -> Long:
+        return self._matrix @ x
+
+    def turning(self, x: Long) -> Long:
+        """Components along 1', y, z."""
+        return np.column_stack([dot(x, self.e1), dot(x, self.y), x[:, 2]])
+
+    # ---- what several lines need ----
+
+    @cached_property
+    def L_dot(self) -> Long:
+        return self.d(self.L)
+
+    @cached_property
+    def v_dot(self) -> Long:
+        return self.d(self.v)
+
+    @cached_property
+    def omega_dot(self) -> Long:
+        return self.d(self._turn)
+
+    @cached_property
+    def r_dot(self) -> Long:
+        return self.d(self.r)
+
+    # theta itself turns sharply next to a pole, cos(theta) does not.
+
+    @cached_property
+    def theta_dot(self) -> Long:
+        return -self.d(self.axis[:, 2]) / self.s
+
+    @cached_property
+    def theta_double_dot(self) -> Long:
+        return (self.d(self.s * self.w1) - self.c * self.w1**2) / self.s
+
+    @cached_property
+    def w3_dot(self) -> Long:
+        return self.d(self.w3)
+
+    @cached_property
+    def r3(self) -> Long:
+        return dot(self.r, self.axis)
+
+    @cached_property
+    def r_across(self) -> Long:
+        beside = self.r - column(self.r3) * self.axis
+        return np.sqrt(dot(beside, beside))
+
+    @cached_property
+    def lean(self) -> Long:
+        """omega . (3 x z), which is -sin(theta) theta_dot."""
+        return dot(self.omega, np.cross(self.axis, Z))
+
+    def along(self, e: Long) -> Long:
+        return dot(self.omega, e)
+
+    def of(self, function: Callable[[Array, Top, Constants], Of]) -> Of:
+        """f, omega2, ... of tippe_core at these tilts, by the constants alone."""
+        return function(self.theta, self.top, self.constants)
+
+    @property
+    def sense(self) -> Array:
+        return np.where(self.w1 < 0, -1.0, 1.0)
+
+    @cached_property
+    def energy(self) -> Long:
+        v = self.d(self.com)
+        return (dot(self.omega, self.L) + dot(v, v)) / 2 + self.com[:, 2] - (1 - self.a)
+
+    # ---- R -> 0: the same body with a pointed peg, at the same tilts; derivatives at R = 0 ----
+
+    def _L3(self, R: complex) -> Complex:
+        """(25) for any R, with the spin constant K of R = 0: L_3 = I3 K/f3(R)."""
+        K: Number = self.constants.K_R
+        s2 = np.sin(self.theta) ** 2
+        f3 = np.sqrt(self.I3 + R * R * s2 + self.I3 / self.I1 * (R * self.c - self.a) ** 2 + 0j)
+        return self.I3 * K / f3
+
+    @cached_property
+    def L3_pointed(self) -> Long:
+        return self._L3(0.0).real
+
+    @cached_property
+    def L3_slope(self) -> Long:
+        """dL_3/dR at R = 0."""
+        return self._L3(STEP * 1j).imag / STEP
+
+    @cached_property
+    def Lz_pointed(self) -> Long:
+        """L_z by (13) as R -> 0, less its value at the first of these tilts."""
+        return self.a * (self.L3_slope - self.L3_slope[0])
+
+
+Reading: TypeAlias = Callable[[Window], Long]
+
+
+@dataclass(frozen=True)
+class Line:
+    """An equation: its number, its TeX, its two sides on a Window, (n,) or (n, 3), and the symbols to look at.
+
+    plane: "rough" or "smooth".
+    """
+
+    number: str
+    tex: str
+    sides: Callable[[Window], tuple[Long, Long]]
+    symbols: str
+    plane: str = "rough"
+
+    @property
+    def key(self) -> str:
+        return self.number.strip("()")
+
+
+def isaeva(m: Window) -> Long:
+    """(26) at any state."""
+    w_z = m.omega[:, 2]
+    w3 = dot(m.omega, m.axis)
+    return _isaeva(m, w3, w_z)
+
+
+def _isaeva(m: Window, w3: Number, w_z: Number) -> Number:
+    C_J = m.I1 * m.constants.K_J
+    return (m.dI * (m.I3 + 1) - m.I3 * m.a**2) * w3**2 - 2 * C_J * w_z + m.I1 * w_z**2
+
+
+def isaeva_elsewhere(m: Window) -> Long:
+    """(26) at another tilt of the same constants: the least of these tilts."""
+    theta = m.theta.min()
+    w2, w3 = (function(theta, m.top, m.constants) for function in (omega2, omega3))
+    return 0 * m.theta + _isaeva(m, w3, w3 * np.cos(theta) + w2 * np.sin(theta))
+
+
+def half_f3(m: Window) -> Long:
+    return (m.I3 + m.r_across**2 + m.I3 / m.I1 * m.r3**2) / 2
+
+
+def tipping(m: Window) -> Long:
+    """w3^2 theta_dot sin(theta), of (22)."""
+    return m.along(m.axis) ** 2 * m.theta_dot * m.s
+
+
+def falling(m: Window) -> Long:
+    """-(I3/I1) r3^2 w3 w3_dot - r_across^2 w3 w3_dot, of (22) and (23)."""
+    return -(m.I3 / m.I1 * m.r3**2 + m.r_across**2) * m.along(m.axis) * m.w3_dot
+
+
+def carried(m: Window) -> Long:
+    return np.cross(m.axis, m.v_dot)
+
+
+def start(m: Window) -> tuple[float, float, float]:
+    """E, I3 w3, L_z and the drift of G of the motion's first instant, from its State (smooth plane, G at rest)."""
+    state, top = m.state, m.top
+    s, c = np.sin(state.theta), np.cos(state.theta)
+    L_z = top.I3 * state.omega3 * c + top.I1 * state.omega2 * s
+    rising = top.a * s * state.theta_dot
+    E = (top.I1 * (state.theta_dot**2 + state.omega2**2) + top.I3 * state.omega3**2 + rising**2) / 2 + top.a * (1 - c)
+    return E, top.I3 * state.omega3, L_z
+
+
+def changing(m: Window) -> Long:
+    v_z = m.d(m.com)[:, 2]
+    return (m.I1 * (m.along(m.e1) ** 2 + m.along(m.e2) ** 2) + v_z**2) / 2 + m.a * (1 - m.c)
+
+
+def constant(m: Window, value: Scalars) -> Array:
+    return 0 * m.theta + value
+
+
+O, W, L, F, V = r"\vec r", r"\vec\omega", r"\vec L", r"\vec F", r"\vec v"
+THREE, ZED = r"\hat 3", r"\hat z"
+DOT_L, DOT_V, DOT_W, DOT_R = r"\dot{\vec L}", r"\dot{\vec v}", r"\dot{\vec\omega}", r"\dot{\vec r}"
+COS, SIN = r"\cos\theta", r"\sin\theta"
+W1, W2, W3 = r"\omega_{1'}", r"\omega_{2'}", r"\omega_3"
+R3, RP, DI = "r_3", r"r_\perp", r"{\Delta I}"
+LINES = (
+    Line("(1)", rf"M{DOT_V}={F}+\vec w", lambda m: (m.v_dot, m.F + m.weight), "M v F w"),
+    Line("(2)", rf"{DOT_L}=-{O}\times{F}", lambda m: (m.L_dot, -np.cross(m.r, m.F)), "L r F"),
+    Line("(3)", rf"{O}=R{ZED}-a{THREE}", lambda m: (m.r, Z - m.a * m.axis), "r R z a three"),
+    Line("(4)", rf"{V}={W}\times{O}", lambda m: (m.d(m.com), np.cross(m.omega, m.r)), "v omega r"),
+    Line("(5)", rf"{L}=I_1{W}+{DI}\,{W3}{THREE}",
+         lambda m: (m.L, m.I1 * m.omega + m.dI * column(m.w3) * m.axis), "L I1 omega dI w3 three"),
+    Line("(6)", rf"\begin{{aligned}}"
+         rf"&\tfrac12\left[I_1+M(R^2+a^2-2Ra{COS})\right]{W1}^2+\tfrac12I_1{W2}^2\\&+\tfrac12M\left[(R{COS}-a)"
+         rf"{W2}-R{SIN}\,{W3}\right]^2+\tfrac12I_3{W3}^2\\&+Mga(1-{COS})=E\end{{aligned}}",
+         lambda m: (m.energy, constant(m, m.constants.E)), "I1 theta w1 w2 w3 a I3 E"),
+    Line("(7)", rf"{DOT_L}\cdot{O}=0", lambda m: (dot(m.L_dot, m.r), 0 * m.theta), "L r"),
+    Line("(8)", rf"{L}\cdot{DOT_R}=0", lambda m: (dot(m.L, m.r_dot), 0 * m.theta), "L r"),
+    Line("(9)", rf"\frac{{d}}{{dt}}\left({L}\cdot{O}\right)=0",
+         lambda m: (m.d(dot(m.L, m.r)), 0 * m.theta), "L r"),
+    Line("(10)", rf"{L}\cdot{O}=C_J", lambda m: (dot(m.L, m.r), constant(m, m.I1 * m.constants.K_J)), "L r C_J"),
+    Line("(11)", rf"{DOT_R}=-a{W}\times{THREE}", lambda m: (m.r_dot, -m.a * np.cross(m.omega, m.axis)),
+         "r a omega three"),
+    Line("(12)", rf"{L}\cdot{DOT_R}=-a\left(I_1{W}+{DI}\,{W3}{THREE}\right)\cdot\left({W}\times{THREE}\right)",
+         lambda m: (dot(m.L, m.r_dot),
+                    -m.a * dot(m.I1 * m.omega + m.dI * column(m.w3) * m.axis, np.cross(m.omega, m.axis))),
+         "L r a omega w3 three"),
+    Line("(13)", r"L_z-\frac aR L_3=J", lambda m: (m.L[:, 2] - m.a * dot(m.L, m.axis),
+                                                    constant(m, m.I1 * m.constants.K_J)), "L_z a L_3 J"),
+    Line("(14)", rf"I_1R{SIN}\,{W2}+I_3(R{COS}-a){W3}=C_J",
+         lambda m: (m.I1 * m.s * m.along(m.e2) + m.I3 * (m.c - m.a) * m.along(m.axis),
+                    constant(m, m.I1 * m.constants.K_J)), "I1 theta w2 I3 a w3 C_J"),
+    Line("(15)", rf"{DOT_L}=-{O}\times\left(M{DOT_V}-\vec w\right)",
+         lambda m: (m.L_dot, -np.cross(m.r, m.v_dot - m.weight)), "L r v w"),
+    Line("(16)", rf"\dot L_3=M\,{THREE}\times{DOT_V}\cdot{O}",
+         lambda m: (m.I3 * m.d(m.w3), dot(carried(m), m.r)), "L_3 three v r"),
+    Line("(17)", rf"{THREE}\times{DOT_V}={R3}{DOT_W}-\dot\omega_3{O}+a{W3}\,{W}\times{THREE}",
+         lambda m: (carried(m), column(m.r3) * m.omega_dot - column(m.w3_dot) * m.r
+                    + m.a * column(m.along(m.axis)) * np.cross(m.omega, m.axis)), "three v r3 omega w3 r a"),
+    Line("(18)", rf"{THREE}\times{DOT_V}\cdot{O}={R3}({DOT_W}\cdot{O})-r^2\dot\omega_3+aR{W3}\,{W}\cdot({THREE}\times"
+         rf"{ZED})", lambda m: (dot(carried(m), m.r), m.r3 * dot(m.omega_dot, m.r) - dot(m.r, m.r) * m.w3_dot
+                                + m.a * m.along(m.axis) * m.lean), "three v r r3 omega w3 a z"),
+    Line("(19)", rf"{DOT_L}=I_1{DOT_W}+{DI}\,\dot\omega_3{THREE}+{DI}\,{W3}\dot{{\hat 3}}",
+         lambda m: (m.L_dot, m.I1 * m.omega_dot + m.dI * (column(m.w3_dot) * m.axis
+                                                          + column(m.along(m.axis)) * m.d(m.axis))),
+         "L I1 omega dI w3 three"),
+    Line("(20)", rf"I_1({DOT_W}\cdot{O})+{DI}\,{R3}\dot\omega_3+{DI}\,R{W3}\,{W}\cdot"
+         rf"({THREE}\times{ZED})=0",
+         lambda m: (m.I1 * dot(m.omega_dot, m.r) + m.dI * (m.r3 * m.w3_dot + m.along(m.axis) * m.lean), 0 * m.theta),
+         "I1 omega r dI r3 w3 three z"),
+    Line("(21)", rf"\begin{{aligned}}I_3\dot\omega_3=&-\frac{DI}{{I_1}}M{R3}^2\dot\omega_3-\frac{DI}{{I_1}}MR{R3}{W3}\,"
+         rf"{W}\cdot({THREE}\times{ZED})\\&-Mr^2\dot\omega_3+MaR{W3}\,{W}\cdot({THREE}\times{ZED})\end{{aligned}}",
+         lambda m: (m.I3 * m.d(m.w3), -(m.dI / m.I1 * m.r3**2 + dot(m.r, m.r)) * m.w3_dot
+                    + (m.a - m.dI / m.I1 * m.r3) * m.along(m.axis) * m.lean), "I3 w3 dI I1 r3 omega r a"),
+    Line("(22)", rf"\begin{{aligned}}"
+         rf"I_3{W3}\dot\omega_3=&-\frac{{I_3}}{{I_1}}M{R3}^2{W3}\dot\omega_3+\left(\frac{{I_3}}{{I_1}}-1\right)"
+         rf"MR{R3}{W3}^2\dot\theta{SIN}\\&-M{RP}^2{W3}\dot\omega_3-MaR{W3}^2\dot\theta{SIN}\end{{aligned}}",
+         lambda m: (m.I3 * m.w3 * m.d(m.w3),
+                    falling(m) + ((m.I3 / m.I1 - 1) * m.r3 - m.a) * tipping(m)), "I3 w3 I1 r3 theta rp a"),
+    Line("(23)", rf"\begin{{aligned}}"
+         rf"I_3{W3}\dot\omega_3=&-\frac{{I_3}}{{I_1}}M{R3}^2{W3}\dot\omega_3-\frac{{I_3}}{{I_1}}M{R3}\dot r_3"
+         rf"{W3}^2\\&-M{RP}\dot r_\perp{W3}^2-M{RP}^2{W3}\dot\omega_3\end{{aligned}}",
+         lambda m: (m.I3 * m.w3 * m.d(m.w3),
+                    falling(m) - (m.I3 / m.I1 * m.r3 * m.d(m.r3) + m.d(m.r_across**2) / 2) * m.along(m.axis) ** 2),
+         "I3 w3 I1 r3 rp"),
+    Line("(24)", rf"\frac{{d}}{{dt}}\left[\tfrac12I_3{W3}^2+\tfrac12M{RP}^2{W3}^2+\tfrac12M\frac{{I_3}}{{I_1}}{R3}^2"
+         rf"{W3}^2\right]=0", lambda m: (m.d(half_f3(m) * m.w3**2), 0 * m.theta), "I3 w3 rp I1 r3"),
+    Line("(25)", rf"\tfrac12\left[I_3+MR^2\sin^2\theta+M\frac{{I_3}}{{I_1}}(R{COS}-a)^2\right]{W3}^2=\tfrac12K_R^2",
+         lambda m: (half_f3(m) * m.along(m.axis) ** 2, constant(m, m.constants.K_R**2 / 2)), "I3 theta I1 a w3 K_R"),
+    Line("(26)", rf"\begin{{aligned}}&\left[{DI}(I_3+MR^2)-I_3Ma^2\right]{W3}^2\\&-2C_JMR\omega_z+I_1MR^2\omega_z^2=C"
+         r"\end{aligned}",
+         lambda m: (isaeva(m), isaeva_elsewhere(m)), "dI I3 a w3 C_J wz I1"),
+    Line("(27)", rf"\left.\frac{{dL_3}}{{dR}}\right|_{{R=0}}=\frac{{Ma{COS}}}{{I_1+Ma^2}}\,L_3",
+         lambda m: (m.L3_slope, m.a * m.c / (m.I1 + m.a**2) * m.L3_pointed), "L_3 a theta I1"),
+    Line("(28)", rf"L_z-\frac{{Ma^2{COS}}}{{I_1+Ma^2}}\,L_3=C\quad(R\to0)",
+         lambda m: (m.Lz_pointed - m.a**2 * m.c / (m.I1 + m.a**2) * m.L3_pointed,
+                    constant(m, -m.a**2 * m.c[0] / (m.I1 + m.a**2) * m.L3_pointed[0])), "L_z a theta I1 L_3"),
+    Line("(29)", r"L_{CZ}=C\quad(R\to0)",
+         lambda m: (m.Lz_pointed + m.a**2 * (m.Lz_pointed - m.L3_pointed * m.c) / m.I1,
+                    constant(m, -m.a**2 * m.L3_pointed[0] * m.c[0] / m.I1)), "L_z"),
+    Line("(30)", rf"{SIN}\,{W2}+\frac{{I_3}}{{I_1}}({COS}-a){W3}=K_J",
+         lambda m: (m.s * m.along(m.e2) + m.I3 / m.I1 * (m.c - m.a) * m.along(m.axis), constant(m, m.constants.K_J)),
+         "theta w2 I3 I1 a w3 K_J"),
+    Line("(31)", rf"f_3^2{W3}^2=K_R^2",
+         lambda m: (f3_squared(m.theta, m.top) * m.along(m.axis) ** 2, constant(m, m.constants.K_R**2)), "f3 w3 K_R"),
+    Line("(32)", rf"f_3^2=I_3+\sin^2\theta+\frac{{I_3}}{{I_1}}({COS}-a)^2",
+         lambda m: (f3_squared(m.theta, m.top), 2 * half_f3(m)), "f3 I3 theta I1 a"),
+    Line("(33)", rf"2E'=2a(1-{COS})+f_2^2{W2}^2+f_1^2{W1}^2",
+         lambda m: (constant(m, m.constants.two_E_prime(m.top)),
+                    2 * m.a * (1 - m.c) + f2_squared(m.theta, m.top) * m.along(m.e2) ** 2
+                    + f1_squared(m.theta, m.top) * m.along(m.e1) ** 2), "Ep a theta f2 w2 f1 w1"),
+    Line("(34)", rf"f_2^2=I_1+\frac{{I_1}}{{I_3}}\sin^2\theta+({COS}-a)^2",
+         lambda m: (f2_squared(m.theta, m.top), m.I1 + m.I1 / m.I3 * m.r_across**2 + m.r3**2), "f2 I1 I3 theta a"),
+    Line("(35)", rf"f_1^2=I_1+1+a^2-2a{COS}",
+         lambda m: (f1_squared(m.theta, m.top), m.I1 + dot(m.r, m.r)), "f1 I1 a theta"),
+    Line("(36)", rf"\begin{{aligned}}"
+         rf"f_1^2\dot\theta^2={{}}&2E'-2a(1-{COS})\\&-\frac{{f_2^2}}{{\sin^2\theta}}\left[K_J-\frac{{I_3}}{{I_1}}"
+         rf"({COS}-a)\frac{{K_R}}{{f_3}}\right]^2\end{{aligned}}",
+         lambda m: (f1_squared(m.theta, m.top) * m.theta_dot**2, f1_squared(m.theta, m.top) * m.of(f)),
+         "f1 theta Ep a f2 K_J I3 I1 K_R f3"),
+    Line("(37)", rf"F_z=1+a\left(\tfrac12{SIN}\,f'+{COS}\,f\right)",
+         lambda m: (1 + m.v_dot[:, 2], m.of(normal_force)), "Fz a theta f"),
+    Line("(38)", rf"F_x=-\frac{{I_3K_R\,f^{{1/2}}}}{{f_3^3}}\left({COS}-\frac{{I_3}}{{I_1}}({COS}-a)\right)",
+         lambda m: (dot(m.v_dot, m.e1), m.sense * np.nan_to_num(m.of(friction_force)[0])),
+         "Fx I3 K_R f f3 theta I1 a"),
+    Line("(39)", rf"(1-a{COS})F_y=a{SIN}\,F_z+\tfrac12I_1f'-I_1\cot\theta\,{W2}^2+I_3{W2}{W3}",
+         lambda m: ((1 - m.a * m.c) * dot(m.v_dot, m.y),
+                    m.a * m.s * m.of(normal_force) + m.I1 * m.theta_double_dot
+                    + (m.I3 * m.along(m.axis) - m.I1 * m.c / m.s * m.along(m.e2)) * m.along(m.e2)),
+         "a theta Fy Fz I1 f w2 I3 w3"),
+    Line("(B1)", rf"M{DOT_V}=\vec N+\vec w,\quad{DOT_L}=-{O}\times\vec N",
+         lambda m: (np.hstack([m.v_dot, m.L_dot]), np.hstack([m.F + m.weight, -np.cross(m.r, m.F)])),
+         "M v N w L r", "smooth"),
+    Line("(B2)", rf"\tfrac12I_1{W1}^2+\tfrac12I_1{W2}^2+\tfrac12I_3{W3}^2+\tfrac12Mv^2+Mga(1-{COS})=E",
+         lambda m: (m.energy, constant(m, start(m)[0])), "I1 w1 w2 I3 w3 v a theta E", "smooth"),
+    Line("(B3)", rf"\tfrac12I_1{W1}^2+\tfrac12I_1{W2}^2+\tfrac12Mv_z^2+Mga(1-{COS})=E-\tfrac12I_3{W3}^2",
+         lambda m: (changing(m), constant(m, start(m)[0] - start(m)[1] ** 2 / (2 * m.I3))), "I1 w1 w2 vz a theta E w3",
+         "smooth"),
+    Line("(B4)", rf"L_z=I_3{W3}{COS}+I_1{W2}{SIN}",
+         lambda m: (constant(m, start(m)[2]), m.I3 * m.along(m.axis) * m.c + m.I1 * m.along(m.e2) * m.s),
+         "L_z I3 w3 theta I1 w2", "smooth"),
+)  # fmt: skip
+
+
+class Symbol(NamedTuple):
+    """texts: how it is written in the MathML, no spaces; value (n,) or (n, 3), turning axes; arrow, start: a vector."""
+
+    texts: tuple[str, ...]
+    value: Reading
+    arrow: Reading | None = None
+    start: str = "com"
+
+
+def _vector(get: Reading, start: str = "com") -> dict[str, Number]:
+    return {"value": lambda m: m.turning(get(m)), "arrow": lambda m: m.turning(get(m)), "start": start}
+
+
+def _part(value: Reading, arrow: Reading, start: str = "com") -> dict[str, Number]:
+    return {"value": value, "arrow": lambda m: m.turning(arrow(m)), "start": start}
+
+
+def _number(value: Reading) -> dict[str, Number]:
+    return {"value": value}
+
+
+SYMBOLS = {
+    "M": Symbol(("M",), **_number(lambda m: constant(m, 1.0))),
+    "R": Symbol(("R",), **_part(lambda m: constant(m, 1.0), lambda m: np.broadcast_to(Z, m.r.shape), "contact")),
+    "a": Symbol(("a",), **_part(lambda m: constant(m, m.a), lambda m: m.a * m.axis)),
+    "I1": Symbol(("I1",), **_number(lambda m: constant(m, m.I1))),
+    "I3": Symbol(("I3",), **_number(lambda m: constant(m, m.I3))),
+    "dI": Symbol(("ΔI",), **_number(lambda m: constant(m, m.dI))),
+    "theta": Symbol(("θ",), **_part(lambda m: m.theta, lambda m: m.axis)),
+    "omega": Symbol(("ω→",), **_vector(lambda m: m.omega)),
+    "w1": Symbol(("ω1′", "ω1′2"), **_part(lambda m: m.w1, lambda m: column(m.w1) * m.e1)),
+    "w2": Symbol(("ω2′", "ω2′2"), **_part(lambda m: m.w2, lambda m: column(m.w2) * m.e2)),
+    "w3": Symbol(("ω3", "ω32", "ω˙3"), **_part(lambda m: m.w3, lambda m: column(m.w3) * m.axis)),
+    "wz": Symbol(("ωz", "ωz2"), **_part(lambda m: m.omega[:, 2], lambda m: column(m.omega[:, 2]) * Z)),
+    "L": Symbol(("L→",), **_vector(lambda m: m.L)),
+    "L_3": Symbol(("L3", "L˙3"), **_part(lambda m: dot(m.L, m.axis), lambda m: column(dot(m.L, m.axis)) * m.axis)),
+    "L_z": Symbol(("Lz", "LCZ"), **_part(lambda m: m.L[:, 2], lambda m: column(m.L[:, 2]) * Z)),
+    "r": Symbol(("r→", "r2"), **_vector(lambda m: m.r, "contact")),
+    "r3": Symbol(("r3", "r32", "r˙3"), **_part(lambda m: m.r3, lambda m: column(m.r3) * m.axis, "contact")),
+    "rp": Symbol(("r⊥", "r⊥2", "r˙⊥"),
+                 **_part(lambda m: m.r_across, lambda m: m.r - column(m.r3) * m.axis, "contact")),
+    "v": Symbol(("v→", "v2"), **_vector(lambda m: m.v)),
+    "vz": Symbol(("vz", "vz2"), **_part(lambda m: m.v[:, 2], lambda m: column(m.v[:, 2]) * Z)),
+    "F": Symbol(("F→",), **_vector(lambda m: m.F, "contact")),
+    "N": Symbol(("N→",), **_vector(lambda m: m.F, "contact")),
+    "Fx": Symbol(("Fx",), **_part(lambda m: dot(m.F, m.e1), lambda m: column(dot(m.F, m.e1)) * m.e1, "contact")),
+    "Fy": Symbol(("Fy",), **_part(lambda m: dot(m.F, m.y), lambda m: column(dot(m.F, m.y)) * m.y, "contact")),
+    "Fz": Symbol(("Fz",), **_part(lambda m: m.F[:, 2], lambda m: column(m.F[:, 2]) * Z, "contact")),
+    "w": Symbol(("w→",), **_vector(lambda m: m.weight)),
+    "three": Symbol(("3^",), **_vector(lambda m: m.axis)),
+    "z": Symbol(("z^",), **_vector(lambda m: np.broadcast_to(Z, m.r.shape))),
+    "E": Symbol(("E",), **_number(lambda m: m.motion.energy)),
+    "Ep": Symbol(("E′",), **_number(lambda m: constant(m, m.constants.two_E_prime(m.top) / 2))),
+    "C_J": Symbol(("CJ",), **_number(lambda m: m.motion.jellett)),
+    "J": Symbol(("J",), **_number(lambda m: m.motion.jellett)),
+    "K_J": Symbol(("KJ",), **_number(lambda m: m.motion.jellett / m.I1)),
+    "K_R": Symbol(("KR", "KR2"), **_number(lambda m: m.motion.routh)),
+    "f": Symbol(("f", "f′", "f1/2"), **_number(lambda m: m.of(f))),
+    "f1": Symbol(("f12",), **_number(lambda m: np.sqrt(f1_squared(m.theta, m.top)))),
+    "f2": Symbol(("f22",), **_number(lambda m: np.sqrt(f2_squared(m.theta, m.top)))),
+    "f3": Symbol(("f3", "f32", "f33"), **_number(lambda m: np.sqrt(f3_squared(m.theta, m.top)))),
+}  # fmt: skip
+
+
+def resolved(motion: Trajectory) -> bool:
+    """Whether the polynomial through a window's samples has ended: its last Chebyshev coefficients are rounding."""
+    samples = np.column_stack([motion.quaternion, motion.omega[:, 2], motion.com])
+    size = np.abs(dct(samples, type=1, axis=0)) / np.maximum(1, np.abs(samples).max(axis=0))
+    return size[-6:].max() < RESOLVED
+
+
+def windows(run: Run, period: float, top: Top, constants: Constants, state: State) -> Iterator[Window]:
+    """Windows that cover one period of a motion, or its first MOST_WINDOWS; run(times) gives its Trajectory."""
+    fastest = np.abs(run(np.linspace(0, period, 7)).omega).max()
+    width, begin, found = min(0.6 * period, TURN / max(fastest, 1e-3)), 0.0, 0
+    shape = (1 - np.cos(np.pi * np.arange(NODES) / (NODES - 1))) / 2
+    while begin < period and found < MOST_WINDOWS:
+        times = begin + width * (shape - shape[EDGE])
+        motion = run(times)
+        if not resolved(motion) and width > NARROWEST * period:
+            width /= 2
+            continue
+        yield Window(top, motion, constants, state)
+        begin, found, width = begin + width * (1 - 2 * shape[EDGE]), found + 1, 1.4 * width
+
+
+def rolled(scene: Scene) -> list[Window]:
+    """Windows over one nutation of the scene's own motion."""
+    return list(windows(_from_zero(scene.rolling), scene.rolling.period, scene.top, scene.constants, scene.state))
+
+
+def glided(scene: Scene) -> list[Window]:
+    """Windows of the motion that starts like the scene's, but with G at rest, on a perfectly smooth plane."""
+    gliding = Gliding(scene.top, scene.state)
+    return list(windows(_from_zero(gliding), gliding.period, scene.top, scene.constants, scene.state))
+
+
+def _from_zero(series: Rolling | Gliding) -> Run:
+    """A Rolling or Gliding as a function of the time since its start: called, it starts at the first of its times."""
+
+    def run(times: Array) -> Trajectory:
+        motion = series(np.concatenate([[0.0], times]))
+        rows = {name: getattr(motion, name)[1:] for name in (
+            "t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "slip", "force", "regime", "velocity",
+            "heat")}  # fmt: skip
+        return type(motion)(top=motion.top, **rows)
+
+    return run
+
+
+def both_sides(line: Line, parts: Iterable[Window]) -> tuple[Array, Array, Array]:
+    """t (n,), left and right (n, k) of a line, vectors along 1', y, z, away from the windows' ends."""
+    rows = []
+    for m in parts:
+        sides = []
+        for side in np.broadcast_arrays(*line.sides(m)):
+            if side.ndim == 2:
+                side = np.hstack([m.turning(side[:, i : i + 3]) for i in range(0, side.shape[1], 3)])
+            sides.append(np.asarray(side, dtype=float).reshape(len(m.t), -1)[EDGE:-EDGE])
+        rows.append((m.t[EDGE:-EDGE], *sides))
+    t, left, right = (np.concatenate(column) for column in zip(*rows, strict=True))
+    return t, left, right
+
+
+def difference(left: Array, right: Array) -> Array:
+    """The largest over components, in shares of 1 + the largest that either side gets; (n,)."""
+    return np.abs(left - right).max(axis=1) / (1 + max(np.nanmax(np.abs(left)), np.nanmax(np.abs(right))))

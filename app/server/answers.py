@@ -1,0 +1,227 @@
+"""What is answered over HTTP: the page, where it is, whether the server lives, and files; with the headers of all."""
+
+import json
+import logging
+import os
+import re
+import secrets
+import sys
+import time
+from http.client import responses
+
+from bokeh.server.views.session_handler import SessionHandler
+from bokeh.util.token import generate_jwt_token, generate_session_id
+from panel.io.resources import Resources
+from panel.io.server import ComponentResourceHandler, server_html_page_for_session
+from tornado.web import HTTPError, RequestHandler
+
+from app import text
+from app.server.sockets import in_english
+
+log = logging.getLogger("tippe")
+
+PIECE = 64 * 1024  # bytes of a static file
+
+
+HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "same-origin",  # the address holds what a person set
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=(), payment=(), usb=()",
+}
+# BokehJS makes functions of the page's CustomJS, and Panel imports a component's code from a blob.
+POLICY = (
+    "default-src 'none'; script-src 'self' 'nonce-{nonce}' 'unsafe-eval' blob:; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws://{host} wss://{host} blob: data:; "
+    "worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames}"
+)
+# While the page waits for its turn, and where it is not let in.
+WAITING = """
+<div id="waiting" role="status" style="display:none;position:fixed;inset:auto 10% 24px;text-align:center;z-index:9999;
+font:16px/1.5 system-ui,sans-serif;color:#22303c;background:white;border-radius:8px;padding:8px"></div>
+<script>
+(() => {
+  const words = document.getElementById("waiting")
+  const say = (text) => { words.textContent = text; words.style.display = "block" }
+  const here = () => window.Bokeh?.documents?.length > 0
+  setTimeout(() => here() || say(MADE), 3000)
+  addEventListener("unhandledrejection", () => {
+    if (here()) return
+    say(BUSY)
+    setTimeout(() => location.reload(), 5000 + 5000 * Math.random())
+  })
+  const look = setInterval(() => { if (here()) { words.remove(); clearInterval(look) } }, 200)
+})()
+</script>
+"""
+PLAIN = """<!doctype html><html lang="{lang}"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>{title}</title>{again}
+<p style="font: 18px/1.5 system-ui, sans-serif; margin: 20vh 10vw; color: #22303c">{sentence}</p></html>"""
+
+
+def policy(request, settings, nonce=""):
+    host = request.host if re.fullmatch(r"[\w.:\[\]-]{1,260}", request.host) else ""
+    text = POLICY.format(nonce=nonce, host=host, frames=settings.frames)
+    return text if host else text.replace(" ws:// wss://", "")
+
+
+class Handler(RequestHandler):
+    """Of this project's few plain answers."""
+
+    @property
+    def tippe(self):
+        return self.application.tippe
+
+    @property
+    def language(self):
+        """The one of the address, else the one that this browser prefers."""
+        asked = self.request.query_arguments.get("lang", [b""])[-1].decode(errors="replace")
+        return asked if asked in text.LANGUAGES else text.preferred(self.request.headers.get("Accept-Language", ""))
+
+    def words(self, name):
+        return text.say(f"main.server.{name}", self.language)
+
+    def say(self, status, sentence, again=0):
+        """A page with one sentence."""
+        self.set_status(status)
+        self.set_header("Content-Type", "text/html; charset=utf-8")
+        self.set_header("Cache-Control", "no-store")
+        self.set_header("Content-Security-Policy", policy(self.request, self.tippe))
+        if again:
+            self.set_header("Retry-After", str(again))
+        refresh = f'<meta http-equiv="refresh" content="{again}">' if again else ""
+        title = text.say("main.title", self.language)
+        self.finish(PLAIN.format(lang=self.language, title=title, sentence=sentence, again=refresh))
+
+
+class Sheet:
+    """The page as all get it, written once in each language; what each visitor has of his own is put into it."""
+
+    TOKEN, NONCE = secrets.token_hex(), secrets.token_hex()  # stand in for them
+
+    def __init__(self, session, resources):
+        document = session.document
+        html = server_html_page_for_session(
+            session, Resources.from_bokeh(resources), document.title, token=self.TOKEN, template=document.template,
+            template_variables=document.template_variables)  # fmt: skip
+        before, after = html.rsplit("</body>", 1)
+        html = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', f"{before}{WAITING}</body>{after}")
+        self._pages = {}
+        for language in text.LANGUAGES:
+            self._pages[language] = html
+            for name in ("made", "busy"):
+                words = json.dumps(text.say(f"main.server.{name}", language))
+                self._pages[language] = self._pages[language].replace(name.upper(), words)
+
+    def page(self, language, token, nonce):
+        """For one visitor."""
+        return self._pages[language].replace(self.NONCE, nonce).replace(self.TOKEN, token)
+
+
+class Page(Handler, SessionHandler):
+    """The page, from one template session: a visitor's own is made when his browser opens the socket. Pages are given
+    out one at a time, in turn among the addresses that ask."""
+
+    async def get(self, *arguments, **named):
+        if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
+            Root.get(self)
+            return
+        if not self.tippe.lets(self.request.host):
+            log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
+            self.say(403, self.words("stranger"))
+            return
+        door, address = self.application.door, self.request.remote_ip
+        hurried = door.pages.waiting(address) >= self.tippe.sessions_per_address
+        refusal = "hurried" if hurried else door.refusal(address)
+        if refusal:
+            log.warning("refused %s a page: %s", address, in_english(refusal))
+            self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
+            return
+        await door.pages.turn(address)
+        start = time.monotonic()
+        try:
+            nonce = secrets.token_urlsafe(16)
+            self.set_header("Cache-Control", "no-store")  # it holds the token of one session
+            self.set_header("Content-Type", "text/html; charset=utf-8")
+            self.set_header("Content-Security-Policy", policy(self.request, self.tippe, nonce))
+            self.finish(self.application.sheet.page(self.language, self._token(), nonce))
+        finally:
+            door.pages.done(time.monotonic() - start)
+
+    head = get
+
+    def _token(self):
+        """What opens a session, with what its page is made of."""
+        app, request = self.application, self.request
+        headers = {name: value for name, value in request.headers.items() if name in app.include_headers}
+        return generate_jwt_token(
+            generate_session_id(secret_key=app.secret_key, signed=app.sign_sessions),
+            secret_key=app.secret_key, signed=app.sign_sessions, expiration=app.session_token_expiration,
+            extra_payload={"headers": headers, "cookies": {}, "arguments": request.arguments})  # fmt: skip
+
+    def compute_etag(self):
+        """None: no two are the same."""
+
+
+class Root(Handler):
+    """Where the page is, for who asks for the server alone."""
+
+    def get(self):
+        self.redirect(f"{self.tippe.prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
+
+    head = get
+
+
+class Liveness(Handler):
+    """For the health checks of containers, and how full it is."""
+
+    def get(self):
+        self.set_header("Cache-Control", "no-store")
+        self.write({"live": True, "sessions": len(self.application.door.sessions)})
+
+    head = get
+
+
+class Component(ComponentResourceHandler):
+    """Panel's would import any module that a visitor names."""
+
+    def parse_url_path(self, path):
+        if path.split("/")[0] not in sys.modules:
+            raise HTTPError(404)
+        return super().parse_url_path(path)
+
+
+def in_pieces(get_content):
+    """tornado's method that reads a static file, with the file open for each piece anew: else a connection that reads
+    slowly would be two open files."""
+
+    def read(cls, path, start=None, end=None):
+        start, end = start or 0, os.path.getsize(path) if end is None else end
+        for at in range(start, end, PIECE):
+            yield b"".join(get_content(path, at, min(at + PIECE, end)))
+
+    return classmethod(read)
+
+
+def log_request(handler):
+    """As tornado does it, but without the query, which may hold the key of a teacher's vote."""
+    status, request = handler.get_status(), handler.request
+    level = logging.INFO if status < 400 else logging.WARNING if status < 500 else logging.ERROR
+    logging.getLogger("tornado.access").log(level, "%d %s %s (%s)", status, request.method, request.path,
+                                            request.remote_ip)  # fmt: skip
+
+
+def set_default_headers(handler):
+    """tornado's hook, of all handlers."""
+    for name, value in HEADERS.items():
+        handler.set_header(name, value)
+    handler.set_header("Content-Security-Policy", policy(handler.request, handler.application.tippe))
+    handler.clear_header("Server")
+
+
+def write_error(handler, status, **more):
+    """tornado's hook, of all handlers: what went wrong in one line."""
+    handler.set_header("Content-Type", "text/plain; charset=utf-8")
+    if status == 405:
+        handler.set_header("Allow", "GET" if type(handler).head is RequestHandler.head else "GET, HEAD")
+    handler.finish(f"{status} {responses.get(status, 'Unknown')}\n")

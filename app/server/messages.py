@@ -1,0 +1,327 @@
+"""What a browser may say to the page, looked at as it came: before Bokeh, Panel or a widget makes anything of it.
+
+Here stands what each part of the page may be sent, each thing with its type, its length and its size; all else is
+Refused. The libraries do not ask: Panel Material UI reserves as many bytes as a message names, numpy takes a type of
+any width from one, and Bokeh makes any model that it describes. A component that is not named here, because it is new,
+takes plain values of bounded size.
+"""
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from bokeh.model import DataModel
+
+from app.model.builder import LARGEST_FILE
+
+MOST_EVENTS, MOST_PARTS, DEEPEST = 100, 10_000, 16
+KINDS = {"PATCH-DOC", "PULL-DOC-REQ", "SERVER-INFO-REQ"}  # a browser never pushes a document
+
+LARGEST = 1e15  # number; a whole one keeps its last digit as far
+LONGEST = 16 * 1024  # letters; the longest address of a page is 12,000
+MOST = 1_000  # entries of a list
+
+
+class Refused(ValueError):
+    """What a browser running this page never sends. The sentence goes to whoever sent it."""
+
+
+# --- values, as they are in a message's JSON
+
+
+@dataclass(frozen=True)
+class Value:
+    """What something may be: in words, and as a function of it and of the model that it is for."""
+
+    words: str
+    fits: Any
+
+    def __or__(self, other):
+        return Value(f"{self.words} or {other.words}", lambda value, of: self.fits(value, of) or other.fits(value, of))
+
+
+def _is_number(value, low=-LARGEST, high=LARGEST):
+    return type(value) in (int, float) and low <= value <= high  # which nan and infinity are not
+
+
+def number(low=-LARGEST, high=LARGEST):
+    """A number in this range."""
+    return Value(f"a number from {low:g} to {high:g}", lambda value, of: _is_number(value, low, high))
+
+
+def text(longest=LONGEST):
+    """At most so many letters."""
+    return Value(f"text of at most {longest} letters", lambda value, of: type(value) is str and len(value) <= longest)
+
+
+def one_of(*values):
+    """One of these texts."""
+    return Value(f"one of {', '.join(values)}", lambda value, of: type(value) is str and value in values)
+
+
+def row(*values, or_none=False):
+    """A list of exactly these; or_none: or an empty one."""
+
+    def fits(value, of):
+        if type(value) is not list or len(value) != len(values):
+            return or_none and value == []
+        return all(each.fits(entry, of) for each, entry in zip(values, value, strict=True))
+
+    return Value(f"a list of {', '.join(each.words for each in values)}", fits)
+
+
+def many(each, most=MOST):
+    """A list of at most so many."""
+    return Value(f"a list of at most {most}, each {each.words}",
+                 lambda value, of: type(value) is list and len(value) <= most
+                 and all(each.fits(entry, of) for entry in value))  # fmt: skip
+
+
+def _plain(value, of=None, levels=4):
+    if type(value) is list:
+        return levels > 0 and len(value) <= MOST and all(_plain(entry, of, levels - 1) for entry in value)
+    if type(value) is dict:
+        entries = entries_of(value)
+        return levels > 0 and entries is not None and all(_plain(entry, of, levels - 1) for entry in entries.values())
+    return value is None or type(value) is bool or _is_number(value) or TEXT.fits(value, of)
+
+
+def entries_of(value):
+    """{name: value} of what stands for a dict in a message; None where it is none."""
+    entries = value.get("entries", []) if isinstance(value, dict) and value.get("type") == "map" else None
+    if not isinstance(entries, list) or len(entries) > MOST or not set(value) <= {"type", "entries"}:
+        return None
+    if not all(type(entry) is list and len(entry) == 2 and SHORT.fits(entry[0], None) for entry in entries):
+        return None
+    return dict(entries)
+
+
+def _is_option(value, of):
+    options = of.options
+    if isinstance(options, dict):
+        return type(value) is str and value in options
+    each = [part for option in options for part in (option if isinstance(option, (list, tuple)) else [option])]
+    return any(type(value) is type(part) and value == part for part in each)
+
+
+def _is_column(value, of):
+    entries = entries_of(value)
+    return (entries is not None and set(entries) == set(of.data)
+            and all(many(NUMBER | SHORT | NONE, 10).fits(column, of) for column in entries.values()))  # fmt: skip
+
+
+FLAG = Value("true or false", lambda value, of: type(value) is bool)
+NONE = Value("null", lambda value, of: value is None)
+COUNT = Value("a whole number from 0", lambda value, of: type(value) is int and 0 <= value <= LARGEST)
+NUMBER, TEXT, SHORT = number(), text(), text(300)
+PLAIN = Value("plain and bounded", _plain)
+COLUMNS = Value("a few numbers or words in each of its columns", _is_column)
+# What depends on the model as it is now.
+OPTION = Value("one of its options", _is_option)
+TYPED = Value("text as long as its field takes", lambda value, of: text(of.max_length or LONGEST).fits(value, of))
+ON_SLIDER = Value("a number on the slider", lambda value, of: _is_number(value, of.start, of.end))
+TAB = Value("the number of a tab", lambda value, of: type(value) is int and 0 <= value < len(of.objects))
+
+
+# --- who may be told what
+
+
+SIZES = {name: NUMBER for name in ("inner_width", "inner_height", "outer_width", "outer_height")}
+RANGE = {"start": NUMBER | NONE, "end": NUMBER | NONE}
+ANGLE, SIZE = number(0, 4), number(-1e6, 1e6)  # rad; no input is larger
+SHOWN = ("show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow")
+PICTURE = dict.fromkeys(SHOWN, FLAG) | {
+    "time": SIZE, "playing": FLAG, "speed": number(0, 100), "tilted": row(ANGLE, SIZE, COUNT, or_none=True),
+    "camera": row(NUMBER, NUMBER, NUMBER, or_none=True),
+}  # fmt: skip
+POINT = {"hand": row(one_of("end", "line", "point"), ANGLE, SIZE, or_none=True),
+         "picked": row(SIZE, ANGLE, or_none=True)}  # fmt: skip
+
+# Of a class of models, its attributes that the browser changes.
+CHANGES = {
+    # BokehJS's and Panel's
+    "figure": SIZES,
+    "Range1d": RANGE,
+    "DataRange1d": RANGE,
+    "ColumnDataSource": {"data": COLUMNS},
+    "Toolbar": {"stylesheets": many(SHORT)},
+    "Tooltip": {"stylesheets": many(SHORT)},
+    "Column": {"scroll_position": NUMBER},
+    "BrowserInfo": {"dark_mode": FLAG, "device_pixel_ratio": NUMBER, "language": SHORT, "timezone": SHORT,
+                    "timezone_offset": NUMBER, "webdriver": FLAG, "webgl": FLAG},
+    "Location": {name: TEXT for name in ("href", "hostname", "pathname", "protocol", "port", "search", "hash")},
+    # Panel Material UI's
+    "Button": {},
+    "Checkbox": {"value": FLAG},
+    "Dialog": {"open": FLAG},
+    "FileDownload": {},
+    "FloatSlider": {"value": ON_SLIDER, "value_throttled": ON_SLIDER},
+    "MessageState": {},  # Panel's, of the page's notifications
+    "Page": {"sidebar_open": FLAG, "dark_theme": FLAG},
+    "RadioBoxGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
+    "RadioButtonGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
+    "Select": {"value": OPTION | NONE, "dropdown_open": FLAG, "filter_str": TEXT},
+    "Switch": {"value": FLAG},
+    "Tabs": {"active": TAB},
+    "TextInput": {"value": TYPED, "value_input": TYPED},
+    # ours
+    "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT},
+    "Connection": {},
+    "Download": {"clicks": COUNT},
+    "Failure": {},
+    "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
+    "Guide": {},
+    "Look": {"dark": FLAG, "large": FLAG},
+    "Painted": {"painted": COUNT},
+    "Phone": {"mark": text(32)},
+    "Surface3D": POINT,
+    "Top3D": PICTURE,
+    "TopFile": {},
+}  # fmt: skip
+# A theme dresses all parts of a figure, in the browser; the server has the same theme.
+LOOKS = re.compile(r"(\w+_)?(color|alpha|font|font_size|font_style|standoff)")
+LOOK = number(0, 1000) | SHORT | NONE
+
+DOM = {"node": one_of("click", "enter"), "data": PLAIN}
+POINTED = {"sx": NUMBER, "sy": NUMBER, "x": NUMBER, "y": NUMBER, "modifiers": PLAIN}
+DRAGGED = POINTED | {"delta_x": NUMBER, "delta_y": NUMBER}
+# The events of models, with what they carry, and of the page.
+EVENTS = {"dom_event": DOM, "tap": POINTED, "doubletap": POINTED,
+          "panstart": POINTED, "pan": DRAGGED, "panend": POINTED}  # fmt: skip
+OF_THE_PAGE = {"document_ready": {}}
+
+# What a component may be sent as a message of its own, by its status.
+STATUS = {"type": one_of("status")}
+BYTES = Value(f"at most {LARGEST_FILE} bytes, in a buffer",
+              lambda value, of: type(value) is dict and set(value) == {"type", "data"} and value["type"] == "bytes"
+              and type(value["data"]) is dict and set(value["data"]) == {"id"})  # fmt: skip
+ONE = number(1, 1)
+MESSAGES = {
+    "TopFile": {
+        "initializing": STATUS,
+        "upload_event": STATUS | {"chunk": ONE, "total_chunks": ONE, "name": SHORT, "mime_type": SHORT, "data": BYTES},
+        "finished": STATUS,
+        "error": STATUS | {"error": TEXT},
+    }
+}
+
+
+# --- the looking
+
+
+def look_at(message, document):
+    """Raises Refused for what this page never sends, whatever Bokeh would make of it. message: as Bokeh took it in."""
+    kind, content = message.msgtype, message.content
+    if kind not in KINDS:
+        raise Refused(f"A {str(kind)[:40]!r} message is not for this server.")
+    if kind != "PATCH-DOC":
+        return
+    _count(content)
+    events = content.get("events") if isinstance(content, dict) and set(content) <= {"events"} else None
+    if not isinstance(events, list) or not 0 < len(events) <= MOST_EVENTS:
+        raise Refused(f"A message has a list of 1 to {MOST_EVENTS} events, and nothing else.")
+    if any(len(buffer.data) > LARGEST_FILE for buffer in message.payload.buffers):
+        raise Refused(f"A file has at most {LARGEST_FILE} bytes.")
+    for event in events:
+        kind = event.get("kind") if isinstance(event, dict) else None
+        if kind == "ModelChanged":
+            _look_at_change(event, document.models)
+        elif kind == "MessageSent":
+            _look_at_event(event, document.models)
+        else:
+            raise Refused(f"An event of kind {str(kind)[:40]!r} is not for this server.")
+
+
+def _count(content):
+    parts, level = 0, [content]
+    for _ in range(DEEPEST):
+        level = [part for whole in level for part in (whole.values() if isinstance(whole, dict) else whole)
+                 if isinstance(part, (dict, list, str, int, float))]  # fmt: skip
+        parts += len(level)
+        if parts > MOST_PARTS:
+            raise Refused(f"A message has at most {MOST_PARTS} parts.")
+        level = [part for part in level if isinstance(part, (dict, list))]
+        if not level:
+            return
+    raise Refused(f"A message is at most {DEEPEST} deep.")
+
+
+def _model(reference, models):
+    """What is referred to; None where it was there and has gone, of which Bokeh passes over whatever is said."""
+    name = reference.get("id") if isinstance(reference, dict) and len(reference) == 1 else None
+    model = models.get_by_id(name) if isinstance(name, str) else None
+    if model is None and not (isinstance(name, str) and models.seen(name)):
+        raise Refused("That is no part of this page.")
+    return model
+
+
+def _called(model):
+    """The name of what a model is of; a component of Panel's has its own class for its data, numbered."""
+    return re.sub(r"\d+$", "", type(model).__name__)
+
+
+def _look_at_change(event, models):
+    if set(event) != {"kind", "model", "attr", "new"} or not isinstance(event["attr"], str):
+        raise Refused("A change names a model, an attribute and its new value.")
+    model, attribute = _model(event["model"], models), event["attr"]
+    allowed = PLAIN
+    if model is not None:
+        name, known = _called(model), CHANGES.get(_called(model))
+        if known is not None or not isinstance(model, DataModel):
+            allowed = (known or {}).get(attribute)
+        if allowed is None and not isinstance(model, DataModel) and LOOKS.fullmatch(attribute):
+            allowed = LOOK
+        if allowed is None:
+            raise Refused(f"The page itself changes no {attribute[:40]!r} of a {name}.")
+    if not allowed.fits(event["new"], model):
+        raise Refused(f"A {_called(model)}'s {attribute[:40]!r} is {allowed.words}, not {shown(event['new'])}.")
+
+
+def _look_at_event(event, models):
+    data = event.get("msg_data")
+    if (
+        set(event) != {"kind", "msg_type", "msg_data"}
+        or event["msg_type"] != "bokeh_event"
+        or not isinstance(data, dict)
+        or set(data) != {"type", "name", "values"}
+        or data["type"] != "event"
+    ):
+        raise Refused("A message to the page is an event.")
+    name, values = data["name"], entries_of(data["values"])
+    known = {**EVENTS, **OF_THE_PAGE, "data_event": None} if isinstance(name, str) else {}
+    if name not in known or values is None:
+        raise Refused(f"An event {shown(name)} is not for this page.")
+    if name in OF_THE_PAGE:
+        allowed, model = OF_THE_PAGE[name], None
+    else:
+        model = _model(values.pop("model", None), models)
+        if model is not None and name not in model.subscribed_events:
+            raise Refused(f"Nobody here hears of {name!r} from a {_called(model)}.")
+        allowed = EVENTS.get(name)
+    if name == "data_event":
+        values, allowed = _message(values, model)
+    for key, value in values.items():
+        if key not in allowed or not allowed[key].fits(value, model):
+            words = allowed[key].words if key in allowed else "not for this page"
+            raise Refused(f"In {name!r}, {key[:40]!r} is {words}, not {shown(value)}.")
+    missing = allowed.keys() - values.keys()
+    if missing:
+        raise Refused(f"In {name!r}, {', '.join(sorted(missing))} is missing.")
+
+
+def _message(values, model):
+    """(what a message to a component says, what it may)."""
+    inner = getattr(model, "data", None)
+    of = _called(inner)
+    if model is None or (isinstance(inner, DataModel) and of not in CHANGES):
+        return values, {"data": PLAIN}
+    said = entries_of(values.get("data"))
+    allowed = MESSAGES.get(of, {}).get(said.pop("status", None)) if said is not None and len(values) == 1 else None
+    if allowed is None:
+        raise Refused(f"That is no message to a {of}.")
+    return said, allowed
+
+
+def shown(value):
+    """A value as it stands in a sentence."""
+    return f"{value!r:.60}" if isinstance(value, (str, float, bool, type(None))) else f"a {type(value).__name__}"

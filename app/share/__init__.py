@@ -1,0 +1,1 @@
+"""What is taken home: the link, files, prints, the mailed page."""

@@ -1,0 +1,383 @@
+"""What is taken home: the link with its QR code, undo and redo, and the dialog of files to save."""
+
+import html
+import time
+
+import panel as pn
+import panel_material_ui as pmui
+import param
+import segno
+from panel.custom import JSComponent
+
+from app.model.runs import Runs
+from app.share import export
+from app.share.letter import letter
+from app.share.prints import FIGURES, caption, draw
+from app.state.keep import EXPLORER, Field, Keep, Number, Numbers, OneOf, shared, usual
+from app.text import listed, say
+from app.widgets.cards import PLAIN, on_click, words
+from app.widgets.download import PLAIN_BUTTON, Download
+from app.widgets.failure import after
+from app.widgets.pacing import at_once
+from app.widgets.top3d import Top3D
+
+# Nothing may move for so long before the address of the page is changed and a step is made, s.
+REST = 0.25
+SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
+SHOWS = {"show_track": "track", "show_com_path": "G", "show_force": "F", "show_cone": "cone", "show_omega": "w",
+         "show_momentum": "L", "follow": "follow"}  # fmt: skip
+TOP = (
+    {"speed": Field("slow", OneOf(**SPEEDS), undoable=False)}
+    | {name: Field(key, OneOf(yes=True, no=False), undoable=False) for name, key in SHOWS.items()}
+    | {"camera": Field("view", Numbers(3), undoable=False)}
+)
+LOOK = {name: Field(name, OneOf(yes=True, no=False), undoable=False) for name in ("dark", "large")}
+# A phone at arm's length reads modules of this size, px.
+MODULE = 4
+
+
+class Address(JSComponent):
+    """The page's own address and keys: puts `search` there without a step in the browser's history, and says when a
+    hand is down and which gesture it is."""
+
+    search = param.String(default="", doc="what follows the path; written to the address bar")
+    page = param.String(default="", doc="the address without it, prefix included; the browser writes it")
+    held = param.Boolean(default=False, doc="whether a hand is down; the browser writes it, like all below")
+    gesture = param.Integer(default=0, doc="how many times a hand came down")
+    undone = param.Integer(default=0, doc="how often Ctrl+Z was pressed")
+    redone = param.Integer(default=0, doc="how often Ctrl+Shift+Z or Ctrl+Y was pressed")
+    reloads = param.Integer(default=0, doc="one more: the page is loaded anew, from its address")
+
+    _esm = """
+    const writing = (target) => target.isContentEditable || target.matches?.(
+      "textarea, select, input:not([type=range]):not([type=checkbox]):not([type=radio]):not([type=button])")
+    export function render({model}) {
+      const listening = new AbortController()
+      const on = (type, run) => window.addEventListener(type, run, {capture: true, signal: listening.signal})
+      const down = () => { model.gesture += 1; model.held = true }
+      const up = () => { if (model.held) model.held = false }
+      on("pointerdown", down)
+      for (const type of ["pointerup", "pointercancel", "dragend", "blur", "keyup"]) on(type, up)
+      on("keydown", (event) => {
+        const target = event.composedPath()[0]
+        if ((event.ctrlKey || event.metaKey) && !event.altKey && !writing(target)) {
+          const key = event.key.toLowerCase()
+          const redo = key == "y" && !event.shiftKey || key == "z" && event.shiftKey
+          if (redo || key == "z") {
+            event.preventDefault()
+            model[redo ? "redone" : "undone"] += 1
+            return
+          }
+        }
+        const acts = !writing(target) || event.key == "Enter"
+        if (acts && !event.repeat && !["Control", "Shift", "Alt", "Meta", "Tab"].includes(event.key)) down()
+      })
+      model.on("search", () => {
+        history.replaceState(history.state, "", location.pathname + model.search + location.hash)
+      })
+      model.on("reloads", () => location.reload())
+      model.page = location.origin + location.pathname
+      model.on("remove", () => listening.abort())
+    }
+    """
+
+
+class Copy(JSComponent):
+    """A text to take along, and a button that copies it, also where a page without https may not."""
+
+    text = param.String(default="")
+    label = param.String(default="")
+    rows = param.Integer(default=1)
+    says = param.List(default=[], doc="what its button says, and what it says once that is done")
+
+    _esm = """
+    export function render({model, el}) {
+      el.innerHTML = `<style>
+        :host > div { width: 100% }
+        .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start }
+        textarea { flex: 1 1 0; min-width: 0; font: 13px/1.5 ui-monospace, monospace; padding: 7px 9px;
+          border: 1px solid #8a96a3; border-radius: 6px; color: inherit; background: transparent; resize: none;
+          box-sizing: border-box }
+        button { font: 500 13px system-ui, sans-serif; padding: 7px 12px; border: 1px solid; border-radius: 6px;
+          background: transparent; color: var(--link, #0072B2); cursor: pointer; white-space: nowrap; min-width: 72px }
+        button:hover { background: #0072B214 } :focus-visible { outline: 2px solid; outline-offset: 2px }
+        </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button></button></div>`
+      const area = el.querySelector("textarea"), button = el.querySelector("button")
+      const [copy, copied] = model.says
+      button.textContent = copy
+      const show = () => {
+        area.value = model.text
+        area.rows = model.rows
+        area.style.whiteSpace = model.rows > 1 ? "pre" : "nowrap"
+        area.style.overflow = model.rows > 1 ? "auto" : "hidden"
+        area.setAttribute("aria-label", model.label)
+      }
+      area.onfocus = () => area.select()
+      button.onclick = async () => {
+        area.select()
+        try { await navigator.clipboard.writeText(model.text) } catch { document.execCommand("copy") }
+        button.textContent = copied
+        setTimeout(() => { button.textContent = copy }, 1500)
+      }
+      for (const name of ["text", "label", "rows"]) model.on(name, show)
+      show()
+    }
+    """
+
+
+class Photo(JSComponent):
+    """A button that saves the top as it is seen, as a PNG with the caption below."""
+
+    caption = param.List(default=[], doc="lines of plain text")
+    frame = param.String(default=PLAIN_BUTTON, constant=True)
+    wide = param.Integer(default=2400, doc="of the picture, in px")
+
+    _esm = """
+    export function render({model, el}) {
+      el.innerHTML = model.frame
+      const button = el.querySelector("button")
+      button.textContent = "PNG"
+      button.onclick = async () => {
+        const picture = window.tippe?.photo(model.wide)
+        if (!picture) return
+        const type = Math.round(picture.width / 75), margin = type
+        const canvas = document.createElement("canvas"), ink = canvas.getContext("2d")
+        canvas.width = picture.width
+        canvas.height = picture.height + 2 * margin + 1.5 * type * model.caption.length
+        ink.fillStyle = "white"
+        ink.fillRect(0, 0, canvas.width, canvas.height)
+        ink.drawImage(picture, 0, 0)
+        ink.fillStyle = "#22303c"
+        ink.textAlign = "center"
+        ink.textBaseline = "top"
+        ink.font = `${type}px system-ui, sans-serif`
+        model.caption.forEach((line, i) =>
+          ink.fillText(line, canvas.width / 2, picture.height + margin + 1.5 * type * i, 0.98 * canvas.width))
+        canvas.toBlob((blob) => {
+          const link = document.createElement("a")
+          link.href = URL.createObjectURL(blob)
+          link.download = "tippe-top-3d.png"
+          link.click()
+          setTimeout(() => URL.revokeObjectURL(link.href), 60000)
+        })
+      }
+    }
+    """
+
+
+class Clock(param.Parameterized):
+    """The time at which a Top3D stands."""
+
+    at = param.Number(default=None, allow_None=True, doc="in (R/g)^1/2; None while it plays")
+    KNOWN = {"at": Field("t", Number, undoable=False)}  # noqa: RUF012
+
+    def __init__(self, top):
+        super().__init__(at=None if top.playing else top.time)
+        self._top = top
+        top.param.watch(self._read, ["playing", "time"])
+        self.param.watch(self._put, "at")
+
+    def _read(self, *events):
+        self.at = None if self._top.playing else self._top.time
+
+    def _put(self, event):
+        if event.new is not None:
+            self._top.param.update(time=event.new, playing=False)
+
+
+class Share:
+    """header: the buttons for the page's head; main: what was wrong with the link, and the dialog, above all views.
+
+    roll: the Roll of this Explorer; texts and sentence: of the link, from keep.read and keep.explorer_of; runs: the
+    page's Runs.
+    """
+
+    def __init__(self, explorer, roll, texts, sentence, runs=None):
+        self._explorer, self._runs = explorer, runs or Runs()
+        self._top = next(iter(pn.Column(*roll.main).select(Top3D)))
+        self.keep = Keep(texts, sentence, allowed=lambda: not explorer.scene.messages)
+        self.keep.add(explorer, EXPLORER, usual, opened=True)
+        self.keep.add(Clock(self._top), Clock.KNOWN)
+        self.keep.add(self._top, TOP)
+        self.keep.add(roll.look, LOOK)
+        self.address = Address(search=self.keep.query, width=0, height=0, margin=0)
+        at_once(self.address, "held", "gesture", "undone", "redone", "page")
+        self._notice = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._waiting, self._changed_at = False, 0.0
+        self.keep.param.watch(self._changed, "changed")
+        self.keep.param.watch(self._say, "sentence")
+        self._say()
+        self.keep.param.watch(self._kept, ["query", "can_undo", "can_redo"])
+        self.address.param.watch(lambda event: self.keep.undo(), "undone")
+        self.address.param.watch(lambda event: self.keep.redo(), "redone")
+        self.undo = self._button("↶", say("share.undo"), lambda event: self.keep.undo())
+        self.redo = self._button("↷", say("share.redo"), lambda event: self.keep.redo())
+        self.share = pmui.Button(
+            label=say("share.share"),
+            size="small",
+            variant="outlined",
+            color="light",
+            margin=(0, 4),
+            sx=PLAIN["& button"] | {"color": "#fff"},
+        )
+        on_click(self.share, self._open)
+        self._dialog = pmui.Dialog(title=say("share.dialog.title"), title_variant="h6", show_close_button=True,
+                                   close_on_click=True, width_option="md", sizing_mode="stretch_width")  # fmt: skip
+        self.header = [pn.Spacer(sizing_mode="stretch_width"), self.undo, self.redo, self.share]
+        self.main = [self._notice, self.address, self._dialog]
+        self._kept()
+
+    @staticmethod
+    def _button(sign, says, act):
+        button = pmui.Button(label=sign, description=says, size="small", variant="text", color="light", margin=0,
+                             sx={"minWidth": 36, "fontSize": 20, "lineHeight": 1})  # fmt: skip
+        on_click(button, act)
+        return button
+
+    @property
+    def link(self):
+        """The address of the page as it is now, for anybody."""
+        return self.address.page + shared(self.keep.query)
+
+    def reload(self):
+        """Loads the page anew, with its state; where that cannot be, with the last that could."""
+        if self._explorer.scene.messages:
+            self.keep.undo()
+        self.keep.at_rest()
+        self.address.reloads += 1
+
+    def _say(self, *events):
+        text = self.keep.sentence
+        self._notice.objects = [
+            words(f'<div role="alert"><b>{html.escape(text)}</b></div>',
+                  styles={"background": "#fff4e5", "padding": "8px 20px", "color": "#5c3b00"})
+        ] if text else []  # fmt: skip
+
+    def _changed(self, event):
+        self._changed_at = time.monotonic()
+        if not self._waiting:
+            self._waiting = True
+            after(REST, self._look)
+
+    def _look(self):
+        left = self._changed_at + REST - time.monotonic()
+        if self.address.held or left > 0:
+            after(REST if self.address.held else left, self._look)
+            return
+        self._waiting = False
+        self.keep.at_rest(self.address.gesture)
+
+    def _kept(self, *events):
+        self.address.search = self.keep.query
+        self.undo.disabled, self.redo.disabled = not self.keep.can_undo, not self.keep.can_redo
+
+    # --- the dialog ---
+
+    def _open(self, event):
+        if not self._dialog.objects:
+            self._make()
+        link = self.link
+        self._link.text = link
+        try:
+            code = segno.make(link, error="m", micro=False)
+            side, squares = code.symbol_size(scale=MODULE)[0], code.symbol_size(border=0)[0]
+            picture = code.svg_inline(scale=MODULE, dark="#22303c", light="white", title=say("share.dialog.code"))
+            self._code.object = f'<div style="width: min({side}px, 100%)">{picture}</div>'
+            self._length.object = say("share.dialog.length", letters=len(link), squares=squares)
+        except segno.DataOverflowError:
+            self._code.object = ""
+            self._length.object = say("share.dialog.too_long", letters=len(link))
+        self._photo.caption = list(plain_caption(self._explorer.scene))
+        self._show_python()
+        self._dialog.open = True
+
+    def _make(self):
+        text = {"says": listed("share.copy"), "sizing_mode": "stretch_width", "margin": (4, 0)}
+        self._link = Copy(label=say("share.dialog.link_label"), **text)
+        self._code, self._length = words(""), words("", margin=(4, 0))
+        self._photo = Photo(margin=0)
+        self._python = Copy(label="Python", rows=13, **text)
+        shown = listed("share.python")
+        codes = {shown[name]: name for name in export.PYTHON}
+        self._which = pmui.RadioButtonGroup(options=codes, value=next(iter(export.PYTHON)), label="",
+                                            size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
+        self._which.param.watch(lambda event: self._show_python(), "value")
+        figures = [
+            _row(say(f"prints.figures.{name}"), *(
+                self._download(kind.upper(), f"tippe-top-{name}.{kind}", _print(name, kind)) for kind in ("png", "svg")
+            ))
+            for name in FIGURES
+        ]  # fmt: skip
+        self._dialog.objects = [
+            _heading("link"),
+            self._link,
+            self._code,
+            self._length,
+            _heading("figures", margin=(14, 0, 4, 0)),
+            *figures,
+            _row(say("share.dialog.photo"), self._photo),
+            _heading("numbers", margin=(14, 0, 4, 0)),
+            _row(
+                say("share.dialog.motion"),
+                self._download("CSV", "tippe-top-motion.csv", export.motion_csv),
+            ),
+            _row(
+                say("share.dialog.tielines"),
+                self._download("CSV", "tippe-top-tielines.csv", export.tielines_csv),
+            ),
+            _row(say("share.dialog.arrays"), self._download("NPZ", "tippe-top.npz", export.arrays_npz)),
+            _heading("without", margin=(14, 0, 4, 0)),
+            _row(
+                say("share.dialog.letter"),
+                self._download("HTML", "tippe-top.html", self._letter),
+            ),
+            _row(
+                say("share.dialog.animation"),
+                self._download("GLB", "tippe-top.glb", lambda scene, link: export.animation_glb(scene, self._slower)),
+            ),
+            _heading("python", margin=(14, 0, 4, 0)),
+            self._which,
+            self._python,
+        ]
+
+    @property
+    def _slower(self):
+        return 1 / self._top.speed
+
+    def _letter(self, scene, link):
+        names = ("time", "playing", "speed", "camera", *SHOWS)
+        return letter(scene, link, {name: getattr(self._top, name) for name in names})
+
+    def _show_python(self):
+        self._python.text = export.PYTHON[self._which.value](self._explorer.scene)
+
+    def _download(self, label, filename, make):
+        return Download(self._runs, lambda: (self._explorer.scene, self.link), make, label=label, filename=filename,
+                        margin=0)  # fmt: skip
+
+
+def _print(name, kind):
+    return lambda scene, link: draw(scene, name, kind)
+
+
+def _heading(name, **options):
+    return words(f"<h2>{say(f'share.dialog.{name}')}</h2>", **options)
+
+
+def _row(says, *buttons):
+    return pn.Column(
+        words(says, sizing_mode=None, styles={"flex": "1 1 120px"}),
+        *buttons,
+        sizing_mode="stretch_width",
+        margin=(2, 0),
+        styles={"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center", "width": "100%"},
+    )
+
+
+def plain_caption(scene):
+    """The caption of the figures without their mathtext."""
+    marks = {"$": "", r"\mu": "μ", r"\theta": "θ", "^2": "²", "^{1/2}": "½", "{": "", "}": "", "_": ""}
+    for line in caption(scene):
+        for mark, sign in marks.items():
+            line = line.replace(mark, sign)
+        yield line

@@ -1,0 +1,206 @@
+"""Tops of a family side by side: Figs. 5 and 6 of each on common axes, and a map of the share that friction leaves."""
+
+import time
+from functools import partial
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d
+from bokeh.palettes import Viridis256
+
+from app.model.builder import thrown
+from app.model.colours import COLOURS, FAINT, INK
+from app.model.family import neighbours, ordinary, pegs, presets, region, share_map
+from app.model.runs import Run, Runs, Stopped
+from app.tabs.families.drawings import LINE, side_by_side
+from app.text import listed, say, told
+from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, swatch, words
+from app.widgets.controls import typed_number
+from app.widgets.plots import plain
+from tippe_core import TopError
+
+PICTURE_EVERY = 0.5  # s
+RATIOS = np.linspace(0.6, 1.9, 40)
+SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.2, 50)}
+
+
+class Compare:
+    """The tab's content; show() and compute() fill it. runs: the page's Runs."""
+
+    # what a map is made with: name, symbol
+    FIELDS = (("I1", "<i>I</i><sub>1</sub>"), ("K_R", "<i>K</i><sub>R</sub>"), ("mu_s", "<i>μ</i><sub>s</sub>"))
+
+    def __init__(self, explorer, runs=None):
+        self._explorer, self._runs, self._run = explorer, runs or Runs(), None  # of the map
+        self.rows = words(margin=(6, 0))
+        self.key = words()
+        self.family = self._buttons("families")
+        self.family.param.watch(lambda event: self.show(event.new), "value")
+        self.kind = self._buttons("kinds")
+        self.kind.value = "ordinary" if explorer.scene.top.a < 0 else "tippe"
+        self.kind.param.watch(lambda event: self._prefill(), "value")
+        spoken = {name: listed(f"controls.spoken.{name}")[0] for name, _ in self.FIELDS}
+        self.entries = {name: field("", say("family.map.entry", name=spoken[name]), width=76) for name in spoken}
+        self._prefill()
+        self.said = words()
+        self.map = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*_sides(RATIOS)), name="map")
+        fig.update(sizing_mode="stretch_width", height=330)
+        colours = LinearColorMapper(palette=Viridis256, low=0, high=1, nan_color="rgba(0, 0, 0, 0)")
+        self.shares = ColumnDataSource({"share": [], "x": [], "w": []})
+        self.here = ColumnDataSource({"a": [], "ratio": []})
+        bottom, top = _sides(RATIOS)
+        picture = fig.image("share", x="x", dw="w", y=bottom, dh=top - bottom, source=self.shares,
+                            color_mapper=colours)  # fmt: skip
+        fig.scatter("a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
+        fig.add_layout(ColorBar(color_mapper=colours, width=10, major_label_text_color=INK,
+                                major_tick_line_color=FAINT), "right")  # fmt: skip
+        fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{0.000}, I₃/I₁ $y{0.00}: @share{0.00}"))
+        self._show_span()
+        self.bar = words(visible=False, margin=(8, 0))
+        self.start = pmui.Button(label=say("family.map.start"), **BUTTON)
+        self.cancel = pmui.Button(label=say("family.map.cancel"), disabled=True, **BUTTON)
+        on_click(self.start, self.compute)
+        on_click(self.cancel, lambda event: self._run and self._run.stop())
+
+    @staticmethod
+    def _buttons(table):
+        options = {says: value for value, says in listed(f"family.{table}").items()}
+        return pmui.RadioButtonGroup(label="", options=options, value=next(iter(options.values())), size="small",
+                                     margin=0, sx=PLAIN)  # fmt: skip
+
+    @property
+    def figures_view(self):
+        """Figs. 5 and 6 of several tops."""
+        return [self.family, self.key, self.rows]
+
+    @property
+    def map_view(self):
+        """The map of the share, and what starts and stops it."""
+        with_these = [beside(symbol, self.entries[name]) for name, symbol in self.FIELDS]
+        return [
+            self.kind,
+            words(say("family.map.says"), margin=(6, 0)),
+            flow(*with_these, self.start, self.cancel, margin=(0, 0, 6, 0)),
+            self.bar,
+            self.said,
+            words("<i>I</i><sub>3</sub>/<i>I</i><sub>1</sub>"),
+            pn.pane.Bokeh(self.map, sizing_mode="stretch_width", height=330, margin=0),
+            words('<div style="text-align: center"><i>a</i>/<i>R</i></div>'),
+            words(note(say("family.map.here"))),
+        ]  # fmt: skip
+
+    def show(self, which):
+        """The small figures: of the "presets" or of "pegs", all with one spin, or of this top's neighbours, at this
+        K_R. They are drawn beside the server."""
+        top, K_R, mu_s = self._explorer.scene.top, self._explorer.K_R, self._explorer.mu_s
+
+        def draw(run):
+            tops = {"presets": presets, "pegs": pegs}.get(
+                which, lambda: [(name, each, K_R) for name, each in neighbours(top, which)]
+            )()
+            shown = []
+            for name, each, spin in tops:
+                run.look()
+                shown.append(region(name, each, spin, mu_s))
+            return side_by_side(shown)
+
+        self.key.object = key_words(mu_s)
+        self.rows.object = f'<div role="status">{note(say("family.waits"))}</div>'
+        self._runs.begin(Run(draw, self._drawn), "families")
+
+    def _drawn(self, result):
+        failed = isinstance(result, Exception)
+        self.rows.object = alert(say("family.failed")) if failed else result
+        if failed and not isinstance(result, Stopped):
+            raise result
+
+    def _prefill(self):
+        """The explorer's own numbers where its top is of this kind, else those of a preset that is."""
+        explorer, ordinary_tops = self._explorer, self.kind.value == "ordinary"
+        I1, K_R = explorer.scene.top.I1, explorer.K_R
+        if (explorer.scene.top.a < 0) != ordinary_tops:
+            shape = ordinary() if ordinary_tops else type(explorer).param.shape.default
+            I1, K_R = shape.top.I1, thrown(shape)[1]
+        for name, value in (("I1", I1), ("K_R", K_R), ("mu_s", explorer.mu_s)):
+            self.entries[name].value = f"{value:.4g}"
+
+    def _show_span(self):
+        a = SPANS[self.kind.value]
+        low, high = _sides(a)
+        self.map.x_range.update(start=low, end=high)
+        return {"x": [low], "w": [high - low]}
+
+    def _asked(self):
+        """I1, K_R and mu_s as they were typed; raises ValueError, TopError."""
+        values = {}
+        for name, entry in self.entries.items():
+            try:
+                values[name] = typed_number(entry.value)
+            except ValueError:
+                raise ValueError(say("family.map.not_a_number", name=name, text=entry.value)) from None
+        for name, allowed, good in (("I1", "I1 > 0 (in MR^2)", values["I1"] > 0),
+                                    ("mu_s", "mu_s >= 0", values["mu_s"] >= 0)):  # fmt: skip
+            if not good:
+                raise TopError(name, values[name], allowed)
+        return values
+
+    def compute(self, event=None):
+        """The map, beside the server, so that this page and all others stay served. Where there can be none, a sentence
+        says why."""
+        a = SPANS[self.kind.value]
+        try:
+            asked = self._asked()
+        except ValueError as error:
+            self.said.object = alert(told(error) if isinstance(error, TopError) else str(error))
+            return
+        top = self._explorer.scene.top
+        own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1
+        self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
+        span = self._show_span()
+        self.cancel.disabled = False
+        self.bar.visible, self.bar.object, self.said.object = True, _progress(0), ""
+        steps = share_map(asked["I1"], asked["K_R"], asked["mu_s"], a, RATIOS)
+        self._run = Run(partial(self._work, steps, span), self._done)
+        self._runs.begin(self._run, "map")
+
+    def _work(self, steps, span, run):
+        shown = time.monotonic()
+        for done, found in steps:
+            run.look()
+            # a message now and then: more would queue up on a slow line, and be under way when a page is closed
+            if found.share.size == done or time.monotonic() > shown + PICTURE_EVERY:
+                shown = time.monotonic()
+                self._runs.post(partial(self._show_rows, run, done, found, span))
+
+    def _show_rows(self, run, done, found, span):
+        """The map as far as it is."""
+        if not run.stopped:
+            self.shares.data = {"share": [found.share], **span}
+            self.bar.object = _progress(100 * done / found.share.size)
+
+    def _done(self, result):
+        stopped = isinstance(result, Stopped)
+        self.cancel.disabled, self.bar.visible = True, False
+        self.said.object = note(say("family.map.cancelled")) if stopped else ""
+        if isinstance(result, Exception) and not stopped:
+            self.said.object = alert(say("family.map.failed"))
+            raise result
+
+
+def key_words(mu_s):
+    lines = "".join((
+        swatch(LINE, say("family.key.tielines")), swatch(LINE, say("family.key.steady"), "dashed"),
+        swatch(COLOURS["normal"], say("family.key.lift")),
+        swatch(COLOURS["friction"], say("family.key.verge", mu_s=mu_s))))  # fmt: skip
+    return f'<div class="key">{say("family.key.figures")}</div><div class="key">{lines}</div>'
+
+
+def _progress(percent):
+    return progress(percent, say("family.map.progress"))
+
+
+def _sides(values):
+    """Half a cell beyond the first and the last."""
+    step = values[1] - values[0]
+    return values[0] - step / 2, values[-1] + step / 2

@@ -1,0 +1,335 @@
+"""The pictures of the three planes: the motion over time, the well that the top is a bead in, the map of all tops."""
+
+from itertools import pairwise
+
+import numpy as np
+from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Label, Range1d, Span
+
+from app.model.builder import named
+from app.model.colours import COLOURS, FAINT, INK
+from app.model.planes import FLIES, LIFTS, PLANES, ROLLS, SLIPS
+from app.tabs.planes.words import LOOKS
+from app.text import listed, say
+from app.widgets.plots import plain
+from tippe_core import PRESETS as BODIES
+from tippe_core import jellett_potential
+
+CLOCK = "planes"
+# Colour, and key in planes.toml.
+REGIMES = {ROLLS: (COLOURS["normal"], "rolls"), SLIPS: (COLOURS["friction"], "slips"),
+           FLIES: (COLOURS["omega"], "air"), LIFTS: ("#8C2D04", "lifts")}  # fmt: skip
+STOPPED = "#d5dae0"
+LEDGER = {"spin": "#CC79A7", "precession and nutation": "#E69F00", "motion of G": "#8a96a3", "height": "#56B4E9",
+          "heat": "#D55E00"}  # fmt: skip
+QUANTITIES = ("theta", "omega3", "normal", "slip")
+BUCKETS, LEDGER_POINTS, BEAD_POINTS, WELL_POINTS = 500, 500, 4000, 361
+MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
+MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
+NEAR = 0.035  # of the map's width: a click so near to a known top is meant for it
+SAME = 1e-3  # two tops so near each other on the map are one mark
+
+# Moves the time lines and the bead in the browser; not synced, so playing sends nothing to the server.
+FOLLOW_CLOCK = """
+if (path.followed) return
+path.followed = true
+let now = 0
+const place_bead = () => {
+  const {t, theta, V, E, well} = path.data, last = t.length - 1
+  if (last < 1) return none.setv({visible: false}, {sync: false})
+  let low = 0, high = last
+  while (high - low > 1) {
+    const middle = (low + high) >> 1
+    if (t[middle] <= now) low = middle
+    else high = middle
+  }
+  const share = Math.min(Math.max((now - t[low]) / (t[high] - t[low]), 0), 1)
+  const at = (values) => values[low] + share * (values[high] - values[low])
+  const which = now >= t[last] ? well[last] : well[low] == well[high] ? well[low] : -1
+  const drawn = which < 0 ? {theta: [], V: [], E: []} : {theta: [at(theta)], V: [at(V)], E: [at(E)]}
+  bead.setv({data: drawn}, {sync: false})
+  if (which != shown) show_well(which)
+}
+let shown = null
+const show_well = (which) => {
+  shown = which
+  none.setv({visible: which < 0}, {sync: false})
+  const {alpha, low, high} = wells.data, {stable, well} = steady.data
+  wells.setv({data: {...wells.data, alpha: Array.from(alpha, (_, k) => k == which ? 1 : 0)}}, {sync: false})
+  const present = Array.from(well, (k) => k == which ? 1 : 0)
+  const points = {...steady.data, alpha: present, fill: present.map((on, k) => on * stable[k])}
+  steady.setv({data: points}, {sync: false})
+  if (which >= 0) range.setv({start: low[which], end: high[which]}, {sync: false})
+}
+const show = () => {
+  for (const span of spans) span.setv({location: now}, {sync: false})
+  place_bead()
+}
+path.properties.data.change.connect(() => { shown = null; place_bead() })
+window.addEventListener("tippe:clock:CLOCK", ({detail: {t}}) => {
+  now = t * path.tags[0]
+  show()
+})
+""".replace("CLOCK", CLOCK)
+SEEK = f"""
+const held = ["panstart", "pan"].includes(cb_obj.event_name)
+window.dispatchEvent(new CustomEvent("tippe:seek:{CLOCK}", {{detail: {{t: cb_obj.x / path.tags[0], held}}}}))
+"""
+
+
+class Figures:
+    """Quantities over time, the ledger and the ribbon, each with a line at the clock's time."""
+
+    def __init__(self):
+        self.x_range = Range1d(0, 1)
+        self.spans, self.figures = [], {}
+        for name in (*QUANTITIES, "ledger", "regime"):
+            self.figures[name] = fig = plain(x_range=self.x_range, y_range=Range1d(0, 1), name=f"planes-{name}")
+            fig.min_border_left = 50
+            fig.yaxis.ticker.desired_num_ticks = 3
+            fig.xaxis.visible = name == "regime"
+            self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
+            fig.add_layout(self.spans[-1])
+        self.figures["regime"].yaxis.visible = False
+        self.figures["regime"].grid.visible = False
+        self.figures["normal"].add_layout(
+            BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
+        )
+        columns = [prefix + name for name in QUANTITIES for prefix in ("", "t_")]
+        self.curves = {plane: ColumnDataSource({name: [] for name in columns}) for plane in PLANES}
+        self.lines = {
+            (plane, name): self.figures[name].line(
+                f"t_{name}", name, source=source, line_color=LOOKS[plane], line_width=2, name=plane
+            )
+            for plane, source in self.curves.items()
+            for name in QUANTITIES
+        }
+        self.energies = ColumnDataSource({name: [] for name in ("t", *LEDGER)})
+        self.figures["ledger"].varea_stack(list(LEDGER), x="t", color=list(LEDGER.values()), source=self.energies)
+        self.ribbons = ColumnDataSource({name: [] for name in ("start", "end", "low", "high", "colour")})
+        self.figures["regime"].quad(
+            left="start", right="end", bottom="low", top="high", fill_color="colour", line_color=None,
+            source=self.ribbons,
+        )  # fmt: skip
+
+    def show(self, picture):
+        """All curves of a new picture."""
+        scales = picture.settings.scales
+        ribbons = []
+        for plane in PLANES:
+            motion = picture.motions[plane]
+            if motion is None:
+                self.curves[plane].data = {name: [] for name in self.curves[plane].data}
+                continue
+            t, moved = motion.trajectory.t * scales.time, motion.trajectory
+            values = {
+                "theta": np.degrees(moved.theta),
+                "omega3": moved.omega[:, 2] * scales.angular_velocity / (2 * np.pi),
+                "normal": moved.force[:, 2],
+                "slip": 100 * scales.velocity * motion.slip,
+            }
+            data = {}
+            for name, column in values.items():
+                data[f"t_{name}"], data[name] = extremes(t, column)
+            self.curves[plane].data = data
+            ribbons += [(plane, a * scales.time, b * scales.time, which) for a, b, which in motion.stretches]
+        row = [PLANES.index(plane) for plane, *_ in ribbons]
+        self.ribbons.data = {
+            "start": [start for _, start, _, _ in ribbons],
+            "end": [end for _, _, end, _ in ribbons],
+            "low": [i + 0.1 for i in row],
+            "high": [i + 0.9 for i in row],
+            "colour": [REGIMES[which][0] if which in REGIMES else STOPPED for *_, which in ribbons],
+        }
+        self.x_range.update(start=0, end=picture.settings.seconds)
+
+    def look(self, picture, plane):
+        """At one plane, the others faintly where that tells something, or at all."""
+        for (which, name), line in self.lines.items():
+            line.visible = plane in (which, "compare") or name in ("theta", "omega3")
+            line.glyph.line_alpha = 1 if plane in (which, "compare") else 0.3
+            line.glyph.line_width = 2.5 if which == plane else 1.5
+        for name in QUANTITIES:
+            shown = [self.curves[which].data[name] for which in PLANES if self.lines[which, name].visible]
+            shown = np.concatenate([values for values in shown if len(values)] or [np.zeros(1)])
+            low, high = float(shown.min()), float(shown.max())
+            low = min(0.0, low) if name != "omega3" else low
+            if name == "normal":
+                high = max(1.5, high)
+            pad = 0.08 * (high - low) or 0.05 * (1 + abs(high))
+            self.figures[name].y_range.update(start=low - pad, end=high + pad)
+        row = PLANES.index(plane) if plane in PLANES else None
+        self.figures["regime"].y_range.update(start=row or 0, end=len(PLANES) if row is None else row + 1)
+        motion = picture.motions[plane if plane in PLANES else "sliding"]
+        if motion is None:
+            self.energies.data = {name: [] for name in ("t", *LEDGER)}
+            return
+        every = np.unique(np.linspace(0, len(motion.trajectory.t) - 1, LEDGER_POINTS).astype(int))
+        ledger = {name: values[every] for name, values in motion.ledger.items()}
+        self.energies.data = {"t": motion.trajectory.t[every] * picture.settings.scales.time} | ledger
+        self.figures["ledger"].y_range.update(start=0, end=1.05 * float(sum(ledger.values()).max()) or 1.0)
+
+
+def extremes(t, values):
+    """t and values of the least and the largest of each of BUCKETS stretches: a fast swing keeps its width."""
+    if len(t) <= 2 * BUCKETS:
+        return t, values
+    buckets = pairwise(np.linspace(0, len(t), BUCKETS + 1).astype(int))
+    pairs = [sorted((a + values[a:b].argmin(), a + values[a:b].argmax())) for a, b in buckets]
+    rows = np.ravel(pairs)
+    return t[rows], values[rows]
+
+
+class Well:
+    """V_J over theta, its steady states, and the top as a bead in it, with the energy that it has left above.
+
+    Each while in which no stem touches has a J and so a well of its own: the clock shows the present one.
+    """
+
+    def __init__(self):
+        self.figure = fig = plain(x_range=Range1d(-5, 185), y_range=Range1d(0, 1), name="planes-well")
+        fig.min_border_left = 50
+        fig.xaxis.ticker = [0, 30, 60, 90, 120, 150, 180]
+        self.wells = ColumnDataSource({name: [] for name in ("theta", "V", "alpha", "low", "high")})
+        self.steady = ColumnDataSource({name: [] for name in ("theta", "V", "stable", "well", "fill", "alpha")})
+        # what the browser's clock reads, and what it moves; well: which one, -1 for none
+        self.path = ColumnDataSource({name: [] for name in ("t", "theta", "V", "E", "well")}, tags=[1.0])
+        self.bead = ColumnDataSource({"theta": [], "V": [], "E": []})
+        fig.multi_line("theta", "V", source=self.wells, line_color=COLOURS["theta"], line_alpha="alpha", line_width=2.5)
+        fig.scatter(
+            "theta", "V", source=self.steady, size=8, fill_color=INK, fill_alpha="fill", line_color=INK, line_width=1.5,
+            line_alpha="alpha",
+        )  # fmt: skip
+        on_top = {"source": self.bead, "level": "overlay"}
+        fig.segment("theta", "V", "theta", "E", line_color=COLOURS["energy"], line_width=2, **on_top)
+        fig.scatter("theta", "E", marker="dash", size=16, line_color=COLOURS["energy"], line_width=3, **on_top)
+        fig.scatter("theta", "V", size=15, fill_color=COLOURS["friction"], line_color="white", line_width=2, **on_top)
+        self.none = Label(x=90, y=0, y_offset=60, text=say("planes.keys.no_well"), text_align="center",
+                          text_color=COLOURS["friction"], text_font_size="14px", visible=False)  # fmt: skip
+        fig.add_layout(self.none)
+
+    def show(self, picture, plane):
+        plane = plane if plane in PLANES else "sliding"
+        motion, top = picture.motions[plane], picture.settings.top
+        found, theta = picture.wells(plane), np.linspace(0, np.pi, WELL_POINTS)
+        curves = [jellett_potential(theta, top, well.C_J) for well in found]
+        path = self._path(picture, motion, found)
+        ranges = []
+        for k, V in enumerate(curves):
+            E = np.array(path["E"])[np.array(path["well"]) == k]
+            low, high = float(V.min()), max(float(np.min([V.max(), 4 * np.median(V)])), *E[:1], E.max(initial=-np.inf))
+            pad = 0.08 * (high - low) or 0.05
+            ranges.append((low - pad, high + pad))
+        alpha = [1.0] + [0.0] * (len(found) - 1)
+        self.wells.data = {"theta": [np.degrees(theta)] * len(found), "V": curves, "alpha": alpha,
+                           "low": [low for low, _ in ranges], "high": [high for _, high in ranges]}  # fmt: skip
+        which = np.repeat(np.arange(len(found)), [len(well.steady.theta) for well in found])
+        places, stable = (np.concatenate([part(well.steady) for well in found]) for part in
+                          (lambda steady: steady.theta, lambda steady: steady.stable.astype(float)))  # fmt: skip
+        V = [jellett_potential(well.steady.theta, top, well.C_J) for well in found]
+        self.steady.data = {"theta": np.degrees(places), "V": np.concatenate(V), "stable": stable, "well": which,
+                            "fill": stable * (which == 0), "alpha": (which == 0).astype(float)}  # fmt: skip
+        self.figure.y_range.update(start=ranges[0][0], end=ranges[0][1])
+        self.path.tags = [picture.settings.scales.time]
+        self.path.data = path
+        if motion is None:
+            self.bead.data = {name: [] for name in self.bead.data}
+
+    def _path(self, picture, motion, found):
+        if motion is None:
+            return {name: [] for name in self.path.data}
+        moved, scales = motion.trajectory, picture.settings.scales
+        every = np.unique(np.linspace(0, len(moved.t) - 1, BEAD_POINTS).astype(int))
+        t, theta = moved.t[every], moved.theta[every]
+        V, which = np.zeros(len(t)), np.full(len(t), -1)
+        for k, well in enumerate(found):
+            inside = (t >= well.start) & (t <= well.end)
+            V[inside], which[inside] = jellett_potential(theta[inside], moved.top, well.C_J), k
+        return {"t": t * scales.time, "theta": np.degrees(theta), "V": V, "E": moved.energy[every], "well": which}
+
+
+def beside(place, name, taken):
+    """(dx, dy) in px and the side on which a name stands free of those in taken, to which it is added."""
+    ends = zip(MAP_PX, place, (MAP_X, MAP_Y), strict=True)
+    x, y = (size * (value - low) / (high - low) for size, value, (low, high) in ends)
+    width = LETTER_PX * len(name)
+    for dy in (0, 14, -14, 28, -28, 42):
+        for dx, align in ((8, "left"), (-8, "right")):
+            start = x + dx - (width if align == "right" else 0)
+            box = start, start + width, y - dy - 6, y - dy + 6
+            if x - width < 0 and align == "right":
+                continue
+            if not any(box[0] < b[1] and b[0] < box[1] and box[2] < b[3] and b[2] < box[3] for b in taken):
+                taken.append(box)
+                return dx, dy, align
+    return 8, 0, "left"
+
+
+class Map:
+    """The three groups over a/R and I1/I3; pick: takes (a, I1/I3) from a click, pick_body the name of a known top."""
+
+    def __init__(self, pick, pick_body):
+        self._pick, self._pick_body = pick, pick_body
+        self.figure = fig = plain(x_range=Range1d(*MAP_X), y_range=Range1d(*MAP_Y), name="planes-map")
+        (left, right), (low, high) = MAP_X, MAP_Y
+        areas = [
+            ((0, 0, right, right), (low, 1, 1 - right, low), (FAINT, 0.3)),
+            ((0, right, right), (1, 1 + right, 1 - right), (COLOURS["friction"], 0.22)),
+            ((0, 0, right, right), (1, high, high, 1 + right), (COLOURS["jellett"], 0.25)),
+            ((left, left, 0, 0), (low, 1 - left, 1, low), (COLOURS["normal"], 0.2)),
+            ((left, left, 0, 0), (1 - left, high, high, 1), (FAINT, 0.15)),
+        ]
+        for x, y, (colour, alpha) in areas:
+            fig.patch(x, y, fill_color=colour, fill_alpha=alpha, line_color=None, level="underlay")
+        places = {"never rises": (0.33, 0.55), "can invert": (0.6, 1.2), "rises part of the way": (0.36, 1.6),
+                  "can stand upright": (-0.3, 1.15), "never stands upright": (-0.3, 1.66)}  # fmt: skip
+        x, y = zip(*places.values(), strict=True)
+        fig.text(x, y, text=[listed("planes.groups")[group] for group in places], text_align="center",
+                 text_color=INK, text_font_size="12px", text_font_style="italic")  # fmt: skip
+        fig.ygrid.visible = fig.xgrid.visible = False
+        # a top far to the left stands at the edge, with its place beside its name
+        self.known, marks, taken = {}, [], []
+        for body in BODIES:
+            top = body.top
+            if any(np.hypot(top.a - a, top.I1 / top.I3 - ratio) < SAME for a, ratio in self.known.values()):
+                continue
+            inside = top.a > left
+            place = self.known[body.name] = (top.a if inside else left + 0.03, top.I1 / top.I3)
+            name = named(body.name)
+            if not inside:
+                name = say("planes.map.far", name=name, a=f"{top.a:.0f}")
+            marks.append((*place, name, "circle" if inside else "triangle", *beside(place, name, taken)))
+        names = ("x", "y", "name", "marker", "dx", "dy", "align")
+        known = ColumnDataSource(dict(zip(names, zip(*marks, strict=True), strict=True)))
+        fig.scatter("x", "y", source=known, size=9, marker="marker", fill_color="white", line_color=INK, line_width=1.5)
+        fig.text("x", "y", text="name", x_offset="dx", y_offset="dy", text_align="align", source=known,
+                 text_font_size="12px", text_color=INK, text_baseline="middle")  # fmt: skip
+        self.here = ColumnDataSource({"x": [], "y": []})
+        fig.scatter("x", "y", source=self.here, size=13, fill_color=COLOURS["friction"], line_color="white",
+                    line_width=2, level="overlay")  # fmt: skip
+        fig.on_event("tap", self._tapped)
+
+    def _tapped(self, event):
+        (left, right), (low, high) = MAP_X, MAP_Y
+        away = {name: np.hypot((x - event.x) / (right - left), (y - event.y) / (high - low))
+                for name, (x, y) in self.known.items()}  # fmt: skip
+        nearest = min(away, key=away.get)
+        if away[nearest] < NEAR:
+            self._pick_body(nearest)
+        else:
+            self._pick(round(event.x, 3), round(event.y, 3))
+
+    def show(self, top):
+        ratio = top.I1 / top.I3
+        self.here.data = {"x": [np.clip(top.a, MAP_X[0] + 0.03, MAP_X[1])], "y": [np.clip(ratio, *MAP_Y)]}
+
+
+def follow_clock(figures, well):
+    """In the browser: the lines of the Figures and the bead of the Well go with the clock, which a hand on one sets."""
+    args = {"spans": figures.spans, "path": well.path, "bead": well.bead, "wells": well.wells, "steady": well.steady,
+            "none": well.none, "range": well.figure.y_range}  # fmt: skip
+    follow = CustomJS(args=args, code=FOLLOW_CLOCK)
+    well.figure.js_on_change("inner_width", follow)
+    for figure in figures.figures.values():
+        seek = CustomJS(args={"path": well.path}, code=SEEK)
+        for event in ("tap", "panstart", "pan", "panend"):
+            figure.js_on_event(event, seek)

@@ -1,0 +1,324 @@
+"""The tab of the three planes: why a tippe top turns over, and that it takes sliding friction."""
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+
+from app.model.planes import LAWS, PATIENCE, PLANES, PRESETS
+from app.state.keep import Field, Number, OneOf
+from app.tabs.planes.plots import CLOCK, LEDGER, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
+from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
+from app.text import listed, say
+from app.widgets.bundle import pack
+from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_click, progress, swatch, words
+from app.widgets.controls import Control
+from app.widgets.top3d import Top3D, pack_frames
+
+NUMBERS = {"coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
+SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
+POLL = 200  # ms between looks at a run under way
+NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
+# Three bars side by side have room for what matters only.
+SMALL_BAR = [":host .bar .shows, :host .bar .view, :host .bar .back, :host .bar .forward { display: none }"]
+TABLE = """
+table { border-collapse: collapse; margin: 6px 0 0; font-size: inherit }
+td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: top }
+th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: #009E73 }
+.line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
+"""
+
+
+KEPT = {
+    "plane": Field("plane", OneOf(**{plane: plane for plane in (*PLANES, "compare")}), undoable=False),
+    "by": Field("start", OneOf(spin="spin", constants="constants")),
+    "law": Field("law", OneOf(**{law: law for law in LAWS})),
+    "landing": Field("land", OneOf(stop="stop", plastic="plastic")),
+    "stem": Field("stem", OneOf(yes=True, no=False)),
+    **{name: Field(name, Number) for name in ("spin", "tilt", "slip", "seconds", "mu_k", "gamma", "eps")},
+    "mu": Field("mu_smooth", Number),
+    "mu_s": Field("mu_stick", Number),
+}
+"""What of a Planes a link keeps."""
+
+
+class ThreePlanes:
+    """main: the tab. planes: the Planes it shows and drives; builder, request: for a top that is picked on the map."""
+
+    def __init__(self, planes, builder, request):
+        self._planes, self._request, self._poll = planes, request, None
+        self._tops = {
+            plane: Top3D(sizing_mode="stretch_both", min_width=250, clock=CLOCK, label=say(f"planes.tops.{plane}"),
+                         show_momentum=False, show_cone=False)
+            for plane in PLANES
+        }  # fmt: skip
+        for top in self._tops.values():
+            top.param.watch(lambda event: self._set_speed(event.new), "speed")
+        self._figures, self._well = Figures(), Well()
+        self._map = Map(self.pick, builder.choose)
+        follow_clock(self._figures, self._well)
+        self._controls = {name: Control(name, getattr(planes, name), self._asked) for name in
+                          ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps")}  # fmt: skip
+        self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
+        self._verdict, self._table = words(style=TABLE), words(style=TABLE)
+        self._force = words(styles={"min-height": "36px"})
+        self._build()
+        planes.param.watch(lambda event: self._show(), "picture")
+        planes.param.watch(lambda event: self._look(), "plane")
+        planes.param.watch(self._wait, "busy")
+        self._arrange()
+        if planes.picture is not None:
+            self._show()
+        self._wait(None)
+
+    # ---- what a person does ----
+
+    def _asked(self, name, value, typed=False):
+        self._planes.param.update(**{name: value})
+
+    def pick(self, a, ratio):
+        """Goes to the top of this a and I1/I3, with I3 as it is."""
+        self._request(a=a, I1=ratio * self._planes.picture.settings.top.I3)
+
+    def _choose(self, name):
+        self._planes.choose(name)
+
+    def _set_speed(self, speed):
+        for top in self._tops.values():
+            top.speed = speed
+
+    # ---- the parts ----
+
+    def _switch(self, name, **layout):
+        return pmui.RadioButtonGroup.from_param(
+            self._planes.param[name], label="", size="small", sx=PLAIN,
+            options={says: value for value, says in listed(f"planes.{name}").items()},
+            **({"margin": (2, 14, 6, 16)} | layout),
+        )  # fmt: skip
+
+    def _build(self):
+        buttons = []
+        for name in PRESETS:
+            buttons.append(pmui.Button(label=listed("planes.presets")[name], **NARROW))
+            on_click(buttons[-1], lambda event, name=name: self._choose(name))
+        presets = flow(*buttons, margin=(4, 0, 0, 0))
+        self._row = pn.Column(
+            sizing_mode="stretch_width", margin=(6, 0, 0, 0),
+            styles={"display": "grid", "gap": "10px"},
+            stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
+        )  # fmt: skip
+        self._stage = card(
+            say("planes.cards.stage"), presets, self._switch("plane", margin=(4, 0)), self._force, self._row,
+            self._verdict, self._table, height="max-content",
+        )  # fmt: skip
+
+        views = {name: control.view for name, control in self._controls.items()}
+        self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
+        self._numbers = {
+            law: pn.Column(*(views[name] for name in names), sizing_mode="stretch_width", margin=0)
+            for law, names in NUMBERS.items()
+        }
+        self._bar = words(margin=(10, 8))
+        self._show_progress(0)
+        stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
+        on_click(stop, lambda event: self._planes.stop())
+        self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
+        self._stem = pmui.Checkbox.from_param(
+            self._planes.param.stem,
+            label=say("planes.stem.can"),
+            description="",
+            size="small",
+            margin=(0, 14, 0, 6),
+        )
+        controls = card(
+            say("planes.cards.start"),
+            self._progress,
+            self._said["run"],
+            self._switch("by"),
+            self._said["by"],
+            self._starts,
+            views["seconds"],
+            self._switch("law"),
+            self._said["law"],
+            *self._numbers.values(),
+            words(say("planes.keys.lands"), margin=(6, 14, 0, 16)),
+            self._switch("landing"),
+            self._stem,
+            self._said["stem"],
+            height="max-content",
+        )
+        self._times = self._times_card()
+        self.main = grid(
+            self._stage,
+            controls,
+            self._times,
+            pn.Column(
+                card(
+                    say("planes.cards.well"),
+                    words(f'<div class="key">{say("planes.keys.well")}</div>'),
+                    pn.pane.Bokeh(self._well.figure, sizing_mode="stretch_both", margin=0),
+                    height="370px",
+                ),
+                card(
+                    say("planes.cards.map"),
+                    words(f'<div class="key">{say("planes.keys.map")}</div>'),
+                    pn.pane.Bokeh(self._map.figure, sizing_mode="stretch_both", margin=0),
+                    height="440px",
+                ),
+                sizing_mode="stretch_width",
+                margin=0,
+                styles={"gap": "12px"},
+            ),
+        )
+
+    def _times_card(self):
+        def row(label, figure, height):
+            beside = {"width": 50, "sizing_mode": "stretch_height", "margin": (6, 0, 0, 0)}
+            return pn.Row(
+                words(f'<div class="quantity">{label}</div>', **beside),
+                pn.pane.Bokeh(figure, sizing_mode="stretch_both", margin=0),
+                sizing_mode="stretch_width",
+                height=height,
+                margin=0,
+            )
+
+        figures = self._figures.figures
+        planes = "".join(swatch(colour, say(f"planes.looks.{plane}")) for plane, colour in LOOKS.items())
+        ledger = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
+        regimes = "".join(swatch(colour, say(f"planes.regimes.{name}"))
+                          for colour, name in [*REGIMES.values(), (STOPPED, "ended")])  # fmt: skip
+        return card(
+            say("planes.cards.times"),
+            words(f'<div class="key">{planes}</div>'),
+            *(row(say(f"planes.quantities.{name}"), figures[name], 96) for name in QUANTITIES),
+            words(f'<div class="key" style="margin-top: 6px">{say("planes.keys.ledger")}{ledger}</div>'),
+            row(say("planes.keys.energy"), figures["ledger"], 190),
+            words(f'<div class="key" style="margin-top: 6px">{regimes}</div>'),
+            row("", figures["regime"], 56),
+            words(f'<div class="axis">{say("planes.keys.time")}</div>'),
+            height="max-content",
+        )
+
+    # ---- what is shown ----
+
+    def _wait(self, _event):
+        """A run under way is looked at now and then, and shown where it takes long."""
+        if self._planes.busy and self._poll is None:
+            self._poll = pn.state.add_periodic_callback(self._look_at_run, period=POLL)
+        elif not self._planes.busy and self._poll is not None:
+            self._poll.stop()
+            self._poll = None
+            self._progress.visible = False
+
+    def _look_at_run(self):
+        planes = self._planes
+        if planes.elapsed > PATIENCE or self._progress.visible:
+            self._show_progress(100 * planes.share)
+            self._progress.visible = True
+
+    def _show_progress(self, percent):
+        self._bar.object = progress(percent, say("planes.run.progress"))
+
+    def _arrange(self):
+        """Which controls there are for this way to start and this law."""
+        planes = self._planes
+        self._starts.visible = planes.by == "spin"
+        for law, numbers in self._numbers.items():
+            numbers.visible = planes.law == law
+
+    def _show(self):
+        planes, picture = self._planes, self._planes.picture
+        settings, messages = picture.settings, picture.messages
+        with pn.io.hold():
+            self._arrange()
+            if not planes.busy:
+                for name, control in self._controls.items():
+                    value = getattr(planes, name)
+                    control.show(value, value, self._note(name, picture), messages.get(name))
+            for name, said in self._said.items():
+                said.object = alert(messages.get(name, "")) or {
+                    "stem": stem_words(settings), "by": self._start_words(picture)}.get(name, "")  # fmt: skip
+            self._stem.disabled = settings.shape is None or settings.shape.touch_angle is None
+            self._verdict.object = verdict_words(picture)
+            if self._shown is not settings:
+                self._figures.show(picture)
+                self._map.show(settings.top)
+                self._table.object = table_words(picture)
+                self._tempo(settings)
+                self._shown = settings
+                self._look()
+
+    _shown = _paced = None
+
+    def _tempo(self, settings):
+        """A speed at which the motion can be watched, when its length is new."""
+        if self._paced != settings.seconds:
+            self._paced, speed = settings.seconds, 1.0
+            while settings.seconds / speed < SHORTEST_SHOW and speed > SLOWEST:
+                speed /= 2
+            self._set_speed(speed)
+
+    def _look(self):
+        """At the plane, or the planes, that are chosen."""
+        picture, plane = self._planes.picture, self._planes.plane
+        if picture is None:
+            return
+        compare = plane == "compare"
+        with pn.io.hold():
+            self._stage.styles = self._stage.styles | {"grid-column": "1 / -1" if compare else "auto"}
+            self._times.styles = self._times.styles | {"grid-row": "span 2" if compare else "auto"}
+            columns = "repeat(auto-fit, minmax(min(100%, 280px), 1fr))" if compare else "1fr"
+            self._row.styles = self._row.styles | {"grid-template-columns": columns}
+            for name, top in self._tops.items():
+                top.visible = plane in (name, "compare")
+                top.height = 330 if compare else 420
+                top.stylesheets = SMALL_BAR if compare else []
+                if top.visible:
+                    self._show_top(top, picture, name)
+            # a picture in 3-D is made when it is first looked at
+            row = [top for top in self._tops.values() if top.visible or top in self._row.objects]
+            if row != self._row.objects:
+                self._row.objects = row
+            self._force.object = say("planes.force.said", law=in_force(picture, plane))
+            self._table.visible = compare
+            self._figures.look(picture, plane)
+            self._well.show(picture, plane)
+
+    def _show_top(self, top, picture, plane):
+        motion = picture.motions[plane]
+        if top.shown is picture.settings:
+            return
+        settings = top.shown = picture.settings
+        top.param.update(
+            profile=pack(settings.profile),
+            seconds=settings.scales.time,
+            a=settings.top.a,
+            frames=pack_frames(*motion.frames) if motion else b"",
+        )
+
+    def _start_words(self, picture):
+        state, scales = picture.state, picture.settings.scales
+        if picture.settings.rolling is None:
+            return ""
+        turns = state.omega3 * scales.angular_velocity / (2 * np.pi)
+        return note(say("planes.notes.start", tilt=degrees(state.theta), spin=turns))
+
+    @staticmethod
+    def _note(name, picture):
+        state, scales, top = picture.state, picture.settings.scales, picture.settings.top
+        if name == "spin":
+            limits = picture.outcome.thresholds
+            unit = scales.angular_velocity / (2 * np.pi)
+            holds = {f"upright_{limits.upright.stable}": limits.upright.spin, "inverted_above": limits.launch}
+            says = [say(f"planes.notes.{which}", spin=spin * unit) for which, spin in holds.items()
+                    if np.isfinite(spin)]  # fmt: skip
+            return say("planes.notes.spins", stable="; ".join(says)) if says else ""
+        if name == "slip":
+            s, c = np.sin(state.theta), np.cos(state.theta)
+            ux = state.vx - (state.omega2 * (c - top.a) - state.omega3 * s)
+            uy = state.vy + state.theta_dot * (1 - top.a * c)
+            return say("planes.notes.slip", speed=100 * scales.velocity * np.hypot(ux, uy))
+        if name == "eps":
+            return say("planes.notes.eps", speed=100 * scales.velocity * picture.settings.eps)
+        if name == "gamma":
+            return say("planes.notes.gamma", gamma=picture.settings.gamma / scales.velocity)
+        return ""

@@ -1,0 +1,326 @@
+"""What is said of a Picture of the three planes: every sentence of a motion is read from that motion's own result."""
+
+import html
+from itertools import groupby
+
+import numpy as np
+
+from app.model.colours import COLOURS
+from app.model.planes import LIFTS, PLANES, RTOL, SHORT, THROWN
+from app.text import listed, say
+from app.widgets.cards import swatch
+
+# A plane's own colour, the same in all pictures of this tab.
+LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": COLOURS["friction"]}
+SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
+# Below this a drift is that of the computation; what physics changes changes by more.
+ROUNDING = 1e-7
+# So many spells on ball, stem or both are told one by one. A tilt whose least and largest change by less than STEADY
+# (rad) between the last two fifths of the time neither rises nor falls.
+MOST_SPELLS, STEADY = 5, np.radians(0.5)
+# SHARE of the tilt, or of what it swings, counts as a change where the tilt is small. A tilt that stays within STILL
+# (rad) has not left its balance; upright is what is within NEAR_UPRIGHT (rad).
+SHARE, STILL, NEAR_UPRIGHT = 0.1, 1e-6, np.radians(2)
+# What has less energy of motion (MgR) lies; what begins before AT_ONCE (s) begins at 0.00 s.
+AT_REST, AT_ONCE = 1e-6, 0.005
+# A nudge of the start that grows so many times makes of the tenth of a degree that no hand holds ten degrees.
+SCATTERS, HAND = 100.0, 0.1
+
+
+def power(value):
+    """A small number as 3·10⁻¹³."""
+    mantissa, exponent = f"{max(value, 1e-16):.0e}".split("e")
+    return f"{mantissa}·10<sup>{int(exponent)}</sup>".replace("-", "−")
+
+
+def degrees(value):
+    return f"{np.degrees(value):.1f}°"
+
+
+def milliseconds(seconds):
+    return f"{max(1e3 * seconds, 0.01):.2g}"
+
+
+def in_force(picture, plane):
+    """The friction law in force, with its numbers."""
+    law, velocity, kind = picture.friction, picture.settings.scales.velocity, picture.settings.law
+    if plane in ("rough", "smooth"):
+        return say(f"planes.force.{plane}")
+    if kind == "coulomb":
+        return say("planes.force.coulomb", mu_k=law.mu_k, mu_s=law.mu_s)
+    if kind == "viscous":
+        return say("planes.force.viscous" if law.gamma else "planes.force.none", gamma=law.gamma,
+                   si=law.gamma / velocity)  # fmt: skip
+    return say("planes.force.smoothed", mu=law.mu, speed=100 * law.eps * velocity)
+
+
+def part(settings):
+    """What touches beside the ball."""
+    return say(f"planes.parts.{settings.part}")
+
+
+def happens(event, settings):
+    return say(f"planes.events.{event}", part=part(settings))
+
+
+def _frictionless(picture):
+    return picture.settings.law == "viscous" and picture.friction.gamma == 0
+
+
+# ---- what became of the top ----
+
+
+def fate(picture, plane):
+    """What became of the top on a plane, in a few sentences."""
+    motion = picture.motions[plane]
+    if motion is None:
+        return html.escape(picture.messages.get(plane, say("planes.fate.nothing")))
+    if plane == "sliding":
+        return " ".join(filter(None, (_where(picture, motion), _touched(picture, motion), _goes_on(picture, motion))))
+    theta, last = motion.trajectory.theta, motion.trajectory.t[-1] * picture.settings.scales.time
+    low, high = degrees(theta.min()), degrees(theta.max())
+    between = say("planes.fate.stays" if low == high else "planes.fate.between", low=low, high=high)
+    lifts = say("planes.fate.lifts", time=last) if motion.ended == "lifts off" else ""
+    if motion.ended == "stem touches":
+        lifts = say("planes.fate.touches", time=motion.alone[0] * picture.settings.scales.time,
+                    part=part(picture.settings))  # fmt: skip
+    elif plane == "rough" and any(which == LIFTS for *_, which in motion.stretches):
+        lifts = say("planes.fate.pulls")
+    return say(f"planes.fate.{plane}", between=between, lifts=lifts)
+
+
+def became(picture, motion):
+    """The key in planes.toml of what became of it on the sliding plane."""
+    found, theta, a = motion.ending, motion.trajectory.theta, picture.settings.top.a
+    if found.flat:
+        return "flat"
+    if found.ended:
+        return "refused"
+    if picture.outcome.nudged and np.ptp(theta) < STILL and all(each.on == "ball" for each in found.stretches):
+        return "balances"
+    if found.on == "ball" and np.all(motion.trajectory.regime[motion.trajectory.t >= found.since] == "roll"):
+        return "rolls"
+    if found.end == "upright" and (found.most > NEAR_UPRIGHT or _trend(motion) == "rises"):
+        return "leaning" if found.settled or _trend(motion) == "takes" else "moving"
+    if found.end == "upright":
+        return "upright" if theta[0] < np.pi / 2 else "comes"
+    if found.end == "inverted":
+        return "inverted" if theta[0] > np.pi / 2 else "turns" if a >= 0 else "falls"
+    if found.end == "leaning" and found.on == "both":
+        return "both"
+    return found.end
+
+
+def _where(picture, motion):
+    """Where it is at the end, and when it passed a right angle."""
+    moved, found, seconds = motion.trajectory, motion.ending, picture.settings.scales.time
+    at_the_end = say("planes.fate.end", tilt=degrees(moved.theta[-1]), time=moved.t[-1] * seconds)
+    if degrees(found.least) != degrees(found.most):
+        at_the_end += say("planes.fate.range", low=degrees(found.least), high=degrees(found.most))
+    times = motion.crossings * seconds
+    if len(times):
+        way = "past" if motion.starts_below else "below"
+        key = way if len(times) == 1 else f"{way}_at_last" if len(times) % 2 else f"{way}_and_back"
+        at_the_end += say(f"planes.fate.{key}", first=times[0], last=times[-1])
+    return say("planes.fate.said", became=say(f"planes.became.{became(picture, motion)}",
+               part=part(picture.settings)), end=at_the_end)  # fmt: skip
+
+
+def spells(motion, seconds):
+    """What it stood on, in s: (start, end, on), and for three or more in turn that are shorter than SHORT (start, end,
+    on what first, how long that, how many more, the longest of all)."""
+    found = [(s.start * seconds, s.end * seconds, s.on) for s in motion.ending.stretches]
+    told = []
+    for short, group in groupby(found, key=lambda spell: spell[1] - spell[0] < SHORT):
+        group = list(group)
+        if short and len(group) > 2:
+            (start, end, on), longest = group[0], max(end - start for start, end, _ in group)
+            told.append((start, group[-1][1], on, end - start, len(group) - 1, longest))
+        else:
+            told += group
+    return told
+
+
+def _touched(picture, motion):
+    """On what it stood, from when to when."""
+    told = spells(motion, picture.settings.scales.time)
+    if len(motion.trajectory.t) == 1:
+        return ""
+    if len(told) == 1 and len(told[0]) == 3:
+        whole = picture.settings.edge is None and told[0][2] == "ball"
+        return "" if whole else say(f"planes.spells.only.{told[0][2]}", part=part(picture.settings))
+    said = [_spell(spell, "first" if k == 0 else "last" if k == len(told) - 1 else "then", part(picture.settings))
+            for k, spell in enumerate(told)]  # fmt: skip
+    if motion.alone[1] == THROWN:
+        said[0] += say("planes.spells.thrown", part=part(picture.settings))
+    left_out = len(told) - MOST_SPELLS
+    if left_out > 1:
+        said[3 : 3 + left_out] = [say("planes.spells.between", end=told[2 + left_out][1])]
+    return say("planes.spells.said", spells=say("planes.spells.comma").join(said))
+
+
+def _spell(spell, place, second):
+    start, end, which, *in_turn = spell
+    on = say(f"planes.spells.on.{which}", part=second)
+    if not in_turn and end - start >= SHORT:
+        if place == "last" and start < AT_ONCE:
+            place = "at_once"
+        return say(f"planes.spells.{place}", start=start, end=end, on=on)
+    length, *others = in_turn or [end - start]
+    said = say(f"planes.spells.short{'_first' if place == 'first' else ''}", length=milliseconds(length), on=on)
+    if others:
+        said += say("planes.spells.comma") + say("planes.spells.more", number=others[0], end=end,
+                                                 longest=milliseconds(others[1]))  # fmt: skip
+    return said
+
+
+def _goes_on(picture, motion):
+    """Whether it still changes, or what ended it."""
+    found, moved, seconds = motion.ending, motion.trajectory, picture.settings.scales.time
+    kind = became(picture, motion)
+    if kind in ("balances", "flat"):
+        return say(f"planes.goes_on.{kind}", part=part(picture.settings))
+    if found.ended:
+        time = motion.trajectory.events[-1][0] * seconds
+        return say("planes.goes_on.ended", time=time, happens=happens(motion.ended, picture.settings))
+    if kind == "rolls":
+        since = moved.events[-1][0] if moved.events else moved.t[0]  # what falls between two samples ends it too
+        theta = moved.theta[moved.t >= since]
+        if not found.settled:
+            return say("planes.goes_on.rolls_yet", since=since * seconds)
+        return say("planes.goes_on.rolls", since=since * seconds, low=degrees(theta.min()), high=degrees(theta.max()))
+    if _frictionless(picture):
+        return ""
+    if found.settled:
+        low, high = degrees(found.least), degrees(found.most)
+        moves = moved.ledger.kinetic[-1]
+        how = ("rest" if moves < AT_REST else "both" if kind == "both" else "creeps" if found.creeps else
+               "else" if low == high else "sways")  # fmt: skip
+        return say(f"planes.goes_on.settled.{how}", low=low, high=high)
+    return say("planes.goes_on.cut", seconds=picture.settings.seconds, how=say(f"planes.goes_on.{_trend(motion)}"))
+
+
+def _trend(motion):
+    """Whether its tilt "rises" or "falls" in the last two fifths of the time, more than it swings; or only "takes"."""
+    moved = motion.trajectory
+    last = moved.t >= moved.t[-1] - 0.4 * (moved.t[-1] - moved.t[0])
+    early, late = np.array_split(moved.theta[last], 2)
+    least = min(STEADY, SHARE * moved.theta[last].max())
+    drifts = late.min() - early.min(), late.max() - early.max()
+    if abs(late.mean() - early.mean()) < SHARE * np.ptp(moved.theta[last]):
+        return "takes"
+    return "rises" if min(drifts) > least else "falls" if max(drifts) < -least else "takes"
+
+
+# ---- what friction does to the ball alone, and how much a run can tell ----
+
+
+def outcome_words(goes, scales):
+    """tippe_core's sentence of an Outcome, in the page's language."""
+    limits, unit = goes.thresholds, scales.angular_velocity / (2 * np.pi)
+
+    def spin(value):
+        return say("planes.outcome.spin", spin=abs(value) * unit)
+
+    upright = say(f"planes.outcome.upright.{limits.upright.stable}", spin=spin(limits.upright.spin))
+    inverted = say(f"planes.outcome.inverted.{limits.inverted.stable}", spin=spin(limits.launch))
+    reason = upright
+    if limits.group == "neutral":
+        reason = say("planes.outcome.neutral")
+    elif limits.group in ("never rises", "can invert", "rises part of the way"):
+        reason = say("planes.outcome.both", upright=upright, inverted=inverted)
+    will = listed("planes.outcome.will")[goes.nudged or goes.verdict].format(tilt=np.degrees(goes.theta))
+    return say(f"planes.outcome.{'nudged' if goes.nudged else 'sentence'}", spin=spin(goes.launch), will=will,
+               reason=reason, doubt="" if goes.certain else say("planes.outcome.doubt"))  # fmt: skip
+
+
+def ball_words(picture):
+    """What friction would do to the ball alone, and how far that holds for this run."""
+    settings, sliding = picture.settings, picture.motions["sliding"]
+    if _frictionless(picture):
+        heat = sliding.trajectory.heat[-1] if sliding else 0.0
+        if heat > ROUNDING:
+            return say("planes.verdict.impacts", heat=heat)
+        return "" if sliding and sliding.ended else say("planes.verdict.forever")
+    says = say("planes.verdict.ball" if settings.edge else "planes.verdict.whole",
+               sentence=html.escape(outcome_words(picture.outcome, settings.scales)), part=part(settings))  # fmt: skip
+    if settings.edge is None or sliding is None:
+        return says
+    until, event, _ = sliding.alone
+    touched = until if event == THROWN else next(
+        (s.start for s in sliding.ending.stretches if s.on in ("stem", "both")), None)  # fmt: skip
+    if touched is None:
+        return says + say("planes.verdict.clear", angle=degrees(settings.shape.touch_angle), part=part(settings))
+    if touched == sliding.trajectory.t[0]:
+        return says + say("planes.verdict.never", part=part(settings))
+    void = "void" if sliding.drift["J"] > ROUNDING else "void_alone"  # without spin it was 0 and is
+    return says + say(f"planes.verdict.{void}", time=touched * settings.scales.time, drift=100 * sliding.drift["J"],
+                      part=part(settings))  # fmt: skip
+
+
+def scatter_words(picture):
+    """What the run beside the run tells, where that is much."""
+    growth = picture.growth
+    if growth is None or growth < SCATTERS:
+        return ""
+    return say("planes.verdict.scatters", growth=f"{growth:.0e}" if growth >= 1e4 else f"{growth:.2g}", hand=HAND)
+
+
+def run_words(picture):
+    """What the sliding run is a run of: who quotes it needs all of that."""
+    settings, state = picture.settings, picture.state
+    touches = "stem" if settings.edge else "ball"
+    start = "start" if settings.rolling is None else "rolling"
+    turns = state.omega3 * settings.scales.angular_velocity / (2 * np.pi)
+    return say("planes.run.of", a=settings.top.a, I1=settings.top.I1, I3=settings.top.I3,
+               body=say(f"planes.run.{touches}", part=part(settings)), rtol=power(RTOL),
+               law=in_force(picture, "sliding"),
+               start=say(f"planes.run.{start}", tilt=degrees(state.theta), spin=turns, slip=settings.slip))  # fmt: skip
+
+
+def verdict_words(picture):
+    lines = [f'<div class="line">{swatch(LOOKS[plane], "")}<b>{say(f"planes.plane.{plane}")}</b>: '
+             f"{fate(picture, plane)}</div>" for plane in PLANES]  # fmt: skip
+    return (
+        "".join(lines)
+        + f'<div class="says">{ball_words(picture)}{scatter_words(picture)}</div>'
+        + (f'<div class="key says">{run_words(picture)}</div>')
+    )
+
+
+# ---- what stays ----
+
+
+def table_words(picture):
+    """What stays on each plane: the measured drift."""
+    head = "".join(f"<th>{swatch(LOOKS[plane], say(f'planes.plane.{plane}'))}</th>" for plane in PLANES)
+    rows = []
+    for name in SURVIVES:
+        cells = []
+        for plane in PLANES:
+            motion = picture.motions[plane]
+            cells.append(f"<td>{drift_words(name, motion, picture) if motion else say('planes.drift.nothing')}</td>")
+        rows.append(f"<tr><td>{say(f'planes.survives.{name}')}</td>{''.join(cells)}</tr>")
+    return (f"<table><tr><th>{say('planes.drift.measured')}</th>{head}</tr>{''.join(rows)}</table>"
+            f'<div class="key">{say("planes.drift.of")}</div>')  # fmt: skip
+
+
+def drift_words(name, motion, picture):
+    drift, (until, event, alone) = motion.drift[name], motion.alone
+    if drift < ROUNDING:
+        return f'<span class="kept">{say("planes.drift.stays", power=power(drift))}</span>'
+    changes = say("planes.drift.changes", size=f"{100 * drift:.3g} %" if drift > 1e-3 else power(drift))
+    if name == "J" and event and alone < ROUNDING:
+        settings = picture.settings
+        then = say("planes.drift.then", time=until * settings.scales.time, happens=happens(event, settings),
+                   changes=changes)  # fmt: skip
+        return f'<span class="kept">{say("planes.drift.stays", power=power(alone))}</span>{then}'
+    return changes
+
+
+def stem_words(settings):
+    if settings.shape is None:
+        return say("planes.stem.apart")
+    angle = settings.shape.touch_angle
+    return say("planes.stem.never") if angle is None else say("planes.stem.past", angle=degrees(angle),
+                                                                         part=part(settings))  # fmt: skip

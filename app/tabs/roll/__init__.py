@@ -1,0 +1,1 @@
+"""Roll: a top that rolls without slipping."""

@@ -1,0 +1,35 @@
+"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included; words."""
+
+from pathlib import Path
+
+import numpy as np
+import param
+from panel.custom import JSComponent
+
+from app.text import listed
+
+
+def pack(values):
+    """The float32 bytes, row by row, that the array parameters of components take."""
+    return np.asarray(values, "<f4").tobytes()
+
+
+class Bundled(JSComponent):
+    """A component whose JavaScript is in the bundle; one base class, so that a page loads the bundle once."""
+
+    texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")
+    SAYS = ()  # the tables of its words, beside the one of its own name
+    shown = None  # what was last put into it; for those who would put it there again
+
+    _bundle = Path(__file__).parents[1] / "static" / "tippe.js"
+
+    def __init__(self, **params):
+        super().__init__(**({"texts": self.says()} | params))
+
+    @classmethod
+    def says(cls, language=None):
+        """Its texts in a language, the page's own where none is given."""
+        known, texts = listed("browser", language), {}
+        for name in (*cls.SAYS, cls.__name__):
+            texts |= known.get(name, {})
+        return texts

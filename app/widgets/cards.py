@@ -1,0 +1,133 @@
+"""The page's building blocks: cards, words in the page's own type, a grid that fits a phone."""
+
+import html
+
+import panel as pn
+import panel_material_ui as pmui
+
+PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
+LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light and on dark
+UNSEEN_LABEL = {
+    "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
+                             "clipPath": "inset(50%)"},
+    "& legend": {"display": "none"},
+    "& fieldset": {"top": 0},
+}  # fmt: skip
+FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
+# Two rows fill a screen; a phone, where the rows of buttons wrap, needs more.
+HEIGHT_OF_A_CARD = (
+    "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
+)
+# A name, a note, and what is wrong, wherever they stand.
+NOTES = """
+.name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
+.name sub { font-size: 0.8em } .note { color: var(--faint, #5b6875) } .alert { color: var(--alert, #b3261e);
+  font-weight: 500 } .note i, .note sub { font-family: Georgia, serif } .note sub { font-size: 0.75em; line-height: 0 }
+.name[title], .note [title] { cursor: help }
+"""
+TYPE = """
+:host { font: calc(13px * var(--type, 1))/1.4 system-ui, sans-serif; color: var(--ink, #22303c) }
+h2 { font-size: calc(15px * var(--type, 1)); margin: 0; font-weight: 600 }
+i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 } i { font-size: 1.1em }
+.key { color: var(--faint, #5b6875) } .key span { white-space: nowrap } [title] { cursor: help }
+.axis { text-align: center } b { font-weight: 600 }
+.quantity { font-size: calc(14px * var(--type, 1)); text-align: right }
+.swatch { display: inline-block; width: 18px; border-top: 3px solid; margin: 0 4px 0 10px; vertical-align: middle }
+a, summary { color: LINK } summary { cursor: pointer; padding: 4px 0 } li > a { display: inline-block; padding: 5px 0 }
+""".replace("LINK", LINK) + NOTES  # fmt: skip
+BUTTON = {"size": "small", "variant": "outlined", "margin": 0, "sx": {"textTransform": "none"}}
+
+
+def px(size):
+    """A size of type in CSS, larger for a projector."""
+    return f"calc({size}px * var(--type, 1))"
+
+
+def words(text="", style="", **options):
+    """style: CSS of its own, beyond the page's."""
+    return pn.pane.HTML(text, stylesheets=[TYPE + style], **({"sizing_mode": "stretch_width", "margin": 0} | options))
+
+
+def alert(text):
+    """Plain text that says what is wrong."""
+    return f'<div class="alert" role="alert">{html.escape(text)}</div>' if text else ""
+
+
+def note(text):
+    return f'<div class="note">{text}</div>' if text else ""
+
+
+def on_click(button, act):
+    """Calls act(event) when the button is clicked; all that it changes on the page is sent as one message.
+
+    (Panel may call it without the document's lock, and then refuses what changes a figure.)
+    """
+
+    def clicked(event):
+        with pn.io.hold():
+            act(event)
+
+    button.on_click(clicked)
+
+
+def progress(percent, says):
+    """A bar, filled so far; says: of what, for the ear."""
+    style = "width: 100%; accent-color: #0072B2"
+    return f'<progress max="100" value="{percent:.0f}" aria-label="{says}" style="{style}"></progress>'
+
+
+def swatch(colour, text, style="solid"):
+    return f'<span><span class="swatch" style="border-color: {colour}; border-top-style: {style}"></span>{text}</span>'
+
+
+def card(title, *content, height=HEIGHT_OF_A_CARD):
+    return pn.Column(
+        words(f"<h2>{title}</h2>"),
+        *content,
+        sizing_mode="stretch_width",
+        margin=0,
+        styles={
+            "background": "var(--card, white)",
+            "border-radius": "10px",
+            "padding": "10px 14px",
+            "height": height,
+            "box-shadow": "0 1px 3px rgb(34 48 60 / 18%)",
+            "box-sizing": "border-box",
+            "overflow": "hidden",
+        },
+    )
+
+
+def flow(*content, margin=(6, 0)):
+    """In a row, as far as there is room."""
+    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center"}
+    return pn.Column(*content, sizing_mode="stretch_width", margin=margin, styles=styles)
+
+
+def section(title):
+    return words(f"<h2>{title}</h2>", margin=(14, 16, 0, 16))
+
+
+def grid(*cards, narrowest=480):
+    """Cards side by side where there is room for it."""
+    return pn.Column(
+        *cards,
+        sizing_mode="stretch_width",
+        margin=0,
+        styles={
+            "display": "grid",
+            "grid-template-columns": f"repeat(auto-fit, minmax(min(100%, {narrowest}px), 1fr))",
+            "gap": "12px",
+            "padding": "12px",
+        },
+    )
+
+
+def field(value, label, **options):
+    """label: for the ear; beside it stands the same to be seen."""
+    options = {"width": 84, "margin": 0} | options
+    return pmui.TextInput(value=value, label=label, size="small", sx=FIELD | UNSEEN_LABEL, **options)
+
+
+def beside(label, entry):
+    return pn.Row(words(label, sizing_mode=None, margin=(5, 4, 0, 0)), entry, margin=0)

@@ -1,0 +1,300 @@
+"""The controls beside the pictures: a slider a number to type, and the sentence when it cannot be."""
+
+import html
+import math
+
+import panel as pn
+import panel_material_ui as pmui
+import param
+
+from app.model.explorer import Explorer
+from app.state import asked
+from app.text import listed, say
+from app.widgets.bundle import Bundled
+from app.widgets.cards import NOTES, PLAIN, alert, note
+from app.widgets.pacing import at_once
+from tippe_core import Top
+
+STYLE = """
+:host { font: calc(13px * var(--type, 1))/1.35 system-ui, sans-serif; color: var(--ink, #22303c); }
+""" + NOTES  # fmt: skip
+
+SYMBOLS = {
+    "K_J": "<i>K</i><sub>J</sub>",
+    "K_R": "<i>K</i><sub>R</sub>",
+    "mu_s": "<i>μ</i><sub>s</sub>",
+    "energy": "<i>E</i>",
+    "a": "<i>a</i>",
+    "I1": "<i>I</i><sub>1</sub>",
+    "I3": "<i>I</i><sub>3</sub>",
+    "theta": "<i>θ</i>",
+    "theta_dot": "<i>θ̇</i>",
+    "omega2": "<i>ω</i><sub>2′</sub>",
+    "omega3": "<i>ω</i><sub>3</sub>",
+    "spin": "<i>ω</i><sub>3</sub>",
+    "tilt": "<i>θ</i>",
+    "slip": "<i>u</i>",
+    "seconds": "<i>t</i>",
+    "mu_k": "<i>μ</i><sub>k</sub>",
+    "mu": "<i>μ</i>",
+    "eps": "<i>ε</i>",
+    "gamma": "<i>γ</i>",
+    "normal": "<i>F</i><sub>z</sub>",
+    "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
+    "height": "<i>f</i><sub>1</sub><sup>2</sup>&hairsp;<i>θ̇</i>&hairsp;<sup>2</sup>",
+    "angle": "<i>θ</i>",
+    "time": "<i>t</i>",
+}
+SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
+# start, end and step of each slider; a typed number may lie outside.
+RANGES = {
+    "K_J": (0, 9, 0.01),
+    "K_R": (-20, 20, 0.05),
+    "mu_s": (0, 1.5, 0.005),
+    "energy": (0, 2.2, 0.005),
+    "a": (-2, 0.5, 0.005),
+    "I1": (0.05, 2, 0.001),
+    "I3": (0.05, 2, 0.001),
+    "theta": (0, math.pi, 0.005),
+    "theta_dot": (-8, 8, 0.02),
+    "omega2": (-8, 8, 0.02),
+    "omega3": (-16, 16, 0.05),
+    "spin": (0, 40, 0.1),
+    "tilt": (0, 180, 0.5),
+    "slip": (0, 1, 0.01),
+    "seconds": (0.5, 30, 0.5),
+    "mu_k": (0.01, 1, 0.005),
+    "mu": (0.01, 1, 0.005),
+    "eps": (0.01, 1, 0.005),
+    "gamma": (0, 2, 0.01),
+}
+# Lines of words below, kept free so that nothing moves while a hand is on a slider.
+LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
+FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
+
+
+def number(value):
+    return f"{value:.6g}".replace("-", "−")
+
+
+def named(name):
+    """A symbol, with its word on hover."""
+    return f'<span title="{html.escape(say(f"controls.hints.{name}"))}">{SYMBOLS[name]}</span>'
+
+
+def worst(scene):
+    """What the motion does, in the words of its worst instant."""
+    return listed("controls.worst")[int(scene.regime.max())]
+
+
+class Dial(Bundled):
+    """A control in the browser: a name, a slider, a number to type, and words below.
+
+    `told` is Python's alone and `asked` the browser's alone, so neither can come back as the other's wish. The browser
+    counts what it asks; what it is told is for the last it had asked then, and is passed over where it has asked since.
+    """
+
+    input = param.String(constant=True, doc="Which input it is of.")
+    title = param.String(constant=True, doc="Its symbol and name, as HTML.")
+    hint = param.String(constant=True, doc="What it is, shown on hover.")
+    spoken = param.String(constant=True, doc="Its name in plain words.")
+    unit = param.String(constant=True, doc="Its unit in plain words.")
+    marks = param.List(constant=True, doc="[value, word] of the places on the slider that have a name.")
+    lines = param.Integer(default=0, constant=True, doc="Lines kept free for the words.")
+    step = param.Number(default=0.01, constant=True, doc="Of the slider and of the arrow keys.")
+    start = param.Number(default=0.0, doc="Of the slider.")
+    end = param.Number(default=1.0, doc="Of the slider.")
+    told = param.List(default=[0, 0.0, "0"], doc="[count, value, text]: for the slider and for the entry.")
+    asked = param.List(default=[], doc="[count, number or text, whether it was typed].")
+    words = param.String(default="", doc="HTML.")
+    wrong = param.Boolean(default=False, doc="Whether what was typed cannot be.")
+
+
+def wording(words, wrong=False):
+    """Of a Dial: words are HTML; plain text where something is wrong."""
+    return {"wrong": wrong, "words": alert(words) if wrong else note(words)}
+
+
+def asked_of(sent):
+    """(count, number or text, whether it was typed) of what a Dial's browser asks."""
+    count, wish, typed = asked.parts(sent, asked.number, asked.anything, bool)
+    return int(count), asked.text(wish) if typed else asked.number(wish), typed
+
+
+def typed_number(text):
+    """What somebody typed; raises ValueError."""
+    value = float(text.replace("−", "-").replace(",", "."))
+    if not math.isfinite(value):
+        raise ValueError
+    return value
+
+
+class Control:
+    """One input of a view-model. request: a function of its name and the number that is wanted, and typed=True where
+    that was typed."""
+
+    def __init__(self, name, value, request):
+        self.name, self._request, self._heard, self._shown = name, request, 0, number(value)
+        self._unread = False  # whether the last that was typed is no number
+        self._stands = None  # what show() was last asked for, as long as it stands
+        start, end, step = RANGES[name]
+        spoken, unit = listed(f"controls.spoken.{name}")
+        self.view = Dial(
+            input=name,
+            title=f"{SYMBOLS[name]}&ensp;{say(f'controls.names.{name}')}",
+            hint=say(f"controls.hints.{name}"),
+            spoken=spoken,
+            unit=unit,
+            marks=[list(mark) for mark in enumerate(listed("controls.marks"))] if name == "energy" else [],
+            lines=LINES.get(name, 0),
+            step=step,
+            start=start,
+            end=end,
+            told=[0, value, self._shown],
+            sizing_mode="stretch_width",
+            margin=(0, 14, 8, 16),
+        )
+        at_once(self.view, "asked")
+        self.view.param.watch(asked.heard(self._asked), "asked")
+
+    def _asked(self, event):
+        self._heard, wish, typed = asked_of(event.new)
+        self._unread = False
+        if not typed:
+            self._request(self.name, wish)
+            return
+        try:
+            value = typed_number(wish)
+        except ValueError:
+            self._unread = True
+            self._say(say("controls.not_a_number", text=wish, shown=self._shown), wrong=True)
+            return
+        self._request(self.name, value, typed=True)
+
+    def show(self, value, shown, note, message, bounds=None):
+        """value: the input as it was solved; shown: the number for the field; bounds of the slider, RANGES if none.
+        A message stands in the note's place, and then the field keeps what was typed. So does what was said of text
+        that is no number, until the value is another."""
+        if self._unread and (message or number(shown) == self._shown):
+            return
+        wanted = (self._heard, value, shown, note, message, bounds)
+        if wanted == self._stands:
+            return
+        self._unread = False
+        if message:
+            self._say(message, wrong=True)
+            return
+        self.follow(value, shown, bounds, **wording(note))
+        self._stands = wanted
+
+    def follow(self, value, shown, bounds=None, **more):
+        """The slider and the number go where the value is. more: of the Dial's, at the same time."""
+        low, high = bounds or RANGES[self.name][:2]
+        self._shown, self._stands = number(shown), None
+        told = [self._heard, float(value), self._shown]
+        self.view.param.update(start=float(low), end=float(high), told=told, **more)
+
+    def _say(self, words, wrong=False):
+        self._stands = None
+        self.view.param.update(**wording(words, wrong))
+
+
+class Controls:
+    """All of them, wired to a Pacer's requests. motion: the sliders of both faces of the motion, and their switch."""
+
+    def __init__(self, explorer, pacer):
+        self._explorer, self._pacer = explorer, pacer
+        self._asked = None  # the control that was used last: there it is said if what follows from it cannot be
+        names = (*Explorer.INPUTS, *FACES["state"])
+        self._controls = {name: Control(name, getattr(explorer, name), self._request) for name in names}
+        self._other = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=(2, 14, 0, 16),
+                                   styles={"min-height": "calc(35px * var(--type, 1))"})  # fmt: skip
+        switch = pmui.RadioButtonGroup.from_param(
+            explorer.param.face,
+            label="",
+            options={say(f"controls.faces.{face}"): face for face in FACES},
+            size="small",
+            margin=(6, 16, 2, 16),
+            sx=PLAIN,
+        )
+        faces = {face: pn.Column(sizing_mode="stretch_width", margin=0) for face in FACES}
+
+        def turn(*events):
+            for face, column in faces.items():
+                column.visible = face == explorer.face
+                if column.visible and not column.objects:
+                    column.objects = self.views(*FACES[face])
+            self.show(explorer.scene)
+
+        explorer.param.watch(lambda event: pacer.soon(turn), "face")
+        turn()
+        self.motion = [switch, *faces.values(), self._other]
+
+    def _request(self, name, value, typed=False):
+        self._asked = name
+        if name in FACES["state"]:
+            self._pacer.request(**{name: value}, given="state")
+        elif name == "energy" and typed:
+            self._pacer.request(E=value, given="E")
+        elif name in FACES["constants"]:
+            self._pacer.request(**{name: value}, given="share")
+        else:
+            self._pacer.request(**{name: value})
+
+    def views(self, *names):
+        return [self._controls[name].view for name in names]
+
+    def show(self, scene):
+        """On all controls but those of the face that is not looked at."""
+        notes = self._notes(scene)
+        hidden = {name for face, names in FACES.items() if face != self._explorer.face for name in names}
+        near = FACES[self._explorer.face][0] if self._asked in {None, *hidden} else self._asked
+        messages = {near if name in hidden else name: said for name, said in scene.messages.items()}
+        for name, control in self._controls.items():
+            if name in hidden:
+                continue
+            value = getattr(self._explorer, name)
+            shown = scene.constants.E if name == "energy" else value
+            bounds = scene.plane.K_J_range if name == "K_J" else None
+            control.show(value, shown, notes.get(name, ""), messages.get(name), bounds)
+        self._other.object = self._other_face(scene)
+
+    def follow(self, scene):
+        """What a hand on a picture moves, at once."""
+        self._controls["K_J"].follow(scene.constants.K_J, scene.constants.K_J, scene.plane.K_J_range)
+        self._controls["energy"].follow(scene.share, scene.constants.E)
+
+    def _other_face(self, scene):
+        """The face that is not on the sliders."""
+        other = "state" if self._explorer.face == "constants" else "constants"
+        if other == "state":
+            values = {name: getattr(scene.state, name) for name in FACES["state"]}
+        else:
+            constants = scene.constants
+            values = {"K_J": constants.K_J, "K_R": constants.K_R, "energy": constants.E}
+        said = ", ".join(f"{named(name)} = {value:.4g}".replace("-", "−") for name, value in values.items())
+        return note(say(f"controls.other.{other}", values=said))
+
+    @staticmethod
+    def _notes(scene):
+        spin, marks = scene.upright_spin, scene.marks
+        turns = spin * scene.scales.angular_velocity / (2 * math.pi)
+        inner, outer = scene.turning
+        limits = " · ".join(
+            say(f"controls.notes.{name}", E=number(round(E, 4)))
+            for name, E in (("steady", marks.steady), ("slip", marks.slip), ("lift", marks.lift))
+            if math.isfinite(E)
+        )
+        motion = say(
+            "controls.notes.motion", worst=worst(scene), notes="".join(f" {html.escape(note)}" for note in scene.notes),
+            theta=named("theta"), inner=inner, outer=outer, inner_degrees=math.degrees(inner),
+            outer_degrees=math.degrees(outer),
+        )  # fmt: skip
+        printed = scene.constants.K_R == 10 and scene.top == Top.paper()
+        return {
+            "omega3": motion,
+            "K_J": say("controls.notes.K_J", pole=number(round(scene.plane.pole, 4))),
+            "K_R": say("controls.notes.K_R", spin=spin, turns=turns, R=100 * scene.scales.R)
+            + say("controls.notes.printed") * printed,
+            "energy": f"{motion}<br>{say('controls.notes.energy', limits=limits)}",
+        }

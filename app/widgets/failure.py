@@ -1,0 +1,84 @@
+"""What the page says where the server could not do what was asked of it: an error anywhere in the page's own work."""
+
+import logging
+from functools import partial
+from weakref import WeakKeyDictionary, ref
+
+import panel as pn
+import param
+from panel.custom import JSComponent
+
+from app.model.runs import to_session
+from app.text import say
+
+log = logging.getLogger("tippe")
+PAGES = WeakKeyDictionary()  # document -> a weak reference to its Failure, which knows its document
+
+
+class Failure(JSComponent):
+    """One sentence, until it is closed or the page is loaded anew."""
+
+    words = param.String(constant=True, doc="What it says.")
+    close = param.String(constant=True, doc="Of the button that closes it.")
+    times = param.Integer(default=0, doc="How often something has failed so far.")
+
+    _esm = """
+    export function render({model}) {
+      const words = document.createElement("div"), close = document.createElement("button")
+      words.setAttribute("role", "alert")
+      Object.assign(words.style, {
+        position: "fixed", inset: "auto 8px 8px", margin: "auto", maxWidth: "560px", zIndex: 9998, display: "flex",
+        gap: "12px", alignItems: "center", padding: "8px 8px 8px 16px", borderRadius: "8px", background: "#b3261e",
+        color: "white", font: "15px/1.4 system-ui, sans-serif", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)",
+      })
+      Object.assign(close.style, {
+        font: "inherit", color: "inherit", background: "transparent", border: "1px solid", borderRadius: "6px",
+        padding: "4px 10px", cursor: "pointer",
+      })
+      close.textContent = model.close
+      close.onclick = () => words.remove()
+      model.on("times", () => { words.replaceChildren(model.words, close); document.body.append(words) })
+      model.on("remove", () => words.remove())
+    }
+    """
+
+    def __init__(self):
+        super().__init__(words=say("main.failed"), close=say("main.close"), width=0, height=0, margin=0)
+        PAGES[pn.state.curdoc] = ref(self)
+
+
+def tell(document=None):
+    """Has the page of a Bokeh document say it; of the one that is being served, where none is given."""
+    document = document or pn.state.curdoc
+    page = PAGES.get(document, lambda: None)() if document else None
+    if page:
+        to_session(document)(lambda: page.param.update(times=page.times + 1))
+
+
+def failure():
+    """A Failure, which from now on is told of whatever fails in this session; the server's own handler hears it too."""
+    handler = pn.config.exception_handler or logged
+
+    def handle(error):
+        try:
+            tell()
+        finally:
+            handler(error)
+
+    pn.config.exception_handler = handle  # of this session alone
+    return Failure()
+
+
+def logged(error):
+    """Where the server has no handler of its own."""
+    log.error("a callback failed", exc_info=error)
+
+
+def after(seconds, act):
+    """Calls act() on the thread of the page that is being served, so many s from now; an error is told."""
+    pn.state.curdoc.add_timeout_callback(partial(attempt, act), max(round(1000 * seconds), 20))
+
+
+def attempt(act):
+    """Calls act() now; an error is handled as in Panel's own callbacks, and so told."""
+    pn.state.execute(act, schedule=False)

@@ -1,0 +1,165 @@
+"""Keeps the picture under the hand: of a stream of requests only the newest is solved, once the last was painted."""
+
+import time
+from contextlib import ExitStack
+from functools import partial
+
+import panel as pn
+import param
+from panel.custom import JSComponent
+
+from app.widgets.failure import after, attempt
+
+# Two, so that one is on its way while the browser paints the other.
+HANDS_IN_FLIGHT = 2
+# After its last request a hand is taken to rest.
+REST_AFTER = 0.15
+# A hidden tab paints nothing and so never answers.
+ANSWER_WITHIN = 2.0
+
+
+def at_once(component, *properties):
+    """Lets these properties of a Panel component arrive without Panel's wait of 50 ms, and without its busy signal."""
+    component._priority_changes = component._busy__ignore = list(properties)
+
+
+class Painted(JSComponent):
+    """Answers `sent` with the same number in `painted`, after the browser painted all that came before it."""
+
+    sent = param.Integer(default=0)
+    painted = param.Integer(default=0)
+
+    _esm = """
+    export function render({model}) {
+      // too narrow for controls beside the pictures
+      if (innerWidth < 900)
+        for (const {data} of Bokeh.documents.flatMap((doc) => [...doc.all_models]))
+          if (data?.attributes && "sidebar_open" in data.attributes) data.setv({sidebar_open: false})
+      model.on("sent", () => requestAnimationFrame(() => setTimeout(() => { model.painted = model.sent })))
+    }
+    """
+
+
+class Pacer:
+    """Between the controls and an Explorer, and between its scenes and the views.
+
+    Functions of a scene: hand draws what the hand moves and is cheap. The pictures follow in turn, each in a message
+    of its own once the one before is painted, so that a hand never waits for more than one; a round of them shows
+    one scene, the newest at its start. words are for a hand at rest, or for an input that cannot be. After a single
+    step pictures and words come in one message: each costs the server more than what is in it.
+
+    later: what is not made before the page has come, in turn like the pictures, so that the first of it is soon there.
+    """
+
+    def __init__(self, explorer, hand, pictures, words):
+        self.explorer, self._hand, self._pictures, self._words = explorer, hand, pictures, words
+        self.painted = Painted(width=0, height=0, margin=0)
+        at_once(self.painted, "painted")
+        self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
+        self._single = True  # whether the hand was at rest before the last request
+        self._said = None  # the scene whose words were shown since then
+        self._requested = 0.0
+        self.later, self._begun = [], False
+        self._hands, self._drawing = [], []  # (number, when sent) of what the browser has yet to paint
+        self._sent = 0  # the last number
+        explorer.param.watch(self._on_scene, "scene")
+        self.painted.param.watch(self._on_painted, "painted")
+
+    def begin(self):
+        """The page has come."""
+        self._begun = True
+        self._advance()
+        after(ANSWER_WITHIN, self._finish)
+
+    def soon(self, make):
+        """Runs a function that puts something new on the page, next of what waits for its turn: two such messages
+        under way at once may each count on what the other brings."""
+        if not self._begun:
+            make()
+            return
+        self.later.insert(0, make)
+        self._advance()
+        after(ANSWER_WITHIN, self._finish)
+
+    def request(self, **inputs):
+        """Asks for these inputs of the Explorer; a later request for the same input replaces one still waiting."""
+        self._wanted.update(inputs)
+        self._requested = time.monotonic()
+        self._single, self._said = self._resting, None  # what is asked for is answered, also where nothing changes
+        if self._resting:
+            self._resting = False
+            after(REST_AFTER, self._rest)
+        self._advance()
+
+    def _advance(self):
+        late = time.monotonic() - ANSWER_WITHIN
+        self._hands = [sent for sent in self._hands if sent[1] > late]
+        self._drawing = [sent for sent in self._drawing if sent[1] > late]
+        if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
+            inputs, self._wanted = self._wanted, {}
+            self.explorer.param.update(**inputs)
+        if not self._drawing and not (self._single and self._hands):
+            if not self._round and self._round_is_due:
+                scene, self._round_is_due = self.explorer.scene, False
+                self._round = [partial(draw, scene) for draw in ([self._all] if self._single else self._pictures)]
+            if self._round:
+                self._send(self._round.pop(0), self._drawing)
+            elif self._begun and self.later:
+                self._send(self.later.pop(0), self._drawing)
+
+    def _all(self, scene):
+        with ExitStack() as others:  # drawn too where one of them fails
+            for draw in (self._say, *reversed(self._pictures)):
+                others.callback(draw, scene)
+
+    def _say(self, scene):
+        if scene is not self._said:
+            self._said = scene
+            self._words(scene)
+
+    def _on_scene(self, event):
+        self._send(partial(self._hand, event.new), self._hands)
+        self._round_is_due = True
+        if self._resting or event.new.messages or event.old.messages:
+            self._say(event.new)
+
+    def _rest(self):
+        try:
+            self._advance()  # a hidden tab answers nothing that could do it
+        finally:
+            left = self._requested + REST_AFTER - time.monotonic()
+            self._resting = not (left > 0 or self._wanted)
+            if not self._resting:
+                after(left, self._rest)
+        if not self._resting:
+            return
+        self._say(self.explorer.scene)
+        self._see_to_it()
+
+    def _see_to_it(self):
+        if self._round or self._round_is_due or (self._begun and self.later):
+            after(ANSWER_WITHIN, self._finish)
+
+    def _finish(self):
+        """The pictures of a tab that does not answer come too, late."""
+        self._advance()
+        self._see_to_it()
+
+    def _send(self, draw, in_flight):
+        self._sent = number = self._sent + 1
+
+        def sent():
+            draw()
+            self.painted.sent = number
+
+        if self._begun or not pn.state.curdoc:
+            with pn.io.hold():  # one message, in order, so that the answer comes after the picture
+                sent()
+        else:  # until the page says that it is there only Bokeh sends anything, what is done under its lock
+            pn.state.curdoc.add_next_tick_callback(partial(attempt, sent))
+        in_flight.append((number, time.monotonic()))
+
+    def _on_painted(self, event):
+        self._hands = [sent for sent in self._hands if sent[0] > event.new]
+        self._drawing = [sent for sent in self._drawing if sent[0] > event.new]
+        self._advance()

@@ -1,0 +1,292 @@
+"""Scene -> Bokeh: one nutation in the planes where physicists look at it, the track from above, the force in its disc.
+
+One Portrait is drawn at a time in each card; the beads go with the browser's clock, and a hand on one moves the clock.
+"""
+
+import numpy as np
+from bokeh.models import ColumnDataSource, CustomJS, DataRange1d, Range1d, Span
+
+from app.model.colours import COLOURS, FAINT, INK
+from app.text import say
+from app.widgets.plots import PAPER, SEEK_BY_HAND, plain
+
+POINTS_OF_A_TRACK = 480
+POINTS_OF_A_CIRCLE = 73
+# A circle so much larger than the track is a straight line to the eye.
+STRAIGHT = 300
+
+# The bead is the browser's: not synced, so playing sends nothing to the server. A curve of one nutation is gone through
+# again and again.
+FOLLOW = """
+if (curve.followed) return
+curve.followed = true
+let now = window.tippe?.time() ?? 0
+const place = () => {
+  const {t, x, y} = curve.data, last = t.length - 1, span = t[last] - t[0]
+  if (!(span > 0)) return
+  const since = now - t[0], k = (since <= span ? Math.max(since, 0) : since % span) / span * last
+  const i = Math.min(Math.floor(k), last - 1), mix = (values) => values[i] + (k - i) * (values[i + 1] - values[i])
+  bead.data.x[0] = mix(x)
+  bead.data.y[0] = mix(y)
+  bead.change.emit()
+}
+curve.properties.data.change.connect(place)
+window.addEventListener("tippe:clock", ({detail: {t}}) => {
+  now = t
+  if (Bokeh.index.find_one(fig)?.el.offsetParent) place()
+})
+place()
+"""
+
+# The instant whose point on the curve is nearest to the hand; of several as near, the one nearest in time.
+NEAREST = """
+const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame
+const {t, x, y} = curve.data, span = t[t.length - 1] - t[0], now = window.tippe.time()
+const [hand_x, hand_y] = [x_scale.compute(cb_obj.x), y_scale.compute(cb_obj.y)]
+let found = now, least = Infinity
+for (let i = 0; i < t.length; i++) {
+  const turns = Math.round((now - t[i]) / span), at = t[i] + (whole ? 0 : Math.max(turns, 0) * span)
+  const away = Math.hypot(x_scale.compute(x[i]) - hand_x, y_scale.compute(y[i]) - hand_y) + Math.abs(at - now) / span
+  if (away < least) [found, least] = [at, away]
+}
+const time = found
+"""
+
+
+class Portrait:
+    """A curve that the motion runs along, with a bead at the clock's time. whole: of all frames, not one nutation."""
+
+    name = ""  # in roll.toml, and of the figure
+    whole = False
+    aspect = None
+
+    def __init__(self, colour):
+        ranges = {"x_range": Range1d(0, 1), "y_range": Range1d(0, 1)}
+        if self.aspect:
+            ranges = {"x_range": DataRange1d(), "y_range": DataRange1d(), "match_aspect": True}
+        self.figure = fig = plain(name=self.name, **ranges)
+        self.curve = ColumnDataSource({"t": np.zeros(2), "x": np.zeros(2), "y": np.zeros(2)})
+        self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
+        self.below()
+        line = fig.line("x", "y", source=self.curve, line_color=colour, line_width=2.5)
+        fig.scatter(
+            "x", "y", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK, line_width=2
+        )
+        if self.aspect:
+            fig.x_range.renderers = fig.y_range.renderers = [line]
+        self.above()
+        mine = {"curve": self.curve, "bead": self.bead, "fig": fig, "whole": self.whole}
+        fig.js_on_change("inner_width", CustomJS(args=mine, code=FOLLOW))
+        for event in ("tap", "panstart", "pan", "panend"):
+            fig.js_on_event(event, CustomJS(args=mine, code=NEAREST + SEEK_BY_HAND))
+        self._shown = None
+
+    def below(self):
+        """Draws what lies under the curve."""
+
+    def above(self):
+        """Draws what lies over it."""
+
+    def show(self, scene):
+        shown = (scene.trajectory, scene.mu_s)
+        if shown != self._shown:
+            self._shown = shown
+            self.draw(scene)
+
+    def words(self, scene):
+        return say(f"roll.portraits.{self.name}.says")
+
+    def put(self, motion, x, y):
+        self.curve.data = {"t": motion.t, "x": x, "y": y}
+
+    def frame(self, x, y):
+        """Sets the ranges to hold these values."""
+        for range_, values in ((self.figure.x_range, x), (self.figure.y_range, y)):
+            low, high = np.min(values), np.max(values)
+            pad = 0.08 * (high - low) or 0.05
+            range_.update(start=low - pad, end=high + pad)
+
+
+class Curve(Portrait):
+    name = "f"
+    axes = "<i>θ</i> (rad)", "<i>θ̇</i><sup>2</sup> (<i>g</i>/<i>R</i>)"
+
+    def __init__(self):
+        super().__init__(COLOURS["theta"])
+
+    def below(self):
+        self.figure.add_layout(Span(location=0, dimension="width", line_color=FAINT))
+
+    def draw(self, scene):
+        motion = scene.nutation
+        square = motion.omega[:, 0] ** 2
+        self.put(motion, motion.theta, square)
+        self.frame(motion.theta, [0, square.max()])
+
+
+class Phase(Portrait):
+    name = "phase"
+    axes = "<i>θ</i> (rad)", "<i>θ̇</i> (<i>g</i>/<i>R</i>)<sup>½</sup>"
+
+    def __init__(self):
+        self.levels = ColumnDataSource({"x": [], "y": [], "colour": [], "dash": []})
+        super().__init__(COLOURS["theta"])
+
+    def below(self):
+        self.figure.multi_line(
+            "x", "y", source=self.levels, line_color="colour", line_dash="dash", line_width=1.3, line_alpha=0.8
+        )
+
+    def draw(self, scene):
+        motion, loops = scene.nutation, scene.levels
+        closed = [np.append(np.concatenate([(theta, rate), (theta[::-1], -rate[::-1])], axis=1), [[np.nan]] * 2, axis=1)
+                  for theta, rate in loops]  # fmt: skip
+        x, y = zip(np.concatenate(closed[:-2], axis=1), *closed[-2:], strict=True)  # few arrays are sent faster
+        self.levels.data = {
+            "x": list(x),
+            "y": list(y),
+            "colour": [FAINT, COLOURS["friction"], COLOURS["normal"]],
+            "dash": ["solid", "dashed", "dashed"],
+        }
+        self.put(motion, motion.theta, motion.omega[:, 0])
+        outermost, fastest = loops[-1]
+        edge = max(fastest.max(), motion.omega[:, 0].max())
+        self.frame([*outermost, *motion.theta], [-edge, edge])
+
+
+class Potential(Portrait):
+    name = "potential"
+    axes = "<i>θ</i> (rad)", "<i>E</i> (<i>MgR</i>)"
+
+    def __init__(self):
+        self.potential = ColumnDataSource({"theta": [], "E": []})
+        super().__init__(COLOURS["energy"])
+
+    def below(self):
+        self.figure.line("theta", "E", source=self.potential, line_color=INK, line_width=2)
+        marks = {"line_dash": [6, 4], "line_width": 1.5, "dimension": "width"}
+        self.slip = Span(location=0, line_color=COLOURS["friction"], **marks)
+        self.lift = Span(location=0, line_color=COLOURS["normal"], **marks)
+        self.figure.add_layout(self.slip)
+        self.figure.add_layout(self.lift)
+
+    def draw(self, scene):
+        motion, marks = scene.nutation, scene.marks
+        theta, E = scene.potential
+        self.potential.data = {"theta": theta, "E": E}
+        for span, limit in ((self.slip, marks.slip), (self.lift, marks.lift)):
+            span.visible = bool(np.isfinite(limit))
+            span.location = limit if span.visible else 0
+        energy = scene.constants.E
+        self.put(motion, motion.theta, np.full(len(motion.t), energy))
+        top = max(energy, *(limit for limit in (marks.slip, marks.lift) if np.isfinite(limit)), energy + 0.05)
+        self.frame(theta, [marks.steady, top + 0.1 * (top - marks.steady)])
+
+
+class Track(Portrait):
+    name = "track"
+    axes = "<i>x</i> (<i>R</i>)", "<i>y</i> (<i>R</i>)"
+    whole = True
+    aspect = 1
+
+    def __init__(self):
+        self.circles = ColumnDataSource({"x": [], "y": []})
+        super().__init__(COLOURS["theta"])
+
+    def below(self):
+        self.figure.multi_line("x", "y", source=self.circles, line_color=FAINT, line_dash=[6, 4], line_width=1.5)
+
+    def draw(self, scene):
+        motion = scene.trajectory
+        every = max(1, len(motion.t) // POINTS_OF_A_TRACK)
+        x, y = motion.contact[::every].T
+        self.curve.data = {"t": motion.t[::every], "x": x, "y": y}
+        arcs = {"x": [], "y": []}
+        rosette = scene.rosette
+        if rosette:
+            centre_x, centre_y, nearest, farthest = rosette
+            angle = np.unwrap(np.arctan2(y - centre_y, x - centre_x))
+            low, high = angle.min(), angle.max()
+            margin = 0.06 * (high - low)
+            if farthest < STRAIGHT:
+                low, high = (0, 2 * np.pi) if high - low > np.pi else (low - margin, high + margin)
+            around = np.linspace(low, high, POINTS_OF_A_CIRCLE)
+            for radius in (nearest, farthest):
+                arcs["x"].append(centre_x + radius * np.cos(around))
+                arcs["y"].append(centre_y + radius * np.sin(around))
+        self.circles.data = arcs
+
+    def words(self, scene):
+        if scene.rosette is None:
+            return say("roll.portraits.track.straight")
+        _, _, nearest, farthest = scene.rosette
+        return say("roll.portraits.track.says", nearest=nearest, farthest=farthest)
+
+
+class Ring(Portrait):
+    """The rosette of a large circle is too thin to be seen from above: here it is unrolled."""
+
+    name = "ring"
+    whole = True
+
+    def __init__(self):
+        super().__init__(COLOURS["theta"])
+
+    @property
+    def axes(self):
+        return say("roll.portraits.ring.across"), say("roll.portraits.ring.up")
+
+    def below(self):
+        self.edges = [
+            Span(location=0, dimension="width", line_color=FAINT, line_dash=[6, 4], line_width=1.5) for _ in range(2)
+        ]
+        for edge in self.edges:
+            self.figure.add_layout(edge)
+
+    def draw(self, scene):
+        motion = scene.trajectory
+        every = max(1, len(motion.t) // POINTS_OF_A_TRACK)
+        x, y = motion.contact[::every].T
+        if scene.rosette is None:
+            along, across, width = np.hypot(x, y), np.zeros(len(x)), 0.0
+        else:
+            centre_x, centre_y, nearest, farthest = scene.rosette
+            x, y, width = x - centre_x, y - centre_y, farthest - nearest
+            along = (nearest + farthest) / 2 * np.abs(np.unwrap(np.arctan2(y, x)) - np.arctan2(y[0], x[0]))
+            across = np.hypot(x, y) - nearest
+        for edge, location in zip(self.edges, (0.0, width), strict=True):
+            edge.location = location
+        self.curve.data = {"t": motion.t[::every], "x": along, "y": across}
+        self.frame(along, [0, width])
+
+
+class Force(Portrait):
+    name = "force"
+    axes = "<i>F</i><sub>x</sub>/<i>F</i><sub>z</sub>", "<i>F</i><sub>y</sub>/<i>F</i><sub>z</sub>"
+    aspect = 1
+
+    def __init__(self):
+        self.disc = ColumnDataSource({"x": [], "y": []})
+        super().__init__(COLOURS["friction"])
+
+    def below(self):
+        self.figure.background_fill_color, self.figure.background_fill_alpha = COLOURS["friction"], 0.12
+        self.edge = self.figure.patch(
+            "x", "y", source=self.disc, fill_color=PAPER, line_color=INK, line_dash=[6, 4], line_width=1.5
+        )
+
+    def above(self):
+        self.figure.x_range.renderers = self.figure.y_range.renderers = [
+            *self.figure.x_range.renderers,
+            self.edge,
+        ]
+
+    def draw(self, scene):
+        motion = scene.nutation
+        F_x, F_y, F_z = motion.force.T
+        there = F_z > 1e-3
+        # Beyond lift-off there is no table to push: the locus has a gap.
+        x, y = (np.where(there, F / np.where(there, F_z, 1), np.nan) for F in (F_x, F_y))
+        around = np.linspace(0, 2 * np.pi, POINTS_OF_A_CIRCLE)
+        self.disc.data = {"x": scene.mu_s * np.cos(around), "y": scene.mu_s * np.sin(around)}
+        self.put(motion, x, y)

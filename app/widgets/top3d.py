@@ -1,0 +1,102 @@
+"""The top in three dimensions: the browser plays poses that were computed here, with no traffic while it plays."""
+
+import numpy as np
+import param
+
+from app.widgets.bundle import Bundled, pack
+
+REGIMES = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "the motion ends here")
+"""What the codes 0 to 5 in the last column of the frames mean; browser.toml says it."""
+
+
+def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
+    """Put a trajectory into the bytes that `Top3D.frames` takes.
+
+    All vectors in the space axes x, y, z (z up); units R, M, g.
+
+    Parameters
+    ----------
+    t : (n,) times, growing
+    quaternion : (n, 4) x, y, z, w, body to space
+    contact : (n, 2) the point of contact
+    com : (n, 3) G
+    force : (n, 3) the table's force on the top, in Mg
+    omega : (n, 3) angular velocity
+    momentum : (n, 3) angular momentum about G
+    regime : (n,) codes: places in REGIMES
+    """
+    return np.column_stack((t, quaternion, contact, com, force, omega, momentum, regime)).astype("<f4").tobytes()
+
+
+class Top3D(Bundled):
+    """The top on its table, with its tracks and arrows, and the bar that plays it.
+
+    While it plays, and when it is moved by hand, it dispatches `tippe:clock` on the browser's window with
+    `{t, index, playing}`; it moves to the time of a `tippe:seek` with `{t}`. Tops with a `clock` play as one, for the
+    same stretch of time, and their events are `tippe:clock:<clock>` and `tippe:seek:<clock>`.
+    `tippe.time(clock)` on the window is the time now, and `tippe.photo(wide, clock)` a canvas with the picture, so many
+    pixels wide; without a clock, of the rolling top. All this holds too where the top is drawn flat, without WebGL.
+    """
+
+    SAYS = ("Stage",)
+
+    frames = param.Bytes(default=b"", doc="The motion, from `pack_frames`; empty where there is none.")
+    profile = param.Bytes(
+        default=b"", doc="The body's outline: float32 rows (radius, height above O along axis 3), in R."
+    )
+    mu_s = param.Number(default=0.5, bounds=(0, None), doc="Coefficient of static friction: the cone's tangent.")
+    seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
+    time = param.Number(
+        default=0.0, doc="The cursor. The browser writes it when a person moves it, not while it plays."
+    )
+    label = param.String(default="", constant=True, doc="Its name; empty: the one of the rolling top.")
+    clock = param.String(default="", constant=True, doc="The name of the clock that several tops share.")
+    a = param.Number(
+        default=None,
+        doc="G's distance below O, in R, where O may leave its height of R: in flight, on a stem. None: it does not.",
+    )
+    tiltable = param.Boolean(default=False, constant=True, doc="Whether the axis has a handle when the top is paused.")
+    tilted = param.List(
+        default=[],
+        doc="[theta, t, grasp] of a hand on the axis, the browser writes it: the tilt it asks for, the time at which "
+        "it took hold, and a number that is another one for each grasp.",
+    )
+    playing = param.Boolean(
+        default=True, doc="Whether it plays. Where a person prefers reduced motion it starts paused."
+    )
+    speed = param.Number(default=1 / 16, bounds=(0, None), doc="1 is the real top's own speed.")
+    show_track = param.Boolean(default=True, doc="The path of the point of contact on the table.")
+    show_com_path = param.Boolean(default=True, doc="G and its path.")
+    show_force = param.Boolean(default=True, doc="The table's force on the top.")
+    show_cone = param.Boolean(default=True, doc="The friction cone at the contact.")
+    show_omega = param.Boolean(default=True, doc="The angular velocity.")
+    show_momentum = param.Boolean(default=True, doc="The angular momentum about G.")
+    camera = param.List(
+        default=[],
+        doc="[azimuth, height, distance] of a view that a person chose, in rad and in terms of the first view's; the "
+        "browser writes it; empty: the first view.",
+    )
+    follow = param.Boolean(default=True, doc="Whether the camera goes along with the top.")
+
+
+def show_top(top, scene):
+    motion = scene.trajectory
+    if top.shown is motion:
+        top.mu_s = scene.mu_s
+        return
+    top.shown = motion
+    top.param.update(
+        mu_s=scene.mu_s,
+        profile=pack(scene.profile),
+        seconds=scene.scales.time,
+        frames=pack_frames(
+            motion.t,
+            motion.quaternion,
+            motion.contact,
+            motion.com,
+            scene.force,
+            scene.omega,
+            scene.momentum,
+            scene.regime,
+        ),
+    )
