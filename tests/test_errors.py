@@ -39,9 +39,6 @@ from tippe_core.errors import CODES
 ROOT = Path(__file__).parent.parent
 OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 PAPER = TruncatedSphere.paper()
-# Files whose errors have no codes yet: they get them with their new form.
-LATER = {"constants.py", "contacts.py", "curve.py", "outcome.py", "rolling.py", "share.py", "sliding.py", "smooth.py",
-         "tielines.py", "top.py", "trajectory.py"}  # fmt: skip
 # What stands in a formula of what is allowed and is no English: units, quantities, the core's classes.
 NOTATION = {"rad", "kg", "mu", "mu_s", "mu_k", "eps", "gamma", "theta", "tilt", "seconds", "str", "bytes", "in",
             "high", "low", "rtol", "pi", "well", "radius", "height", "rounding", "times"}  # fmt: skip
@@ -94,7 +91,7 @@ def is_english(words):
 def test_every_code_is_documented_and_raised():
     assert len(SITES) > 80
     codes = {code for _, codes, *_ in SITES for code in codes}
-    assert codes <= {*CODES, *OF_THE_PAGE} and (LATER or codes == {*CODES, *OF_THE_PAGE})
+    assert codes == {*CODES, *OF_THE_PAGE}
     assert all(re.fullmatch(r"[a-z]+(-[a-z]+)*", code, re.I) and means for code, means in CODES.items())
     assert not {*CODES} & {*OF_THE_PAGE}
 
@@ -106,7 +103,7 @@ def test_every_code_has_words(language):
     assert {*said} == {*CODES, *OF_THE_PAGE}
     wrong = []
     for place, codes, value, allowed, remedy, numbers in SITES:
-        for code in () if place.split(":")[0] in LATER else codes:
+        for code in codes:
             words = said[code]
             assert {*words} <= {"sentence", "allowed", "remedy"}
             wanted = {field for part in words.values() for _, field, *_ in Formatter().parse(part) if field}

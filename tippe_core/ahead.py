@@ -30,6 +30,7 @@ from . import (
     outcome,
     roll,
     slide,
+    slide_many,
     steady_precessions,
     tielines,
     turning_points,
@@ -83,6 +84,7 @@ def sliding() -> None:
         slide(top, START, law, TIMES)
         slide(top, START, law, TIMES, landing="plastic", edge=edge)
         slide(top, on_the_stem, law, TIMES, landing="plastic", edge=edge)
+    slide_many(top, START, LAWS[0], 1.0, edge, nudge=1e-6)
 
 
 # In the order in which the page's visitors come to need them.

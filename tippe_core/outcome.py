@@ -115,7 +115,7 @@ def steady_states(top: Top, C_J: float) -> SteadyStates:
     """
     C_J = finite("C_J", C_J)
     if abs(C_J) > 1e50:
-        raise TopError("C_J", C_J, "at most 1e50 in size")
+        raise TopError("C_J", C_J, "at most {most:g} in size", code="too-large", most=1e50)
     cosine = np.poly1d([1.0, 0.0])
     I_eff = eq.I_eff(cosine, 1 - cosine**2, top)
     slope = -(C_J**2) / 2 * I_eff.deriv() - top.a * I_eff**2  # I_eff^2 dV_J/dc
@@ -159,9 +159,9 @@ def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
     scales: Scales of the real top, for a sentence in rev/s. The state's vx, vy left None mean G at rest.
     """
     if not isinstance(state, State):
-        raise TopError("state", state, "a State")
+        raise TopError("state", state, "State", code="wrong-kind")
     if scales is not None and not isinstance(scales, Scales):
-        raise TopError("scales", scales, "Scales, or None")
+        raise TopError("scales", scales, "Scales | None", code="wrong-kind")
     s, c, w1, w2, w3 = np.sin(state.theta), np.cos(state.theta), state.theta_dot, state.omega2, state.omega3
     C_J = eq.C_J(c, s, w2, w3, top)
     velocity_2 = (state.vx or 0.0) ** 2 + (state.vy or 0.0) ** 2 + (top.a * s * w1) ** 2

@@ -117,7 +117,9 @@ def slide_many(
         shape = np.broadcast_shapes(*(part.shape for part in parts))
     except ValueError:
         shapes = ", ".join(str(part.shape) for part in parts)
-        raise TopError("t_end", shapes, "shapes of top, state, friction, t_end and edge that broadcast") from None
+        raise TopError(
+            "t_end", shapes, "shapes of top, state, friction, t_end and edge that broadcast", code="shapes-differ"
+        ) from None
     flat = [np.broadcast_to(part, shape).ravel() for part in parts]
     found = _all(lambda i, stop: _cell([part[i] for part in flat], rtol, nudge, losses, stop), len(flat[0]), progress)
     return _many(found, shape)
@@ -126,7 +128,7 @@ def slide_many(
 def _rows(edge: ArrayLike) -> Array:
     rows = numbers("edge", edge)
     if rows.ndim == 0 or rows.shape[-1] not in (2, 3):
-        raise TopError("edge", edge, "(..., 2 or 3): radius, height above O and rounding in R")
+        raise TopError("edge", edge, "(radius, height, rounding)", code="wrong-kind")
     return rows.reshape(-1, rows.shape[-1])
 
 
@@ -151,8 +153,8 @@ def _cells(given: Any, *kinds: type) -> NDArray[np.object_]:
             arrays = np.broadcast_arrays(*(np.asarray(getattr(given, name), float) for name in names))
             rows = zip(*(array.ravel().tolist() for array in arrays), strict=True)
             return _objects([(kind, dict(zip(names, row, strict=True))) for row in rows], arrays[0].shape)
-    wanted = " or ".join(kind.__name__ for kind in kinds)
-    raise TopError(kinds[0].__name__.lower(), given, f"{wanted}, a list of such, or their fields as arrays")
+    wanted = " | ".join(kind.__name__ for kind in kinds)
+    raise TopError(kinds[0].__name__.lower(), given, f"{wanted}", code="wrong-kind")
 
 
 def _all(
@@ -189,7 +191,7 @@ def _made(cell: Any) -> Any:
     if isinstance(cell, tuple):
         return cell[0](**cell[1])
     if not isinstance(cell, (Top, State, *LAWS)):
-        raise TopError("cell", cell, "a Top, a State or a law of friction")
+        raise TopError("cell", cell, "Top | State | Friction", code="wrong-kind")
     return cell
 
 

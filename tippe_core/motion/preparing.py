@@ -38,10 +38,10 @@ def checked_edge(edge: ArrayLike | None) -> Rim | None:
         return None
     parts = numbers("edge", edge)
     if parts.shape not in ((2,), (3,)) or parts[0] < 0 or (parts[2:] < 0).any():
-        raise TopError("edge", edge, "(radius >= 0, height above O, rounding >= 0) in R, or None")
+        raise TopError("edge", edge, "(radius >= 0, height, rounding >= 0) | None", code="wrong-kind")
     radius, height, rounding = edge = tuple(np.append(parts, 0.0)[:3].tolist())
     if np.hypot(radius, height) + rounding < 1 - 1e-6:
-        raise TopError("edge", edge, "an edge not inside the sphere that rolls")
+        raise TopError("edge", edge, "an edge not inside the sphere that rolls", code="inside-sphere")
     return edge
 
 
@@ -53,8 +53,9 @@ def check_balance(top: Top, friction: Friction) -> None:
     with np.errstate(divide="ignore"):
         most = np.min((top.I1 + (top.a * s) ** 2) / arm)
     if mu >= most:
-        raise TopError(name, mu, f"{name} < {most:.6g} for this top",
-                       "More friction than that no normal force balances (Painleve's paradox).")  # fmt: skip
+        raise TopError(name, mu, f"{name} < {most:.6g}",
+                       "More friction than that no normal force balances (Painleve's paradox).",
+                       code="too-strong")  # fmt: skip
 
 
 def problem(top: Top, friction: Friction, edge: Rim | None, losses: tuple[float, float], rtol: float) -> Record:
@@ -74,8 +75,9 @@ def problem(top: Top, friction: Friction, edge: Rim | None, losses: tuple[float,
 def beginning(state: State, t: float, P: Record) -> tuple[Array, Array]:
     """y at a State, on the ball or the stem, and the angles of poses.py."""
     if np.cos(state.theta) < P.rim:
-        raise TopError("theta", state.theta, f"less than {np.arccos(P.rim):.6g} for this top",
-                       "The sphere's surface ends there.")  # fmt: skip
+        raise TopError("theta", state.theta, "less than {most:.6g} for this top",
+                       "The sphere's surface ends there.", code="beyond-rim",
+                       most=float(np.arccos(P.rim)))  # fmt: skip
     s, c, turn = np.sin(state.theta / 2), np.cos(state.theta / 2), np.exp(1j * state.phi)
     v = complex(state.vx or 0.0, state.vy or 0.0) * turn
     place = complex(state.x or 0.0, state.y or 0.0)

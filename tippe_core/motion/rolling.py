@@ -107,13 +107,14 @@ class Rolling(Nutation):
 
     def _too_near(self) -> TopError:
         if self._given:
-            return TopError("theta", self._given.theta, f"a start whose nutation {NODES_MOST} nodes resolve",
+            return TopError("theta", self._given.theta, "a start whose nutation {nodes} nodes resolve",
                             "It is too near to an unstable steady precession, or f1 or f3 nearly vanishes in the "
-                            "well; change the start a little.")  # fmt: skip
+                            "well; change the start a little.", code="start-not-resolved",
+                            nodes=NODES_MOST)  # fmt: skip
         E = (self.e + self.K_R**2 - self.top.I1 / self.top.I3 * self.K_J**2) / 2
-        return TopError("E", E, f"an energy whose nutation {NODES_MOST} nodes resolve",
+        return TopError("E", E, "an energy whose nutation {nodes} nodes resolve",
                         "It is too near to that of an unstable steady precession, or f1 or f3 nearly vanishes in the "
-                        "well; change E a little.")  # fmt: skip
+                        "well; change E a little.", code="energy-not-resolved", nodes=NODES_MOST)  # fmt: skip
 
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
         return sigma_rates(v, m, dt_dkappa, self._curve, self.ends)
@@ -301,13 +302,13 @@ def contact_and_force(
 
 def _from_constants(top: Top, constants: Constants | None, start: str, well: int) -> tuple[ExactCurve, Well]:
     if not isinstance(start, str) or start not in ("inner", "outer"):
-        raise TopError("start", start, '"inner", "outer" or a State')
+        raise TopError("start", start, '"inner" | "outer" | State', code="wrong-kind")
     if not isinstance(constants, Constants):
-        raise TopError("constants", constants, "Constants(K_J, K_R, E)", "Only a State can stand in for them.")
+        raise TopError("constants", constants, "Constants", code="wrong-kind")
     curve = ExactCurve(top, Exact.of(constants, top))
     found = wells(curve)
     if isinstance(well, bool) or not isinstance(well, (int, np.integer)) or well not in range(len(found)):
-        raise TopError("well", well, f"0 to {len(found) - 1}, a row of turning_points")
+        raise TopError("well", well, f"0 <= well <= {len(found) - 1}")
     return curve, found[well]
 
 
@@ -320,16 +321,15 @@ def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[Ex
     for name, value in rolling.items():
         given = getattr(state, name)
         if given is not None and abs(given - value) > 1e-9 * max(1, abs(value)):
-            raise TopError(name, given, f"{value:.10g}, G's velocity when the top rolls",
-                           "Leave it out for a rolling top.")  # fmt: skip
+            raise TopError(name, given, f"{value:.10g}", "Leave it out: it follows from rolling.", code="contradiction")
     if constants is not None:
         if not isinstance(constants, Constants):
-            raise TopError("constants", constants, "Constants(K_J, K_R, E), or None beside a State")
+            raise TopError("constants", constants, "Constants | None", code="wrong-kind")
         own = Exact.of(constants, top)
         for name, one, other in (("K_J", own.K_J, exact.K_J), ("K_R", own.K_R, exact.K_R), ("2E'", own.e, exact.e)):
             if abs(one - other) > Decimal("1e-9") * max(Decimal(1), abs(other)):
-                raise TopError(name, float(one), f"{float(other):.10g}, that of the State",
-                               "Give None for the constants.")  # fmt: skip
+                raise TopError(name, float(one), f"{float(other):.10g}", "Give None: it follows from the State.",
+                               code="contradiction")  # fmt: skip
     curve = ExactCurve(top, exact, rounded=False)
     if state.theta_dot == 0 and abs(curve.N(here)) < Decimal("1e-50") * max(Decimal(1), exact.K_J**2, exact.K_R**2):
         return curve, Well(here, here), here

@@ -87,20 +87,20 @@ def slide(
     Raises TopError for bad input, and for friction so strong that no normal force balances it on the ball (Painleve).
     """
     if not isinstance(state, State):
-        raise TopError("state", state, "a State")
+        raise TopError("state", state, "State", code="wrong-kind")
     if not isinstance(friction, LAWS):
-        allowed = "Coulomb(mu_k, mu_s), Viscous(gamma), SmoothedCoulomb(mu, eps) or Contensou(mu, radius)"
-        raise TopError("friction", friction, allowed)
+        allowed = "Coulomb(mu_k, mu_s) | Viscous(gamma) | SmoothedCoulomb(mu, eps) | Contensou(mu, radius)"
+        raise TopError("friction", friction, allowed, code="wrong-kind")
     t = checked_times(times)
     if np.any(np.diff(t) < 0):
-        raise TopError("times", times, "times that do not fall", "Friction has no way back.")
+        raise TopError("times", times, "times[i] <= times[i + 1]", "Friction has no way back.", code="falling")
     check_balance(top, friction)
     rtol = checked_rtol(rtol)
     if landing not in ("stop", "plastic"):
-        raise TopError("landing", landing, '"stop" or "plastic"')
+        raise TopError("landing", landing, '"stop" | "plastic"', code="wrong-kind")
     losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
     P = problem(top, friction, checked_edge(edge), losses, rtol)
-    return _Run(top, P, landing == "plastic", progress)(state, t)
+    return _Run(top, friction, P, landing == "plastic", progress)(state, t)
 
 
 def sensitivity(
@@ -129,8 +129,10 @@ def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
 class _Run:
     """One motion."""
 
-    def __init__(self, top: Top, P: Record, flies: bool, progress: Callable[[float], object] | None) -> None:
-        self.top, self.P, self.flies, self.progress = top, P, flies, progress
+    def __init__(
+        self, top: Top, friction: Friction, P: Record, flies: bool, progress: Callable[[float], object] | None
+    ) -> None:
+        self.top, self.friction, self.P, self.flies, self.progress = top, friction, P, flies, progress
 
     def __call__(self, state: State, times: Array) -> Trajectory:
         P = self.P
@@ -151,8 +153,11 @@ class _Run:
         if not count:
             self._alone(stands_on, int(self.log[0, 1]))
             count = 1
-        if not np.all(np.isfinite(self.rows[:count])):
-            raise TopError("friction", P.law, "weaker friction for this top", "The equations could not be followed.")
+        followed = np.isfinite(self.rows[:count]).all(axis=1)
+        if not followed.all():
+            raise TopError("friction", self.friction, "weaker friction for this top",
+                           "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",
+                           t=float(times[max(int(followed.argmin()) - 1, 0)]), unit="")  # fmt: skip
         log = self.log[: W.events]
         events = tuple((float(t), NAMES[int(name)]) for t, name, _ in log)
         for t, name, what in log:

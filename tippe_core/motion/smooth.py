@@ -44,7 +44,7 @@ def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
     """
     t = checked_times(times)
     if np.any(np.diff(t) < 0):
-        raise TopError("times", times, "times that do not fall")
+        raise TopError("times", times, "times[i] <= times[i + 1]", "None is less than the one before.", code="falling")
     gliding = Gliding(top, state)
     lifts = gliding.lift_off
     moved = gliding(t[t - t[0] <= lifts])
@@ -61,7 +61,7 @@ class Gliding(Nutation):
 
     def __init__(self, top: Top, state: State) -> None:
         if not isinstance(state, State):
-            raise TopError("state", state, "a State")
+            raise TopError("state", state, "State", code="wrong-kind")
         self.top, self.start, self._inward = top, state, state.theta_dot < 0
         v, m = (float(x) for x in versines(state.theta))
         with localcontext(EXACT):
@@ -87,7 +87,8 @@ class Gliding(Nutation):
 
     def _too_near(self) -> TopError:
         return TopError("theta", self.start.theta, "a start further from an unstable steady precession",
-                        "So near to it the nutation takes almost for ever; change the start a little.")  # fmt: skip
+                        "So near to it the nutation takes almost for ever; change the start a little.",
+                        code="start-not-resolved")  # fmt: skip
 
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
         return sigma_rates(v, m, dt_dkappa, self._B_slope, self.start.omega3, self.ends)

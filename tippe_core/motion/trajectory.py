@@ -128,5 +128,6 @@ def checked_times(times: ArrayLike) -> Array:
     """times as a new (n,) float array, or a TopError."""
     t = numbers("times", times)
     if t.ndim != 1 or not t.size:
-        raise TopError("times", times, "a one-dimensional, not empty array of finite numbers, in (R/g)^1/2")
+        raise TopError("times", times, "a one-dimensional, not empty array of finite numbers, in (R/g)^1/2",
+                       code="no-times")  # fmt: skip
     return t

@@ -48,7 +48,8 @@ class Constants:
             np.broadcast_shapes(*(np.shape(x) for x in (self.K_J, self.K_R, self.E)))
         except ValueError:
             shapes = ", ".join(str(np.shape(x)) for x in (self.K_J, self.K_R, self.E))
-            raise TopError("constants", shapes, "shapes of K_J, K_R and E that broadcast together") from None
+            raise TopError("constants", shapes, "shapes of K_J, K_R and E that broadcast together",
+                           code="shapes-differ") from None  # fmt: skip
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Constants):
@@ -103,12 +104,12 @@ class State:
             if value is not None or field.name not in ("x", "y", "vx", "vy"):
                 object.__setattr__(self, field.name, finite(field.name, value))
                 if abs(getattr(self, field.name)) > LARGEST:
-                    raise TopError(field.name, value, f"at most {LARGEST:g} in size")
+                    raise TopError(field.name, value, "at most {most:g} in size", code="too-large", most=LARGEST)
         if not 0 <= self.theta <= np.pi:
             raise TopError("theta", self.theta, "0 <= theta <= pi (rad)")
         if self.omega2 and self.theta in (0.0, np.pi):
             raise TopError("omega2", self.omega2, "0 on the vertical axis, where 2' has no direction",
-                           "Give the whole horizontal angular velocity as theta_dot.")  # fmt: skip
+                           "Give the whole horizontal angular velocity as theta_dot.", code="no-direction")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -122,7 +123,7 @@ class Exact:
     @classmethod
     def of(cls, constants: Constants, top: Top) -> Self:
         if any(np.ndim(x) for x in (constants.K_J, constants.K_R, constants.E)):
-            raise TopError("constants", constants, "numbers K_J, K_R and E here, not arrays")
+            raise TopError("constants", constants, "Constants(float, float, float)", code="wrong-kind")
         with localcontext(EXACT):
             K_J, K_R, E = (Decimal(float(x)) for x in (constants.K_J, constants.K_R, constants.E))
             return cls(nonzero(K_J), nonzero(K_R), eq.two_E_prime(E, K_J, K_R, exact_top(top)))

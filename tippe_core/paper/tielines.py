@@ -77,7 +77,7 @@ def limited(top: Top, K_J: ArrayLike, K_R: float, limits: Sequence[float | None]
     """Tielines for each of the limits: None for F_z >= 0 alone, or a mu_s."""
     shape, K_J = np.shape(K_J), np.asarray(K_J, dtype=float)
     if not np.all(np.isfinite(K_J)):
-        raise TopError("K_J", float(K_J[~np.isfinite(K_J)].flat[0]), "finite numbers")
+        raise TopError("K_J", float(K_J[~np.isfinite(K_J)].flat[0]), "finite numbers", code="not-finite")
     K_J, K_R = K_J.ravel(), finite("K_R", K_R)
     for mu in limits:
         if mu is not None and finite("mu_s", mu) < 0:

@@ -35,14 +35,16 @@ class Top:
         for name in ("a", "I1", "I3"):
             object.__setattr__(self, name, finite(name, getattr(self, name)))
         if self.a >= 1:
-            raise TopError("a", self.a, "a < 1 (in units of R)", "The centre of mass must lie above the contact point.")
+            raise TopError("a", self.a, "a < 1 (in units of R)", "The centre of mass must lie above the contact point.",
+                           code="too-high")  # fmt: skip
         for name in ("I1", "I3"):
             if getattr(self, name) <= 0:
                 raise TopError(name, getattr(self, name), f"{name} > 0 (in MR^2)")
         if self.I3 > 2 * self.I1 * (1 + 1e-15):
             raise TopError(
                 "I3", self.I3, f"0 < I3 <= 2 I1 = {2 * self.I1:g}",
-                f"No body has more: lower I3 or raise I1 to {self.I3 / 2:g} or above.")  # fmt: skip
+                "No body has more: lower I3 or raise I1 to {least:g} or above.", code="too-flat",
+                least=self.I3 / 2)  # fmt: skip
 
     @classmethod
     def paper(cls) -> Self:
@@ -67,7 +69,7 @@ class Scales:
         for name in ("R", "M", "g"):
             object.__setattr__(self, name, finite(name, getattr(self, name)))
             if getattr(self, name) <= 0:
-                raise TopError(name, getattr(self, name), f"{name} > 0 (SI units)")
+                raise TopError(name, getattr(self, name), f"{name} > 0 (SI)")
 
     @classmethod
     def paper(cls) -> Self:

@@ -286,9 +286,9 @@ def no_motion(curve: ExactCurve, most: Decimal) -> NoMotionError:
     with localcontext(EXACT):
         exact = curve.exact
         E, E_least = (eq.E_of(e, exact.K_J, exact.K_R, curve.top) for e in (exact.e, exact.e - most))
-    constants = f"K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) + 0.0:.10g}"
-    return NoMotionError("E", float(E), f"E >= {no_less(E_least):.10g} for this top, {constants}",
-                         "Below it is no motion, at it the steady precession of least energy.")  # fmt: skip
+    return NoMotionError("E", float(E), "E >= {least:.10g} for this top, K_J = {K_J:.10g} and K_R = {K_R:.10g}",
+                         "Below it is no motion, at it the steady precession of least energy.", code="no-motion",
+                         least=no_less(E_least), K_J=float(exact.K_J) + 0.0, K_R=float(exact.K_R) + 0.0)  # fmt: skip
 
 
 def no_less(x: Decimal) -> float:
