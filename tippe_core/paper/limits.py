@@ -23,7 +23,7 @@ from .wells import D_near, N_near, U_near
 
 # Places along a path outwards from the steady precession, rows of these; DISTANCE in theta to the pole it leads to.
 DISTANCE, X, SIDE, BASE, MARGIN, FIRST = range(6)
-MORE = 40  # places
+MORE = 24  # places
 Limit: TypeAlias = tuple[float, float]  # mu, n
 
 
@@ -93,9 +93,9 @@ def place(distance: float, toward: float) -> tuple[float, float]:
 
 
 @shared_with_kernels
-def seen(row: Array, side: float) -> float:
+def seen(path: Array, k: int, side: float) -> float:
     """x of a place as that pole sees it."""
-    return row[X] if row[SIDE] == side else 2 - row[X]
+    return path[k, X] if path[k, SIDE] == side else 2 - path[k, X]
 
 
 @shared_with_kernels
@@ -120,14 +120,14 @@ def scan(path: Array, toward: float, far: float, points: int, curve: Floats, lim
         ):  # farther and farther, up the wall of U at the pole
             if distance == 0 and through:
                 break
-            distance = max(3 * path[k - 1, DISTANCE] - 2 * path[k - 2, DISTANCE], path[k - 1, DISTANCE] / 4)
+            distance = max(3 * path[k - 1, DISTANCE] - 2 * path[k - 2, DISTANCE], path[k - 1, DISTANCE] / 10)
         x, side = place(distance, toward)
         add(path, k, distance, x, side, path[k - 1, BASE], curve, limit)
         if path[k, BASE] > path[k - 1, BASE]:
             rising = True
         elif rising and k > 1:  # past a barrier: its top takes the place before
             rising, side = False, path[k - 1, SIDE]
-            low, high = seen(path[k - 2], side), seen(path[k], side)
+            low, high = seen(path, k - 2, side), seen(path, k, side)
             if N_near(low, side, curve) * N_near(high, side, curve) < 0:
                 top = zero(N_near, min(low, high), max(low, high), (side, curve))
                 add(path, k - 1, angle(top, side * toward), top, side, path[k - 2, BASE], curve, limit)
@@ -146,7 +146,7 @@ def broken_between(path: Array, k: int, toward: float, curve: Floats, limit: Lim
     if k < 2 or not 0 <= path[k - 1, MARGIN] < min(path[k - 2, MARGIN], path[k, MARGIN]):
         return k
     side, barrier = path[k - 1, SIDE], path[k - 2, BASE]
-    low, at, high = seen(path[k - 2], side), path[k - 1, X], seen(path[k], side)
+    low, at, high = seen(path, k - 2, side), path[k - 1, X], seen(path, k, side)
     x = least(margin_at, min(low, high), at, max(low, high), (side, barrier, curve, limit), 1e-3)
     if margin_at(x, side, barrier, curve, limit) >= 0:
         return k
@@ -162,7 +162,7 @@ def corner(path: Array, k: int, curve: Floats, limit: Limit, part: float) -> int
     if k < 2 or path[k - 1, MARGIN] >= 0:
         return k
     side, barrier = path[k - 1, SIDE], path[k - 2, BASE]
-    low, high = seen(path[k - 2], side), seen(path[k - 1], side)
+    low, high = seen(path, k - 2, side), seen(path, k - 1, side)
     if not path[k - 2, MARGIN] > 0:
         x = low
     else:
@@ -179,20 +179,19 @@ def dips(paths: Array, counts: Indices, curve: Floats, limit: Limit, part: float
     """(2E', x, side) of the least first energy on both paths where it is less than best, between places too."""
     found, x_found, side_found = np.inf, paths[0, 0, X], paths[0, 0, SIDE]
     for way in range(2):
-        path = paths[way]
         for k in range(counts[way]):
-            if path[k, FIRST] < found:
-                found, x_found, side_found = path[k, FIRST], path[k, X], path[k, SIDE]
+            if paths[way, k, FIRST] < found:
+                found, x_found, side_found = paths[way, k, FIRST], paths[way, k, X], paths[way, k, SIDE]
     for way in range(2):
         path = paths[way]
         for k in range(way, counts[way] - 1):
-            before = path[k - 1] if k > 0 else paths[1, 1]
+            one, i = (path, k - 1) if k > 0 else (paths[1], 1)  # the place before
             if (k == 0 and counts[1] < 2) or not path[k, MARGIN] >= 0 or path[k, FIRST] == np.inf:
                 continue
-            if min(before[FIRST], path[k + 1, FIRST]) < path[k, FIRST]:
+            if min(one[i, FIRST], path[k + 1, FIRST]) < path[k, FIRST]:
                 continue
-            side, barrier = path[k, SIDE], before[BASE] if k > 0 else path[0, BASE]
-            low, high = seen(before, side), seen(path[k + 1], side)
+            side, barrier = path[k, SIDE], one[i, BASE] if k > 0 else path[0, BASE]
+            low, high = seen(one, i, side), seen(path, k + 1, side)
             args = side, barrier, curve, limit
             x = least(first_at, min(low, high), path[k, X], max(low, high), args, part * part * 10)
             if first_at(x, *args) < found:
@@ -206,7 +205,7 @@ def turning(path: Array, k: int, curve: Floats, e: float, part: float) -> float:
     for i in range(1, k):
         if path[i, BASE] > e:
             side = path[i, SIDE]
-            low, high = seen(path[i - 1], side), seen(path[i], side)
+            low, high = seen(path, i - 1, side), seen(path, i, side)
             if D_near(low, side, curve, e) <= 0:
                 return angle(low, side)
             return angle(zero(D_near, min(low, high), max(low, high), (side, curve, e), part), side)
@@ -226,14 +225,14 @@ def limit_of(
     if not paths[0, 0, MARGIN] >= -1e-12:
         return np.nan, np.nan, np.nan, np.nan, np.nan
     for closer in range(12):
-        done, best = True, np.inf
-        for way, toward in ((0, 1.0), (1, -1.0)):
-            if paths[way, 0, DISTANCE] > 0 and (closer == 0 or counts[way] < points / 2):
-                counts[way] = k = scan(paths[way], toward, far[way], points, curve, limit, best)
-                best = paths[way, :k, FIRST].min()
-                far[way] = paths[way, k - 1, DISTANCE]
-                done = done and k >= points / 2
-        if done:
+        done = True
+        for way, toward in ((1, -1.0), (0, 1.0)):
+            even = points / 2 <= counts[way] <= points + 1
+            if paths[way, 0, DISTANCE] > 0 and (closer == 0 or not even):
+                best = paths[1 - way, : counts[1 - way], FIRST].min()
+                counts[way] = scan(paths[way], toward, far[way], points, curve, limit, best)
+                far[way], done = paths[way, counts[way] - 1, DISTANCE], False
+        if done or min(paths[0, : counts[0], FIRST].min(), paths[1, : counts[1], FIRST].min()) == np.inf:
             break
     for way in range(2):
         counts[way] = corner(paths[way], counts[way], curve, limit, part)

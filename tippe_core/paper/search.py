@@ -15,7 +15,7 @@ def zero(function: Callable[..., float], low: float, high: float, args: Argument
     """The zero of function(x, *args) between low and high, 0 <= low < high, where its signs differ.
 
     Inverse quadratic interpolation where that is safe, else bisection (T. R. Chandrupatla, Adv. Eng. Softw. 28, 145
-    (1997)), until the bracket is this part of x; then the zero of its chord, which is off by the square of that.
+    (1997)), until the bracket is this part of x and of itself; then the zero of its chord, off by the square of that.
     """
     x, y = high, function(high, *args)  # the newest
     opposite, y_opposite = low, function(low, *args)
@@ -28,7 +28,8 @@ def zero(function: Callable[..., float], low: float, high: float, args: Argument
         else:
             last, y_last, opposite, y_opposite = opposite, y_opposite, x, y
         x, y = new, y_new
-        within = part * (x if abs(y) < abs(y_opposite) else opposite) / abs(opposite - x)
+        best = x if abs(y) < abs(y_opposite) else opposite
+        within = max(part * min(best, high - low), 4e-16 * best) / abs(opposite - x)
         if y == 0 or within > 0.5:
             break
         share = 0.5

@@ -8,14 +8,15 @@ from ..errors import TopError, finite
 from ..types import Array
 from .constants import versines
 from .limits import MORE, limit_of, lowest
-from .poles import Floats, K_J_of_pole
+from .poles import Floats, K_J_of_pole, angle
 from .tielines import crowded
 from .top import TopNumbers
 
 ROWS = 64  # K_J
 PART = (np.arange(ROWS) + 0.5) / ROWS  # of K_J(P)
+MUCH = 1.3
 POINTS, CLOSE = 10, 1e-4  # on each side of a steady precession; how close, a part, a zero is placed
-GRID_V, GRID_M = versines(crowded(48))
+GRID_V, GRID_M = versines(crowded(32))
 
 
 def allowed_shares(a: ArrayLike, I1: ArrayLike, I3: ArrayLike, K_R: float, mu_s: float) -> Array:
@@ -41,6 +42,7 @@ def allowed_shares(a: ArrayLike, I1: ArrayLike, I3: ArrayLike, K_R: float, mu_s:
 def widths(V: Array, M: Array, a: Array, I1: Array, I3: Array, K_R: float, mu_s: float, part: Array) -> Array:
     """Widths in theta of tielines of tops (n,) at these parts of K_J(P): (2, n, parts), of Fig. 5 and of Fig. 6."""
     found, paths, far = np.empty((2, len(a), len(part))), np.empty((2, POINTS + MORE + 2, 6)), np.empty(2)
+    near, reach = np.empty(2), np.empty(2)
     limits = ((1.0, 0.0), (mu_s, 1.0))
     for i in range(len(a)):
         top = TopNumbers(a[i], I1[i], I3[i])
@@ -49,8 +51,12 @@ def widths(V: Array, M: Array, a: Array, I1: Array, I3: Array, K_R: float, mu_s:
             K_J = part[j] * upright
             curve = Floats(top, K_R, K_J - upright, K_J - inverted)
             x, side, _ = lowest(V, M, curve, CLOSE)
-            far[:] = 0
+            near[0], near[1] = angle(x, side), angle(x, -side)
+            for way in range(2):  # much as far as the last one
+                far[way] = max(near[way] - MUCH * reach[way], 0.0) if j > 0 else 0.0
             for k in range(2):
                 _, inner, outer, _, _ = limit_of(paths, x, side, POINTS, curve, limits[k], far, CLOSE)
                 found[k, i, j] = outer - inner if outer > inner else 0.0
+                if k == 0:
+                    reach[:] = near - far
     return found
