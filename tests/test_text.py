@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.bundle import Bundled
 from app.text import DEFAULT, LANGUAGES, listed, preferred
-from app.widgets.bundle import Bundled
 
 APP = Path(__file__).parent.parent / "app"
 CORE = APP.parent / "tippe_core"

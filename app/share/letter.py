@@ -12,9 +12,9 @@ import numpy as np
 from bokeh.embed import components
 from bokeh.settings import settings
 
+from app.bundle import Bundled
 from app.share.export import parameters
 from app.text import say, spoken
-from app.widgets.bundle import Bundled
 from app.widgets.controls import SYMBOLS
 from app.widgets.plots import Motion, PlaneFigure, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Track

@@ -9,6 +9,7 @@ import panel_material_ui as pmui
 import param
 from bokeh.models import ColumnDataSource, CustomJS, Range1d
 
+from app.bundle import pack
 from app.model import lesson
 from app.model.colours import COLOURS, GREY, INK
 from app.model.explorer import axes, outline
@@ -18,7 +19,6 @@ from app.tabs.learn.lines import Derivation
 from app.tabs.learn.poll import option, prediction
 from app.tabs.learn.teach import Key, history_view, teach_view
 from app.text import listed, say, told
-from app.widgets.bundle import pack
 from app.widgets.cards import PLAIN, alert, card, grid, note, on_click, px, swatch, words
 from app.widgets.plots import plain
 from app.widgets.top3d import REGIMES, Top3D, pack_frames, show_top
