@@ -25,7 +25,7 @@ ROOT = Path(__file__).parent.parent
 LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
 CORE = ["constants", "curve", "forces", "rolling", "smooth", "friction", "standing", "contacts", "sliding"]
-APP = ["explorer", "planes", "family"]
+APP = ["explorer", "scene", "region", "frames", "bodies", "planes", "family"]
 FILES = [*CORE, *APP]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
 CONTROL = {"solve", "bisect", "sign_changes", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
@@ -42,7 +42,10 @@ FIRST = {"friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py"],
          "smooth": ["test_equations.py", "test_smooth.py"],
          "rolling": ["test_symbolic.py", "test_equations.py", "test_rolling.py"]}  # fmt: skip
 OF_APP = {
-    "explorer": ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"],
+    **{
+        name: ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"]
+        for name in ("explorer", "scene", "region", "frames", "bodies")
+    },
     "planes": ["test_planes.py", "test_ending.py"],
     "family": ["test_builder.py", "test_explorer.py"],
 }
@@ -135,7 +138,7 @@ EXPLAINED = {
     ): "Newton's steps go on to their last, at the same place",
     ("contacts", "w3 = L3 * top.I3"): "what the frame is turned by too much, the turn in it is too little",
     (
-        "explorer",
+        "scene",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",
     ("sliding", "ez = 1 - 2 * (z[0] * z[0] - z[1] * z[1])"): "steps are looked at for events that have none",

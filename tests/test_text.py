@@ -180,7 +180,7 @@ NOT_SAID = {
     "answers.py": {"GET, HEAD": "a header"},
     "asked.py": {"": "said to the log"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
-    "explorer.py": {"would": "REGIMES of top3d.py"},
+    "regimes.py": {"would": "REGIMES of top3d.py"},
     "export.py": {"": "files of data and programs, which are the same in every language"},
     "keep.py": {"not one of {}": "said to the log"},
     "learn.py": {"in the air": "REGIMES of top3d.py"},

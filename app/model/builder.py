@@ -12,7 +12,8 @@ from typing import Any, TypeAlias
 import numpy as np
 import param
 
-from app.model.explorer import Explorer, fits
+from app.model.bodies import fits
+from app.model.explorer import Explorer
 from app.text import listed, say, told
 from tippe_core import (
     PRESETS,

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dct
 
-from app.model.explorer import Scene
+from app.model.scene import Scene
 from tippe_core import (
     Constants,
     Gliding,

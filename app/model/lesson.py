@@ -11,9 +11,10 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from app.model.bodies import body, second_part
 from app.model.colours import COLOURS, GREY
-from app.model.explorer import Scene, body, second_part, solve
 from app.model.runs import look
+from app.model.scene import Scene, solve
 from app.text import say
 from tippe_core import (
     UPRIGHT,

@@ -14,8 +14,10 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import param
 
+from app.model.bodies import body, second_part
 from app.model.builder import Builder
-from app.model.explorer import Explorer, axes, body, second_part
+from app.model.explorer import Explorer
+from app.model.frames import axes
 from app.model.runs import Result, Run, Runs, Stopped
 from app.text import say, told
 from tippe_core import (

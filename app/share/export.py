@@ -9,7 +9,8 @@ import struct
 
 import numpy as np
 
-from app.model.explorer import WORDS, Scene
+from app.model.regimes import WORDS
+from app.model.scene import Scene
 from tippe_core import turning_points
 
 # name: (what it is, unit, the scale of that unit in SI, the SI unit)

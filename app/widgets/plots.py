@@ -18,7 +18,7 @@ from bokeh.models import (
 from bokeh.plotting import figure
 
 from app.model.colours import COLOURS, FAINT, INK
-from app.model.explorer import ROLLS, SLIPS
+from app.model.regimes import ROLLS, SLIPS
 from app.text import listed, say
 
 GRID, PAPER = "#e7ebef", "#ffffff"

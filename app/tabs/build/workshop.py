@@ -16,7 +16,7 @@ from app.model.builder import FAMILIES, LARGEST_FILE, Rocking, handles, named, p
 from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
 from app.model.colours import COLOURS, FAINT, INK
 from app.widgets.controls import Dial, asked_of, number, typed_number, wording
-from app.model.explorer import body
+from app.model.bodies import body
 from app.widgets.pacing import at_once
 from app.widgets.plots import plain
 from app.text import listed, say

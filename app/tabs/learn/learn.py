@@ -11,8 +11,9 @@ from bokeh.models import ColumnDataSource, CustomJS, Range1d
 
 from app.bundle import pack
 from app.model import lesson
+from app.model.bodies import outline
 from app.model.colours import COLOURS, GREY, INK
-from app.model.explorer import axes, outline
+from app.model.frames import axes
 from app.model.runs import Run, Runs
 from app.state.keep import SECRET, Field, OneOf
 from app.tabs.learn.lines import Derivation

@@ -7,7 +7,7 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.model.colours import COLOURS
-from app.model.explorer import least_energy
+from app.model.region import least_energy
 from app.state import asked
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid, section, swatch, words
