@@ -25,7 +25,7 @@ ROOT = Path(__file__).parent.parent
 LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
 CORE = ["constants", "curve", "forces", "rolling", "smooth", "friction", "standing", "contacts", "sliding"]
-APP = ["explorer", "scene", "region", "frames", "bodies", "planes", "family"]
+APP = ["explorer", "scene", "region", "frames", "bodies", "planes", "planes_picture", "planes_run", "family"]
 FILES = [*CORE, *APP]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
 CONTROL = {"solve", "bisect", "sign_changes", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
@@ -46,7 +46,7 @@ OF_APP = {
         name: ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"]
         for name in ("explorer", "scene", "region", "frames", "bodies")
     },
-    "planes": ["test_planes.py", "test_ending.py"],
+    **{name: ["test_planes.py", "test_ending.py"] for name in ("planes", "planes_picture", "planes_run")},
     "family": ["test_builder.py", "test_explorer.py"],
 }
 REST_OF_APP = ["test_explorer.py", "test_planes.py", "test_lesson.py", "test_export.py", "test_builder.py"]
@@ -142,7 +142,7 @@ EXPLAINED = {
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",
     ("sliding", "ez = 1 - 2 * (z[0] * z[0] - z[1] * z[1])"): "steps are looked at for events that have none",
-    ("planes", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
+    ("planes_picture", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from limits import limit
 
-from app.model.builder import FAMILIES, Builder, Rocking, changed, handles, pulled, sentence, value_of
+from app.model.builder import Builder, Rocking
+from app.model.dimensions import FAMILIES, changed, handles, pulled, sentence, value_of
 from app.model.explorer import Explorer
 from app.model.family import neighbours, pegs, presets, region, share_map
 from app.tabs.build.workshop import KNOBS, Workshop

@@ -12,7 +12,8 @@ import param
 from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d
 
 from app.state import asked
-from app.model.builder import FAMILIES, LARGEST_FILE, Rocking, handles, named, pulled, sentence, value_of
+from app.model.dimensions import FAMILIES, handles, named, pulled, sentence, value_of
+from app.model.builder import LARGEST_FILE, Rocking
 from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
 from app.model.colours import COLOURS, FAINT, INK
 from app.widgets.controls import Dial, asked_of, number, typed_number, wording

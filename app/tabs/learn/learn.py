@@ -10,7 +10,7 @@ import param
 from bokeh.models import ColumnDataSource, CustomJS, Range1d
 
 from app.bundle import pack
-from app.model import lesson
+from app.model import lesson, lesson_sliding
 from app.model.bodies import outline
 from app.model.colours import COLOURS, GREY, INK
 from app.model.frames import axes
@@ -105,7 +105,7 @@ def show_motion(view, scene, motion, stem):
     F_x, F_y, F_z = (component[:, None] for component in motion.force.T)
     top = scene.top
     view.param.update(
-        mu_s=lesson.FRICTION.mu,
+        mu_s=lesson_sliding.FRICTION.mu,
         profile=pack(scene.profile if stem else outline(top)),
         seconds=scene.scales.time,
         speed=SLIDING_SPEED,
@@ -123,7 +123,7 @@ def show_motion(view, scene, motion, stem):
 
 
 class StepFigure:
-    """A lesson.Picture: curves and points over two axes."""
+    """A lesson_parts.Picture: curves and points over two axes."""
 
     def __init__(self):
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="lesson")

@@ -5,7 +5,8 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.bundle import pack
-from app.model.planes import LAWS, PATIENCE, PLANES, PRESETS
+from app.model.planes import PATIENCE, PRESETS
+from app.model.planes_picture import LAWS, PLANES
 from app.state.keep import Field, Number, OneOf
 from app.tabs.planes.plots import CLOCK, LEDGER, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
