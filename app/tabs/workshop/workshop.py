@@ -11,16 +11,16 @@ import panel_material_ui as pmui
 import param
 from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d
 
-from app.state import asked
-from app.model.dimensions import FAMILIES, handles, named, pulled, sentence, value_of
-from app.model.builder import LARGEST_FILE, Rocking
-from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
-from app.model.colours import COLOURS, FAINT, INK
-from app.widgets.controls import Dial, asked_of, number, typed_number, wording
 from app.model.bodies import body
+from app.model.builder import LARGEST_FILE, Rocking
+from app.model.colours import COLOURS, FAINT, INK
+from app.model.dimensions import FAMILIES, handles, named, pulled, sentence, value_of
+from app.state import asked
+from app.text import listed, say
+from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
+from app.widgets.controls import Dial, asked_of, number, typed_number, wording
 from app.widgets.pacing import at_once
 from app.widgets.plots import plain
-from app.text import listed, say
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TopError, Turned
 
 SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
