@@ -18,7 +18,8 @@ from app.tabs.learn.learn import Learn, kept
 from app.tabs.learn.student import student_page
 from app.tabs.planes.three_planes import KEPT, ThreePlanes
 from app.tabs.roll.roll import Roll
-from app.tabs.workshop.workshop import Measure, Workshop
+from app.tabs.workshop.measure import Measure
+from app.tabs.workshop.workshop import Workshop
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid
 from app.widgets.connection import Connection

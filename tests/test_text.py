@@ -181,7 +181,8 @@ NOT_SAID = {
     "asked.py": {"": "said to the log"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
     "regimes.py": {"would": "REGIMES of top3d.py"},
-    "export.py": {"": "files of data and programs, which are the same in every language"},
+    **{name: {"": "files of data and programs, which are the same in every language"}
+       for name in ("export.py", "glb.py", "programs.py")},
     "keep.py": {"not one of {}": "said to the log"},
     "learn.py": {"in the air": "REGIMES of top3d.py"},
     "planes.py": {"no friction: {}": "the beginning of a key"},
