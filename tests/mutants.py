@@ -26,12 +26,13 @@ os.environ["NUMBA_DISABLE_JIT"] = "1"  # what is compiled and kept would not not
 ROOT = Path(__file__).parent.parent
 LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
-CORE = ["equations", "poles", "constants", "curve", "wells", "limits", "rolling", "smooth", "friction", "standing",
-        "contacts", "sliding"]  # fmt: skip
-APP = ["explorer", "planes", "family"]
+CORE = ["equations", "poles", "constants", "curve", "wells", "limits", "nutation", "phase", "series", "crowding",
+        "rolling", "smooth", "friction", "dynamics", "stepper", "following", "happening", "contacts", "impact",
+        "impulses", "standing", "preparing", "sliding", "many", "tally"]  # fmt: skip
+APP = ["explorer", "scene", "region", "frames", "bodies", "planes", "planes_picture", "planes_run", "family"]
 FILES = [*CORE, *APP]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
-CONTROL = {"solve", "bisect", "zero", "least", "_converged", "_resolved", "_most", "_evaluate", "first_below"}
+CONTROL = {"solve", "bisect", "zero", "least", "resolved", "harmonics", "length", "first_below"}
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
          "test_forces.py", "test_symbolic.py", "test_paper.py", "test_top.py"]  # fmt: skip
 ROLLS = ["test_smooth.py", "test_accuracy.py", "test_rolling.py", "test_sliding.py", "test_claims.py",
@@ -45,8 +46,11 @@ FIRST = {"friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py"],
          "smooth": ["test_equations.py", "test_smooth.py"],
          "rolling": ["test_symbolic.py", "test_equations.py", "test_rolling.py"]}  # fmt: skip
 OF_APP = {
-    "explorer": ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"],
-    "planes": ["test_planes.py", "test_ending.py"],
+    **{
+        name: ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"]
+        for name in ("explorer", "scene", "region", "frames", "bodies")
+    },
+    **{name: ["test_planes.py", "test_ending.py"] for name in ("planes", "planes_picture", "planes_run")},
     "family": ["test_builder.py", "test_explorer.py"],
 }
 REST_OF_APP = ["test_explorer.py", "test_planes.py", "test_lesson.py", "test_export.py", "test_builder.py"]
@@ -122,11 +126,11 @@ EXPLAINED = {
     ): "Newton's steps go on to their last, at the same place",
     ("contacts", "w3 = L3 * top.I3"): "what the frame is turned by too much, the turn in it is too little",
     (
-        "explorer",
+        "scene",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",
     ("sliding", "ez = 1 - 2 * (z[0] * z[0] - z[1] * z[1])"): "steps are looked at for events that have none",
-    ("planes", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
+    ("planes_picture", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
