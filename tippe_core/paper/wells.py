@@ -69,13 +69,18 @@ class ExactCurve:
         K_J, K_R = (nonzero(Decimal(finite(name, K))) for name, K in (("K_J", K_J), ("K_R", K_R)))
         return cls(top, Exact(K_J, K_R, Decimal(0)))
 
+    def parts(self, c: Decimal) -> tuple[Decimal, Decimal, Decimal]:
+        """s^2, w3 and B."""
+        s2 = 1 - c * c
+        w3 = eq.omega3(c, s2, self.exact.K_R, self.top)
+        return s2, w3, eq.bracket(c, self.exact.K_J, w3, self.top)
+
     def U(self, c: Decimal) -> Decimal:
         """Infinite at a pole unless the bracket vanishes there too: then it is the height alone."""
-        s2 = 1 - c * c
-        if s2:
-            B = eq.bracket(c, self.exact.K_J, eq.omega3(c, s2, self.exact.K_R, self.top), self.top)
-            return eq.U(1 - c, c, s2, B * B / s2, self.top)
-        return Decimal("Infinity") if self.offsets[c < 0] else eq.U(1 - c, c, s2, Decimal(0), self.top)
+        if abs(c) == 1:
+            return Decimal("Infinity") if self.offsets[c < 0] else eq.U(1 - c, c, Decimal(0), Decimal(0), self.top)
+        s2, _, B = self.parts(c)
+        return eq.U(1 - c, c, s2, B * B / s2, self.top)
 
     def kinetic(self, c: Decimal) -> tuple[Decimal, Decimal | None]:
         """e - U and its slope, for where U is finite; at a pole the slope is left out."""
@@ -83,19 +88,15 @@ class ExactCurve:
         return self.exact.e - self.U(c), -self.N(c) / (s2 * s2) if s2 else None
 
     def D(self, c: Decimal) -> tuple[Decimal, Decimal]:
-        """s^2 (e - U), which is finite at the poles too, and its slope there between them."""
-        s2 = 1 - c * c
-        w3 = eq.omega3(c, s2, self.exact.K_R, self.top)
-        B = eq.bracket(c, self.exact.K_J, w3, self.top)
+        """s^2 (e - U) between the poles, where only this is finite towards them, and its slope."""
+        s2, w3, B = self.parts(c)
         N = eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
         kinetic = self.exact.e - eq.U(1 - c, c, s2, B * B / s2, self.top)
         return s2 * kinetic, -2 * c * kinetic - N / s2
 
     def N(self, c: Decimal) -> Decimal:
         """s^4 dU/dc"""
-        s2 = 1 - c * c
-        w3 = eq.omega3(c, s2, self.exact.K_R, self.top)
-        B = eq.bracket(c, self.exact.K_J, w3, self.top)
+        s2, w3, B = self.parts(c)
         return eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
 
 
