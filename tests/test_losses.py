@@ -9,7 +9,18 @@ import numpy as np
 import pytest
 from cases import LOADED, PAPER
 
-from tippe_core import Contensou, Coulomb, Scales, SmoothedCoulomb, State, Top, TopError, TruncatedSphere, Viscous, slide
+from tippe_core import (
+    Contensou,
+    Coulomb,
+    Scales,
+    SmoothedCoulomb,
+    State,
+    Top,
+    TopError,
+    TruncatedSphere,
+    Viscous,
+    slide,
+)
 
 BALL = Top(0.0, 0.4, 0.4)
 EDGE = TruncatedSphere.paper().edge
@@ -41,12 +52,12 @@ def test_pivoting_takes_C_J_at_its_own_rate():
 
 
 def test_a_patch_without_extent_is_coulombs_point():
-    times, state = np.linspace(0, 3, 31), State(1.0, 0.3, 0.2, 6.0)
+    times, state = np.linspace(0, 30, 301), State(1.0, 0.3, 0.2, 6.0)
     point, patch = (slide(PAPER, state, law, times) for law in (Coulomb(0.4), Contensou(0.4, 0.0)))
     assert point.events == patch.events and point.events
     np.testing.assert_array_equal(point.theta, patch.theta)
-    small = slide(PAPER, state, Contensou(0.4, 1e-6), times[:4], rtol=1e-10)
-    np.testing.assert_allclose(small.theta, point.theta[:4], rtol=0, atol=1e-5)
+    small = slide(PAPER, state, Contensou(0.4, 1e-6), times[:20], rtol=1e-10)
+    np.testing.assert_allclose(small.theta, point.theta[:20], rtol=0, atol=1e-5)
 
 
 def test_a_spinning_ball_is_stopped_by_its_patch():
@@ -79,13 +90,13 @@ def test_a_patch_at_rest_rolls_without_pivoting():
 def test_the_life_of_a_real_toy(rad_per_s, passes, stands, leaves):
     """When it passes 90 and 170 degrees and last falls below 170, as an own body on two compliant contacts has it."""
     scales = Scales(R=0.015, M=0.006)
-    times = np.linspace(0, 12 / scales.time, 12_001)
+    times = np.linspace(0, 16 / scales.time, 16_001)
     start = State(0.1, 0, 0, rad_per_s / scales.angular_velocity)
     moved = slide(TOY, start, Contensou(0.3, 1 / 30), times, landing="plastic", edge=ROUND)
     seconds, tilt = moved.t * scales.time, np.degrees(moved.theta)
     assert seconds[np.argmax(tilt > 90)] == pytest.approx(passes, abs=0.011)
     assert seconds[np.argmax(tilt > 170)] == pytest.approx(stands, abs=0.011)
-    assert seconds[np.flatnonzero(tilt > 170)[-1]] == pytest.approx(leaves, abs=0.011)
+    assert seconds[np.flatnonzero(tilt > 170)[-1]] == pytest.approx(leaves, abs=0.02)  # it falls slowly at first
     assert tilt[-1] == pytest.approx(65, abs=3)
 
 
