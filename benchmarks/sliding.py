@@ -6,8 +6,8 @@ comparison in the same run, MuJoCo stepping the same top: a sphere with its mass
 frictionless and the law of friction given as a force (a callback in Python, timed with and without; without it the
 motion is another one, but a step costs the same). Aim: at 1e-8 at least 40 times faster than MuJoCo's RK4 without the
 law at the step that gives it a drift of 1e-6. Integrators: implicitfast, of first order, as MuJoCo advises for
-contacts, whose drift falls with the step, so that the step for 1e-6 is found by proportion; and RK4, at the largest step tried
-that keeps 1e-6.
+contacts, whose drift falls with the step, so that the step for 1e-6 is found by proportion; and RK4, at the largest
+step tried that keeps 1e-6.
 """
 
 import math
