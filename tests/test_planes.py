@@ -412,7 +412,7 @@ def test_a_run_that_can_go_no_further_shows_what_was_computed_and_says_why(usual
     pushed = State(2.6, 0.0, 0.0, 0.0, vx=0.0, vy=-1.0)
     picture, said = ran(usual, law="coulomb", mu_k=1.0, mu_s=1.0, rolling=pushed, seconds=0.5)
     assert said.startswith("goes no further: 149.0° at 0 s") and "Painlevé’s limit" in said
-    monkeypatch.setattr("tippe_core.motion.sliding.MOST_CALLS", 10)
+    monkeypatch.setattr("tippe_core.motion.sliding.MOST_STEPS", 640)
     picture, said = ran(usual, spin=38.0, seconds=60.0)
     motion = picture.motions["sliding"]
     last = motion.trajectory.events[-1][0] * picture.settings.scales.time
