@@ -104,12 +104,6 @@ def test_several_inputs_make_one_solve_and_one_event(explorer, monkeypatch):
     assert (explorer.scene.constants.K_J, explorer.scene.constants.K_R, explorer.scene.mu_s) == (5.0, 9.0, 0.4)
 
 
-def test_the_cursor_solves_nothing(explorer):
-    scene, scenes = explorer.scene, watch(explorer)
-    explorer.cursor = 1.0
-    assert explorer.scene is scene and not scenes
-
-
 def test_the_scene_cannot_be_set_or_changed_from_outside(explorer):
     with pytest.raises(TypeError):
         explorer.scene = dataclasses.replace(explorer.scene)
