@@ -11,8 +11,8 @@ from pathlib import Path
 import panel_material_ui as pmui
 from panel.custom import JSComponent
 
+from app.bundle import Bundled
 from app.text import LANGUAGES
-from app.widgets.bundle import Bundled
 from app.widgets.cards import HEIGHT_OF_A_CARD
 from app.widgets.top3d import Top3D
 

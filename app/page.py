@@ -13,12 +13,13 @@ from app.model.planes import Planes
 from app.model.runs import Runs, connected_to, to_session
 from app.share.share import Share
 from app.state.keep import Field, OneOf, explorer_of, read
-from app.tabs.build.workshop import Measure, Workshop
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn, kept
 from app.tabs.learn.student import student_page
 from app.tabs.planes.three_planes import KEPT, ThreePlanes
 from app.tabs.roll.roll import Roll
+from app.tabs.workshop.measure import Measure
+from app.tabs.workshop.workshop import Workshop
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid
 from app.widgets.connection import Connection

@@ -25,14 +25,15 @@ ROOT = Path(__file__).parent.parent
 LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
 PAPER = ["equations", "poles", "constants", "curve", "forces", "wells", "limits"]
-ROLLING = ["nutation", "phase", "rolling"]
-SLIDING = ["friction", "dynamics", "impact", "impulses", "contacts", "standing", "following", "poses", "preparing",
-           "repeats", "sliding"]  # fmt: skip
+ROLLING = ["nutation", "phase", "series", "crowding", "rolling"]
+SLIDING = ["friction", "dynamics", "stepper", "following", "happening", "contacts", "impact", "impulses", "standing",
+           "preparing", "poses", "repeats", "sliding", "many", "tally"]  # fmt: skip
 CORE = [*PAPER, *ROLLING, "smooth", *SLIDING]
-APP = ["explorer", "planes", "family"]
+APP = ["explorer", "scene", "region", "frames", "bodies", "planes", "planes_picture", "planes_run", "family"]
 FILES = [*CORE, *APP]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
-CONTROL = {"solve", "bisect", "zero", "least", "first_below", "accept"}
+CONTROL = {"solve", "bisect", "zero", "least", "resolved", "harmonics", "length", "first_below", "accept", "error",
+           "factor"}  # fmt: skip
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
          "test_forces.py", "test_symbolic.py", "test_paper.py", "test_top.py"]  # fmt: skip
 ROLLS = ["test_smooth.py", "test_accuracy.py", "test_rolling.py", "test_sliding.py", "test_claims.py",
@@ -47,10 +48,14 @@ FIRST = {
     "friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py"],
     "dynamics": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py", "test_contacts.py"],
     "standing": ["test_contacts.py"],
+    **{name: ["test_many.py", "test_contacts.py"] for name in ("repeats", "many", "tally")},
 }
 OF_APP = {
-    "explorer": ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"],
-    "planes": ["test_planes.py", "test_ending.py"],
+    **{
+        name: ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"]
+        for name in ("explorer", "scene", "region", "frames", "bodies")
+    },
+    **{name: ["test_planes.py", "test_ending.py"] for name in ("planes", "planes_picture", "planes_run")},
     "family": ["test_builder.py", "test_explorer.py"],
 }
 REST_OF_APP = ["test_explorer.py", "test_planes.py", "test_lesson.py", "test_export.py", "test_builder.py"]
@@ -87,10 +92,10 @@ EXPLAINED = {
     ("smooth", "if slope == 0 or (abs(here) == 1 and slope / here > 0):"): "a quotient has the sign of the product",
     ("contacts", "if worst <= SLACK * 2:"): "what counts as nothing",
     (
-        "explorer",
+        "scene",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",
-    ("planes", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
+    ("planes_picture", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",

@@ -44,7 +44,6 @@ def test_f_at_hard_places(hard, compare):
                 scale=float(size + slope))  # fmt: skip
 
 
-@pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="no float here is longer than a double")
 @pytest.mark.parametrize("share", [1e-4, 1e-6, 1e-8])
 def test_f_and_forces_next_to_a_turning_point(hard, share):
     """Also where f has lost nearly all figures of its terms, 1e-9 of itself is right."""

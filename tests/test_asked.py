@@ -11,8 +11,8 @@ from app.model.builder import Builder
 from app.model.explorer import Explorer
 from app.share.share import TOP
 from app.state.keep import Field, Keep, Numbers, OneOf
-from app.tabs.build.workshop import Workshop
 from app.tabs.roll.roll import Roll
+from app.tabs.workshop.workshop import Workshop
 from app.widgets.surface3d import Surface3D
 
 VALUES = {"None": None, "True": True, "-1": -1, "10**400": 10**400, "1e308": 1e308, "nan": math.nan, "empty": "",

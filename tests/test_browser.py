@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from visiting import wait
 
-from app.model.explorer import solve
+from app.model.scene import solve
 from tippe_core import Top
 
 pytestmark = pytest.mark.served

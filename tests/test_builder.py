@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from limits import limit
 
-from app.model.builder import FAMILIES, Builder, Rocking, changed, handles, pulled, sentence, value_of
+from app.model.builder import Builder, Rocking
+from app.model.dimensions import FAMILIES, changed, handles, pulled, sentence, value_of
 from app.model.explorer import Explorer
 from app.model.family import neighbours, pegs, presets, region, share_map
-from app.tabs.build.workshop import KNOBS, Workshop
 from app.tabs.families.compare import Compare
+from app.tabs.workshop.workshop import KNOBS, Workshop
 from tippe_core import (
     PRESETS,
     Ball,

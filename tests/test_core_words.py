@@ -5,10 +5,11 @@ import re
 import numpy as np
 import pytest
 
-from app.model.builder import FAMILIES, Builder, sentence
+from app.model.builder import Builder
+from app.model.dimensions import FAMILIES, sentence
 from app.model.explorer import Explorer
-from app.model.planes import ANOTHER, THROWN
 from app.model.planes import PRESETS as STARTS
+from app.model.planes_run import ANOTHER, THROWN
 from app.tabs.planes.words import outcome_words
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide

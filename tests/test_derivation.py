@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.model import derivation
+from app.model import derivation, stretches
 from app.model.explorer import Explorer
 from app.text import listed
 from tippe_core import Gliding, State, Top
@@ -26,7 +26,7 @@ def motion(request):
     explorer = Explorer(**top)
     explorer.param.update(given="state", **state)
     assert not explorer.scene.messages and explorer.scene.state.theta == state["theta"]
-    return {"rough": derivation.rolled(explorer.scene), "smooth": derivation.glided(explorer.scene)}
+    return {"rough": stretches.rolled(explorer.scene), "smooth": stretches.glided(explorer.scene)}
 
 
 def test_every_equation_is_there_with_its_words():
@@ -59,13 +59,13 @@ def off(window):
     """The window, with one of what its motion says off by a thousandth, in turn."""
     for name in ("omega", "force", "velocity", "com", "quaternion"):
         bad = getattr(window.motion, name) * (1 + 1e-3 * np.sin(3 * window.t))[:, None]
-        yield derivation.Window(window.top, replace(window.motion, **{name: bad}), window.constants, window.state)
+        yield stretches.Window(window.top, replace(window.motion, **{name: bad}), window.constants, window.state)
 
 
 def test_the_signs_of_22_as_printed_hold_on_no_motion(motion):
     """The page prints (22) with the signs of its two terms in theta_dot exchanged; here they are as (21) gives them."""
     [m, *_] = motion["rough"]
-    inner = slice(derivation.EDGE, -derivation.EDGE)
+    inner = slice(stretches.EDGE, -stretches.EDGE)
     left = (m.I3 * m.w3 * m.d(m.w3))[inner]
     printed = (derivation.falling(m) - ((m.I3 / m.I1 - 1) * m.r3 - m.a) * derivation.tipping(m))[inner]
     assert np.abs(left - printed).max() > 1e-3 * np.abs(left).max()

@@ -6,8 +6,14 @@ import time
 import numpy as np
 import pytest
 
+import app.model.bodies
 import app.model.explorer
-from app.model.explorer import LIFTS, ROLLS, SLIPS, Explorer, Marks, solve
+import app.model.frames
+import app.model.region
+import app.model.scene
+from app.model.explorer import Explorer
+from app.model.regimes import LIFTS, ROLLS, SLIPS
+from app.model.scene import Marks, solve
 from app.widgets.controls import Controls
 from app.widgets.pacing import Pacer
 from tippe_core import (
@@ -88,7 +94,7 @@ def test_fig_5_ends_at_the_papers_point_P(explorer):
 
 def test_several_inputs_make_one_solve_and_one_event(explorer, monkeypatch):
     solves, scenes = [], watch(explorer)
-    solve = app.model.explorer.solve
+    solve = app.model.scene.solve
     monkeypatch.setattr(
         app.model.explorer, "solve", lambda *inputs, **face: solves.append(inputs) or solve(*inputs, **face)
     )
@@ -225,7 +231,7 @@ def test_hover_knows_the_whole_plane(explorer):
 
 
 def test_a_plane_that_ends_at_a_whole_step_has_a_tieline_there():
-    plane = app.model.explorer.plane(Top.paper(), 10.0, 0.5, True, "slip", 0.0, 12.0)
+    plane = app.model.region.plane(Top.paper(), 10.0, 0.5, True, "slip", 0.0, 12.0)
     assert plane.K_J[0] == 0 and plane.K_J[-1] == plane.hover_K_J[-1] == 12.0
 
 
@@ -242,14 +248,14 @@ def test_the_control_of_the_energy_runs_one_way_and_back(nodes):
 @pytest.mark.parametrize("K_R", [1.0, 10.0])
 def test_where_nothing_limits_the_energy_the_control_has_room(K_R):
     """A uniform ball (a = 0: F_z = 1, F_h = 0): half as much again as the steady precession has, and some MgR."""
-    marks = app.model.explorer.energy_marks(Top(0.0, 0.4, 0.4), 1.0, K_R, 0.5)
+    marks = app.model.scene.energy_marks(Top(0.0, 0.4, 0.4), 1.0, K_R, 0.5)
     assert np.isinf([marks.slip, marks.lift]).all()
     assert marks.nodes[2] - marks.steady == pytest.approx(0.5 * (1 + marks.steady))
 
 
 def test_where_the_limit_is_no_more_than_the_steady_precession_the_control_has_room():
     """So fast a precession that the difference is lost among floats."""
-    marks = app.model.explorer.energy_marks(Top.paper(), 1e6, 0.0, 0.5)
+    marks = app.model.scene.energy_marks(Top.paper(), 1e6, 0.0, 0.5)
     assert marks.lift == pytest.approx(marks.steady, rel=1e-15) and marks.nodes[2] - marks.steady == pytest.approx(
         0.25 * (1 + marks.steady)
     )
@@ -257,7 +263,7 @@ def test_where_the_limit_is_no_more_than_the_steady_precession_the_control_has_r
 
 def test_a_limit_far_off_is_marked_where_it_is():
     """Of a fast ball with G hardly below O: the limit of F_z, some 1/a beyond."""
-    marks = app.model.explorer.energy_marks(Top(1e-4, 0.4, 0.4), 100.0, 100.0, 1e3)
+    marks = app.model.scene.energy_marks(Top(1e-4, 0.4, 0.4), 100.0, 100.0, 1e3)
     assert np.isfinite(marks.lift) and marks.nodes[2] == marks.lift
 
 
@@ -266,12 +272,12 @@ def test_no_frame_turns_the_top_far_and_a_nutation_has_many():
     for top, K_J, K_R, E, many in ((Top.paper(), 8.0, 10.0, 29.0, 64), (Top(-1.0, 2.0, 0.05), 0.0, 10.0, 48.96, 400)):
         constants = Constants(K_J, K_R, E)
         period = Rolling(top, constants).period
-        times = app.model.explorer.frame_times(period, top, constants)
+        times = app.model.frames.frame_times(period, top, constants)
         step = np.diff(times).max()
         assert many - 1e-9 < period / step < 2 * many
-        longest = app.model.explorer.MOST_FRAMES * step
-        assert times[-1] == pytest.approx(min(app.model.explorer.NUTATIONS * period, longest), rel=1e-3)
-        assert np.abs(roll(top, constants, times).omega * step).max() < app.model.explorer.MOST_TURN
+        longest = app.model.frames.MOST_FRAMES * step
+        assert times[-1] == pytest.approx(min(app.model.frames.NUTATIONS * period, longest), rel=1e-3)
+        assert np.abs(roll(top, constants, times).omega * step).max() < app.model.frames.MOST_TURN
 
 
 @pytest.mark.parametrize(
@@ -287,7 +293,7 @@ def test_no_frame_turns_the_top_far_and_a_nutation_has_many():
 )
 def test_what_touches_beside_the_ball_has_its_name(shape, part):
     """The end of a stem; or what is no stem's: the edge of a cut, a disc wider than the ball."""
-    assert app.model.explorer.second_part(shape) == part
+    assert app.model.bodies.second_part(shape) == part
 
 
 def test_a_top_that_rocks_through_upright_has_its_rosette_there(explorer):
@@ -463,7 +469,7 @@ def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, pacer):
 def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
     """From 0 to P = 8.36508, where the paper draws it, and with half a unit of room beside a K_J outside."""
     for K_J in (-12.3, -3.4, 0.0, 4.0, 8.3, 9.4, 9.6, 30.2):
-        low, high = app.model.explorer.K_J_range(Top.paper(), K_J, 10.0, upper)
+        low, high = app.model.region.K_J_range(Top.paper(), K_J, 10.0, upper)
         assert low <= 0 and high >= 8.36508 and low <= K_J <= high
         assert upper or low < -8.708  # the inverted pole's
         if K_J < (0 if upper else -10.9):
@@ -473,8 +479,8 @@ def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
 
 
 def test_a_top_without_spin_has_a_plane_all_the_same():
-    assert app.model.explorer.K_J_range(Top.paper(), 0.0, 0.0, True) == (-1.0, 1.0)
-    assert app.model.explorer.K_J_range(Top.paper(), 5.0, 0.0, True) == (-1.0, 6.0)
+    assert app.model.region.K_J_range(Top.paper(), 0.0, 0.0, True) == (-1.0, 1.0)
+    assert app.model.region.K_J_range(Top.paper(), 5.0, 0.0, True) == (-1.0, 6.0)
 
 
 def test_the_curve_of_the_energy_goes_past_both_turning_points(explorer):
@@ -489,16 +495,16 @@ def test_the_curve_of_the_energy_goes_past_both_turning_points(explorer):
 
 def test_a_body_of_many_corners_is_drawn_with_all_of_them():
     points = tuple((0.01 + 1e-3 * (i % 2), 1e-4 * i) for i in range(400))
-    drawn = app.model.explorer.body(Lathe(R=0.01, points=points, density=700.0))
+    drawn = app.model.bodies.body(Lathe(R=0.01, points=points, density=700.0))
     assert all(np.hypot(*(drawn - np.array(point) / 0.01).T).min() < 1e-12 for point in points)
 
 
 def test_the_stand_in_of_a_body_that_is_not_known():
     """A ball, where G is below O or little above it; else a disc about G, on a peg of radius R."""
     for a in (0.5, 0.07, 0.0, -0.25):
-        radius, height = app.model.explorer.outline(Top(a, 0.4, 0.4)).T
+        radius, height = app.model.bodies.outline(Top(a, 0.4, 0.4)).T
         np.testing.assert_allclose(np.hypot(radius, height), 1, atol=1e-12)
-    radius, height = app.model.explorer.outline(Top(-2.0, 3.0, 2.25)).T
+    radius, height = app.model.bodies.outline(Top(-2.0, 3.0, 2.25)).T
     wide = radius == radius.max()
     assert radius.max() == pytest.approx(1.5 * 1.5) and height[wide].mean() == pytest.approx(2.0)
     assert height.min() == pytest.approx(-1.0)

@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 from app.model.explorer import Explorer
-from app.share import export, prints
+from app.share import export, glb, prints, programs
 from app.share.letter import letter
 from tippe_core import PRESETS, Constants, Top, TruncatedSphere, figures, roll
 
@@ -86,7 +86,7 @@ def test_the_python_gives_the_same_numbers(inputs, tmp_path, monkeypatch):
     plane, trajectory = scene.plane, scene.trajectory
 
     def run(name):
-        code = export.PYTHON[name](scene)
+        code = programs.PYTHON[name](scene)
         assert len([line for line in code.splitlines() if line]) <= 10
         names = {}
         exec(compile(code, name, "exec"), names)
@@ -131,7 +131,7 @@ def array(gltf, index):
 def test_gltf_is_the_body_and_its_motion(preset):
     top = preset.shape.top
     scene = scene_of(shape=preset.shape, a=top.a, I1=top.I1, I3=top.I3, K_J=0.4, K_R=12.0, energy=0.3)
-    gltf = pygltflib.GLTF2.load_from_bytes(export.animation_glb(scene, slower=16))
+    gltf = pygltflib.GLTF2.load_from_bytes(glb.animation_glb(scene, slower=16))
     trajectory, R = scene.trajectory, preset.shape.R
     animation = gltf.animations[0]
     seconds = array(gltf, animation.samplers[0].input)[:, 0]
@@ -194,7 +194,7 @@ def test_three_js_reads_the_gltf_and_moves_the_body_as_computed(scene, chromium)
     # G, and G moved by R along axes 3 and 1 of the body
     points = scales.R * np.array([[0, 0, -top.a], [0, 0, 1 - top.a], [1, 0, -top.a]])
     seconds = 16 * scales.time * motion.t[at]
-    file = list(export.animation_glb(scene, slower=16))
+    file = list(glb.animation_glb(scene, slower=16))
     found = page.evaluate("(all) => read(...all)", [file, seconds.tolist(), points.tolist()])
     page.close()
     x, y, z, w = motion.quaternion[at].T

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 from visiting import COLUMN, WHOLE, Visit
 
-from app.model.explorer import solve
+from app.model.scene import solve
 from tippe_core import Top
 
 pytestmark = pytest.mark.served

@@ -11,8 +11,8 @@ import panel as pn
 import pytest
 from visiting import free_port, wait
 
+from app.bundle import Bundled, pack
 from app.model.colours import COLOURS
-from app.widgets.bundle import Bundled, pack
 from app.widgets.controls import Control
 from app.widgets.surface3d import Surface3D
 from app.widgets.top3d import Top3D, pack_frames

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from visiting import COLUMN, PIXEL, WHOLE, Visit, wait
 
-from app.model.explorer import least_energy, solve
+from app.model.region import least_energy
+from app.model.scene import solve
 from tippe_core import Constants, Top, roll, tielines, turning_points
 
 pytestmark = pytest.mark.served

@@ -12,7 +12,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from app.model.explorer import Explorer
-from app.share.share import Clock
+from app.share.parts import Clock
 from app.state.keep import EXPLORER, LONGEST_QUERY, STEPS, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
 from app.text import say
 from app.widgets.top3d import Top3D

@@ -10,7 +10,8 @@ import zxingcpp
 from PIL import Image
 from visiting import Visit
 
-from app.model.explorer import Explorer, solve
+from app.model.explorer import Explorer
+from app.model.scene import solve
 from tippe_core import Top
 
 pytestmark = pytest.mark.served

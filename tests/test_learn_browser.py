@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from visiting import Visit
 
-from app.model import derivation, lesson
+from app.model import derivation, lesson, lesson_parts
 from app.model.explorer import Explorer
 from app.state.keep import Body
 from app.text import listed, say
@@ -92,7 +92,7 @@ def test_each_step_as_a_student(learner, step):
     page.get_by_role("heading", name=say(f"learn.{step.name}.title")).wait_for()
     asks = step.asks(Explorer().scene)
     run = page.get_by_role("button", name=say("learn.page.predict"))
-    if isinstance(asks, lesson.Choice):
+    if isinstance(asks, lesson_parts.Choice):
         run.click()
         page.get_by_text(say("learn.page.choose")).wait_for()
         guess = asks.options[-1]

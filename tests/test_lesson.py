@@ -9,7 +9,7 @@ import stem_body as st
 from cases import BALL, LOADED, ORDINARY, PAPER, TOPS
 from references import kept
 
-from app.model import lesson
+from app.model import lesson, lesson_parts, lesson_sliding
 from app.model.explorer import Explorer
 from app.text import listed, say
 from tippe_core import PRESETS, Scales, State, Top, Viscous, outcome, slide, thresholds
@@ -55,7 +55,7 @@ def test_every_step_has_words_for_every_top(step, top):
     assert "{" not in told and not re.search(r"\b(nan|inf)\b", told)
     if answer.doubt:
         assert lesson.judged(step, scene, answer.truth)[0] == "open" and say(f"learn.doubt.{answer.doubt}")
-    elif isinstance(asks, lesson.Choice):
+    elif isinstance(asks, lesson_parts.Choice):
         assert answer.truth in asks.options
         assert lesson.judged(step, scene, answer.truth)[0] == "right"
         assert {lesson.judged(step, scene, other)[0] for other in asks.options if other != answer.truth} == {"off"}
@@ -83,7 +83,7 @@ def test_the_papers_top():
     assert answered("proof").truth == "opposite"
     assert answered("flip").numbers["rad"] == pytest.approx(43.56, abs=5e-3)
     assert answered("flip").truth == pytest.approx(6.93, abs=5e-3)
-    ball, _ = lesson.slid(PAPER, 8.8)
+    ball, _ = lesson_sliding.slid(PAPER, 8.8)
     assert np.interp(300.0, ball.t, np.cos(ball.theta)) == pytest.approx(-0.99947, abs=5e-5)
     assert answered("ties").numbers["pole"] == pytest.approx(8.36508, abs=5e-6)
 
@@ -111,7 +111,7 @@ def test_the_answers_are_the_tops_own():
 @pytest.mark.parametrize("top", [PAPER, LOADED], ids=["paper", "loaded"])
 def test_the_spin_that_turns_it_over(top):
     """Just below and just above it, friction itself is asked, and the minimum of V_J."""
-    least = lesson.needed_spin(top)
+    least = lesson_sliding.needed_spin(top)
     for share, over in ((0.9, False), (1.1, True)):
         state = State(0.02, 0.0, 0.0, share * least)
         assert (outcome(top, state).verdict == "turns over") == over
@@ -121,8 +121,8 @@ def test_the_spin_that_turns_it_over(top):
 
 def test_group_s_of_the_literature():
     """76.761 rad/s with R = 2 cm and g = 9.82: the launch needed for inverted stability."""
-    assert lesson.needed_spin(LOADED) * (9.82 / 0.02) ** 0.5 == pytest.approx(76.761, abs=5e-4)
-    assert thresholds(LOADED).launch == lesson.needed_spin(LOADED)
+    assert lesson_sliding.needed_spin(LOADED) * (9.82 / 0.02) ** 0.5 == pytest.approx(76.761, abs=5e-4)
+    assert thresholds(LOADED).launch == lesson_sliding.needed_spin(LOADED)
 
 
 # ---- every preset, every step, against motions that the core does not compute ----
@@ -132,7 +132,7 @@ LONG = np.linspace(0.0, 1200.0, 1201)
 
 def became(top, spin, edge):
     """Where the oracle with a stem is in the last tenth of a long time, an option of step 1, and theta at its end."""
-    return in_the_end(top, State(lesson.TILT, 0, 0, spin), lesson.FRICTION, LONG, edge)
+    return in_the_end(top, State(lesson_parts.TILT, 0, 0, spin), lesson_sliding.FRICTION, LONG, edge)
 
 
 @kept(st)
@@ -182,7 +182,7 @@ def test_what_slides_against_the_oracle(preset):
     if np.isnan(answer.truth):
         assert ends != "over"
         return
-    least = lesson.needed_spin(scene.top)
+    least = lesson_sliding.needed_spin(scene.top)
     slow, fast = (became(scene.top, share * least, edge) for share in (0.8, 2.0))
     assert slow[0] != "over" and fast[0] == "over"
     assert (answer.numbers["slow_end"], answer.numbers["fast_end"]) == pytest.approx((slow[1], fast[1]), abs=3.0)

@@ -4,7 +4,8 @@ import pytest
 from links import known, opened
 
 from app.page import Tongue
-from app.share.share import LOOK, TOP, Clock
+from app.share.parts import Clock
+from app.share.share import LOOK, TOP
 from app.state.keep import EXPLORER
 from app.tabs.learn import learn
 from app.tabs.planes.three_planes import KEPT

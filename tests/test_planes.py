@@ -10,22 +10,9 @@ import pytest
 
 from app.model.builder import Builder
 from app.model.explorer import Explorer
-from app.model.planes import (
-    ENDS,
-    LEAST_FRAMES,
-    MOST_FRAMES,
-    MOST_SECONDS,
-    MOST_TURN,
-    PLANES,
-    PRESETS,
-    SLIPS,
-    THROWN,
-    Planes,
-    for_reader,
-    nudged,
-    solve,
-    touches,
-)
+from app.model.planes import PRESETS, Planes
+from app.model.planes_picture import ENDS, LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES, SLIPS
+from app.model.planes_run import THROWN, for_reader, nudged, solve, touches
 from app.model.runs import Runs
 from app.tabs.planes import plots
 from app.tabs.planes.three_planes import ThreePlanes

@@ -20,7 +20,7 @@ from panel.io.state import set_curdoc
 from wire import run as run_async
 from wire import until
 
-from app.model import lesson
+from app.model import lesson, lesson_sliding
 from app.model.ballots import Sqlite
 from app.model.builder import Builder
 from app.model.classroom import Rooms
@@ -323,7 +323,7 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
         return slide(*arguments, progress=progress, **named)
 
     monkeypatch.setattr(lesson, "slide", slowly)
-    lesson.slid.cache_clear()
+    lesson_sliding.slid.cache_clear()
     explorer = Explorer()
     learn = Learn(explorer, SimpleNamespace(followers=[]), page.runs)
     learn.step = name
@@ -340,7 +340,7 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
     verdict, answer = lesson.judged(learn.now, explorer.scene, learn.guesses[name])
     assert say(f"learn.verdict.{verdict}") in learn.verdict.object
     assert say(f"learn.{name}.{answer.told}", **answer.numbers).split("\n")[0] in learn.explanation.object
-    lesson.slid.cache_clear()
+    lesson_sliding.slid.cache_clear()
 
 
 @pytest.mark.slow

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.bundle import Bundled
 from app.text import DEFAULT, LANGUAGES, listed, preferred
-from app.widgets.bundle import Bundled
 
 APP = Path(__file__).parent.parent / "app"
 CORE = APP.parent / "tippe_core"
@@ -180,8 +180,9 @@ NOT_SAID = {
     "answers.py": {"GET, HEAD": "a header"},
     "asked.py": {"": "said to the log"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
-    "explorer.py": {"would": "REGIMES of top3d.py"},
-    "export.py": {"": "files of data and programs, which are the same in every language"},
+    "regimes.py": {"would": "REGIMES of top3d.py"},
+    **{name: {"": "files of data and programs, which are the same in every language"}
+       for name in ("export.py", "glb.py", "programs.py")},
     "keep.py": {"not one of {}": "said to the log"},
     "learn.py": {"in the air": "REGIMES of top3d.py"},
     "planes.py": {"no friction: {}": "the beginning of a key"},

@@ -9,7 +9,7 @@ from .bodies.rocking import Measured, a_from_rocking, dimension_from_rocking, ro
 from .bodies.shape import Shape, Turned
 from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, StemmedSphere, TruncatedSphere
 from .bodies.solids import Solid, ball, cylinder, frustum, zone
-from .ending import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
+from .endings import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
 from .motion.friction import Contensou, Coulomb, SmoothedCoulomb, Viscous
 from .motion.many import Many, States, slide_many
@@ -17,7 +17,7 @@ from .motion.rolling import Rolling, roll
 from .motion.sliding import beside, growth, sensitivity, slide
 from .motion.smooth import Gliding, glide
 from .motion.trajectory import Ledger, Trajectory
-from .outcome import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
+from .outcomes import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
 from .paper.constants import Constants, State
 from .paper.curve import f, f1_squared, f2_squared, f3_squared, omega2, omega3
 from .paper.forces import friction_force, normal_force

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.model.builder import named, thrown
+from app.model.builder import thrown
+from app.model.dimensions import named
 from tippe_core import (
     PRESETS,
     Constants,

@@ -12,11 +12,12 @@ import numpy as np
 from bokeh.embed import components
 from bokeh.settings import settings
 
+from app.bundle import Bundled
 from app.share.export import parameters
 from app.text import say, spoken
-from app.widgets.bundle import Bundled
 from app.widgets.controls import SYMBOLS
-from app.widgets.plots import Motion, PlaneFigure, TimeFigures
+from app.widgets.plane_figure import PlaneFigure
+from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Track
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top

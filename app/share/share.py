@@ -5,18 +5,17 @@ import time
 
 import panel as pn
 import panel_material_ui as pmui
-import param
 import segno
-from panel.custom import JSComponent
 
 from app.model.runs import Runs
-from app.share import export
+from app.share import export, glb, programs
 from app.share.letter import letter
+from app.share.parts import MODULE, Address, Clock, Copy, Photo
 from app.share.prints import FIGURES, caption, draw
-from app.state.keep import EXPLORER, Field, Keep, Number, Numbers, OneOf, shared, usual
+from app.state.keep import EXPLORER, Field, Keep, Numbers, OneOf, shared, usual
 from app.text import listed, say
 from app.widgets.cards import PLAIN, on_click, words
-from app.widgets.download import PLAIN_BUTTON, Download
+from app.widgets.download import Download
 from app.widgets.failure import after
 from app.widgets.pacing import at_once
 from app.widgets.top3d import Top3D
@@ -32,157 +31,6 @@ TOP = (
     | {"camera": Field("view", Numbers(3), undoable=False)}
 )
 LOOK = {name: Field(name, OneOf(yes=True, no=False), undoable=False) for name in ("dark", "large")}
-# A phone at arm's length reads modules of this size, px.
-MODULE = 4
-
-
-class Address(JSComponent):
-    """The page's own address and keys: puts `search` there without a step in the browser's history, and says when a
-    hand is down and which gesture it is."""
-
-    search = param.String(default="", doc="what follows the path; written to the address bar")
-    page = param.String(default="", doc="the address without it, prefix included; the browser writes it")
-    held = param.Boolean(default=False, doc="whether a hand is down; the browser writes it, like all below")
-    gesture = param.Integer(default=0, doc="how many times a hand came down")
-    undone = param.Integer(default=0, doc="how often Ctrl+Z was pressed")
-    redone = param.Integer(default=0, doc="how often Ctrl+Shift+Z or Ctrl+Y was pressed")
-    reloads = param.Integer(default=0, doc="one more: the page is loaded anew, from its address")
-
-    _esm = """
-    const writing = (target) => target.isContentEditable || target.matches?.(
-      "textarea, select, input:not([type=range]):not([type=checkbox]):not([type=radio]):not([type=button])")
-    export function render({model}) {
-      const listening = new AbortController()
-      const on = (type, run) => window.addEventListener(type, run, {capture: true, signal: listening.signal})
-      const down = () => { model.gesture += 1; model.held = true }
-      const up = () => { if (model.held) model.held = false }
-      on("pointerdown", down)
-      for (const type of ["pointerup", "pointercancel", "dragend", "blur", "keyup"]) on(type, up)
-      on("keydown", (event) => {
-        const target = event.composedPath()[0]
-        if ((event.ctrlKey || event.metaKey) && !event.altKey && !writing(target)) {
-          const key = event.key.toLowerCase()
-          const redo = key == "y" && !event.shiftKey || key == "z" && event.shiftKey
-          if (redo || key == "z") {
-            event.preventDefault()
-            model[redo ? "redone" : "undone"] += 1
-            return
-          }
-        }
-        const acts = !writing(target) || event.key == "Enter"
-        if (acts && !event.repeat && !["Control", "Shift", "Alt", "Meta", "Tab"].includes(event.key)) down()
-      })
-      model.on("search", () => {
-        history.replaceState(history.state, "", location.pathname + model.search + location.hash)
-      })
-      model.on("reloads", () => location.reload())
-      model.page = location.origin + location.pathname
-      model.on("remove", () => listening.abort())
-    }
-    """
-
-
-class Copy(JSComponent):
-    """A text to take along, and a button that copies it, also where a page without https may not."""
-
-    text = param.String(default="")
-    label = param.String(default="")
-    rows = param.Integer(default=1)
-    says = param.List(default=[], doc="what its button says, and what it says once that is done")
-
-    _esm = """
-    export function render({model, el}) {
-      el.innerHTML = `<style>
-        :host > div { width: 100% }
-        .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start }
-        textarea { flex: 1 1 0; min-width: 0; font: 13px/1.5 ui-monospace, monospace; padding: 7px 9px;
-          border: 1px solid #8a96a3; border-radius: 6px; color: inherit; background: transparent; resize: none;
-          box-sizing: border-box }
-        button { font: 500 13px system-ui, sans-serif; padding: 7px 12px; border: 1px solid; border-radius: 6px;
-          background: transparent; color: var(--link, #0072B2); cursor: pointer; white-space: nowrap; min-width: 72px }
-        button:hover { background: #0072B214 } :focus-visible { outline: 2px solid; outline-offset: 2px }
-        </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button></button></div>`
-      const area = el.querySelector("textarea"), button = el.querySelector("button")
-      const [copy, copied] = model.says
-      button.textContent = copy
-      const show = () => {
-        area.value = model.text
-        area.rows = model.rows
-        area.style.whiteSpace = model.rows > 1 ? "pre" : "nowrap"
-        area.style.overflow = model.rows > 1 ? "auto" : "hidden"
-        area.setAttribute("aria-label", model.label)
-      }
-      area.onfocus = () => area.select()
-      button.onclick = async () => {
-        area.select()
-        try { await navigator.clipboard.writeText(model.text) } catch { document.execCommand("copy") }
-        button.textContent = copied
-        setTimeout(() => { button.textContent = copy }, 1500)
-      }
-      for (const name of ["text", "label", "rows"]) model.on(name, show)
-      show()
-    }
-    """
-
-
-class Photo(JSComponent):
-    """A button that saves the top as it is seen, as a PNG with the caption below."""
-
-    caption = param.List(default=[], doc="lines of plain text")
-    frame = param.String(default=PLAIN_BUTTON, constant=True)
-    wide = param.Integer(default=2400, doc="of the picture, in px")
-
-    _esm = """
-    export function render({model, el}) {
-      el.innerHTML = model.frame
-      const button = el.querySelector("button")
-      button.textContent = "PNG"
-      button.onclick = async () => {
-        const picture = window.tippe?.photo(model.wide)
-        if (!picture) return
-        const type = Math.round(picture.width / 75), margin = type
-        const canvas = document.createElement("canvas"), ink = canvas.getContext("2d")
-        canvas.width = picture.width
-        canvas.height = picture.height + 2 * margin + 1.5 * type * model.caption.length
-        ink.fillStyle = "white"
-        ink.fillRect(0, 0, canvas.width, canvas.height)
-        ink.drawImage(picture, 0, 0)
-        ink.fillStyle = "#22303c"
-        ink.textAlign = "center"
-        ink.textBaseline = "top"
-        ink.font = `${type}px system-ui, sans-serif`
-        model.caption.forEach((line, i) =>
-          ink.fillText(line, canvas.width / 2, picture.height + margin + 1.5 * type * i, 0.98 * canvas.width))
-        canvas.toBlob((blob) => {
-          const link = document.createElement("a")
-          link.href = URL.createObjectURL(blob)
-          link.download = "tippe-top-3d.png"
-          link.click()
-          setTimeout(() => URL.revokeObjectURL(link.href), 60000)
-        })
-      }
-    }
-    """
-
-
-class Clock(param.Parameterized):
-    """The time at which a Top3D stands."""
-
-    at = param.Number(default=None, allow_None=True, doc="in (R/g)^1/2; None while it plays")
-    KNOWN = {"at": Field("t", Number, undoable=False)}  # noqa: RUF012
-
-    def __init__(self, top):
-        super().__init__(at=None if top.playing else top.time)
-        self._top = top
-        top.param.watch(self._read, ["playing", "time"])
-        self.param.watch(self._put, "at")
-
-    def _read(self, *events):
-        self.at = None if self._top.playing else self._top.time
-
-    def _put(self, event):
-        if event.new is not None:
-            self._top.param.update(time=event.new, playing=False)
 
 
 class Share:
@@ -298,8 +146,8 @@ class Share:
         self._photo = Photo(margin=0)
         self._python = Copy(label="Python", rows=13, **text)
         shown = listed("share.python")
-        codes = {shown[name]: name for name in export.PYTHON}
-        self._which = pmui.RadioButtonGroup(options=codes, value=next(iter(export.PYTHON)), label="",
+        codes = {shown[name]: name for name in programs.PYTHON}
+        self._which = pmui.RadioButtonGroup(options=codes, value=next(iter(programs.PYTHON)), label="",
                                             size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
         self._which.param.watch(lambda event: self._show_python(), "value")
         figures = [
@@ -333,7 +181,7 @@ class Share:
             ),
             _row(
                 say("share.dialog.animation"),
-                self._download("GLB", "tippe-top.glb", lambda scene, link: export.animation_glb(scene, self._slower)),
+                self._download("GLB", "tippe-top.glb", lambda scene, link: glb.animation_glb(scene, self._slower)),
             ),
             _heading("python", margin=(14, 0, 4, 0)),
             self._which,
@@ -349,7 +197,7 @@ class Share:
         return letter(scene, link, {name: getattr(self._top, name) for name in names})
 
     def _show_python(self):
-        self._python.text = export.PYTHON[self._which.value](self._explorer.scene)
+        self._python.text = programs.PYTHON[self._which.value](self._explorer.scene)
 
     def _download(self, label, filename, make):
         return Download(self._runs, lambda: (self._explorer.scene, self.link), make, label=label, filename=filename,

@@ -2,7 +2,7 @@
 
 import param
 
-from app.widgets.bundle import Bundled
+from app.bundle import Bundled
 
 
 class Guide(Bundled):

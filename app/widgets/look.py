@@ -6,7 +6,7 @@ The widgets keep one theme, whose colours are variables of CSS; the look changes
 
 import param
 
-from app.widgets.bundle import Bundled
+from app.bundle import Bundled
 
 # Of the widgets' theme: name: (on light, on dark); those with an rgb are asked for as three numbers too.
 COLOURS = {

@@ -3,7 +3,7 @@
 import numpy as np
 import param
 
-from app.widgets.bundle import Bundled, pack
+from app.bundle import Bundled, pack
 
 
 class Surface3D(Bundled):

@@ -3,7 +3,7 @@
 import numpy as np
 import param
 
-from app.widgets.bundle import Bundled, pack
+from app.bundle import Bundled, pack
 
 REGIMES = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "the motion ends here")
 """What the codes 0 to 5 in the last column of the frames mean; browser.toml says it."""

@@ -77,15 +77,20 @@ def tilts(passed: Array, period: float, half: float, rest: float, kappa: Array, 
     """sin(theta) and cos(theta), (n,): arguments as in clock(), and the series (1, K) of kappa - tau."""
     s, c = np.empty(len(passed)), np.empty(len(passed))
     for first in range(0, len(passed), BLOCK):
-        _, halves, rests = clock(passed[first : first + BLOCK], period, half, rest)
-        series = sums(halves, rests, kappa, kappa[:0])
-        for j in range(len(rests)):
-            # s^2 of kappa/2 at the inner turning point, c^2 at the outer one
-            small = sine((rests[j] + series[0, j]) / 2) ** 2
-            up, down = (small, 1 - small) if halves[j] else (1 - small, small)
-            v, m = ends.v1 + ends.width * down, ends.m2 + ends.width * up
-            s[first + j], c[first + j] = np.sqrt(v * m), (m - v) / 2
+        block = slice(first, min(first + BLOCK, len(passed)))
+        _, halves, rests = clock(passed[block], period, half, rest)
+        tilt(halves, rests, sums(halves, rests, kappa, kappa[:0])[0], ends, s[block], c[block])
     return s, c
+
+
+@compiled
+def tilt(half: Array, rest: Array, kappa: Array, ends: Ends, s: Array, c: Array) -> None:
+    """sin(theta) and cos(theta) into s and c, (n,), at the phases pi half + rest; kappa less the phase, (n,) each."""
+    for i in range(len(rest)):
+        small = sine((rest[i] + kappa[i]) / 2) ** 2  # sin(kappa/2)^2 in the inner half, cos(kappa/2)^2 in the outer
+        up, down = (small, 1 - small) if half[i] else (1 - small, small)
+        v, m = ends.v1 + ends.width * down, ends.m2 + ends.width * up
+        s[i], c[i] = np.sqrt(v * m), (m - v) / 2
 
 
 @compiled

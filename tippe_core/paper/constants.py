@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, fields
 from decimal import Context, Decimal, localcontext
+from functools import lru_cache
 from typing import Self
 
 import numpy as np
@@ -19,6 +20,7 @@ EXACT = Context(prec=60, Emin=-999999, Emax=999999)
 LARGEST = 1e12  # of a State: no top is as fast or as far by far, and EXACT keeps 36 figures of squares as large
 
 
+@lru_cache(256)
 def exact_top(top: AnyTop) -> TopNumbers:
     """a, I1, I3 as Decimals."""
     return TopNumbers(Decimal(top.a), Decimal(top.I1), Decimal(top.I3))

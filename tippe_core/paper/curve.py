@@ -6,7 +6,7 @@ from typing import overload
 import numpy as np
 
 from ..compiled import compiled, shared_with_kernels
-from ..types import Array, Bools, Scalars
+from ..types import Array, Indices, Scalars
 from . import equations as eq
 from .constants import EXACT, Constants, Exact, exact_versine, versines
 from .poles import Floats, bracket_near, omega2_at, pole_offsets
@@ -76,9 +76,9 @@ def f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     zeros, where the terms of (36) cancel, it is computed in Decimals, point by point.
     """
     value, cancelled = floats(theta, top, constants)
-    if np.any(cancelled):
+    if cancelled.size:
         args = np.broadcast_arrays(theta, constants.K_J, constants.K_R, constants.E)
-        value[cancelled] = exact_f(top, *(x[cancelled] for x in args))
+        value.flat[cancelled] = exact_f(top, *(x.flat[cancelled] for x in args))
     return value[()]
 
 
@@ -91,51 +91,50 @@ def rounded_f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     return floats(theta, top, constants)[0][()]
 
 
-def floats(theta: Scalars, top: Top, constants: Constants) -> tuple[Array, Bools]:
-    """f in floats, and where its terms cancel."""
+def floats(theta: Scalars, top: Top, constants: Constants) -> tuple[Array, Indices]:
+    """f in floats, and the flat indices where its terms cancel."""
     offsets = pole_offsets(top, constants.K_J, constants.K_R)
     given = [np.asarray(x) for x in (*versines(theta), constants.K_R, constants.two_E_prime(top), *offsets)]
     shape = np.broadcast_shapes(*(x.shape for x in given))
-    value, cancelled = np.empty(shape), np.empty(shape, bool)
+    value = np.empty(shape)
     if len(shape) > 2:
         given = [np.broadcast_to(x, shape).reshape(-1, shape[-1]) for x in given]
     rows = [np.array(np.atleast_2d(x), dtype=float, order="C") for x in given]
-    out = (x.reshape(-1, shape[-1] if shape else 1) for x in (value, cancelled))
-    theta_dot_2_on(top.numbers, *rows, *out)
-    return value, cancelled
+    rows.append(value.reshape(-1, shape[-1] if shape else 1))
+    return value, theta_dot_2_on(top.numbers, *rows)
 
 
 @compiled
 def theta_dot_2_on(
-    top: TopNumbers,
-    V: Array,
-    M: Array,
-    K_R: Array,
-    e: Array,
-    upright: Array,
-    inverted: Array,
-    f: Array,
-    cancelled: Bools,
-) -> None:
-    """(36) into f (n, m), and where its terms cancel, from 1 - c, 1 + c, K_R, 2E' and the offsets of both poles, each
-    (n or 1, m or 1)."""
+    top: TopNumbers, V: Array, M: Array, K_R: Array, e: Array, upright: Array, inverted: Array, f: Array
+) -> Indices:
+    """(36) into f (n, m), from 1 - c, 1 + c, K_R, 2E' and the offsets of both poles, each (n or 1, m or 1); and the
+    flat indices at which its terms cancel."""
+    cancelled, count = np.empty(f.size, np.intp), 0
     n, m = f.shape
-    side, c, s2, xC, d = np.empty((5, m))
+    v, c, s2, xC, K, d, e_row, U = np.empty((8, m))
     for i in range(n):
+        if i == 0 or len(V) > 1 or len(K_R) > 1:
+            for j in range(m):
+                v[j], K[j] = at(V, i, j), at(K_R, i, j)
+                x, side = (v[j], 1.0) if v[j] <= at(M, i, j) else (at(M, i, j), -1.0)
+                c[j], s2[j] = side * (1 - x), x * (2 - x)
+                B, _ = bracket_near(side, x, Floats(top, K[j], 0.0, 0.0))
+                xC[j] = B
         for j in range(m):
-            if i == 0 or len(V) > 1 or len(K_R) > 1:
-                side[j] = 1.0 if at(V, i, j) <= at(M, i, j) else -1.0
-                x = min(at(V, i, j), at(M, i, j))
-                c[j], s2[j] = side[j] * (1 - x), x * (2 - x)
-                xC[j], _ = bracket_near(side[j], x, Floats(top, at(K_R, i, j), 0.0, 0.0))
-            d[j] = at(upright if side[j] > 0 else inverted, i, j)
-        for j in range(m):
+            d[j], e_row[j] = at(upright, i, j) if c[j] >= 0 else at(inverted, i, j), at(e, i, j)
+        for j in range(m):  # plain enough for the processor's vectors
             B = d[j] + xC[j]
-            w2_2 = B * B / s2[j] if s2[j] > 0 else 0.0 if B == 0 else np.inf
-            v, K, e_j = at(V, i, j), at(K_R, i, j), at(e, i, j)
-            U = eq.U(v, c[j], s2[j], w2_2, top)
-            f[i, j] = eq.theta_dot_2(e_j, U, c[j], top)
-            cancelled[i, j] = abs(e_j - U) < _CANCELLED * max(abs(e_j), U, 2 * abs(top.a) * v, K * K)
+            U[j] = eq.U(v[j], c[j], s2[j], B * B / s2[j], top)
+            f[i, j] = eq.theta_dot_2(e_row[j], U[j], c[j], top)
+        for j in range(m):
+            if s2[j] == 0 and d[j] == 0:  # through the pole
+                U[j] = eq.U(v[j], c[j], 0.0, 0.0, top)
+                f[i, j] = eq.theta_dot_2(e_row[j], U[j], c[j], top)
+            if abs(e_row[j] - U[j]) < _CANCELLED * max(abs(e_row[j]), U[j], K[j] * K[j]):
+                cancelled[count] = i * m + j
+                count += 1
+    return cancelled[:count]
 
 
 @shared_with_kernels

@@ -117,17 +117,18 @@ def exact_pole_constants(top: Top, K_R: Decimal) -> tuple[Decimal, Decimal]:
         return upright * K_R, inverted * K_R
 
 
+@lru_cache(256)
+def in_two_floats(top: Top, K_R: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """K_J at P and at the inverted pole, each as its nearest float and what is left."""
+    upright, inverted = ((float(K), float(K - Decimal(float(K)))) for K in exact_pole_constants(top, Decimal(K_R)))
+    return upright, inverted
+
+
 def pole_offsets(top: Top, K_J: Scalars, K_R: Scalars) -> tuple[Array, Array]:
     """d = K_J - K_J(P), and the same at the inverted pole, without the rounding of K_J(P)."""
-    each = [exact_pole_constants(top, Decimal(K)) for K in np.ravel(K_R).tolist()]
-    offsets = []
-    for exact in zip(*each, strict=True):
-        nearest = [float(K) for K in exact]
-        with localcontext(EXACT):
-            rest = [float(K - Decimal(near)) for K, near in zip(exact, nearest, strict=True)]
-        d = (K_J - np.reshape(nearest, np.shape(K_R))) - np.reshape(rest, np.shape(K_R))
-        offsets.append(np.where(at_pole(d, K_J), 0.0, d))
-    return offsets[0], offsets[1]
+    parts = np.array([in_two_floats(top, K) for K in np.ravel(K_R).tolist()])
+    upright, inverted = (K_J - near - rest for near, rest in parts.T.swapaxes(0, 1).reshape(2, 2, *np.shape(K_R)))
+    return np.where(at_pole(upright, K_J), 0.0, upright), np.where(at_pole(inverted, K_J), 0.0, inverted)
 
 
 def at_pole(d: Number, K_J: Scalars) -> Bools:

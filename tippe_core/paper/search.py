@@ -29,9 +29,10 @@ def zero(function: Callable[..., float], low: float, high: float, args: Argument
             last, y_last, opposite, y_opposite = opposite, y_opposite, x, y
         x, y = new, y_new
         best = x if abs(y) < abs(y_opposite) else opposite
-        within = max(part * min(best, high - low), 4e-16 * best) / abs(opposite - x)
-        if y == 0 or within > 0.5:
+        enough, bracket = max(part * min(best, high - low), 4e-16 * best), abs(opposite - x)
+        if y == 0 or enough >= bracket / 2:
             break
+        within = enough / bracket
         share = 0.5
         if y_last not in (y, y_opposite):
             place, height = (x - opposite) / (last - opposite), (y - y_opposite) / (y_last - y_opposite)

@@ -20,6 +20,8 @@ from .poles import Floats, angle, at_pole, bracket_near, exact_pole_constants
 from .search import zero
 from .top import Top
 
+ROOTS = Decimal("1e-55")  # a state's K_J and K_R are exact but for a square root
+
 
 class SteadyPrecessions(NamedTuple):
     """theta (k,) in rad, ascending, and stable (k,), whether U is least there."""
@@ -54,9 +56,9 @@ class ExactCurve:
             for K_J in poles:
                 if rounded and at_pole(float(exact.K_J - K_J), float(exact.K_J)):
                     exact = replace(exact, K_J=K_J)
-            # a state's K_J and K_R are exact but for a square root
-            negligible = abs(exact.K_J) * Decimal("1e-55")
-            self.offsets = tuple(exact.K_J - K_J if abs(exact.K_J - K_J) > negligible else Decimal(0) for K_J in poles)
+            negligible = abs(exact.K_J) * ROOTS
+            offsets = (exact.K_J - K_J for K_J in poles)
+            self.offsets = tuple(d if abs(d) > negligible else Decimal(0) for d in offsets)
         self.exact, self.rounded = exact, rounded
         upright, inverted = map(float, self.offsets)
         self.floats = Floats(top.numbers, float(exact.K_R), upright, inverted)
@@ -67,13 +69,18 @@ class ExactCurve:
         K_J, K_R = (nonzero(Decimal(finite(name, K))) for name, K in (("K_J", K_J), ("K_R", K_R)))
         return cls(top, Exact(K_J, K_R, Decimal(0)))
 
+    def parts(self, c: Decimal) -> tuple[Decimal, Decimal, Decimal]:
+        """s^2, w3 and B."""
+        s2 = 1 - c * c
+        w3 = eq.omega3(c, s2, self.exact.K_R, self.top)
+        return s2, w3, eq.bracket(c, self.exact.K_J, w3, self.top)
+
     def U(self, c: Decimal) -> Decimal:
         """Infinite at a pole unless the bracket vanishes there too: then it is the height alone."""
-        s2 = 1 - c * c
-        if s2:
-            B = eq.bracket(c, self.exact.K_J, eq.omega3(c, s2, self.exact.K_R, self.top), self.top)
-            return eq.U(1 - c, c, s2, B * B / s2, self.top)
-        return Decimal("Infinity") if self.offsets[c < 0] else eq.U(1 - c, c, s2, Decimal(0), self.top)
+        if abs(c) == 1:
+            return Decimal("Infinity") if self.offsets[c < 0] else eq.U(1 - c, c, Decimal(0), Decimal(0), self.top)
+        s2, _, B = self.parts(c)
+        return eq.U(1 - c, c, s2, B * B / s2, self.top)
 
     def kinetic(self, c: Decimal) -> tuple[Decimal, Decimal | None]:
         """e - U and its slope, for where U is finite; at a pole the slope is left out."""
@@ -81,19 +88,15 @@ class ExactCurve:
         return self.exact.e - self.U(c), -self.N(c) / (s2 * s2) if s2 else None
 
     def D(self, c: Decimal) -> tuple[Decimal, Decimal]:
-        """s^2 (e - U), which is finite at the poles too, and its slope there between them."""
-        s2 = 1 - c * c
-        w3 = eq.omega3(c, s2, self.exact.K_R, self.top)
-        B = eq.bracket(c, self.exact.K_J, w3, self.top)
+        """s^2 (e - U) between the poles, where only this is finite towards them, and its slope."""
+        s2, w3, B = self.parts(c)
         N = eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
         kinetic = self.exact.e - eq.U(1 - c, c, s2, B * B / s2, self.top)
         return s2 * kinetic, -2 * c * kinetic - N / s2
 
     def N(self, c: Decimal) -> Decimal:
         """s^4 dU/dc"""
-        s2 = 1 - c * c
-        w3 = eq.omega3(c, s2, self.exact.K_R, self.top)
-        B = eq.bracket(c, self.exact.K_J, w3, self.top)
+        s2, w3, B = self.parts(c)
         return eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
 
 
@@ -131,24 +134,29 @@ def extrema_near(V: Array, M: Array, curve: Floats) -> Array:
     dN/dx. Where N only dips towards zero, a golden section looks deeper."""
     n, half, rows, found = len(V) - 1, len(V) // 2, 0, np.empty((2 * len(V), 5))
     N = np.empty(n + 1)
-    for i in range(n + 1):
-        N[i] = N_near(V[i], 1.0, curve) if i <= half else N_near(M[i], -1.0, curve)
+    for i in range(half + 1):
+        N[i] = N_near(V[i], 1.0, curve)
+    for i in range(half + 1, n + 1):
+        N[i] = N_near(M[i], -1.0, curve)
     for i in range(n):
         side, X = (1.0, V) if i < half else (-1.0, M)
-        places = [X[i], X[i + 1]] if N[i] * N[i + 1] < 0 else [X[i]][:0]
+        first, dip, last, count = X[i], X[i + 1], X[i + 1], 1 if N[i] * N[i + 1] < 0 else 0
         if i > 0 and N[i] == 0:
-            places = [X[i - 1], X[i + 1]]
+            first, count = X[i - 1], 1
         elif i > 0 and N[i - 1] * N[i] > 0 and N[i] * N[i + 1] > 0 and abs(N[i]) <= min(abs(N[i - 1]), abs(N[i + 1])):
-            low, high = X[i - 1], X[i + 1]
-            for _ in range(60):
+            first, low, high, most = X[i - 1], X[i - 1], X[i + 1], max(abs(N[i - 1]), abs(N[i + 1]))
+            for closer in range(60):
                 x1, x2 = high - 0.6180339887498949 * (high - low), low + 0.6180339887498949 * (high - low)
                 y1, y2 = N_near(x1, side, curve), N_near(x2, side, curve)
                 if min(y1 * N[i], y2 * N[i]) < 0:
-                    places = [X[i - 1], x1 if y1 * N[i] < 0 else x2, X[i + 1]]
+                    dip, count = x1 if y1 * N[i] < 0 else x2, 2
                     break
+                if closer == 8 and min(abs(y1), abs(y2)) > 0.01 * most:
+                    break  # a parabola that has a zero is nearer to it by now
                 low, high = (x1, high) if abs(y2) < abs(y1) else (low, x2)
-        for j in range(len(places) - 1):
-            low, high = min(places[j], places[j + 1]), max(places[j], places[j + 1])
+        for part in range(count):
+            one, other = (first, dip) if part == 0 else (dip, last)
+            low, high = min(one, other), max(one, other)
             x = zero(N_near, low, high, (side, curve))
             h = 1e-5 * min(x, 2 - x)
             slope = (N_near(x + h, side, curve) - N_near(x - h, side, curve)) / (2 * h)

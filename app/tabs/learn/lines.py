@@ -5,7 +5,7 @@ import panel as pn
 import param
 from panel.custom import JSComponent
 
-from app.model import derivation
+from app.model import derivation, stretches
 from app.text import listed, say
 
 PLANES = ("rough", "smooth")
@@ -202,7 +202,7 @@ class Lines(JSComponent):
 
 def rows(m, plane):
     """What stands in a table: [(key, (n, k))], all instants of a Window away from its ends."""
-    inner = slice(derivation.EDGE, -derivation.EDGE)
+    inner = slice(stretches.EDGE, -stretches.EDGE)
     yield "t", m.t[inner, None]
     for name, symbol in derivation.SYMBOLS.items():
         for part, get in (("value", symbol.value), ("arrow", symbol.arrow)):
@@ -243,7 +243,7 @@ class Derivation:
         if scene is self._scene:
             return
         self._scene = scene
-        parts = {"rough": derivation.rolled(scene), "smooth": derivation.glided(scene)}
+        parts = {"rough": stretches.rolled(scene), "smooth": stretches.glided(scene)}
         tables = {plane: table(parts[plane], plane) for plane in PLANES}
         lines = []
         for line in derivation.LINES:
@@ -266,5 +266,5 @@ class Derivation:
             clock=self._clock, lines=lines, symbols=symbols, words=listed("derivation.page"),
             rough=tables["rough"][0].tobytes(), smooth=tables["smooth"][0].tobytes(),
             widths=[tables[plane][0].shape[1] for plane in PLANES],
-            periods=[parts[plane][-1].t[-derivation.EDGE - 1] for plane in PLANES], sizing_mode="stretch_width",
+            periods=[parts[plane][-1].t[-stretches.EDGE - 1] for plane in PLANES], sizing_mode="stretch_width",
         )]  # fmt: skip

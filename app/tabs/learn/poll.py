@@ -6,7 +6,7 @@ from dataclasses import asdict
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model import lesson
+from app.model import lesson, lesson_parts
 from app.model.ballots import Away
 from app.model.classroom import DESK, Refused
 from app.model.runs import to_session
@@ -27,7 +27,7 @@ def unit(asks):
 def prediction(step, asks, value=None):
     """The widget for what a step asks, a Choice or a Guess."""
     label = say("learn.page.yours")
-    if isinstance(asks, lesson.Choice):
+    if isinstance(asks, lesson_parts.Choice):
         options = {option(step, key): key for key in asks.options}
         group = pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
         group._allows_none = True  # else it takes the first by itself, when made and again, unseen, when drawn
@@ -61,7 +61,7 @@ def question_of(room):
     """(Step, Choice or Guess) of a Room; (None, None) where there is no room, or it is of another version of this."""
     if room is None or room.step not in lesson.NAMES:
         return None, None
-    kind = lesson.Choice if "options" in room.asks else lesson.Guess
+    kind = lesson_parts.Choice if "options" in room.asks else lesson_parts.Guess
     return lesson.STEPS[lesson.NAMES.index(room.step)], kind(**room.asks)
 
 

@@ -10,7 +10,7 @@ import panel_material_ui as pmui
 import segno
 from bokeh.models import ColumnDataSource, FactorRange, Range1d
 
-from app.model import lesson
+from app.model import lesson, lesson_parts
 from app.model.ballots import Away
 from app.model.classroom import KEY, MOST_VOTES, Refused
 from app.model.colours import COLOURS
@@ -175,7 +175,7 @@ class Vote:
 
     def _show(self, room):
         votes, asks = list(room.votes), self._asks
-        if isinstance(asks, lesson.Choice):
+        if isinstance(asks, lesson_parts.Choice):
             names = [option(self._step, key) for key in asks.options]
             counts = [votes.count(key) for key in asks.options]
         else:

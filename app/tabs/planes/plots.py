@@ -5,9 +5,9 @@ from itertools import pairwise
 import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Label, Range1d, Span
 
-from app.model.builder import named
 from app.model.colours import COLOURS, FAINT, INK
-from app.model.planes import FLIES, LIFTS, PLANES, ROLLS, SLIPS
+from app.model.dimensions import named
+from app.model.planes_picture import FLIES, LIFTS, PLANES, ROLLS, SLIPS
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say
 from app.widgets.plots import plain

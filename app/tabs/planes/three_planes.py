@@ -4,12 +4,13 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.planes import LAWS, PATIENCE, PLANES, PRESETS
+from app.bundle import pack
+from app.model.planes import PATIENCE, PRESETS
+from app.model.planes_picture import LAWS, PLANES
 from app.state.keep import Field, Number, OneOf
 from app.tabs.planes.plots import CLOCK, LEDGER, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
 from app.text import listed, say
-from app.widgets.bundle import pack
 from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_click, progress, swatch, words
 from app.widgets.controls import Control
 from app.widgets.top3d import Top3D, pack_frames

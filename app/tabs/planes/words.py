@@ -6,7 +6,8 @@ from itertools import groupby
 import numpy as np
 
 from app.model.colours import COLOURS
-from app.model.planes import LIFTS, PLANES, RTOL, SHORT, THROWN
+from app.model.planes_picture import LIFTS, PLANES, RTOL, SHORT
+from app.model.planes_run import THROWN
 from app.text import listed, say
 from app.widgets.cards import swatch
 

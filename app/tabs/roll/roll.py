@@ -7,7 +7,7 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.model.colours import COLOURS
-from app.model.explorer import least_energy
+from app.model.region import least_energy
 from app.state import asked
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid, section, swatch, words
@@ -15,7 +15,8 @@ from app.widgets.controls import SPIN, Controls, named, worst
 from app.widgets.guide import Guide
 from app.widgets.look import Look
 from app.widgets.pacing import Pacer, at_once
-from app.widgets.plots import Motion, PlaneFigure, TimeFigures
+from app.widgets.plane_figure import PlaneFigure
+from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top

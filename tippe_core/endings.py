@@ -7,7 +7,7 @@ import numpy as np
 
 from .errors import TopError
 from .motion.trajectory import Trajectory
-from .outcome import steady_states
+from .outcomes import steady_states
 from .types import Array, Bools
 
 # LAST: the share of the time by which the end is told. UPRIGHT, LEANS (rad): so near to a pole, and so little change of

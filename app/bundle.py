@@ -1,4 +1,7 @@
-"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included; words."""
+"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included; words.
+
+Panel serves only what lies beside or below a component's own module, so this one is beside static/.
+"""
 
 from pathlib import Path
 
@@ -21,7 +24,7 @@ class Bundled(JSComponent):
     SAYS = ()  # the tables of its words, beside the one of its own name
     shown = None  # what was last put into it; for those who would put it there again
 
-    _bundle = Path(__file__).parents[1] / "static" / "tippe.js"
+    _bundle = Path(__file__).parent / "static" / "tippe.js"
 
     def __init__(self, **params):
         super().__init__(**({"texts": self.says()} | params))

@@ -1,0 +1,188 @@
+"""What of a body can be set, pulled and told: its dimensions, SI; to a reader each in a unit of its own."""
+
+import re
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from app.text import listed, say, told
+from tippe_core import (
+    Ball,
+    BareSphere,
+    Lathe,
+    LoadedSphere,
+    OrdinaryTop,
+    Shape,
+    StemmedSphere,
+    TopError,
+    TruncatedSphere,
+    Turned,
+)
+from tippe_core.bodies.shape import OneMaterial
+from tippe_core.bodies.slices import LARGEST
+
+Value: TypeAlias = Any  # of a field: a number, a tuple of them or of points, a Solid
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A field of a shape as a person reads it: factor is the number of units in one of SI; low to high, the slider.
+
+    key: of its words, in workshop.toml; numbers: what stands in them, (name, value).
+    """
+
+    name: str
+    key: str
+    unit: str
+    factor: float
+    low: float
+    high: float
+    step: float
+    numbers: tuple[tuple[str, Value], ...] = ()
+
+    @property
+    def words(self) -> str:
+        return say(f"workshop.dimensions.{self.key}", **dict(self.numbers))
+
+
+def _length(name: str, key: str, low: float, high: float) -> Dimension:
+    return Dimension(name, key, "mm", 1e3, low, high, 0.1)
+
+
+def density_dimension(name: str, key: str, **numbers: float) -> Dimension:
+    return Dimension(name, key, "kg/m³", 1.0, 0, 12_000, 10, tuple(numbers.items()))
+
+
+MASS = Dimension("M", "mass", "g", 1e3, 0.5, 200, 0.1)
+# of one material: each sets the other
+_WEIGHT = (MASS, density_dimension("density", "weight"))
+# of a body whose inside is not known
+_MEASURED = (MASS, Dimension("a", "a", "", 1.0, -0.9, 0.9, 0.005), Dimension("I1", "I1", "", 1.0, 0.05, 0.7, 0.001),
+             Dimension("I3", "I3", "", 1.0, 0.05, 0.7, 0.001))  # fmt: skip
+
+FAMILIES: dict[type[Shape], tuple[str, tuple[Dimension, ...]]]
+FAMILIES = {
+    TruncatedSphere: ("truncated sphere with a stem", (
+        _length("R", "sphere", 2, 40), _length("c", "cut", -20, 40),
+        _length("l", "stem", 0, 60), _length("r", "stem_radius", 0, 15), *_WEIGHT)),
+    LoadedSphere: ("loaded sphere", (
+        _length("R", "sphere", 2, 40), _length("b", "core", 0.5, 30), _length("d", "depth", -30, 30),
+        density_dimension("density", "sphere_density"), density_dimension("core_density", "core_density"), MASS)),
+    OrdinaryTop: ("ordinary top", (
+        _length("R", "peg", 0.5, 20), _length("h", "peg_height", 0, 60),
+        _length("r1", "below", 0.5, 50), _length("r2", "above", 0, 50),
+        _length("t", "thickness", 0.5, 60), _length("r", "stem_radius", 0, 15),
+        _length("l", "stem", 0, 60), *_WEIGHT)),
+    Ball: ("uniform ball", (_length("R", "radius", 2, 40), *_WEIGHT)),
+    BareSphere: ("sphere of unknown inside", (_length("R", "sphere", 2, 40), *_MEASURED)),
+    StemmedSphere: ("sphere with a round stem, of unknown inside", (
+        _length("R", "sphere", 2, 40), _length("r", "stem_end", 0.5, 20), _length("h", "stem_height", 0.5, 60),
+        *_MEASURED)),
+    Lathe: ("turned from points", (_length("R", "peg", 0.5, 40), density_dimension("density", "density"), MASS)),
+    Turned: ("turned from pieces", (MASS,)),
+}  # fmt: skip
+"""{kind of shape: the name of its family, a key in workshop.toml, and the Dimensions that can be set}."""
+
+
+def named(preset: str) -> str:
+    """What a preset of tippe_core is called on the page."""
+    return listed("workshop.presets")[preset]["name"]
+
+
+def sentence(error: TopError) -> str:
+    """A TopError in the units of the sliders: what is in m becomes mm, what is in kg becomes g."""
+    unit = {"m": "mm", "kg": "g"}.get(error.numbers.get("unit", ""))
+    if unit is None or not isinstance(error.value, float):
+        return told(error)
+    numbers = {name: _thousandfold(error.numbers[name]) for name in ("range", "most") if name in error.numbers}
+    value = float(f"{1e3 * error.value:.6g}")
+    return told(error.replaced(error.name, value, unit=unit, **numbers), unit=unit)
+
+
+def _thousandfold(number: Value) -> Value:
+    """A number, or all those in a formula such as 0 < R <= 0.5, a thousand times as large."""
+    if not isinstance(number, str):
+        return 1e3 * number
+    return re.sub(r"(?<![\w./[])-?\d+(\.\d+)?(e[+-]?\d+)?(?![\w.])", lambda x: f"{1e3 * float(x[0]):g}", number)
+
+
+def value_of(shape: Shape, name: str) -> Value:
+    """The dimension of that name, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
+    field, index = _field(name)
+    if name == "M":
+        return shape.mass
+    return getattr(shape, field) if index is None else getattr(shape, field)[index]
+
+
+def changed(shape: Shape, name: str, value: Value) -> Shape:
+    """The shape with another value of that dimension; a mass where densities are given, or the other way round, keeps
+    the form."""
+    field, index = _field(name)
+    given = {one.name: getattr(shape, one.name) for one in fields(shape)}
+    if name == "M" and "M" not in given:
+        return shape.with_mass(value)
+    if name == "density" and isinstance(shape, OneMaterial):
+        return type(shape).from_density(value, **{key: size for key, size in given.items() if key != "M"})
+    if index is not None:
+        rows = list(getattr(shape, field))
+        rows[index] = value
+        given[field] = tuple(rows)
+    else:
+        given[field] = value
+    return replace(shape, **{field: given[field]})
+
+
+def _field(name: str) -> tuple[str, int | None]:
+    """The field of a shape that a dimension is in, and its row there or None."""
+    field, _, index = name.partition(" ")
+    return {"point": "points"}.get(field, field), int(index) if index else None
+
+
+def handles(shape: Shape) -> dict[str, tuple[float, float]]:
+    """Where the section can be taken hold of: {dimension: (x, z)}, m, x across axis 3 and z above O along it."""
+    R = shape.R
+    side = (R * np.sqrt(0.5), -R * np.sqrt(0.5))
+    if isinstance(shape, TruncatedSphere):
+        cut = np.sqrt((R - shape.c) * (R + shape.c))
+        at = {"R": side, "c": (-cut, shape.c)}
+        return at | {"r": (shape.r, shape.c + shape.l / 2), "l": (0.0, shape.c + shape.l)} if shape.l else at
+    if isinstance(shape, LoadedSphere):
+        return {"R": side, "b": (shape.b, -shape.d), "d": (0.0, -shape.d)}
+    if isinstance(shape, OrdinaryTop):
+        face = shape.h + shape.t
+        at = {"R": side, "h": (-shape.r1, shape.h), "r1": (shape.r1, shape.h), "r2": (shape.r2, face),
+              "t": (-shape.r2, face)}  # fmt: skip
+        return at | {"r": (shape.r, face + shape.l / 2), "l": (0.0, face + shape.l)} if shape.l else at
+    if isinstance(shape, BareSphere):
+        at = {"R": side, "a": (0.0, -shape.a * R)}
+        return at | {"r": (shape.r, shape.h), "h": (0.0, shape.h)} if isinstance(shape, StemmedSphere) else at
+    if isinstance(shape, Lathe):
+        half = np.arccos(-shape.points[0][1] / R) / 2
+        return {"R": (R * np.sin(half), -R * np.cos(half)),
+                **{f"point {index}": point for index, point in enumerate(shape.points)}}  # fmt: skip
+    return {"R": side} if isinstance(shape, Ball) else {}
+
+
+def pulled(shape: Shape, name: str, x: float, z: float) -> float | tuple[float, float]:
+    """The dimension (SI, to 0.01 mm) at which its handle is nearest to (x, z)."""
+    if name.startswith("point ") and isinstance(shape, Lathe):
+        # no further than its neighbours: the heights of a profile rise
+        points, index = shape.points, int(name[6:])
+        low = points[index - 1][1] if index else -shape.R
+        high = points[index + 1][1] if index + 1 < len(points) else LARGEST
+        return (max(0.0, round(float(x), 5)), min(max(round(float(z), 5), low), high))
+    if name == "R" and isinstance(shape, Lathe):
+        value = np.hypot(x, z)
+    elif name == "R":
+        value = (x - z) * np.sqrt(0.5)
+    elif name in ("r", "r1", "r2", "b"):
+        value = abs(x)
+    elif name == "a":
+        return round(float(-z / shape.R), 3)
+    else:
+        below = {"l": getattr(shape, "c", 0.0), "d": 0.0, "c": 0.0, "h": 0.0, "t": getattr(shape, "h", 0.0)}[name]
+        if name == "l" and isinstance(shape, OrdinaryTop):
+            below = shape.h + shape.t
+        value = -z if name == "d" else z - below
+    return round(float(value), 5)

@@ -1,0 +1,231 @@
+"""One frozen Picture: one top on all three planes, and the Settings that it was made of.
+
+In units of R, M and g but for what a person sets: rev/s, degrees, s.
+"""
+
+from dataclasses import dataclass, field
+from itertools import groupby
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+
+from app.model.bodies import second_part
+from tippe_core import (
+    Coulomb,
+    Ending,
+    Outcome,
+    Scales,
+    Shape,
+    SmoothedCoulomb,
+    State,
+    SteadyStates,
+    Stretch,
+    Top,
+    TopError,
+    Trajectory,
+    Viscous,
+    steady_states,
+)
+from tippe_core.motion.friction import Friction
+from tippe_core.types import Array, Indices, Rim
+
+PLANES = ("rough", "smooth", "sliding")
+LAWS = ("coulomb", "viscous", "smoothed")
+# Places in top3d.REGIMES
+ROLLS, LIFTS, SLIPS, FLIES, ENDS = 0, 2, 3, 4, 5
+KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
+
+MOST_SECONDS = 60.0
+# A frame turns the top by MOST_TURN rad at most, unless that takes more than MOST_FRAMES; by FARTHEST_TURN it may not.
+MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
+LEAST_FRAMES = 600
+NEAR_TOUCH = 0.02  # rad: so near to the touch angle a lift-off is the touch's
+SHORT = 0.05  # s of the real top: a touch, or a hop, that an eye does not follow
+RTOL = 1e-9  # of slide()
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Settings:
+    """All that a run depends on. rolling: the State that the constants chosen for rolling give; None: spin and tilt
+    are given. shape: None where a, I1 and I3 are not its own."""
+
+    top: Top
+    scales: Scales
+    shape: Shape | None
+    profile: Array
+    rolling: State | None
+    spin: float
+    tilt: float
+    slip: float
+    law: str
+    mu_k: float
+    mu_s: float
+    gamma: float
+    mu: float
+    eps: float
+    landing: str
+    stem: bool
+    seconds: float
+
+    @property
+    def friction(self) -> Friction:
+        if self.law == "viscous":
+            return Viscous(self.gamma)
+        return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu_k, self.mu_s)
+
+    @property
+    def edge(self) -> Rim | None:
+        """The stem's edge where it takes part."""
+        return self.shape.edge if self.stem and self.shape is not None else None
+
+    @property
+    def touch_angle(self) -> float:
+        """theta from which that edge touches, inf where none takes part."""
+        found = self.shape.touch_angle if self.edge and self.shape else None
+        return np.inf if found is None else found
+
+    @property
+    def part(self) -> str:
+        """What touches beside the ball, "stem" or "rim"."""
+        return second_part(self.shape)
+
+    @property
+    def state(self) -> State:
+        """The State at t = 0. slip 1: G at rest; 0: G moves as rolling needs; in between and beyond in proportion."""
+        if self.rolling is not None:
+            return self.rolling
+        if not 0 <= self.tilt <= 180:
+            raise TopError("tilt", self.tilt, "0 <= tilt <= 180 (°)")
+        for name in ("spin", "slip"):
+            if not np.isfinite(getattr(self, name)):
+                raise TopError(name, getattr(self, name), "a finite number", code="not-finite")
+        theta = float(np.radians(self.tilt))
+        spin = 2 * np.pi * self.spin / self.scales.angular_velocity
+        return State(theta, 0.0, 0.0, spin, vx=-(1 - self.slip) * spin * np.sin(theta), vy=0.0)
+
+    @property
+    def times(self) -> Array:
+        """(n,), short enough a step that the top turns little in it."""
+        if not 0 < self.seconds <= MOST_SECONDS:
+            raise TopError("seconds", self.seconds, f"0 < seconds <= {MOST_SECONDS:g} (s)")
+        start, end = self.state, self.seconds / self.scales.time
+        top = self.top
+        kinetic = top.I1 * (start.theta_dot**2 + start.omega2**2) + top.I3 * start.omega3**2
+        vx, vy = start.vx or 0.0, start.vy or 0.0
+        fastest = np.sqrt((kinetic + vx**2 + vy**2 + 4 * abs(top.a)) / min(top.I1, top.I3))
+        if end * fastest > FARTHEST_TURN * MOST_FRAMES:
+            most = FARTHEST_TURN * MOST_FRAMES / fastest * self.scales.time
+            raise TopError("seconds", self.seconds, "at most {most:.3g} s with this spin",
+                           "More turns than that are too many to show.", code="too-many-turns", most=most)  # fmt: skip
+        frames = np.clip(np.ceil(end * fastest / MOST_TURN), LEAST_FRAMES, MOST_FRAMES)
+        return np.linspace(0, end, int(frames) + 1)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Motion:
+    """One top on one plane. trajectory: as far as it goes; ended: the event that it stopped at, or "".
+
+    t (n,) to the end asked for: where the trajectory ends earlier, its last row stands once more at the end. frames:
+    the arguments of top3d.pack_frames. stretches: (start, end, place in REGIMES) in turn. drift: of KEPT, the largest
+    difference between two instants, over the largest size; alone: the time to which the sphere alone is on the table,
+    what ends that ("" if nothing), and the drift of J until then, which no more than one contact keeps. The events have
+    tippe_core's names, but THROWN where the stem's first touch is what lifts it off, and ANOTHER. ending: on the
+    sliding plane, what became of it.
+    """
+
+    trajectory: Trajectory
+    ending: Ending | None
+    ended: str
+    t: Array
+    frames: tuple[Array | Indices, ...]
+    stretches: tuple[tuple[float, float, int], ...]
+    drift: MappingProxyType[str, float]
+    alone: tuple[float, str, float]
+
+    @property
+    def slip(self) -> Array:
+        """The slip speed, (n,)."""
+        return np.hypot(*self.trajectory.slip.T)
+
+    @property
+    def ledger(self) -> dict[str, Array]:
+        """Energies in MgR that add up to what it started with, {name: (n,)}; height above G's lowest place."""
+        entries, a = self.trajectory.ledger, self.trajectory.top.a
+        return {
+            "spin": entries.spin,
+            "precession and nutation": entries.precession + entries.nutation,
+            "motion of G": entries.translation,
+            "height": entries.height - min(0.0, 2 * a),
+            "heat": entries.heat,
+        }
+
+    @property
+    def crossings(self) -> Array:
+        """The times at which theta passes a right angle, (k,)."""
+        theta, t = self._from_right_angle
+        at = np.flatnonzero((theta[:-1] < 0) != (theta[1:] < 0))
+        return t[at] + (t[at + 1] - t[at]) * theta[at] / (theta[at] - theta[at + 1])
+
+    @property
+    def _from_right_angle(self) -> tuple[Array, Array]:
+        """theta less a right angle, and the time, where that is not 0."""
+        theta = self.trajectory.theta - np.pi / 2
+        off = np.abs(theta) > 1e-12
+        return theta[off], self.trajectory.t[off]
+
+    @property
+    def starts_below(self) -> bool:
+        """Whether it starts below a right angle, or goes below it from there."""
+        return bool(np.all(self._from_right_angle[0][:1] < 0))
+
+    @property
+    def overturned(self) -> float:
+        """The time at which theta first passes a right angle, nan if it never does, or started past it."""
+        found = self.crossings
+        return float(found[0]) if len(found) and self.trajectory.theta[0] < np.pi / 2 else np.nan
+
+
+class Well(NamedTuple):
+    """V_J at one C_J, from start to end in (R/g)^1/2: a while in which the ball alone was at the table."""
+
+    start: float
+    end: float
+    C_J: float
+    steady: SteadyStates
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Picture:
+    """All that the views show. motions: {plane: Motion or None}; None: the sentence why is in messages at the plane.
+
+    outcome: of the ball alone. growth: how many times NUDGE grew in the run beside the sliding one, None without that.
+    messages: a sentence for each control that was given what cannot be, "run" for a run that was stopped; the rest is
+    then the last good one.
+    """
+
+    settings: Settings
+    state: State
+    friction: Friction
+    motions: MappingProxyType[str, Motion | None]
+    outcome: Outcome
+    growth: float | None = None
+    messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+    def wells(self, plane: str) -> tuple[Well, ...]:
+        """(Well, ...) of the motion on a plane, one for each while of more than SHORT in which no stem touched: a
+        second contact changes C_J. Of none, that of the start."""
+        motion, shortest = self.motions[plane], SHORT / self.settings.scales.time
+        if motion is None:
+            return (Well(0.0, 0.0, self.outcome.C_J, self.outcome.steady),)
+        moved = motion.trajectory
+        found: list[Well] = []
+        spells = motion.ending.stretches if motion.ending else (Stretch(moved.t[0], moved.t[-1], "ball"),)
+        for free, group in groupby(spells, key=lambda spell: spell.on in ("ball", "air")):
+            group = list(group)
+            start, end = group[0].start, group[-1].end
+            inside = (moved.t >= start) & (moved.t <= end)
+            if free and inside.any() and (end - start > shortest or not found):
+                C_J = float(np.median(moved.jellett[inside]))
+                found.append(Well(start, end, C_J, steady_states(moved.top, C_J)))
+        return tuple(found) or (Well(-1.0, -1.0, self.outcome.C_J, self.outcome.steady),)

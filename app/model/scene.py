@@ -1,0 +1,288 @@
+"""One frozen Scene: all that the views show of one top and one motion, and solve(), which makes it.
+
+Angles in rad; lengths in R, masses in M, accelerations in g, so times in (R/g)^1/2, forces in Mg, energies in MgR.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+
+from app.model.bodies import body, fits, outline
+from app.model.frames import axes, frame_times
+from app.model.regimes import LIFTS, ROLLS, SLIPS
+from app.model.region import MESH_COLUMNS, K_J_range, Plane, between, height, least_energy, plane
+from app.text import say
+from tippe_core import (
+    Constants,
+    Rolling,
+    Scales,
+    Shape,
+    State,
+    Top,
+    TopError,
+    Trajectory,
+    TruncatedSphere,
+    figures,
+    omega3,
+    turning_points,
+)
+from tippe_core.paper.curve import rounded_f
+from tippe_core.types import Array, Indices
+
+# At its limit a motion rolls still: rounding is not to say otherwise.
+AT_LIMIT = 1e-9
+SAMPLES_A_NUTATION = 128
+LEVELS = (0.15, 0.4, 0.7, 1.0, 2.0)
+LEVEL_COLUMNS = 32
+POTENTIAL_COLUMNS = 160
+
+# Beyond these the squares of what follows leave a float's range, or its digits the motion, and solving takes seconds.
+LARGEST, LEAST_INERTIA = 1e6, 1e-12
+
+# A limit that is never reached still needs a place on the energy slider: this share of the energy above the last one.
+UNLIMITED = 0.25
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Marks:
+    """The energies that the energy control is marked with, E; inf where nothing limits, nan where even the steady
+    precession breaks the limit. nodes: the (3,) finite energies at which the control stands at 0, 1 and 2."""
+
+    steady: float
+    slip: float
+    lift: float
+    theta_steady: float
+    nodes: Array
+
+    def energy(self, share: float) -> float:
+        """0 the steady precession, 1 the limit of friction, 2 that of F_z; straight on beyond 2, and below 0."""
+        slopes = np.diff(self.nodes)
+        if share < 0:
+            return self.nodes[0] + share * (slopes[0] or slopes[1])
+        if share > 2:
+            return self.nodes[2] + (share - 2) * (slopes[1] or slopes[0])
+        return float(np.interp(share, (0, 1, 2), self.nodes))
+
+    def share(self, energy: float) -> float:
+        """The inverse of energy(share)."""
+        start, middle, end = self.nodes
+        if energy < start:
+            return (energy - start) / ((middle - start) or (end - start))
+        if energy > end:
+            return 2 + (energy - end) / ((end - middle) or (end - start))
+        if middle > start and energy <= middle:
+            return (energy - start) / (middle - start)
+        return 1 + (energy - middle) / (end - middle) if end > middle else 1.0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Scene:
+    """All that the views show. Trajectory arrays have one row a frame; vectors are along the axes of space.
+
+    ratio is F_h/F_z; regime one of ROLLS, SLIPS, LIFTS a frame; upright_spin omega_3 at theta = 0; profile (k, 2) the
+    radius of the body drawn and its height above O along axis 3; shape the body, None where a, I1, I3 were set apart
+    from it, and then scales are still its R and M. messages: a sentence for each control that was given what cannot be;
+    the rest of the scene is then the last good one. notes: sentences about what is shown.
+    """
+
+    top: Top
+    scales: Scales
+    mu_s: float
+    constants: Constants
+    share: float
+    marks: Marks
+    state: State
+    rolling: Rolling
+    plane: Plane
+    turning: tuple[float, float]
+    curve: Array
+    trajectory: Trajectory
+    force: Array
+    omega: Array
+    momentum: Array
+    normal: Array
+    ratio: Array
+    regime: Indices
+    K_J: Array
+    K_R: Array
+    E: Array
+    upright_spin: float
+    profile: Array
+    shape: Shape | None
+    messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    notes: tuple[str, ...] = ()
+
+    # What not every picture shows is computed when the first one asks.
+
+    @cached_property
+    def nutation(self) -> Trajectory:
+        """One nutation from t = 0, closed: the Trajectory at SAMPLES_A_NUTATION + 1 equally spaced times."""
+        return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION + 1))
+
+    @cached_property
+    def levels(self) -> list[tuple[Array, Array]]:
+        """Motions of the same K_J and K_R at other energies, and one at LEVELS[i] of the marks: [(theta, theta_dot)],
+        each theta ascending, theta_dot >= 0."""
+        curves = []
+        for share in LEVELS:
+            constants = replace(self.constants, E=self.marks.energy(share))
+            wells = turning_points(self.top, constants)
+            inner, outer = wells[int(np.argmin(np.abs(wells - self.marks.theta_steady).min(axis=1)))]
+            theta = between(inner, outer, LEVEL_COLUMNS)
+            theta_dot = np.sqrt(np.maximum(rounded_f(theta, self.top, constants), 0))
+            theta_dot[[0, -1]] = 0
+            curves.append((theta, theta_dot))
+        return curves
+
+    @cached_property
+    def potential(self) -> tuple[Array, Array]:
+        """theta (n,) and the least energy there, E (n,): a motion turns where its energy is that."""
+        inner, outer = self.turning
+        reach = 0.6 * (outer - inner) + 0.05
+        theta = np.linspace(max(inner - reach, 1e-3), min(outer + reach, np.pi - 1e-3), POTENTIAL_COLUMNS)
+        return theta, least_energy(theta, self.top, self.constants.K_J, self.constants.K_R)
+
+    @cached_property
+    def rosette(self) -> tuple[float, float, float, float] | None:
+        """Centre x, y and the least and largest distance of the track from it; None where the track goes straight on.
+
+        A nutation turns the motion by phi_advance and moves it: together a turn about one point of the table.
+        """
+        track = self.nutation.contact @ (1, 1j)
+        turn = np.exp(1j * self.rolling.phi_advance)
+        if abs(1 - turn) < AT_LIMIT:
+            return None
+        centre = (track[-1] - turn * track[0]) / (1 - turn)
+        away = np.abs(track - centre)
+        return centre.real, centre.imag, away.min(), away.max()
+
+
+def solve(
+    top: Top,
+    K_J: float,
+    K_R: float,
+    mu_s: float,
+    share: float,
+    upper: bool = True,
+    limit: str = "lift-off",
+    shape: Shape | None = None,
+    *,
+    E: float | None = None,
+    state: State | None = None,
+) -> Scene:
+    """The Scene of one top and one motion; shape: the body, appendix A's where none is given.
+
+    E, where given, is the energy, whatever the share; state, where given, the motion at t = 0, whatever the constants.
+    Raises TopError, whose name is the input at fault.
+    """
+    shape = shape or TruncatedSphere.paper()
+    drawn = shape if fits(shape, top) else None
+    if state is not None:
+        constants = Constants.from_state(top, state.theta, state.theta_dot, state.omega2, state.omega3)
+        K_J, K_R, E = float(constants.K_J), float(constants.K_R), float(constants.E)
+    for name, value in {"K_J": K_J, "K_R": K_R, "mu_s": mu_s, "E": share if E is None else E}.items():
+        if not abs(value) <= LARGEST:
+            raise TopError(name, value, "at most {most:g} either way", "No top is ever so fast, no table so rough.",
+                           code="too-large", most=LARGEST)  # fmt: skip
+    for name, least, unit in (("a", -LARGEST, "R"), ("I1", LEAST_INERTIA, "MR^2"), ("I3", LEAST_INERTIA, "MR^2")):
+        if not least <= (value := getattr(top, name)) <= LARGEST:
+            raise TopError(name, value, "{least:g} to {most:g} ({unit})", "No body is so thin, or so wide.",
+                           code="no-such-body", least=least, most=LARGEST, unit=unit)  # fmt: skip
+    marks = energy_marks(top, K_J, K_R, mu_s)
+    if E is None:
+        E = marks.energy(share)
+    elif state is not None:
+        share = max(marks.share(E), 0.0)  # rounding may leave a steady precession below itself
+    else:
+        share = marks.share(E)
+    if share < 0 or not np.isfinite(share):
+        raise TopError(
+            "E",
+            E,
+            "E >= {least:.10g} MgR at K_J = {K_J:g} and K_R = {K_R:g}",
+            "Below the steady precession there is no motion: move the energy up.",
+            code="no-motion",
+            least=float(f"{marks.steady:.6g}"),
+            K_J=K_J,
+            K_R=K_R,
+        )
+    constants = Constants(K_J, K_R, E)
+    if state is not None:
+        rolling = Rolling(top, None, start=state)
+        inner, outer = rolling.turning_points
+    else:
+        wells = turning_points(top, constants)
+        well = int(np.argmin(np.abs(wells - marks.theta_steady).min(axis=1)))
+        inner, outer = wells[well]
+        rolling = Rolling(top, constants, well=well)
+    trajectory = rolling(frame_times(rolling.period, top, constants))
+
+    F_x, F_y, F_z = trajectory.force.T
+    with np.errstate(divide="ignore"):
+        ratio = np.hypot(F_x, F_y) / np.abs(F_z)
+    if state is None:
+        theta, (w1, w2, w3) = trajectory.theta[0], trajectory.omega[0]
+        state = State(theta, w1, w2 if 0 < theta < np.pi else 0.0, w3)
+    nodal, across, axis, towards = axes(trajectory.theta, trajectory.phi)
+    w1, w2, w3 = (component[:, None] for component in trajectory.omega.T)
+    theta = between(inner, outer, MESH_COLUMNS)
+    return Scene(
+        top=top,
+        scales=shape.scales,
+        mu_s=mu_s,
+        constants=constants,
+        share=share,
+        marks=marks,
+        state=state,
+        rolling=rolling,
+        plane=plane(top, K_R, mu_s, upper, limit, *K_J_range(top, K_J, K_R, upper)),
+        turning=(float(inner), float(outer)),
+        curve=np.column_stack([theta, height(theta, top, constants)]),
+        trajectory=trajectory,
+        force=F_x[:, None] * nodal + F_y[:, None] * across + F_z[:, None] * (0, 0, 1),
+        omega=w1 * nodal + w2 * towards + w3 * axis,
+        momentum=top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis,
+        normal=F_z,
+        ratio=ratio,
+        regime=np.where(F_z < -AT_LIMIT, LIFTS, np.where(ratio > mu_s + AT_LIMIT, SLIPS, ROLLS)),
+        K_J=trajectory.jellett / top.I1,
+        K_R=trajectory.routh,
+        E=trajectory.energy,
+        upright_spin=float(omega3(0.0, top, constants)),
+        profile=outline(top) if drawn is None else body(drawn),
+        shape=drawn,
+        notes=tuple(remarks(marks, drawn, float(outer))),
+    )
+
+
+def energy_marks(top: Top, K_J: float, K_R: float, mu_s: float) -> Marks:
+    lift, slip = figures(top, [K_J], K_R, mu_s)
+    steady, E_slip, E_lift = float(lift.E_steady[0]), float(slip.E[0]), float(lift.E[0])
+    nodes = [steady]
+    for E in (E_slip, E_lift):
+        if np.isnan(E):
+            E = nodes[-1]
+        elif not E < steady + LARGEST * (1 + abs(steady)):  # no limit, or one that no top ever reaches
+            E = nodes[-1] + UNLIMITED * (1 + abs(steady))
+        nodes.append(max(E, nodes[-1]))  # rounding may put a limit below what it is a limit of
+    if nodes[2] == nodes[0]:
+        nodes[2] += UNLIMITED * (1 + abs(steady))
+    return Marks(
+        steady=steady, slip=E_slip, lift=E_lift, theta_steady=float(lift.theta_steady[0]), nodes=np.array(nodes)
+    )
+
+
+def remarks(marks: Marks, shape: Shape | None, theta_outer: float) -> Iterator[str]:
+    if shape is None:
+        yield say("controls.remarks.stand_in")
+    elif shape.touch_angle is not None and theta_outer > shape.touch_angle:
+        yield say("controls.remarks.touches", angle=np.degrees(shape.touch_angle))
+    if np.isnan(marks.lift):
+        yield say("controls.remarks.lifts")
+    elif np.isnan(marks.slip):
+        yield say("controls.remarks.slips")
+    elif np.isinf(marks.lift) and np.isinf(marks.slip):
+        yield say("controls.remarks.unlimited")

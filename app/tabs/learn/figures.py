@@ -1,0 +1,140 @@
+"""The lesson's figures: a step's graph, and the section through the top as in the paper's Fig. 4."""
+
+import numpy as np
+import panel as pn
+from bokeh.models import ColumnDataSource, CustomJS, Range1d
+
+from app.model.colours import COLOURS, GREY, INK
+from app.text import say
+from app.widgets.cards import swatch, words
+from app.widgets.plots import plain
+
+CLOCK = "learn"
+MARGIN = 0.06
+
+# Turns the section's drawing with the clock: only a rotation of the points that Python sent.
+TURN_SECTION = """
+if (motion.followed) return
+motion.followed = true
+let now = 0
+const draw = () => {
+  const {t, theta, push} = motion.data, last = t.length - 1
+  const i = Math.round(Math.min(Math.max((now - t[0]) / (t[last] - t[0]), 0), 1) * last)
+  const s = Math.sin(theta[i]), c = Math.cos(theta[i]), a = motion.data.a[0]
+  const {across, along} = body.data, x = body.data.x, y = body.data.y
+  for (let k = 0; k < across.length; k++) {
+    x[k] = across[k] * c - along[k] * s
+    y[k] = 1 + across[k] * s + along[k] * c
+  }
+  body.change.emit()
+  const G = [a * s, 1 - a * c], mark = (k, x0, y0, x1, y1) => {
+    Object.assign(lines.data.x0, {[k]: x0}); Object.assign(lines.data.y0, {[k]: y0})
+    Object.assign(lines.data.x1, {[k]: x1}); Object.assign(lines.data.y1, {[k]: y1})
+  }
+  // the axis 3; the verticals through G and C; r from C to G; the arm of the torque about z, above the points, which
+  // are larger than it; that about 3
+  const foot3 = [s * c, 1 - c * c]
+  mark(0, 1.25 * s, 1 - 1.25 * c, -1.9 * s, 1 + 1.9 * c)
+  mark(1, G[0], 0, G[0], 1.7)
+  mark(2, 0, 0, G[0], G[1])
+  mark(3, 0, 1.5, G[0], 1.5)
+  mark(4, 0, 0, foot3[0], foot3[1])
+  mark(5, 0, 0, 0, 1.7)
+  lines.change.emit()
+  const at = (k, x, y) => { points.data.x[k] = x; points.data.y[k] = y }
+  at(0, 0, 1); at(1, ...G); at(2, 0, 0); at(3, -1.9 * s, 1 + 1.9 * c)
+  points.data.name[4] = push[i] >= 0 ? "F⊙" : "F⊗"
+  at(4, 0, -0.02)
+  points.change.emit()
+}
+motion.properties.data.change.connect(draw)
+window.addEventListener("tippe:clock:CLOCK", ({detail: {t}}) => { now = t; draw() })
+draw()
+""".replace("CLOCK", CLOCK)
+
+
+class StepFigure:
+    """A lesson_parts.Picture: curves and points over two axes."""
+
+    def __init__(self):
+        self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="lesson")
+        fig.update(sizing_mode="stretch_width", height=280)
+        self.curves = ColumnDataSource({"xs": [], "ys": [], "colour": [], "dash": []})
+        self.points = ColumnDataSource({"x": [], "y": [], "name": []})
+        fig.multi_line("xs", "ys", source=self.curves, line_color="colour", line_dash="dash", line_width=2)
+        fig.scatter("x", "y", source=self.points, size=9, fill_color="white", line_color=INK, line_width=2)
+        fig.text("x", "y", "name", source=self.points, x_offset=-8, y_offset=-8, text_align="right", text_color=INK,
+                 text_font_size="13px")  # fmt: skip
+        self.key, self.x, self.y = words(""), words(""), words("")
+
+    @property
+    def view(self):
+        return [self.key, self.y, pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0), self.x]
+
+    def show(self, picture):
+        self.curves.data = {
+            "xs": [curve.x for curve in picture.curves], "ys": [curve.y for curve in picture.curves],
+            "colour": [curve.colour for curve in picture.curves], "dash": [curve.dash for curve in picture.curves],
+        }  # fmt: skip
+        self.points.data = {
+            "x": [point.x for point in picture.points], "y": [point.y for point in picture.points],
+            "name": [say(f"learn.points.{point.key}") for point in picture.points],
+        }  # fmt: skip
+        for axis, values in (("x_range", [part.x for part in (*picture.curves, *picture.points)]),
+                             ("y_range", [part.y for part in (*picture.curves, *picture.points)])):  # fmt: skip
+            values = np.concatenate([np.atleast_1d(value) for value in values])
+            low, high = np.nanmin(values), np.nanmax(values)
+            pad = MARGIN * (high - low) or 0.05 * (1 + abs(low))
+            getattr(self.figure, axis).update(start=low - pad, end=high + pad)
+        known = {curve.key: curve for curve in picture.curves if curve.key != "zero"}
+        key = "".join(swatch(c.colour, say(f"learn.curves.{c.key}"), c.dash) for c in known.values())
+        self.key.object = f'<div class="key">{key}</div>'
+        self.x.object = f'<div class="axis">{say(f"learn.axes.{picture.x}")}</div>'
+        self.y.object = f"<div>{say(f'learn.axes.{picture.y}')}</div>"
+
+
+class SectionFigure:
+    """The paper's Fig. 4, live: the section through the contact point and the axis, with the two lever arms of F_x."""
+
+    def __init__(self):
+        self.figure = fig = plain(x_range=Range1d(-2.1, 2.1), y_range=Range1d(-0.45, 3.1), name="section",
+                                  match_aspect=True)  # fmt: skip
+        fig.update(sizing_mode="stretch_width", height=330)
+        fig.grid.visible = fig.axis.visible = False
+        self.motion = ColumnDataSource({"t": [0.0, 1.0], "theta": [0.5, 0.5], "push": [1.0, 1.0], "a": [0.07, 0.07]})
+        self.body = ColumnDataSource({name: np.zeros(1) for name in ("across", "along", "x", "y")})
+        five, six = [0.0] * 5, [0.0] * 6
+        self.lines = ColumnDataSource(
+            {"x0": six, "y0": list(six), "x1": list(six), "y1": list(six),
+             "colour": ["#8a96a3", "#8a96a3", GREY, COLOURS["friction"], COLOURS["theta"], "#8a96a3"],
+             "dash": ["dashed", "dotted", "solid", "solid", "solid", "dotted"],
+             "width": [1.5, 1.5, 2, 8, 5, 1.5]})  # fmt: skip
+        self.points = ColumnDataSource(
+            {"x": five, "y": list(five), "name": ["O", "G", "C", "3", "F⊙"], "dx": [10, 10, -18, 8, 8],
+             "dy": [-4, 4, 16, 0, 20], "size": [5, 8, 7, 0, 0]})  # fmt: skip
+        fig.patch("x", "y", source=self.body, fill_color="#d9b48a", fill_alpha=0.35, line_color="#8a6a42")
+        fig.segment(x0=[-2.1], x1=[2.1], y0=[0], y1=[0], line_color=INK, line_width=1.5)
+        fig.segment("x0", "y0", "x1", "y1", source=self.lines, line_color="colour", line_dash="dash",
+                    line_width="width")  # fmt: skip
+        fig.scatter("x", "y", source=self.points, size="size", color=INK)
+        fig.text("x", "y", "name", source=self.points, x_offset="dx", y_offset="dy", text_color=INK,
+                 text_font_size="15px", text_font_style="italic")  # fmt: skip
+        turn = CustomJS(args={"motion": self.motion, "body": self.body, "lines": self.lines, "points": self.points},
+                        code=TURN_SECTION)  # fmt: skip
+        fig.js_on_change("inner_width", turn)
+        self.words = words("")
+
+    @property
+    def view(self):
+        return [self.words, pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", margin=0)]
+
+    def show(self, scene):
+        radius, height = scene.profile.T
+        across, along = np.concatenate([radius, -radius[::-1]]), np.concatenate([height, height[::-1]])
+        self.body.data = {"across": across, "along": along, "x": across.copy(), "y": along + 1}
+        motion = scene.trajectory
+        self.motion.data = {
+            "t": motion.t, "theta": motion.theta, "push": motion.force[:, 0], "a": np.full(len(motion.t), scene.top.a),
+        }  # fmt: skip
+        arms = swatch(COLOURS["friction"], say("learn.arms.z")) + swatch(COLOURS["theta"], say("learn.arms.three"))
+        self.words.object = f'<div class="key">{arms}</div>'

@@ -1,0 +1,21 @@
+"""Symbols and rows that the builder's cards share."""
+
+import panel as pn
+
+SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
+           "I3": "<i>I</i><sub>3</sub>", "density": "<i>ρ</i>", "core_density": "<i>ρ</i><sub>core</sub>"}  # fmt: skip
+
+
+def symbol(name):
+    if name.startswith("density "):
+        return SYMBOLS["density"]
+    return SYMBOLS.get(name, f"<i>{name}</i>")
+
+
+def grid(*content):
+    """Side by side where there is room."""
+    return pn.Column(
+        *content, sizing_mode="stretch_width", margin=(6, 0),
+        styles={"display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 215px), 1fr))",
+                "column-gap": "22px"},
+    )  # fmt: skip

@@ -1,0 +1,74 @@
+"""A top of one's own, from what a stopwatch, a balance and a caliper say."""
+
+import panel as pn
+import panel_material_ui as pmui
+
+from app.model.builder import Rocking
+from app.model.dimensions import sentence
+from app.tabs.workshop.fields import grid
+from app.text import listed, say
+from app.widgets.cards import BUTTON, alert, field, note, on_click, words
+from app.widgets.controls import typed_number
+from tippe_core import TopError
+
+
+class Measure:
+    """A top of one's own: mass, diameter and the period of small rocking at rest -> a/R."""
+
+    # name, what stands there at first, and SI in one of the unit
+    FIELDS = (("D", "32.0", 1e-3), ("dD", "0.1", 1e-3), ("T", "1.08", 1.0), ("dT", "0.01", 1.0), ("M", "11.5", 1e-3))
+
+    def __init__(self, builder):
+        self.builder = builder
+        spoken = listed("workshop.own.spoken")
+        self.entries = {name: field(value, spoken[name]) for name, value, _ in self.FIELDS}
+        self.result = words()
+        self.use = pmui.Button(label=say("workshop.own.explore"), **BUTTON | {"margin": (4, 0)})
+        on_click(self.use, self._use)
+        for entry in self.entries.values():
+            entry.param.watch(lambda event: self._show(), "value")
+        builder.param.watch(lambda event: self._show(), "draft")
+        self._show()
+
+    @property
+    def view(self):
+        """Fields, formula, answer."""
+        fields = [
+            pn.Row(words(note(says), margin=(5, 6, 0, 0)), self.entries[name], sizing_mode="stretch_width",
+                   margin=(2, 0))
+            for name, says in listed("workshop.own.fields").items()]  # fmt: skip
+        return [words(say("workshop.own.says")), grid(*fields), self.result, self.use]
+
+    def _found(self):
+        """(Rocking, Measured); raises TopError, ValueError."""
+        values = {}
+        for name, _, unit in self.FIELDS:
+            entry = self.entries[name]
+            try:
+                values[name] = typed_number(entry.value) * unit
+            except ValueError:
+                raise ValueError(say("workshop.own.not_a_number", text=entry.value)) from None
+        rocking = Rocking(**values)
+        return rocking, rocking.a(self.builder.draft.shape)
+
+    def _show(self):
+        said = self.builder.draft.messages.get("measured")
+        if self.builder.draft.shape.top.a < 0:
+            self.result.object = note(say("workshop.own.cannot"))
+            self.use.disabled = True
+            return
+        try:
+            rocking, found = self._found()
+        except ValueError as error:
+            self.result.object = alert(sentence(error) if isinstance(error, TopError) else str(error))
+            self.use.disabled = True
+            return
+        self.use.disabled = False
+        self.result.object = alert(said) or say(
+            "workshop.own.found", a=found.value, uncertainty=found.uncertainty, period=found.shares["T"],
+            diameter=found.shares["R"], below=found.value * rocking.D / 2 * 1e3,
+            I1=self.builder.draft.shape.top.I1)  # fmt: skip
+
+    def _use(self, event):
+        rocking, found = self._found()
+        self.builder.measured(M=rocking.M, R=rocking.D / 2, a=found.value)

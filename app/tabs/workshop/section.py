@@ -1,0 +1,151 @@
+"""The section of the body that is built: the cut through axis 3, with handles."""
+
+import math
+
+import numpy as np
+from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d
+
+from app.model.bodies import body
+from app.model.colours import COLOURS, FAINT, INK
+from app.model.dimensions import handles, pulled, value_of
+from app.text import say
+from app.widgets.controls import number
+from app.widgets.plots import plain
+from tippe_core import LoadedSphere, Turned
+
+PARTS = {"body": "#d9b98c", "hollow": "white", "core": "#8a96a3"}  # of the section, in the order they are drawn
+FRAME = 276  # px; square, so that both axes have one scale
+REACH = 16  # px from a handle that still take hold of it
+# Where a hand goes down: a quick one is elsewhere by the time it counts as dragging.
+PRESS = """
+if (pressed.followed) return
+pressed.followed = true
+const {canvas_view: {events_el}, frame: {x_scale, y_scale}} = Bokeh.index.find_one(fig)
+const press = ({offsetX, offsetY}) => { pressed.data = {x: [x_scale.invert(offsetX)], z: [y_scale.invert(offsetY)]} }
+events_el.addEventListener("pointerdown", press, {capture: true})
+"""
+
+
+class Section:
+    """The cut through axis 3, to scale in mm, with handles. pull: what takes (dimension, value in SI) from a hand."""
+
+    def __init__(self, pull):
+        self._pull, self._held, self._shape, self._span = pull, None, None, 0.0
+        self.last_point = None  # index of the point of a Lathe that was held last
+        self.figure = fig = plain(x_range=Range1d(-1, 1), y_range=Range1d(-1, 1), name="section")
+        fig.update(sizing_mode=None, width=FRAME + 50, height=FRAME + 30, frame_width=FRAME, frame_height=FRAME)
+        fig.xaxis.ticker.desired_num_ticks = fig.yaxis.ticker.desired_num_ticks = 5
+        # A patch each: of patches Bokeh 3.10 may draw as many as there were before.
+        self.parts = {part: ColumnDataSource({"x": [], "z": []}) for part in PARTS}
+        self.lines = ColumnDataSource({"x": [], "z": [], "colour": [], "dash": [], "width": []})
+        self.points = ColumnDataSource({"x": [], "z": [], "colour": []})
+        self.letters = ColumnDataSource({"x": [], "z": [], "text": [], "dx": [], "dy": [], "style": []})
+        self.handles = ColumnDataSource({"x": [], "z": [], "name": [], "says": []})
+        for part, colour in PARTS.items():
+            fig.patch("x", "z", source=self.parts[part], fill_color=colour, line_color=INK, line_width=1.5)
+        fig.multi_line("x", "z", source=self.lines, line_color="colour", line_dash="dash", line_width="width")
+        fig.scatter("x", "z", source=self.points, size=7, color="colour")
+        fig.text("x", "z", text="text", source=self.letters, x_offset="dx", y_offset="dy", text_color=INK,
+                 text_font_size="15px", text_font_style="style", text_font={"value": "Georgia, serif"},
+                 text_align="center", text_baseline="middle")  # fmt: skip
+        knobs = fig.scatter("x", "z", source=self.handles, size=14, fill_color="white", line_color=COLOURS["theta"],
+                            line_width=3)  # fmt: skip
+        fig.add_tools(HoverTool(renderers=[knobs], tooltips="@says", point_policy="snap_to_data"))
+        self.pressed = ColumnDataSource({"x": [], "z": []})
+        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "pressed": self.pressed}, code=PRESS))
+        fig.on_event("panstart", self._take)
+        fig.on_event("pan", self._drag)
+        fig.on_event("panend", self._let_go)
+
+    def _take(self, event):
+        pressed = self.pressed.data
+        self._held = self.handle_at(pressed["x"][0], pressed["z"][0]) if len(pressed["x"]) else None
+        if self._held and self._held.startswith("point "):
+            self.last_point = int(self._held[6:])
+
+    def handle_at(self, x, y):
+        """The name of the handle that a hand at (x, y) in mm takes hold of, or None."""
+        places = {name: np.hypot(1e3 * across - x, 1e3 * z - y) for name, (across, z) in handles(self._shape).items()}
+        nearest = min(places, key=places.get, default=None)
+        return nearest if places and places[nearest] < REACH * self._span / FRAME else None
+
+    def _drag(self, event):
+        if self._held:
+            self._pull(self._held, pulled(self._shape, self._held, event.x / 1e3, event.y / 1e3))
+
+    def _let_go(self, event):
+        if self._held:
+            self._held = None
+            self._frame()
+
+    def show(self, draft):
+        shape = self._shape = draft.shape
+        profile = 1e3 * shape.R * body(shape)
+        R, height = 1e3 * shape.R, 1e3 * shape.com
+        if not self._held:
+            self._frame()
+        span = self._span
+        parts = {"body": [profile], "hollow": [1e3 * rows for rows in _cavities(shape)], "core": []}
+        turn = np.linspace(0, np.pi, 37)
+        if isinstance(shape, LoadedSphere):
+            core = np.column_stack([shape.b * np.sin(turn), shape.b * np.cos(turn) - shape.d])
+            parts["core" if shape.core_density else "hollow"].append(1e3 * core)
+        for part, outlines in parts.items():
+            x, z = _closed(outlines)
+            self.parts[part].data = {"x": x, "z": z}
+        low, high = min(-R, profile[:, 1].min()), profile[:, 1].max()
+        wide = profile[:, 0].max()
+        aside = wide + 0.05 * span
+        straight = [
+            ((-span, span), (-R, -R), INK, [], 2),
+            ((0, 0), (low, high + 0.06 * span), FAINT, [8, 4], 1.5),
+            ((-wide - 0.03 * span, wide + 0.03 * span), (height, height), FAINT, [8, 4], 1.5),
+            ((0, -R * 0.8), (0, -R * 0.6), COLOURS["normal"], [], 2),
+            ((aside, aside), (0, height), COLOURS["friction"], [], 3),
+            ((0, aside), (0, 0), COLOURS["friction"], [2, 3], 1),
+            ((0, aside), (height, height), COLOURS["friction"], [2, 3], 1),
+        ]
+        sphere = (R * np.sin(2 * turn), R * np.cos(2 * turn), FAINT, [2, 4], 1)
+        x, z, colour, dash, thick = zip(sphere, *straight, strict=True)
+        self.lines.data = {"x": list(x), "z": list(z), "colour": colour, "dash": list(dash), "width": thick}
+        self.points.data = {"x": [0, 0, 0], "z": [0, height, -R], "colour": [INK, COLOURS["friction"], INK]}
+        letters = [
+            (0, 0, "O", -12, -10, "italic"), (0, height, "G", 14, 10 if height <= 0 else -10, "italic"),
+            (0, -R, "C", 0, 14, "italic"), (-0.4 * R, -0.3 * R, "R", -8 if R > span / 12 else -26, -8, "italic"),
+            (aside, height / 2, "a", 10, 0, "italic"), (0, high + 0.06 * span, "3", 0, -10, "normal"),
+            (-wide - 0.03 * span, height, "1", -10, 0, "normal"),
+        ]  # fmt: skip
+        self.letters.data = dict(zip(("x", "z", "text", "dx", "dy", "style"), zip(*letters, strict=True), strict=True))
+        said = {dimension.name: dimension for dimension in draft.dimensions}
+        at = handles(shape)
+        self.handles.data = {
+            "x": [1e3 * x for x, _ in at.values()],
+            "z": [1e3 * z for _, z in at.values()],
+            "name": list(at),
+            "says": [f"{said[name].words}: {number(value_of(shape, name) * said[name].factor)} {said[name].unit}"
+                     if name in said else say("workshop.bench.point", x=number(1e3 * x), z=number(1e3 * z))
+                     for name, (x, z) in at.items()],
+        }  # fmt: skip
+
+    def _frame(self):
+        """All of the body in view; in coarse steps, so that it does not swim."""
+        profile = 1e3 * self._shape.R * body(self._shape)
+        low, high = profile[:, 1].min(), profile[:, 1].max()
+        needed = 1.3 * max(2 * profile[:, 0].max(), high - low)
+        self._span = span = 1.25 ** math.ceil(math.log(needed, 1.25))
+        middle = (low + high) / 2
+        for axis, centre in ((self.figure.x_range, 0.0), (self.figure.y_range, middle)):
+            axis.update(start=centre - span / 2, end=centre + span / 2)
+
+
+def _closed(outlines):
+    """x and z of a Patch of outlines (k, 2) of bodies of revolution, gaps between them."""
+    rows = [np.vstack([half, half[::-1] * (-1, 1), [[np.nan, np.nan]]]) for half in outlines]
+    return np.vstack(rows)[:-1].T if rows else np.empty((2, 0))
+
+
+def _cavities(shape):
+    """Closed outlines inside the body, (k, 2) m."""
+    if not isinstance(shape, Turned):
+        return []
+    return [np.vstack([edge.points(24) for edge in outline]) for outline in shape.solid.outlines[1:]]
