@@ -21,30 +21,35 @@ import time
 from collections import Counter
 from pathlib import Path
 
-os.environ["NUMBA_DISABLE_JIT"] = "1"  # what is compiled and kept would not notice
-
 ROOT = Path(__file__).parent.parent
 LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
-CORE = ["equations", "poles", "constants", "curve", "wells", "limits", "nutation", "phase", "series", "crowding",
-        "rolling", "smooth", "friction", "dynamics", "stepper", "following", "happening", "contacts", "impact",
-        "impulses", "standing", "preparing", "sliding", "many", "tally"]  # fmt: skip
+PAPER = ["equations", "poles", "constants", "curve", "forces", "wells", "limits"]
+ROLLING = ["nutation", "phase", "series", "crowding", "rolling"]
+SLIDING = ["friction", "dynamics", "stepper", "following", "happening", "contacts", "impact", "impulses", "standing",
+           "preparing", "poses", "repeats", "sliding", "many", "tally"]  # fmt: skip
+CORE = [*PAPER, *ROLLING, "smooth", *SLIDING]
 APP = ["explorer", "scene", "region", "frames", "bodies", "planes", "planes_picture", "planes_run", "family"]
 FILES = [*CORE, *APP]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
-CONTROL = {"solve", "bisect", "zero", "least", "resolved", "harmonics", "length", "first_below"}
+CONTROL = {"solve", "bisect", "zero", "least", "resolved", "harmonics", "length", "first_below", "accept", "error",
+           "factor"}  # fmt: skip
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
          "test_forces.py", "test_symbolic.py", "test_paper.py", "test_top.py"]  # fmt: skip
 ROLLS = ["test_smooth.py", "test_accuracy.py", "test_rolling.py", "test_sliding.py", "test_claims.py",
          "test_tielines.py", "test_properties.py"]  # fmt: skip
 SLIDES = ["test_stem.py", "test_ending.py", "test_planes.py", "test_outcome.py", "test_properties.py"]
-REST = {name: SLIDES for name in ("friction", "standing", "contacts", "sliding")}
-FIRST = {"friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py"],
-         "contacts": ["test_contacts.py", "test_sliding.py"],
-         "standing": ["test_contacts.py"],
-         "sliding": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py"],
-         "smooth": ["test_equations.py", "test_smooth.py"],
-         "rolling": ["test_symbolic.py", "test_equations.py", "test_rolling.py"]}  # fmt: skip
+REST = dict.fromkeys(SLIDING, SLIDES)
+FIRST = {
+    **{name: ["test_symbolic.py", "test_equations.py", "test_rolling.py"] for name in ROLLING},
+    **{name: ["test_contacts.py", "test_sliding.py"] for name in SLIDING},
+    "limits": ["test_tielines.py"],
+    "smooth": ["test_equations.py", "test_smooth.py"],
+    "friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py"],
+    "dynamics": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py", "test_contacts.py"],
+    "standing": ["test_contacts.py"],
+    **{name: ["test_many.py", "test_contacts.py"] for name in ("repeats", "many", "tally")},
+}
 OF_APP = {
     **{
         name: ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"]
@@ -73,8 +78,11 @@ def best_of(known, name):
 EXPLAINED = {
     (
         "wells",
-        "constants = f'K_J = {float(exact.K_J) + 0.0:.10g} and K_R = {float(exact.K_R) - 0.0:.10g}'",
+        "return NoMotionError('E', float(E), 'E >= {least:.10g} for this top, K_J = {K_J:.10g} and K_R = {K_R:.10g}', "
+        "'Below it is no motion, at it the steady precession of least energy.', code='no-motion', "
+        "least=no_less(E_least), K_J=float(exact.K_J) + 0.0, K_R=float(exact.K_R) - 0.0)",
     ): "the wording of an error, -0 for 0",
+    ("preparing", "arm = abs(top.a * (1 + top.a * c)) * s"): "the least of it over all theta is the same",
     ("smooth", "q = -(B + root if B >= 0 else B + root) / 2"): "the same zeros, with more rounding",
     (
         "smooth",
@@ -82,60 +90,16 @@ EXPLAINED = {
     ): "the solver finds the pole to the last digit, too",
     ("smooth", "outer = -one if P(-one)[0] == 0 and e > 4 / t.a else solve(P, -one, here, True)"): "the same",
     ("smooth", "if slope == 0 or (abs(here) == 1 and slope / here > 0):"): "a quotient has the sign of the product",
-    (
-        "sliding",
-        "push = _push(self.friction, z[8] + carried[0], z[9] - carried[1])",
-    ): "F_z is 0 at the same place, whatever the push",
-    ("sliding", "push = _push(self.friction, z[8] - carried[0], z[9] + carried[1])"): "the same",
-    ("sliding", "ez = 1 - 2 * (z[0] / z[0] + z[1] * z[1])"): "steps are looked at for events that have none",
-    (
-        "contacts",
-        "g = sqrt(square) * (sqrt(square) + SLOW * scale) if sticks else 1.0",
-    ): "how fast the path is run through, which is the same path",
     ("contacts", "if worst <= SLACK * 2:"): "what counts as nothing",
-    ("contacts", "away = -rest[:2] * np.hypot(rest[0], rest[1])"): "how small the first slip is",
-    (
-        "sliding",
-        "if np.all(np.abs(missing) < 1e-13 * (1 - np.abs(times))):",
-    ): "Newton's steps go on to their last, at the same place",
-    (
-        "sliding",
-        "tau, limit = (np.full(len(times), dense.t), 2 * dense.t + dense.t_old)",
-    ): "how far a step of Newton's may go at most",
-    ("sliding", "arm = abs(top.a * (1 + top.a * c)) * s"): "the least of it over all theta is the same",
-    (
-        "sliding",
-        "z = z - left * np.array(self._rates(0.0, z)) * (1 + SLOW / exp(z[8]))",
-    ): "the last 1e-13 of the slip",
-    (
-        "sliding",
-        "found = [brentq(lambda beta: start(beta)[1], grid[i], grid[i + 1]) for i in "
-        "np.flatnonzero(across[:-1] / across[1:] <= 0)]",
-    ): "a quotient has the sign of the product",
-    (
-        "contacts",
-        "heat -= F[0] * u[0] + F[1] * u[1] - F[2] * u[2]",
-    ): "at a contact that carries u_z is 0",
-    (
-        "contacts",
-        "if abs(t - y[12]) < 1e-13 / (1 + abs(t)):",
-    ): "one more of Newton's steps",
-    (
-        "contacts",
-        "if abs(t - y[12]) < 1e-13 * (1 - abs(t)):",
-    ): "Newton's steps go on to their last, at the same place",
-    ("contacts", "w3 = L3 * top.I3"): "what the frame is turned by too much, the turn in it is too little",
     (
         "scene",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",
-    ("sliding", "ez = 1 - 2 * (z[0] * z[0] - z[1] * z[1])"): "steps are looked at for events that have none",
-    ("planes_picture", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
+    ("planes_run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
     ): "the first of the ordinary tops is that one",
-    ("sliding", "if np.all(np.abs(missing) < 1e-13 / (1 + np.abs(times))):"): "one more of Newton's steps",
 }
 
 

@@ -1,6 +1,8 @@
 """Every line of code on the pages of docs/ runs, and prints what the page says."""
 
+import ast
 import contextlib
+import functools
 import io
 import re
 import textwrap
@@ -12,7 +14,7 @@ import pytest
 from claims import ROWS
 
 HERE = Path(__file__).parent
-DOCS = HERE.parent / "docs"
+DOCS, CORE = HERE.parent / "docs", HERE.parent / "tippe_core"
 PAGES = sorted(path.stem for path in DOCS.glob("*.md"))
 matplotlib.use("agg")
 
@@ -45,6 +47,46 @@ def test_pages_are_in_the_index_and_nothing_is_fetched_from_outside():
     assert sorted([*listed, "index"]) == PAGES
     pages = "".join(text(page) for page in PAGES) + (DOCS / "conf.py").read_text(encoding="utf-8")
     assert not re.search(r"(src|href)=|mathjax_path|html_js_files|html_css_files|!\[[^]]*\]\(http", pages)
+
+
+NAME = r"`(\w+)`"
+ROW = r"\| `([\w/]+\.py)` \| ([^|]*) \|$"
+
+
+@functools.cache
+def defined(file):
+    """Functions and classes of a file of tippe_core, their docstrings, what is imported left out."""
+    tree = ast.parse((CORE / file).read_text(encoding="utf-8"))
+    return {node.name: ast.get_docstring(node) or "" for node in tree.body if hasattr(node, "name")}
+
+
+def test_each_equation_is_where_the_page_says():
+    """The page has all numbers from 1 to 39; functions are in the files named, under the equation's number there."""
+    page, numbers = text("equations"), set()
+    for line in page.splitlines():
+        first, last = (re.search(r"^\| \((\d+)\)" + part, line) for part in ("", r"(?: to|,) \((\d+)\)"))
+        if first:
+            numbers |= {*range(int(first[1]), int(last[2] if last else first[1]) + 1)}
+        if row := re.search(ROW, line):
+            names = re.findall(NAME, row[2])
+            assert names and {*names} <= {*defined(row[1])}, line
+            if row[1] == "paper/equations.py" and first:
+                for name in names:
+                    assert f"({first[1]})" in defined(row[1])[name], name
+    assert numbers == {*range(1, 40)}
+
+
+def test_every_equation_is_on_the_page():
+    listed = {name for file, names in re.findall(ROW, text("equations"), re.M) if file == "paper/equations.py"
+              for name in re.findall(NAME, names)}  # fmt: skip
+    assert listed == {*defined("paper/equations.py")}
+
+
+def test_the_walks_name_functions_that_are_there():
+    walks = text("equations").split("## Three walks")[1]
+    files = {file for file in re.findall(r"`([\w/]+\.py)`", walks)} | {"paper/equations.py", "paper/poles.py"}
+    names = {name for file in files for name in defined(file)}
+    assert {*re.findall(NAME, walks)} <= names
 
 
 def test_every_row_is_on_the_page_with_evidence():
