@@ -109,7 +109,22 @@ def _dispatcher(function: Callable[..., Any]) -> Numba:
         # Private: where another numba has none of these, kernels are compiled anew by each process.
         with suppress(ImportError, AttributeError):
             dispatcher._cache = _cache()(function)
+    with suppress(ImportError, AttributeError):
+        _once(dispatcher)
     return dispatcher
+
+
+def _once(dispatcher: Numba) -> None:
+    """One kernel for all numbers of a type that other kernels call it with: numba would make its own for each literal,
+    and with it its own of all that it calls."""
+    from numba.types import unliteral
+
+    resolved = dispatcher.get_call_template
+
+    def template(arguments: tuple[Numba, ...], named: dict[str, Numba]) -> Numba:
+        return resolved(tuple(map(unliteral, arguments)), {name: unliteral(kind) for name, kind in named.items()})
+
+    dispatcher.get_call_template = template
 
 
 @functools.cache

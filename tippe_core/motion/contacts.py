@@ -227,7 +227,7 @@ def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Re
 
     Where all fail, those that fail least; False beyond Painleve's limit.
     """
-    best, trial, kept, unbalanced = np.inf, y.copy(), y.copy(), False
+    best, trial, kept, unbalanced = np.inf, S.z, S.new, False  # of a step that is over
     modes[0] = modes[1] = OPEN
     for n in range(len(ORDER)):
         ball, stem = ORDER[n, 0], ORDER[n, 1]

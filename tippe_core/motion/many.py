@@ -14,11 +14,11 @@ from ..errors import TopError, finite, numbers
 from ..paper.constants import State
 from ..paper.top import Top
 from ..types import Array, Bools
-from .dynamics import NO_ONE, arrange, kinetic, turning
+from .dynamics import OPEN
 from .following import ENDED, MORE
 from .friction import CONTENSOU, Contensou, Coulomb, SmoothedCoulomb, Viscous
 from .happening import STANDS_UPRIGHT
-from .poses import WIDTH, record
+from .poses import WIDTH, row_at
 from .preparing import (
     beginning,
     check_balance,
@@ -32,7 +32,7 @@ from .preparing import (
 from .records import Record
 from .repeats import run_all
 from .sliding import beside
-from .tally import begin_tally
+from .tally import begin_tally, energy
 
 LAST = 0.1  # the share of the time by which the end is told
 UPRIGHT, LEANS = 0.2, 0.05  # rad: so near to a pole; so little change of the tilt
@@ -218,7 +218,7 @@ def _followed(state: State, P: Record, t_end: float, stop: threading.Event) -> d
     y, angles = beginning(state, 0.0, P)
     W, log, status = motion(y, angles), np.zeros((MOST_EVENTS + 2, 3)), ENDED
     _, goes_on = start(W, P, state.theta)
-    E = _energy(W, P)
+    E = energy(W, P)
     begin_tally(W, P, (1 - LAST) * t_end)
     if goes_on:
         status = MORE
@@ -230,18 +230,14 @@ def _followed(state: State, P: Record, t_end: float, stop: threading.Event) -> d
     pivots = P.law.kind == CONTENSOU or P.drag > 0 or P.delta > 0
     return {"state": _state(W, P), "time_90": T.time_90, "time_stem": T.time_stem, "hops": T.hops,
             "F_z_least": T.F_z_least if np.isfinite(T.F_z_least) else np.nan, "heat": W.y[13],
-            "energy_error": _energy(W, P) + W.y[13] - E, "C_J_drift": np.nan if pivots else drift,
+            "energy_error": energy(W, P) + W.y[13] - E, "C_J_drift": np.nan if pivots else drift,
             "end": "refused" if refused else "stem" if stands else _end(T)}  # fmt: skip
-
-
-def _energy(W: Record, P: Record) -> float:
-    return float(kinetic(W.y, turning(W.y, P)[2], P) + W.y[15])
 
 
 def _state(W: Record, P: Record) -> list[float]:
     """The fields of State at the end."""
-    row, C, y = np.zeros(WIDTH), W.contacts, W.y
-    record(y, y[12], arrange(y, NO_ONE, 0, 0, P, C), W.angles, 0, 0, P, C, row)
+    row, y = np.zeros(WIDTH), W.y
+    row_at(W, P, OPEN, OPEN, row)
     return [row[1], *row[13:16], row[2], row[3], y[10], y[11], row[21], row[22]]
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .dynamics import BALL, OPEN, STICK, Turning
+from .dynamics import BALL, NO_ONE, OPEN, STICK, Turning, arrange
 from .records import Record
 
 PULLS = 2e-10  # (Mg): so little is rounding
@@ -73,3 +73,10 @@ def record(
     out[8], out[9] = y[10] + x, y[11] + z
     out[16], out[17] = ux * c + uy * s, uy * c - ux * s
     out[18], out[19], out[20] = Fx * c + Fy * s, Fy * c - Fx * s, (0.0 if -PULLS < N < 0.0 else N)
+
+
+@compiled
+def row_at(W: Record, P: Record, ball: int, stem: int, out: Array) -> None:
+    """The row at W.y in these modes, with the forces that are in W.contacts."""
+    turn = arrange(W.y, NO_ONE, ball, stem, P, W.contacts)
+    record(W.y, W.y[12], turn, W.angles, ball, stem, P, W.contacts, out)

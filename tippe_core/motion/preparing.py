@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..compiled import compiled
 from ..errors import TopError, finite, numbers
 from ..paper.constants import State
 from ..paper.top import Top
@@ -110,18 +111,26 @@ def gap(P: Record, c: Number, s: Number) -> Number:
     return 1 + P.h * c - P.b * s - P.q
 
 
-def on_table(y: Array, i: int, P: Record, W: Record) -> None:
-    """v_z and z into y with contact i on the table."""
-    arrange(y, NO_ONE, SLIP if i == BALL else OPEN, SLIP if i == STEM else OPEN, P, W.contacts)
-    y[14], y[15] = W.contacts.G[2], W.contacts.G[3]
+@compiled
+def on_table(W: Record, P: Record, i: int) -> None:
+    """v_z and z into W.y with contact i on the table."""
+    arrange(W.y, NO_ONE, SLIP if i == BALL else OPEN, SLIP if i == STEM else OPEN, P, W.contacts)
+    W.y[14], W.y[15] = W.contacts.G[2], W.contacts.G[3]
 
 
 def start(W: Record, P: Record, theta: float) -> tuple[int, bool]:
-    """The contact on which y begins, with y there and the modes in which it goes on; False beyond Painleve's limit."""
+    """The contact on which W.y begins, with W.y there and the modes in which it goes on; False beyond Painleve's
+    limit."""
+    i = STEM if P.stem and gap(P, np.cos(theta), np.sin(theta)) < 0 else BALL
+    return i, bool(started(W, P, i))
+
+
+@compiled
+def started(W: Record, P: Record, i: int) -> bool:
+    """start() on contact i."""
     y = W.y
     e, w, _ = turning(y, P)
-    i = STEM if P.stem and gap(P, np.cos(theta), np.sin(theta)) < 0 else BALL
-    if i == STEM and P.b > 0:
+    if i == STEM and P.b > 0.0:
         y[:] = leaned(y, e, w)
-    on_table(y, i, P, W)
-    return i, bool(settle(y, STARTS + i, W.floor, W.modes, P, W.step, W.contacts))
+    on_table(W, P, i)
+    return settle(y, STARTS + i, W.floor, W.modes, P, W.step, W.contacts)

@@ -15,11 +15,11 @@ from ..paper.constants import State, versines
 from ..paper.top import Top
 from ..types import Array, Number
 from .contacts import RIM, SLACK, SLIPS, TOUCH, TOUCHES
-from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, carried
+from .dynamics import BALL, OPEN, SLIP, STEM, carried
 from .following import MORE, ROLLS
 from .friction import Contensou, Coulomb, Friction, SmoothedCoulomb, Viscous
 from .happening import LIFTS_OFF, NAMES, PAINLEVE, STANDS_UPRIGHT, SUPPORTS, TOO_MANY_TURNS, happens, noted, run
-from .poses import COLUMNS, REGIMES, ROLLING, WIDTH, record
+from .poses import COLUMNS, REGIMES, ROLLING, WIDTH, row_at
 from .preparing import (
     beginning,
     check_balance,
@@ -193,7 +193,7 @@ class _Run:
         """The State at y, with G's velocity unsaid."""
         W, P = self.motion, self.P
         row = np.zeros(WIDTH)
-        record(y, y[12], arrange(y, NO_ONE, OPEN, OPEN, P, W.contacts), W.angles, OPEN, OPEN, P, W.contacts, row)
+        row_at(W, P, OPEN, OPEN, row)
         theta, phi, psi, w1, w2, w3 = *row[1:4], *row[13:16]
         if theta in (0.0, np.pi):
             pole = np.cos(theta)  # 1' along omega, as it is just after the pole
@@ -240,19 +240,18 @@ class _Run:
         y[:] = y_of(P, theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[1] + one.psi[1], one.omega[1], u,
                     complex(*one.com[1, :2]), last, y[13])  # fmt: skip
         W.angles[:] = 0.0, one.phi[1]
-        on_table(y, BALL, P, W)
+        on_table(W, P, BALL)
         return bool(happens(W, P, self.log, event, self.flies))
 
     def _alone(self, stands_on: int, event: int) -> None:
         """The row of one instant, where an event ends the motion at once."""
-        W, P, y = self.motion, self.P, self.motion.y
+        W, P = self.motion, self.P
         modes = [OPEN, OPEN]
         if event != LIFTS_OFF:
             modes[stands_on] = SLIP
-        turn = arrange(y, NO_ONE, modes[0], modes[1], P, W.contacts)
         W.contacts.F[:] = 0.0
         W.contacts.F[stands_on, 2] = float(event == STANDS_UPRIGHT)
-        record(y, self.times[0], turn, W.angles, modes[0], modes[1], P, W.contacts, self.rows[0])
+        row_at(W, P, modes[0], modes[1], self.rows[0])
         self.rows[0, 16:18] = 0.0
 
 

@@ -69,7 +69,7 @@ def leaned(y: Array, e: Vector, w: Vector) -> Array:
     """y of a start flat on the end, leaning to where it turns, or else slides; of any other as it is."""
     tiny, (s, rate) = FLAT / 1000, leaning(e, w)
     if e[2] > 0 or s > FLAT or (rate >= 0 and s > tiny):
-        return y
+        return y.copy()
     if s > tiny:
         return crossed(y, e)
     wx, wy = w[0], w[1]

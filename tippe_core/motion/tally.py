@@ -3,8 +3,13 @@
 import numpy as np
 
 from ..compiled import compiled
-from .dynamics import BALL, OPEN, STEM, STICK, carried, turning
+from .dynamics import BALL, OPEN, STEM, STICK, carried, kinetic, turning
 from .records import Record
+
+
+@compiled
+def energy(W: Record, P: Record) -> float:
+    return kinetic(W.y, turning(W.y, P)[2], P) + W.y[15]
 
 
 @compiled
