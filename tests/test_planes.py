@@ -11,14 +11,14 @@ import pytest
 from app.model.builder import Builder
 from app.model.explorer import Explorer
 from app.model.planes import PRESETS, Planes
-from app.model.planes_picture import ENDS, LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES, SLIPS
+from app.model.planes_picture import LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES
 from app.model.planes_run import THROWN, for_reader, nudged, solve, touches
+from app.model.regimes import ENDS, SLIPS, WORDS
 from app.model.runs import Runs
 from app.tabs.planes import plots
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.planes.words import ball_words, fate, scatter_words
 from app.text import speaking
-from app.widgets.top3d import REGIMES
 from tippe_core import PRESETS as BODIES
 from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, roll, slide
 
@@ -98,7 +98,7 @@ def test_all_three_are_tippe_cores_from_one_start(planes):
             assert getattr(found, name) == pytest.approx(getattr(expected[plane], name), abs=1e-9)
     # the slip of the start: what G at rest has, 0.4 of it
     assert picture.motions["sliding"].slip[0] == pytest.approx(0.4 * spin * np.sin(theta), rel=1e-12)
-    words = [REGIMES[which] for *_, which in picture.motions["sliding"].stretches]
+    words = [WORDS[which] for *_, which in picture.motions["sliding"].stretches]
     assert words == ["slips", "rolls"]
 
 
@@ -159,7 +159,7 @@ def test_a_motion_that_stops_early_stands_still_to_the_end(planes):
     assert motion.stretches[-1][2] == ENDS and motion.frames[-1][0] == SLIPS
     planes.landing = "plastic"
     flies = planes.picture.motions["sliding"]
-    assert not flies.ended and "in the air" in {REGIMES[which] for *_, which in flies.stretches}
+    assert not flies.ended and "in the air" in {WORDS[which] for *_, which in flies.stretches}
 
 
 @pytest.mark.slow
@@ -412,7 +412,7 @@ def test_a_run_that_can_go_no_further_shows_what_was_computed_and_says_why(usual
     pushed = State(2.6, 0.0, 0.0, 0.0, vx=0.0, vy=-1.0)
     picture, said = ran(usual, law="coulomb", mu_k=1.0, mu_s=1.0, rolling=pushed, seconds=0.5)
     assert said.startswith("goes no further: 149.0° at 0 s") and "Painlevé’s limit" in said
-    monkeypatch.setattr("tippe_core.motion.sliding.MOST_CALLS", 10)
+    monkeypatch.setattr("tippe_core.motion.sliding.MOST_STEPS", 640)
     picture, said = ran(usual, spin=38.0, seconds=60.0)
     motion = picture.motions["sliding"]
     last = motion.trajectory.events[-1][0] * picture.settings.scales.time

@@ -180,16 +180,14 @@ NOT_SAID = {
     "answers.py": {"GET, HEAD": "a header"},
     "asked.py": {"": "said to the log"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
-    "regimes.py": {"would": "REGIMES of top3d.py"},
+    "regimes.py": {"would": "a code's", "in the air": "a code's", "the motion ends here": "a code's"},
     **{name: {"": "files of data and programs, which are the same in every language"}
        for name in ("export.py", "glb.py", "programs.py")},
     "keep.py": {"not one of {}": "said to the log"},
-    "learn.py": {"in the air": "REGIMES of top3d.py"},
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
        for name in ("server.py", "arrivals.py", "ballots.py", "messages.py", "settings.py", "sockets.py")},
-    "top3d.py": {"would": "REGIMES", "in the air": "REGIMES", "the motion ends here": "REGIMES"},
     "look.js": {"dark large": "a key"},
 }  # fmt: skip
 

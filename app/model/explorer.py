@@ -50,7 +50,6 @@ class Explorer(param.Parameterized):
     face: param.Selector[str] = param.Selector(
         default="constants", objects=["constants", "state"], doc="which face the controls show; it changes nothing else"
     )
-    cursor = param.Number(0.0, doc="the time looked at, in (R/g)^1/2; moving it solves nothing")
     # __init__ makes the first one
     scene: param.ClassSelector[Scene] = param.ClassSelector(  # type: ignore[assignment]
         class_=Scene, constant=True, doc="the last solution"

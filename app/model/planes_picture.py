@@ -32,8 +32,6 @@ from tippe_core.types import Array, Indices, Rim
 
 PLANES = ("rough", "smooth", "sliding")
 LAWS = ("coulomb", "viscous", "smoothed")
-# Places in top3d.REGIMES
-ROLLS, LIFTS, SLIPS, FLIES, ENDS = 0, 2, 3, 4, 5
 KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
 
 MOST_SECONDS = 60.0
@@ -127,7 +125,7 @@ class Motion:
     """One top on one plane. trajectory: as far as it goes; ended: the event that it stopped at, or "".
 
     t (n,) to the end asked for: where the trajectory ends earlier, its last row stands once more at the end. frames:
-    the arguments of top3d.pack_frames. stretches: (start, end, place in REGIMES) in turn. drift: of KEPT, the largest
+    the arguments of top3d.pack_frames. stretches: (start, end, one of regimes.py) in turn. drift: of KEPT, the largest
     difference between two instants, over the largest size; alone: the time to which the sphere alone is on the table,
     what ends that ("" if nothing), and the drift of J until then, which no more than one contact keeps. The events have
     tippe_core's names, but THROWN where the stem's first touch is what lifts it off, and ANOTHER. ending: on the

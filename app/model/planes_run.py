@@ -13,19 +13,15 @@ import numpy as np
 from app.model.bodies import body
 from app.model.frames import axes
 from app.model.planes_picture import (
-    ENDS,
-    FLIES,
     KEPT,
-    LIFTS,
     NEAR_TOUCH,
     PLANES,
-    ROLLS,
     RTOL,
-    SLIPS,
     Motion,
     Picture,
     Settings,
 )
+from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS, WOULD_LIFT
 from app.text import told
 from tippe_core import (
     SUNK,
@@ -152,7 +148,7 @@ def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str
     top, F, n = trajectory.top, trajectory.force, len(trajectory.t)
     code = np.array([{"roll": ROLLS, "slip": SLIPS, "air": FLIES}[word] for word in trajectory.regime])
     if plane == "rough":
-        code[F[:, 2] < 0] = LIFTS
+        code[F[:, 2] < 0] = WOULD_LIFT
     nodal, across, axis, towards = axes(trajectory.theta, trajectory.phi)
     w1, w2, w3 = (component[:, None] for component in trajectory.omega.T)
     frames = [

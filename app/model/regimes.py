@@ -1,4 +1,5 @@
-"""What a rolling top would do at a moment, were its table not rough enough."""
+"""What a top does at a moment, or would do were its table no rougher than it is. A motion's frames hold the codes."""
 
-ROLLS, SLIPS, LIFTS = 0, 1, 2
-WORDS = ("rolls", "would slip here", "would lift off here")
+ROLLS, WOULD_SLIP, WOULD_LIFT, SLIPS, FLIES, ENDS = range(6)
+WORDS = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "the motion ends here")
+"""By their codes; browser.toml says them."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from app.model.bodies import body, fits, outline
 from app.model.frames import axes, frame_times
-from app.model.regimes import LIFTS, ROLLS, SLIPS
+from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP
 from app.model.region import MESH_COLUMNS, K_J_range, Plane, between, height, least_energy, plane
 from app.text import say
 from tippe_core import (
@@ -82,7 +82,7 @@ class Marks:
 class Scene:
     """All that the views show. Trajectory arrays have one row a frame; vectors are along the axes of space.
 
-    ratio is F_h/F_z; regime one of ROLLS, SLIPS, LIFTS a frame; upright_spin omega_3 at theta = 0; profile (k, 2) the
+    ratio is F_h/F_z; regime a code a frame, of regimes.py; upright_spin omega_3 at theta = 0; profile (k, 2) the
     radius of the body drawn and its height above O along axis 3; shape the body, None where a, I1, I3 were set apart
     from it, and then scales are still its R and M. messages: a sentence for each control that was given what cannot be;
     the rest of the scene is then the last good one. notes: sentences about what is shown.
@@ -247,7 +247,7 @@ def solve(
         momentum=top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis,
         normal=F_z,
         ratio=ratio,
-        regime=np.where(F_z < -AT_LIMIT, LIFTS, np.where(ratio > mu_s + AT_LIMIT, SLIPS, ROLLS)),
+        regime=np.where(F_z < -AT_LIMIT, WOULD_LIFT, np.where(ratio > mu_s + AT_LIMIT, WOULD_SLIP, ROLLS)),
         K_J=trajectory.jellett / top.I1,
         K_R=trajectory.routh,
         E=trajectory.energy,

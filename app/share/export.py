@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 
-from app.model.regimes import WORDS
+from app.model.regimes import SLIPS, WORDS
 from app.model.scene import Scene
 
 # name: (what it is, unit, the scale of that unit in SI, the SI unit)
@@ -23,7 +23,7 @@ UNITS = {
     "K_J": ("Jellett's constant from the motion", "(g/R)^1/2", "angular_velocity", "rad/s"),
     "K_R": ("Routh's constant from the motion", "(MR^2)^1/2 (g/R)^1/2", None, ""),
     "E": ("energy from the motion", "MgR", "energy", "J"),
-    "regime": (", ".join(f"{code} {word}" for code, word in enumerate(WORDS)), "", None, ""),
+    "regime": (", ".join(f"{code} {word}" for code, word in enumerate(WORDS[:SLIPS])), "", None, ""),
 }
 TIELINES = {
     "tieline_K_J": "the tielines of Fig. 6: K_J in (g/R)^1/2",

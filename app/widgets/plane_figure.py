@@ -12,7 +12,7 @@ from bokeh.models import (
 )
 
 from app.model.colours import COLOURS, FAINT, INK
-from app.model.regimes import ROLLS, SLIPS
+from app.model.regimes import ROLLS, WOULD_SLIP
 from app.text import listed
 from app.widgets.plots import FOLLOW_CLOCK, plain
 
@@ -227,7 +227,7 @@ class PlaneFigure:
             "inner": inner,
             "outer": outer,
             "steady": scene.marks.theta_steady,
-            "colour": COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == SLIPS else "normal"],
+            "colour": COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == WOULD_SLIP else "normal"],
             "worst": worst,
         }
         self.selected.patch({name: [(0, value)] for name, value in row.items()})

@@ -5,9 +5,6 @@ import param
 
 from app.bundle import Bundled, pack
 
-REGIMES = ("rolls", "would slip here", "would lift off here", "slips", "in the air", "the motion ends here")
-"""What the codes 0 to 5 in the last column of the frames mean; browser.toml says it."""
-
 
 def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
     """Put a trajectory into the bytes that `Top3D.frames` takes.
@@ -23,7 +20,7 @@ def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
     force : (n, 3) the table's force on the top, in Mg
     omega : (n, 3) angular velocity
     momentum : (n, 3) angular momentum about G
-    regime : (n,) codes: places in REGIMES
+    regime : (n,) codes of app/model/regimes.py
     """
     return np.column_stack((t, quaternion, contact, com, force, omega, momentum, regime)).astype("<f4").tobytes()
 

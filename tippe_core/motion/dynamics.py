@@ -70,7 +70,7 @@ def turning(y: Array, P: Record) -> Turning:
     px, py, pz, pw, L = y[0], y[1], y[2], y[3], (y[5], y[6], y[7])
     e = 2 * (px * pz + pw * py), 2 * (py * pz - pw * px), 1 - 2 * (px * px + py * py)
     L3 = L[0] * e[0] + L[1] * e[1] + L[2] * e[2]
-    along = (1 / P.I3 - 1 / P.I1) * L3
+    along = P.k * L3
     return e, (L[0] / P.I1 + along * e[0], L[1] / P.I1 + along * e[1], L[2] / P.I1 + along * e[2]), L3
 
 
@@ -120,7 +120,7 @@ def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) 
 @compiled
 def angular(torque: Vector, e: Vector, P: Record) -> Vector:
     """L'/I1 + k (L' . e) e: w' by a torque."""
-    along = (1 / P.I3 - 1 / P.I1) * (torque[0] * e[0] + torque[1] * e[1] + torque[2] * e[2])
+    along = P.k * (torque[0] * e[0] + torque[1] * e[1] + torque[2] * e[2])
     return torque[0] / P.I1 + along * e[0], torque[1] / P.I1 + along * e[1], torque[2] / P.I1 + along * e[2]
 
 
@@ -172,10 +172,12 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
     Returns the least principal minor of u_z' by the N of the contacts that slip, not above 0 beyond Painleve's limit.
     """
     e, w, L3 = turn
-    e_dot, k = cross(w, e), 1 / P.I3 - 1 / P.I1
+    e_dot, k = cross(w, e), P.k
     drag = -P.drag * w[0], -P.drag * w[1], -P.drag * w[2]
     free = angular(drag, e, P)
     free = free[0] + k * L3 * e_dot[0], free[1] + k * L3 * e_dot[1], free[2] + k * L3 * e_dot[2]
+    if ball + stem == SLIP:
+        return alone(turn, drag, free, BALL if ball == SLIP else STEM, P, C)
     n, minor = unknowns(w, ball, stem, P, C), 1.0
     for i in range(1 + P.stem):
         turns, swings = cross(w, row(C.rho_dot, i)), cross(free, row(C.rho, i))
@@ -212,6 +214,28 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
     for axis in range(3):
         C.w_dot[axis] = w_dot[axis] + k * L3 * e_dot[axis]
     return minor
+
+
+@compiled
+def alone(turn: Turning, drag: Vector, free: Vector, i: int, P: Record, C: Record) -> float:
+    """forces() where contact i alone carries, and slips: its N makes u_z' = 0, which is linear in it."""
+    (e, w, _), rho = turn, row(C.rho, i)
+    ux, uy, w_h = C.u[i, 0], C.u[i, 1], np.sqrt(w[0] * w[0] + w[1] * w[1] + ROLLS * ROLLS)
+    k, t = push(P.law, ux * ux + uy * uy, w[2])
+    F, M = (-k * ux, -k * uy, 1.0), (-P.delta * w[0] / w_h, -P.delta * w[1] / w_h, -t)
+    torque = cross(rho, F)
+    torque = torque[0] + M[0], torque[1] + M[1], torque[2] + M[2]
+    w_dot = angular(torque, e, P)
+    rises = 1.0 + cross(w_dot, rho)[2]
+    falls = cross(w, row(C.rho_dot, i))[2] + cross(free, rho)[2] - 1.0
+    N = -(falls + 2 * STEADY * C.u[i, 2] + STEADY * STEADY * C.height[i]) / rises
+    for axis in range(3):
+        C.F[1 - i, axis] = C.M[1 - i, axis] = 0.0
+        C.F[i, axis], C.M[i, axis] = N * F[axis], N * M[axis]
+        C.v_dot[axis] = N * F[axis] - (1.0 if axis == 2 else 0.0)
+        C.L_dot[axis] = N * torque[axis] + drag[axis]
+        C.w_dot[axis] = N * w_dot[axis] + free[axis]
+    return rises
 
 
 @compiled

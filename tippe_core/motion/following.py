@@ -22,7 +22,7 @@ SMALLEST = 1e-13  # (R/g)^1/2: no step is smaller
 NEAR = 0.1  # a guard as near to 0 is looked at along the step
 SLIPS_LITTLE = 1e-3  # relative precision of a slip at least
 STIFF = 10.0  # times faster than a slip changes its direction is attracted, where it is kept steady
-NEARLY_STILL = 1e5  # times the tolerance: a slip and spin of a patch at which it may come to rest
+NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin of a patch at which it may come to rest, where the tolerance is below it
 
 
 @compiled
@@ -31,7 +31,7 @@ def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: i
     y, C, S = W.y, W.contacts, W.step
     ball, stem = W.modes[BALL], W.modes[STEM]
     if W.begins:
-        W.begins, W.slowest = 0, NO_ONE
+        W.begins, W.rated, W.slowest = 0, 0, NO_ONE
         W.h = FIRST
         arrange(y, NO_ONE, OPEN, OPEN, P, C)
         W.floor[0], W.floor[1] = min(C.height[0], 0.0), min(C.height[1], 0.0)
@@ -58,6 +58,8 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     """One step, or its part before an event; the event or NO_ONE."""
     y, S, C, ball, stem = W.y, W.step, W.contacts, W.modes[BALL], W.modes[STEM]
     slowest = change_variables(W, P)
+    if W.rated:  # the last stage of the step before
+        S.K[0, :] = S.K[STAGES]
     scales(W, P, slowest)
     timed = P.law.kind != CONTENSOU and slowest == NO_ONE
     h, near = accept(W, P, slowest, end - y[12] if timed else np.inf)
@@ -68,11 +70,11 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
         densely(S, h, slowest, ball, stem, P, C)
     if near < NEAR:
         event, share = first_event(W, P, slowest)
-    if S.new[12] > end and (share == 1.0 or within(S, share, 12) > end):
+    over = S.new[12] > end and (share == 1.0 or within(S, share, 12) > end)
+    if over:
         event, share = NO_ONE, when(S, end)
     t = S.new[12] if share == 1.0 else (y[12] + share * h if timed else within(S, share, 12))
-    if t > end or (share < 1.0 and t > end - 1e-15):
-        t = end
+    t = end if over else min(t, end)
     while k < len(times) and times[k] <= t:
         x = (times[k] - y[12]) / h if timed else when(S, times[k])
         at_share(S, x, S.at)
@@ -85,6 +87,7 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     before = moved(W, P, slowest, t)
     if event == NO_ONE and share == 1.0:
         event = comes_to_rest(W, P, slowest, before)
+    W.rated = event == NO_ONE and share == 1.0 and slowest == NO_ONE
     tally(W, P, 0.0 if LEAVES <= event < LEAVES + 2 else N if share == 1.0 else np.inf)
     return event
 
@@ -110,6 +113,8 @@ def change_variables(W: Record, P: Record) -> int:
         elif slowest != NO_ONE:
             S.z[8], S.z[9] = np.log(least), np.arctan2(C.u[slowest, 1], C.u[slowest, 0])
     W.steady = 0
+    if slowest != NO_ONE:
+        W.rated = 0
     if slowest != NO_ONE and least < P.tolerance ** (2 / 3):
         S.at[:] = S.z
         beta, attracts, grows = steady_direction(W, P, slowest)
@@ -150,7 +155,7 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
 def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]:
     """The stages of a step of length h and its end into step.new: its error, and the least of margin()."""
     S, C, ball, stem, near = W.step, W.contacts, W.modes[BALL], W.modes[STEM], np.inf
-    for s in range(STAGES + 1):
+    for s in range(1 if W.rated else 0, STAGES + 1):
         if s == 0:
             S.at[:] = S.z
         else:
@@ -161,7 +166,7 @@ def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]
         if W.steady:
             S.K[s, 9] = 0.0
         near = min(near, margin(S.at, minor, ball, stem, P, C))
-    S.new[:] = S.at
+    S.new[:], W.rated = S.at, 1
     return error(S.K, S.scale, h), near
 
 
@@ -225,8 +230,12 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
         _, w, _ = arrange(y, NO_ONE, ball, stem, P, C)
         for i in range(1 + P.stem):
             speed = np.hypot(np.hypot(C.u[i, 0], C.u[i, 1]), P.law.width * w[2])
-            if W.modes[i] == SLIP and speed < min(before, NEARLY_STILL * P.tolerance, 1e-6):
+            if W.modes[i] == SLIP and speed < min(before, max(NEARLY_STILL, 10 * P.tolerance)):
                 if may_stick(y, ball, stem, i, P, C):
+                    rates(y, NO_ONE, ball, stem, P, C, W.step.K[0])
+                    left = speed * (y[12] - W.step.z[12]) / (before - speed)  # to where nothing is left of it
+                    for k in range(16):
+                        y[k] += left * W.step.K[0, k] / W.step.K[0, 12]
                     halted(y, i, P, C)
                     return HALTS + i
     return NO_ONE

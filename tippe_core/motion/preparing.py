@@ -67,6 +67,7 @@ def problem(top: Top, friction: Friction, edge: Rim | None, losses: tuple[float,
         law = Law(COULOMB, law.mu, law.mu_s, 0.0)
     P = new(PROBLEM)
     P.a, P.I1, P.I3 = top.numbers
+    P.k = 1 / P.I3 - 1 / P.I1
     P.law, P.stem, P.b, P.h, P.q, P.rim = tuple(law), edge is not None, b, h, q, rim
     P.delta, P.drag, P.tolerance = *losses, SHARE * rtol
     return P

@@ -27,10 +27,10 @@ def new(kind: Any) -> Record:
 # A law of friction, friction.Law.
 LAW = kind(kind="i8", mu=float, mu_s=float, width=float)
 
-# What stays the same in a motion. b, h, q: of the stem's edge, where stem is 1; rim: cos(theta) where the ball's
-# surface ends, -2 if it does not; delta, drag: of rolling resistance and of the air; tolerance: of a step.
-PROBLEM = kind(a=float, I1=float, I3=float, law=LAW, stem="i8", b=float, h=float, q=float, rim=float, delta=float,
-               drag=float, tolerance=float)  # fmt: skip
+# What stays the same in a motion. k = 1/I3 - 1/I1; b, h, q: of the stem's edge, where stem is 1; rim: cos(theta) where
+# the ball's surface ends, -2 if it does not; delta, drag: of rolling resistance and of the air; tolerance: of a step.
+PROBLEM = kind(a=float, I1=float, I3=float, k=float, law=LAW, stem="i8", b=float, h=float, q=float, rim=float,
+               delta=float, drag=float, tolerance=float)  # fmt: skip
 
 # What is found at an instant. Rows of ball and stem: rho, rho', u, u' but for the forces, F, M (moments beside
 # rho x F); heights above the table; G: v and z of G; v', L', w'. Then columns, the force and the moment about G of each
@@ -49,8 +49,8 @@ TALLY = kind(since=float, C_J=float, drift=float, time_90=float, time_stem=float
 
 # A motion: y, the modes of ball and stem, heights that count as the table's (what the tolerance took from those of
 # contacts that just parted), angles as poses.py has them, the next step, the guards; how many samples, events and steps
-# there are, and whether a stretch begins; the slowest contact, log|u| and beta of it, and whether beta is
-# kept steady.
+# there are, whether a stretch begins, whether the rates at y are in step.K; the slowest contact, log|u| and beta of it,
+# and whether beta is kept steady.
 MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(10,), samples="i8", events="i8",
-              steps="i8", begins="i8", slowest="i8", polar=(2,), steady="i8", step=STEP, contacts=CONTACTS,
+              steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8", step=STEP, contacts=CONTACTS,
               tally=TALLY)  # fmt: skip

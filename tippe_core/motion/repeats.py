@@ -53,6 +53,7 @@ def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: in
             if passed == 1:
                 first[:] = second
     skip(W.y, W.angles, first, second, end)
+    W.rated = 0
     if W.y[12] >= T.since:
         T.least, T.most, T.seen = min(T.least, least), max(T.most, most), T.seen | 2
     return follow(W, P, none, rows, end, limit)

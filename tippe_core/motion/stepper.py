@@ -65,14 +65,12 @@ def densely(S: Record, h: float, slowest: int, ball: int, stem: int, P: Record, 
     for s in range(3):
         stage(S.z, K, A_DENSE[s], STAGES + 1 + s, h, S.at)
         rates(S.at, slowest, ball, stem, P, C, K[STAGES + 1 + s])
+    S.at[:] = 0.0
+    for m in range(4):
+        stage(S.at, K, D[m], 16, h, F[3 + m])
     for i in range(16):
         moved = S.new[i] - S.z[i]
         F[0, i], F[1, i], F[2, i] = moved, h * K[0, i] - moved, 2 * moved - h * (K[STAGES, i] + K[0, i])
-        for m in range(4):
-            total = 0.0
-            for j in range(16):
-                total += D[m, j] * K[j, i]
-            F[3 + m, i] = h * total
 
 
 @compiled

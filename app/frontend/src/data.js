@@ -40,3 +40,8 @@ export function coalesce(run) {
 // What draws in the plane of a canvas. There is none only where the canvas was given to WebGL.
 /** @param {HTMLCanvasElement} canvas */
 export const penOf = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+
+// In three digits.
+export function tidy(number) {
+  return String(Number(number.toPrecision(3)));
+}

@@ -72,6 +72,14 @@ export function frameIn(el) {
   return { root, picture };
 }
 
+/** @param {HTMLElement} picture @param {string} className */
+export function addText(picture, className) {
+  const text = document.createElement("div");
+  text.className = className;
+  picture.append(text);
+  return text;
+}
+
 export const guideStyle = `
 :host { font: calc(14px * var(--type, 1))/1.45 system-ui, sans-serif; display: flex; gap: 4px; align-items: center; }
 [hidden] { display: none !important; }

@@ -11,6 +11,7 @@ from app.bundle import pack
 from app.model import lesson, lesson_sliding
 from app.model.bodies import outline
 from app.model.frames import axes
+from app.model.regimes import FLIES, ROLLS, SLIPS
 from app.model.runs import Run, Runs
 from app.state.keep import SECRET, Field, OneOf
 from app.tabs.learn.figures import CLOCK, SectionFigure, StepFigure
@@ -19,11 +20,11 @@ from app.tabs.learn.poll import option, prediction
 from app.tabs.learn.teach import Key, history_view, teach_view
 from app.text import listed, say, told
 from app.widgets.cards import PLAIN, alert, card, grid, note, on_click, px, words
-from app.widgets.top3d import REGIMES, Top3D, pack_frames, show_top
+from app.widgets.top3d import Top3D, pack_frames, show_top
 from tippe_core import TopError
 
 SECTIONS = ("lesson", "derivation", "teach", "history")
-CODES = {"roll": REGIMES.index("rolls"), "slip": REGIMES.index("slips"), "air": REGIMES.index("in the air")}
+CODES = {"roll": ROLLS, "slip": SLIPS, "air": FLIES}
 ROLLING_SPEED, SLIDING_SPEED = 1 / 16, 1 / 4
 # MathML, which is what KaTeX leaves to the browser here, wants a font that has tall brackets.
 MATHS = "math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math }"

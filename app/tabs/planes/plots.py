@@ -7,7 +7,8 @@ from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Label, Range
 
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.dimensions import named
-from app.model.planes_picture import FLIES, LIFTS, PLANES, ROLLS, SLIPS
+from app.model.planes_picture import PLANES
+from app.model.regimes import FLIES, ROLLS, SLIPS, WOULD_LIFT
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say
 from app.widgets.plots import plain
@@ -17,7 +18,7 @@ from tippe_core import jellett_potential
 CLOCK = "planes"
 # Colour, and key in planes.toml.
 REGIMES = {ROLLS: (COLOURS["normal"], "rolls"), SLIPS: (COLOURS["friction"], "slips"),
-           FLIES: (COLOURS["omega"], "air"), LIFTS: ("#8C2D04", "lifts")}  # fmt: skip
+           FLIES: (COLOURS["omega"], "air"), WOULD_LIFT: ("#8C2D04", "lifts")}  # fmt: skip
 STOPPED = "#d5dae0"
 LEDGER = {"spin": "#CC79A7", "precession and nutation": "#E69F00", "motion of G": "#8a96a3", "height": "#56B4E9",
           "heat": "#D55E00"}  # fmt: skip

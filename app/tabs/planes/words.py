@@ -6,8 +6,9 @@ from itertools import groupby
 import numpy as np
 
 from app.model.colours import COLOURS
-from app.model.planes_picture import LIFTS, PLANES, RTOL, SHORT
+from app.model.planes_picture import PLANES, RTOL, SHORT
 from app.model.planes_run import THROWN
+from app.model.regimes import WOULD_LIFT
 from app.text import listed, say
 from app.widgets.cards import swatch
 
@@ -85,7 +86,7 @@ def fate(picture, plane):
     if motion.ended == "stem touches":
         lifts = say("planes.fate.touches", time=motion.alone[0] * picture.settings.scales.time,
                     part=part(picture.settings))  # fmt: skip
-    elif plane == "rough" and any(which == LIFTS for *_, which in motion.stretches):
+    elif plane == "rough" and any(which == WOULD_LIFT for *_, which in motion.stretches):
         lifts = say("planes.fate.pulls")
     return say(f"planes.fate.{plane}", between=between, lifts=lifts)
 

@@ -26,3 +26,16 @@ export function followLook(dress) {
   again();
   return () => window.removeEventListener("tippe:look", again);
 }
+
+// What the graphics card holds of a scene.
+/** @param {import("three").Scene} scene */
+export function letGo(scene) {
+  scene.traverse((/** @type {any} */ object) => {
+    object.geometry?.dispose();
+    for (const material of [object.material ?? []].flat()) {
+      material.map?.dispose();
+      material.dispose();
+    }
+    object.shadow?.dispose?.();
+  });
+}

@@ -1,6 +1,8 @@
 // A canvas with a camera that a person can turn: builds, resizes, draws when asked, and lets go of everything.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { isHandOn } from "./hand.js";
+import { letGo } from "./scene.js";
 
 // Where WebGL is drawn by the processor, moving pictures get coarser until they come quickly enough; a picture at rest is
 // always drawn fine.
@@ -20,18 +22,10 @@ const KEY_ZOOM = 1.1;
 
 // There, what a person moves on the page comes first: while a hand is on a control, pictures in 3-D are drawn only of what
 // is new, and without what takes long: fine pixels, a new shadow, long wide lines.
-const HAND_MS = 150; // how long after its last input a hand is taken to have let go
 const HAND_COARSE = 0.5;
 const LONG_LINE = 300; // segments
 let inWork = 0; // pictures that were begun and are not on the screen
 let slow = false; // whether the processor draws, as any stage measured
-let inputAt = -Infinity;
-const isCanvas = (target) => target.localName === "canvas";
-const onInput = (event) => {
-  const used = event.type === "keydown" || event.buttons > 0;
-  if (used && !event.composedPath().some(isCanvas)) inputAt = performance.now(); // a canvas: turning the picture itself
-};
-for (const type of ["pointerdown", "pointermove", "keydown"]) window.addEventListener(type, onInput, { capture: true });
 
 export class Stage {
   /**
@@ -182,7 +176,7 @@ export class Stage {
   }
 
   /** @param {number} now in ms */
-  isHeld = (now) => slow && now - inputAt < HAND_MS;
+  isHeld = (now) => slow && isHandOn(now);
 
   // The first picture's shaders are made beside the page: one that has to be there at once holds up everything.
   isPrepared() {
@@ -332,14 +326,7 @@ export class Stage {
     this.resizing.disconnect();
     this.seeing.disconnect();
     this.controls.dispose();
-    this.scene.traverse((/** @type {any} */ object) => {
-      object.geometry?.dispose();
-      for (const material of [object.material ?? []].flat()) {
-        material.map?.dispose();
-        material.dispose();
-      }
-      object.shadow?.dispose?.();
-    });
+    letGo(this.scene);
     this.target.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();

@@ -3,28 +3,28 @@ import * as THREE from "three";
 import { Arrow } from "./arrow.js";
 import { Bar } from "../widgets/bar.js";
 import { Body } from "./body.js";
+import { frictionCone } from "./cone.js";
 import { Place } from "../motion/clock.js";
 import { colours } from "../colours.js";
-import { coalesce, float32, niceAbove, penOf } from "../data.js";
+import { coalesce, float32, niceAbove, tidy } from "../data.js";
 import { renderFlat } from "../figures/flat.js";
 import { emptyPose } from "../motion/frames.js";
 import { Handle } from "./handle.js";
 import { Labels } from "./labels.js";
-import { WideLine } from "./lines.js";
 import { photo } from "./photo.js";
 import { Ribbon, Thread } from "./ribbon.js";
 import { followLook } from "./scene.js";
 import { tryStage } from "./stage.js";
-import { frameIn } from "../style.js";
+import { blobMaterial, dressTable, makeTable, TABLE } from "./table.js";
+import { addText, frameIn } from "../style.js";
 /** @import { Stage } from "./stage.js" */
 
-const TABLE = 26; // the table's radius, in R: by there it has faded into the sky
 const SHADE = 4.5; // half the side of the square that can be in shadow
 const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
 const FOLLOW_MS = 160; // the camera follows the top's drift, not each of its small turns
 const FIRST_VIEW = [-1.12, 0.3, 1];
 const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
-// of the regimes in app/widgets/top3d.py
+// of the codes in app/model/regimes.py
 const regimeColours = [colours.normal, colours.friction, colours.omega, colours.friction, colours.omega, colours.omega];
 
 /** @param {Rendering<TopModel>} rendering */
@@ -347,79 +347,4 @@ export function renderTop3D({ model, el, view }) {
   };
   view.tippe = { dispose };
   model.on("remove", dispose);
-}
-
-function addText(picture, className) {
-  const text = document.createElement("div");
-  text.className = className;
-  picture.append(text);
-  return text;
-}
-
-function tidy(number) {
-  return String(Number(number.toPrecision(3)));
-}
-
-// A disc that fades into the sky, under a grid with a line each R and a stronger one each 5 R. Plain colours and lines:
-// a texture, or light worked out for each pixel of it, would cost more than all the rest of the picture.
-function makeTable() {
-  const disc = new THREE.CircleGeometry(TABLE, 48);
-  disc.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(3 * disc.attributes.position.count), 3));
-  const table = new THREE.Mesh(
-    disc,
-    // The ground of everything, never seen from below: painted first, and then everything over it.
-    new THREE.MeshBasicMaterial({ vertexColors: true, fog: false, depthTest: false, depthWrite: false }),
-  );
-  table.renderOrder = -3;
-  for (const strong of [false, true]) {
-    const ends = [];
-    for (let at = 1 - TABLE; at < TABLE; at++) {
-      if ((at % 5 === 0) !== strong) continue;
-      const half = Math.floor(Math.sqrt(TABLE ** 2 - at ** 2) / 2) * 2;
-      // In short pieces: some software renderers drop a line that begins behind the eye.
-      for (let from = -half; from < half; from += 2) ends.push(at, from, 0, at, from + 2, 0, from, at, 0, from + 2, at, 0);
-    }
-    const lines = new THREE.BufferGeometry();
-    lines.setAttribute("position", new THREE.Float32BufferAttribute(ends, 3));
-    const grid = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ depthTest: false, depthWrite: false }));
-    grid.renderOrder = -2;
-    table.add(grid);
-  }
-  return table;
-}
-
-function dressTable(table, look) {
-  const { color } = table.geometry.attributes, colour = new THREE.Color();
-  for (let i = 0; i < color.count; i++) color.setXYZ(i, ...colour.set(i ? look.sky : look.table).toArray());
-  color.needsUpdate = true;
-  table.children.forEach((grid, strong) => grid.material.color.set(strong ? look.strong : look.grid));
-}
-
-// The soft dark spot where a round thing meets a table: the shadow map alone leaves the contact floating.
-function blobMaterial() {
-  const canvas = document.createElement("canvas");
-  const side = (canvas.width = canvas.height = 128);
-  const pen = penOf(canvas);
-  const fade = pen.createRadialGradient(side / 2, side / 2, 0, side / 2, side / 2, side / 2);
-  fade.addColorStop(0, "rgba(40, 34, 26, 0.6)");
-  fade.addColorStop(0.35, "rgba(40, 34, 26, 0.25)");
-  fade.addColorStop(1, "rgba(40, 34, 26, 0)");
-  pen.fillStyle = fade;
-  pen.fillRect(0, 0, side, side);
-  return new THREE.MeshBasicMaterial({ map: new THREE.CanvasTexture(canvas), transparent: true, depthWrite: false });
-}
-
-// Of height 1 and radius 1, standing on its tip: scaled to the cone of the moment.
-function frictionCone() {
-  const group = new THREE.Group();
-  const see = { color: colours.friction, transparent: true, depthTest: false, depthWrite: false };
-  const side = new THREE.Mesh(
-    new THREE.ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5),
-    new THREE.MeshBasicMaterial({ ...see, opacity: 0.16, side: THREE.DoubleSide }),
-  );
-  const rim = new WideLine({ ...see, linewidth: 2, opacity: 0.8 });
-  rim.setPath(65, (i, put) => put(Math.cos((i * Math.PI) / 32), Math.sin((i * Math.PI) / 32), 1));
-  group.add(side, rim);
-  for (const part of group.children) part.renderOrder = 2;
-  return group;
 }
