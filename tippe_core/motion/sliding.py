@@ -235,8 +235,7 @@ class _Run:
         one = rolling(np.array([0.0, ends]))
         theta, turn = one.theta[1], np.exp(1j * one.phi[1])
         v, m = versines(theta)
-        w1, w2, w3 = one.omega[1]
-        u = complex(w2 * (1 - v - top.a) - w3 * np.sin(theta), -w1 * (1 - top.a * (1 - v))) * turn
+        u = complex(one.velocity[1, 0], one.velocity[1, 1]) * turn
         y[:] = y_of(P, theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[1] + one.psi[1], one.omega[1], u,
                     complex(*one.com[1, :2]), last, y[13])  # fmt: skip
         W.angles[:] = 0.0, one.phi[1]
