@@ -5,7 +5,6 @@ with more digits than K_J, and C has no cancellation. Seen from the inverted pol
 read the same with a -> -a, c -> -c, K_R -> -K_R, and 2E' is less by 4a.
 """
 
-from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from functools import lru_cache
 from typing import NamedTuple, overload
@@ -134,25 +133,3 @@ def pole_offsets(top: Top, K_J: Scalars, K_R: Scalars) -> tuple[Array, Array]:
 def at_pole(d: Number, K_J: Scalars) -> Bools:
     """Whether K_J is the pole's own to the last digit: its float cannot be nearer to it."""
     return np.abs(d) <= 0.51 * np.spacing(np.abs(K_J))
-
-
-# ---- for arrays ----
-
-
-def near_pole(v: Array, m: Array, top: Top, K_R: Scalars, offsets: Sequence[Scalars]) -> tuple[Array, Array, Array]:
-    """d, x and C of B = d + x C, where x is the smaller of v = 1 - c and m = 1 + c."""
-    upright, x = v <= m, np.minimum(v, m)
-    sign = np.where(upright, 1.0, -1.0)
-    p, f3 = 1 - sign * top.a, np.sqrt(eq.f3_2(sign * (1 - x), v * m, top))
-    q, f3_P = p - x, np.sqrt(eq.f3_2(sign, 0.0, top))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        apart = np.where(p == 0, f3_P, two_signs(x, p, q, f3_P, f3))
-        C = np.where(p * q > 0, one_sign(x, p, q, f3_P, f3, top), apart)
-    return np.where(upright, *offsets), x, top.I3 / top.I1 * sign * K_R / (f3_P * f3) * C
-
-
-def omega2_at(v: Array, m: Array, top: Top, K_R: Scalars, offsets: Sequence[Scalars]) -> Array:
-    """w2 = B/s (30) from v = 1 - c and m = 1 + c."""
-    d, x, C = near_pole(v, m, top, K_R, offsets)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(d == 0, 0.0, d / np.sqrt(v * m)) + np.sqrt(x / (2 - x)) * C
