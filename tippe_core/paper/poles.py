@@ -53,10 +53,13 @@ def angle(x: float, side: float) -> float:
 
 @shared_with_kernels
 def pole_slope(x: Number, f3: Number, w3: Number, top: AnyTop) -> Number:
-    """C of B = d + x C at x = 1 - c, a number: x C = K_J(P) - (I3/I1)(c - a) K_R/f3.
+    """C of B = d + x C at x = 1 - c, where x C is the B of the trajectory through the pole:
+
+    (36)  x C = K_J(P) - (I3/I1)(c - a) K_R/f3,  K_J(P) = (I3/I1)(1 - a) K_R/f3(P),  with K_R/f3 = w3
 
     Rearranged, because it is 0/0 at x = 0: with p = 1 - a, q = c - a and f3(P), f3 at the pole and at x,
     p/f3(P) - q/f3 = (p f3 - q f3(P))/(f3(P) f3) = x {p^2 (2 - x) + I3 (p + q)}/{f3(P) f3 (p f3 + q f3(P))}
+    by (32); q as p - x, because 1 - x loses x where a is near to 1.
     """
     p, q, f3_P = 1 - top.a, 1 - top.a - x, np.sqrt(eq.f3_2(1.0, 0.0, top))
     unit = top.I3 / top.I1 * w3 / f3_P
