@@ -12,7 +12,7 @@ from high_precision import Curve, mp, mpf
 
 from tippe_core import Constants, State
 from tippe_core.compiled import compiled
-from tippe_core.paper import curve, equations, wells
+from tippe_core.paper import curve, differences, equations, wells
 from tippe_core.paper.constants import EXACT, Exact, exact_top
 from tippe_core.paper.poles import Floats, K_J_of_pole, bracket_near, pole_offsets
 
@@ -206,6 +206,22 @@ def test_the_slopes_and_the_forces_are_those_of_the_printed_forms(top):
             X, Y, Z = equations.force(c, s, w1, f, w2, w3, t)
             assert [float(x) for x in (X, (1 - t.a * c) * Y, Z)] == pytest.approx(
                 [float(x) for x in (F_x, F_y, F_z)], rel=1e-12, abs=1e-12)  # fmt: skip
+
+
+@pytest.mark.parametrize("top", TOPS.values(), ids=TOPS.keys())
+@pytest.mark.parametrize("places", [("0.9", "-0.4", "0.3"), ("0.3", "0.2999999999", "0.29999999995")])
+def test_the_divided_difference_is_that_of_the_printed_equation(top, places):
+    """Q in floats against the quotients of quotients of s^2 (2E' - U) in sixty digits."""
+    K = Decimal(3), Decimal(7), Decimal(20)
+    with localcontext(EXACT):
+        t, c = exact_top(top), [exactly(x) for x in places]
+        *_, B, U, _ = zip(*(along(x, *K, t) for x in c), strict=True)
+        one, two, here = ((1 - x * x) * (K[2] - u) for x, u in zip(c, U, strict=True))
+        expected = ((two - here) / (c[1] - c[2]) - (one - two) / (c[0] - c[1])) / (c[0] - c[2])
+        expected = float(expected / equations.f1_2(c[2], t))
+        given = [differences.Place(float(x), float(1 - x * x), float(equations.f3_2(x, 1 - x * x, t).sqrt()), float(b))
+                 for x, b in zip(c, B, strict=True)]  # fmt: skip
+    assert differences.Q(*given, 7.0, 20.0, top) == pytest.approx(expected, rel=1e-12, abs=1e-11)
 
 
 def test_energies_come_back():
