@@ -17,7 +17,7 @@ from ..types import Array, Number
 from .contacts import RIM, SLACK, SLIPS, TOUCH, TOUCHES
 from .dynamics import BALL, NO_ONE, OPEN, SLIP, STEM, arrange, carried
 from .following import MORE, ROLLS
-from .friction import Contensou, Coulomb, Friction, SmoothedCoulomb, Viscous
+from .friction import LAWS, Friction
 from .happening import LIFTS_OFF, NAMES, PAINLEVE, STANDS_UPRIGHT, SUPPORTS, TOO_MANY_TURNS, happens, noted, run
 from .poses import COLUMNS, REGIMES, ROLLING, WIDTH, record
 from .preparing import (
@@ -41,7 +41,6 @@ from .trajectory import Trajectory, checked_times
 MOST_EVENTS = 10_000
 MOST_STEPS = 4_000_000  # about half a minute
 EACH = 32  # steps between two calls of progress
-LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
 
 
 def slide(
