@@ -55,7 +55,7 @@ lock:
 		--output-file locks/lowest.txt pyproject.toml
 
 # What takes long by nature, kept in the repository: what the slow oracles find, docs/validation.md, and the mutants,
-# some hours, which go on where they were stopped.
+# many hours, which go on where they were stopped.
 proof: .venv/test kernels
 	$(BIN)/pytest -q --remake -m "not served"
 	$(BIN)/python tests/validation.py

@@ -1,4 +1,4 @@
-"""Would a wrong formula be noticed? python tests/mutants.py (some hours; --files, --share for less).
+"""Would a wrong formula be noticed? python tests/mutants.py (many hours; --files, --share, --minutes for less).
 
 In each statement that computes something one sign and one factor are changed, one at a time, in a process of its own,
 and the tests are run until one fails. data/mutants.jsonl keeps what each change came to, docs/mutants.md tells it. What
@@ -255,7 +255,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--files", nargs="*", default=FILES)
     options.add_argument("--share", type=int, default=1, help="every so many mutants only")
-    options.add_argument("--seconds", type=int, default=60, help="of processor time for a test")
+    options.add_argument("--seconds", type=int, default=600, help="of processor time for a test, kernels as Python")
     options.add_argument("--minutes", type=float, default=float("inf"), help="then write the page with what is known")
     options.add_argument("--tests", type=Path, default=ROOT / "tests", help="the folder of another suite, to compare")
     options.add_argument("--check", action="store_true", help="first run the tests without any change")

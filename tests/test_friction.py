@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tippe_core import Contensou, Coulomb, SmoothedCoulomb, TopError, Viscous
-from tippe_core.motion.friction import bounds, holding, push
+from tippe_core.motion.friction import bounds, push
 
 MU, RADIUS = 0.3, 1 / 30
 
@@ -104,7 +104,7 @@ def test_the_laws_of_a_point():
     assert push(Coulomb(0.3, 0.4).law, 4.0, 9.0) == (0.15, 0.0)
     assert push(Viscous(0.7).law, 4.0, 9.0) == (0.7, 0.0)
     assert push(SmoothedCoulomb(0.3, 1.5).law, 4.0, 9.0) == (0.3 / 2.5, 0.0)
-    assert [holding(law) for law in (Coulomb(0.3, 0.4), Viscous(1), SmoothedCoulomb(0.3, 1))] == [0.4, 0, 0]
+    assert [bounds(law.law)[0] for law in (Coulomb(0.3, 0.4), Viscous(1), SmoothedCoulomb(0.3, 1))] == [0.4, 0, 0]
 
 
 @pytest.mark.parametrize(("name", "values"), [

@@ -94,6 +94,8 @@ def test_what_broadcasts_and_what_is_refused():
         "rtol": lambda: slide_many(PAPER, State(0.1, 0, 0, 1), Viscous(1), 1.0, rtol=0),
         "air_drag": lambda: slide_many(PAPER, State(0.1, 0, 0, 1), Viscous(1), 1.0, air_drag=-1),
         "state": lambda: slide_many(PAPER, 3.0, Viscous(1), 1.0),
+        "top": lambda: slide_many(3.0, State(0.1, 0, 0, 1), Viscous(1), 1.0),
+        "friction": lambda: slide_many(PAPER, State(0.1, 0, 0, 1), 3.0, 1.0),
         "edge": lambda: slide_many(PAPER, State(0.1, 0, 0, 1), Viscous(1), 1.0, edge=3.0),
     }.items():
         with pytest.raises(TopError) as caught:

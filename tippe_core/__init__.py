@@ -9,13 +9,14 @@ from .bodies.rocking import Measured, a_from_rocking, dimension_from_rocking, ro
 from .bodies.shape import Shape, Turned
 from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, StemmedSphere, TruncatedSphere
 from .bodies.solids import Solid, ball, cylinder, frustum, zone
-from .endings import SUNK, UPRIGHT, Ending, Stretch, ending, lowest, sunk
+from .endings import SUNK, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
 from .motion.friction import Contensou, Coulomb, SmoothedCoulomb, Viscous
 from .motion.many import Many, States, slide_many
 from .motion.rolling import Rolling, roll
 from .motion.sliding import beside, growth, sensitivity, slide
 from .motion.smooth import Gliding, glide
+from .motion.tally import UPRIGHT
 from .motion.trajectory import Ledger, Trajectory
 from .outcomes import Change, Outcome, SteadyStates, Thresholds, jellett_potential, outcome, steady_states, thresholds
 from .paper.constants import Constants, State

@@ -6,13 +6,11 @@ from typing import NamedTuple
 import numpy as np
 
 from .errors import TopError
+from .motion.tally import LAST, LEANS, UPRIGHT
 from .motion.trajectory import Trajectory
 from .outcomes import steady_states
 from .types import Array, Bools
 
-# LAST: the share of the time by which the end is told. UPRIGHT, LEANS (rad): so near to a pole, and so little change of
-# the tilt.
-LAST, UPRIGHT, LEANS = 0.1, 0.2, 0.05
 # QUIET: friction that takes less than this share of the kinetic energy in the last of the time changes nothing more.
 QUIET = 1e-3
 # CREEPS, THERE (rad): a mean tilt that changes by less, beside what it swings, stays where it is; so near its end it

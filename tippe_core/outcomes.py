@@ -1,7 +1,9 @@
 """Where friction takes a top: the steady states at a given Jellett constant, and the spins at which they turn stable.
 
-Any force at the contact point keeps C_J = I1 s w2 + I3 (c - a) w3, and sliding friction only takes energy. The least
-energy at a tilt theta is that of the top turning as a whole about the vertical through G,
+Friction at a point, without a moment of pivoting and without losses: such a force keeps C_J = I1 s w2 + I3 (c - a) w3,
+and sliding friction only takes energy. (By Contensou's law, and with rolling resistance or air drag, C_J is lost
+slowly, and what follows holds only for as long as it is still about the same.) The least energy at a tilt theta is that
+of the top turning as a whole about the vertical through G,
 
     V_J = a(1 - c) + C_J^2/(2 I_eff),     I_eff = I1 s^2 + I3 (c - a)^2 ,
 
@@ -110,8 +112,9 @@ def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
 def steady_states(top: Top, C_J: float) -> SteadyStates:
     """The extrema of V_J at C_J (a number): SteadyStates(theta, stable), arrays from theta = 0 to pi, both included.
 
-    A top on any friction comes to rest in them relative to its own precession; stable where V_J is least. (For a
-    uniform ball V_J is flat: every tilt is steady and none stable; only the poles are listed.)
+    With any law of sliding friction at a point, and no losses, a top comes to rest in them relative to its own
+    precession; stable where V_J is least. (For a uniform ball V_J is flat: every tilt is steady and none stable; only
+    the poles are listed.)
     """
     C_J = finite("C_J", C_J)
     if abs(C_J) > 1e50:
@@ -129,13 +132,17 @@ def steady_states(top: Top, C_J: float) -> SteadyStates:
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """Where friction takes a start, as long as one contact carries: at a second one, a stem's, C_J does not stay.
+    """Where friction at a point takes a start, as long as one contact carries and C_J stays.
+
+    It does not stay at a second contact, a stem's; and a moment of pivoting (Contensou's law) or a loss (rolling
+    resistance, air drag) takes of it slowly.
 
     verdict   "turns over", "stays inverted" or, for a < 0, "falls over" (theta = pi); "goes upright" (0); "hangs" in
               between; "stays as it is" (a uniform ball; or a start exactly in a steady state, be it an unstable one)
     theta     the tilt of that end, rad; omega3 the spin about axis 3 there, (g/R)^1/2
     nudged    where that state is unstable: the verdict after the least nudge; else ""
-    certain   False where the energy suffices to reach another minimum of V_J as well: then this is the one downhill
+    certain   False where the energy suffices to reach another minimum of V_J as well: then this is the one downhill;
+              True says that with this C_J it reaches no other
     C_J, launch   the Jellett constant and the upright spin that has it
     steady    SteadyStates at C_J; thresholds: Thresholds
     sentence  all this in words, spins in rev/s where the scales of the top were given
@@ -154,7 +161,8 @@ class Outcome:
 
 
 def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
-    """The Outcome of a State on any plane with sliding friction, of a top that touches it with its sphere alone.
+    """The Outcome of a State on any plane with sliding friction at a point, of a top that touches it with its sphere
+    alone, without losses.
 
     scales: Scales of the real top, for a sentence in rev/s. The state's vx, vy left None mean G at rest.
     """

@@ -77,7 +77,8 @@ class Coulomb(_Friction):
 
 @dataclass(frozen=True)
 class Viscous(_Friction):
-    """F_h = -gamma F_z u, gamma >= 0 in (gR)^-1/2: one of g s/m in SI, F = -g N v, is gamma = g (gR)^1/2 here.
+    """F_h = -gamma F_z u, gamma >= 0 in (gR)^-1/2: of F_h = -gamma_SI F_z v in SI, gamma_SI in s/m, it
+    is gamma = gamma_SI (gR)^1/2, with g the gravity.
 
     gamma = 0 is the smooth plane. Raises TopError for anything else.
     """
@@ -141,11 +142,7 @@ class Contensou(_Friction):
 
 
 Friction: TypeAlias = Coulomb | Viscous | SmoothedCoulomb | Contensou
-
-
-def holding(friction: Friction) -> float:
-    """mu_s of a law that holds a contact at rest, 0 of any other."""
-    return friction.law.mu_s
+LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
 
 
 @compiled

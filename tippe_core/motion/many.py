@@ -16,7 +16,7 @@ from ..paper.top import Top
 from ..types import Array, Bools
 from .dynamics import OPEN
 from .following import ENDED, MORE
-from .friction import CONTENSOU, Contensou, Coulomb, SmoothedCoulomb, Viscous
+from .friction import CONTENSOU, LAWS
 from .happening import STANDS_UPRIGHT
 from .poses import WIDTH, row_at
 from .preparing import (
@@ -32,14 +32,11 @@ from .preparing import (
 from .records import Record
 from .repeats import run_all
 from .sliding import beside
-from .tally import begin_tally, energy
+from .tally import LAST, LEANS, UPRIGHT, begin_tally, energy
 
-LAST = 0.1  # the share of the time by which the end is told
-UPRIGHT, LEANS = 0.2, 0.05  # rad: so near to a pole; so little change of the tilt
 MOST_EVENTS, MOST_STEPS = 4000, 1_000_000  # of one motion
 EACH = 20_000  # steps after which a stop is looked for
 CELLS = 16  # motions a thread takes at a time
-LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
 
 
 class States(NamedTuple):
@@ -67,7 +64,8 @@ class Many:
     F_z_least             the least load of the table while it touched, at the ends of steps
     heat                  what friction, the losses and impacts took
     energy_error          energy and heat at the end, less the energy at the start
-    C_J_drift             the largest change of C_J until the stem touches, over C_J; nan with a moment of pivoting
+    C_J_drift             the largest change of C_J until the stem touches, over C_J; nan with a moment of
+                          pivoting (Contensou's law) or any loss
     growth                how many times a nudge of the start's theta has grown by the end; nan without one
     end                   by the last tenth of the time, in this order: "refused" (no such top, start or friction;
                           Painleve's limit, the ball's surface ends, more events or turns than are followed), "stem"
@@ -112,7 +110,7 @@ def slide_many(
     losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
     times = numbers("t_end", t_end)
     rims = np.empty((), object) if edge is None else _objects([tuple(rim) for rim in _rows(edge)], np.shape(edge)[:-1])
-    parts = [_cells(top, Top), _cells(state, State), _cells(friction, *LAWS), times, rims]
+    parts = [_cells("top", top, Top), _cells("state", state, State), _cells("friction", friction, *LAWS), times, rims]
     try:
         shape = np.broadcast_shapes(*(part.shape for part in parts))
     except ValueError:
@@ -138,23 +136,23 @@ def _objects(items: list[Any], shape: tuple[int, ...]) -> NDArray[np.object_]:
     return cells.reshape(shape)
 
 
-def _cells(given: Any, *kinds: type) -> NDArray[np.object_]:
+def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
     """An array of what makes one of the kinds: an instance, or the kind and its arguments."""
     if isinstance(given, kinds):
         return _objects([given], ())
     if (isinstance(given, list | tuple) and not hasattr(given, "_fields")) or isinstance(given, np.ndarray):
         return np.array(given, dtype=object)
     for kind in kinds:
-        names = [field.name for field in fields(kind) if getattr(given, field.name, None) is not None]
+        found = [field.name for field in fields(kind) if getattr(given, field.name, None) is not None]
         needed = [
             field.name for field in fields(kind) if field.default is field.default_factory or field.name == "mu_k"
         ]
-        if set(needed) <= set(names):
-            arrays = np.broadcast_arrays(*(np.asarray(getattr(given, name), float) for name in names))
+        if set(needed) <= set(found):
+            arrays = np.broadcast_arrays(*(np.asarray(getattr(given, part), float) for part in found))
             rows = zip(*(array.ravel().tolist() for array in arrays), strict=True)
-            return _objects([(kind, dict(zip(names, row, strict=True))) for row in rows], arrays[0].shape)
+            return _objects([(kind, dict(zip(found, row, strict=True))) for row in rows], arrays[0].shape)
     wanted = " | ".join(kind.__name__ for kind in kinds)
-    raise TopError(kinds[0].__name__.lower(), given, f"{wanted}", code="wrong-kind")
+    raise TopError(name, given, f"{wanted}", code="wrong-kind")
 
 
 def _all(

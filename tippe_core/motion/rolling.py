@@ -1,7 +1,7 @@
 """Motion on the rough plane: exact, for any length of time, by Fourier series of one nutation (nutation.py).
 
-Q, of which dt/dkappa = Q^-1/2, is the divided difference of s^2 f over c1, c2 and c. Written out by the product rule of
-divided differences, nothing cancels however near c1 and c2 are to each other: a steady precession is no special case.
+dt/dkappa = Q^-1/2, where s^2 theta_dot^2 = (c1 - c)(c - c2) Q. As paper/differences.py has Q, nothing cancels however
+near c1 and c2 are to each other: a steady precession is no special case.
 """
 
 from decimal import Decimal, localcontext
@@ -13,8 +13,10 @@ from numpy.typing import ArrayLike
 
 from ..compiled import compiled
 from ..errors import TopError
+from ..paper import differences
 from ..paper import equations as eq
 from ..paper.constants import EXACT, Constants, Exact, State, versines
+from ..paper.differences import Place
 from ..paper.poles import Floats, bracket_near, pole_slope, seen_from
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import ExactCurve, Well, wells
@@ -174,37 +176,23 @@ class Rolling(Nutation):
 
 @compiled
 def dt_dkappa(v: Array, m: Array, curve: Floats, e: float, ends: Ends) -> Array:
-    """Q^-1/2 (n,) at v = 1 - c, m = 1 + c, (n,). A lower index 1, 2 or c stands for the places c1, c2 and c."""
-    top, a, gamma = curve.top, curve.top.a, curve.top.I3 / curve.top.I1
-    c1, c2 = 1 - ends.v1, 1 - ends.v2
-    y1, y2 = np.sqrt(eq.f3_2(c1, ends.v1 * ends.m1, top)), np.sqrt(eq.f3_2(c2, ends.v2 * ends.m2, top))
-    (B1, _), (B2, _) = bracket(ends.v1, ends.m1, curve), bracket(ends.v2, ends.m2, curve)
-    f2_sq = eq.f2_2(c1, ends.v1 * ends.m1, top)
+    """Q^-1/2 (n,) at v = 1 - c, m = 1 + c, (n,)."""
+    inner, outer = place(ends.v1, ends.m1, curve), place(ends.v2, ends.m2, curve)
     found = np.empty(len(v))
     for i in range(len(v)):
-        c = 1 - v[i]
-        # second divided differences over (c1, c2, c), first ones over (c1, c2) and (c2, c), of y = f3,
-        y = np.sqrt(eq.f3_2(c, v[i] * m[i], top))
-        y_12 = ((gamma - 1) * (c1 + c2) - 2 * gamma * a) / (y1 + y2)
-        y_2c = ((gamma - 1) * (c2 + c) - 2 * gamma * a) / (y2 + y)
-        y_12c = (gamma - 1 - y_12 * y_2c) / (y1 + y)
-        # of 1/f3,
-        r_12, r_2c = -y_12 / (y1 * y2), -y_2c / (y2 * y)
-        r_12c = -(y_12c / y1 + r_12 * y_2c) / y
-        # of B = K_J - (I3/I1) K_R (c - a)/f3,
-        k = -gamma * curve.K_R
-        B_12, B_2c, B_12c = k * ((c1 - a) * r_12 + 1 / y2), k * ((c2 - a) * r_2c + 1 / y), k * ((c1 - a) * r_12c + r_2c)
-        B, _ = bracket(v[i], m[i], curve)
-        # of f2^2 B^2, and of s^2 (2E' - 2a(1 - c))
-        f_12, f_12c = (1 - 1 / gamma) * (c1 + c2) - 2 * a, 1 - 1 / gamma
-        kinetic = f2_sq * (B1 * B_12c + B_12 * B_2c + B_12c * B) + f_12 * B_2c * (B2 + B) + f_12c * B * B
-        potential = -(e - 2 * a) - 2 * a * (c1 + c2 + c)
-        Q = (kinetic - potential) / eq.f1_2(c, top)
+        Q = differences.Q(inner, outer, place(v[i], m[i], curve), curve.K_R, e, curve.top)
         if Q > 0:
             found[i] = 1 / np.sqrt(Q)
         else:  # at rest on an unstable steady precession any rate of kappa will do
             found[i] = 1.0 if ends.width == 0 else np.nan
     return found
+
+
+@compiled
+def place(v: float, m: float, curve: Floats) -> Place:
+    """What the differences take of a place."""
+    c, s2 = 1 - v, v * m
+    return Place(c, s2, np.sqrt(eq.f3_2(c, s2, curve.top)), bracket(v, m, curve)[0])
 
 
 @compiled

@@ -17,7 +17,7 @@ from ..types import Array, Number
 from .contacts import RIM, SLACK, SLIPS, TOUCH, TOUCHES
 from .dynamics import BALL, OPEN, SLIP, STEM, carried
 from .following import MORE, ROLLS
-from .friction import Contensou, Coulomb, Friction, SmoothedCoulomb, Viscous
+from .friction import LAWS, Friction
 from .happening import LIFTS_OFF, NAMES, PAINLEVE, STANDS_UPRIGHT, SUPPORTS, TOO_MANY_TURNS, happens, noted, run
 from .poses import COLUMNS, REGIMES, ROLLING, WIDTH, row_at
 from .preparing import (
@@ -41,7 +41,6 @@ from .trajectory import Trajectory, checked_times
 MOST_EVENTS = 10_000
 MOST_STEPS = 4_000_000  # about half a minute
 EACH = 32  # steps between two calls of progress
-LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
 
 
 def slide(
@@ -235,8 +234,7 @@ class _Run:
         one = rolling(np.array([0.0, ends]))
         theta, turn = one.theta[1], np.exp(1j * one.phi[1])
         v, m = versines(theta)
-        w1, w2, w3 = one.omega[1]
-        u = complex(w2 * (1 - v - top.a) - w3 * np.sin(theta), -w1 * (1 - top.a * (1 - v))) * turn
+        u = complex(one.velocity[1, 0], one.velocity[1, 1]) * turn
         y[:] = y_of(P, theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[1] + one.psi[1], one.omega[1], u,
                     complex(*one.com[1, :2]), last, y[13])  # fmt: skip
         W.angles[:] = 0.0, one.phi[1]

@@ -6,6 +6,9 @@ from ..compiled import compiled
 from .dynamics import BALL, OPEN, STEM, STICK, carried, kinetic, turning
 from .records import Record
 
+LAST = 0.1  # the share of the time by which the end is told
+UPRIGHT, LEANS = 0.2, 0.05  # rad: so near to a pole; so little change of the tilt
+
 
 @compiled
 def energy(W: Record, P: Record) -> float:

@@ -9,7 +9,7 @@ from ..compiled import compiled, shared_with_kernels
 from ..types import Array, Indices, Scalars
 from . import equations as eq
 from .constants import EXACT, Constants, Exact, exact_versine, versines
-from .poles import Floats, bracket_near, omega2_at, pole_offsets
+from .poles import Floats, bracket_near, pole_offsets
 from .top import Top, TopNumbers
 from .wells import ExactCurve
 
@@ -61,8 +61,22 @@ def omega2(theta: Scalars, top: Top, constants: Constants) -> Scalars:
 
     At a pole it is infinite unless the bracket vanishes there (K_J at P), and then 0.
     """
-    v, m = versines(theta)
-    return omega2_at(v, m, top, constants.K_R, pole_offsets(top, constants.K_J, constants.K_R))
+    offsets = pole_offsets(top, constants.K_J, constants.K_R)
+    rows = np.broadcast_arrays(*versines(theta), constants.K_R, *offsets)
+    value = omega2_on(top.numbers, *(np.array(x, dtype=float).ravel() for x in rows))
+    return value.reshape(rows[0].shape)[()]
+
+
+@compiled
+def omega2_on(top: TopNumbers, v: Array, m: Array, K_R: Array, upright: Array, inverted: Array) -> Array:
+    """w2 = B/s (30) from 1 - c, 1 + c, K_R and the offsets of both poles, (n,) all."""
+    w2 = np.empty(len(v))
+    for i in range(len(v)):
+        x, side = (v[i], 1.0) if v[i] <= m[i] else (m[i], -1.0)
+        B, _ = bracket_near(side, x, Floats(top, K_R[i], upright[i], inverted[i]))
+        s = np.sqrt(v[i] * m[i])
+        w2[i] = B / s if s > 0 else 0.0 if B == 0 else np.copysign(np.inf, B)
+    return w2
 
 
 @overload

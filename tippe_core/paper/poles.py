@@ -5,7 +5,6 @@ with more digits than K_J, and C has no cancellation. Seen from the inverted pol
 read the same with a -> -a, c -> -c, K_R -> -K_R, and 2E' is less by 4a.
 """
 
-from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from functools import lru_cache
 from typing import NamedTuple, overload
@@ -54,10 +53,13 @@ def angle(x: float, side: float) -> float:
 
 @shared_with_kernels
 def pole_slope(x: Number, f3: Number, w3: Number, top: AnyTop) -> Number:
-    """C of B = d + x C at x = 1 - c, a number: x C = K_J(P) - (I3/I1)(c - a) K_R/f3.
+    """C of B = d + x C at x = 1 - c, where x C is the B of the trajectory through the pole:
+
+    (36)  x C = K_J(P) - (I3/I1)(c - a) K_R/f3,  K_J(P) = (I3/I1)(1 - a) K_R/f3(P),  with K_R/f3 = w3
 
     Rearranged, because it is 0/0 at x = 0: with p = 1 - a, q = c - a and f3(P), f3 at the pole and at x,
     p/f3(P) - q/f3 = (p f3 - q f3(P))/(f3(P) f3) = x {p^2 (2 - x) + I3 (p + q)}/{f3(P) f3 (p f3 + q f3(P))}
+    by (32); q as p - x, because 1 - x loses x where a is near to 1.
     """
     p, q, f3_P = 1 - top.a, 1 - top.a - x, np.sqrt(eq.f3_2(1.0, 0.0, top))
     unit = top.I3 / top.I1 * w3 / f3_P
@@ -134,25 +136,3 @@ def pole_offsets(top: Top, K_J: Scalars, K_R: Scalars) -> tuple[Array, Array]:
 def at_pole(d: Number, K_J: Scalars) -> Bools:
     """Whether K_J is the pole's own to the last digit: its float cannot be nearer to it."""
     return np.abs(d) <= 0.51 * np.spacing(np.abs(K_J))
-
-
-# ---- for arrays ----
-
-
-def near_pole(v: Array, m: Array, top: Top, K_R: Scalars, offsets: Sequence[Scalars]) -> tuple[Array, Array, Array]:
-    """d, x and C of B = d + x C, where x is the smaller of v = 1 - c and m = 1 + c."""
-    upright, x = v <= m, np.minimum(v, m)
-    sign = np.where(upright, 1.0, -1.0)
-    p, f3 = 1 - sign * top.a, np.sqrt(eq.f3_2(sign * (1 - x), v * m, top))
-    q, f3_P = p - x, np.sqrt(eq.f3_2(sign, 0.0, top))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        apart = np.where(p == 0, f3_P, two_signs(x, p, q, f3_P, f3))
-        C = np.where(p * q > 0, one_sign(x, p, q, f3_P, f3, top), apart)
-    return np.where(upright, *offsets), x, top.I3 / top.I1 * sign * K_R / (f3_P * f3) * C
-
-
-def omega2_at(v: Array, m: Array, top: Top, K_R: Scalars, offsets: Sequence[Scalars]) -> Array:
-    """w2 = B/s (30) from v = 1 - c and m = 1 + c."""
-    d, x, C = near_pole(v, m, top, K_R, offsets)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(d == 0, 0.0, d / np.sqrt(v * m)) + np.sqrt(x / (2 - x)) * C
