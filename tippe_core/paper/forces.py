@@ -4,18 +4,11 @@ from typing import overload
 
 import numpy as np
 
-from ..types import Array, Number, Scalars, Vector
+from ..types import Array, Scalars, Vector
 from . import equations as eq
 from .constants import Constants, versines
 from .curve import f, omega2, omega3
 from .top import Top
-
-
-def contact_force(
-    v: Number, m: Number, top: Top, K_R: Number, w1: Number, w1_squared: Number, w2: Number, w3: Number
-) -> Vector:
-    """(F_x, F_y, F_z) in Mg in the turning axes, from v = 1 - cos(theta), m = 1 + cos(theta) and omega in 1', 2', 3."""
-    return eq.force(1 - v, np.sqrt(v * m), w1, w1_squared, w2, w3, top)
 
 
 def forces_on_curve(theta: Scalars, top: Top, constants: Constants, w1_squared: Scalars) -> Vector:
