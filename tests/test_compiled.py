@@ -261,10 +261,10 @@ from tippe_core.ahead import compile_all
 assert compile_all() == ""
 compiled.made.clear()
 
-from app import family, lesson
-from app.builder import Builder
-from app.explorer import Explorer
-from app.planes import LAWS, Planes
+from app.model import family, lesson
+from app.model.builder import Builder
+from app.model.explorer import Explorer
+from app.model.planes import LAWS, Planes
 explorer = Explorer()
 for step in lesson.STEPS:
     explorer.param.update(**step.inputs(explorer.scene.top))
