@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import TopError
+from ..paper import equations as eq
 from ..paper.constants import State, versines
 from ..paper.top import Top
 from ..types import Array, Number
@@ -236,7 +237,7 @@ class _Run:
         theta, turn = one.theta[1], np.exp(1j * one.phi[1])
         v, m = versines(theta)
         w1, w2, w3 = one.omega[1]
-        u = complex(w2 * (1 - v - top.a) - w3 * np.sin(theta), -w1 * (1 - top.a * (1 - v))) * turn
+        u = complex(*eq.rolling_velocity(1 - v, np.sin(theta), w1, w2, w3, top)) * turn
         y[:] = y_of(P, theta, (v / 2) ** 0.5, float(m / 2) ** 0.5, turn, one.phi[1] + one.psi[1], one.omega[1], u,
                     complex(*one.com[1, :2]), last, y[13])  # fmt: skip
         W.angles[:] = 0.0, one.phi[1]

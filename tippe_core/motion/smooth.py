@@ -25,6 +25,7 @@ from scipy.optimize import brentq
 
 from ..compiled import compiled
 from ..errors import TopError
+from ..paper import equations as eq
 from ..paper.constants import EXACT, State, exact_top, versines
 from ..paper.top import Top, TopNumbers
 from ..paper.wells import solve
@@ -115,8 +116,9 @@ class Gliding(Nutation):
         G = complex(start.x or 0.0, start.y or 0.0) + drift * (t - t[0])
         contact = G - 1j * moved.s_exp_phi * top.a
         v, m, (w1, w2, w3) = moved.v, moved.m, omega.T
-        s, c, velocity = np.sqrt(v * m), 1 - v, drift * np.exp(-1j * moved.phi)
-        slip = velocity.real - (w2 * (c - top.a) - w3 * s), velocity.imag + w1 * (1 - top.a * c)
+        velocity = drift * np.exp(-1j * moved.phi)
+        rolling = eq.rolling_velocity(1 - v, np.sqrt(v * m), w1, w2, w3, top)
+        slip = velocity.real - rolling[0], velocity.imag - rolling[1]
         none = np.zeros(len(t))
         return Trajectory(
             top=top, t=t, theta=moved.theta, phi=moved.phi, psi=moved.psi, quaternion=moved.quaternion,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import TopError, numbers
-from ..paper.curve import f3_squared
+from ..paper import equations as eq
 from ..paper.top import Top
 from ..types import Array
 
@@ -74,8 +74,8 @@ class Trajectory:
         if self.velocity is None:
             (w1, w2, w3), (ux, uy), a = self.omega.T, self.slip.T, self.top.a
             s, c = np.sin(self.theta), np.cos(self.theta)
-            v = w2 * (c - a) - w3 * s + ux, -w1 * (c * (c - a) + s**2) + uy, a * s * w1
-            object.__setattr__(self, "velocity", np.stack(v, axis=1))
+            vx, vy = eq.rolling_velocity(c, s, w1, w2, w3, self.top)
+            object.__setattr__(self, "velocity", np.stack([vx + ux, vy + uy, a * s * w1], axis=1))
         if self.heat is None:
             object.__setattr__(self, "heat", np.zeros(len(self.t)))
         if not self.supports and len(self.t):
@@ -87,13 +87,13 @@ class Trajectory:
     @cached_property
     def jellett(self) -> Array:
         """C_J = I1 s w2 + I3 (c - a) w3, (14), (n,); the paper's K_J of (30) is C_J/I1."""
-        top, (_, w2, w3) = self.top, self.omega.T
-        return top.I1 * np.sin(self.theta) * w2 + top.I3 * (np.cos(self.theta) - top.a) * w3
+        _, w2, w3 = self.omega.T
+        return eq.C_J(np.cos(self.theta), np.sin(self.theta), w2, w3, self.top)
 
     @cached_property
     def routh(self) -> Array:
         """K_R = f3 w3, (31), (n,)."""
-        return np.sqrt(f3_squared(self.theta, self.top)) * self.omega[:, 2]
+        return eq.K_R(np.cos(self.theta), np.sin(self.theta) ** 2, self.omega[:, 2], self.top)
 
     @cached_property
     def L_3(self) -> Array:
