@@ -304,9 +304,9 @@ def _from_state(top: Top, constants: Constants | None, state: State) -> tuple[Ex
     exact = Exact.of_state(state, top)
     v, m = (float(x) for x in versines(state.theta))
     here = 1 - Decimal(v) if v <= m else Decimal(m) - 1
-    rolling = {"vx": state.omega2 * (float(here) - top.a) - state.omega3 * np.sin(state.theta),
-               "vy": -state.theta_dot * (1 - top.a * float(here))}  # fmt: skip
-    for name, value in rolling.items():
+    spins = state.theta_dot, state.omega2, state.omega3
+    rolling = eq.rolling_velocity(float(here), np.sin(state.theta), *spins, top)
+    for name, value in zip(("vx", "vy"), rolling, strict=True):
         given = getattr(state, name)
         if given is not None and abs(given - value) > 1e-9 * max(1, abs(value)):
             raise TopError(name, given, f"{value:.10g}", "Leave it out: it follows from rolling.", code="contradiction")
