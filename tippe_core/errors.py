@@ -109,8 +109,8 @@ def finite(name: str, value: SupportsFloat) -> float:
     return number
 
 
-def numbers(name: str, values: ArrayLike) -> Array:
-    """values as a new float array, or a TopError that names them."""
+def numbers(name: str, values: ArrayLike, finite: bool = True) -> Array:
+    """values as a new float array, or a TopError that names them; finite: nan and infinity are refused."""
     try:
         array = np.array(values)
     except (TypeError, ValueError, OverflowError):
@@ -118,6 +118,6 @@ def numbers(name: str, values: ArrayLike) -> Array:
     if array.dtype.kind not in "iuf":
         raise TopError(name, values, "finite numbers", code="not-finite")
     array = array.astype(float)
-    if not np.all(np.isfinite(array)):
+    if finite and not np.all(np.isfinite(array)):
         raise TopError(name, float(array[~np.isfinite(array)].flat[0]), "a finite number", code="not-finite")
     return array

@@ -21,6 +21,8 @@ FIRST = 1e-3  # (R/g)^1/2: a first step; it grows fast
 SMALLEST = 1e-13  # (R/g)^1/2: no step is smaller
 NEAR = 0.1  # a guard as near to 0 is looked at along the step
 SLIPS_LITTLE = 1e-3  # relative precision of a slip at least
+LEAP = 2.0  # a slip grows by exp(LEAP) in a step at most: the polynomial through a step, whose error nobody looks at,
+# would be taken to that exponential
 STIFF = 10.0  # times faster than a slip changes its direction is attracted, where it is kept steady
 NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin of a patch at which it may come to rest, where the tolerance is below it
 
@@ -140,9 +142,12 @@ def scales(W: Record, P: Record, slowest: int) -> None:
 @compiled
 def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, float]:
     """A step from step.z to step.new within the tolerance, not longer than most: its length, and margin()'s least."""
+    S = W.step
     while True:
         h = min(W.h, most)
         found, near = attempt(W, P, slowest, h)
+        if slowest != NO_ONE and S.new[8] - S.z[8] > LEAP:
+            found = np.inf
         factors = factor(found)
         if found < 1.0 or h <= SMALLEST:
             break

@@ -31,11 +31,12 @@ from .preparing import (
 )
 from .records import Record
 from .repeats import run_all
-from .sliding import beside
+from .sliding import beside, checked_nudge
 from .tally import LAST, LEANS, UPRIGHT, begin_tally, energy
 
 MOST_EVENTS, MOST_STEPS = 4000, 1_000_000  # of one motion
 EACH = 20_000  # steps after which a stop is looked for
+KINDS = ("top", (Top,)), ("state", (State,)), ("friction", LAWS)
 CELLS = 16  # motions a thread takes at a time
 
 
@@ -106,7 +107,7 @@ def slide_many(
     The numbers do not depend on how many cores there are. Raises TopError for what does not broadcast, and for a bad
     rtol, nudge or loss.
     """
-    rtol, nudge = checked_rtol(rtol), None if nudge is None else finite("nudge", nudge)
+    rtol, nudge = checked_rtol(rtol), None if nudge is None else checked_nudge(nudge)
     losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
     times = numbers("t_end", t_end)
     rims = np.empty((), object) if edge is None else _objects([tuple(rim) for rim in _rows(edge)], np.shape(edge)[:-1])
@@ -148,7 +149,12 @@ def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
             field.name for field in fields(kind) if field.default is field.default_factory or field.name == "mu_k"
         ]
         if set(needed) <= set(found):
-            arrays = np.broadcast_arrays(*(np.asarray(getattr(given, part), float) for part in found))
+            try:
+                arrays = np.broadcast_arrays(*(numbers(part, getattr(given, part), finite=False) for part in found))
+            except ValueError as error:
+                if isinstance(error, TopError):
+                    raise
+                raise TopError(name, given, "fields that broadcast together", code="shapes-differ") from None
             rows = zip(*(array.ravel().tolist() for array in arrays), strict=True)
             return _objects([(kind, dict(zip(found, row, strict=True))) for row in rows], arrays[0].shape)
     wanted = " | ".join(kind.__name__ for kind in kinds)
@@ -184,12 +190,12 @@ def _all(
     return found
 
 
-def _made(cell: Any) -> Any:
-    """What a cell of _cells() stands for."""
-    if isinstance(cell, tuple):
+def _made(name: str, cell: Any, *kinds: type) -> Any:
+    """What a cell of _cells() stands for, one of the kinds."""
+    if isinstance(cell, tuple) and len(cell) == 2 and isinstance(cell[1], dict):
         return cell[0](**cell[1])
-    if not isinstance(cell, (Top, State, *LAWS)):
-        raise TopError("cell", cell, "Top | State | Friction", code="wrong-kind")
+    if not isinstance(cell, kinds):
+        raise TopError(name, cell, " | ".join(kind.__name__ for kind in kinds), code="wrong-kind")
     return cell
 
 
@@ -198,7 +204,8 @@ def _cell(
 ) -> dict[str, Any]:
     """One motion's part of Many, or that it is refused."""
     try:
-        top, state, friction, t_end = *(_made(part) for part in parts[:3]), finite("t_end", parts[3])
+        top, state, friction = (_made(name, part, *kinds) for (name, kinds), part in zip(KINDS, parts, strict=False))
+        t_end = finite("t_end", parts[3])
         if t_end < 0:
             raise TopError("t_end", t_end, "t_end >= 0")
         check_balance(top, friction)
@@ -259,7 +266,7 @@ def _many(found: list[dict[str, Any]], shape: tuple[int, ...]) -> Many:
         return array
 
     lost = [np.nan] * len(States._fields)
-    states = np.array([one.get("state", lost) for one in found]).reshape(len(found), -1).T
+    states = np.array([one.get("state", lost) for one in found]).reshape(len(found), len(lost)).T
     parts = {name: gathered([one.get(name, np.nan) for one in found], float) for name in NUMBERS}
     hops = np.array([one.get("hops", 0) for one in found])
     return Many(theta_end=gathered(states[0], float), state_end=States(*(gathered(x, float) for x in states)),

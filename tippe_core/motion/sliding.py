@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import TopError
+from ..errors import TopError, finite
 from ..paper.constants import State, versines
 from ..paper.top import Top
 from ..types import Array, Number
@@ -110,8 +110,16 @@ def sensitivity(
     Arguments as of slide(). Large where the physics is sensitive, whatever the tolerance: a top near the limit of
     sticking, of lift-off or of a threshold. A nudge that makes other events happen counts by what it does to theta.
     """
+    nudge = checked_nudge(nudge)
     moved, near = (slide(top, start, friction, times, **how) for start in (state, beside(state, nudge)))
     return growth(moved, near, nudge)
+
+
+def checked_nudge(nudge: float) -> float:
+    """nudge, or a TopError."""
+    if finite("nudge", nudge) == 0:
+        raise TopError("nudge", nudge, "nudge > 0")
+    return float(nudge)
 
 
 def beside(state: State, nudge: float) -> State:
@@ -122,7 +130,7 @@ def beside(state: State, nudge: float) -> State:
 def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
     """How many times the nudge (rad) between the starts of two Trajectories grows at most, where both have samples."""
     both = min(len(moved.t), len(near.t))
-    return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / nudge)
+    return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / abs(nudge))
 
 
 class _Run:
@@ -152,7 +160,7 @@ class _Run:
         if not count:
             self._alone(stands_on, int(self.log[0, 1]))
             count = 1
-        followed = np.isfinite(self.rows[:count]).all(axis=1)
+        followed = np.append(np.isfinite(self.rows[:count]).all(axis=1), np.isfinite(W.y).all())
         if not followed.all():
             raise TopError("friction", self.friction, "weaker friction for this top",
                            "The equations could not be followed past t = {t:.6g}{unit}.", code="not-followed",

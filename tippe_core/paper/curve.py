@@ -111,6 +111,8 @@ def floats(theta: Scalars, top: Top, constants: Constants) -> tuple[Array, Indic
     given = [np.asarray(x) for x in (*versines(theta), constants.K_R, constants.two_E_prime(top), *offsets)]
     shape = np.broadcast_shapes(*(x.shape for x in given))
     value = np.empty(shape)
+    if not value.size:
+        return value, np.empty(0, int)
     if len(shape) > 2:
         given = [np.broadcast_to(x, shape).reshape(-1, shape[-1]) for x in given]
     rows = [np.array(np.atleast_2d(x), dtype=float, order="C") for x in given]
