@@ -10,7 +10,7 @@ from .friction import CONTENSOU, COULOMB
 from .impulses import halted
 from .poses import record, turned
 from .records import Record
-from .stepper import STAGES, A, B, at_share, densely, error, factor, stage, when, within
+from .stepper import STAGES, A, B, at_share, densely, error, factor, stage, steady_direction, when, within
 from .tally import tally
 from .watching import first_event
 
@@ -58,7 +58,7 @@ def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: i
 @compiled
 def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     """One step, or its part before an event; the event or NO_ONE."""
-    y, S, C, ball, stem = W.y, W.step, W.contacts, W.modes[BALL], W.modes[STEM]
+    y, S, C, _ball, _stem = W.y, W.step, W.contacts, W.modes[BALL], W.modes[STEM]
     slowest = change_variables(W, P)
     if W.rated:  # the last stage of the step before
         S.K[0, :] = S.K[STAGES]
@@ -69,7 +69,7 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
         S.new[12] = end if h == end - y[12] else y[12] + h
     event, share, k, N = NO_ONE, 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
     if near < NEAR or S.new[12] > end or (k < len(times) and times[k] <= S.new[12]):
-        densely(S, h, slowest, ball, stem, P, C)
+        densely(W, P, slowest, h)
     if near < NEAR:
         event, share = first_event(W, P, slowest)
     over = S.new[12] > end and (share == 1.0 or within(S, share, 12) > end)
@@ -173,26 +173,6 @@ def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]
         near = min(near, margin(S.at, minor, ball, stem, P, C))
     S.new[:], W.rated = S.at, 1
     return error(S.K, S.scale, h), near
-
-
-@compiled
-def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, float]:
-    """beta near that of step.at at which u' is along u, how fast it is attracted there and how fast log|u| grows."""
-    S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
-    beta, out, near = S.at[9], S.K[15], 1e-4
-    for _ in range(3):
-        S.at[9] = beta + near
-        rates(S.at, slowest, ball, stem, P, C, out)
-        beside = out[9]
-        S.at[9] = beta
-        rates(S.at, slowest, ball, stem, P, C, out)
-        attracts = (out[9] - beside) / near
-        if attracts <= 0.0 or abs(out[9]) > attracts:
-            return S.at[9], 0.0, out[8]
-        beta += out[9] / attracts
-        if abs(out[9]) < 1e-12 * attracts:
-            break
-    return beta, attracts, out[8]
 
 
 @compiled

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .dynamics import turning
+from .dynamics import NO_ONE, turning
 from .following import ENDED, MORE, OVER, ROLLS, follow
 from .happening import happens, run
 from .poses import turned
@@ -63,7 +63,7 @@ def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: in
 def farthest(W: Record, P: Record, out: Array) -> None:
     """(t, phi, psi, x, y) where theta is largest in the last step."""
     S, angles, low, high = W.step, W.angles.copy(), 0.0, 1.0
-    densely(S, S.new[12] - S.z[12], -1, W.modes[0], W.modes[1], P, W.contacts)
+    densely(W, P, NO_ONE, S.new[12] - S.z[12])
     for _ in range(50):
         x = (low + high) / 2
         at_share(S, x, S.at)

@@ -10,7 +10,7 @@ from scipy.integrate import DOP853
 
 from ..compiled import compiled
 from ..types import Array
-from .dynamics import rates
+from .dynamics import BALL, STEM, rates
 from .records import Record
 
 A, B, E3, E5 = (np.ascontiguousarray(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
@@ -59,15 +59,37 @@ def factor(found: float) -> float:
 
 
 @compiled
-def densely(S: Record, h: float, slowest: int, ball: int, stem: int, P: Record, C: Record) -> None:
-    """The polynomial of the step from S.z to S.new, whose stages are in S.K."""
+def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, float]:
+    """beta near that of step.at at which u' is along u, how fast it is attracted there and how fast log|u| grows."""
+    S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
+    beta, out, near = S.at[9], S.K[15], 1e-4
+    for _ in range(3):
+        S.at[9] = beta + near
+        rates(S.at, slowest, ball, stem, P, C, out)
+        beside = out[9]
+        S.at[9] = beta
+        rates(S.at, slowest, ball, stem, P, C, out)
+        attracts = (out[9] - beside) / near
+        if attracts <= 0.0 or abs(out[9]) > attracts:
+            return S.at[9], 0.0, out[8]
+        beta += out[9] / attracts
+        if abs(out[9]) < 1e-12 * attracts:
+            break
+    return beta, attracts, out[8]
+
+
+@compiled
+def densely(W: Record, P: Record, slowest: int, h: float) -> None:
+    """The polynomial of the step from step.z to step.new, whose stages are in step.K."""
+    S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
     K, F = S.K, S.polynomial
     for s in range(3):
         stage(S.z, K, A_DENSE[s], STAGES + 1 + s, h, S.at)
+        if W.steady:  # as in the stages before: else beta runs away, and log|u| with it
+            S.at[9] = steady_direction(W, P, slowest)[0]
         rates(S.at, slowest, ball, stem, P, C, K[STAGES + 1 + s])
-    S.at[:] = 0.0
-    for m in range(4):
-        stage(S.at, K, D[m], 16, h, F[3 + m])
+        if W.steady:
+            K[STAGES + 1 + s, 9] = 0.0
     for i in range(16):
         moved = S.new[i] - S.z[i]
         F[0, i], F[1, i], F[2, i] = moved, h * K[0, i] - moved, 2 * moved - h * (K[STAGES, i] + K[0, i])
