@@ -25,7 +25,7 @@ ROOT = Path(__file__).parent.parent
 LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
 PAPER = ["equations", "poles", "constants", "curve", "forces", "wells", "limits"]
-ROLLING = ["nutation", "phase", "series", "crowding", "rolling"]
+ROLLING = ["differences", "nutation", "phase", "series", "crowding", "rolling"]
 SLIDING = ["friction", "dynamics", "stepper", "following", "happening", "contacts", "impact", "impulses", "standing",
            "preparing", "poses", "repeats", "sliding", "many", "tally"]  # fmt: skip
 CORE = [*PAPER, *ROLLING, "smooth", *SLIDING]

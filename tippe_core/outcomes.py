@@ -7,7 +7,8 @@ of the top turning as a whole about the vertical through G,
 
     V_J = a(1 - c) + C_J^2/(2 I_eff),     I_eff = I1 s^2 + I3 (c - a)^2 ,
 
-so the end is a minimum of V_J (Gallop; the paper's note 58), and it depends on the friction law only through the rate.
+so the end is a minimum of V_J (Gallop; note 58 of the paper has its kinetic part, C_J^2/(2 I_eff)); it depends on the
+friction law only through the rate.
 With dV_J/dc = 0 written out, the steady states between the poles are zeros of a polynomial of degree four in c:
 
     a I_eff^2 = C_J^2 [I1 c - I3 (c - a)] .

@@ -60,17 +60,17 @@ def record(
         return
     rolls = (ball == STICK or ball == OPEN) and (stem == STICK or stem == OPEN)
     out[25], N = (ROLLING if rolls else SLIPPING), 0.0
-    ux = uy = Fx = Fy = x = z = 0.0
+    ux = uy = Fx = Fy = rho_x = rho_y = 0.0
     for i in range(1 + P.stem):
         N += C.F[i, 2]
     for i in range(1 + P.stem):
         if (ball if i == BALL else stem) != OPEN:
             share = C.F[i, 2] / N if N != 0.0 else 1.0
             Fx, Fy = Fx + C.F[i, 0], Fy + C.F[i, 1]
-            x, z = x + share * C.rho[i, 0], z + share * C.rho[i, 1]
+            rho_x, rho_y = rho_x + share * C.rho[i, 0], rho_y + share * C.rho[i, 1]
             if not rolls:
                 ux, uy = ux + share * C.u[i, 0], uy + share * C.u[i, 1]
-    out[8], out[9] = y[10] + x, y[11] + z
+    out[8], out[9] = y[10] + rho_x, y[11] + rho_y
     out[16], out[17] = ux * c + uy * s, uy * c - ux * s
     out[18], out[19], out[20] = Fx * c + Fy * s, Fy * c - Fx * s, (0.0 if -PULLS < N < 0.0 else N)
 

@@ -70,8 +70,7 @@ class Gliding(Nutation):
             v = Decimal(v) if v <= m else 2 - Decimal(m)
             here, s2 = 1 - v, v * (2 - v)
             L3 = t.I3 * w3
-            L_z = L3 * here + t.I1 * w2 * s2.sqrt()
-            e = t.I1 * (w1 * w1 + w2 * w2) + t.a * t.a * s2 * w1 * w1 + 2 * t.a * v
+            L_z, e = eq.L_z(here, s2.sqrt(), w2, w3, t), eq.two_E_smooth(s2, w1, w2, v, t)
             inner, outer = turning_cosines(t, e, L_z, L3, here, still=state.theta_dot == 0)
             offsets = (L_z - L3) / t.I1, (L_z + L3) / t.I1
             self.ends = Ends(*map(float, (1 - inner, 1 - outer, 1 + inner, 1 + outer, inner - outer, *offsets)))

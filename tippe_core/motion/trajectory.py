@@ -103,8 +103,8 @@ class Trajectory:
     @cached_property
     def L_z(self) -> Array:
         """I1 s w2 + I3 c w3, G's angular momentum about the vertical, (n,)."""
-        top, (_, w2, w3) = self.top, self.omega.T
-        return top.I1 * np.sin(self.theta) * w2 + top.I3 * np.cos(self.theta) * w3
+        (_, w2, w3) = self.omega.T
+        return eq.L_z(np.cos(self.theta), np.sin(self.theta), w2, w3, self.top)
 
     @cached_property
     def ledger(self) -> Ledger:

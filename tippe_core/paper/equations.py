@@ -179,6 +179,18 @@ def rolling_velocity(c: Number, s: Number, w1: Number, w2: Number, w3: Number, t
 
 
 @shared_with_kernels
+def two_E_smooth(s2: Number, w1: Number, w2: Number, v: Number, top: AnyTop) -> Number:
+    """(B3)  e = 2E - I3 w3^2 = I1 (w1^2 + w2^2) + a^2 s^2 w1^2 + 2a(1 - c),  where G only moves up and down"""
+    return 2 * energy(w1, w2, 0, top.a * top.a * s2 * w1 * w1, v, top)
+
+
+@shared_with_kernels
+def L_z(c: Number, s: Number, w2: Number, w3: Number, top: AnyTop) -> Number:
+    """(B4)  L_z = I1 s w2 + I3 c w3,  G's angular momentum about the vertical"""
+    return top.I1 * s * w2 + top.I3 * c * w3
+
+
+@shared_with_kernels
 def I_eff(c: Number, s2: Number, top: AnyTop) -> Number:
-    """note 58  I_eff = I1 s^2 + I3 (c - a)^2,  of a turn about r: the least kinetic energy at C_J is C_J^2/(2 I_eff)"""
+    """note 58  I_eff = I1 s^2 + I3 (c - a)^2,  of a turn about r: K_min = C_J^2/(2 I_eff)"""
     return top.I1 * s2 + top.I3 * (c - top.a) ** 2
