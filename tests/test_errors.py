@@ -41,7 +41,7 @@ OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 PAPER = TruncatedSphere.paper()
 # What stands in a formula of what is allowed and is no English: units, quantities, the core's classes.
 NOTATION = {"rad", "kg", "mu", "mu_s", "mu_k", "eps", "gamma", "theta", "tilt", "seconds", "str", "bytes", "in",
-            "high", "low", "rtol", "pi", "well", "radius", "height", "rounding", "times"}  # fmt: skip
+            "high", "low", "rtol", "nudge", "pi", "well", "radius", "height", "rounding", "times"}  # fmt: skip
 
 
 # ---- where they are raised ----

@@ -12,7 +12,7 @@ THROWN = State(0.03977425866686964, -1.2164000519599374, 2.2504581101501886, 16.
 EDGE = (0.2, 1.7125, 0.0)
 
 
-@pytest.mark.parametrize("rtol, left", [(1e-6, 1e-4), (1e-9, 1e-7), (1e-11, 1e-9)])
+@pytest.mark.parametrize("rtol, left", [(1e-6, 1e-5), (1e-9, 1e-8), (1e-11, 1e-10)])
 def test_energy_and_heat_hold_where_a_slip_begins(rtol, left):
     """It slips at 14.49985: samples just after it were of an energy of 1e86."""
     moved = slide(HIGH, STARTS, Coulomb(0.3), np.append(0, np.linspace(14.4998, 14.5003, 501)), rtol)
@@ -24,7 +24,7 @@ def test_energy_and_heat_hold_where_a_slip_begins(rtol, left):
 def test_energy_and_heat_hold_where_a_short_slip_ends():
     """It sticks at 71.9635 and slips again at 71.9747: 1e42 of heat stayed for good."""
     many = slide_many(STEMMED, THROWN, Coulomb(0.3), 100.0, EDGE, rtol=1e-9)
-    assert abs(many.energy_error) < 0.01 and 0 < many.heat < 60
+    assert abs(many.energy_error) < 1e-7 and 0 < many.heat < 60
 
 
 def test_what_cannot_be_followed_says_so():

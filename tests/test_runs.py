@@ -322,7 +322,7 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
             progress(0.0)
         return slide(*arguments, progress=progress, **named)
 
-    monkeypatch.setattr(lesson, "slide", slowly)
+    monkeypatch.setattr(lesson_sliding, "slide", slowly)
     lesson_sliding.slid.cache_clear()
     explorer = Explorer()
     learn = Learn(explorer, SimpleNamespace(followers=[]), page.runs)

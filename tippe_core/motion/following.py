@@ -58,7 +58,7 @@ def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: i
 @compiled
 def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     """One step, or its part before an event; the event or NO_ONE."""
-    y, S, C, _ball, _stem = W.y, W.step, W.contacts, W.modes[BALL], W.modes[STEM]
+    y, S, C = W.y, W.step, W.contacts
     slowest = change_variables(W, P)
     if W.rated:  # the last stage of the step before
         S.K[0, :] = S.K[STAGES]

@@ -118,7 +118,7 @@ def sensitivity(
 def checked_nudge(nudge: float) -> float:
     """nudge, or a TopError."""
     if finite("nudge", nudge) == 0:
-        raise TopError("nudge", nudge, "nudge > 0")
+        raise TopError("nudge", nudge, "nudge != 0")
     return float(nudge)
 
 

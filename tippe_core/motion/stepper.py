@@ -93,6 +93,11 @@ def densely(W: Record, P: Record, slowest: int, h: float) -> None:
     for i in range(16):
         moved = S.new[i] - S.z[i]
         F[0, i], F[1, i], F[2, i] = moved, h * K[0, i] - moved, 2 * moved - h * (K[STAGES, i] + K[0, i])
+        for m in range(4):
+            total = 0.0
+            for j in range(16):
+                total += D[m, j] * K[j, i]
+            F[3 + m, i] = h * total
 
 
 @compiled
