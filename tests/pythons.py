@@ -93,6 +93,8 @@ def tried(name, python, browser, constraints=None):
         said = subprocess.run([inside, "-c", asked], cwd=folder, capture_output=True, text=True, check=True).stdout
         version, app, versions = said.strip().split(", ", 2)
         print(f"{name}: Python {version}, {versions}", flush=True)
+        # Visitors to a server without kernels: test_compiled.py.
+        subprocess.run([inside, "-m", "tippe_core"], cwd=folder, stdout=subprocess.DEVNULL, check=True)
         good = True
         for command in (["-m", "app"], ["-m", "panel", "serve", app]):
             print("  python", *command[:3], flush=True)
