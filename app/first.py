@@ -19,6 +19,12 @@ from app.widgets.top3d import Top3D
 PAGE = Path(__file__).with_name("first.html")
 
 
+def top_of(rooms):
+    """The rolling top of the first view that has one and is made already; None where none is."""
+    found = (top for room in rooms for top in room.select(Top3D))
+    return next((top for top in found if not top.clock), None)
+
+
 def variables(top, search):
     """What PAGE needs. top: the Top3D that the page begins with, or None; search: of the address that it is for."""
     found = {"bundles": [kind._render_esm(True, server=True) for kind in (Bundled, pmui.Page)]}

@@ -10,21 +10,26 @@ import param
 from app import first, text
 from app.model.builder import Builder
 from app.model.planes import Planes
+from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
 from app.share.share import Share
-from app.state.keep import Field, OneOf, explorer_of, read
+from app.state.keep import Field, OneOf, explorer_of, kept, read
 from app.tabs.families.compare import Compare
-from app.tabs.learn.learn import Learn, kept
+from app.tabs.learn.learn import Learn
+from app.tabs.learn.learn import kept as kept_of_learn
 from app.tabs.learn.student import student_page
 from app.tabs.planes.three_planes import KEPT, ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.tabs.workshop.measure import Measure
 from app.tabs.workshop.workshop import Workshop
 from app.text import say
-from app.widgets.cards import PLAIN, card, grid
+from app.widgets.cards import PLAIN, card, grid, section
 from app.widgets.connection import Connection
+from app.widgets.controls import Controls
 from app.widgets.failure import attempt, failure
-from app.widgets.look import widgets
+from app.widgets.guide import Guide
+from app.widgets.look import Look, widgets
+from app.widgets.pacing import Pacer
 from app.widgets.tabs import tabs
 
 STILL = {"@media (prefers-reduced-motion: reduce)": {"&, & *": {"transition": "none !important",
@@ -74,15 +79,15 @@ class Tongue(param.Parameterized):
     lang = param.Selector(default="", objects=["", *text.LANGUAGES], doc='"": the one the browser prefers')
     KNOWN = {"lang": Field("lang", OneOf(**{name: name for name in text.LANGUAGES}), undoable=False)}  # noqa: RUF012
 
-    def choice(self, share):
-        """The control. share: the Share that keeps the state and the address."""
-        share.keep.add(self, self.KNOWN)
+    def choice(self, keep, reload):
+        """The control. keep: a Keep; reload: what loads the page anew."""
+        keep.add(self, self.KNOWN)
         select = pmui.RadioButtonGroup(label="", options={name: key for key, name in text.LANGUAGES.items()},
                                        value=text.spoken(), size="small", margin=(4, 16), sx=PLAIN)  # fmt: skip
 
         def chosen(event):
             self.lang = event.new
-            share.reload()
+            reload()
 
         select.param.watch(chosen, "value")
         return select
@@ -93,42 +98,93 @@ def on_a_phone():
     return "mobi" in pn.state.headers.get("User-Agent", "").lower()
 
 
-def build_view(explorer, roll, builder):
-    workshop = Workshop(builder, explorer, roll.pacer.soon)
-    roll.followers.append(workshop.show_scene)
-    workshop.show_scene(explorer.scene)
-    measure = card(say("main.cards.measure"), *Measure(builder).view, height="max-content")
-    measure.styles = measure.styles | {"grid-column": "1 / -1"}
-    return grid(
-        card(say("main.cards.section"), *workshop.section_view, height="max-content"),
-        card(say("main.cards.bench"), *workshop.bench_view, height="max-content"),
-        measure,
-    )
+class House:
+    """What a page has besides its views, each made with its own part of it: the Explorer that solves, the Pacer that is
+    asked and shows its scenes, the Builder of bodies, how the top is played, what is kept, and what runs beside."""
+
+    def __init__(self, texts, sentence):
+        self.explorer, wrong = explorer_of(texts)
+        self.pacer = Pacer(self.explorer)
+        self.builder = Builder(self.explorer.scene, self.pacer.ask)
+        self.pacer.shows(self.builder.follow, "hand")
+        self.playing = Playing()
+        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))))
+        post = to_session(pn.state.curdoc)
+        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
+        pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
+        pn.state.onload(self.pacer.begin)
+
+    @property
+    def scene(self):
+        return self.explorer.scene
+
+    # ---- the tabs, each made when it is first looked at ----
+
+    def roll(self):
+        return Roll(self.pacer, self.playing).main
+
+    def build(self):
+        workshop = Workshop(self.builder, self.pacer.soon)
+        self.pacer.shows(workshop.show, "rest")
+        measure = card(say("main.cards.measure"), *Measure(self.builder).view, height="max-content")
+        measure.styles = measure.styles | {"grid-column": "1 / -1"}
+        return grid(
+            card(say("main.cards.section"), *workshop.section_view, height="max-content"),
+            card(say("main.cards.bench"), *workshop.bench_view, height="max-content"),
+            measure,
+        )
+
+    def planes(self):
+        planes = Planes(self.scene, self.runs)
+        self.keep.add(planes, KEPT)
+        inputs = {name: getattr(planes, name) for name in ("plane", *Planes.INPUTS)}
+        view = ThreePlanes(inputs, self.pacer.ask_of(planes), self.pacer.ask, self.builder.choose, planes)
+        planes.param.watch(lambda event: view.show(event.new), "picture")
+        planes.param.watch(lambda event: view.look(event.new), "plane")
+        planes.param.watch(lambda event: view.wait(), "busy")
+        if planes.picture is not None:
+            view.show(planes.picture)
+        view.wait()
+        self.pacer.shows(planes.see, "hand")
+        self.pacer.shows(planes.follow, "rest")
+        return view.main
+
+    def families(self):
+        compare = Compare(self.scene, self.runs)
+        self.pacer.shows(compare.show, "hand")
+        compare.draw(compare.family.value)
+        compare.compute()
+        return grid(
+            card(say("main.cards.compare"), *compare.figures_view, height="max-content"),
+            card(say("main.cards.map"), *compare.map_view, height="max-content"),
+            narrowest=1000,
+        )
+
+    def learn(self):
+        learn = Learn(self.scene, self.pacer.ask, self.runs)
+        self.pacer.shows(learn.show, "rest")
+        self.keep.add(learn, kept_of_learn())
+        learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
+        return learn.view
+
+    TABS = {"roll": roll, "three-planes": planes, "build-a-top": build, "families": families, "learn": learn}  # noqa: RUF012
 
 
-def planes_view(explorer, roll, builder, keep, runs):
-    planes = Planes(explorer, builder, runs)
-    roll.followers.append(planes.follow)
-    keep.add(planes, KEPT)
-    return ThreePlanes(planes, builder, roll.pacer.request).main
-
-
-def family_view(explorer, runs):
-    compare = Compare(explorer, runs)
-    compare.show(compare.family.value)
-    compare.compute()
-    return grid(
-        card(say("main.cards.compare"), *compare.figures_view, height="max-content"),
-        card(say("main.cards.map"), *compare.map_view, height="max-content"),
-        narrowest=1000,
-    )
-
-
-def learn_view(explorer, roll, keep, runs):
-    learn = Learn(explorer, roll, runs)
-    keep.add(learn, kept())
-    learn.param.watch(lambda event: keep.at_rest(), "room")  # at once: a reload would lose it
-    return learn.view
+def sidebar(controls, look, language):
+    """What a person sets, beside every tab."""
+    return [
+        section(say("roll.sections.motion")),
+        *controls.motion,
+        section(say("roll.sections.table")),
+        *controls.views("mu_s"),
+        section(say("roll.sections.top")),
+        *controls.views("a", "I1", "I3"),
+        section(say("roll.sections.pictures")),
+        *controls.pictures,
+        section(say("roll.sections.page")),
+        look.switches,
+        language,
+    ]
 
 
 def alone(page):
@@ -147,39 +203,33 @@ def page():
     if "vote" in texts:  # a student's link
         return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"]), failed], theme_toggle=False,
                          busy_indicator=None, stylesheets=STYLE)  # fmt: skip
-    explorer, wrong = explorer_of(texts)
-    roll = Roll(explorer)
-    builder = Builder(explorer, roll.pacer.request)
-    post = to_session(pn.state.curdoc)
-    runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
-    pn.state.curdoc.on_session_destroyed(lambda context: runs.leave())
-    share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))), runs)
-    share.keep.param.watch(lambda event: builder.follow(), "returned")
+    house, look, guide = House(texts, sentence), Look(width=0, height=0, margin=0), Guide(margin=(0, 8))
+    pacer, keep = house.pacer, house.keep
+    controls = Controls(house.scene, pacer.ask, pacer.soon)
+    keep.add(controls, Controls.KNOWN)
+    share = Share(keep, house.playing, house.scene, house.runs)
+    keep.add(look, Look.KNOWN)
+    language = Tongue().choice(keep, share.reload)
+    for show, when in ((share.show, "hand"), (controls.follow, "hand"), (controls.show, "rest"), (guide.show, "rest")):
+        pacer.shows(show, when)
+    rooms = tabs({name: partial(make, house) for name, make in House.TABS.items()}, keep, pacer.soon)
     pn.state.curdoc.template_variables.update(
-        first.variables(None if "tab" in texts else roll.top, pn.state.location.search)
+        first.variables(None if "tab" in texts else first.top_of(rooms), pn.state.location.search)
     )
     return pmui.Page(
         template=first.PAGE,
         title=say("main.title"),
-        sidebar=[*roll.sidebar, Tongue().choice(share)],
+        sidebar=sidebar(controls, look, language),
         sidebar_open=not on_a_phone(),
-        header=[*share.header, roll.guide],
+        header=[*share.header, guide],
+        # look and painted are not in the sidebar: what lies there is drawn anew each time that it opens on a phone
         main=[
             *share.main,
-            *roll.hidden,
+            look,
+            pacer.painted,
             Connection(words=say("main.lost"), width=0, height=0, margin=0),
             failed,
-            *tabs(
-                {
-                    "roll": lambda: roll.main,
-                    "three-planes": lambda: planes_view(explorer, roll, builder, share.keep, runs),
-                    "build-a-top": lambda: build_view(explorer, roll, builder),
-                    "families": lambda: family_view(explorer, runs),
-                    "learn": lambda: learn_view(explorer, roll, share.keep, runs),
-                },
-                share.keep,
-                roll.pacer.soon,
-            ),
+            *rooms,
         ],
         sidebar_width=320,
         sidebar_resizable=False,

@@ -5,15 +5,19 @@ import math
 import panel_material_ui as pmui
 import pytest
 from bokeh.document import Document
+from house import builder_of
 from panel.io.state import set_curdoc
 
-from app.model.builder import Builder
 from app.model.explorer import Explorer
-from app.share.share import TOP
+from app.model.playing import Playing
+from app.share.share import PLAYING
 from app.state.keep import Field, Keep, Numbers, OneOf
 from app.tabs.roll.roll import Roll
 from app.tabs.workshop.workshop import Workshop
+from app.widgets.controls import Controls
+from app.widgets.pacing import Pacer
 from app.widgets.surface3d import Surface3D
+from app.widgets.top3d import Top3D
 
 VALUES = {"None": None, "True": True, "-1": -1, "10**400": 10**400, "1e308": 1e308, "nan": math.nan, "empty": "",
           "long": "x" * 5000, "list": [], "dict": {}, "nested": [[{"a": [None]}], {"b": 1}]}  # fmt: skip
@@ -25,9 +29,14 @@ def value(request):
 
 
 @pytest.fixture
-def roll():
+def explorer():
+    return Explorer()
+
+
+@pytest.fixture
+def pacer(explorer):
     with set_curdoc(Document()):
-        yield Roll(Explorer())
+        yield Pacer(explorer)
 
 
 @pytest.fixture
@@ -50,34 +59,36 @@ def lists(value, *others):
 
 
 @pytest.mark.slow
-def test_a_dial_passes_over_what_it_never_sends(roll, value, one_line):
-    control = roll.controls._controls["K_J"]
+def test_a_dial_passes_over_what_it_never_sends(explorer, pacer, value, one_line):
+    controls = Controls(explorer.scene, pacer.ask, pacer.soon)
+    control = controls._controls["K_J"]
     for typed, wish in ((False, 6.0), (True, "6")):
         for sent in lists(value, 1, wish, typed):
             control.view.asked = sent
-            assert math.isfinite(roll.pacer.explorer.scene.constants.K_J)
+            assert math.isfinite(explorer.scene.constants.K_J)
     control.view.asked = [99, 6.25, False]
-    assert roll.pacer._wanted.get("K_J", roll.pacer.explorer.K_J) == 6.25
+    assert pacer._wanted.get("K_J", explorer.K_J) == 6.25
 
 
 @pytest.mark.slow
-def test_a_hand_on_a_picture_passes_over_what_it_never_sends(roll, value, one_line):
+def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, pacer, value, one_line):
+    roll = Roll(pacer, Playing())
     while not roll.main.select(Surface3D):
-        roll.pacer.later.pop(0)()
-    [surface] = roll.main.select(Surface3D)
-    for part, name, right in ((roll.top, "tilted", (0.5, 1.0, 2)), (surface, "hand", ("line", 0.5, 6.0)),
+        pacer._later.pop(0)()
+    [surface], [top] = roll.main.select(Surface3D), roll.main.select(Top3D)
+    for part, name, right in ((top, "tilted", (0.5, 1.0, 2)), (surface, "hand", ("line", 0.5, 6.0)),
                               (surface, "picked", (6.0, 0.5))):  # fmt: skip
         for sent in lists(value, *right):
             if value != 1e308:  # a number, if an odd one: it is answered as such
                 setattr(part, name, sent)
-    assert math.isfinite(roll.pacer.explorer.scene.constants.K_J)
+    assert math.isfinite(explorer.scene.constants.K_J)
 
 
 @pytest.mark.slow
 def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line):
     with set_curdoc(Document()):
         explorer = Explorer()
-        workshop = Workshop(Builder(explorer), explorer)
+        workshop = Workshop(builder_of(explorer))
         knob = next(iter(workshop._knobs.values()))
         for sent in lists(value, 1, 20.0, False):
             if value != 1e308:  # a number, if an odd one: it is answered as such
@@ -88,12 +99,14 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
 
 
 @pytest.mark.slow
-def test_what_has_no_word_in_a_link_goes_back_to_what_was(roll, value, one_line):
-    keep = Keep()
-    keep.add(roll.top, TOP)
+def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line):
+    keep, playing = Keep(), Playing()
+    roll = Roll(pacer, playing)
+    keep.add(playing, PLAYING)
+    [top] = roll.main.select(Top3D)
     tabs = pmui.Tabs(("a", pmui.Button()), ("b", pmui.Button()))
     keep.add(tabs, {"active": Field("tab", OneOf(a=0, b=1), undoable=False)})
-    for owner, name in ((roll.top, "camera"), (roll.top, "speed"), (tabs, "active")):
+    for owner, name in ((top, "camera"), (top, "speed"), (tabs, "active")):
         before = getattr(owner, name)
         for sent in (value, [value], [1.0, value, 2.0]):
             try:

@@ -262,14 +262,13 @@ assert compile_all() == ""
 compiled.made.clear()
 
 from app.model import family, lesson
-from app.model.builder import Builder
 from app.model.explorer import Explorer
 from app.model.planes import LAWS, Planes
 explorer = Explorer()
 for step in lesson.STEPS:
     explorer.param.update(**step.inputs(explorer.scene.top))
     step.answer(explorer.scene)
-planes = Planes(explorer, Builder(explorer))
+planes = Planes(explorer.scene)
 for law in LAWS:
     planes.param.update(law=law, seconds=0.5)
     planes.param.update(by="constants")

@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 import pytest
+from house import builder_of
 
-from app.model.builder import Builder
 from app.model.dimensions import FAMILIES, sentence
 from app.model.explorer import Explorer
 from app.model.planes import PRESETS as STARTS
@@ -76,7 +76,7 @@ def test_every_body_and_start_has_a_name(language):
 
 def test_an_error_is_told_in_german_with_the_units_of_the_sliders(monkeypatch):
     monkeypatch.setattr("app.text._ask", [lambda: "de"])
-    builder = Builder(Explorer())
+    builder = builder_of(Explorer())
     builder.set("c", 0.5)
     said = builder.draft.messages["c"]
     assert said.startswith("c = 500 mm ist nicht möglich: erlaubt ist") and "(mm, der Schnitt geht" in said

@@ -191,8 +191,11 @@ def test_what_cannot_be_is_said_beside_its_control_and_the_picture_stays(explore
     assert list(explorer.scene.messages) == [name]
     assert says in explorer.scene.messages[name]
     for part in dataclasses.fields(good):
-        if part.name != "messages":
+        if part.name not in ("messages", "inputs"):
             assert getattr(explorer.scene, part.name) is getattr(good, part.name)
+    asked = explorer.scene.inputs
+    assert {key for key, was in good.inputs.items() if asked[key] is not was and asked[key] != was} <= {name, "E"}
+    assert asked[name] is value
     setattr(explorer, name, before)
     assert not explorer.scene.messages
 
@@ -341,7 +344,8 @@ def test_what_was_can_be_put_back(explorer, change):
 
 def test_the_face_shown_changes_nothing(explorer):
     scene, scenes, before = explorer.scene, watch(explorer), inputs_of(explorer)
-    explorer.face = "state"
+    controls = Controls(scene, explorer.param.update, lambda make: make())
+    controls.face = "state"
     assert explorer.scene is scene and not scenes and inputs_of(explorer) == before
 
 
@@ -411,20 +415,26 @@ def test_a_top_that_no_body_is_is_refused_at_once(name, top):
 @pytest.fixture
 def pacer(explorer, monkeypatch):
     """With three pictures, of which the second fails; drawn lists what was drawn."""
-    drawn, timers = [], []
+    drawn, timers, failing = [], [], []
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
 
     def fails(scene):
         raise ZeroDivisionError
 
-    pictures = [lambda scene: drawn.append("first"), fails, lambda scene: drawn.append("last")]
-    pacer = Pacer(explorer, lambda scene: drawn.append("hand"), pictures, lambda scene: drawn.append("words"))
+    pacer = Pacer(explorer)
+    pacer.shows(lambda scene: drawn.append("hand"), "hand")
+    for picture in (lambda scene: drawn.append("first"), lambda scene: failing and fails(scene),
+                    lambda scene: drawn.append("last")):  # fmt: skip
+        pacer.shows(picture, "pictures")
+    pacer.shows(lambda scene: drawn.append("words"), "rest")
+    drawn.clear()
+    failing.append(True)
     pacer.timers, pacer.drawn = timers, drawn
     return pacer
 
 
 def test_a_picture_that_fails_keeps_no_other_back(pacer):
-    pacer.request(K_J=6.5)
+    pacer.ask(K_J=6.5)
     with pytest.raises(ZeroDivisionError):
         pacer.painted.painted = pacer.painted.sent
     assert pacer.drawn == ["hand", "first", "last", "words"]
@@ -432,7 +442,7 @@ def test_a_picture_that_fails_keeps_no_other_back(pacer):
 
 def test_a_hand_comes_to_rest_also_where_a_picture_fails(pacer):
     for K_J in (6.5, 6.6, 6.7):
-        pacer.request(K_J=K_J)
+        pacer.ask(K_J=K_J)
     pacer._requested -= 1  # it is long ago
     pacer._hands.clear()
     with pytest.raises(ZeroDivisionError):
@@ -441,13 +451,13 @@ def test_a_hand_comes_to_rest_also_where_a_picture_fails(pacer):
             pacer._drawing.clear()
     pacer.drawn.clear()
     pacer._drawing.clear()
-    pacer.request(K_J=6.8)
+    pacer.ask(K_J=6.8)
     assert pacer._single and pacer.drawn[0] == "hand"
 
 
 def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, pacer):
-    explorer.face = "state"
-    controls = Controls(explorer, pacer)
+    controls = Controls(explorer.scene, pacer.ask, pacer.soon)
+    controls.face = "state"
     for name in ("omega3", "theta_dot"):
         before = explorer.scene
         controls._request(name, 9e6, typed=True)

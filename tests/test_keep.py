@@ -12,10 +12,11 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from app.model.explorer import Explorer
+from app.model.playing import Playing
 from app.share.parts import Clock
 from app.state.keep import EXPLORER, LONGEST_QUERY, STEPS, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
 from app.text import say
-from app.widgets.top3d import Top3D
+from app.widgets.controls import Controls
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
 
 # Version 1 of the links: a default or a name that is not as here makes old links mean something else.
@@ -53,7 +54,9 @@ def assert_same_picture(explorer, other):
 
 
 def test_version_1_is_what_it_was():
-    assert {field.key: Explorer.param[name].default for name, field in EXPLORER.items()} == VERSION_1
+    parts = {Explorer: EXPLORER, Controls: Controls.KNOWN}
+    assert {field.key: owner.param[name].default for owner, known in parts.items() for name, field in known.items()
+            } == VERSION_1  # fmt: skip
 
     assert kept(Explorer()).query == ""
 
@@ -247,7 +250,7 @@ def test_a_view_made_later_gets_its_part_of_the_link():
 
 
 def test_every_input_of_the_explorer_is_kept():
-    left = set(Explorer.param) - set(EXPLORER) - {"name", "scene", "cursor"}
+    left = set(Explorer.param) - set(EXPLORER) - {"name", "scene"}
     assert not left
     assert all(field.key == field.key.strip("_") for field in EXPLORER.values())
     assert len({field.key for field in EXPLORER.values()}) == len(EXPLORER)
@@ -255,7 +258,7 @@ def test_every_input_of_the_explorer_is_kept():
 
 
 def test_what_was_paused_plays_on_when_it_is_played():
-    top = Top3D()
+    top = Playing()
     keep, clock = Keep(), Clock(top)
     keep.add(clock, Clock.KNOWN)
     for playing in (False, True, False, True):

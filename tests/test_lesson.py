@@ -46,7 +46,7 @@ def test_every_step_has_words_for_every_top(step, top):
     """The planned motion is what the inputs give, all numbers are there, and the answer is one of the options."""
     scene = explored(step, top)
     explorer = Explorer(a=top.a, I1=top.I1, I3=top.I3)
-    plan = lesson.planned(step, explorer.scene, explorer.shape)
+    plan = lesson.planned(step, explorer.scene)
     assert np.array_equal(plan.trajectory.theta, scene.trajectory.theta)
     answer, asks = step.answer(scene), step.asks(scene)
     assert "{" not in say(f"learn.{step.name}.question", **answer.numbers)

@@ -5,10 +5,12 @@ from links import known, opened
 
 from app.page import Tongue
 from app.share.parts import Clock
-from app.share.share import LOOK, TOP
+from app.share.share import PLAYING
 from app.state.keep import EXPLORER
 from app.tabs.learn import learn
 from app.tabs.planes.three_planes import KEPT
+from app.widgets.controls import Controls
+from app.widgets.look import Look
 
 LINKS = known()
 
@@ -29,7 +31,7 @@ def approximately(found):
 
 
 # What the views keep, each by itself.
-VIEWS = (EXPLORER, Clock.KNOWN, TOP, LOOK, Tongue.KNOWN, KEPT, learn.kept())
+VIEWS = (EXPLORER, Controls.KNOWN, Clock.KNOWN, PLAYING, Look.KNOWN, Tongue.KNOWN, KEPT, learn.kept())
 
 
 def test_no_two_settings_have_one_name():

@@ -7,10 +7,10 @@ from queue import Queue
 
 import numpy as np
 import pytest
+from house import builder_of, choose, planes_of
 
-from app.model.builder import Builder
 from app.model.explorer import Explorer
-from app.model.planes import PRESETS, Planes
+from app.model.planes import PRESETS
 from app.model.planes_picture import LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES
 from app.model.planes_run import THROWN, for_reader, nudged, solve, touches
 from app.model.regimes import ENDS, SLIPS, WORDS
@@ -32,17 +32,17 @@ def explorer():
 
 @pytest.fixture
 def planes(explorer):
-    return Planes(explorer, Builder(explorer))
+    return planes_of(explorer)
 
 
-def chosen(planes, name):
-    planes.choose(name)
+def chosen(explorer, planes, name):
+    choose(name, explorer, planes)
     assert not planes.picture.messages
     return planes.picture
 
 
 @pytest.mark.slow
-def test_the_first_look_is_a_flip_and_only_where_it_slides(planes):
+def test_the_first_look_is_a_flip_and_only_where_it_slides(explorer, planes):
     motions = planes.picture.motions
     assert planes.plane == "sliding" and motions["sliding"].overturned < motions["sliding"].t[-1] / 2
     assert all(np.isnan(motions[plane].overturned) for plane in ("rough", "smooth"))
@@ -55,8 +55,8 @@ def test_the_first_look_is_a_flip_and_only_where_it_slides(planes):
     "name, verdict, low, high",
     [("fast", "turns over", 3.1, np.pi), ("hangs", "hangs", 1.905, 1.914), ("never", "goes upright", 0, 0.01)],
 )
-def test_the_three_regimes_of_top_S(planes, name, verdict, low, high):
-    picture = chosen(planes, f"Top S {name}")
+def test_the_three_regimes_of_top_S(explorer, planes, name, verdict, low, high):
+    picture = chosen(explorer, planes, f"Top S {name}")
     theta = picture.motions["sliding"].trajectory.theta
     assert picture.outcome.verdict == verdict
     assert np.all((theta[-50:] >= low) & (theta[-50:] <= high))
@@ -64,12 +64,12 @@ def test_the_three_regimes_of_top_S(planes, name, verdict, low, high):
         other = picture.motions[plane].trajectory
         assert other.theta.max() < np.radians(6)
         assert np.all(other.omega[:, 2] > 0)
-    assert chosen(planes, f"no friction: {name}").state == picture.state and planes.plane == "smooth"
+    assert chosen(explorer, planes, f"no friction: {name}").state == picture.state and planes.plane == "smooth"
 
 
 @pytest.mark.slow
-def test_an_ordinary_top_rises_above_its_own_threshold(planes):
-    picture = chosen(planes, "An ordinary top rises")
+def test_an_ordinary_top_rises_above_its_own_threshold(explorer, planes):
+    picture = chosen(explorer, planes, "An ordinary top rises")
     top, limits = picture.settings.top, picture.outcome.thresholds
     assert top.a < 0 and picture.motions["sliding"].trajectory.theta[-1] < np.radians(1)
     # physics.md: upright is stable if omega^2 > Mg|a|(1 - alpha)^2/(I3(1 - alpha) - I1)
@@ -80,7 +80,7 @@ def test_an_ordinary_top_rises_above_its_own_threshold(planes):
 
 
 @pytest.mark.slow
-def test_all_three_are_tippe_cores_from_one_start(planes):
+def test_all_three_are_tippe_cores_from_one_start(explorer, planes):
     planes.param.update(law="coulomb", mu_k=0.2, mu_s=0.3, spin=15.0, tilt=25.0, slip=0.4, stem=False, seconds=2.0)
     picture, scales, top = planes.picture, planes.picture.settings.scales, Top.paper()
     spin, theta = 15 * 2 * np.pi * np.sqrt(0.016 / 9.81), np.radians(25)
@@ -118,8 +118,8 @@ def test_a_start_by_constants_is_the_motion_of_the_tab_roll(explorer, planes):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [HAND, "Top S hangs", "An ordinary top rises"])
-def test_the_ledger_adds_up_and_heat_only_grows(planes, name):
-    motion = chosen(planes, name).motions["sliding"]
+def test_the_ledger_adds_up_and_heat_only_grows(explorer, planes, name):
+    motion = chosen(explorer, planes, name).motions["sliding"]
     ledger = motion.ledger
     total = sum(ledger.values())
     assert np.ptp(total) < 1e-6 * total[0]
@@ -128,7 +128,7 @@ def test_the_ledger_adds_up_and_heat_only_grows(planes, name):
 
 
 @pytest.mark.slow
-def test_what_survives_on_each_plane(planes):
+def test_what_survives_on_each_plane(explorer, planes):
     planes.param.update(stem=False, tilt=60.0, spin=4.0, seconds=2.0)
     stays = {
         plane: {name for name, drift in motion.drift.items() if drift < 1e-7}
@@ -140,7 +140,7 @@ def test_what_survives_on_each_plane(planes):
 
 
 @pytest.mark.slow
-def test_the_stem_ends_what_one_contact_keeps(planes):
+def test_the_stem_ends_what_one_contact_keeps(explorer, planes):
     until, event, drift = planes.picture.motions["sliding"].alone
     shape, moved = planes.picture.settings.shape, planes.picture.motions["sliding"].trajectory
     *_, last_but_one, last = moved.theta[moved.t < until]
@@ -151,7 +151,7 @@ def test_the_stem_ends_what_one_contact_keeps(planes):
 
 
 @pytest.mark.slow
-def test_a_motion_that_stops_early_stands_still_to_the_end(planes):
+def test_a_motion_that_stops_early_stands_still_to_the_end(explorer, planes):
     planes.param.update(by="constants", landing="stop", seconds=3.0)
     motion = planes.picture.motions["sliding"]
     assert motion.ended == "lifts off" and motion.trajectory.t[-1] < 0.5 * motion.t[-1]
@@ -163,7 +163,7 @@ def test_a_motion_that_stops_early_stands_still_to_the_end(planes):
 
 
 @pytest.mark.slow
-def test_a_stem_that_throws_the_top_up_is_not_the_table_that_lets_it_go(planes):
+def test_a_stem_that_throws_the_top_up_is_not_the_table_that_lets_it_go(explorer, planes):
     """slide() calls both "lifts off"; where it is the stem's first touch, the tilt then is that of the touch."""
     shape = planes.picture.settings.shape
     for omega3, event in ((5.0, THROWN), (15.0, "lifts off")):
@@ -182,8 +182,7 @@ def test_a_stem_that_throws_the_top_up_is_not_the_table_that_lets_it_go(planes):
 @pytest.fixture(scope="module")
 def usual():
     """The first look's picture."""
-    explorer = Explorer()
-    return Planes(explorer, Builder(explorer)).picture
+    return planes_of(Explorer()).picture
 
 
 def ran(usual, **settings):
@@ -291,9 +290,9 @@ def test_no_bead_is_above_the_energy_that_it_has(usual):
 @cache
 def first_of(body):
     explorer = Explorer()
-    builder = Builder(explorer)
+    builder = builder_of(explorer)
     builder.choose(body)
-    return Planes(explorer, builder).picture.settings
+    return planes_of(explorer).picture.settings
 
 
 def of(body, **settings):
@@ -365,7 +364,7 @@ def test_no_other_part_of_the_body_is_below_the_table(body, most):
 
 
 @pytest.mark.slow
-def test_a_start_by_constants_that_is_refused_is_answered_beside_the_constants(planes):
+def test_a_start_by_constants_that_is_refused_is_answered_beside_the_constants(explorer, planes):
     """The slider of the tilt is not there then."""
     rolling = replace(planes.picture.settings, rolling=planes.picture.state)
     planes._publish(rolling, TopError("tilt", 100.0, "at most 90"))
@@ -402,7 +401,7 @@ def test_a_run_beside_the_run_tells_where_a_nudge_decides(usual, explorer):
     assert not scatter_words(replace(calm, growth=little))
     assert "one of many" in scatter_words(replace(wild, growth=much))
     posted = Queue()
-    threaded = Planes(explorer, Builder(explorer), Runs(posted.put))
+    threaded = planes_of(explorer, Runs(posted.put))
     while threaded.picture is None or threaded.picture.growth is None:
         posted.get(timeout=120)()
     assert 5 < threaded.picture.growth < 60
@@ -435,7 +434,7 @@ def test_a_limit_is_told_in_what_stands_beside_the_controls():
     assert (error.name, error.value) == ("spin", pytest.approx(10 * np.sqrt(9.81 / 0.016) / (2 * np.pi), rel=1e-5))
 
 
-def test_the_longest_time_that_a_refusal_names_is_one_that_is_taken(planes):
+def test_the_longest_time_that_a_refusal_names_is_one_that_is_taken(explorer, planes):
     settings = replace(planes.picture.settings, spin=300.0, seconds=MOST_SECONDS)
     with pytest.raises(TopError) as error:
         settings.times  # noqa: B018
@@ -445,7 +444,7 @@ def test_the_longest_time_that_a_refusal_names_is_one_that_is_taken(planes):
         replace(settings, seconds=1.02 * most).times  # noqa: B018
 
 
-def test_the_times_of_a_slow_run_and_of_one_that_precesses_fast(planes):
+def test_the_times_of_a_slow_run_and_of_one_that_precesses_fast(explorer, planes):
     settings = replace(planes.picture.settings, spin=0.0, tilt=0.0, seconds=0.05)
     assert len(settings.times) == LEAST_FRAMES + 1 and settings.times[-1] * settings.scales.time == pytest.approx(0.05)
     fast = replace(settings, rolling=State(1.0, 0.0, 60.0, 0.0), seconds=2.0)
@@ -453,7 +452,7 @@ def test_the_times_of_a_slow_run_and_of_one_that_precesses_fast(planes):
 
 
 @pytest.mark.parametrize("top", [Top.paper(), Top(-2.0, 4.5, 1.0)])
-def test_the_height_in_the_ledger_is_that_of_G_above_its_lowest_place(planes, top):
+def test_the_height_in_the_ledger_is_that_of_G_above_its_lowest_place(explorer, planes, top):
     settings = replace(planes.picture.settings, top=top, shape=None, stem=False, tilt=60.0, seconds=0.5)
     motion = solve(settings).motions["sliding"]
     height = motion.trajectory.com[:, 2]  # of G above the table, 1 - a cos(theta); least where 3 points up, or down
@@ -461,7 +460,7 @@ def test_the_height_in_the_ledger_is_that_of_G_above_its_lowest_place(planes, to
 
 
 @pytest.mark.parametrize("plane", PLANES)
-def test_the_arrows_of_the_force_obey_newton(planes, plane):
+def test_the_arrows_of_the_force_obey_newton(explorer, planes, plane):
     """F and the weight, along the axes of space, are what moves G: against second differences of its place."""
     start = State(1.0, 0.0, 3.0, 2.0, vx=1.0, vy=0.5)
     settings = replace(planes.picture.settings, stem=False, rolling=start, law="viscous", gamma=0.5, seconds=0.1)
@@ -474,14 +473,14 @@ def test_the_arrows_of_the_force_obey_newton(planes, plane):
 
 
 @pytest.mark.parametrize("late, touched", [(0.1, True), (0.01, False)])
-def test_a_lift_off_is_laid_to_the_stem_where_the_top_has_come_to_touch_with_it(planes, late, touched):
+def test_a_lift_off_is_laid_to_the_stem_where_the_top_has_come_to_touch_with_it(explorer, planes, late, touched):
     """A tilt of 0.5 a unit of time, 0.05 short of the touch at the last sample before."""
     settings = planes.picture.settings
     moved = roll(Top.paper(), None, [0.0, 1e-3, 1.0], State(settings.touch_angle - 0.05, 0.5, 0.0, 0.0))
     assert touches(moved, 1e-3 + late, settings) == touched
 
 
-def test_a_run_of_which_no_while_is_on_the_ball_has_the_well_of_its_start_at_no_time(planes):
+def test_a_run_of_which_no_while_is_on_the_ball_has_the_well_of_its_start_at_no_time(explorer, planes):
     picture = planes.picture
     motion = picture.motions["sliding"]
     end = motion.ending
@@ -491,14 +490,14 @@ def test_a_run_of_which_no_while_is_on_the_ball_has_the_well_of_its_start_at_no_
     assert well.end < 0 and well.C_J == picture.outcome.C_J
 
 
-def test_a_start_past_a_right_angle_has_not_overturned_where_it_falls_back(planes):
+def test_a_start_past_a_right_angle_has_not_overturned_where_it_falls_back(explorer, planes):
     """Without spin, 100 degrees up: it falls to the other side of a right angle, which is no turning over."""
     settings = replace(planes.picture.settings, stem=False, tilt=100.0, spin=0.0, seconds=0.3)
     motion = solve(settings).motions["sliding"]
     assert len(motion.crossings) and np.isnan(motion.overturned)
 
 
-def test_a_run_is_done_to_the_share_of_its_seconds(planes):
+def test_a_run_is_done_to_the_share_of_its_seconds(explorer, planes):
     class Halfway:
         elapsed, reached = 1.0, 0.5 * planes.seconds / planes.picture.settings.scales.time
 
@@ -508,8 +507,8 @@ def test_a_run_is_done_to_the_share_of_its_seconds(planes):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [HAND, "Top S fast"])
-def test_no_frame_turns_the_top_far(planes, name):
-    for motion in chosen(planes, name).motions.values():
+def test_no_frame_turns_the_top_far(explorer, planes, name):
+    for motion in chosen(explorer, planes, name).motions.values():
         q = motion.trajectory.quaternion
         turn = 2 * np.arccos(np.clip(np.abs((q[1:] * q[:-1]).sum(axis=1)), 0, 1))
         assert turn.max() < MOST_TURN + 1e-6
@@ -530,7 +529,7 @@ BAD = [
 
 
 @pytest.mark.slow
-def test_a_bad_value_is_said_and_the_last_good_picture_stays(planes):
+def test_a_bad_value_is_said_and_the_last_good_picture_stays(explorer, planes):
     planes.param.update(seconds=1.0)
     before = planes.picture
     for control, inputs in BAD:
@@ -544,7 +543,7 @@ def test_a_bad_value_is_said_and_the_last_good_picture_stays(planes):
 
 
 @pytest.mark.slow
-def test_at_the_poles_and_without_spin_there_is_an_answer(planes):
+def test_at_the_poles_and_without_spin_there_is_an_answer(explorer, planes):
     planes.stem = False
     for inputs in ({"tilt": 0.0}, {"tilt": 180.0}, {"tilt": 10.0, "spin": 0.0}, {"tilt": 60.0, "spin": -20.0}):
         planes.param.update(seconds=1.0, **inputs)
@@ -555,14 +554,14 @@ def test_at_the_poles_and_without_spin_there_is_an_answer(planes):
 @pytest.mark.slow
 def test_a_preset_brings_its_body(explorer, planes):
     body = next(body for body in BODIES if body.name == "Top S")
-    assert chosen(planes, "Top S fast").settings.top == body.shape.top == explorer.scene.top
+    assert chosen(explorer, planes, "Top S fast").settings.top == body.shape.top == explorer.scene.top
     assert planes.picture.settings.scales.R == explorer.scene.scales.R == 0.02
 
 
 @pytest.mark.slow
 def test_of_many_asked_for_at_once_the_newest_is_shown_and_a_run_can_be_stopped(explorer):
     posted, shown = Queue(), []
-    planes = Planes(explorer, Builder(explorer), Runs(posted.put))
+    planes = planes_of(explorer, Runs(posted.put))
 
     def finish():
         while planes.busy:
@@ -594,6 +593,8 @@ def test_of_many_asked_for_at_once_the_newest_is_shown_and_a_run_can_be_stopped(
 
 @pytest.mark.slow
 def test_a_place_on_the_map_keeps_I3(explorer, planes):
-    view = ThreePlanes(planes, Builder(explorer), explorer.param.update)
+    inputs = {"plane": "sliding", **planes.picture.inputs}
+    view = ThreePlanes(inputs, planes.param.update, explorer.param.update, builder_of(explorer).choose, planes)
+    view.show(planes.picture)
     view.pick(0.2, 0.9)
     assert explorer.scene.top == Top(0.2, 0.9 * 0.408, 0.408)

@@ -4,11 +4,10 @@ import re
 
 import numpy as np
 import pytest
+from house import planes_of
 from visiting import PIXEL, Visit
 
-from app.model.builder import Builder
 from app.model.explorer import Explorer
-from app.model.planes import Planes
 from tippe_core import PRESETS
 
 pytestmark = pytest.mark.served
@@ -40,8 +39,7 @@ def page(server, chromium):
 @pytest.fixture(scope="module")
 def first():
     """The picture of the first look."""
-    explorer = Explorer()
-    return Planes(explorer, Builder(explorer)).picture
+    return planes_of(Explorer()).picture
 
 
 def field(page, name):

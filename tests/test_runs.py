@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from bokeh.document import Document
 from bokeh.server.tornado import BokehTornado
+from house import planes_of
 from panel.io.application import build_single_handler_application
 from panel.io.state import set_curdoc
 from wire import run as run_async
@@ -22,11 +23,9 @@ from wire import until
 
 from app.model import lesson, lesson_sliding
 from app.model.ballots import Sqlite
-from app.model.builder import Builder
 from app.model.classroom import Rooms
 from app.model.explorer import Explorer
 from app.model.family import share_map
-from app.model.planes import Planes
 from app.model.runs import TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn
@@ -325,14 +324,14 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
     monkeypatch.setattr(lesson_sliding, "slide", slowly)
     lesson_sliding.slid.cache_clear()
     explorer = Explorer()
-    learn = Learn(explorer, SimpleNamespace(followers=[]), page.runs)
+    learn = Learn(explorer.scene, explorer.param.update, page.runs)
     learn.step = name
     assert not moves, "a question needs no run"
     learn.guesses[name] = {"free": "over", "proof": "agree", "flip": 3.0}[name]
     explorer.param.update(**learn.now.inputs(explorer.scene.top))
-    learn.show_scene(explorer.scene)
+    learn.show(explorer.scene)
     assert say("learn.page.wait") in learn.verdict.object and not learn.explanation.object
-    learn.show_scene(explorer.scene)  # again: the one before ends, and is not told
+    learn.show(explorer.scene)  # again: the one before ends, and is not told
     page.next()
     assert say("learn.page.wait") in learn.verdict.object
     go.set()
@@ -347,7 +346,7 @@ def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch
 def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy, monkeypatch):
     monkeypatch.setattr("app.model.planes.PATIENCE", 0.0)
     explorer = Explorer()
-    planes = Planes(explorer, Builder(explorer), page.runs)
+    planes = planes_of(explorer, page.runs)
     planes.spin = 21.0
     planes.spin = 22.0  # before the session hears that the first is not run
     busy.end()
@@ -363,7 +362,7 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
 
     nothing = next(share_map(0.4, 10.0, 0.5, np.array([0.07]), np.array([1.0, 1.1])))[1]
     monkeypatch.setattr("app.tabs.families.compare.share_map", slowly)
-    compare = Compare(Explorer(), page.runs)
+    compare = Compare(Explorer().scene, page.runs)
     compare.compute()
     first = compare._run
     compare.compute()  # two clicks, before the button is seen to be taken away
@@ -378,9 +377,9 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
 @pytest.mark.slow
 def test_the_answer_of_a_vote_asked_for_twice_is_told_once(page, busy, monkeypatch, tmp_path):
     monkeypatch.setattr("app.tabs.learn.teach.page_address", lambda: "http://localhost/app")
-    told, rooms = [], Rooms(Sqlite(tmp_path / "votes"))
+    told, scene, rooms = [], Explorer().scene, Rooms(Sqlite(tmp_path / "votes"))
     with set_curdoc(Document()):
-        vote = Vote(Explorer(), page.runs, SimpleNamespace(room=""))
+        vote = Vote(lambda: scene, page.runs, SimpleNamespace(room=""))
         monkeypatch.setattr(vote, "_reveal", lambda step, asks, truth: told.append(truth))
         monkeypatch.setattr(vote._counter, "ask", lambda work, done: done(work(rooms)))
         vote.open.clicks += 1

@@ -11,9 +11,8 @@ from typing import TypeAlias
 import numpy as np
 import param
 
-from app.model.bodies import fits
 from app.model.dimensions import FAMILIES, MASS, Dimension, Value, changed, density_dimension, sentence
-from app.model.explorer import Explorer
+from app.model.scene import Scene
 from app.text import listed, say
 from tippe_core import (
     PRESETS,
@@ -85,9 +84,10 @@ class Draft:
 
 
 class Builder(param.Parameterized):
-    """Changes the body of an Explorer. Every change, or refusal, is one `draft` event.
+    """Asks for other bodies. What stands on the bench, `draft`, is the body of the last scene that it was given, and
+    what was refused since; one event a change.
 
-    request: what takes the Explorer's new inputs, Explorer.param.update or a Pacer's request.
+    ask: takes inputs of the Explorer; follow() is to be called with each of its scenes.
     """
 
     # __init__ makes the first one
@@ -95,20 +95,31 @@ class Builder(param.Parameterized):
         class_=Draft, constant=True, doc="the body as it stands"
     )
 
-    def __init__(self, explorer: Explorer, request: Callable[..., object] | None = None) -> None:
+    def __init__(self, scene: Scene, ask: Callable[..., object]) -> None:
         super().__init__()  # type: ignore[no-untyped-call]  # of param
-        self._explorer, self._request = explorer, request or explorer.param.update
-        self._publish(_draft(explorer.shape, self._present))
+        self._ask, self._scene = ask, scene
+        self._coming: Shape | None = None  # asked for, and not in a scene yet: a next edit is of this one
+        self._top = scene.top
+        self._publish(_draft(scene.inputs["shape"], scene.top))
+
+    def follow(self, scene: Scene) -> None:
+        """Shows the body of this scene, whoever asked for it."""
+        self._scene, self._coming, shape = scene, None, scene.inputs["shape"]
+        if (shape, scene.top) != (self.draft.shape, self._top):
+            now = _draft(shape, scene.top)
+            if (now.shape, now.name) != (self.draft.shape, self.draft.name):
+                self._publish(now)
+            self._top = scene.top
 
     def set(self, name: str, value: float | tuple[float, float]) -> None:
         """One dimension, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
-        self._try(name, lambda: changed(self.draft.shape, name, value))
+        self._try(name, lambda: changed(self._body, name, value))
 
     @property
     def _lathe(self) -> Lathe:
         """The body, where it is one of points."""
-        assert isinstance(self.draft.shape, Lathe)
-        return self.draft.shape
+        assert isinstance(self._body, Lathe)
+        return self._body
 
     def add_point(self, x: float = 0.0, z: float | None = None) -> None:
         """A point of a Lathe's profile: at radius |x| and height z, or in the middle of its longest piece."""
@@ -116,7 +127,7 @@ class Builder(param.Parameterized):
         if z is None:
             rows = np.array(points)
             index = int(np.hypot(*np.diff(rows, axis=0).T).argmax()) + 1 if len(rows) > 1 else 1
-            x, z = rows[index - 1 : index + 1].mean(axis=0) if len(rows) > 1 else rows[0] + [0, self.draft.shape.R]
+            x, z = rows[index - 1 : index + 1].mean(axis=0) if len(rows) > 1 else rows[0] + [0, self._body.R]
         else:
             index = sum(height <= z for _, height in points)
         self._rows("points", lambda rows, fill: (*rows[:index], fill(rows, index), *rows[index:]), (abs(x), z))
@@ -148,13 +159,13 @@ class Builder(param.Parameterized):
         def made() -> Shape:
             form = {"cylinder": lambda: cylinder(r, low, high), "cone": lambda: frustum(r, 0.0, low, high),
                     "ball": lambda: ball(r, (low + high) / 2)}[kind]()  # fmt: skip
-            return self.draft.shape + density * form
+            return self._body + density * form
 
         self._try("piece", made)
 
     def take_off(self) -> None:
         """Undoes the last compose of a Turned body."""
-        shape = self.draft.shape
+        shape = self._body
         self._try("piece", lambda: Turned(R=shape.R, solid=Solid(shape.solid.slices[:-1])))
 
     def choose(self, name: str) -> None:
@@ -175,12 +186,6 @@ class Builder(param.Parameterized):
             "file", "too large", "at most {most} bytes", "A saved top is far smaller.", code="file-too-large",
             most=largest))  # fmt: skip
 
-    def follow(self) -> None:
-        """Shows the body that the Explorer was given by something else."""
-        now = _draft(self._explorer.shape, self._present)
-        if (now.shape, now.name) != (self.draft.shape, self.draft.name):
-            self._publish(now)
-
     def save(self) -> str:
         """The body as the text of a small JSON file."""
         return save_top(self.draft.shape)
@@ -195,22 +200,22 @@ class Builder(param.Parameterized):
 
     def measured(self, *, M: float, R: float, a: float) -> None:
         """A sphere of this M and R with a/R as measured and the inertia, in MR^2, of the body on the bench."""
-        own = self.draft.shape.top
+        own = self._body.top
         self._try("measured", lambda: BareSphere(R=R, M=M, a=a, I1=own.I1, I3=own.I3))
 
     def attach(self) -> None:
         """Gives the Explorer the body's own a, I1 and I3 back."""
-        self._adopt(self.draft.shape, self._keep)
+        self._adopt(self._body, self._keep)
 
     @property
     def attached(self) -> bool:
-        """Whether the Explorer's a, I1 and I3 are the body's."""
-        return fits(self.draft.shape, self._present)
+        """Whether the scene's a, I1 and I3 are the body's."""
+        return self._scene.shape is not None
 
     @property
-    def _present(self) -> Top:
-        """The Explorer's top."""
-        return Top(self._explorer.a, self._explorer.I1, self._explorer.I3)
+    def _body(self) -> Shape:
+        """What an edit begins with."""
+        return self._coming or self.draft.shape
 
     def _take(self, preset: Preset) -> None:
         self._adopt(preset.shape, top=preset.top)
@@ -229,25 +234,27 @@ class Builder(param.Parameterized):
 
     def _adopt(self, shape: Shape, motion: Motion | None = None, top: Top | None = None) -> None:
         top = top or shape.top
-        self._publish(_draft(shape, top))
         K_J, K_R = motion(shape) if motion else thrown(shape, top)
-        self._request(shape=shape, a=top.a, I1=top.I1, I3=top.I3, K_J=K_J, K_R=K_R)
+        self._coming = shape
+        self._ask(shape=shape, a=top.a, I1=top.I1, I3=top.I3, K_J=K_J, K_R=K_R)
+        if self.draft.messages:
+            self._publish(replace(self.draft, messages=MappingProxyType({})))
 
     def _publish(self, draft: Draft) -> None:
         with param.edit_constant(self):
             self.draft = draft
 
     def _keep(self, shape: Shape) -> tuple[float, float]:
-        """K_J and K_R of the same spin in rad/s near theta = 0, and the same share of P, as the Explorer has now."""
-        explorer = self._explorer
-        if explorer.scene.top == shape.top and explorer.scene.scales == shape.scales:
-            return explorer.K_J, explorer.K_R
-        before = explorer.scene.top
-        slower = shape.scales.time / explorer.scene.scales.time
-        K_R = explorer.K_R * slower * (f3_squared(0.0, shape.top) / f3_squared(0.0, before)) ** 0.5
-        pole = pole_constants(before, explorer.K_R)[0]
-        share = explorer.K_J / pole if pole else 0.0
-        return float(share * pole_constants(shape.top, K_R)[0]), float(K_R)
+        """K_J and K_R of the same spin in rad/s near theta = 0, and the same share of P, as the scene has now."""
+        scene = self._scene
+        K_J, K_R = scene.inputs["K_J"], scene.inputs["K_R"]
+        if scene.top == shape.top and scene.scales == shape.scales:
+            return K_J, K_R
+        slower = shape.scales.time / scene.scales.time
+        spun = K_R * slower * (f3_squared(0.0, shape.top) / f3_squared(0.0, scene.top)) ** 0.5
+        pole = pole_constants(scene.top, K_R)[0]
+        share = K_J / pole if pole else 0.0
+        return float(share * pole_constants(shape.top, spun)[0]), float(spun)
 
 
 def thrown(shape: Shape, top: Top | None = None) -> tuple[float, float]:

@@ -47,9 +47,6 @@ class Explorer(param.Parameterized):
     limit: param.Selector[str] = param.Selector(
         default="lift-off", objects=["lift-off", "slip"], doc="which limit Fig. 5 is drawn at"
     )
-    face: param.Selector[str] = param.Selector(
-        default="constants", objects=["constants", "state"], doc="which face the controls show; it changes nothing else"
-    )
     # __init__ makes the first one
     scene: param.ClassSelector[Scene] = param.ClassSelector(  # type: ignore[assignment]
         class_=Scene, constant=True, doc="the last solution"
@@ -109,10 +106,9 @@ class Explorer(param.Parameterized):
             if self.scene is None:
                 raise
             control = {"E": "energy"}.get(error.name, error.name)
-            self._follow(scene=replace(self.scene, messages=MappingProxyType({control: told(error)})))
+            asked = {name: getattr(self, name) for name in self.scene.inputs}
+            self._follow(scene=replace(self.scene, inputs=MappingProxyType(asked),
+                                       messages=MappingProxyType({control: told(error)})))  # fmt: skip
             return
-        found = {"energy": scene.share} | {name: getattr(scene.constants, name) for name in self.GIVEN["E"]}
-        found |= {name: getattr(scene.state, name) for name in self.GIVEN["state"]}
-        self._follow(
-            scene=scene, **{name: value for name, value in found.items() if name not in self.GIVEN[self.given]}
-        )
+        motion = {name for names in self.GIVEN.values() for name in names} - set(self.GIVEN[self.given])
+        self._follow(scene=scene, **{name: scene.inputs[name] for name in motion})

@@ -5,6 +5,7 @@ import numpy as np
 from tippe_core import (
     Constants,
     Top,
+    Trajectory,
 )
 from tippe_core.types import Array
 
@@ -31,3 +32,14 @@ def axes(theta: Array, phi: Array) -> tuple[Array, Array, Array, Array]:
     across = np.column_stack([-np.sin(phi), np.cos(phi), zero])
     up = np.array([0.0, 0.0, 1.0])
     return nodal, across, c * up - s * across, s * up + c * across
+
+
+def in_space(motion: Trajectory) -> tuple[Array, Array, Array]:
+    """The table's force, the angular velocity and the angular momentum about G, along x, y, z; each (n, 3)."""
+    top = motion.top
+    nodal, across, axis, towards = axes(motion.theta, motion.phi)
+    w1, w2, w3 = (component[:, None] for component in motion.omega.T)
+    F_x, F_y, F_z = (component[:, None] for component in motion.force.T)
+    across_axis = w1 * nodal + w2 * towards
+    force = F_x * nodal + F_y * across + F_z * (0, 0, 1)
+    return force, across_axis + w3 * axis, top.I1 * across_axis + top.I3 * w3 * axis

@@ -12,10 +12,7 @@ from app.model.lesson_parts import K_R, Answer, Guess, Guessed, Step, at, choice
 from app.model.lesson_rolling import energy, jellett, jump, lifting, routh, slip, taken, ties, turning
 from app.model.lesson_sliding import K_R_THROWN, flip, free, needed_spin, proof, thrown
 from app.model.scene import Scene, solve
-from tippe_core import (
-    Shape,
-    State,
-)
+from tippe_core import State
 
 # ---- the steps ----
 
@@ -83,11 +80,11 @@ STEPS = (
 NAMES = tuple(step.name for step in STEPS)
 
 
-def planned(step: Step, scene: Scene, shape: Shape | None) -> Scene:
-    """The Scene that a step's inputs give this scene's top; shape: the Explorer's."""
+def planned(step: Step, scene: Scene) -> Scene:
+    """The Scene that a step's inputs give this scene's top."""
     inputs = step.inputs(scene.top)
     state = {name: inputs[name] for name in ("theta", "theta_dot", "omega2", "omega3") if name in inputs}
-    share = inputs.get("energy", 0.0)
+    share, shape = inputs.get("energy", 0.0), scene.inputs["shape"]
     return solve(scene.top, inputs.get("K_J", 0.0), K_R, inputs.get("mu_s", scene.mu_s), share, shape=shape,
                  state=State(**state) if state else None)  # fmt: skip
 

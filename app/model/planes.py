@@ -7,11 +7,10 @@ from types import MappingProxyType
 import numpy as np
 import param
 
-from app.model.builder import Builder
-from app.model.explorer import Explorer
-from app.model.planes_picture import LAWS, PLANES, Picture, Settings
+from app.model.planes_picture import LAWS, PLANES, SET, Picture, Settings
 from app.model.planes_run import for_reader, hits, nudged, solve
 from app.model.runs import Result, Run, Runs, Stopped
+from app.model.scene import Scene
 from app.text import say, told
 from tippe_core import (
     Scales,
@@ -48,11 +47,17 @@ PRESETS = {
 """{name: the body, one of tippe_core.PRESETS, and inputs of Planes}."""
 
 
+def preset(name: str) -> tuple[str, dict[str, Number]]:
+    """The name of its body, to be thrown anew, and the inputs of its start."""
+    inputs = dict(PRESETS[name])
+    return inputs.pop("body"), inputs
+
+
 class Planes(param.Parameterized):
     """The controls. Several set in one `param.update` make one run, and one `picture` event when it is done.
 
-    builder: a Builder of the explorer. runs: the page's Runs; of several asked for while one is under way only the
-    newest is made.
+    see() is to be called with each scene, whose top it is about, and follow() with that of a hand at rest. runs: the
+    page's Runs; of several asked for while one is under way only the newest is made.
     """
 
     plane: param.Selector[str] = param.Selector(
@@ -80,27 +85,24 @@ class Planes(param.Parameterized):
     busy = param.Boolean(False, constant=True, doc="whether a run is under way")
     picture = param.ClassSelector(class_=Picture, constant=True, doc="the last solution; None before the first")
 
-    FRICTION = ("law", "mu_k", "mu_s", "gamma", "mu", "eps")
-    INPUTS = ("by", "spin", "tilt", "slip", *FRICTION, "landing", "stem", "seconds")
+    INPUTS = ("by", *SET)
 
-    def __init__(self, explorer: Explorer, builder: Builder, runs: Runs | None = None) -> None:
-        self._explorer, self._builder, self._runs = explorer, builder, runs or Runs()
+    def __init__(self, scene: Scene, runs: Runs | None = None) -> None:
+        self._scene, self._runs = scene, runs or Runs()
         self._run: Run | None = None
         self._beside: Run | None = None
         self._wanted: Settings | None = None
         self._told_to_stop = False
         super().__init__()  # type: ignore[no-untyped-call]  # of param
 
-    def choose(self, name: str) -> None:
-        """A preset: the body, thrown anew, and the start."""
-        inputs = dict(PRESETS[name])
-        self._builder.choose(inputs.pop("body"))
-        self.param.update(**inputs)
-        self.follow()
+    def see(self, scene: Scene) -> None:
+        """What is asked for from now on is about this scene."""
+        self._scene = scene
 
-    def follow(self, _scene: object = None) -> None:
-        """Runs again if the explorer's top, or the motion chosen there, is another than the one last asked for; when
-        what is set together with it is set too, as by an undo."""
+    def follow(self, scene: Scene) -> None:
+        """Runs again if the top, or the motion chosen for rolling, is another than the one last asked for; when what is
+        set together with it is set too, as by an undo."""
+        self.see(scene)
         self._runs.post(self._follow)
 
     def _follow(self) -> None:
@@ -132,14 +134,13 @@ class Planes(param.Parameterized):
             self._run.stop()
 
     def _settings(self) -> Settings:
-        scene = self._explorer.scene
-        rolling = None
+        scene, rolling = self._scene, None
         if self.by == "constants":
             start, a = scene.state, scene.top.a
             s, c = np.sin(start.theta), np.cos(start.theta)
             vx, vy = start.omega2 * (c - a) - start.omega3 * s, -start.theta_dot * (1 - a * c)
             rolling = replace(start, phi=0.0, psi=0.0, vx=float(vx), vy=float(vy))
-        inputs = {name: getattr(self, name) for name in self.INPUTS if name != "by"}
+        inputs = {name: getattr(self, name) for name in SET}
         return Settings(
             top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile, rolling=rolling, **inputs
         )
@@ -192,6 +193,7 @@ class Planes(param.Parameterized):
             if self.picture is None:
                 return
             result = replace(self.picture, messages=MappingProxyType(messages))
+        result = replace(result, inputs=MappingProxyType({name: getattr(self, name) for name in self.INPUTS}))
         with param.edit_constant(self):
             self.picture = result
         if not messages and self._runs.beside and not self.busy and hits(result):

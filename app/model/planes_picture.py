@@ -6,7 +6,7 @@ In units of R, M and g but for what a person sets: rev/s, degrees, s.
 from dataclasses import dataclass, field
 from itertools import groupby
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,6 +32,7 @@ from tippe_core.types import Array, Indices, Rim
 
 PLANES = ("rough", "smooth", "sliding")
 LAWS = ("coulomb", "viscous", "smoothed")
+SET = ("spin", "tilt", "slip", "law", "mu_k", "mu_s", "gamma", "mu", "eps", "landing", "stem", "seconds")
 KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
 
 MOST_SECONDS = 60.0
@@ -65,6 +66,17 @@ class Settings:
     landing: str
     stem: bool
     seconds: float
+
+    @property
+    def inputs(self) -> MappingProxyType[str, Any]:
+        """What a person set, by the names of the Planes."""
+        by = "spin" if self.rolling is None else "constants"
+        return MappingProxyType({name: getattr(self, name) for name in SET} | {"by": by})
+
+    @property
+    def turns(self) -> float:
+        """rev/s in one unit of angular velocity."""
+        return self.scales.angular_velocity / (2 * np.pi)
 
     @property
     def friction(self) -> Friction:
@@ -198,8 +210,8 @@ class Picture:
     """All that the views show. motions: {plane: Motion or None}; None: the sentence why is in messages at the plane.
 
     outcome: of the ball alone. growth: how many times NUDGE grew in the run beside the sliding one, None without that.
-    messages: a sentence for each control that was given what cannot be, "run" for a run that was stopped; the rest is
-    then the last good one.
+    inputs: what is set in the Planes, by their names. messages: a sentence for each control that was given what cannot
+    be, "run" for a run that was stopped; the rest but for the inputs is then the last good one.
     """
 
     settings: Settings
@@ -207,8 +219,24 @@ class Picture:
     friction: Friction
     motions: MappingProxyType[str, Motion | None]
     outcome: Outcome
+    inputs: MappingProxyType[str, Any]
     growth: float | None = None
     messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def turns(self) -> float:
+        """The spin of the start, rev/s."""
+        return self.state.omega3 * self.settings.turns
+
+    @property
+    def slip(self) -> float:
+        """The speed of the slip at the start, m/s."""
+        state, a = self.state, self.settings.top.a
+        s, c = np.sin(state.theta), np.cos(state.theta)
+        vx, vy = state.vx or 0.0, state.vy or 0.0
+        ux = vx - (state.omega2 * (c - a) - state.omega3 * s)
+        uy = vy + state.theta_dot * (1 - a * c)
+        return float(self.settings.scales.velocity * np.hypot(ux, uy))
 
     def wells(self, plane: str) -> tuple[Well, ...]:
         """(Well, ...) of the motion on a plane, one for each while of more than SHORT in which no stem touched: a

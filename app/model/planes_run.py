@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 
 from app.model.bodies import body
-from app.model.frames import axes
+from app.model.frames import in_space
 from app.model.planes_picture import (
     KEPT,
     NEAR_TOUCH,
@@ -68,7 +68,7 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
             motions[plane], messages[plane] = None, told(for_reader(error, settings.scales))
     return Picture(
         settings=settings, state=state, friction=settings.friction, motions=MappingProxyType(motions),
-        outcome=outcome(top, state, settings.scales), messages=MappingProxyType(messages),
+        outcome=outcome(top, state, settings.scales), inputs=settings.inputs, messages=MappingProxyType(messages),
     )  # fmt: skip
 
 
@@ -145,17 +145,11 @@ def for_reader(error: TopError, scales: Scales) -> TopError:
 
 
 def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str) -> Motion:
-    top, F, n = trajectory.top, trajectory.force, len(trajectory.t)
+    n = len(trajectory.t)
     code = np.array([{"roll": ROLLS, "slip": SLIPS, "air": FLIES}[word] for word in trajectory.regime])
     if plane == "rough":
-        code[F[:, 2] < 0] = WOULD_LIFT
-    nodal, across, axis, towards = axes(trajectory.theta, trajectory.phi)
-    w1, w2, w3 = (component[:, None] for component in trajectory.omega.T)
-    frames = [
-        trajectory.t, trajectory.quaternion, trajectory.contact, trajectory.com,
-        F[:, :1] * nodal + F[:, 1:2] * across + F[:, 2:] * (0, 0, 1), w1 * nodal + w2 * towards + w3 * axis,
-        top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis, code,
-    ]  # fmt: skip
+        code[trajectory.force[:, 2] < 0] = WOULD_LIFT
+    frames = [trajectory.t, trajectory.quaternion, trajectory.contact, trajectory.com, *in_space(trajectory), code]
     ended = n < len(times)
     if ended:
         frames = [np.concatenate([rows, rows[-1:]]) for rows in frames]

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
 from app.model.bodies import body, fits, outline
-from app.model.frames import axes, frame_times
+from app.model.frames import frame_times, in_space
+from app.model.marks import LARGEST, Marks, energy_marks
 from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP
 from app.model.region import MESH_COLUMNS, K_J_range, Plane, between, height, least_energy, plane
 from app.text import say
@@ -25,13 +27,13 @@ from tippe_core import (
     TopError,
     Trajectory,
     TruncatedSphere,
-    figures,
     omega3,
     turning_points,
 )
 from tippe_core.paper.curve import rounded_f
 from tippe_core.types import Array, Indices
 
+STATE, TOP = ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"), ("a", "I1", "I3")
 # At its limit a motion rolls still: rounding is not to say otherwise.
 AT_LIMIT = 1e-9
 SAMPLES_A_NUTATION = 128
@@ -39,43 +41,8 @@ LEVELS = (0.15, 0.4, 0.7, 1.0, 2.0)
 LEVEL_COLUMNS = 32
 POTENTIAL_COLUMNS = 160
 
-# Beyond these the squares of what follows leave a float's range, or its digits the motion, and solving takes seconds.
-LARGEST, LEAST_INERTIA = 1e6, 1e-12
-
-# A limit that is never reached still needs a place on the energy slider: this share of the energy above the last one.
-UNLIMITED = 0.25
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Marks:
-    """The energies that the energy control is marked with, E; inf where nothing limits, nan where even the steady
-    precession breaks the limit. nodes: the (3,) finite energies at which the control stands at 0, 1 and 2."""
-
-    steady: float
-    slip: float
-    lift: float
-    theta_steady: float
-    nodes: Array
-
-    def energy(self, share: float) -> float:
-        """0 the steady precession, 1 the limit of friction, 2 that of F_z; straight on beyond 2, and below 0."""
-        slopes = np.diff(self.nodes)
-        if share < 0:
-            return self.nodes[0] + share * (slopes[0] or slopes[1])
-        if share > 2:
-            return self.nodes[2] + (share - 2) * (slopes[1] or slopes[0])
-        return float(np.interp(share, (0, 1, 2), self.nodes))
-
-    def share(self, energy: float) -> float:
-        """The inverse of energy(share)."""
-        start, middle, end = self.nodes
-        if energy < start:
-            return (energy - start) / ((middle - start) or (end - start))
-        if energy > end:
-            return 2 + (energy - end) / ((end - middle) or (end - start))
-        if middle > start and energy <= middle:
-            return (energy - start) / (middle - start)
-        return 1 + (energy - middle) / (end - middle) if end > middle else 1.0
+# Of a, I1 and I3: below it the digits of what follows leave the motion, and solving takes seconds.
+LEAST_INERTIA = 1e-12
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -84,8 +51,9 @@ class Scene:
 
     ratio is F_h/F_z; regime a code a frame, of regimes.py; upright_spin omega_3 at theta = 0; profile (k, 2) the
     radius of the body drawn and its height above O along axis 3; shape the body, None where a, I1, I3 were set apart
-    from it, and then scales are still its R and M. messages: a sentence for each control that was given what cannot be;
-    the rest of the scene is then the last good one. notes: sentences about what is shown.
+    from it, and then scales are still its R and M. inputs: all that was asked for, by the names of the Explorer.
+    messages: a sentence for each control that was given what cannot be; the rest of the scene, but for the inputs, is
+    then the last good one. notes: sentences about what is shown.
     """
 
     top: Top
@@ -112,8 +80,20 @@ class Scene:
     upright_spin: float
     profile: Array
     shape: Shape | None
+    inputs: MappingProxyType[str, Any]
     messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
     notes: tuple[str, ...] = ()
+
+    @property
+    def turns(self) -> float:
+        """The spin near theta = 0, rev/s."""
+        return float(self.upright_spin * self.scales.angular_velocity / (2 * np.pi))
+
+    @property
+    def drift(self) -> float:
+        """By how much K_J, K_R and E, each computed from the motion, differ between two frames at most: of their size
+        where that is more than 1."""
+        return float(max(np.ptp(each) / max(1, np.abs(each).max()) for each in (self.K_J, self.K_R, self.E)))
 
     # What not every picture shows is computed when the first one asks.
 
@@ -179,18 +159,10 @@ def solve(
     Raises TopError, whose name is the input at fault.
     """
     shape = shape or TruncatedSphere.paper()
-    drawn = shape if fits(shape, top) else None
     if state is not None:
         constants = Constants.from_state(top, state.theta, state.theta_dot, state.omega2, state.omega3)
         K_J, K_R, E = float(constants.K_J), float(constants.K_R), float(constants.E)
-    for name, value in {"K_J": K_J, "K_R": K_R, "mu_s": mu_s, "E": share if E is None else E}.items():
-        if not abs(value) <= LARGEST:
-            raise TopError(name, value, "at most {most:g} either way", "No top is ever so fast, no table so rough.",
-                           code="too-large", most=LARGEST)  # fmt: skip
-    for name, least, unit in (("a", -LARGEST, "R"), ("I1", LEAST_INERTIA, "MR^2"), ("I3", LEAST_INERTIA, "MR^2")):
-        if not least <= (value := getattr(top, name)) <= LARGEST:
-            raise TopError(name, value, "{least:g} to {most:g} ({unit})", "No body is so thin, or so wide.",
-                           code="no-such-body", least=least, most=LARGEST, unit=unit)  # fmt: skip
+    _check_sizes(top, {"K_J": K_J, "K_R": K_R, "mu_s": mu_s, "E": share if E is None else E})
     marks = energy_marks(top, K_J, K_R, mu_s)
     if E is None:
         E = marks.energy(share)
@@ -199,36 +171,59 @@ def solve(
     else:
         share = marks.share(E)
     if share < 0 or not np.isfinite(share):
-        raise TopError(
-            "E",
-            E,
-            "E >= {least:.10g} MgR at K_J = {K_J:g} and K_R = {K_R:g}",
-            "Below the steady precession there is no motion: move the energy up.",
-            code="no-motion",
-            least=float(f"{marks.steady:.6g}"),
-            K_J=K_J,
-            K_R=K_R,
-        )
+        raise TopError("E", E, "E >= {least:.10g} MgR at K_J = {K_J:g} and K_R = {K_R:g}",
+                       "Below the steady precession there is no motion: move the energy up.", code="no-motion",
+                       least=float(f"{marks.steady:.6g}"), K_J=K_J, K_R=K_R)  # fmt: skip
     constants = Constants(K_J, K_R, E)
     if state is not None:
         rolling = Rolling(top, None, start=state)
-        inner, outer = rolling.turning_points
+        turning = rolling.turning_points
     else:
         wells = turning_points(top, constants)
         well = int(np.argmin(np.abs(wells - marks.theta_steady).min(axis=1)))
-        inner, outer = wells[well]
-        rolling = Rolling(top, constants, well=well)
+        turning, rolling = wells[well], Rolling(top, constants, well=well)
     trajectory = rolling(frame_times(rolling.period, top, constants))
-
-    F_x, F_y, F_z = trajectory.force.T
-    with np.errstate(divide="ignore"):
-        ratio = np.hypot(F_x, F_y) / np.abs(F_z)
     if state is None:
         theta, (w1, w2, w3) = trajectory.theta[0], trajectory.omega[0]
         state = State(theta, w1, w2 if 0 < theta < np.pi else 0.0, w3)
-    nodal, across, axis, towards = axes(trajectory.theta, trajectory.phi)
-    w1, w2, w3 = (component[:, None] for component in trajectory.omega.T)
-    theta = between(inner, outer, MESH_COLUMNS)
+    whole = plane(top, K_R, mu_s, upper, limit, *K_J_range(top, K_J, K_R, upper))
+    turns = float(turning[0]), float(turning[1])
+    asked = {"mu_s": mu_s, "upper": upper, "limit": limit, "shape": shape}
+    return _scene(asked, constants, share, marks, state, rolling, whole, turns, trajectory)
+
+
+def _check_sizes(top: Top, numbers: dict[str, float]) -> None:
+    for name, value in numbers.items():
+        if not abs(value) <= LARGEST:
+            raise TopError(name, value, "at most {most:g} either way", "No top is ever so fast, no table so rough.",
+                           code="too-large", most=LARGEST)  # fmt: skip
+    for name, least, unit in (("a", -LARGEST, "R"), ("I1", LEAST_INERTIA, "MR^2"), ("I3", LEAST_INERTIA, "MR^2")):
+        if not least <= (value := getattr(top, name)) <= LARGEST:
+            raise TopError(name, value, "{least:g} to {most:g} ({unit})", "No body is so thin, or so wide.",
+                           code="no-such-body", least=least, most=LARGEST, unit=unit)  # fmt: skip
+
+
+def _scene(
+    asked: dict[str, Any],
+    constants: Constants,
+    share: float,
+    marks: Marks,
+    state: State,
+    rolling: Rolling,
+    whole: Plane,
+    turning: tuple[float, float],
+    trajectory: Trajectory,
+) -> Scene:
+    """What was solved, with all that is seen of it."""
+    top, shape, mu_s = rolling.top, asked["shape"], asked["mu_s"]
+    drawn = shape if fits(shape, top) else None
+    F_x, F_y, F_z = trajectory.force.T
+    with np.errstate(divide="ignore"):
+        ratio = np.hypot(F_x, F_y) / np.abs(F_z)
+    force, omega, momentum = in_space(trajectory)
+    theta = between(*turning, MESH_COLUMNS)
+    inputs = asked | {"K_J": constants.K_J, "K_R": constants.K_R, "energy": share, "E": constants.E}
+    inputs |= {name: getattr(state, name) for name in STATE} | {name: getattr(top, name) for name in TOP}
     return Scene(
         top=top,
         scales=shape.scales,
@@ -238,13 +233,13 @@ def solve(
         marks=marks,
         state=state,
         rolling=rolling,
-        plane=plane(top, K_R, mu_s, upper, limit, *K_J_range(top, K_J, K_R, upper)),
-        turning=(float(inner), float(outer)),
+        plane=whole,
+        turning=turning,
         curve=np.column_stack([theta, height(theta, top, constants)]),
         trajectory=trajectory,
-        force=F_x[:, None] * nodal + F_y[:, None] * across + F_z[:, None] * (0, 0, 1),
-        omega=w1 * nodal + w2 * towards + w3 * axis,
-        momentum=top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis,
+        force=force,
+        omega=omega,
+        momentum=momentum,
         normal=F_z,
         ratio=ratio,
         regime=np.where(F_z < -AT_LIMIT, WOULD_LIFT, np.where(ratio > mu_s + AT_LIMIT, WOULD_SLIP, ROLLS)),
@@ -254,24 +249,8 @@ def solve(
         upright_spin=float(omega3(0.0, top, constants)),
         profile=outline(top) if drawn is None else body(drawn),
         shape=drawn,
-        notes=tuple(remarks(marks, drawn, float(outer))),
-    )
-
-
-def energy_marks(top: Top, K_J: float, K_R: float, mu_s: float) -> Marks:
-    lift, slip = figures(top, [K_J], K_R, mu_s)
-    steady, E_slip, E_lift = float(lift.E_steady[0]), float(slip.E[0]), float(lift.E[0])
-    nodes = [steady]
-    for E in (E_slip, E_lift):
-        if np.isnan(E):
-            E = nodes[-1]
-        elif not E < steady + LARGEST * (1 + abs(steady)):  # no limit, or one that no top ever reaches
-            E = nodes[-1] + UNLIMITED * (1 + abs(steady))
-        nodes.append(max(E, nodes[-1]))  # rounding may put a limit below what it is a limit of
-    if nodes[2] == nodes[0]:
-        nodes[2] += UNLIMITED * (1 + abs(steady))
-    return Marks(
-        steady=steady, slip=E_slip, lift=E_lift, theta_steady=float(lift.theta_steady[0]), nodes=np.array(nodes)
+        inputs=MappingProxyType(inputs),
+        notes=tuple(remarks(marks, drawn, turning[1])),
     )
 
 

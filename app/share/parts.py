@@ -140,20 +140,20 @@ class Photo(JSComponent):
 
 
 class Clock(param.Parameterized):
-    """The time at which a Top3D stands."""
+    """The time at which a Playing stands."""
 
     at = param.Number(default=None, allow_None=True, doc="in (R/g)^1/2; None while it plays")
     KNOWN = {"at": Field("t", Number, undoable=False)}  # noqa: RUF012
 
-    def __init__(self, top):
-        super().__init__(at=None if top.playing else top.time)
-        self._top = top
-        top.param.watch(self._read, ["playing", "time"])
+    def __init__(self, playing):
+        super().__init__(at=None if playing.playing else playing.time)
+        self._playing = playing
+        playing.param.watch(self._read, ["playing", "time"])
         self.param.watch(self._put, "at")
 
     def _read(self, *events):
-        self.at = None if self._top.playing else self._top.time
+        self.at = None if self._playing.playing else self._playing.time
 
     def _put(self, event):
         if event.new is not None:
-            self._top.param.update(time=event.new, playing=False)
+            self._playing.param.update(time=event.new, playing=False)

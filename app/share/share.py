@@ -12,42 +12,35 @@ from app.share import export, glb, programs
 from app.share.letter import letter
 from app.share.parts import MODULE, Address, Clock, Copy, Photo
 from app.share.prints import FIGURES, caption, draw
-from app.state.keep import EXPLORER, Field, Keep, Numbers, OneOf, shared, usual
+from app.state.keep import Field, Numbers, OneOf, shared
 from app.text import listed, say
 from app.widgets.cards import PLAIN, on_click, words
 from app.widgets.download import Download
 from app.widgets.failure import after
 from app.widgets.pacing import at_once
-from app.widgets.top3d import Top3D
 
 # Nothing may move for so long before the address of the page is changed and a step is made, s.
 REST = 0.25
 SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
 SHOWS = {"show_track": "track", "show_com_path": "G", "show_force": "F", "show_cone": "cone", "show_omega": "w",
          "show_momentum": "L", "follow": "follow"}  # fmt: skip
-TOP = (
+PLAYING = (
     {"speed": Field("slow", OneOf(**SPEEDS), undoable=False)}
     | {name: Field(key, OneOf(yes=True, no=False), undoable=False) for name, key in SHOWS.items()}
     | {"camera": Field("view", Numbers(3), undoable=False)}
 )
-LOOK = {name: Field(name, OneOf(yes=True, no=False), undoable=False) for name in ("dark", "large")}
 
 
 class Share:
     """header: the buttons for the page's head; main: what was wrong with the link, and the dialog, above all views.
 
-    roll: the Roll of this Explorer; texts and sentence: of the link, from keep.read and keep.explorer_of; runs: the
-    page's Runs.
+    keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs. show() is for each scene.
     """
 
-    def __init__(self, explorer, roll, texts, sentence, runs=None):
-        self._explorer, self._runs = explorer, runs or Runs()
-        self._top = next(iter(pn.Column(*roll.main).select(Top3D)))
-        self.keep = Keep(texts, sentence, allowed=lambda: not explorer.scene.messages)
-        self.keep.add(explorer, EXPLORER, usual, opened=True)
-        self.keep.add(Clock(self._top), Clock.KNOWN)
-        self.keep.add(self._top, TOP)
-        self.keep.add(roll.look, LOOK)
+    def __init__(self, keep, playing, scene, runs=None):
+        self.keep, self._playing, self._scene, self._runs = keep, playing, scene, runs or Runs()
+        self.keep.add(Clock(playing), Clock.KNOWN)
+        self.keep.add(playing, PLAYING)
         self.address = Address(search=self.keep.query, width=0, height=0, margin=0)
         at_once(self.address, "held", "gesture", "undone", "redone", "page")
         self._notice = pn.Column(sizing_mode="stretch_width", margin=0)
@@ -75,6 +68,9 @@ class Share:
         self.main = [self._notice, self.address, self._dialog]
         self._kept()
 
+    def show(self, scene):
+        self._scene = scene
+
     @staticmethod
     def _button(sign, says, act):
         button = pmui.Button(label=sign, description=says, size="small", variant="text", color="light", margin=0,
@@ -89,7 +85,7 @@ class Share:
 
     def reload(self):
         """Loads the page anew, with its state; where that cannot be, with the last that could."""
-        if self._explorer.scene.messages:
+        if self._scene.messages:
             self.keep.undo()
         self.keep.at_rest()
         self.address.reloads += 1
@@ -135,7 +131,7 @@ class Share:
         except segno.DataOverflowError:
             self._code.object = ""
             self._length.object = say("share.dialog.too_long", letters=len(link))
-        self._photo.caption = list(plain_caption(self._explorer.scene))
+        self._photo.caption = list(plain_caption(self._scene))
         self._show_python()
         self._dialog.open = True
 
@@ -190,17 +186,16 @@ class Share:
 
     @property
     def _slower(self):
-        return 1 / self._top.speed
+        return 1 / self._playing.speed
 
     def _letter(self, scene, link):
-        names = ("time", "playing", "speed", "camera", *SHOWS)
-        return letter(scene, link, {name: getattr(self._top, name) for name in names})
+        return letter(scene, link, self._playing.chosen)
 
     def _show_python(self):
-        self._python.text = programs.PYTHON[self._which.value](self._explorer.scene)
+        self._python.text = programs.PYTHON[self._which.value](self._scene)
 
     def _download(self, label, filename, make):
-        return Download(self._runs, lambda: (self._explorer.scene, self.link), make, label=label, filename=filename,
+        return Download(self._runs, lambda: (self._scene, self.link), make, label=label, filename=filename,
                         margin=0)  # fmt: skip
 
 

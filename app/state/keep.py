@@ -155,7 +155,6 @@ EXPLORER = {
     "psi": Field("psi", Number),
     "upper": Field("half", OneOf(yes=True, no=False)),
     "limit": Field("limit", OneOf(lift="lift-off", slip="slip")),
-    "face": Field("face", OneOf(constants="constants", state="state"), undoable=False),
 }
 FOLLOWING = {name for names in Explorer.GIVEN.values() for name in names}
 
@@ -206,6 +205,13 @@ def explorer_of(texts):
         return Explorer(), say("share.link.impossible", why=why)
 
 
+def kept(explorer, texts=None, sentence=""):
+    """The Keep of a page about this Explorer, of which the link has been obeyed already."""
+    keep = Keep(texts, sentence, allowed=lambda: not explorer.scene.messages)
+    keep.add(explorer, EXPLORER, usual, opened=True)
+    return keep
+
+
 def usual(explorer):
     """{parameter: value} of an Explorer where a query is silent about it: the motion by which it is given, its body."""
     names = [name for name in EXPLORER if name not in FOLLOWING or name in Explorer.GIVEN[explorer.given]]
@@ -242,7 +248,6 @@ class Keep(param.Parameterized):
     can_redo = param.Boolean(default=False, doc="whether there is a step forward")
     sentence = param.String(default="", doc="what was wrong with the link, until something is changed")
     changed = param.Event(doc="something that is kept was set; a hand may still be at it")
-    returned = param.Event(doc="undo or redo has put back what was")
 
     def __init__(self, texts=None, sentence="", allowed=lambda: True):
         super().__init__(sentence=sentence)
@@ -310,7 +315,6 @@ class Keep(param.Parameterized):
         for part in self._parts:
             part.owner.param.update(**self._steps[to][id(part.owner)])
         self._write()
-        self.param.trigger("returned")
 
     def _write(self):
         texts = {}

@@ -8,8 +8,8 @@ import panel_material_ui as pmui
 import param
 
 from app.bundle import Bundled
-from app.model.explorer import Explorer
 from app.state import asked
+from app.state.keep import Field, OneOf
 from app.text import listed, say
 from app.widgets.cards import NOTES, PLAIN, alert, note
 from app.widgets.pacing import at_once
@@ -71,6 +71,8 @@ RANGES = {
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
+PICTURES = {"upper": {"upper": True, "all": False}, "limit": {"lift": "lift-off", "slip": "slip"}}
+OF_A_MOTION = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3", *FACES["state"])
 
 
 def number(value):
@@ -199,74 +201,105 @@ class Control:
         self.view.param.update(**wording(words, wrong))
 
 
-class Controls:
-    """All of them, wired to a Pacer's requests. motion: the sliders of both faces of the motion, and their switch."""
+class Wish:
+    """A widget whose value is a wish for one input: a hand on it asks, and show() puts it where the input is."""
 
-    def __init__(self, explorer, pacer):
-        self._explorer, self._pacer = explorer, pacer
-        self._asked = None  # the control that was used last: there it is said if what follows from it cannot be
-        names = (*Explorer.INPUTS, *FACES["state"])
-        self._controls = {name: Control(name, getattr(explorer, name), self._request) for name in names}
+    def __init__(self, view, name, ask):
+        self.view, self._shown, self._name, self._ask = view, view.value, name, ask
+        view.param.watch(self._chosen, "value")
+
+    def _chosen(self, event):
+        if event.new != self._shown:
+            self._shown = event.new
+            self._ask(**{self._name: event.new})
+
+    def show(self, value):
+        self._shown = value
+        self.view.value = value
+
+
+class Controls(param.Parameterized):
+    """All of them. ask: takes inputs of the Explorer; soon: of a Pacer. show() is for a hand at rest, follow() for each
+    scene. motion: the sliders of both faces of the motion, and their switch; pictures: what Figs. 5 and 6 show."""
+
+    face = param.Selector(default="constants", objects=list(FACES), doc="which face is shown; it changes nothing else")
+    KNOWN = {"face": Field("face", OneOf(**{face: face for face in FACES}), undoable=False)}  # noqa: RUF012
+
+    def __init__(self, scene, ask, soon):
+        super().__init__()
+        self._scene, self._ask = scene, ask
+        self._used = None  # the control that was used last: there it is said if what follows from it cannot be
+        self._busy = False  # whether a hand is on one of them
+        self._controls = {name: Control(name, scene.inputs[name], self._request) for name in OF_A_MOTION}
         self._other = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=(2, 14, 0, 16),
                                    styles={"min-height": "calc(35px * var(--type, 1))"})  # fmt: skip
         switch = pmui.RadioButtonGroup.from_param(
-            explorer.param.face,
+            self.param.face,
             label="",
             options={say(f"controls.faces.{face}"): face for face in FACES},
             size="small",
             margin=(6, 16, 2, 16),
             sx=PLAIN,
         )
-        faces = {face: pn.Column(sizing_mode="stretch_width", margin=0) for face in FACES}
+        self._faces = {face: pn.Column(sizing_mode="stretch_width", margin=0) for face in FACES}
+        self.param.watch(lambda event: soon(self._turn), "face")
+        self._pictures = {name: Wish(pmui.RadioButtonGroup(
+            label="", value=scene.inputs[name], size="small", sx=PLAIN,
+            options={say(f"roll.switches.{key}"): value for key, value in values.items()}), name, ask)
+            for name, values in PICTURES.items()}  # fmt: skip
+        self._turn()
+        self.motion = [switch, *self._faces.values(), self._other]
+        self.pictures = [wish.view for wish in self._pictures.values()]
 
-        def turn(*events):
-            for face, column in faces.items():
-                column.visible = face == explorer.face
-                if column.visible and not column.objects:
-                    column.objects = self.views(*FACES[face])
-            self.show(explorer.scene)
-
-        explorer.param.watch(lambda event: pacer.soon(turn), "face")
-        turn()
-        self.motion = [switch, *faces.values(), self._other]
+    def _turn(self):
+        for face, column in self._faces.items():
+            column.visible = face == self.face
+            if column.visible and not column.objects:
+                column.objects = self.views(*FACES[face])
+        self.show(self._scene)
 
     def _request(self, name, value, typed=False):
-        self._asked = name
+        self._used, self._busy = name, True
         if name in FACES["state"]:
-            self._pacer.request(**{name: value}, given="state")
+            self._ask(**{name: value}, given="state")
         elif name == "energy" and typed:
-            self._pacer.request(E=value, given="E")
+            self._ask(E=value, given="E")
         elif name in FACES["constants"]:
-            self._pacer.request(**{name: value}, given="share")
+            self._ask(**{name: value}, given="share")
         else:
-            self._pacer.request(**{name: value})
+            self._ask(**{name: value})
 
     def views(self, *names):
         return [self._controls[name].view for name in names]
 
     def show(self, scene):
         """On all controls but those of the face that is not looked at."""
+        self._scene, self._busy = scene, False
         notes = self._notes(scene)
-        hidden = {name for face, names in FACES.items() if face != self._explorer.face for name in names}
-        near = FACES[self._explorer.face][0] if self._asked in {None, *hidden} else self._asked
+        hidden = {name for face, names in FACES.items() if face != self.face for name in names}
+        near = FACES[self.face][0] if self._used in {None, *hidden} else self._used
         messages = {near if name in hidden else name: said for name, said in scene.messages.items()}
         for name, control in self._controls.items():
             if name in hidden:
                 continue
-            value = getattr(self._explorer, name)
+            value = scene.inputs[name]
             shown = scene.constants.E if name == "energy" else value
             bounds = scene.plane.K_J_range if name == "K_J" else None
             control.show(value, shown, notes.get(name, ""), messages.get(name), bounds)
+        for name, wish in self._pictures.items():
+            wish.show(scene.inputs[name])
         self._other.object = self._other_face(scene)
 
     def follow(self, scene):
-        """What a hand on a picture moves, at once."""
-        self._controls["K_J"].follow(scene.constants.K_J, scene.constants.K_J, scene.plane.K_J_range)
-        self._controls["energy"].follow(scene.share, scene.constants.E)
+        """What a hand elsewhere moves, such as one on a picture, at once."""
+        self._scene = scene
+        if not self._busy:
+            self._controls["K_J"].follow(scene.constants.K_J, scene.constants.K_J, scene.plane.K_J_range)
+            self._controls["energy"].follow(scene.share, scene.constants.E)
 
     def _other_face(self, scene):
         """The face that is not on the sliders."""
-        other = "state" if self._explorer.face == "constants" else "constants"
+        other = "state" if self.face == "constants" else "constants"
         if other == "state":
             values = {name: getattr(scene.state, name) for name in FACES["state"]}
         else:
@@ -277,8 +310,7 @@ class Controls:
 
     @staticmethod
     def _notes(scene):
-        spin, marks = scene.upright_spin, scene.marks
-        turns = spin * scene.scales.angular_velocity / (2 * math.pi)
+        marks = scene.marks
         inner, outer = scene.turning
         limits = " · ".join(
             say(f"controls.notes.{name}", E=number(round(E, 4)))
@@ -294,7 +326,7 @@ class Controls:
         return {
             "omega3": motion,
             "K_J": say("controls.notes.K_J", pole=number(round(scene.plane.pole, 4))),
-            "K_R": say("controls.notes.K_R", spin=spin, turns=turns, R=100 * scene.scales.R)
+            "K_R": say("controls.notes.K_R", spin=scene.upright_spin, turns=scene.turns, R=100 * scene.scales.R)
             + say("controls.notes.printed") * printed,
             "energy": f"{motion}<br>{say('controls.notes.energy', limits=limits)}",
         }

@@ -1,8 +1,11 @@
 """The page by keyboard and by ear, and the tour of a first visit."""
 
+import numpy as np
 import param
 
 from app.bundle import Bundled
+from app.text import say
+from app.widgets.controls import worst
 
 
 class Guide(Bundled):
@@ -10,3 +13,15 @@ class Guide(Bundled):
 
     said = param.String(default="", doc="What the motion on display is, in plain words; for a hand at rest.")
     seconds = param.Number(default=1.0, doc="Seconds of the real top in one unit of time.")
+
+    def show(self, scene):
+        self.param.update(said=spoken(scene), seconds=scene.scales.time)
+
+
+def spoken(scene):
+    """What the top does, for the ear."""
+    inner, outer = np.degrees(scene.turning)
+    slips = say("roll.says.slip", E=scene.marks.slip) if np.isfinite(scene.marks.slip) else ""
+    motion = say("roll.says.motion", worst=worst(scene), inner=inner, outer=outer, turns=scene.turns,
+                 E=scene.constants.E)  # fmt: skip
+    return motion + slips

@@ -41,29 +41,37 @@ class Painted(JSComponent):
 
 
 class Pacer:
-    """Between the controls and an Explorer, and between its scenes and the views.
+    """Between the hands and an Explorer, and between its scenes and what shows them. One way round: a hand asks, the
+    Explorer solves, and its one scene comes here, to be shown.
 
-    Functions of a scene: hand draws what the hand moves and is cheap. The pictures follow in turn, each in a message
-    of its own once the one before is painted, so that a hand never waits for more than one; a round of them shows
-    one scene, the newest at its start. words are for a hand at rest, or for an input that cannot be. After a single
-    step pictures and words come in one message: each costs the server more than what is in it.
-
-    later: what is not made before the page has come, in turn like the pictures, so that the first of it is soon there.
+    What shows a scene says by itself when it does: shows(). "hand" is for what a hand moves, and is cheap. The
+    "pictures" follow in turn, each in a message of its own once the one before is painted, so that a hand never waits
+    for more than one; a round of them shows one scene, the newest at its start. "rest" is for a hand at rest, or for an
+    input that cannot be. After a single step pictures and what is for the rest come in one message: each costs the
+    server more than what is in it.
     """
 
-    def __init__(self, explorer, hand, pictures, words):
-        self.explorer, self._hand, self._pictures, self._words = explorer, hand, pictures, words
+    def __init__(self, explorer):
+        self._explorer = explorer
+        self._shows = {"hand": [], "pictures": [], "rest": []}
         self.painted = Painted(width=0, height=0, margin=0)
         at_once(self.painted, "painted")
         self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
+        self._others = {}  # view-model -> what is wanted of it
         self._single = True  # whether the hand was at rest before the last request
-        self._said = None  # the scene whose words were shown since then
+        self._said = None  # the scene that was shown to the rest since then
         self._requested = 0.0
-        self.later, self._begun = [], False
+        self._later, self._begun = [], False
         self._hands, self._drawing = [], []  # (number, when sent) of what the browser has yet to paint
         self._sent = 0  # the last number
         explorer.param.watch(self._on_scene, "scene")
         self.painted.param.watch(self._on_painted, "painted")
+
+    def shows(self, show, when):
+        """Has show(scene) called now, and from now on when a scene is to be shown: when is "hand", "pictures" or
+        "rest"."""
+        show(self._explorer.scene)
+        self._shows[when].append(show)
 
     def begin(self):
         """The page has come."""
@@ -77,12 +85,19 @@ class Pacer:
         if not self._begun:
             make()
             return
-        self.later.insert(0, make)
+        self._later.insert(0, make)
         self._advance()
         after(ANSWER_WITHIN, self._finish)
 
-    def request(self, **inputs):
-        """Asks for these inputs of the Explorer; a later request for the same input replaces one still waiting."""
+    def later(self, make):
+        """Runs a function that puts something on the page which need not be there at first: when the page has come, in
+        turn like the pictures, last of what waits."""
+        self._later.append(make)
+        if self._begun:
+            after(ANSWER_WITHIN, self._finish)
+
+    def ask(self, **inputs):
+        """Asks for these inputs of the Explorer; a later wish for the same input replaces one still waiting."""
         self._wanted.update(inputs)
         self._requested = time.monotonic()
         self._single, self._said = self._resting, None  # what is asked for is answered, also where nothing changes
@@ -91,34 +106,50 @@ class Pacer:
             after(REST_AFTER, self._rest)
         self._advance()
 
+    def ask_of(self, model):
+        """What asks for inputs of another view-model in the same turns, as ask() does of the Explorer's."""
+
+        def ask(**inputs):
+            self._others.setdefault(model, {}).update(inputs)
+            self._advance()
+            if self._others:
+                after(ANSWER_WITHIN, self._finish)
+
+        return ask
+
     def _advance(self):
         late = time.monotonic() - ANSWER_WITHIN
         self._hands = [sent for sent in self._hands if sent[1] > late]
         self._drawing = [sent for sent in self._drawing if sent[1] > late]
         if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
             inputs, self._wanted = self._wanted, {}
-            self.explorer.param.update(**inputs)
+            self._explorer.param.update(**inputs)
+        if self._others and len(self._hands) < HANDS_IN_FLIGHT:
+            others, self._others = self._others, {}
+            for model, inputs in others.items():
+                self._send(partial(model.param.update, **inputs), self._hands)
         if not self._drawing and not (self._single and self._hands):
             if not self._round and self._round_is_due:
-                scene, self._round_is_due = self.explorer.scene, False
-                self._round = [partial(draw, scene) for draw in ([self._all] if self._single else self._pictures)]
+                scene, self._round_is_due = self._explorer.scene, False
+                draws = [self._all] if self._single else self._shows["pictures"]
+                self._round = [partial(draw, scene) for draw in draws]
             if self._round:
                 self._send(self._round.pop(0), self._drawing)
-            elif self._begun and self.later:
-                self._send(self.later.pop(0), self._drawing)
+            elif self._begun and self._later:
+                self._send(self._later.pop(0), self._drawing)
 
     def _all(self, scene):
-        with ExitStack() as others:  # drawn too where one of them fails
-            for draw in (self._say, *reversed(self._pictures)):
-                others.callback(draw, scene)
+        with ExitStack() as others:
+            others.callback(self._say, scene)
+            others.callback(_each, self._shows["pictures"], scene)
 
     def _say(self, scene):
         if scene is not self._said:
             self._said = scene
-            self._words(scene)
+            _each(self._shows["rest"], scene)
 
     def _on_scene(self, event):
-        self._send(partial(self._hand, event.new), self._hands)
+        self._send(partial(_each, self._shows["hand"], event.new), self._hands)
         self._round_is_due = True
         if self._resting or event.new.messages or event.old.messages:
             self._say(event.new)
@@ -133,11 +164,11 @@ class Pacer:
                 after(left, self._rest)
         if not self._resting:
             return
-        self._say(self.explorer.scene)
+        self._say(self._explorer.scene)
         self._see_to_it()
 
     def _see_to_it(self):
-        if self._round or self._round_is_due or (self._begun and self.later):
+        if self._round or self._round_is_due or self._others or (self._begun and self._later):
             after(ANSWER_WITHIN, self._finish)
 
     def _finish(self):
@@ -163,3 +194,10 @@ class Pacer:
         self._hands = [sent for sent in self._hands if sent[0] > event.new]
         self._drawing = [sent for sent in self._drawing if sent[0] > event.new]
         self._advance()
+
+
+def _each(shows, scene):
+    """Shows a scene; the others too where one of them fails."""
+    with pn.io.hold(), ExitStack() as others:
+        for show in reversed(shows):
+            others.callback(show, scene)

@@ -18,7 +18,7 @@ from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, swatch, words
 from app.widgets.controls import typed_number
 from app.widgets.plots import plain
-from tippe_core import TopError
+from tippe_core import TopError, TruncatedSphere
 
 PICTURE_EVERY = 0.5  # s
 RATIOS = np.linspace(0.6, 1.9, 40)
@@ -26,19 +26,20 @@ SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.
 
 
 class Compare:
-    """The tab's content; show() and compute() fill it. runs: the page's Runs."""
+    """The tab's content; draw() and compute() fill it. scene: the first; show() is for others, and what is asked for
+    from then on is about these. runs: the page's Runs."""
 
     # what a map is made with: name, symbol
     FIELDS = (("I1", "<i>I</i><sub>1</sub>"), ("K_R", "<i>K</i><sub>R</sub>"), ("mu_s", "<i>μ</i><sub>s</sub>"))
 
-    def __init__(self, explorer, runs=None):
-        self._explorer, self._runs, self._run = explorer, runs or Runs(), None  # of the map
+    def __init__(self, scene, runs=None):
+        self._scene, self._runs, self._run = scene, runs or Runs(), None  # of the map
         self.rows = words(margin=(6, 0))
         self.key = words()
         self.family = self._buttons("families")
-        self.family.param.watch(lambda event: self.show(event.new), "value")
+        self.family.param.watch(lambda event: self.draw(event.new), "value")
         self.kind = self._buttons("kinds")
-        self.kind.value = "ordinary" if explorer.scene.top.a < 0 else "tippe"
+        self.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
         self.kind.param.watch(lambda event: self._prefill(), "value")
         spoken = {name: listed(f"controls.spoken.{name}")[0] for name, _ in self.FIELDS}
         self.entries = {name: field("", say("family.map.entry", name=spoken[name]), width=76) for name in spoken}
@@ -90,12 +91,15 @@ class Compare:
             words(note(say("family.map.here"))),
         ]  # fmt: skip
 
-    def show(self, which):
+    def show(self, scene):
+        self._scene = scene
+
+    def draw(self, which):
         """The small figures: of the "presets" or of "pegs", all with one spin, or of this top's neighbours, at this
         K_R. They are drawn beside the server."""
-        top, K_R, mu_s = self._explorer.scene.top, self._explorer.K_R, self._explorer.mu_s
+        top, K_R, mu_s = (self._scene.top, *(self._scene.inputs[name] for name in ("K_R", "mu_s")))
 
-        def draw(run):
+        def drawn(run):
             tops = {"presets": presets, "pegs": pegs}.get(
                 which, lambda: [(name, each, K_R) for name, each in neighbours(top, which)]
             )()
@@ -107,7 +111,7 @@ class Compare:
 
         self.key.object = key_words(mu_s)
         self.rows.object = f'<div role="status">{note(say("family.waits"))}</div>'
-        self._runs.begin(Run(draw, self._drawn), "families")
+        self._runs.begin(Run(drawn, self._drawn), "families")
 
     def _drawn(self, result):
         failed = isinstance(result, Exception)
@@ -117,12 +121,12 @@ class Compare:
 
     def _prefill(self):
         """The explorer's own numbers where its top is of this kind, else those of a preset that is."""
-        explorer, ordinary_tops = self._explorer, self.kind.value == "ordinary"
-        I1, K_R = explorer.scene.top.I1, explorer.K_R
-        if (explorer.scene.top.a < 0) != ordinary_tops:
-            shape = ordinary() if ordinary_tops else type(explorer).param.shape.default
+        scene, ordinary_tops = self._scene, self.kind.value == "ordinary"
+        I1, K_R = scene.top.I1, scene.inputs["K_R"]
+        if (scene.top.a < 0) != ordinary_tops:
+            shape = ordinary() if ordinary_tops else TruncatedSphere.paper()
             I1, K_R = shape.top.I1, thrown(shape)[1]
-        for name, value in (("I1", I1), ("K_R", K_R), ("mu_s", explorer.mu_s)):
+        for name, value in (("I1", I1), ("K_R", K_R), ("mu_s", scene.inputs["mu_s"])):
             self.entries[name].value = f"{value:.4g}"
 
     def _show_span(self):
@@ -154,7 +158,7 @@ class Compare:
         except ValueError as error:
             self.said.object = alert(told(error) if isinstance(error, TopError) else str(error))
             return
-        top = self._explorer.scene.top
+        top = self._scene.top
         own = abs(top.I1 - asked["I1"]) < 1e-3 * top.I1
         self.here.data = {"a": [top.a] * own, "ratio": [top.I3 / top.I1] * own}
         span = self._show_span()

@@ -10,7 +10,7 @@ import param
 from app.bundle import pack
 from app.model import lesson, lesson_sliding
 from app.model.bodies import outline
-from app.model.frames import axes
+from app.model.frames import in_space
 from app.model.regimes import FLIES, ROLLS, SLIPS
 from app.model.runs import Run, Runs
 from app.state.keep import SECRET, Field, OneOf
@@ -56,43 +56,50 @@ def show_motion(view, scene, motion, stem):
     if view.shown is motion:
         return
     view.shown = motion
-    nodal, across, axis, towards = axes(motion.theta, motion.phi)
-    w1, w2, w3 = (component[:, None] for component in motion.omega.T)
-    F_x, F_y, F_z = (component[:, None] for component in motion.force.T)
-    top = scene.top
+    codes = [CODES[regime] for regime in motion.regime]
     view.param.update(
         mu_s=lesson_sliding.FRICTION.mu,
-        profile=pack(scene.profile if stem else outline(top)),
+        profile=pack(scene.profile if stem else outline(scene.top)),
         seconds=scene.scales.time,
         speed=SLIDING_SPEED,
-        frames=pack_frames(
-            motion.t,
-            motion.quaternion,
-            motion.contact,
-            motion.com,
-            F_x * nodal + F_y * across + F_z * (0, 0, 1),
-            w1 * nodal + w2 * towards + w3 * axis,
-            top.I1 * (w1 * nodal + w2 * towards) + top.I3 * w3 * axis,
-            [CODES[regime] for regime in motion.regime],
-        ),
+        frames=pack_frames(motion.t, motion.quaternion, motion.contact, motion.com, *in_space(motion), codes),
     )
 
 
 class Learn(param.Parameterized):
     """The ten steps, and beside them the derivation, the teacher's page and the history.
 
-    explorer, roll: where the runs are set up, by the same requests as the sliders'; runs: the page's Runs. What a link
-    keeps: step, section, and of a vote that is open the teacher's key, room.
+    scene: the first, show() is for others; ask: takes inputs of the Explorer; runs: the page's Runs. What a link keeps:
+    step, section, and of a vote that is open the teacher's key, room.
     """
 
     step = param.Selector(default=lesson.NAMES[0], objects=list(lesson.NAMES))
     section = param.Selector(default=SECTIONS[0], objects=list(SECTIONS))
     room = param.String(default="")
 
-    def __init__(self, explorer, roll, runs=None):
+    def __init__(self, scene, ask, runs=None):
         super().__init__()
-        self._explorer, self._roll, self._runs, self._judging = explorer, roll, runs or Runs(), None
+        self._scene, self._ask, self._runs, self._judging = scene, ask, runs or Runs(), None
         self.guesses = {}
+        self._make_head()
+        self.question, self.verdict, self.explanation, self.sources = (words("") for _ in range(4))
+        self.prediction = pn.Column(sizing_mode="stretch_width", margin=(6, 0))
+        self.run = pmui.Button(label=say("learn.page.predict"), size="small", variant="contained", sx=PLAIN,
+                               margin=(2, 0, 8, 0))  # fmt: skip
+        self.equations = pn.Column(sizing_mode="stretch_width", margin=0)
+        self.figure, self.fig4 = StepFigure(), SectionFigure()
+        self.top = Top3D(clock=CLOCK, height=360, sizing_mode="stretch_width")
+        self.picture_card = card(say("learn.page.picture"), *self.figure.view, height="max-content")
+        self.section_card = card(say("learn.page.section"), *self.fig4.view, height="max-content")
+        self.derivation = Derivation(CLOCK)
+        self.param.watch(lambda event: self._open(), "step")
+        self.param.watch(lambda event: self._look(), "section")
+        on_click(self.run, lambda event: self._run())
+        self.view = self._build()
+        self._open()
+        self._look()
+
+    def _make_head(self):
         titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
         self.select = pmui.Select.from_param(self.param.step, label=say("learn.page.step"), options=titles,
                                              size="small", sizing_mode="stretch_width", min_width=250,
@@ -106,25 +113,8 @@ class Learn(param.Parameterized):
                         margin=(4, 0, 0, 8))
             for name in ("back", "next")
         )  # fmt: skip
-        self.question, self.verdict, self.explanation, self.sources = (words("") for _ in range(4))
-        self.prediction = pn.Column(sizing_mode="stretch_width", margin=(6, 0))
-        self.run = pmui.Button(label=say("learn.page.predict"), size="small", variant="contained", sx=PLAIN,
-                               margin=(2, 0, 8, 0))  # fmt: skip
-        self.equations = pn.Column(sizing_mode="stretch_width", margin=0)
-        self.figure, self.fig4 = StepFigure(), SectionFigure()
-        self.top = Top3D(clock=CLOCK, height=360, sizing_mode="stretch_width")
-        self.picture_card = card(say("learn.page.picture"), *self.figure.view, height="max-content")
-        self.section_card = card(say("learn.page.section"), *self.fig4.view, height="max-content")
-        self.derivation = Derivation(CLOCK)
-        self.param.watch(lambda event: self._open(), "step")
-        self.param.watch(lambda event: self._look(), "section")
         on_click(self.back, lambda event: self._go(-1))
         on_click(self.next, lambda event: self._go(1))
-        on_click(self.run, lambda event: self._run())
-        self.view = self._build()
-        roll.followers.append(self.show_scene)
-        self._open()
-        self._look()
 
     @property
     def now(self):
@@ -156,14 +146,14 @@ class Learn(param.Parameterized):
     def _look(self):
         """Shows the section; the teacher's page and the history are made when first looked at."""
         section = self.section
-        makers = {"teach": lambda: teach_view(self._explorer, self._runs, self), "history": history_view}
+        makers = {"teach": lambda: teach_view(lambda: self._scene, self._runs, self), "history": history_view}
         if section in makers and section not in self._made:
             self._made[section] = makers[section]()
         self.pair.visible = section in self.places
         for name, place in self.places.items():
             place.visible = name == section
         self.others.objects = [self._made[section]] if section in makers else []
-        self.show_scene(self._explorer.scene)
+        self.show(self._scene)
 
     def _go(self, by):
         place = lesson.NAMES.index(self.step) + by
@@ -171,12 +161,12 @@ class Learn(param.Parameterized):
 
     def _open(self):
         """Asks the question of this step, about the motion that it would set up for the present top."""
-        step, scene = self.now, self._explorer.scene
+        step, scene = self.now, self._scene
         self._asked = scene.top
         place = lesson.NAMES.index(step.name)
         self.back.disabled, self.next.disabled = place == 0, place == len(lesson.NAMES) - 1
         try:
-            plan = lesson.planned(step, scene, self._explorer.shape)
+            plan = lesson.planned(step, scene)
         except TopError as error:
             self.question.object = f'<div role="alert">{escape(told(error))}</div>'
             return
@@ -191,17 +181,18 @@ class Learn(param.Parameterized):
         self.sources.object = f"<div class='key' style='margin-top: 6px'>{say('learn.page.sources')}</div>" + "".join(
             f"<details><summary>{short}</summary>{text}</details>" for short, text in full
         )
-        self.show_scene(scene)
+        self.show(scene)
 
     def _run(self):
         if self.widget.value is None:
             self.verdict.object = f'<div role="status">{say("learn.page.choose")}</div>'
             return
         self.guesses[self.step] = self.widget.value
-        self._roll.pacer.request(**self.now.inputs(self._explorer.scene.top))
+        self._ask(**self.now.inputs(self._scene.top))
 
-    def show_scene(self, scene):
+    def show(self, scene):
         """The pictures, and once there is a prediction the verdict, by the motion that runs now."""
+        self._scene = scene
         if self._judging:
             self._judging.forget()
         if self.section == "derivation":

@@ -45,13 +45,13 @@ def page_address():
     return f"{location.protocol}//{location.hostname}{f':{location.port}' if location.port else ''}{location.pathname}"
 
 
-def asked_of(step, explorer):
-    """A question to a class about this step on the present top, as data; its words come with each page."""
-    scene, top = explorer.scene, explorer.scene.top
-    planned = lesson.planned(step, scene, explorer.shape)
+def asked_of(step, scene):
+    """A question to a class about this step on the scene's top, as data; its words come with each page."""
+    top = scene.top
+    planned = lesson.planned(step, scene)
     numbers = step.question(planned)
     named = {name for _, name, _, _ in string.Formatter().parse(listed(f"learn.{step.name}.question")) if name}
-    given = {"shape": explorer.shape, "a": top.a, "I1": top.I1, "I3": top.I3, "mu_s": scene.mu_s}
+    given = {"shape": scene.inputs["shape"], "a": top.a, "I1": top.I1, "I3": top.I3, "mu_s": scene.mu_s}
     return {"step": step.name, "numbers": {name: float(numbers[name]) for name in named},
             "asks": asdict(step.asks(planned)),
             "top": {EXPLORER[name].key: EXPLORER[name].codec.text(value) for name, value in given.items()}}  # fmt: skip
@@ -68,7 +68,7 @@ def question_of(room):
 def truth_of(step, top):
     """The computation's answer, of the top that a room is about."""
     explorer, _ = explorer_of(top)
-    return step.answer(lesson.planned(step, explorer.scene, explorer.shape)).truth
+    return step.answer(lesson.planned(step, explorer.scene)).truth
 
 
 class Counter:

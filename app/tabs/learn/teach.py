@@ -55,11 +55,12 @@ class Key:
 class Vote:
     """The teacher's side of a vote: opens a room about a step on the present top, and shows its histogram.
 
-    kept: whose `room` is the key of the room, or ""; a link with the key opens the room again.
+    now: what returns the present scene; kept: whose `room` is the key of the room, or ""; a link with the key opens the
+    room again.
     """
 
-    def __init__(self, explorer, runs, kept):
-        self._explorer, self._runs, self._kept = explorer, runs, kept
+    def __init__(self, now, runs, kept):
+        self._now, self._runs, self._kept = now, runs, kept
         self._counter, self._room, self._finding = Counter(), None, None
         titles = {f"{i}. {say(f'learn.{name}.title')}": name for i, name in enumerate(lesson.NAMES, 1)}
         self.which = pmui.Select(label=say("teach.vote.which"), options=titles, value=lesson.NAMES[0], size="small",
@@ -98,7 +99,7 @@ class Vote:
 
     def _open(self):
         try:
-            question = asked_of(lesson.STEPS[lesson.NAMES.index(self.which.value)], self._explorer)
+            question = asked_of(lesson.STEPS[lesson.NAMES.index(self.which.value)], self._now())
         except TopError as error:
             self._say(alert(told(error)))
             return
@@ -224,8 +225,8 @@ class Vote:
         self._say(sentence)
 
 
-def teach_view(explorer, runs, kept):
-    """kept: see Vote."""
+def teach_view(now, runs, kept):
+    """now, kept: see Vote."""
     links = "".join(
         f"<li><a href='{link(step)}' target='_blank'>{say(f'learn.{step.name}.title')}</a></li>"
         for step in lesson.STEPS
@@ -245,7 +246,7 @@ def teach_view(explorer, runs, kept):
 
     return grid(
         tall(
-            card(say("teach.page.vote"), *Vote(explorer, runs, kept).view, height="max-content"),
+            card(say("teach.page.vote"), *Vote(now, runs, kept).view, height="max-content"),
             carded("fifteen", bullets(listed("teach.plans.fifteen"), True)),
             carded("wrong", bullets(listed("teach.plans.wrong"))),
             carded("toy", bullets(listed("teach.plans.toy"))),

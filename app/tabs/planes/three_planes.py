@@ -5,17 +5,19 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.bundle import pack
-from app.model.planes import PATIENCE, PRESETS
+from app.model.planes import PATIENCE, PRESETS, preset
 from app.model.planes_picture import LAWS, PLANES
 from app.state.keep import Field, Number, OneOf
 from app.tabs.planes.plots import CLOCK, LEDGER, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
 from app.text import listed, say
 from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_click, progress, swatch, words
-from app.widgets.controls import Control
+from app.widgets.controls import Control, Wish
 from app.widgets.top3d import Top3D, pack_frames
 
 NUMBERS = {"coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
+NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps")
+SWITCHES = {"plane": {"margin": (4, 0)}, "by": {}, "law": {}, "landing": {}}
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
@@ -43,10 +45,15 @@ KEPT = {
 
 
 class ThreePlanes:
-    """main: the tab. planes: the Planes it shows and drives; builder, request: for a top that is picked on the map."""
+    """main: the tab. show(picture), look(plane) and wait() say what is to be seen.
 
-    def __init__(self, planes, builder, request):
-        self._planes, self._request, self._poll = planes, request, None
+    inputs: of a Planes, as they are at first, with its plane; ask: takes others; ask_top: takes inputs of the Explorer;
+    choose: the name of a body; work: the Planes' run under way, with busy, elapsed, share and stop().
+    """
+
+    def __init__(self, inputs, ask, ask_top, choose, work):
+        self._ask, self._ask_top, self._choose_body, self._work = ask, ask_top, choose, work
+        self._poll, self._picture, self._plane = None, None, inputs["plane"]
         self._tops = {
             plane: Top3D(sizing_mode="stretch_both", min_width=250, clock=CLOCK, label=say(f"planes.tops.{plane}"),
                          show_momentum=False, show_cone=False)
@@ -55,33 +62,31 @@ class ThreePlanes:
         for top in self._tops.values():
             top.param.watch(lambda event: self._set_speed(event.new), "speed")
         self._figures, self._well = Figures(), Well()
-        self._map = Map(self.pick, builder.choose)
+        self._map = Map(self.pick, choose)
         follow_clock(self._figures, self._well)
-        self._controls = {name: Control(name, getattr(planes, name), self._asked) for name in
-                          ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps")}  # fmt: skip
+        self._controls = {name: Control(name, inputs[name], self._set) for name in NUMBERS_SET}
+        self._switches = {name: self._switch(name, inputs[name], **layout) for name, layout in SWITCHES.items()}
+        box = pmui.Checkbox(value=inputs["stem"], label=say("planes.stem.can"), description="", size="small",
+                            margin=(0, 14, 0, 6))  # fmt: skip
+        self._switches["stem"] = Wish(box, "stem", ask)
         self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
         self._verdict, self._table = words(style=TABLE), words(style=TABLE)
         self._force = words(styles={"min-height": "36px"})
         self._build()
-        planes.param.watch(lambda event: self._show(), "picture")
-        planes.param.watch(lambda event: self._look(), "plane")
-        planes.param.watch(self._wait, "busy")
-        self._arrange()
-        if planes.picture is not None:
-            self._show()
-        self._wait(None)
 
-    # ---- what a person does ----
+    # ---- what a person asks ----
 
-    def _asked(self, name, value, typed=False):
-        self._planes.param.update(**{name: value})
+    def _set(self, name, value, typed=False):
+        self._ask(**{name: value})
 
     def pick(self, a, ratio):
-        """Goes to the top of this a and I1/I3, with I3 as it is."""
-        self._request(a=a, I1=ratio * self._planes.picture.settings.top.I3)
+        """Asks for the top of this a and I1/I3, with I3 as it is."""
+        self._ask_top(a=a, I1=ratio * self._picture.settings.top.I3)
 
     def _choose(self, name):
-        self._planes.choose(name)
+        body, inputs = preset(name)
+        self._choose_body(body)
+        self._ask(**inputs)
 
     def _set_speed(self, speed):
         for top in self._tops.values():
@@ -89,68 +94,17 @@ class ThreePlanes:
 
     # ---- the parts ----
 
-    def _switch(self, name, **layout):
-        return pmui.RadioButtonGroup.from_param(
-            self._planes.param[name], label="", size="small", sx=PLAIN,
-            options={says: value for value, says in listed(f"planes.{name}").items()},
-            **({"margin": (2, 14, 6, 16)} | layout),
-        )  # fmt: skip
+    def _switch(self, name, value, **layout):
+        options = {says: value for value, says in listed(f"planes.{name}").items()}
+        buttons = pmui.RadioButtonGroup(value=value, label="", size="small", sx=PLAIN, options=options,
+                                        **({"margin": (2, 14, 6, 16)} | layout))  # fmt: skip
+        return Wish(buttons, name, self._ask)
 
     def _build(self):
-        buttons = []
-        for name in PRESETS:
-            buttons.append(pmui.Button(label=listed("planes.presets")[name], **NARROW))
-            on_click(buttons[-1], lambda event, name=name: self._choose(name))
-        presets = flow(*buttons, margin=(4, 0, 0, 0))
-        self._row = pn.Column(
-            sizing_mode="stretch_width", margin=(6, 0, 0, 0),
-            styles={"display": "grid", "gap": "10px"},
-            stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
-        )  # fmt: skip
-        self._stage = card(
-            say("planes.cards.stage"), presets, self._switch("plane", margin=(4, 0)), self._force, self._row,
-            self._verdict, self._table, height="max-content",
-        )  # fmt: skip
-
-        views = {name: control.view for name, control in self._controls.items()}
-        self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
-        self._numbers = {
-            law: pn.Column(*(views[name] for name in names), sizing_mode="stretch_width", margin=0)
-            for law, names in NUMBERS.items()
-        }
-        self._bar = words(margin=(10, 8))
-        self._show_progress(0)
-        stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
-        on_click(stop, lambda event: self._planes.stop())
-        self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
-        self._stem = pmui.Checkbox.from_param(
-            self._planes.param.stem,
-            label=say("planes.stem.can"),
-            description="",
-            size="small",
-            margin=(0, 14, 0, 6),
-        )
-        controls = card(
-            say("planes.cards.start"),
-            self._progress,
-            self._said["run"],
-            self._switch("by"),
-            self._said["by"],
-            self._starts,
-            views["seconds"],
-            self._switch("law"),
-            self._said["law"],
-            *self._numbers.values(),
-            words(say("planes.keys.lands"), margin=(6, 14, 0, 16)),
-            self._switch("landing"),
-            self._stem,
-            self._said["stem"],
-            height="max-content",
-        )
         self._times = self._times_card()
         self.main = grid(
-            self._stage,
-            controls,
+            self._stage_card(),
+            self._start_card(),
             self._times,
             pn.Column(
                 card(
@@ -169,6 +123,53 @@ class ThreePlanes:
                 margin=0,
                 styles={"gap": "12px"},
             ),
+        )
+
+    def _stage_card(self):
+        buttons = []
+        for name in PRESETS:
+            buttons.append(pmui.Button(label=listed("planes.presets")[name], **NARROW))
+            on_click(buttons[-1], lambda event, name=name: self._choose(name))
+        presets = flow(*buttons, margin=(4, 0, 0, 0))
+        self._row = pn.Column(
+            sizing_mode="stretch_width", margin=(6, 0, 0, 0),
+            styles={"display": "grid", "gap": "10px"},
+            stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
+        )  # fmt: skip
+        self._stage = card(
+            say("planes.cards.stage"), presets, self._switches["plane"].view, self._force, self._row, self._verdict,
+            self._table, height="max-content",
+        )  # fmt: skip
+        return self._stage
+
+    def _start_card(self):
+        views = {name: control.view for name, control in self._controls.items()}
+        self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
+        self._numbers = {
+            law: pn.Column(*(views[name] for name in names), sizing_mode="stretch_width", margin=0)
+            for law, names in NUMBERS.items()
+        }
+        self._bar = words(margin=(10, 8))
+        self._show_progress(0)
+        stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
+        on_click(stop, lambda event: self._work.stop())
+        self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
+        return card(
+            say("planes.cards.start"),
+            self._progress,
+            self._said["run"],
+            self._switches["by"].view,
+            self._said["by"],
+            self._starts,
+            views["seconds"],
+            self._switches["law"].view,
+            self._said["law"],
+            *self._numbers.values(),
+            words(say("planes.keys.lands"), margin=(6, 14, 0, 16)),
+            self._switches["landing"].view,
+            self._switches["stem"].view,
+            self._said["stem"],
+            height="max-content",
         )
 
     def _times_card(self):
@@ -201,44 +202,39 @@ class ThreePlanes:
 
     # ---- what is shown ----
 
-    def _wait(self, _event):
+    def wait(self):
         """A run under way is looked at now and then, and shown where it takes long."""
-        if self._planes.busy and self._poll is None:
+        if self._work.busy and self._poll is None:
             self._poll = pn.state.add_periodic_callback(self._look_at_run, period=POLL)
-        elif not self._planes.busy and self._poll is not None:
+        elif not self._work.busy and self._poll is not None:
             self._poll.stop()
             self._poll = None
             self._progress.visible = False
 
     def _look_at_run(self):
-        planes = self._planes
-        if planes.elapsed > PATIENCE or self._progress.visible:
-            self._show_progress(100 * planes.share)
+        if self._work.elapsed > PATIENCE or self._progress.visible:
+            self._show_progress(100 * self._work.share)
             self._progress.visible = True
 
     def _show_progress(self, percent):
         self._bar.object = progress(percent, say("planes.run.progress"))
 
-    def _arrange(self):
-        """Which controls there are for this way to start and this law."""
-        planes = self._planes
-        self._starts.visible = planes.by == "spin"
-        for law, numbers in self._numbers.items():
-            numbers.visible = planes.law == law
-
-    def _show(self):
-        planes, picture = self._planes, self._planes.picture
+    def show(self, picture):
+        self._picture, inputs = picture, picture.inputs
         settings, messages = picture.settings, picture.messages
         with pn.io.hold():
-            self._arrange()
-            if not planes.busy:
+            self._starts.visible = inputs["by"] == "spin"
+            for law, numbers in self._numbers.items():
+                numbers.visible = inputs["law"] == law
+            if not self._work.busy:
                 for name, control in self._controls.items():
-                    value = getattr(planes, name)
-                    control.show(value, value, self._note(name, picture), messages.get(name))
+                    control.show(inputs[name], inputs[name], self._note(name, picture), messages.get(name))
+                for name in ("by", "law", "landing", "stem"):
+                    self._switches[name].show(inputs[name])
             for name, said in self._said.items():
                 said.object = alert(messages.get(name, "")) or {
                     "stem": stem_words(settings), "by": self._start_words(picture)}.get(name, "")  # fmt: skip
-            self._stem.disabled = settings.shape is None or settings.shape.touch_angle is None
+            self._switches["stem"].view.disabled = settings.shape is None or settings.shape.touch_angle is None
             self._verdict.object = verdict_words(picture)
             if self._shown is not settings:
                 self._figures.show(picture)
@@ -246,7 +242,7 @@ class ThreePlanes:
                 self._table.object = table_words(picture)
                 self._tempo(settings)
                 self._shown = settings
-                self._look()
+                self.look(self._plane)
 
     _shown = _paced = None
 
@@ -258,9 +254,10 @@ class ThreePlanes:
                 speed /= 2
             self._set_speed(speed)
 
-    def _look(self):
-        """At the plane, or the planes, that are chosen."""
-        picture, plane = self._planes.picture, self._planes.plane
+    def look(self, plane):
+        """At this plane, or at all that are to "compare"."""
+        picture, self._plane = self._picture, plane
+        self._switches["plane"].show(plane)
         if picture is None:
             return
         compare = plane == "compare"
@@ -297,29 +294,22 @@ class ThreePlanes:
         )
 
     def _start_words(self, picture):
-        state, scales = picture.state, picture.settings.scales
         if picture.settings.rolling is None:
             return ""
-        turns = state.omega3 * scales.angular_velocity / (2 * np.pi)
-        return note(say("planes.notes.start", tilt=degrees(state.theta), spin=turns))
+        return note(say("planes.notes.start", tilt=degrees(picture.state.theta), spin=picture.turns))
 
     @staticmethod
     def _note(name, picture):
-        state, scales, top = picture.state, picture.settings.scales, picture.settings.top
+        settings, limits = picture.settings, picture.outcome.thresholds
         if name == "spin":
-            limits = picture.outcome.thresholds
-            unit = scales.angular_velocity / (2 * np.pi)
             holds = {f"upright_{limits.upright.stable}": limits.upright.spin, "inverted_above": limits.launch}
-            says = [say(f"planes.notes.{which}", spin=spin * unit) for which, spin in holds.items()
+            says = [say(f"planes.notes.{which}", spin=spin * settings.turns) for which, spin in holds.items()
                     if np.isfinite(spin)]  # fmt: skip
             return say("planes.notes.spins", stable="; ".join(says)) if says else ""
         if name == "slip":
-            s, c = np.sin(state.theta), np.cos(state.theta)
-            ux = state.vx - (state.omega2 * (c - top.a) - state.omega3 * s)
-            uy = state.vy + state.theta_dot * (1 - top.a * c)
-            return say("planes.notes.slip", speed=100 * scales.velocity * np.hypot(ux, uy))
+            return say("planes.notes.slip", speed=100 * picture.slip)
         if name == "eps":
-            return say("planes.notes.eps", speed=100 * scales.velocity * picture.settings.eps)
+            return say("planes.notes.eps", speed=100 * settings.scales.velocity * settings.eps)
         if name == "gamma":
-            return say("planes.notes.gamma", gamma=picture.settings.gamma / scales.velocity)
+            return say("planes.notes.gamma", gamma=settings.gamma / settings.scales.velocity)
         return ""

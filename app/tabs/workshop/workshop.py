@@ -135,9 +135,10 @@ class TopFile(pmui.FileInput):
 
 
 class Workshop:
-    """The builder's cards. soon: of a Pacer; a body of many pieces has its knobs in portions, others' work between."""
+    """The builder's cards. builder: a Builder; soon: of a Pacer; a body of many pieces has its knobs in portions,
+    others' work between. show() is for each scene of a hand at rest."""
 
-    def __init__(self, builder, explorer, soon=lambda make: make()):
+    def __init__(self, builder, soon=lambda make: make()):
         self.builder, self._soon = builder, soon
         self._knobs, self._shown, self._silent = {}, None, False
         self.section = Section(builder.set)
@@ -266,8 +267,8 @@ class Workshop:
         if len(more) > KNOBS:
             self._soon(partial(self._add_knobs, shown))
 
-    def show_scene(self, scene):
-        """Whether the explorer's numbers are the body's."""
+    def show(self, scene):
+        """Whether the scene's numbers are the body's."""
         self.parted.visible = scene.shape is None
 
 

@@ -1,0 +1,26 @@
+"""What a hand on a picture of a Scene asks for: inputs of the Explorer."""
+
+import numpy as np
+
+from app.model.region import least_energy
+from app.model.scene import Scene
+
+
+def pulled(scene: Scene, grip: str, theta: float, K_J: float, limit: str) -> dict[str, float | str]:
+    """By a hand at (theta, K_J). grip: a "tieline" is to become the motion, as far as it goes under the limit "slip" or
+    "lift-off"; the "line" is the motion's own; its "end", and a "point" beyond, are where it then turns."""
+    if grip == "tieline":
+        return {"K_J": K_J, "energy": {"slip": 1.0, "lift-off": 2.0}[limit], "given": "share"}
+    if grip == "line":
+        return {"K_J": K_J, "given": "share"}
+    K_J = scene.constants.K_J if grip == "end" else K_J
+    theta = min(max(theta, 0.0), np.pi)
+    E = least_energy(np.array(theta), scene.top, K_J, scene.inputs["K_R"])
+    return {"K_J": K_J, "E": float(E), "given": "E"}
+
+
+def held(scene: Scene, t: float) -> dict[str, float]:
+    """What a hand that takes the axis at the time t leaves as it is, while it tilts it."""
+    motion = scene.rolling(np.array([0.0, t]))
+    w1, w2, w3 = (float(each) for each in motion.omega[1])
+    return {"theta_dot": w1, "omega2": w2, "omega3": w3, "phi": float(motion.phi[1]), "psi": float(motion.psi[1])}
