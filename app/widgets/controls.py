@@ -9,6 +9,7 @@ import param
 
 from app.bundle import Bundled
 from app.model.explorer import Explorer
+from app.model.regimes import NAMES
 from app.state import asked
 from app.text import listed, say
 from app.widgets.cards import NOTES, PLAIN, alert, note
@@ -84,7 +85,7 @@ def named(name):
 
 def worst(scene):
     """What the motion does, in the words of its worst instant."""
-    return listed("controls.worst")[int(scene.regime.max())]
+    return say(f"controls.worst.{NAMES[scene.regime.max()]}")
 
 
 class Dial(Bundled):

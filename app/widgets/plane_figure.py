@@ -12,7 +12,7 @@ from bokeh.models import (
 )
 
 from app.model.colours import COLOURS, FAINT, INK
-from app.model.regimes import ROLLS, WOULD_SLIP
+from app.model.regimes import COLOUR, ROLLS
 from app.text import listed
 from app.widgets.plots import FOLLOW_CLOCK, plain
 
@@ -64,7 +64,7 @@ if (taken == "bead" || event_name == "tap" && taken == "line") {
 }
 // why not, where the hand is
 const say = () => {
-  const text = [" ", slips, lifts]
+  const text = [" ", would_slip, would_lift]
   const worst = selected.data.worst[0], right = x > (fig.x_range.start + fig.x_range.end) / 2
   const visible = !!hand.grip && hand.grip != "bead" && worst > 0
   if (!visible && !sentence.visible) return
@@ -227,7 +227,7 @@ class PlaneFigure:
             "inner": inner,
             "outer": outer,
             "steady": scene.marks.theta_steady,
-            "colour": COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == WOULD_SLIP else "normal"],
+            "colour": COLOUR[worst],
             "worst": worst,
         }
         self.selected.patch({name: [(0, value)] for name, value in row.items()})

@@ -8,7 +8,7 @@ from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Label, Range
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.dimensions import named
 from app.model.planes_picture import PLANES
-from app.model.regimes import FLIES, ROLLS, SLIPS, WOULD_LIFT
+from app.model.regimes import COLOUR, ENDS, FLIES, ROLLS, SLIPS, WOULD_LIFT
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say
 from app.widgets.plots import plain
@@ -16,12 +16,9 @@ from tippe_core import PRESETS as BODIES
 from tippe_core import jellett_potential
 
 CLOCK = "planes"
-# Colour, and key in planes.toml.
-REGIMES = {ROLLS: (COLOURS["normal"], "rolls"), SLIPS: (COLOURS["friction"], "slips"),
-           FLIES: (COLOURS["omega"], "air"), WOULD_LIFT: ("#8C2D04", "lifts")}  # fmt: skip
-STOPPED = "#d5dae0"
-LEDGER = {"spin": "#CC79A7", "precession and nutation": "#E69F00", "motion of G": "#8a96a3", "height": "#56B4E9",
-          "heat": "#D55E00"}  # fmt: skip
+IN_RIBBON = (ROLLS, SLIPS, FLIES, WOULD_LIFT, ENDS)
+LEDGER = {"spin": COLOURS["omega"], "precession and nutation": COLOURS["momentum"], "motion of G": FAINT,
+          "height": COLOURS["jellett"], "heat": COLOURS["friction"]}  # fmt: skip
 QUANTITIES = ("theta", "omega3", "normal", "slip")
 BUCKETS, LEDGER_POINTS, BEAD_POINTS, WELL_POINTS = 500, 500, 4000, 361
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
@@ -139,7 +136,7 @@ class Figures:
             "end": [end for _, _, end, _ in ribbons],
             "low": [i + 0.1 for i in row],
             "high": [i + 0.9 for i in row],
-            "colour": [REGIMES[which][0] if which in REGIMES else STOPPED for *_, which in ribbons],
+            "colour": [COLOUR[int(which)] for *_, which in ribbons],
         }
         self.x_range.update(start=0, end=picture.settings.seconds)
 

@@ -1,12 +1,13 @@
 // How the page looks: light or dark, and large for a projector. The page's own type and the widgets follow by variables
 // of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
+import { colours } from "../colours.js";
 import { coalesce } from "../data.js";
 import { words } from "../three/scene.js";
 
 const LARGER = 1.35;
-const INKS = ["#22303c", "#8a96a3", "#e7ebef", "#ffffff"]; // app/widgets/plots.py: ink, faint, grid, paper
+const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff"]; // and grid, paper of app/widgets/plots.py
 const looks = {
-  light: ["#22303c", "#8a96a3", "#e7ebef", "#ffffff"],
+  light: INKS,
   "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff"],
   dark: ["#eef2f6", "#9aa7b4", "#333d48", "#161c23"],
   "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#000000"],
