@@ -1,13 +1,15 @@
 """What is answered over HTTP: the page, where it is, whether the server lives, and files; with the headers of all."""
 
-import json
 import logging
 import os
 import re
 import secrets
 import sys
 import time
+from html import escape
 from http.client import responses
+from pathlib import Path
+from string import Template
 
 from bokeh.server.views.session_handler import SessionHandler
 from bokeh.util.token import generate_jwt_token, generate_session_id
@@ -36,24 +38,7 @@ POLICY = (
     "worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames}"
 )
 # While the page waits for its turn, and where it is not let in.
-WAITING = """
-<div id="waiting" role="status" style="display:none;position:fixed;inset:auto 10% 24px;text-align:center;z-index:9999;
-font:16px/1.5 system-ui,sans-serif;color:#22303c;background:white;border-radius:8px;padding:8px"></div>
-<script>
-(() => {
-  const words = document.getElementById("waiting")
-  const say = (text) => { words.textContent = text; words.style.display = "block" }
-  const here = () => window.Bokeh?.documents?.length > 0
-  setTimeout(() => here() || say(MADE), 3000)
-  addEventListener("unhandledrejection", () => {
-    if (here()) return
-    say(BUSY)
-    setTimeout(() => location.reload(), 5000 + 5000 * Math.random())
-  })
-  const look = setInterval(() => { if (here()) { words.remove(); clearInterval(look) } }, 200)
-})()
-</script>
-"""
+WAITING = Template(Path(__file__).with_name("waiting.html").read_text(encoding="utf-8"))
 PLAIN = """<!doctype html><html lang="{lang}"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>{title}</title>{again}
 <p style="font: 18px/1.5 system-ui, sans-serif; margin: 20vh 10vw; color: #22303c">{sentence}</p></html>"""
@@ -105,13 +90,11 @@ class Sheet:
             session, Resources.from_bokeh(resources), document.title, token=self.TOKEN, template=document.template,
             template_variables=document.template_variables)  # fmt: skip
         before, after = html.rsplit("</body>", 1)
-        html = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', f"{before}{WAITING}</body>{after}")
         self._pages = {}
         for language in text.LANGUAGES:
-            self._pages[language] = html
-            for name in ("made", "busy"):
-                words = json.dumps(text.say(f"main.server.{name}", language))
-                self._pages[language] = self._pages[language].replace(name.upper(), words)
+            words = {name: escape(text.say(f"main.server.{name}", language)) for name in ("made", "busy")}
+            html = f"{before}{WAITING.substitute(words)}</body>{after}"
+            self._pages[language] = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', html)
 
     def page(self, language, token, nonce):
         """For one visitor."""

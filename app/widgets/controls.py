@@ -8,6 +8,7 @@ import panel_material_ui as pmui
 import param
 
 from app.bundle import Bundled
+from app.model.regimes import NAMES
 from app.state import asked
 from app.state.keep import Field, OneOf
 from app.text import listed, say
@@ -86,7 +87,7 @@ def named(name):
 
 def worst(scene):
     """What the motion does, in the words of its worst instant."""
-    return listed("controls.worst")[int(scene.regime.max())]
+    return say(f"controls.worst.{NAMES[scene.regime.max()]}")
 
 
 class Dial(Bundled):
