@@ -6,6 +6,7 @@ from weakref import WeakKeyDictionary
 import panel as pn
 import panel_material_ui as pmui
 import param
+from panel.util import edit_readonly
 
 from app import first, text
 from app.model.builder import Builder
@@ -133,7 +134,8 @@ def learn_view(explorer, roll, keep, runs):
 
 def alone(page):
     """The page, no longer told whether any page of this server is busy, which kept it and all it shows for ever."""
-    page.param._update_ref("busy", False)
+    with edit_readonly(page):
+        page.busy = page.param.theme_toggle  # which is False
     return page
 
 

@@ -7,12 +7,12 @@ import panel as pn
 import panel_material_ui as pmui
 import param
 
+from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.explorer import Explorer
 from app.state import asked
 from app.text import listed, say
 from app.widgets.cards import NOTES, PLAIN, alert, note
-from app.widgets.pacing import at_once
 from tippe_core import Top
 
 STYLE = """

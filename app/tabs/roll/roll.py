@@ -6,6 +6,7 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
+from app.borrowed import at_once
 from app.model.colours import COLOURS
 from app.model.region import least_energy
 from app.state import asked
@@ -14,7 +15,7 @@ from app.widgets.cards import PLAIN, card, grid, section, swatch, words
 from app.widgets.controls import SPIN, Controls, named, worst
 from app.widgets.guide import Guide
 from app.widgets.look import Look
-from app.widgets.pacing import Pacer, at_once
+from app.widgets.pacing import Pacer
 from app.widgets.plane_figure import PlaneFigure
 from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
