@@ -132,13 +132,6 @@ def learn_view(explorer, roll, keep, runs):
     return learn.view
 
 
-def alone(page):
-    """The page, no longer told whether any page of this server is busy, which kept it and all it shows for ever."""
-    with edit_readonly(page):
-        page.busy = page.param.theme_toggle  # which is False
-    return page
-
-
 def page():
     search = pn.state.location.search
     asked = read(search)[0].get("lang")
@@ -190,3 +183,13 @@ def page():
         busy_indicator=None,
         stylesheets=STYLE,
     )
+
+
+def show():
+    """Puts the page into the document that is being served."""
+    pn.extension("katex", respect_explicit_sizing=True)
+    shown = page()
+    with edit_readonly(shown):
+        # It would be told whether any page of this server is busy, which kept it and all it shares for ever.
+        shown.busy = shown.param.theme_toggle
+    shown.servable()
