@@ -91,9 +91,9 @@ class Socket(Answer, WSHandler):
         return super().select_subprotocol(subprotocols)
 
     def open(self):
-        IOLoop.current().add_callback(self._open)  # what comes meanwhile is read, so that it is seen who leaves
+        IOLoop.current().add_callback(self._let_in)  # what comes meanwhile is read, so that it is seen who leaves
 
-    async def _open(self):
+    async def _let_in(self):
         try:
             await self._enter()
         except (ProtocolError, RuntimeError, ValueError, KeyError) as error:
