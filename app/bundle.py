@@ -13,6 +13,8 @@ from panel.custom import JSComponent
 
 from app.text import listed
 
+BUNDLE = Path(__file__).parent / "static" / "tippe.js"
+
 
 def pack(values):
     """The float32 bytes, row by row, that the array parameters of components take."""
@@ -40,7 +42,7 @@ class Bundled(JSComponent):
     SAYS = ()  # the tables of its words, beside the one of its own name
     shown = None  # what was last put into it; for those who would put it there again
 
-    _bundle = Path(__file__).parent / "static" / "tippe.js"
+    _bundle = BUNDLE
 
     def __init__(self, **params):
         super().__init__(**({"texts": self.says()} | params))

@@ -13,7 +13,7 @@ import numpy as np
 from bokeh.embed import components
 from bokeh.settings import settings
 
-from app.bundle import Bundled
+from app.bundle import BUNDLE, Bundled
 from app.share.export import parameters
 from app.text import say, spoken
 from app.widgets.controls import SYMBOLS
@@ -80,14 +80,14 @@ def letter(scene, link="", look=None):
     )
     shown = html.escape(link)
     data = {
-        "bundle": Bundled._bundle.read_text(encoding="utf-8"),
+        "bundle": BUNDLE.read_text(encoding="utf-8"),
         "models": {type(part).__name__: dict(_values(part)) for part in (top, surface)},
     }
     return PAGE.substitute(
         lang=spoken(),
         title=say("share.letter.title", K_J=scene.constants.K_J, K_R=scene.constants.K_R),
         explorer=say("main.title"),
-        notices=(Bundled._bundle.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),
+        notices=(BUNDLE.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),
         plane=plane_div,
         card_top=say("roll.cards.top"),
         card_plane=say("roll.cards.plane", plane=PLANE),

@@ -7,13 +7,13 @@ import panel as pn
 import panel_material_ui as pmui
 import param
 
+from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.regimes import NAMES
 from app.state import asked
 from app.state.keep import Field, OneOf
 from app.text import listed, say
 from app.widgets.cards import NOTES, PLAIN, alert, note
-from app.widgets.pacing import at_once
 from tippe_core import Top
 
 STYLE = """

@@ -7,6 +7,7 @@ from functools import partial
 import panel as pn
 import param
 
+from app.borrowed import at_once
 from app.bundle import Bundled
 from app.widgets.failure import after, attempt
 
@@ -16,11 +17,6 @@ HANDS_IN_FLIGHT = 2
 REST_AFTER = 0.15
 # A hidden tab paints nothing and so never answers.
 ANSWER_WITHIN = 2.0
-
-
-def at_once(component, *properties):
-    """Lets these properties of a Panel component arrive without Panel's wait of 50 ms, and without its busy signal."""
-    component._priority_changes = component._busy__ignore = list(properties)
 
 
 class Painted(Bundled):
