@@ -95,6 +95,13 @@ interface LookModel extends Model {
   on_dark: Record<string, string>;
 }
 
+// app/tabs/lab/lab.py says what each holds.
+type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
+  a: number;
+  seconds: number;
+  asked: [count: number, name: string, value: any] | [];
+};
+
 declare const Bokeh: { documents: any[] };
 
 interface Window {
