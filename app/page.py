@@ -14,6 +14,8 @@ from app.model.runs import Runs, connected_to, to_session
 from app.share.share import Share
 from app.state.keep import Field, OneOf, explorer_of, read
 from app.tabs.families.compare import Compare
+from app.tabs.lab import opening
+from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn, kept
 from app.tabs.learn.student import student_page
 from app.tabs.planes.three_planes import KEPT, ThreePlanes
@@ -155,31 +157,37 @@ def page():
     pn.state.curdoc.on_session_destroyed(lambda context: runs.leave())
     share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))), runs)
     share.keep.param.watch(lambda event: builder.follow(), "returned")
+    opened, phone = opening.opened(texts), on_a_phone()
+    share.keep.shortest = opening.shortest
     pn.state.curdoc.template_variables.update(
-        first.variables(None if "tab" in texts else roll.top, pn.state.location.search)
+        first.variables(roll.top if opened == "roll" and "tab" not in texts else None, search)
     )
-    return pmui.Page(
+
+    def to_roll():
+        header.active = 1
+
+    views = {
+        "lab": lambda: lab_view(share.keep, runs, roll.pacer.request, to_roll),
+        "roll": lambda: roll.main,
+        "three-planes": lambda: planes_view(explorer, roll, builder, share.keep, runs),
+        "build-a-top": lambda: build_view(explorer, roll, builder),
+        "families": lambda: family_view(explorer, runs),
+        "learn": lambda: learn_view(explorer, roll, share.keep, runs),
+    }
+    header, *places = tabs(views, share.keep, roll.pacer.soon, opened if opened in views else opening.USUAL)
+    made = pmui.Page(
         template=first.PAGE,
         title=say("main.title"),
         sidebar=[*roll.sidebar, Tongue().choice(share)],
-        sidebar_open=not on_a_phone(),
+        sidebar_open=not phone and opened != opening.FIRST,
         header=[*share.header, roll.guide],
         main=[
             *share.main,
             *roll.hidden,
             Connection(words=say("main.lost"), width=0, height=0, margin=0),
             failed,
-            *tabs(
-                {
-                    "roll": lambda: roll.main,
-                    "three-planes": lambda: planes_view(explorer, roll, builder, share.keep, runs),
-                    "build-a-top": lambda: build_view(explorer, roll, builder),
-                    "families": lambda: family_view(explorer, runs),
-                    "learn": lambda: learn_view(explorer, roll, share.keep, runs),
-                },
-                share.keep,
-                roll.pacer.soon,
-            ),
+            header,
+            *places,
         ],
         sidebar_width=320,
         sidebar_resizable=False,
@@ -188,3 +196,11 @@ def page():
         busy_indicator=None,
         stylesheets=STYLE,
     )
+
+    def beside(event):
+        """The controls in the sidebar are none of the Lab's, which has its own."""
+        if not phone and 0 in (event.old, event.new):
+            made.sidebar_open = event.new != 0
+
+    header.param.watch(beside, "active")
+    return made

@@ -5,20 +5,26 @@ Lab then has becomes what the component draws.
 """
 
 import re
+from functools import partial
 
+import panel as pn
 import param
 
 from app.bundle import Bundled, pack
-from app.model.lab import TABLES, Lab
+from app.model.lab import Lab
+from app.model.lab_rolling import rolling
+from app.model.lab_run import TABLES, TOYS
 from app.state import asked
 from app.state.keep import Field, Number, OneOf
 from app.text import listed, say
+from app.widgets.failure import after
 from app.widgets.pacing import at_once
 from app.widgets.top3d import pack_frames
 
 INPUTS = ("spin", "tilt", "mu")
-DIGITS = {"spin": 1, "tilt": 1, "mu": 2}
-STEPS = {"spin": 0.1, "tilt": 0.1, "mu": 0.01}
+SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2)}
+"""{input: (least, most, step, digits) of its slider}; more can be typed."""
+RESTS = 0.4  # s after its last wish a hand is taken to rest
 
 
 class Toy:
@@ -83,22 +89,41 @@ class LabView(Bundled):
 
 
 def spelled(words):
-    """Words with their numbers as the page's language writes them."""
-    return re.sub(r"(?<=\d)\.(?=\d)", say("lab_view.view.decimal"), words)
+    """Words with their numbers as the page's language writes them, and no line's end before a unit."""
+    words = re.sub(r"(?<=\d)\.(?=\d)", say("lab_view.view.decimal"), words)
+    return re.sub(r"(?<=\d) (?=(mm|s|rev/s|U/s)\b)", "\N{NO-BREAK SPACE}", words)
+
+
+def lab_view(keep, runs, request, go):
+    """The tab. keep: a Keep; runs: a Runs; request: of a Pacer; go: shows the paper's figures."""
+    lab = Lab(runs)
+    keep.add(lab, kept())
+
+    def research():
+        request(**rolling(lab.toy, lab.spin, lab.tilt, lab.mu))
+        go()
+
+    def rests():
+        keep.at_rest()
+        lab.rest()
+
+    tab = LabTab(lab, research, rests)
+    lab.show()
+    pn.state.onload(lab.rest)
+    return tab.view
 
 
 class LabTab:
     """view: the tab. lab: the Lab it shows and asks; research: called for the paper's figures of this top and start;
-    rests: called when a hand has changed something."""
+    rests: called when a hand that has changed something rests."""
 
     def __init__(self, lab, research, rests):
         self._lab, self._research, self._rests = lab, research, rests
-        self._answered, self._shown, self._ends = 0, None, None
-        self._refused = {}
+        self._answered, self._shown, self._tried = 0, None, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
         self.view.param.watch(asked.heard(self._heard), "asked")
-        lab.param.watch(lambda event: self.show(), ["scene", "table", "ends", "busy"])
+        lab.param.watch(lambda event: self.show(), ["scene", "ends", "busy"])
         self.show()
 
     def _heard(self, event):
@@ -107,75 +132,73 @@ class LabTab:
         self._answered = int(count)
         if name == "research":
             self._research()
-        elif name in ("table", "toy"):
-            if value not in self._lab.param[name].objects:
-                raise asked.Unasked(f"not one of the objects of {name}")
-            self._lab.ask(**{name: value})
-        elif name in INPUTS:
-            self._refused = {name: value}
+        elif name in Lab.INPUTS:
+            if name in INPUTS:
+                self._tried[name] = value
             self._lab.ask(**{name: value})
         else:
             raise asked.Unasked("not an input of the Lab")
-        self._rests()
+        after(RESTS, partial(self._rest, self._answered))
         self.show()
+
+    def _rest(self, answered):
+        if answered == self._answered:
+            self._rests()
 
     def show(self):
         """What the Lab has now."""
-        lab, scene = self._lab, self._lab.scene
-        changes = {"state": self._state(lab, scene)}
-        if scene is not None and scene is not self._shown:
+        scene = self._lab.scene
+        if scene is None:
+            return
+        changes = {"state": self._state(scene)}
+        if scene is not self._shown:
             self._shown = scene
-            changes |= {"profile": pack(scene.profile), "a": scene.top.a, "seconds": scene.scales.time}
-            for table in TABLES:
-                motion = scene.motions[table]
+            changes |= {"profile": pack(scene.profile), "a": scene.a, "seconds": scene.seconds}
+            for table, motion in scene.motions.items():
                 changes[f"frames_{table}"] = pack_frames(*motion.frames) if motion else b""
                 changes[f"curves_{table}"] = pack(motion.curves) if motion else b""
         self.view.param.update(**changes)
 
-    def _state(self, lab, scene):
-        names = listed("workshop.presets")
-        messages = {name: spelled(sentence) for name, sentence in (scene.messages if scene else {}).items()}
+    def _state(self, scene):
+        lab, names = self._lab, listed("workshop.presets")
+        messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
         return {
-            "table": lab.table,
+            "table": scene.table,
             "toy": lab.toy,
             "toys": [[toy, names[toy]["name"]] for toy in lab.param.toy.objects],
             "values": {name: getattr(lab, name) for name in INPUTS},
-            "limits": {name: self._limits(name) for name in INPUTS},
+            "sliders": SLIDERS,
             "messages": messages,
-            "refused": {name: value for name, value in self._refused.items() if name in messages},
-            "old": self._old(lab, scene, messages),
-            "runs": {table: self._run(scene, table) for table in TABLES},
-            "ends": [list(end) for end in lab.ends] if lab.ends else None,
-            "R": 1e3 * scene.scales.R if scene else 1.0,
+            "refused": {name: self._tried.get(name) for name in messages},
+            "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
+            "was": ", ".join(self._named(scene, name) for name in INPUTS if getattr(scene, name) != getattr(lab, name)),
+            "runs": {table: self._run(scene, table) for table in scene.motions},
+            "said": list(map(spelled, scene.said)),
+            "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
+            "R": 1e3 * TOYS[scene.toy].shape.R,
             "answered": self._answered,
-            "busy": bool(lab.busy),
+            "busy": lab.busy,
         }
 
-    def _limits(self, name):
-        low, high = self._lab.param[name].softbounds or self._lab.param[name].bounds
-        return {"low": low, "high": high, "step": STEPS[name], "digits": DIGITS[name]}
-
     @staticmethod
-    def _old(lab, scene, messages):
-        """What the pictures are of, where that is not what was asked for."""
-        name = next(iter(messages), None)
-        if name not in INPUTS:
-            return ""
-        said = listed(f"lab_view.view.inputs.{name}")
+    def _named(scene, name):
+        """An input of the scene in words."""
+        said, digits = listed(f"lab_view.view.inputs.{name}"), SLIDERS[name][-1]
         gap = "" if said["unit"] in ("", "°") else " "
-        return spelled(f"{said['name']} {getattr(lab, name):.{DIGITS[name]}f}{gap}{said['unit']}")
+        return spelled(f"{said['name']} {getattr(scene, name):.{digits}f}{gap}{said['unit']}")
 
     @staticmethod
     def _run(scene, table):
-        """In words; None before there is any."""
-        if scene is None:
+        """A table's run in words; None where it is not watched."""
+        if table in scene.refused:
+            return {"events": [], "stages": [], "keeps": [], "caption": "", "why": spelled(scene.refused[table])}
+        if table not in scene.stories:
             return None
-        motion = scene.motions[table]
-        if motion is None:
-            return {"events": [], "stages": [], "keeps": [], "why": spelled(scene.why[table])}
+        story = scene.stories[table]
         return {
-            "events": [[t, code, spelled(word), spelled(short)] for t, code, word, short in motion.events],
-            "stages": [[t, *map(spelled, said)] for t, *said in motion.stages],
-            "keeps": [[mark, word, spelled(numbers)] for mark, word, numbers in motion.keeps],
+            "events": [[t, code, spelled(word), spelled(short)] for t, code, word, short in story.events],
+            "stages": [[t, *map(spelled, said)] for t, *said in story.stages],
+            "keeps": [[row.mark, row.word, spelled(row.text)] for row in scene.keeps.get(table, ())],
+            "caption": spelled(story.caption),
             "why": "",
         }

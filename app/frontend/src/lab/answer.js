@@ -87,7 +87,7 @@ export class Answer {
     const heights = curves.range(HEIGHT), t = (share) => share * curves.end, at = (share, column) => y(curves.at(t(share), column));
     const words = [], put = (share, height, text, more) => words.push(
       drawn("text", { class: "word halo", x: this.x(t(share)), y: height }, text),
-      ...(more ? [drawn("text", { class: "halo", x: this.x(t(share)), y: height + 15 }, more)] : []));
+      ...(more ? [drawn("text", { class: "halo", x: this.x(t(share)), y: height, dy: "1.3em" }, more)] : []));
     if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin);
     const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
     if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by);

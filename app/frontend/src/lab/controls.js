@@ -4,7 +4,7 @@ import { part, read, say, written } from "./parts.js";
 export const INPUTS = ["spin", "tilt", "mu"];
 const LATE = 2000; // ms: an answer that has not come by then is not waited for
 const THUMB = 10; // px from the end of a slider's track to the middle of its thumb there
-const APART = 34; // px between two numbers under the strip of ends
+const WIDTH = 340, WIDE = 5.6, APART = 16; // px: of the strip of ends at least, of a letter under it, between words
 
 // What a hand asks for, one wish at a time under way; of those that wait only the newest for each input.
 export class Asking {
@@ -59,6 +59,7 @@ class Control {
     this.texts = texts;
     this.said = said;
     this.ask = ask;
+    this.limits = { low: 0, high: 1, digits: 0 };
     this.share = 0; // of the track, where the value is
     const id = `lab-${name}`;
     this.slider = part("input", { type: "range", id, oninput: () => {
@@ -94,7 +95,8 @@ class Control {
 
   /** @param {any} state @param {boolean} ahead whether a hand has moved it since */
   show(state, ahead) {
-    const { low, high, step } = (this.limits = state.limits[this.name]), message = state.messages[this.name];
+    const [low, high, step, digits] = state.sliders[this.name], message = state.messages[this.name];
+    this.limits = { low, high, digits };
     Object.assign(this.slider, { min: low, max: high, step });
     const [refused, kept] = [state.refused[this.name], state.values[this.name]];
     if (!ahead) {
@@ -136,16 +138,20 @@ class Control {
 
   digits = (value) => written(value, value % 1 ? 1 : 0, this.texts.decimal);
 
-  // Words of the widest stretch on the left and on the right, and where the right one begins.
+  // The words of its two largest stretches, left and right, and where the right one begins.
   words(ends) {
-    const { low, high } = this.limits, wide = 360 / (high - low), middle = (low + high) / 2;
-    const widest = (list) => [...list].sort((a, b) => b[1] - b[0] - (a[1] - a[0]))[0];
-    const left = widest(ends.filter(([from]) => from < middle)), right = widest(ends.filter(([from, , , word]) => from >= left[1] - 1e-9 && word !== left[3]));
-    const line = part("div", { class: "words" }, part("span", {}, left[3]));
-    if (!right) return line;
-    const number = part("b", { style: `left: ${this.along((right[0] - low) / (high - low))}` }, this.digits(right[0]));
-    if (right[0] * wide > APART + 7 * left[3].length && (high - right[0]) * wide > APART + 5 * right[3].length) line.append(number);
-    line.append(part("span", {}, right[3]));
+    const { low, high } = this.limits, size = ([from, to]) => to - from;
+    const [large, next] = [...ends].sort((a, b) => size(b) - size(a)), line = part("div", { class: "words" });
+    if (!next || next[3] === large[3]) line.append(part("span", {}, large[3]));
+    else {
+      const [left, right] = large[0] < next[0] ? [large, next] : [next, large], at = (right[0] - low) / (high - low);
+      line.append(part("span", {}, left[3]));
+      const letters = WIDE * (left[3].length + right[3].length);
+      if (at * WIDTH > WIDE * left[3].length + APART && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
+        line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));
+      }
+      line.append(part("span", {}, right[3]));
+    }
     return line;
   }
 }
@@ -180,7 +186,7 @@ export class Controls {
       const idle = control.name === "mu" && (table === "rough" || table === "ice");
       control.element.hidden = this.picks.children[i].hidden = idle;
       control.show(state, ahead);
-      const { digits } = state.limits[control.name], { unit } = control.said;
+      const { digits } = control.limits, { unit } = control.said;
       this.picks.children[i].lastChild.textContent = `${written(state.values[control.name], digits, texts.decimal)}${unit === "°" ? "" : " "}${unit}`;
       if (state.messages[control.name]) this.pick(control.name);
     }

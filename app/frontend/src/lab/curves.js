@@ -74,7 +74,7 @@ export function ticks(least, most, count) {
   const rough = (most - least) / count, decade = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((digit) => digit * decade).find((s) => s >= rough * (1 - 1e-9)) ?? niceAbove(rough);
   const found = [];
-  for (let i = Math.ceil(least / step - 1e-9); i * step <= most + 1e-9 * step; i++) found.push(i * step);
+  for (let i = Math.ceil(least / step - 1e-9); i * step <= most + 1e-3 * step; i++) found.push(i * step);
   return found;
 }
 

@@ -18,6 +18,8 @@ class Lab {
   constructor({ model, el }) {
     const { texts } = model;
     this.model = model;
+    this.patience = this.since = 0;
+    this.anew = "";
     /** @type {Record<string, { bytes: Bytes, curves: Curves }>} */
     this.bytes = {}; // what was read, and as what
     this.time = new Time(coalesce(() => this.at()));
@@ -47,16 +49,23 @@ class Lab {
   };
 
   ask(name, value) {
-    if (name === "table") this.anew = true; // the same start on another table, from its beginning
+    if (name === "table") {
+      this.anew = value; // the same start on another table, from its beginning
+      this.stage.choice.show(value);
+    }
     this.asking.ask(name, value);
-    clearTimeout(this.patience);
-    this.patience = setTimeout(() => this.wait(), PATIENCE);
+    this.patience ||= setTimeout(() => this.show(), PATIENCE);
   }
 
-  // Names the old picture as old, where the new one has still not come.
-  wait() {
-    const { state } = this.model;
-    this.element.classList.toggle("old", this.asking.isAhead || state.busy || Boolean(state.old));
+  // What the old picture is of, where it is old, and is to be named so.
+  old() {
+    const { state } = this.model, waits = this.asking.isAhead || state.busy;
+    if (!waits) {
+      clearTimeout(this.patience);
+      this.patience = this.since = 0;
+    } else this.since ||= performance.now();
+    if (waits) this.patience ||= setTimeout(() => this.show(), PATIENCE);
+    return state.old || (waits && performance.now() - this.since >= PATIENCE - 1 ? state.was : "");
   }
 
   spin() {
@@ -66,35 +75,34 @@ class Lab {
 
   // What Python sent, as what the parts draw.
   read() {
-    const { model } = this, { state } = model, { table } = state;
+    const { model } = this, { table } = model.state, state = { ...model.state, old: this.old() };
     const each = (read) => Object.fromEntries(TABLES.map((name) => [name, read(name)]));
     for (const name of TABLES) {
       const bytes = model[`curves_${name}`];
       if (this.bytes[name]?.bytes !== bytes) this.bytes[name] = { bytes, curves: new Curves(bytes) };
     }
     const alone = table === "three" ? "ordinary" : table, curves = each((name) => this.bytes[name].curves);
-    const over = each((name) => state.runs[name]?.events.some(([, code]) => code === "over"));
     return {
       state, texts: model.texts, table, curves, runs: state.runs, run: state.runs[alone], unit: model.seconds, a: model.a,
       frames: each((name) => model[`frames_${name}`]), profile: model.profile && float32(model.profile),
-      end: Math.max(...Object.values(curves).map(({ end }) => end)), onlyOrdinary: over.ordinary && !over.rough && !over.ice,
+      end: Math.max(...Object.values(curves).map(({ end }) => end)),
       track: (name) => trackOf(float32(model[`frames_${name}`]), model.seconds),
     };
   }
 
   showNow() {
-    const scene = (this.scene = this.read()), { time, model } = this, first = !this.shown;
-    this.shown = true;
+    if (!this.model.state.runs) return; // Python has not got there
+    const scene = (this.scene = this.read()), { time, model } = this;
     this.asking.hear(model.state.answered);
     Object.assign(time, { unit: model.seconds, end: scene.end, events: scene.run?.events ?? [], tops: this.stage.tops });
     this.element.dataset.table = scene.table;
     this.stage.show({ ...scene, profile: model.profile });
     for (const shown of [this.strip, this.words, this.answer, this.keeps]) shown.show({ ...scene, profile: scene.profile ?? [] });
     this.controls.show(scene, this.asking.isAhead);
-    this.wait();
-    if (this.anew && !this.asking.isAhead) {
-      this.anew = false;
-      if (!first) this.spin();
+    this.element.classList.toggle("old", Boolean(scene.state.old));
+    if (this.anew === scene.table) {
+      this.anew = "";
+      this.spin();
     }
     this.at();
   }

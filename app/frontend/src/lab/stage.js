@@ -17,9 +17,11 @@ export class Stage {
     this.texts = texts;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // under three tops, what each does
-    this.tops = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table] }));
+    this.alone = new Top({ texts, time, label: texts.stage, away: 1.3 });
+    this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75 }));
     this.captions = TABLES.map(() => part("p", { class: "caption" }));
-    this.places = this.tops.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i]));
+    this.places = [part("div", { class: "place" }, this.alone.element),
+      ...this.three.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i]))];
     this.choice = new Choice({
       role: "radio", label: texts.table, choose: (table) => ask("table", table),
       options: [...TABLES, "three"].map((name) => [name, texts.tables[name], texts.hints[name]]),
@@ -42,22 +44,25 @@ export class Stage {
     }, { capture: true, passive: true });
   }
 
+  get tops() {
+    return [this.alone, ...this.three];
+  }
+
   show(scene) {
     const { state, texts, table } = scene, three = table === "three";
     this.scene = scene;
     this.choice.show(table);
     this.showToys(state);
-    const alone = three ? "ordinary" : table; // the first top has the one that is looked at alone
-    TABLES.forEach((name, i) => {
-      const shown = i === 0 || three;
+    const { profile, a, unit: seconds } = scene;
+    this.tops.forEach((top, i) => {
+      const shown = three === i > 0;
       this.places[i].hidden = !shown;
-      if (!shown) return this.tops[i].put({ frames: null }); // with nothing to move it costs nothing
-      const frames = scene.frames[i === 0 ? alone : name];
-      this.tops[i].put({ profile: scene.profile, a: scene.a, seconds: scene.unit, frames });
-      if (this.element.isConnected) this.tops[i].begin();
-      this.captions[i].replaceChildren(...(three ? this.caption(name) : []));
+      if (!shown) return top.put({ frames: null }); // with nothing to move it costs nothing
+      top.put({ profile, a, seconds, frames: scene.frames[three ? TABLES[i - 1] : table] });
+      if (this.element.isConnected) top.begin();
     });
-    const why = three ? "" : scene.runs[alone]?.why ?? "";
+    TABLES.forEach((name, i) => this.captions[i].replaceChildren(...(three ? this.caption(name) : [])));
+    const why = three ? "" : scene.runs[table]?.why ?? "";
     this.missing.textContent = why;
     this.missing.hidden = !why;
     this.old = state.old ? say(texts, texts.old, { what: state.old }) : "";
@@ -88,7 +93,7 @@ export class Stage {
     if (three) {
       for (const name of TABLES) {
         const [, , , does] = latest(scene.runs[name]?.stages ?? [], t) ?? [];
-        this.lines[name].textContent = scene.runs[name]?.why || (does ?? "");
+        this.lines[name].textContent = scene.runs[name]?.why || scene.runs[name]?.caption || (does ?? "");
       }
     } else if (curves.count) {
       const [, , , word] = latest(run.stages, t) ?? [], tilt = [curves.at(t, TILT), 0];

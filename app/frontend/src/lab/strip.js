@@ -6,7 +6,7 @@ import { TABLES } from "./stage.js";
 const SPEEDS = [1, 1 / 2, 1 / 4, 1 / 8, 1 / 16];
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
 const LETTER = 0.56; // how wide a letter is, in its size
-const NEED = 110; // px of a stage in which the top is drawn as it then stands
+const NEED = 100; // px of a stage in which the top is drawn as it then stands
 const ICONS = {
   play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z", again: "M4 4v4h4M4.500 8a6 6 0 1 1-.6 4",
 };
@@ -104,7 +104,7 @@ export class Strip {
       found.push(drawn("line", { class: tilt ? "grid" : "axis", x1: LEFT, x2: right, y1: this.y(tilt), y2: this.y(tilt) }),
         drawn("text", { x: LEFT - 6, y: this.y(tilt) + 4, "text-anchor": "end" }, `${tilt}°`));
     }
-    for (const t of ticks(0, time.end || 1, Math.min(8, this.width / 60))) {
+    for (const t of ticks(0, time.end || 1, Math.min(8, this.width / 50))) {
       found.push(drawn("text", { x: this.x(t), y: bottom + 16, "text-anchor": "middle" }, say(texts, t ? "{t}" : "{t} s", { t: [t, t % 1 ? 1 : 0] })));
     }
     return found;
@@ -157,7 +157,7 @@ export class Strip {
       .map((table) => ({ table, y: this.y(scene.curves[table].at(scene.end, TILT)) + 4 })).sort((a, b) => b.y - a.y);
     ends.forEach((end, i) => (end.y = i ? Math.min(end.y, ends[i - 1].y - 15) : end.y));
     return ends.map(({ table, y }) => drawn("text", { x: this.right + 8, y },
-      drawn("tspan", { class: "word" }, texts.tables[table]), ` ${scene.runs[table].stages.at(-1)?.[3] ?? ""}`));
+      drawn("tspan", { class: "word" }, texts.tables[table]), ` ${scene.runs[table].caption || (scene.runs[table].stages.at(-1)?.[3] ?? "")}`));
   }
 
   /** @param {number} t */

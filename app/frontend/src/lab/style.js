@@ -53,19 +53,19 @@ polyline { fill: none; stroke-linejoin: round; }
 // Where each part stands: the top and what answers it side by side, the bar that moves the time right under the top.
 const places = `
 .lab { display: grid; gap: 12px var(--gap); padding: 12px var(--gap) 8px; align-content: start;
-  --stage: clamp(300px, 100vh - 430px, 62cqw);
+  --stage: clamp(390px, 100vh - 384px, 62cqw);
   grid-template: "stage answer" calc(var(--stage) - 150px) "stage controls" 138px "strip controls" var(--bar) "say controls" auto / minmax(0, 1fr) var(--side); }
 .stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
 .strip { grid-area: strip; min-width: 0; } .say { grid-area: say; min-width: 0; } .answer { grid-area: answer; min-width: 0; }
 .controls { grid-area: controls; min-width: 0; } .keeps { grid-area: answer; min-width: 0; display: none; overflow-x: auto; }
-.lab[data-table=three] { --stage: clamp(280px, 100vh - 530px, 40cqw);
+.lab[data-table=three] { --stage: clamp(300px, 100vh - 520px, 40cqw);
   grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say answer" auto "controls answer" auto / var(--side) minmax(0, 1fr); }
 .lab[data-table=three] .answer { display: none; } .lab[data-table=three] .keeps { display: block; }
 .lab[data-table=three] .ctl:not(:nth-child(2)) { display: none; }
 .lab[data-table=three] .outline { display: none; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
-    --stage: clamp(300px, 100vh - 480px, 62cqw); }
+    --stage: clamp(390px, 100vh - 430px, 62cqw); }
 }
 @container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; } }
 @container (max-width: 900px) { .lab { --side: 300px; } }
@@ -96,9 +96,9 @@ const stage = `
 .caption b, .caption .does { color: var(--scene-ink, #1d2733); }
 .missing { position: absolute; left: 16px; right: 16px; bottom: 56px; background: var(--ground); border-radius: 8px; padding: 8px 12px; max-width: 60ch; }
 @container (max-width: 700px) {
-  .on { left: 8px; right: 8px; top: 8px; flex-wrap: wrap; } .switch > b { display: none; } .seg button { padding: 0 10px; min-height: 44px; }
-  .on > select { position: absolute; right: 0; top: 56px; max-width: 60%; font-size: var(--t-s); }
-  .ring { top: 62px; left: 8px; margin: 0; } .ring svg { width: 60px; }
+  .on { left: 8px; right: 8px; top: 8px; gap: 4px; } .switch > b { display: none; } .seg button { padding: 0 9px; min-height: 44px; }
+  .on > select { max-width: none; flex: 1; min-height: 50px; }
+  .ring { top: 66px; left: auto; right: 8px; margin: 0; flex-direction: column; gap: 0; } .ring svg { width: 64px; }
   .lab[data-table=three] .place { flex: 1 1 33%; } .caption { bottom: 8px; font-size: var(--t-s); }
 }
 `;
@@ -165,7 +165,8 @@ const controls = `
 .wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: 13px; }
 .ends { position: relative; height: 10px; margin-top: -2px; } .ends.none { margin: -2px 10px 0; background: var(--end-0); }
 .end { position: absolute; top: 0; bottom: 0; background: var(--end-1); }
-.end.upright { background: var(--end-0); } .end.leaning { background: var(--end-1); } .end.inverted { background: var(--end-2); } .end.stem { background: var(--end-3); }
+.end:is(.upright, .rolls, .moves) { background: var(--end-0); } .end.falls { background: var(--end-2); } .end:is(.stands, .inverted) { background: var(--end-3); }
+.end.refused { background: var(--line); }
 .end.mixed { background: repeating-linear-gradient(45deg, var(--end-3) 0 3px, var(--end-1) 3px 6px); }
 .ends .mark { position: absolute; top: -6px; height: 20px; width: 2px; margin-left: -1px; background: var(--accent); }
 .words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }

@@ -30,7 +30,7 @@ export class Words {
   at(t) {
     const { scene, texts } = this, { state } = scene;
     let said = latest(scene.run?.stages ?? [], t)?.slice(1, 3) ?? ["", scene.run?.why ?? ""];
-    if (scene.table === "three") said = [scene.onlyOrdinary ? texts.three.only : texts.three.any, texts.three.why];
+    if (scene.table === "three") said = state.said;
     if (state.old) said = [say(texts, texts.still, { what: state.old }), texts.still_why];
     const key = said.join();
     if (key === this.said) return;
