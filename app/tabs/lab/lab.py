@@ -108,9 +108,19 @@ def lab_view(keep, runs, request, go):
         lab.rest()
 
     tab = LabTab(lab, research, rests)
-    lab.show()
-    pn.state.onload(lab.rest)
+    if all(getattr(lab, name) == lab.param[name].default for name in Lab.INPUTS):
+        lab.show()  # it is kept, so that it is there with the page
+    if pn.state.loaded:
+        begin(lab)
+    else:
+        pn.state.onload(partial(begin, lab))
     return tab.view
+
+
+def begin(lab):
+    """What takes a thread, which a page has once it is there."""
+    lab.show()
+    lab.rest()
 
 
 class LabTab:

@@ -68,7 +68,7 @@ class Control {
     } });
     this.number = part("input", {
       class: "num", inputmode: "decimal", "aria-label": said.typed, "aria-describedby": `${id}-wrong`,
-      onchange: () => this.type(), onkeydown: (event) => event.key === "Enter" && this.type(),
+      onchange: () => this.type(),
     });
     this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
     this.below = part("div", { class: "below" });

@@ -40,7 +40,8 @@ export class Stage {
       this.pill, this.missing);
     // The wheel scrolls the page; with Ctrl it is for the picture.
     this.element.addEventListener("wheel", (event) => {
-      if (!event.ctrlKey) event.stopPropagation();
+      if (event.ctrlKey) event.composedPath()[0].focus?.({ preventScroll: true });
+      else event.stopPropagation();
     }, { capture: true, passive: true });
   }
 

@@ -31,7 +31,11 @@ export class Strip {
     this.range = part("input", {
       type: "range", class: "at", min: 0, step: 0.01, "aria-label": texts.time,
       oninput: () => time.seek(Number(this.range.value)),
-      onkeydown: (event) => event.key === " " && (event.preventDefault(), time.play(!time.playing)),
+      onkeydown: (event) => {
+        if (event.key !== " ") return;
+        event.preventDefault();
+        time.play(!time.playing);
+      },
     });
     this.drawing = drawn("svg", { "aria-hidden": "true" });
     this.head = part("span", { class: "head" });
@@ -62,7 +66,7 @@ export class Strip {
   }
 
   get right() {
-    return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 150 : 0);
+    return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 190 : 0);
   }
 
   x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.end || 1);

@@ -72,7 +72,7 @@ const places = `
 @container (max-width: 700px) {
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: 0; z-index: 2; }
-  .lab[data-table=three] .stage { height: 400px; position: relative; }
+  .lab[data-table=three] .stage { height: 340px; position: relative; }
   .strip, .say, .answer, .keeps { padding: 8px 16px 0; }
   .controls { position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
 }
@@ -99,7 +99,8 @@ const stage = `
   .on { left: 8px; right: 8px; top: 8px; gap: 4px; } .switch > b { display: none; } .seg button { padding: 0 9px; min-height: 44px; }
   .on > select { max-width: none; flex: 1; min-height: 50px; }
   .ring { top: 66px; left: auto; right: 8px; margin: 0; flex-direction: column; gap: 0; } .ring svg { width: 64px; }
-  .lab[data-table=three] .place { flex: 1 1 33%; } .caption { bottom: 8px; font-size: var(--t-s); }
+  .lab[data-table=three] .top { top: 60px; bottom: 72px; } .caption { bottom: 4px; height: 68px; font-size: var(--t-s); padding: 0 4px; }
+  .lab[data-table=three] .stage { background: var(--scene, #eef1f5); }
 }
 `;
 
@@ -118,7 +119,7 @@ path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 .at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; }
 .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
 .say { display: grid; grid-template-columns: 1fr auto; gap: 8px 24px; align-items: start; }
-.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 62ch; }
+.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; }
 @container (max-width: 1180px) { .outline { max-width: 230px; } }
 @container (max-width: 700px) {
   .strip { grid-template-columns: minmax(0, 1fr); } .strip .plot { height: 116px; }
@@ -126,6 +127,8 @@ path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
   .paces { right: 68px; display: flex; } .again { display: none; } .speed { background: var(--ground); border-radius: 22px; padding: 0 10px; min-height: 44px; }
   .lab { position: relative; } .strip { position: static; }
   .strip .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
+  .lab[data-table=three] .strip { grid-template: "starts paces" auto "plot plot" auto / auto 1fr; }
+  .lab[data-table=three] :is(.starts, .paces) { position: static; } .lab[data-table=three] .strip .plot { grid-area: plot; }
   .say { grid-template-columns: 1fr; } .outline { max-width: none; } .outline span { display: inline; font-size: inherit; margin-right: 6px; }
 }
 `;
