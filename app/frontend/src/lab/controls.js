@@ -79,6 +79,9 @@ class Control {
   type() {
     const value = read(this.number.value);
     this.ask(this.name, Number.isFinite(value) ? value : this.number.value);
+    if (!Number.isFinite(value)) return;
+    this.slider.value = String(value);
+    this.put(value);
   }
 
   /** @param {number} value */
