@@ -159,6 +159,13 @@ type Spot = [row: number, share: number];
 type PixelScale = { compute(value: number): number; invert(px: number): number };
 type Tieline = { K_J: number; inner: number; outer: number };
 
+// app/tabs/lab/lab.py says what each holds.
+type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
+  a: number;
+  seconds: number;
+  asked: [count: number, name: string, value: any] | [];
+};
+
 declare const Bokeh: { documents: any[]; index: any };
 
 interface Window {
