@@ -10,6 +10,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import panel as pn
 import param
 import pytest
 from bokeh.document import Document
@@ -30,7 +31,7 @@ from app.model.planes_picture import Settings
 from app.model.playing import Playing
 from app.model.runs import Runs
 from app.model.scene import Scene, solve
-from app.page import House
+from app.page import House, page
 from app.share.share import Share
 from app.state.keep import Keep
 from app.tabs.families.compare import Compare
@@ -72,8 +73,8 @@ def pictured(name):
     scene = stored(name)
     return planes_run.solve(Settings(
         top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile, rolling=None, spin=15.0,
-        tilt=12.0, slip=1.0, law="coulomb", mu_k=0.2, mu_s=0.3, gamma=0.3, mu=0.3, eps=0.1, landing="plastic", stem=True,
-        seconds=0.3))  # fmt: skip
+        tilt=12.0, slip=1.0, law="coulomb", mu_k=0.2, mu_s=0.3, gamma=0.3, mu=0.3, eps=0.1, landing="plastic",
+        stem=True, seconds=0.3))  # fmt: skip
 
 
 # ---- every view alone ----
@@ -131,8 +132,12 @@ def roll(scene):
 def learn(section):
     def make(scene):
         view = Learn(scene, nothing)
-        view.section = section
-        return view, view.show
+
+        def show(scene):
+            for view.section in ("lesson", section):  # what is not looked at is shown when it is
+                view.show(scene)
+
+        return view, show
 
     return make
 
@@ -389,3 +394,24 @@ def test_the_walk_of_a_run_with_friction(walk):
     dial.asked = [1, 15.0, False]
     rest()
     assert passed == told("A run with friction") and len({*passed}) == len(passed)
+
+
+# ---- the first tab ----
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", ["learn", "build-a-top"])
+def test_the_page_needs_no_tab_but_the_first_to_be_made(first, monkeypatch):
+    """Whichever that is: the others are made when they are looked at."""
+    made = []
+
+    def noted(name, make, house):
+        made.append(name)
+        return make(house)
+
+    tabs = {name: partial(noted, name, make) for name, make in House.TABS.items()}
+    monkeypatch.setattr(House, "TABS", {first: tabs.pop(first), **tabs})
+    with set_curdoc(Document()):
+        pn.state.location.search = ""
+        page()
+    assert made == [first]
