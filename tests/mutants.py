@@ -29,7 +29,19 @@ ROLLING = ["differences", "nutation", "phase", "series", "crowding", "rolling"]
 SLIDING = ["friction", "dynamics", "stepper", "following", "happening", "contacts", "impact", "impulses", "standing",
            "preparing", "poses", "repeats", "sliding", "many", "tally"]  # fmt: skip
 CORE = [*PAPER, *ROLLING, "smooth", *SLIDING]
-APP = ["explorer", "scene", "region", "frames", "bodies", "planes", "planes_picture", "planes_run", "family"]
+APP = [
+    "explorer",
+    "scene",
+    "marks",
+    "hands",
+    "region",
+    "frames",
+    "bodies",
+    "planes",
+    "planes_picture",
+    "planes_run",
+    "family",
+]
 FILES = [*CORE, *APP]
 # Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
 CONTROL = {"solve", "bisect", "zero", "least", "resolved", "harmonics", "length", "first_below", "accept", "error",
@@ -53,8 +65,9 @@ FIRST = {
 OF_APP = {
     **{
         name: ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"]
-        for name in ("explorer", "scene", "region", "frames", "bodies")
+        for name in ("explorer", "scene", "marks", "region", "frames", "bodies")
     },
+    "hands": ["test_hands.py"],
     **{name: ["test_planes.py", "test_ending.py"] for name in ("planes", "planes_picture", "planes_run")},
     "family": ["test_builder.py", "test_explorer.py"],
 }

@@ -13,9 +13,9 @@ def pulled(scene: Scene, grip: str, theta: float, K_J: float, limit: str) -> dic
         return {"K_J": K_J, "energy": {"slip": 1.0, "lift-off": 2.0}[limit], "given": "share"}
     if grip == "line":
         return {"K_J": K_J, "given": "share"}
-    K_J = scene.constants.K_J if grip == "end" else K_J
-    theta = min(max(theta, 0.0), np.pi)
-    E = least_energy(np.array(theta), scene.top, K_J, scene.inputs["K_R"])
+    K_J = float(scene.constants.K_J) if grip == "end" else K_J
+    at = np.array(min(max(theta, 0.0), np.pi))
+    E = least_energy(at, scene.top, K_J, scene.inputs["K_R"])
     return {"K_J": K_J, "E": float(E), "given": "E"}
 
 

@@ -94,14 +94,13 @@ class Pacer:
 
     def ask_of(self, model):
         """What asks for inputs of another view-model in the same turns, as ask() does of the Explorer's."""
+        return partial(self._ask_other, model)
 
-        def ask(**inputs):
-            self._others.setdefault(model, {}).update(inputs)
-            self._advance()
-            if self._others:
-                after(ANSWER_WITHIN, self._finish)
-
-        return ask
+    def _ask_other(self, model, **inputs):
+        self._others.setdefault(model, {}).update(inputs)
+        self._advance()
+        if self._others:
+            after(ANSWER_WITHIN, self._finish)
 
     def _advance(self):
         late = time.monotonic() - ANSWER_WITHIN

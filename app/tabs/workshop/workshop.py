@@ -89,7 +89,7 @@ class Pieces:
         return [self._view]
 
     def show(self, shape):
-        self._view.visible = not isinstance(shape, BareSphere)
+        self._view.visible, self.density.value = not isinstance(shape, BareSphere), ""
         self.undo.visible = isinstance(shape, Turned) and len(shape.solid.slices) > 1
         if self._view.visible:
             density = getattr(shape, "density", shape.mass / shape.volume)

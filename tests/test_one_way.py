@@ -1,0 +1,417 @@
+"""One way, at run time too: a hand asks, the Explorer solves, one scene is shown.
+
+Every view is made alone, without Explorer, page or another view, and shows stored scenes; docs/house.md says through
+which stations three gestures go, and they go through those, each once.
+"""
+
+import re
+from functools import cache, partial, wraps
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import panel as pn
+import param
+import pytest
+from bokeh.document import Document
+from bokeh.models import ColumnDataSource, Label, Range1d, Span
+from bokeh.plotting import figure as Figure
+from house import Shown
+from panel.custom import JSComponent
+from panel.io.state import set_curdoc
+
+import app.model.explorer
+import app.tabs.roll.roll
+from app.bundle import Bundled
+from app.model import planes_run
+from app.model.builder import Builder
+from app.model.explorer import Explorer
+from app.model.planes import Planes
+from app.model.planes_picture import Settings
+from app.model.playing import Playing
+from app.model.runs import Runs
+from app.model.scene import Scene, solve
+from app.page import House, page
+from app.share.share import Share
+from app.state.keep import Keep
+from app.tabs.families.compare import Compare
+from app.tabs.learn.figures import SectionFigure
+from app.tabs.learn.learn import Learn
+from app.tabs.learn.lines import Derivation
+from app.tabs.planes.three_planes import ThreePlanes
+from app.tabs.roll.roll import Roll
+from app.tabs.workshop.section import Section
+from app.tabs.workshop.workshop import Workshop
+from app.widgets.controls import FACES, Control, Controls
+from app.widgets.guide import Guide
+from app.widgets.pacing import Pacer
+from app.widgets.plane_figure import PlaneFigure
+from app.widgets.plots import Motion, TimeFigures
+from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
+from app.widgets.surface3d import Surface3D, show_surface
+from app.widgets.top3d import Top3D, show_top
+from tippe_core import PRESETS, Constants, Top
+
+DOCS = Path(__file__).parent.parent / "docs"
+
+
+@cache
+def stored(name):
+    """The Scene of a preset, with what a throw gives it."""
+    preset = next(preset for preset in PRESETS if preset.name == name)
+    if preset.top == Top.paper():
+        return solve(preset.top, 7.0, 10.0, 0.5, 0.9, shape=preset.shape)
+    thrown = Constants.from_state(preset.top, 0.3, 0.0, 0.0, 12.0)
+    return solve(preset.top, float(thrown.K_J), float(thrown.K_R), 0.4, 0.6, shape=preset.shape)
+
+
+TOPS = ("The paper's tippe top", "Leine and Glocker's toy", "Wooden cone")
+
+
+@cache
+def pictured(name):
+    scene = stored(name)
+    return planes_run.solve(Settings(
+        top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile, rolling=None, spin=15.0,
+        tilt=12.0, slip=1.0, law="coulomb", mu_k=0.2, mu_s=0.3, gamma=0.3, mu=0.3, eps=0.1, landing="plastic",
+        stem=True, seconds=0.3))  # fmt: skip
+
+
+# ---- every view alone ----
+
+
+def nothing(**inputs):
+    raise AssertionError("nobody asked")
+
+
+def with_motion(kind):
+    """A figure that follows a Motion, which is its data."""
+
+    def make(scene):
+        motion = Motion()
+        figure = kind(motion)
+        shows = [figure.show] if kind is TimeFigures else [figure.show_plane, figure.show_selected]
+        return (motion, figure), lambda scene: [show(scene) for show in (motion.show, *shows)]
+
+    return make
+
+
+def of_scenes(kind):
+    def make(scene):
+        view = kind()
+        return view, view.show
+
+    return make
+
+
+def in_three_dimensions(kind, show):
+    def make(scene):
+        view = kind()
+        return view, partial(show, view)
+
+    return make
+
+
+def controls(scene):
+    view = Controls(scene, nothing, lambda make: make())
+
+    def show(scene):
+        view.follow(scene)
+        for face in reversed(FACES):  # what is not looked at is shown when it is
+            view.face = face
+            view.show(scene)
+
+    return view, show
+
+
+def roll(scene):
+    pacer = Shown(scene)
+    return Roll(pacer, Playing()), pacer.show
+
+
+def learn(section):
+    def make(scene):
+        view = Learn(scene, nothing)
+
+        def show(scene):
+            for view.section in ("lesson", section):  # what is not looked at is shown when it is
+                view.show(scene)
+
+        return view, show
+
+    return make
+
+
+def bench(scene):
+    """The builder's tab is of a Builder, whose draft is a function of the scene."""
+    builder = Builder(scene, nothing)
+    view = Workshop(builder)
+
+    def show(scene):
+        builder.follow(scene)
+        view.show(scene)
+
+    return view, show
+
+
+def section(scene):
+    view = Section(lambda *wish: None)
+    return view, lambda scene: view.show(Builder(scene, nothing).draft)
+
+
+def share(scene):
+    view = Share(Keep(), Playing(), scene)
+    view._open(None)
+
+    def show(scene):
+        view.show(scene)
+        view._open(None)
+
+    return view, show
+
+
+def compare(scene):
+    view = Compare(scene)
+
+    def show(scene):
+        view.show(scene)
+        view.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
+        view._prefill()
+
+    return view, show
+
+
+VIEWS = {
+    **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide, SectionFigure)},
+    "PlaneFigure": with_motion(PlaneFigure), "TimeFigures": with_motion(TimeFigures),
+    "Top3D": in_three_dimensions(Top3D, show_top), "Surface3D": in_three_dimensions(Surface3D, show_surface),
+    "Derivation": lambda scene: (lambda view: (view, view.show))(Derivation("a")),
+    "Controls": controls, "Roll": roll, "Learn, the lesson": learn("lesson"), "Learn, the lines": learn("derivation"),
+    "Workshop": bench, "Section": section, "Share": share, "Compare": compare,
+}  # fmt: skip
+
+
+def seen(view):
+    """{path: value} of all that a view has put on the page, or keeps of what it put there."""
+    found, met = {}, set()
+
+    def look(thing, path):
+        if isinstance(thing, (Scene, str, int, float, type(None), np.ndarray)) or id(thing) in met:
+            return
+        met.add(id(thing))
+        if isinstance(thing, (dict, list, tuple)):
+            parts = thing.items() if isinstance(thing, dict) else enumerate(thing)
+            for name, part in parts:
+                look(part, f"{path}/{name}")
+        elif isinstance(thing, ColumnDataSource):
+            found.update({f"{path}/{name}": in_a_row(column) for name, column in thing.data.items()})
+        elif isinstance(thing, Range1d):
+            found[path] = np.array([thing.start, thing.end])
+        elif isinstance(thing, (Span, Label)):
+            found[path] = np.asarray(thing.location if isinstance(thing, Span) else thing.text)
+        elif isinstance(thing, param.Parameterized) and hasattr(thing, "jslink"):  # a part of the page
+            for name in ("objects", "object", "value", "label", "options", "visible", "styles", "told", "words"):
+                part = getattr(thing, name, None)
+                if isinstance(part, list) and name == "objects":
+                    look(part, f"{path}/{name}")
+                elif name in thing.param and not isinstance(
+                    part, Figure
+                ):  # whose data are met where the view keeps them
+                    found[f"{path}/{name}"] = np.asarray(str(part))
+            if isinstance(thing, JSComponent):
+                for name in {*thing.param} - {*Bundled.param}:
+                    part = getattr(thing, name)
+                    known = isinstance(part, bytes)
+                    found[f"{path}/{name}"] = np.frombuffer(part, np.uint8) if known else np.asarray(str(part))
+        elif type(thing).__module__.startswith("app.") and hasattr(thing, "__dict__"):
+            for name, part in vars(thing).items():
+                if not name.endswith(("_param__private", "_runs")):
+                    look(part, f"{path}.{name}")
+
+    look(view, "")
+    return found
+
+
+def in_a_row(column):
+    """A column of a source, of numbers, words, or arrays of any length."""
+    return np.concatenate([np.ravel(np.asarray(each)) for each in column]) if len(column) else np.zeros(0)
+
+
+def same(one, other):
+    kinds = one.dtype.kind in "fiu" and other.dtype.kind in "fiu"
+    return one.shape == other.shape and np.array_equal(one, other, equal_nan=kinds)
+
+
+def shown(make, *scenes):
+    """What a view has on the page that was made for the first of these scenes and shown all in turn."""
+    view, show = make(scenes[0])
+    for scene in scenes:
+        show(scene)
+    return seen(view)
+
+
+@pytest.fixture
+def alone(monkeypatch):
+    """No Explorer and no Pacer is made."""
+
+    def refuse(self, *inputs, **named):
+        raise AssertionError("a view made it")
+
+    monkeypatch.setattr(Explorer, "__init__", refuse)
+    monkeypatch.setattr(Pacer, "__init__", refuse)
+    with set_curdoc(Document()):
+        yield
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", VIEWS)
+def test_a_view_works_alone_and_shows_the_last_scene_whatever_came_before(alone, name):
+    for before, last in ((TOPS[0], TOPS[1]), (TOPS[1], TOPS[2]), (TOPS[2], TOPS[0])):
+        first, found, expected = (shown(VIEWS[name], *map(stored, tops)) for tops in (
+            (before,), (before, last), (last, last)))  # fmt: skip
+        assert found.keys() == expected.keys()
+        assert [path for path in found if not same(found[path], expected[path])] == []
+        assert any(path not in first or not same(found[path], first[path]) for path in found)  # it shows something
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("plane", ["sliding", "rough", "compare"])
+def test_the_three_planes_work_alone(alone, plane):
+    work = SimpleNamespace(busy=False, elapsed=0.0, share=1.0, stop=lambda: None)
+
+    def make(picture):
+        view = ThreePlanes({"plane": plane, **picture.inputs}, nothing, nothing, nothing, work)
+        return view, view.show
+
+    first, other = pictured(TOPS[0]), pictured(TOPS[2])
+    found, expected = shown(make, first, other), shown(make, other, other)
+    assert found.keys() == expected.keys()
+    assert [path for path in found if not same(found[path], expected[path])] == []
+
+
+def test_what_a_view_asks_is_all_that_it_does(alone):
+    """A hand on Fig. 6, and on the axis of the top: the scene stays, until another one is shown."""
+    pacer = Shown(stored(TOPS[0]))
+    view = Roll(pacer, Playing())
+    view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.0]}
+    [top] = view.main.select(Top3D)
+    top.tilted = [0.6, 0.0, 1]
+    line, tilt = pacer.asked
+    assert line == {"K_J": 6.0, "given": "share"} and tilt["theta"] == 0.6 and tilt["given"] == "state"
+    assert view._scene is pacer.scene and view._plane.selected.data["K_J"][0] == 7.0
+
+
+# ---- three walks ----
+
+
+STATIONS = (
+    (Control, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
+    (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneFigure, "show_selected"),
+    (Motion, "show"), (PlaneFigure, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
+    (Planes, "see"), (Planes, "follow"), (Planes, "_ask"), (Planes, "_publish"), (ThreePlanes, "show"),
+)  # fmt: skip
+FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app.tabs.roll.roll, "show_top"),
+             (app.model.planes, "solve"))  # fmt: skip
+
+
+def station(owner, name):
+    """As docs/house.md calls it: file and name; of a function, where it is defined."""
+    function = getattr(owner, name)
+    return f"{function.__module__.removeprefix('app.').replace('.', '/')}.py {function.__qualname__}"
+
+
+@pytest.fixture
+def walk(monkeypatch):
+    """(House, its stations as they are passed); the browser has painted all that came, and the hand rests."""
+    passed, timers = [], []
+
+    def note(function, name):
+        @wraps(function)
+        def noted(*inputs, **named):
+            passed.append(name)
+            return function(*inputs, **named)
+
+        return noted
+
+    for owner, name in (*STATIONS, *FUNCTIONS):
+        monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
+    monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
+    with set_curdoc(Document()):
+        house = House({}, "")
+        house.runs = Runs()
+        controls = Controls(house.scene, house.pacer.ask, house.pacer.soon)
+        for show, when in ((Share(house.keep, house.playing, house.scene).show, "hand"), (controls.follow, "hand"),
+                           (controls.show, "rest"), (Guide().show, "rest")):  # fmt: skip
+            house.pacer.shows(show, when)
+
+        def rest():
+            house.pacer._requested -= 1  # it is long ago
+            for _ in range(20):
+                house.pacer.painted.painted = house.pacer.painted.sent
+                if timers:
+                    timers.pop(0)()
+
+        yield house, controls, passed, rest
+
+
+def told(title):
+    """The stations in docs/house.md below a heading."""
+    text = (DOCS / "house.md").read_text(encoding="utf-8")
+    part = re.search(rf"## {title}\n(.*?)(?=\n## |\Z)", text, re.S)[1]
+    return re.findall(r"^\d+\. `([^`]*)`", part, re.M)
+
+
+def test_the_walk_of_a_slider(walk):
+    house, controls, passed, rest = walk
+    view = Roll(house.pacer, house.playing)
+    rest()
+    passed.clear()
+    controls._controls["K_J"].view.asked = [1, 6.5, False]
+    rest()
+    assert view._scene.constants.K_J == 6.5
+    assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
+
+
+def test_the_walk_of_a_tieline_that_is_pulled(walk):
+    house, _, passed, rest = walk
+    view = Roll(house.pacer, house.playing)
+    rest()
+    passed.clear()
+    view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.5]}
+    rest()
+    assert view._scene.constants.K_J == 6.5
+    assert passed == told("A tieline that is pulled") and len({*passed}) == len(passed)
+
+
+@pytest.mark.slow
+def test_the_walk_of_a_run_with_friction(walk):
+    house, _, passed, rest = walk
+    made = []
+    house.pacer.soon(lambda: made.append(house.planes()))
+    rest()
+    [dial] = [dial for dial in made[0].select(lambda part: getattr(part, "input", "") == "tilt")]
+    passed.clear()
+    dial.asked = [1, 15.0, False]
+    rest()
+    assert passed == told("A run with friction") and len({*passed}) == len(passed)
+
+
+# ---- the first tab ----
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", ["learn", "build-a-top"])
+def test_the_page_needs_no_tab_but_the_first_to_be_made(first, monkeypatch):
+    """Whichever that is: the others are made when they are looked at."""
+    made = []
+
+    def noted(name, make, house):
+        made.append(name)
+        return make(house)
+
+    tabs = {name: partial(noted, name, make) for name, make in House.TABS.items()}
+    monkeypatch.setattr(House, "TABS", {first: tabs.pop(first), **tabs})
+    with set_curdoc(Document()):
+        pn.state.location.search = ""
+        page()
+    assert made == [first]
