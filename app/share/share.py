@@ -136,7 +136,7 @@ class Share:
         self._dialog.open = True
 
     def _make(self):
-        text = {"says": listed("share.copy"), "sizing_mode": "stretch_width", "margin": (4, 0)}
+        text = {"button": listed("share.copy"), "sizing_mode": "stretch_width", "margin": (4, 0)}
         self._link = Copy(label=say("share.dialog.link_label"), **text)
         self._code, self._length = words(""), words("", margin=(4, 0))
         self._photo = Photo(margin=0)

@@ -112,7 +112,7 @@ interface CopyModel extends Model {
   text: string;
   label: string;
   rows: number;
-  says: [before: string, after: string];
+  button: [before: string, after: string];
 }
 
 interface AddressModel extends Model {
