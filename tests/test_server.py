@@ -28,7 +28,7 @@ from tornado.websocket import websocket_connect
 from visiting import free_port
 from wire import TOKEN, Closed, Visitor, answers, get, run, served, until
 
-from app.borrowed import counted, to_the_last
+from app.borrowed import counted, in_one_thread, to_the_last
 from app.server.door import Budget, Turns, budget
 from app.server.messages import Refused, look_at
 from app.server.settings import Settings
@@ -187,6 +187,7 @@ def test_what_a_session_does_later_is_counted_with_the_lock_and_without(how, mon
     )
 
     async def both():
+        in_one_thread(asyncio.get_running_loop(), None)
         session, done = ServerSession("mine", document := Document(), io_loop=IOLoop.current()), []
 
         @without_document_lock
