@@ -7,6 +7,7 @@ computes it anew, after a change of the physics or of the start; a test compares
 
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -35,13 +36,13 @@ def write(trajectory: Trajectory) -> None:
 def read(top: Top) -> Trajectory:
     """The Trajectory that is kept, of this top."""
     with np.load(FILE) as kept:
-        found = dict(kept)
-    happens = {
-        name: tuple(zip(found.pop(f"{name}.t").tolist(), found.pop(f"{name}.what").tolist(), strict=True))
-        for name in HAPPENS
-    }
-    rows = {name: value if name == "regime" else value.astype(float) for name, value in found.items()}
-    return Trajectory(top=top, **rows, **happens)
+        found: dict[str, Any] = dict(kept)
+    for name in HAPPENS:
+        times, words = (found.pop(f"{name}.{part}").tolist() for part in ("t", "what"))
+        found[name] = tuple(zip(times, words, strict=True))
+    return Trajectory(top=top, **{
+        name: value.astype(float) if name not in ("regime", *HAPPENS) else value for name, value in found.items()
+    })  # fmt: skip
 
 
 def main() -> None:

@@ -26,10 +26,10 @@ def keeps(motion: TableMotion) -> tuple[Row, ...]:
     """The Rows of a motion, from its start to its end: before the rough table gripped it, too, but for the energy."""
     moved, curves, top = motion.trajectory, motion.curves, motion.start.top
     return (
-        _row("energy", curves[:, 3].astype(float), 0, " mm"),
+        _row("energy", curves[:, 3].astype(float), 0, say("lab.keeps.millimetres")),
         _row("jellett", moved.jellett / top.I1, 2, ""),
         _row("routh", moved.routh, 2, ""),
-        _row("spin", curves[:, 5].astype(float), 1, " rev/s"),
+        _row("spin", curves[:, 5].astype(float), 1, say("lab.keeps.turns")),
     )
 
 
