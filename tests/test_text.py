@@ -28,6 +28,7 @@ SAME = (
     "planes.survives.*",
     "browser.Dial.entry",
     "controls.notes.energy",
+    "lab.keeps.millimetres",
 )
 NUMBERS = r"\{[^{}]*\}"
 SHORT_ELEMENT = r"<(i|b|sub|sup)>[^<]{0,4}</\1>"
