@@ -20,7 +20,7 @@ TILT = f"""(() => {{
     const [x, y] = {TOPS}[0].quaternion
     return 180 / Math.PI * Math.acos(1 - 2 * (x * x + y * y))
 }})()"""
-DRAWN = "window.__tippe?.tops?.('lab').some((top) => top.pictures > 1 && top.count)"
+DRAWN = "window.__tippe?.tops?.('lab').some((top) => top.pictures && top.count)"
 UNIT = TOYS["Leine and Glocker's toy"].shape.scales.time  # s
 
 

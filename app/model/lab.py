@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 
 import param
 
+from app.model.arrival import ARRIVAL, MU, SPIN, TABLE, TILT, TOY
 from app.model.lab_ends import Ends, ends_of, known_ends
 from app.model.lab_keeps import Row, keeps
 from app.model.lab_run import TABLES, TOYS, TableMotion, motion_on, start_of
@@ -21,11 +22,9 @@ from app.text import say, told
 from tippe_core import TopError
 from tippe_core.types import Array
 
-TOY, SPIN, TILT, MU = "Leine and Glocker's toy", 28.65, 5.73, 0.3  # 180 rad/s, 0.1 rad: that it stands is robust
 LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5)})
 """{input: what it may be}, in rev/s and degrees; the sliders show less."""
 CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
-ARRIVAL = ("ordinary", TOY, SPIN, TILT, MU)
 SHOWN = 30  # characters of what is no number, in a sentence
 PATIENCE = 0.5  # s: a run that a newer one replaces may still finish within this
 Inputs: TypeAlias = tuple[str, str, float, float, float]  # table, toy, spin, tilt, mu
@@ -123,7 +122,7 @@ class Lab(param.Parameterized):
     """
 
     table: param.Selector[str] = param.Selector(
-        default="ordinary", objects=list(CHOICES["table"]), doc="on what it stands; all three beside each other"
+        default=TABLE, objects=list(CHOICES["table"]), doc="on what it stands; all three beside each other"
     )
     toy: param.Selector[str] = param.Selector(
         default=TOY, objects=list(CHOICES["toy"]), doc="a name in tippe_core.PRESETS"
@@ -159,9 +158,7 @@ class Lab(param.Parameterized):
     def ask(self, **inputs: object) -> None:
         """Sets what can be; for each that cannot there is a sentence in the scene's messages, and it stays."""
         faults = {name: fault(name, value) for name, value in inputs.items()}
-        before = self._messages
-        self._messages = {name: said for name, said in before.items() if name not in faults}
-        self._messages |= {name: said for name, said in faults.items() if said}
+        self._messages = {name: said for name, said in faults.items() if said}
         good = {name: value for name, value in inputs.items() if not faults[name]}
         if all(getattr(self, name) == value for name, value in good.items()):
             self._tell()

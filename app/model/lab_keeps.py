@@ -10,6 +10,7 @@ from tippe_core.types import Array
 
 ROUNDING, NEARLY, TURNED = 1e-6, 0.25, 0.05  # of the largest value
 TREND = 0.2  # of the range
+DIGITS = 5  # after the point, at most
 
 
 class Row(NamedTuple):
@@ -25,10 +26,10 @@ def keeps(motion: TableMotion) -> tuple[Row, ...]:
     """The Rows of a motion, from its start to its end: before the rough table gripped it, too, but for the energy."""
     moved, curves, top = motion.trajectory, motion.curves, motion.start.top
     return (
-        _row("energy", curves[:, 3].astype(float), 0, " mm"),
+        _row("energy", curves[:, 3].astype(float), 0, say("lab.keeps.millimetres")),
         _row("jellett", moved.jellett / top.I1, 2, ""),
         _row("routh", moved.routh, 2, ""),
-        _row("spin", curves[:, 5].astype(float), 1, " rev/s"),
+        _row("spin", curves[:, 5].astype(float), 1, say("lab.keeps.turns")),
     )
 
 
@@ -49,7 +50,11 @@ def kind_of(values: Array) -> tuple[str, str]:
 def _row(name: str, values: Array, digits: int, unit: str) -> Row:
     mark, kind = kind_of(values)
     word = {("energy", "lost"): "heat", ("spin", "zero"): "reversed"}.get((name, kind), kind)
-    ends = {"kept": values[:1], "swings": [values.min(), values.max()]}.get(kind, values[[0, -1]])
+    ends = values[:1] if kind == "kept" else values[[0, -1]]
+    if kind == "swings":
+        ends = np.array([values.min(), values.max()])
+    while len(ends) == 2 and digits < DIGITS and f"{ends[0]:.{digits}f}" == f"{ends[1]:.{digits}f}":
+        digits += 1
     said = [f"{value:.{digits}f}".replace("-", "−") for value in ends]
     form = {1: "one"}.get(len(said), "range" if kind == "swings" else "two")
     return Row(say(f"lab.keeps.{name}"), mark, say(f"lab.keeps.{word}"),

@@ -12,11 +12,12 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from app.model import arrival
 from app.model.bodies import body
 from app.model.planes_picture import Motion, Setup
 from app.model.planes_run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
-from tippe_core import PRESETS, Contensou, Preset, State, TopError, glide, grip, roll
+from tippe_core import PRESETS, Contensou, Preset, State, TopError, Trajectory, glide, grip, roll
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array
 
@@ -96,29 +97,32 @@ def start_of(toy: str, spin: float, tilt: float, mu: float) -> Start:
 
 @lru_cache(12)
 def motion_on(table: str, toy: str, spin: float, tilt: float, mu: float) -> TableMotion:
-    """The TableMotion of a start, kept for all visitors. Raises TopError in the units of the controls."""
-    return moved(start_of(toy, spin, tilt, mu), table)
-
-
-def moved(start: Start, table: str) -> TableMotion:
-    """The TableMotion of a Start on a table. Raises TopError in the units of the controls."""
+    """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
+    units of the controls."""
+    start = start_of(toy, spin, tilt, mu)
+    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL:
+        return moved(start, table, arrival.read(start.top), 0.0)
     try:
-        return _moved(start, table)
+        return moved(start, table, *computed(start, table))
     except TopError as error:
         raise for_reader(error, start.scales) from None
 
 
-def _moved(start: Start, table: str) -> TableMotion:
+def computed(start: Start, table: str) -> tuple[Trajectory, float]:
+    """What a Start does on a table, and the energy that the rough one took when it gripped, MgR."""
     top, state, times, lost = start.top, start.state, start.times, 0.0
     check_room(start, state)
     if table == "ordinary":
-        trajectory = slid(start, state, times, look)
-    elif table == "rough":
-        state, lost = grip(top, state)
-        trajectory = clear(partial(roll, top, None, times, state), start, state)
-    else:
-        trajectory = clear(partial(glide, top, state, times), start, state)
-    motion = motion_of(trajectory, start, times, TABLES[table])
+        return slid(start, state, times, look), lost
+    if table == "ice":
+        return clear(partial(glide, top, state, times), start, state), lost
+    state, lost = grip(top, state)
+    return clear(partial(roll, top, None, times, state), start, state), lost
+
+
+def moved(start: Start, table: str, trajectory: Trajectory, lost: float) -> TableMotion:
+    """The TableMotion of what computed() gives."""
+    motion = motion_of(trajectory, start, start.times, TABLES[table])
     return TableMotion(**vars(motion), start=start, table=table, lost=lost, curves=_curves(motion, start, lost))
 
 

@@ -20,10 +20,12 @@ UPRIGHT, LEANS = 10.0, 20.0  # degrees: below the first it is upright, from the 
 NODS = 10.0  # degrees: swings by less are nodding
 WHILE, PASSING = 0.2, 0.1  # s: what lasts is longer; a stand that is left for less goes on
 HOP = 0.05  # s: a shorter flight is not seen
+AT_REST = 1e-6  # MgR: with less energy of motion it lies
 LEAST_SPIN = 0.5  # rev/s, of what is called spinning
 TENTH = (0.05, 0.15)  # degrees
-STAGED = ("over", "topples", "stem", "stands", "inverted", "falls", "leans", "upright", "back", "rolls", "flat", "ends")
+UNSTAGED = ("flies",)
 
+COME_FROM = ("begins", "high", "over", "topples", "stem", "falls", "back")  # with more to come, had the run gone on
 SPINS_ON = ("stands", "stays", "inverted", "leans")
 
 
@@ -86,16 +88,19 @@ def marks(motion: TableMotion) -> tuple[Mark, ...]:
         found = [mark for mark in found if mark.t <= ended.t] + [ended]
     elif motion.ending and motion.rolls_since >= 0.0:  # what it passes while it rolls it passes again and again
         found = [mark for mark in found if mark.t < motion.rolls_since]
-        found.append(Mark(motion.rolls_since, "rolls"))
+        lies = motion.trajectory.ledger.kinetic[-1] < AT_REST
+        found.append(Mark(motion.rolls_since, "lies" if lies else "rolls"))
     return tuple(sorted(mark for mark in found if mark is ended or t[0] < mark.t < t[-1]))
 
 
 def _over(motion: TableMotion) -> list[Mark]:
     """It passes a right angle for the first time; or comes back for the last time, for good."""
-    theta, times = motion.tilt, motion.crossings * motion.start.scales.time
-    found = []
+    theta, times, a = motion.tilt, motion.crossings * motion.start.scales.time, motion.start.top.a
+    found: list[Mark] = []
+    if not a:  # a uniform ball has no heavy side
+        return found
     if len(times) and motion.starts_below:
-        found.append(Mark(float(times[0]), "over" if motion.start.top.a >= 0 else "topples"))
+        found.append(Mark(float(times[0]), "over" if a > 0 else "topples"))
     if len(times) and theta[-1] < ON_ITS_SIDE - NODS and theta.max() > ON_ITS_SIDE + NODS:
         found.append(Mark(float(times[-1]), "back"))
     return found
@@ -114,7 +119,9 @@ def _touches(motion: TableMotion) -> list[Mark]:
 
 def _stands(motion: TableMotion) -> list[Mark]:
     """It comes to stand, past STANDS, for a while; and falls again."""
-    t, theta, found = motion.seconds, motion.tilt, []
+    t, theta, found = motion.seconds, motion.tilt, list[Mark]()
+    if not motion.start.top.a:
+        return found
     for start, end in lasting(t, theta, STANDS):
         inside = (t >= start) & (t <= end)
         stem = np.isin(motion.carried[inside], ("stem", "both")).mean() > 0.5
@@ -165,7 +172,7 @@ class _Ordinary:
     def __init__(self, motion: TableMotion, found: tuple[Mark, ...]) -> None:
         self.motion, self.part = motion, say(f"planes.parts.{motion.start.part}")
         rests = min((mark.t for mark in found if mark.code in ("leans", "upright")), default=np.inf)
-        staged = [mark for mark in found if mark.code in STAGED and (mark.code != "stem" or mark.t < rests)]
+        staged = [mark for mark in found if mark.code not in UNSTAGED and (mark.code != "stem" or mark.t < rests)]
         first = Mark(0.0, self._first(staged))
         all_marks = [first, *staged]
         # what is over before it can be read says nothing, but what comes at last does
@@ -174,41 +181,45 @@ class _Ordinary:
 
     def _first(self, staged: list[Mark]) -> str:
         """The code of the first stage."""
-        motion, theta = self.motion, self.motion.tilt
+        motion, theta, a = self.motion, self.motion.tilt, self.motion.start.top.a
         codes = [mark.code for mark in staged]
-        if theta[0] > STANDS and motion.carried[0] != "ball":
-            return "stays"
         if motion.carried[0] in ("stem", "both"):
-            return "begins"
+            return "stays" if theta[0] > STANDS else "begins"
+        if not motion.start.spin:
+            return "rest" if np.ptp(theta) < NODS / 10 else "still" if a > 0 else "drops"
+        if a < 0 and theta.max() - theta[0] > NODS:
+            return "sinks"
         if "over" in codes:
             return "rises"
-        if "topples" in codes:
-            return "sinks"
+        if theta[0] > ON_ITS_SIDE and codes:
+            return "high"
         if "upright" in codes:
             return "rights"
         if "rolls" in codes:
             return "slips"
-        if not motion.start.spin:
-            return "still"
         if np.ptp(theta) < NODS:
-            return "nods"
-        return "part" if theta.max() - theta[0] > NODS > theta[0] - theta.min() else "moves"
+            return "nods" if a > 0 else "sleeps"
+        return "part" if a > 0 and theta.max() - theta[0] > NODS > theta[0] - theta.min() else "moves"
 
     def stages(self) -> tuple[Stage, ...]:
         after = [*self.marks[1:], None]
         return tuple(self._stage(mark, then) for mark, then in zip(self.marks, after, strict=True))
 
     def _stage(self, mark: Mark, then: Mark | None) -> Stage:
-        key, numbers = f"lab.stages.{mark.code}", self._numbers(mark)
-        why = say(f"{key}.why", **numbers)
-        if mark.code == "stands" and not any(each.code == "over" for each in self.marks):
-            why = ""
+        numbers = self._numbers(mark)
+        steady = mark.code == "rolls" and f"{numbers['low']:.1f}" == f"{numbers['high']:.1f}"
+        code = "circles" if steady else mark.code
+        why = say(f"lab.stages.{code}.why", **numbers)
+        if mark.code in ("stands", "inverted") and not any(each.code == "over" for each in self.marks):
+            why = ""  # nothing turned it over: so it was put down
         if then:
             why += " " + say(f"lab.next.{then.code}", **self._numbers(then))
         elif mark.code in SPINS_ON and abs(numbers["last"]) >= LEAST_SPIN:
             why += " " + say("lab.next.spins", **numbers)
-        short = say(f"{key}.short", **numbers)
-        return Stage(mark.t, say(f"{key}.headline", **numbers), why.strip(), short[:1].upper() + short[1:])
+        elif mark.code in COME_FROM:
+            why += " " + say("lab.next.tilt", **numbers)
+        short = say(f"lab.stages.{code}.short", **numbers)
+        return Stage(mark.t, say(f"lab.stages.{code}.headline", **numbers), why.strip(), short[:1].upper() + short[1:])
 
     def _numbers(self, mark: Mark) -> dict[str, Number]:
         """All numbers that the words of a mark may have."""

@@ -36,7 +36,7 @@ class Toy:
     def text(self, value):
         """The place of a name; Unasked where there is no such toy."""
         if value not in self._names:
-            raise asked.Unasked("no toy of that name")
+            raise asked.Unasked(value)
         return str(self._names.index(value) + 1)
 
     def value(self, text):
@@ -147,7 +147,7 @@ class LabTab:
                 self._tried[name] = value
             self._lab.ask(**{name: value})
         else:
-            raise asked.Unasked("not an input of the Lab")
+            raise asked.Unasked(name)
         after(RESTS, partial(self._rest, self._answered))
         self.show()
 

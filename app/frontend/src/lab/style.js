@@ -147,7 +147,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 10
 th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
 thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody tr { border-top: 1px solid var(--line); }
 .kept { white-space: nowrap; margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
-@container (max-width: 700px) { .answer .plot { flex: none; height: 240px; } }
+@container (max-width: 700px) { .answer .plot { flex: none; height: 240px; } .mini button { min-height: 44px; min-width: 44px; } }
 `;
 
 const controls = `
