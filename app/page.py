@@ -159,9 +159,7 @@ def page():
     share.keep.param.watch(lambda event: builder.follow(), "returned")
     opened, phone = opening.opened(texts), on_a_phone()
     share.keep.shortest = opening.shortest
-    pn.state.curdoc.template_variables.update(
-        first.variables(roll.top if opened == "roll" and "tab" not in texts else None, search)
-    )
+    pn.state.curdoc.template_variables.update(first.variables(roll.top if opened == opening.USUAL else None, search))
 
     def to_roll():
         header.active = 1
