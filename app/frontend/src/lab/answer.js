@@ -6,7 +6,8 @@ import { Choice, drawn, part, say } from "./parts.js";
 const NAMES = ["energy", "spin", "path"];
 const LEFT = 46, RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
 const ROOM = 30; // px that words in a picture need
-const MOST_POINTS = 900;
+const MOST_POINTS = 2400;
+const JUMP = 0.5; // R: from one frame to the next the contact goes so far only where another part takes over
 
 export class Answer {
   /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
@@ -56,7 +57,7 @@ export class Answer {
     this.plot.setAttribute("aria-label", said.question);
     this.drawing.setAttribute("aria-label", said.note);
     if (!width || !scene) return;
-    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), " "] : []), said.note);
+    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), said.note);
     Object.assign(this, { width, height, bottom: height - FOOT });
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
     this.moves = [];
@@ -65,10 +66,10 @@ export class Answer {
     this.at(this.time.t);
   }
 
-  /** @param {number} least @param {number} most @param {string} unit */
-  axes(least, most, unit) {
+  /** @param {number} least @param {number} most @param {string} unit @param {number} apart px between two marks */
+  axes(least, most, unit, apart = 90) {
     const y = (value) => this.bottom - ((this.bottom - TOP) * (value - least)) / (most - least || 1), found = [];
-    const marks = ticks(least, most, Math.max(2, this.height / 90));
+    const marks = ticks(least, most, Math.max(2, this.height / apart));
     for (const value of marks) {
       const digits = Math.abs(value % 1) > 1e-9 ? 1 : 0, text = say(this.texts, value === marks.at(-1) ? `{value} ${unit}` : "{value}", { value: [value, digits] });
       found.push(drawn("line", { class: value ? "grid" : "axis", x1: LEFT, x2: this.right, y1: y(value), y2: y(value) }),
@@ -105,7 +106,7 @@ export class Answer {
   spin() {
     const { curves, texts } = this, said = texts.answers.spin;
     const [least, most] = curves.range(SPIN, TURNING), room = 0.06 * (most - least || 1);
-    const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? room : 0), Math.max(most, 0) + room, said.unit);
+    const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? 2 * room : 0), Math.max(most, 0) + room, said.unit, 60);
     let widest = 0, apart = 0; // where the two lines stand clearest of each other
     for (let share = 0.2; share < 0.7; share += 0.05) {
       const gap = Math.abs(y(curves.at(share * curves.end, SPIN)) - y(curves.at(share * curves.end, TURNING)));
@@ -133,17 +134,18 @@ export class Answer {
     const [[x0, x1], [y0, y1]] = [bounds(1), bounds(2)], wide = this.width - 2 * RIGHT, high = this.height - 2 * TOP - FOOT;
     const scale = Math.min(wide / Math.max(x1 - x0, 0.05), high / Math.max(y1 - y0, 0.05));
     const at = (/** @type {number[]} */ [, x, y]) => [this.width / 2 + scale * (x - (x0 + x1) / 2), TOP + high / 2 - scale * (y - (y0 + y1) / 2)];
-    const points = kept.map((p) => at(p).map((v) => v.toFixed(1)).join(","));
-    const past = drawn("polyline", { class: "past" }), dot = drawn("circle", { class: "dot", r: 6 });
+    const isJump = (i) => !i || Math.hypot(kept[i][1] - kept[i - 1][1], kept[i][2] - kept[i - 1][2]) > JUMP;
+    const points = kept.map((p, i) => `${isJump(i) ? "M" : "L"}${at(p).map((v) => v.toFixed(1)).join(" ")}`);
+    const past = drawn("path", { class: "past" }), dot = drawn("circle", { class: "dot", r: 6 });
     this.moves.push((t) => {
       const count = kept.filter(([when]) => when <= t + 1e-9).length, [x, y] = at(kept[Math.max(count - 1, 0)]);
-      past.setAttribute("points", points.slice(0, count).join(" "));
+      past.setAttribute("d", points.slice(0, count).join(""));
       dot.setAttribute("cx", String(x));
       dot.setAttribute("cy", String(y));
     });
     const mm = ticks(0, (wide * R) / scale, 3)[1], bar = (mm / R) * scale, foot = this.height - 8;
     return [
-      drawn("polyline", { class: "rest", points: points.join(" ") }), past, dot,
+      drawn("path", { class: "rest", d: points.join("") }), past, dot,
       drawn("path", { class: "axis", d: `M${RIGHT} ${foot - 5}v5h${bar}v-5` }),
       drawn("text", { x: RIGHT + bar + 8, y: foot + 2 }, say(texts, "{mm} mm", { mm: [mm, mm < 1 ? 1 : 0] })),
     ];

@@ -87,7 +87,7 @@ export function tempo(events, t) {
   return over.length && t > over[over.length - 1][0] + LOOK ? AFTER : SLOW;
 }
 
-// Where the words of events stand beside their lines: right of it or left, in full or short, or nowhere.
+// Where the words of events stand beside their lines: right of it or left, in full where all have room, else in short.
 /**
  * @param {[x: number, word: string, short: string][]} lines
  * @param {number} left @param {number} right
@@ -95,10 +95,18 @@ export function tempo(events, t) {
  * @returns {{ x: number, word: string, side: "start" | "end" }[]}
  */
 export function placed(lines, left, right, wide) {
+  const whole = beside(lines.map(([x, word]) => [x, word]), left, right, wide);
+  const mixed = beside(lines, left, right, wide), short = beside(lines.map(([x, , word]) => [x, word]), left, right, wide);
+  return [whole, mixed, short].reduce((best, found) => (found.length > best.length ? found : best));
+}
+
+// The same, of the words that each line may have, the first of them that finds room.
+/** @param {[x: number, ...words: string[]][]} lines @param {number} left @param {number} right @param {(word: string) => number} wide */
+function beside(lines, left, right, wide) {
   const taken = lines.map(([x]) => [x - 1, x + 1]), found = [];
   const isFree = (from, to) => from >= left && to <= right && taken.every(([a, b]) => to < a || from > b);
-  for (const [x, word, short] of lines) {
-    for (const [text, side] of [[word, "start"], [word, "end"], [short, "start"], [short, "end"]]) {
+  for (const [x, ...words] of lines) {
+    for (const [text, side] of words.flatMap((word) => [[word, "start"], [word, "end"]])) {
       const width = wide(text), from = side === "start" ? x + 3 : x - 4 - width;
       if (!isFree(from, from + width + 1)) continue;
       taken.push([from, from + width + 1]);

@@ -47,7 +47,7 @@ svg text { font: 400 var(--t-s) var(--family); fill: var(--ink-2); }
 svg .word { font-weight: 600; fill: var(--ink); }
 svg .halo { paint-order: stroke; stroke: var(--ground); stroke-width: 4px; stroke-linejoin: round; }
 svg .axis { stroke: var(--line-2); fill: none; } svg .grid { stroke: var(--line); }
-polyline { fill: none; stroke-linejoin: round; }
+polyline, .rest, .past { fill: none; stroke-linejoin: round; }
 `;
 
 // Where each part stands: the top and what answers it side by side, the bar that moves the time right under the top.
@@ -142,7 +142,7 @@ const answer = `
 .own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); stroke: none; } .turning { stroke: var(--ink); stroke-width: 2; }
 .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
 .dot { fill: var(--ground); stroke: var(--accent); stroke-width: 5; }
-.lab.old .answer :is(polyline, polygon) { opacity: .38; }
+.lab.old .answer :is(polyline, polygon, .rest, .past) { opacity: .38; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
 th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
 thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody tr { border-top: 1px solid var(--line); }
