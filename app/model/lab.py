@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import param
 
 from app.model.arrival import ARRIVAL, MU, SPIN, TABLE, TILT, TOY
-from app.model.lab_ends import Ends, ends_of, known_ends
+from app.model.lab_ends import Ends, Key, ends_of, known_ends
 from app.model.lab_keeps import Row, keeps
 from app.model.lab_run import TABLES, TOYS, TableMotion, motion_on, start_of
 from app.model.runs import Result, Run, Runs, Stopped
@@ -142,6 +142,7 @@ class Lab(param.Parameterized):
         self._shown = self._again = False
         self._messages: dict[str, str] = {}
         self._good: Inputs = ARRIVAL
+        self._strip: Key = ARRIVAL[1], *ARRIVAL[3:]
         super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
 
     @property
@@ -166,7 +167,7 @@ class Lab(param.Parameterized):
 
     def rest(self) -> None:
         """To be called when no hand moves: where the runs of all spins end is looked up, or computed beside."""
-        key = self.toy, self.tilt, self.mu
+        key = self._strip = self.toy, self.tilt, self.mu
         self._set(ends=known_ends(*key))
         if self.ends is None:
             self._runs.begin(Run(lambda run: ends_of(*key, look=run.look), partial(self._ended, key)), "ends")
@@ -192,6 +193,8 @@ class Lab(param.Parameterized):
             self.param.update(**{name: self._good[names.index(name)] for name in faults})
             self._tell()
             return
+        if self._strip != (self.toy, self.tilt, self.mu):
+            self._set(ends=None)
         if not self._shown or (self.scene is not None and now == self._good and self._run is None):
             return
         if self._run is None:
