@@ -59,6 +59,17 @@ THEME = {
                 "root": {"flexWrap": "wrap", "& .MuiToggleButton-root": {"width": "auto", "flex": "1 1 auto"}}
             }
         },
+        # as quiet as the ground: what is chosen, and the top, are the only things on the page that stand out
+        "MuiAppBar": {
+            "styleOverrides": {
+                "root": {
+                    "backgroundColor": "var(--mui-palette-background-default) !important",
+                    "color": "var(--mui-palette-text-primary) !important",
+                    "boxShadow": "none !important",
+                    "borderBottom": "1px solid var(--mui-palette-divider)",
+                }
+            }
+        },
         "MuiMenuItem": {"defaultProps": {"role": "option"}},  # all menus here are of a Select
         "MuiTabs": {"styleOverrides": {"indicator": {"backgroundColor": "var(--mui-palette-primary-main) !important"}}},
     }
