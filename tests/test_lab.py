@@ -232,6 +232,7 @@ def test_the_papers_top_hangs_on_no_stem_and_is_caught():
 # ---- where runs of all spins end ----
 
 
+@pytest.mark.slow
 def test_the_strip_of_the_toy_leans_and_then_stands():
     """Of compliant contacts: never at 22.3 rev/s, always from 27.06 on."""
     found = ends_of(TOY, TILT, 0.3)
