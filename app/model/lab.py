@@ -15,7 +15,7 @@ import param
 from app.model.arrival import ARRIVAL, MU, SPIN, TABLE, TILT, TOY
 from app.model.lab_ends import Ends, Key, ends_of, known_ends
 from app.model.lab_keeps import Row, keeps
-from app.model.lab_run import TABLES, TOYS, TableMotion, motion_on, start_of
+from app.model.lab_run import TABLES, TOYS, TableMotion, TooLong, motion_on, start_of
 from app.model.runs import Result, Run, Runs, Stopped
 from app.model.story import Event, Stage, Story, story
 from app.text import say, told
@@ -86,6 +86,8 @@ def scene_of(table: str, toy: str, spin: float, tilt: float, mu: float) -> LabSc
             if error.code == "body-below-table":
                 raise
             refused[each] = _sentence(error)
+        except TooLong:
+            refused[each] = say("lab.refused.too-long")
     found = {name: motion for name, motion in motions.items() if motion is not None}
     start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
     turned = "ordinary" in found and any(event.code == "over" for event in stories["ordinary"].events)
