@@ -1,7 +1,7 @@
 # One word a task. serve and test do everything by themselves in a fresh clone; the first run takes some three minutes.
 PYTHON ?= python3
 BIN = .venv/bin
-BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js app/frontend/src/*/*.js)
+BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js app/frontend/src/*/*.js app/model/*.json)
 
 .PHONY: serve kernels check quick test proof source pythons lock validation docs bench image browser proxy redis
 

@@ -33,6 +33,7 @@ class BundleHook(BuildHookInterface):
 def sources_hash(frontend):
     """SHA-256 over the names and contents of everything that the bundle is made from, this file included."""
     sources = [Path(__file__), *(frontend / name for name in ("package.json", "package-lock.json"))]
+    sources += sorted((frontend.parent / "model").glob("*.json"))  # what Python and the bundle both read
     digest = hashlib.sha256()
     for path in [*sources, *sorted(frontend.glob("src/**/*.js"))]:
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")

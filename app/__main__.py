@@ -10,17 +10,22 @@ from app.server.settings import Settings
 
 def run():
     # In a container nobody else ends the first process, and what is imported here takes its time.
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    for name in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(name, lambda *_: sys.exit(0))
     try:
         settings = Settings.of(os.environ, sys.argv[1:])
     except ValueError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
     from app.model.classroom import DESK
+    from app.page import show
     from app.server.server import main
 
     DESK.keep(settings.votes, settings.votes_per_address)
-    code = main(settings)
+    try:
+        code = main(settings, show)
+    except SystemExit as end:
+        code = end.code
     logging.shutdown()
     os._exit(code)  # nothing is left to save, and taking all modules apart takes seconds
 

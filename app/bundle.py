@@ -1,4 +1,5 @@
-"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included; words.
+"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included; words. And
+what Bokeh calls in it.
 
 Panel serves only what lies beside or below a component's own module, so this one is beside static/.
 """
@@ -7,14 +8,31 @@ from pathlib import Path
 
 import numpy as np
 import param
+from bokeh.models import CustomJS, CustomJSHover
 from panel.custom import JSComponent
 
 from app.text import listed
+
+BUNDLE = Path(__file__).parent / "static" / "tippe.js"
 
 
 def pack(values):
     """The float32 bytes, row by row, that the array parameters of components take."""
     return np.asarray(values, "<f4").tobytes()
+
+
+# Both run a function of frontend/src/figures/callbacks.js: `run` names it, and `given` is its first argument.
+CALL, HOVER = (Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("call.js", "hover.js"))
+
+
+def call(run, **given):
+    """A callback of a Bokeh model."""
+    return CustomJS(args={"run": run, "given": given}, code=CALL, module=False)
+
+
+def on_hover(run, **given):
+    """What makes the texts beside the mouse."""
+    return CustomJSHover(args={"run": run, "given": given}, code=HOVER)
 
 
 class Bundled(JSComponent):
@@ -24,7 +42,7 @@ class Bundled(JSComponent):
     SAYS = ()  # the tables of its words, beside the one of its own name
     shown = None  # what was last put into it; for those who would put it there again
 
-    _bundle = Path(__file__).parent / "static" / "tippe.js"
+    _bundle = BUNDLE
 
     def __init__(self, **params):
         super().__init__(**({"texts": self.says()} | params))

@@ -11,6 +11,7 @@ from pathlib import Path
 import panel_material_ui as pmui
 from panel.custom import JSComponent
 
+from app.borrowed import address_of
 from app.bundle import Bundled
 from app.text import LANGUAGES
 from app.widgets.cards import HEIGHT_OF_A_CARD
@@ -27,7 +28,7 @@ def top_of(rooms):
 
 def variables(top, search):
     """What PAGE needs. top: the Top3D that the page begins with, or None; search: of the address that it is for."""
-    found = {"bundles": [kind._render_esm(True, server=True) for kind in (Bundled, pmui.Page)]}
+    found = {"bundles": [address_of(kind) for kind in (Bundled, pmui.Page)]}
     if top is not None:
         found["card_height"] = HEIGHT_OF_A_CARD
         found["first"] = json.dumps({"search": search, "model": said(top)}).replace("<", "\\u003c")

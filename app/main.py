@@ -3,9 +3,6 @@
 This is run for each session, and emptied when the session ends; so nothing that others use may be made here.
 """
 
-import panel as pn
+from app.page import show
 
-from app.page import alone, page
-
-pn.extension("katex", respect_explicit_sizing=True)
-alone(page()).servable()
+show()

@@ -6,6 +6,7 @@ from weakref import WeakKeyDictionary
 import panel as pn
 import panel_material_ui as pmui
 import param
+from panel.util import edit_readonly
 
 from app import first, text
 from app.model.builder import Builder
@@ -187,12 +188,6 @@ def sidebar(controls, look, language):
     ]
 
 
-def alone(page):
-    """The page, no longer told whether any page of this server is busy, which kept it and all it shows for ever."""
-    page.param._update_ref("busy", False)
-    return page
-
-
 def page():
     search = pn.state.location.search
     asked = read(search)[0].get("lang")
@@ -238,3 +233,13 @@ def page():
         busy_indicator=None,
         stylesheets=STYLE,
     )
+
+
+def show():
+    """Puts the page into the document that is being served."""
+    pn.extension("katex", respect_explicit_sizing=True)
+    shown = page()
+    with edit_readonly(shown):
+        # It would be told whether any page of this server is busy, which kept it and all it shares for ever.
+        shown.busy = shown.param.theme_toggle
+    shown.servable()

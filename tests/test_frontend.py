@@ -3,28 +3,17 @@
 The page as a whole has its own tests; here one component stands alone, so a failure says where it is.
 """
 
-import re
-from pathlib import Path
-
 import numpy as np
 import panel as pn
 import pytest
 from visiting import free_port, wait
 
 from app.bundle import Bundled, pack
-from app.model.colours import COLOURS
 from app.widgets.controls import Control
 from app.widgets.surface3d import Surface3D
 from app.widgets.top3d import Top3D, pack_frames
 
 pytestmark = pytest.mark.served
-
-ROOT = Path(__file__).parent.parent
-
-
-def test_both_sides_have_the_same_colours():
-    script = (ROOT / "app/frontend/src/colours.js").read_text(encoding="utf-8")
-    assert dict(re.findall(r'(\w+): "(#\w+)"', script)) == COLOURS
 
 
 def test_the_notice_of_three_travels_with_the_bundle():

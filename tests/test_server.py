@@ -28,8 +28,8 @@ from tornado.websocket import websocket_connect
 from visiting import free_port
 from wire import TOKEN, Closed, Visitor, answers, get, run, served, until
 
-from app.app_hooks import to_the_last
-from app.server.door import Budget, Turns, budget, counted
+from app.borrowed import counted, to_the_last
+from app.server.door import Budget, Turns, budget
 from app.server.messages import Refused, look_at
 from app.server.settings import Settings
 from app.server.sockets import Socket
@@ -182,7 +182,9 @@ def test_what_is_done_for_another_in_the_midst_is_counted_to_him_and_nothing_twi
 def test_what_a_session_does_later_is_counted_with_the_lock_and_without(how, monkeypatch):
     """Panel's answers to a changed slider wait for no lock."""
     clock = Clock(monkeypatch)
-    monkeypatch.setattr(ServerSession, "_wrap_document_callback", counted(ServerSession._wrap_document_callback))
+    monkeypatch.setattr(
+        ServerSession, "_wrap_document_callback", counted(ServerSession._wrap_document_callback, budget)
+    )
 
     async def both():
         session, done = ServerSession("mine", document := Document(), io_loop=IOLoop.current()), []
@@ -329,7 +331,8 @@ def test_pages_are_given_out_in_turn_and_not_without_end_to_one_address(server):
 @pytest.mark.parametrize("path, status", [
     ("/liveness?endpoint=/app", 200), ("/nothing", 404), ("/app/autoload.js?bokeh-autoload-element=1", 404),
     ("/app/metadata", 404), ("/components/antigravity/a/b/c", 404), ("/components/app.main/../../x/y", 404),
-    ("/app/static/../main.py", 403), ("/app?v=1&KJ=%3Cscript%3Ealert(1)%3C/script%3E", 200),
+    ("/app/static/../main.py", 404), ("/static/../bokeh.json", 403), ("/components/app.page/../../x/y", 404),
+    ("/app?v=1&KJ=%3Cscript%3Ealert(1)%3C/script%3E", 200),
     ("/app?bokeh-session-id=mine", 200), ("/app?theme=%22%3E%3Cscript%3Ealert(1)%3C/script%3E", 200),
     ("/app?" + "x" * 12_000, 200),
 ])  # fmt: skip

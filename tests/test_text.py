@@ -180,7 +180,6 @@ NOT_SAID = {
     "answers.py": {"GET, HEAD": "a header"},
     "asked.py": {"": "said to the log"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
-    "regimes.py": {"would": "a code's", "in the air": "a code's", "the motion ends here": "a code's"},
     **{name: {"": "files of data and programs, which are the same in every language"}
        for name in ("export.py", "glb.py", "programs.py")},
     "keep.py": {"not one of {}": "said to the log"},

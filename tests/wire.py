@@ -179,7 +179,7 @@ class Visitor:
 
     def leave(self):
         """Closes the page."""
-        self.socket.close()
+        self.socket.close(1001)  # as a browser does
 
 
 class Page:

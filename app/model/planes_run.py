@@ -21,7 +21,7 @@ from app.model.planes_picture import (
     Picture,
     Settings,
 )
-from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS, WOULD_LIFT
+from app.model.regimes import ENDS, OF_CORE, WOULD_LIFT
 from app.text import told
 from tippe_core import (
     SUNK,
@@ -146,7 +146,7 @@ def for_reader(error: TopError, scales: Scales) -> TopError:
 
 def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str) -> Motion:
     n = len(trajectory.t)
-    code = np.array([{"roll": ROLLS, "slip": SLIPS, "air": FLIES}[word] for word in trajectory.regime])
+    code = np.array([OF_CORE[word] for word in trajectory.regime])
     if plane == "rough":
         code[trajectory.force[:, 2] < 0] = WOULD_LIFT
     frames = [trajectory.t, trajectory.quaternion, trajectory.contact, trajectory.com, *in_space(trajectory), code]

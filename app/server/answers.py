@@ -1,28 +1,28 @@
 """What is answered over HTTP: the page, where it is, whether the server lives, and files; with the headers of all."""
 
-import json
 import logging
 import os
 import re
 import secrets
 import sys
 import time
+from html import escape
 from http.client import responses
+from pathlib import Path
+from string import Template
 
-from bokeh.server.views.session_handler import SessionHandler
+from bokeh.server.urls import toplevel_patterns
+from bokeh.server.views.ico_handler import IcoHandler
 from bokeh.util.token import generate_jwt_token, generate_session_id
 from panel.io.resources import Resources
-from panel.io.server import ComponentResourceHandler, server_html_page_for_session
-from tornado.web import HTTPError, RequestHandler
+from panel.io.server import ComponentResourceHandler, get_static_routes, server_html_page_for_session
+from tornado.web import ErrorHandler, HTTPError, RequestHandler, StaticFileHandler
 
 from app import text
-from app.server.sockets import in_english
 
 log = logging.getLogger("tippe")
 
-PIECE = 64 * 1024  # bytes of a static file
-
-
+PIECE = 64 * 1024  # bytes of a file
 HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "same-origin",  # the address holds what a person set
@@ -36,41 +36,54 @@ POLICY = (
     "worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames}"
 )
 # While the page waits for its turn, and where it is not let in.
-WAITING = """
-<div id="waiting" role="status" style="display:none;position:fixed;inset:auto 10% 24px;text-align:center;z-index:9999;
-font:16px/1.5 system-ui,sans-serif;color:#22303c;background:white;border-radius:8px;padding:8px"></div>
-<script>
-(() => {
-  const words = document.getElementById("waiting")
-  const say = (text) => { words.textContent = text; words.style.display = "block" }
-  const here = () => window.Bokeh?.documents?.length > 0
-  setTimeout(() => here() || say(MADE), 3000)
-  addEventListener("unhandledrejection", () => {
-    if (here()) return
-    say(BUSY)
-    setTimeout(() => location.reload(), 5000 + 5000 * Math.random())
-  })
-  const look = setInterval(() => { if (here()) { words.remove(); clearInterval(look) } }, 200)
-})()
-</script>
-"""
-PLAIN = """<!doctype html><html lang="{lang}"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>{title}</title>{again}
-<p style="font: 18px/1.5 system-ui, sans-serif; margin: 20vh 10vw; color: #22303c">{sentence}</p></html>"""
+WAITING = Template(Path(__file__).with_name("waiting.html").read_text(encoding="utf-8"))
+SENTENCE = Path(__file__).with_name("sentence.html").read_text(encoding="utf-8")
 
 
-def policy(request, settings, nonce=""):
-    host = request.host if re.fullmatch(r"[\w.:\[\]-]{1,260}", request.host) else ""
-    text = POLICY.format(nonce=nonce, host=host, frames=settings.frames)
-    return text if host else text.replace(" ws:// wss://", "")
+class Answer:
+    """What all handlers have, the libraries' too: these headers, and of what went wrong one line."""
+
+    def set_default_headers(self):
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+        self.set_policy()
+        self.clear_header("Server")
+
+    def set_policy(self, nonce=""):
+        host, frames = self.request.host, self.application.tippe.frames
+        policy = POLICY.format(nonce=nonce, host=host, frames=frames)
+        if not re.fullmatch(r"[\w.:\[\]-]{1,260}", host):
+            policy = POLICY.replace(" ws://{host} wss://{host}", "").format(nonce=nonce, frames=frames)
+        self.set_header("Content-Security-Policy", policy)
+
+    def write_error(self, status, **more):
+        self.set_header("Content-Type", "text/plain; charset=utf-8")
+        if status == 405:
+            self.set_header("Allow", "GET" if type(self).head is RequestHandler.head else "GET, HEAD")
+        self.finish(f"{status} {responses.get(status, 'Unknown')}\n")
 
 
-class Handler(RequestHandler):
+class Files(Answer):
+    """With the file open for each piece anew: else a connection that reads slowly would be two open files."""
+
+    @classmethod
+    def get_content(cls, path, start=None, end=None):
+        start, end = start or 0, os.path.getsize(path) if end is None else end
+        for at in range(start, end, PIECE):
+            yield b"".join(super().get_content(path, at, min(at + PIECE, end)))
+
+
+class Component(Files, ComponentResourceHandler):
+    """Panel's would import any module that a visitor names."""
+
+    def parse_url_path(self, path):
+        if path.split("/")[0] not in sys.modules:
+            raise HTTPError(404)
+        return super().parse_url_path(path)
+
+
+class Handler(Answer, RequestHandler):
     """Of this project's few plain answers."""
-
-    @property
-    def tippe(self):
-        return self.application.tippe
 
     @property
     def language(self):
@@ -86,12 +99,11 @@ class Handler(RequestHandler):
         self.set_status(status)
         self.set_header("Content-Type", "text/html; charset=utf-8")
         self.set_header("Cache-Control", "no-store")
-        self.set_header("Content-Security-Policy", policy(self.request, self.tippe))
         if again:
             self.set_header("Retry-After", str(again))
         refresh = f'<meta http-equiv="refresh" content="{again}">' if again else ""
         title = text.say("main.title", self.language)
-        self.finish(PLAIN.format(lang=self.language, title=title, sentence=sentence, again=refresh))
+        self.finish(SENTENCE.format(lang=self.language, title=title, sentence=sentence, again=refresh))
 
 
 class Sheet:
@@ -105,48 +117,46 @@ class Sheet:
             session, Resources.from_bokeh(resources), document.title, token=self.TOKEN, template=document.template,
             template_variables=document.template_variables)  # fmt: skip
         before, after = html.rsplit("</body>", 1)
-        html = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', f"{before}{WAITING}</body>{after}")
         self._pages = {}
         for language in text.LANGUAGES:
-            self._pages[language] = html
-            for name in ("made", "busy"):
-                words = json.dumps(text.say(f"main.server.{name}", language))
-                self._pages[language] = self._pages[language].replace(name.upper(), words)
+            words = {name: escape(text.say(f"main.server.{name}", language)) for name in ("made", "busy")}
+            html = f"{before}{WAITING.substitute(words)}</body>{after}"
+            self._pages[language] = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', html)
 
     def page(self, language, token, nonce):
         """For one visitor."""
         return self._pages[language].replace(self.NONCE, nonce).replace(self.TOKEN, token)
 
 
-class Page(Handler, SessionHandler):
+class Page(Handler):
     """The page, from one template session: a visitor's own is made when his browser opens the socket. Pages are given
     out one at a time, in turn among the addresses that ask."""
 
-    async def get(self, *arguments, **named):
+    async def get(self):
         if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
             Root.get(self)
             return
-        if not self.tippe.lets(self.request.host):
+        app, address = self.application, self.request.remote_ip
+        if not app.tippe.lets(self.request.host):
             log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
             self.say(403, self.words("stranger"))
             return
-        door, address = self.application.door, self.request.remote_ip
-        hurried = door.pages.waiting(address) >= self.tippe.sessions_per_address
-        refusal = "hurried" if hurried else door.refusal(address)
+        hurried = app.door.pages.waiting(address) >= app.tippe.sessions_per_address
+        refusal = "hurried" if hurried else app.door.refusal(address)
         if refusal:
-            log.warning("refused %s a page: %s", address, in_english(refusal))
+            log.warning("refused %s a page: %s", address, text.say(f"main.server.{refusal}", text.DEFAULT))
             self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
             return
-        await door.pages.turn(address)
+        await app.door.pages.turn(address)
         start = time.monotonic()
         try:
             nonce = secrets.token_urlsafe(16)
             self.set_header("Cache-Control", "no-store")  # it holds the token of one session
             self.set_header("Content-Type", "text/html; charset=utf-8")
-            self.set_header("Content-Security-Policy", policy(self.request, self.tippe, nonce))
-            self.finish(self.application.sheet.page(self.language, self._token(), nonce))
+            self.set_policy(nonce)
+            self.finish(app.sheet.page(self.language, self._token(), nonce))
         finally:
-            door.pages.done(time.monotonic() - start)
+            app.door.pages.done(time.monotonic() - start)
 
     head = get
 
@@ -155,8 +165,8 @@ class Page(Handler, SessionHandler):
         app, request = self.application, self.request
         headers = {name: value for name, value in request.headers.items() if name in app.include_headers}
         return generate_jwt_token(
-            generate_session_id(secret_key=app.secret_key, signed=app.sign_sessions),
-            secret_key=app.secret_key, signed=app.sign_sessions, expiration=app.session_token_expiration,
+            generate_session_id(secret_key=app.secret_key, signed=True),
+            secret_key=app.secret_key, signed=True, expiration=app.session_token_expiration,
             extra_payload={"headers": headers, "cookies": {}, "arguments": request.arguments})  # fmt: skip
 
     def compute_etag(self):
@@ -167,7 +177,8 @@ class Root(Handler):
     """Where the page is, for who asks for the server alone."""
 
     def get(self):
-        self.redirect(f"{self.tippe.prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
+        prefix = self.application.tippe.prefix
+        self.redirect(f"{prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
 
     head = get
 
@@ -182,25 +193,20 @@ class Liveness(Handler):
     head = get
 
 
-class Component(ComponentResourceHandler):
-    """Panel's would import any module that a visitor names."""
-
-    def parse_url_path(self, path):
-        if path.split("/")[0] not in sys.modules:
-            raise HTTPError(404)
-        return super().parse_url_path(path)
-
-
-def in_pieces(get_content):
-    """tornado's method that reads a static file, with the file open for each piece anew: else a connection that reads
-    slowly would be two open files."""
-
-    def read(cls, path, start=None, end=None):
-        start, end = start or 0, os.path.getsize(path) if end is None else end
-        for at in range(start, end, PIECE):
-            yield b"".join(get_content(path, at, min(at + PIECE, end)))
-
-    return classmethod(read)
+def routes(application):
+    """What is served beside the sockets, and nothing else: of all that Bokeh and Panel have, the files."""
+    prefix = application.tippe.prefix
+    files = [(pattern, type(handler.__name__, (Files, handler), {}), *more) for pattern, handler, *more
+             in toplevel_patterns if issubclass(handler, StaticFileHandler)]  # fmt: skip
+    [(components, _, _)] = get_static_routes({})
+    return [
+        (f"{prefix}/app/?", Page),
+        *((f"{prefix}{pattern}", *more) for pattern, *more in [("/?", Root), *files, (components, Component)]),
+        ("/", Root),  # there, whatever the prefix
+        ("/liveness", Liveness),
+        ("/favicon.ico", type("Icon", (Answer, IcoHandler), {}), {"app": application}),
+        (".*", type("Nothing", (Answer, ErrorHandler), {}), {"status_code": 404}),
+    ]
 
 
 def log_request(handler):
@@ -209,19 +215,3 @@ def log_request(handler):
     level = logging.INFO if status < 400 else logging.WARNING if status < 500 else logging.ERROR
     logging.getLogger("tornado.access").log(level, "%d %s %s (%s)", status, request.method, request.path,
                                             request.remote_ip)  # fmt: skip
-
-
-def set_default_headers(handler):
-    """tornado's hook, of all handlers."""
-    for name, value in HEADERS.items():
-        handler.set_header(name, value)
-    handler.set_header("Content-Security-Policy", policy(handler.request, handler.application.tippe))
-    handler.clear_header("Server")
-
-
-def write_error(handler, status, **more):
-    """tornado's hook, of all handlers: what went wrong in one line."""
-    handler.set_header("Content-Type", "text/plain; charset=utf-8")
-    if status == 405:
-        handler.set_header("Allow", "GET" if type(handler).head is RequestHandler.head else "GET, HEAD")
-    handler.finish(f"{status} {responses.get(status, 'Unknown')}\n")

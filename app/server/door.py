@@ -1,10 +1,9 @@
 """Who may come in, and how much of the server's own thread each session takes."""
 
 import asyncio
-import inspect
 import time
 import types
-from collections import Counter, OrderedDict, deque
+from collections import OrderedDict, deque
 from contextlib import contextmanager
 
 from tornado.ioloop import IOLoop
@@ -49,29 +48,27 @@ class Turns:
 
 
 class Door:
-    """Counts sessions and pages, and lets them be made in turn."""
+    """Counts sessions and pages, and lets them be made in turn. context: Bokeh's of the page."""
 
-    def __init__(self, settings):
-        self.settings, self.sessions = settings, {}  # Bokeh's own, by id
-        self.open = Counter()  # sessions and waiting ones, by address
-        self.known, self.gone = set(), 0  # ids of the sessions that tidy() saw, and how many went since it tidied
+    def __init__(self, settings, context):
+        self.settings, self._context = settings, context
+        self.sockets = set()  # that were let in
         self.making, self.pages = Turns(pause=0.25), Turns(pause=4)
+
+    @property
+    def sessions(self):
+        return list(self._context.sessions)
 
     def refusal(self, address):
         """Why not, a key of [server] in main.toml; None where there is room."""
         if len(self.sessions) + self.making.waiting() >= self.settings.sessions:
+            for session in self.sessions:
+                if not session.connection_count:  # his page has gone: Bokeh need not keep it in case he comes back
+                    session.request_expiration()
             return "full"
-        if self.open[address] >= self.settings.sessions_per_address:
+        if sum(socket.address == address for socket in self.sockets) >= self.settings.sessions_per_address:
             return "crowded"
         return None
-
-    def enter(self, address):
-        self.open[address] += 1
-
-    def leave(self, address):
-        self.open[address] -= 1
-        if self.open[address] <= 0:
-            del self.open[address]
 
 
 class Budget:
@@ -140,21 +137,3 @@ def budget(session):
     if not hasattr(session, "budget"):
         session.budget = Budget()
     return session.budget
-
-
-def counted(wrap):
-    """Bokeh's method that readies what a session is to do later, at the next tick or after some time: with what that
-    costs put on the session's budget, whether it waits for the document's lock or, as Panel's own answers, does not."""
-
-    def wrap_and_count(session, callback):
-        ready = wrap(session, callback)
-
-        def work(*arguments, **named):
-            mine = budget(session)
-            with mine.work():
-                result = ready(*arguments, **named)
-            return mine.steps(result) if inspect.iscoroutine(result) else result
-
-        return work
-
-    return wrap_and_count

@@ -15,7 +15,7 @@ from bokeh.model import DataModel
 from app.model.builder import LARGEST_FILE
 
 MOST_EVENTS, MOST_PARTS, DEEPEST = 100, 10_000, 16
-KINDS = {"PATCH-DOC", "PULL-DOC-REQ", "SERVER-INFO-REQ"}  # a browser never pushes a document
+KINDS = {"PATCH-DOC", "PULL-DOC-REQ"}  # a browser never pushes a document
 
 LARGEST = 1e15  # number; a whole one keeps its last digit as far
 LONGEST = 16 * 1024  # letters; the longest address of a page is 12,000

@@ -16,96 +16,54 @@ import secrets
 import signal
 import sys
 import threading
-import time
-import traceback
 import webbrowser
+from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 
-import bokeh.server.urls
 import panel as pn
+from bokeh.application.handlers.function import FunctionHandler
 from bokeh.core.validation import silence
 from bokeh.core.validation.warnings import EMPTY_LAYOUT
+from bokeh.events import DocumentReady
 from bokeh.server.server import BaseServer
-from bokeh.server.session import ServerSession
 from bokeh.server.tornado import BokehTornado
 from bokeh.settings import settings as bokeh_settings
-from panel.io.application import build_single_handler_application
-from panel.io.document import _cleanup_doc
-from panel.io.server import ComponentResourceHandler, get_static_routes
+from panel.io.application import Application
 from panel.io.session import generate_session
 from panel.io.state import set_curdoc
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.iostream import StreamClosedError
 from tornado.netutil import bind_sockets
-from tornado.web import RequestHandler, StaticFileHandler
+from tornado.process import fork_processes
 from tornado.websocket import WebSocketClosedError
 
+from app import borrowed
 from app.kernels import compile_beside
-from app.server.answers import (
-    Component,
-    Liveness,
-    Page,
-    Root,
-    Sheet,
-    in_pieces,
-    log_request,
-    set_default_headers,
-    write_error,
-)
+from app.server.answers import Sheet, log_request, routes
 from app.server.arrivals import Arrivals, most_files
-from app.server.door import Door, counted
-from app.server.sockets import LARGEST_FRAGMENT, TOKEN_LASTS, Socket, note, why_not_made
+from app.server.door import Door, budget
+from app.server.sockets import LARGEST_FRAGMENT, Socket, note
 
 log = logging.getLogger("tippe")
 
 # s after which a connection on which nothing is asked is closed. A browser keeps six open for minutes; a proxy, few.
 IDLE, IDLE_PROXY = 5, 75
 PING = 45  # s
+FRESH = 120  # s in which a page that was sent may open its session
 TIDY = 10  # s
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
-GRACE = 3.0  # s from SIGTERM to the end, whatever still runs
+GRACE = 3  # s from SIGTERM to the end, whatever still runs
 
 
-def serve(settings, sockets, parent=None):
-    """Serves until SIGTERM, or until the other end of the pipe parent is closed."""
+def serve(settings, sockets, show, parent=None):
+    """Serves until SIGTERM, or until the other end of the pipe parent is closed. show: puts the page into the document
+    that is being served."""
     compile_beside()  # before anything is computed
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
-    RequestHandler.set_default_headers, RequestHandler.write_error = set_default_headers, write_error
-    StaticFileHandler.get_content = in_pieces(StaticFileHandler.get_content)
-    # Private: if another Bokeh has none, the server does not start.
-    ServerSession._wrap_document_callback = counted(ServerSession._wrap_document_callback)
     pn.config.exception_handler = note
-    bokeh.server.urls.per_app_patterns[:] = [(r"/ws", Socket), (r"/?", Page)]
-    static = [(pattern, Component if handler is ComponentResourceHandler else handler, *more)
-              for pattern, handler, *more in get_static_routes({})]  # fmt: skip
-    apps = {"/app": build_single_handler_application(Path(__file__).parents[1])}
-    template = warm(apps["/app"])
-    tornado = BokehTornado(
-        apps,
-        prefix=settings.prefix,
-        extra_patterns=[(r"/?", Root), *static],
-        secret_key=settings.secret.encode(),
-        sign_sessions=True,
-        keep_alive_milliseconds=0,  # tornado's own pings end connections that do not answer
-        websocket_ping_interval=PING,
-        websocket_ping_timeout=PING,
-        websocket_max_message_size_bytes=LARGEST_FRAGMENT,
-        unused_session_lifetime_milliseconds=1000 * settings.linger,
-        check_unused_sessions_milliseconds=5000,
-        session_token_expiration=TOKEN_LASTS,
-        include_headers=["User-Agent", "Accept-Language", "Host"],
-        include_cookies=[],
-        log_function=log_request,
-    )
-    tornado.add_handlers(r".*", [(r"/liveness", Liveness), (r"/", Root)])  # there, whatever the prefix
-    context = tornado.applications["/app"]
-    tornado.tippe, tornado.door = settings, Door(settings)
-    tornado.door.sessions = context._sessions
-    tornado.sheet = Sheet(template, tornado.resources())
-    _cleanup_doc(template.document, destroy=False)
+    tornado = prepared(settings, show)
     gc.collect()
     gc.freeze()  # what all sessions share stays: looking through it again took a fifth of the making of each
     idle = IDLE_PROXY if settings.proxy else IDLE
@@ -114,21 +72,19 @@ def serve(settings, sockets, parent=None):
     arrivals = Arrivals(http, sockets, most_files())
     loop = IOLoop.current()
     loop.asyncio_loop.set_exception_handler(unheard)
+    borrowed.in_one_thread(loop.asyncio_loop, tornado.applications["/app"])
     server = BaseServer(loop, tornado, http)
 
     def stop(*_):
         log.info("stopping")
-        if hasattr(signal, "setitimer"):
-            signal.signal(signal.SIGALRM, lambda *_: os._exit(0))  # where something does not come to an end
-            signal.setitimer(signal.ITIMER_REAL, GRACE)
+        if hasattr(signal, "alarm"):
+            signal.alarm(GRACE)  # which ends what does not come to an end
         loop.add_callback_from_signal(close)
 
     async def close():
         arrivals.stop()
-        for each in sockets:
+        for each in [*sockets, *tornado.door.sockets]:
             each.close()
-        for connection in list(tornado._clients):
-            connection._socket.close(1001, "The server is stopping.")
         await asyncio.sleep(0.2)
         server.stop(wait=False)
         loop.stop()
@@ -137,8 +93,8 @@ def serve(settings, sockets, parent=None):
         signal.signal(name, stop)
     if parent is not None:
         loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), stop()), IOLoop.READ)
-    PeriodicCallback(lambda: tidy(tornado.door), 1000 * TIDY).start()
-    loop.add_callback(pn.state._schedule_busy_cleanup)  # the first session's would keep that session
+    PeriodicCallback(tidier(tornado.door), 1000 * TIDY).start()
+    pn.state.add_periodic_callback(lambda: None, 1, count=1)  # Panel's first timer keeps the session that it is made in
     server.start()
     arrivals.start()
     log.info("serving http://%s:%d%s/app", settings.address or "localhost", settings.port, settings.prefix)
@@ -148,93 +104,90 @@ def serve(settings, sockets, parent=None):
     loop.start()
 
 
+def prepared(settings, show):
+    """Bokeh's application for tornado, with our routes and what they need in it."""
+
+    def make(document):
+        with set_curdoc(document):
+            show()
+
+    borrowed.mend()
+    borrowed.count(budget)
+    application = Application(FunctionHandler(make))
+    template = generate_session(application)  # of all pages, made before the first visitor comes
+    template.document.callbacks.trigger_event(DocumentReady())
+    tornado = BokehTornado(
+        {"/app": application},
+        secret_key=settings.secret.encode(),
+        sign_sessions=True,
+        keep_alive_milliseconds=0,  # tornado's own pings end connections that do not answer
+        websocket_ping_interval=PING,
+        websocket_ping_timeout=PING,
+        websocket_max_message_size_bytes=LARGEST_FRAGMENT,
+        unused_session_lifetime_milliseconds=1000 * settings.linger,
+        check_unused_sessions_milliseconds=5000,
+        session_token_expiration=FRESH,
+        include_headers=["User-Agent", "Accept-Language", "Host"],
+        include_cookies=[],
+        log_function=log_request,
+    )
+    context = tornado.applications["/app"]
+    tornado.tippe, tornado.door, tornado.sheet = settings, Door(settings, context), Sheet(template, tornado.resources())
+    path = f"{settings.prefix}/app/ws"
+    socket = (path, Socket, {"application_context": context, "bokeh_websocket_path": path})
+    tornado.add_handlers(".*", [socket, *routes(tornado)])  # before Bokeh's own, all of them
+    for each in template.document.session_destroyed_callbacks:
+        each(template.document.session_context)
+    template.destroy()
+    return tornado
+
+
 def unheard(loop, context):
     """What nobody waits for: that a page has closed while something was on its way to it is no error."""
     if not isinstance(context.get("exception"), (WebSocketClosedError, StreamClosedError)):
         loop.default_exception_handler(context)
 
 
-def tidy(door):
-    """Gives the memory of ended sessions back to the system: their models refer to each other. What lives is frozen:
-    else Python looks through all of it now and then, which is a second for 100 sessions, and finds nothing."""
-    now = set(door.sessions)
-    made, door.gone = now - door.known, door.gone + len(door.known - now)
-    door.known, ended = now, door.gone >= 20 or (door.gone and not now)
-    if ended:
-        door.gone = 0
-        gc.unfreeze()
-        gc.collect()
-        if hasattr(LIBC, "malloc_trim"):  # glibc's
-            LIBC.malloc_trim(0)
-    if made or ended:
-        gc.freeze()
+def tidier(door):
+    """A function that gives the memory of ended sessions back to the system: their models refer to each other. What
+    lives is frozen: else Python looks through all of it now and then, which is a second for 100 sessions, and finds
+    nothing."""
+    known, gone = set(), 0
+
+    def tidy():
+        nonlocal known, gone
+        now = {session.id for session in door.sessions}
+        made, gone = now - known, gone + len(known - now)
+        known, ended = now, gone >= 20 or (gone and not now)
+        if ended:
+            gone = 0
+            gc.unfreeze()
+            gc.collect()
+            if hasattr(LIBC, "malloc_trim"):  # glibc's
+                LIBC.malloc_trim(0)
+        if made or ended:
+            gc.freeze()
+
+    return tidy
 
 
-def warm(application):
-    """One session that is the template of all pages, made before the first visitor comes."""
-    session = generate_session(application)
-    reason = why_not_made(application)
-    if reason:
-        raise SystemExit(reason)
-    with set_curdoc(session.document):
-        pn.state._on_load(None)
-    return session
+def workers(count):
+    """So many processes; one that ends is replaced, and all end with this one, however it ends. Returns, in each of
+    them, the end of a pipe whose other end this one holds."""
+    held, ours = os.pipe()
+    try:
+        fork_processes(count)
+    except SystemExit:  # by __main__, at SIGTERM
+        os.close(ours)
+        with suppress(ChildProcessError):
+            while True:
+                os.wait()
+        raise
+    os.close(ours)
+    return held
 
 
-def supervise(settings, sockets):
-    """Keeps so many workers on the same sockets; one that ends is replaced, and all end with this one, however it ends.
-
-    (panel serve --num-procs forks too, but its first process waits for the others with no signal handler: SIGTERM ends
-    that one alone and leaves the workers to the system.)
-    """
-    workers, ending, failed = {}, [], []
-    held, ours_ends = os.pipe()
-
-    def begin():
-        pid = os.fork()
-        if pid:
-            workers[pid] = time.monotonic()
-            return
-        code = 1
-        try:
-            os.close(ours_ends)
-            for name in (signal.SIGTERM, signal.SIGINT, signal.SIGALRM):
-                signal.signal(name, signal.SIG_DFL)
-            serve(settings, sockets, parent=held)
-            code = 0
-        except BaseException:
-            traceback.print_exc()
-        finally:
-            os._exit(code)
-
-    def end(*_):
-        ending.append(True)
-        for pid in workers:
-            os.kill(pid, signal.SIGTERM)
-
-    for name in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(name, end)
-    for _ in range(settings.workers):
-        begin()
-    while workers:
-        pid, status = os.wait()
-        lived = time.monotonic() - workers.pop(pid)
-        if ending:
-            continue
-        code = os.waitstatus_to_exitcode(status)
-        log.error("worker %d ended (%d) after %.0f s", pid, code, lived)
-        if lived < 5 and code >= 0:  # not one that somebody killed
-            log.error("a worker that ends by itself within 5 s is not replaced: stopping")
-            failed.append(True)
-            end()
-        else:
-            time.sleep(min(1.0, 1 / max(lived, 0.1)))
-            if not ending:
-                begin()
-    return 1 if failed else 0
-
-
-def main(settings):
+def main(settings, show):
     """Listens and serves; returns the exit code."""
     sys.stdout.reconfigure(errors="backslashreplace")  # half a character, sent by somebody, is no reason not to log
     logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True,
@@ -253,7 +206,6 @@ def main(settings):
         print(f"port {settings.port}, address {settings.address!r}: {error.strerror}. Choose others by --port and "
               "--address, or TIPPE_PORT and TIPPE_ADDRESS.", file=sys.stderr)  # fmt: skip
         return 1
-    if settings.workers > 1:
-        return supervise(settings, sockets)
-    serve(settings, sockets)
+    parent = workers(settings.workers) if settings.workers > 1 else None
+    serve(settings, sockets, show, parent)
     return 0

@@ -5,7 +5,11 @@ import os
 import re
 from dataclasses import dataclass, field, fields, replace
 
+from bokeh.server.util import check_allowlist
+
 from app.model.ballots import store
+
+PORT = re.compile(r":(\d+|\*)$")
 
 
 def _setting(default, says, low=None, high=None):
@@ -85,17 +89,13 @@ class Settings:
     def lets(self, host):
         """Whether the server goes by this name, as in the Host header; a listed one without port is at 80 and 443."""
 
-        def apart(text):
-            name, port = re.fullmatch(r"(.*?)(?::(\d+|\*))?", text).groups()
-            return name, port or ""
+        named = [each for listed in self.hosts for each in ([listed] if PORT.search(listed) else _both(listed))]
+        ways = [host.lower()] if PORT.search(host) else _both(host.lower())
+        return not named or any(check_allowlist(way, named) for way in ways)
 
-        name, port = apart(host.lower())
-        for listed in self.hosts:
-            listed_name, listed_port = apart(listed)
-            same = listed_name in ("*", name) or (listed_name.startswith("*.") and name.endswith(listed_name[1:]))
-            if same and (listed_name == "*" or listed_port in (port, "*") or {listed_port, port} <= {"", "80", "443"}):
-                return True
-        return not self.hosts
+
+def _both(host):
+    return [host] if host == "*" else [f"{host}:80", f"{host}:443"]
 
 
 def _parser(items):

@@ -5,9 +5,11 @@ import json
 
 import numpy as np
 
-from app.model.regimes import SLIPS, WORDS
+from app.model.regimes import NAMES, SLIPS
 from app.model.scene import Scene
+from app.text import DEFAULT, listed
 
+REGIMES = listed("browser.Top3D.verdicts", DEFAULT)
 # name: (what it is, unit, the scale of that unit in SI, the SI unit)
 UNITS = {
     "t": ("time", "(R/g)^1/2", "time", "s"),
@@ -23,7 +25,7 @@ UNITS = {
     "K_J": ("Jellett's constant from the motion", "(g/R)^1/2", "angular_velocity", "rad/s"),
     "K_R": ("Routh's constant from the motion", "(MR^2)^1/2 (g/R)^1/2", None, ""),
     "E": ("energy from the motion", "MgR", "energy", "J"),
-    "regime": (", ".join(f"{code} {word}" for code, word in enumerate(WORDS[:SLIPS])), "", None, ""),
+    "regime": (", ".join(f"{code} {REGIMES[name]}" for code, name in enumerate(NAMES[:SLIPS])), "", None, ""),
 }
 TIELINES = {
     "tieline_K_J": "the tielines of Fig. 6: K_J in (g/R)^1/2",

@@ -6,13 +6,14 @@ In it are the page's own parts: Bokeh and its figures, the bundle with three.js,
 import base64
 import html
 import json
+from pathlib import Path
 from string import Template
 
 import numpy as np
 from bokeh.embed import components
 from bokeh.settings import settings
 
-from app.bundle import Bundled
+from app.bundle import BUNDLE, Bundled
 from app.share.export import parameters
 from app.text import say, spoken
 from app.widgets.controls import SYMBOLS
@@ -22,69 +23,7 @@ from app.widgets.portraits import Curve, Force, Phase, Potential, Track
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top
 
-PAGE = Template("""<!doctype html>
-<!-- $notices -->
-<html lang="$lang"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>$title</title>
-<style>
-body { margin: 0; background: #eef1f5; color: #22303c; font: 14px/1.45 system-ui, sans-serif }
-header { background: #0072B2; color: white; padding: 10px 20px; font-size: 19px }
-main { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 480px), 1fr)); gap: 12px; padding: 12px }
-section { background: white; border-radius: 10px; padding: 10px 14px; box-shadow: 0 1px 3px #22303c2e; height: 470px;
-  display: flex; flex-direction: column; box-sizing: border-box; min-width: 0 }
-section > :last-child { flex: 1 1 auto; min-height: 0 } .said { height: auto; grid-column: 1 / -1 }
-h2 { font-size: 15px; margin: 0 } i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 }
-.figure { position: relative; flex: 1 1 auto; min-height: 0; min-width: 0; display: flex }
-.figure > * { flex: 1 1 auto; min-width: 0; width: 100%; height: 100% }
-.times { display: flex; flex-direction: column } .row { flex: 1 1 0; display: flex; min-height: 0 }
-.row > :first-child { width: 46px; text-align: right; padding-top: 6px; flex: none }
-.axis { text-align: center; flex: none !important } p { margin: 4px 0; overflow-wrap: anywhere }
-</style>
-</head><body>
-<header>$explorer</header>
-<main>
-<section><h2>$card_top</h2><div id="Top3D"></div></section>
-<section><h2>$card_plane</h2>
-<div><i>K</i><sub>J</sub></div><div class="figure">$plane</div><div class="axis"><i>θ</i> (rad)</div></section>
-<section><h2>$card_floor</h2>
-<div id="Surface3D"></div></section>
-<section><h2>$card_times</h2><div class="times">$times
-<div class="axis">$unit</div></div></section>
-$portraits
-<section class="said"><h2>$this</h2><div><p>$parameters</p>$link
-<p>$source</p></div></section>
-</main>
-$bokeh
-$figures
-<script type="application/json" id="data">$data</script>
-<script type="module">
-const {bundle, models} = JSON.parse(document.getElementById("data").textContent)
-const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))
-// What Panel gives a component: its values, which tell who asked when they are set.
-const model = (values) => {
-  const asked = {}
-  for (const name in values) if (values[name]?.base64 !== undefined) values[name] = bytes(values[name].base64)
-  return new Proxy(values, {
-    get: (_, name) => name === "on" ? (event, run) => (asked[event] ??= []).push(run) : values[name],
-    set: (_, name, value) => {
-      const news = values[name] !== value
-      values[name] = value
-      if (news) asked[name]?.forEach((run) => run())
-      return true
-    },
-  })
-}
-const {default: parts} = await import(URL.createObjectURL(new Blob([bundle], {type: "text/javascript"})))
-for (const [name, values] of Object.entries(models)) {
-  const place = document.getElementById(name)
-  const el = document.createElement("div")
-  el.style.height = "100%"
-  place.attachShadow({mode: "open"}).append(el)
-  parts[name].render({model: model(values), el, view: {}})
-}
-</script>
-</body></html>
-""")
+PAGE = Template(Path(__file__).with_name("letter.html").read_text(encoding="utf-8"))
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
 PLANE = f"({SYMBOLS['K_J']}, {SYMBOLS['angle']})"
 TYPESET = {
@@ -141,14 +80,14 @@ def letter(scene, link="", look=None):
     )
     shown = html.escape(link)
     data = {
-        "bundle": Bundled._bundle.read_text(encoding="utf-8"),
+        "bundle": BUNDLE.read_text(encoding="utf-8"),
         "models": {type(part).__name__: dict(_values(part)) for part in (top, surface)},
     }
     return PAGE.substitute(
         lang=spoken(),
         title=say("share.letter.title", K_J=scene.constants.K_J, K_R=scene.constants.K_R),
         explorer=say("main.title"),
-        notices=(Bundled._bundle.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),
+        notices=(BUNDLE.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),
         plane=plane_div,
         card_top=say("roll.cards.top"),
         card_plane=say("roll.cards.plane", plane=PLANE),

@@ -7,6 +7,7 @@ import panel as pn
 import panel_material_ui as pmui
 import segno
 
+from app.borrowed import at_once
 from app.model.runs import Runs
 from app.share import export, glb, programs
 from app.share.letter import letter
@@ -17,7 +18,6 @@ from app.text import listed, say
 from app.widgets.cards import PLAIN, on_click, words
 from app.widgets.download import Download
 from app.widgets.failure import after
-from app.widgets.pacing import at_once
 
 # Nothing may move for so long before the address of the page is changed and a step is made, s.
 REST = 0.25

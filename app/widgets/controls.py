@@ -7,12 +7,13 @@ import panel as pn
 import panel_material_ui as pmui
 import param
 
+from app.borrowed import at_once
 from app.bundle import Bundled
+from app.model.regimes import NAMES
 from app.state import asked
 from app.state.keep import Field, OneOf
 from app.text import listed, say
 from app.widgets.cards import NOTES, PLAIN, alert, note
-from app.widgets.pacing import at_once
 from tippe_core import Top
 
 STYLE = """
@@ -86,7 +87,7 @@ def named(name):
 
 def worst(scene):
     """What the motion does, in the words of its worst instant."""
-    return listed("controls.worst")[int(scene.regime.max())]
+    return say(f"controls.worst.{NAMES[scene.regime.max()]}")
 
 
 class Dial(Bundled):

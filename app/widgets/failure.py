@@ -6,8 +6,8 @@ from weakref import WeakKeyDictionary, ref
 
 import panel as pn
 import param
-from panel.custom import JSComponent
 
+from app.bundle import Bundled
 from app.model.runs import to_session
 from app.text import say
 
@@ -15,32 +15,12 @@ log = logging.getLogger("tippe")
 PAGES = WeakKeyDictionary()  # document -> a weak reference to its Failure, which knows its document
 
 
-class Failure(JSComponent):
+class Failure(Bundled):
     """One sentence, until it is closed or the page is loaded anew."""
 
     words = param.String(constant=True, doc="What it says.")
     close = param.String(constant=True, doc="Of the button that closes it.")
     times = param.Integer(default=0, doc="How often something has failed so far.")
-
-    _esm = """
-    export function render({model}) {
-      const words = document.createElement("div"), close = document.createElement("button")
-      words.setAttribute("role", "alert")
-      Object.assign(words.style, {
-        position: "fixed", inset: "auto 8px 8px", margin: "auto", maxWidth: "560px", zIndex: 9998, display: "flex",
-        gap: "12px", alignItems: "center", padding: "8px 8px 8px 16px", borderRadius: "8px", background: "#b3261e",
-        color: "white", font: "15px/1.4 system-ui, sans-serif", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)",
-      })
-      Object.assign(close.style, {
-        font: "inherit", color: "inherit", background: "transparent", border: "1px solid", borderRadius: "6px",
-        padding: "4px 10px", cursor: "pointer",
-      })
-      close.textContent = model.close
-      close.onclick = () => words.remove()
-      model.on("times", () => { words.replaceChildren(model.words, close); document.body.append(words) })
-      model.on("remove", () => words.remove())
-    }
-    """
 
     def __init__(self):
         super().__init__(words=say("main.failed"), close=say("main.close"), width=0, height=0, margin=0)

@@ -6,8 +6,9 @@ from functools import partial
 
 import panel as pn
 import param
-from panel.custom import JSComponent
 
+from app.borrowed import at_once
+from app.bundle import Bundled
 from app.widgets.failure import after, attempt
 
 # Two, so that one is on its way while the browser paints the other.
@@ -18,26 +19,11 @@ REST_AFTER = 0.15
 ANSWER_WITHIN = 2.0
 
 
-def at_once(component, *properties):
-    """Lets these properties of a Panel component arrive without Panel's wait of 50 ms, and without its busy signal."""
-    component._priority_changes = component._busy__ignore = list(properties)
-
-
-class Painted(JSComponent):
+class Painted(Bundled):
     """Answers `sent` with the same number in `painted`, after the browser painted all that came before it."""
 
     sent = param.Integer(default=0)
     painted = param.Integer(default=0)
-
-    _esm = """
-    export function render({model}) {
-      // too narrow for controls beside the pictures
-      if (innerWidth < 900)
-        for (const {data} of Bokeh.documents.flatMap((doc) => [...doc.all_models]))
-          if (data?.attributes && "sidebar_open" in data.attributes) data.setv({sidebar_open: false})
-      model.on("sent", () => requestAnimationFrame(() => setTimeout(() => { model.painted = model.sent })))
-    }
-    """
 
 
 class Pacer:

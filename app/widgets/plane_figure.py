@@ -3,91 +3,17 @@
 import numpy as np
 from bokeh.models import (
     ColumnDataSource,
-    CustomJS,
-    CustomJSHover,
     HoverTool,
     Label,
     Range1d,
     Span,
 )
 
+from app.bundle import call, on_hover
 from app.model.colours import COLOURS, FAINT, INK
-from app.model.regimes import ROLLS, WOULD_SLIP
+from app.model.regimes import COLOUR, ROLLS
 from app.text import listed
-from app.widgets.plots import FOLLOW_CLOCK, plain
-
-# What a hand on Fig. 6 takes hold of, and what becomes of it: the bead moves the clock, all in the browser; an end of
-# the tieline on display is the energy, the tieline itself K_J; any other tieline becomes the motion, and beyond the
-# tielines the motion that turns there. `hand` takes the last four to Python.
-GRAB = """
-const {x, y, event_name} = cb_obj
-const row = Object.fromEntries(Object.entries(selected.data).map(([name, values]) => [name, values[0]]))
-const {frame: {x_scale, y_scale}, canvas_view: {ui_event_bus}, tool_views} = Bokeh.index.find_one(fig)
-const REACH = 14
-const {K_J, slip_in, slip_out} = limits.data
-const nearest = K_J.reduce((best, _, j) => Math.abs(K_J[j] - y) < Math.abs(K_J[best] - y) ? j : best, 0)
-const grip = (sx, sy) => {
-  const away = (theta, K_J) => Math.hypot(x_scale.compute(theta) - sx, y_scale.compute(K_J) - sy)
-  if (away(row.theta, row.K_J) < REACH) return "bead"
-  if (Math.min(away(row.inner, row.K_J), away(row.outer, row.K_J)) < REACH) return "end"
-  if (away(Math.min(Math.max(x_scale.invert(sx), row.inner), row.outer), row.K_J) < REACH) return "line"
-  return x >= slip_in[nearest] && x <= slip_out[nearest] ? "tieline" : "point"
-}
-const over = () => grip(x_scale.compute(x), y_scale.compute(y))
-if (event_name == "mousemove") {
-  if (!hand.grip) ui_event_bus.set_cursor({bead: "grab", end: "ew-resize", line: "ns-resize"}[over()] ?? "pointer")
-  return
-}
-// a quick hand is elsewhere by the time it counts as dragging
-if (event_name == "panstart") hand.grip = hand.scrolls ? null : hand.pressed ? grip(...hand.pressed) : over()
-if (event_name == "tap") hand.grip = over()
-const taken = hand.grip, done = event_name == "tap" || event_name == "panend"
-if (done) hand.grip = null
-if (event_name == "panstart") tool_views.get(hover)._move_exit()
-hover.setv({active: !hand.grip}, {sync: false})
-if (taken == "bead" || event_name == "tap" && taken == "line") {
-  const {t, theta} = motion.data, now = window.tippe.time(), last = t.length - 1
-  const clamp = (value, one, other) => Math.min(Math.max(value, Math.min(one, other)), Math.max(one, other))
-  const aim = clamp(x, row.inner, row.outer)
-  // of the times at which the motion is nearest to the hand, the one next to now
-  let found = now, least = Infinity
-  for (let i = 0; i < last; i++) {
-    const [from, to] = [theta[i], theta[i + 1]], inside = clamp(aim, from, to)
-    const at = t[i] + (from == to ? 0 : (inside - from) / (to - from)) * (t[i + 1] - t[i])
-    const away = 1e3 * Math.abs(inside - aim) + Math.abs(at - now) / (t[last] - t[0])
-    if (away < least) [found, least] = [at, away]
-  }
-  window.dispatchEvent(new CustomEvent("tippe:seek", {detail: {t: found, held: !done}}))
-} else if (taken && !(event_name == "tap" && taken == "end")) {
-  const on = taken == "end" ? row.K_J : taken == "tieline" && done ? K_J[nearest] : y
-  if (event_name != "panend") hand.data = {grip: [taken], theta: [x], K_J: [on]}
-}
-// why not, where the hand is
-const say = () => {
-  const text = [" ", slips, lifts]
-  const worst = selected.data.worst[0], right = x > (fig.x_range.start + fig.x_range.end) / 2
-  const visible = !!hand.grip && hand.grip != "bead" && worst > 0
-  if (!visible && !sentence.visible) return
-  const align = right ? {text_align: "right", x_offset: -12} : {text_align: "left", x_offset: 12}
-  sentence.setv({x, y, text: text[worst], visible, ...align}, {sync: false})
-}
-hand.say = say
-say()
-"""
-
-READ_PLANE = """
-const {K_J, slip_E, lift_E, slip_by, lift_by} = limits.data
-const away = (j) => Math.abs(K_J[j] - special_vars.y)
-const nearest = K_J.reduce((best, _, j) => away(j) < away(best) ? j : best, 0)
-if (format == "K_J") return K_J[nearest].toFixed(3)
-if (format == "theta") return `${special_vars.x.toFixed(3)} rad = ${(special_vars.x * 180 / Math.PI).toFixed(1)}°`
-if (format == "E") return `${value.toFixed(4)} MgR`
-if (format == "ratio") return Number.isFinite(value) ? value.toFixed(3) : no_contact
-const limits_it = {slip: then_slip, "lift-off": then_lift, "no motion": steady_cannot, nothing: unlimited}
-if (!(value > slip_E[nearest])) return limits_it[slip_by[nearest]]
-const why = {slip: not_slip, "lift-off": not_lift}
-return why[value > lift_E[nearest] ? lift_by[nearest] : slip_by[nearest]] ?? not_at_all
-"""
+from app.widgets.plots import plain
 
 TOOLTIP = """
 <div style="font: 13px system-ui, sans-serif; color: #22303c; line-height: 1.5">
@@ -165,7 +91,7 @@ class PlaneFigure:
         )
 
         everywhere = fig.image("E", x="x", y="y", dw="w", dh="h", source=self.field, global_alpha=0, level="overlay")
-        read = CustomJSHover(args={"limits": self.limits} | listed("roll.plane"), code=READ_PLANE)
+        read = on_hover("readPlane", limits=self.limits, words=listed("roll.plane"))
         self.hover = HoverTool(
             renderers=[everywhere],
             tooltips=TOOLTIP,
@@ -204,19 +130,13 @@ class PlaneFigure:
 
     def _listen(self, motion):
         """To the browser's own clock, which moves the bead, and to hands."""
-        fig = self.figure
-        own = {"fig": fig, "hand": self.hand}
-        with_clock = own | {"motion": motion, "selected": self.selected}
-        fig.js_on_change("inner_width", CustomJS(args=with_clock, code=FOLLOW_CLOCK))
-        grab = CustomJS(
-            args=with_clock
-            | {"limits": self.limits, "sentence": self.sentence, "hover": self.hover}
-            | listed("roll.pull"),
-            code=GRAB,
-        )
+        fig, hand = self.figure, {"fig": self.figure, "hand": self.hand, "selected": self.selected}
+        fig.js_on_change("inner_width", call("followMotion", motion=motion, **hand))
+        hand |= {"sentence": self.sentence, "words": listed("roll.pull")}
+        pull = call("pullPlane", motion=motion, limits=self.limits, hover=self.hover, **hand)
         for event in ("tap", "panstart", "pan", "panend", "mousemove"):
-            fig.js_on_event(event, grab)
-        self.selected.js_on_change("patching", CustomJS(args=own, code="hand.say?.()"))
+            fig.js_on_event(event, pull)
+        self.selected.js_on_change("patching", call("sayPull", **hand))
 
     def show_selected(self, scene):
         inner, outer = scene.turning
@@ -227,7 +147,7 @@ class PlaneFigure:
             "inner": inner,
             "outer": outer,
             "steady": scene.marks.theta_steady,
-            "colour": COLOURS["theta"] if worst == ROLLS else COLOURS["friction" if worst == WOULD_SLIP else "normal"],
+            "colour": COLOUR[worst],
             "worst": worst,
         }
         self.selected.patch({name: [(0, value)] for name, value in row.items()})

@@ -8,77 +8,17 @@ import numpy as np
 from bokeh.models import (
     BoxAnnotation,
     ColumnDataSource,
-    CustomJS,
     Range1d,
     Span,
 )
 from bokeh.plotting import figure
 
+from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import say
 
 GRID, PAPER = "#e7ebef", "#ffffff"
 POINTS_A_CURVE = 640
-
-# Moves the bead in the browser; not synced, so playing sends nothing to the server. Run by each new size of a figure,
-# of which the first comes as soon as there is something to move.
-FOLLOW_CLOCK = """
-if (motion.followed) return
-motion.followed = true
-let now = 0
-const place_bead = () => {
-  const {t, theta} = motion.data, last = t.length - 1
-  const x = Math.min(Math.max((now - t[0]) / (t[last] - t[0]), 0), 1) * last, i = Math.min(Math.floor(x), last - 1)
-  selected.data.theta[0] = theta[i] + (x - i) * (theta[i + 1] - theta[i])
-  selected.change.emit()
-}
-motion.properties.data.change.connect(place_bead)
-const {events_el} = Bokeh.index.find_one(fig).canvas_view
-const onTieline = ({clientX, clientY}) => {
-  const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame, {left, top} = events_el.getBoundingClientRect()
-  const {K_J: [K_J], inner: [inner], outer: [outer]} = selected.data, x = clientX - left, y = clientY - top
-  return Math.hypot(Math.max(x_scale.compute(inner) - x, 0, x - x_scale.compute(outer)), y_scale.compute(K_J) - y) < 14
-}
-const press = (event) => {
-  hand.pressed = [event.offsetX, event.offsetY]
-  hand.scrolls = event.pointerType == "touch" && !onTieline(event)
-}
-events_el.addEventListener("pointerdown", press, {capture: true})
-// A finger pulls the tieline on display, and scrolls the page from everywhere else.
-const keep = (event) => { if (event.touches.length == 1 && onTieline(event.touches[0])) event.preventDefault() }
-events_el.addEventListener("touchstart", keep, {passive: false})
-window.addEventListener("tippe:clock", ({detail: {t}}) => {
-  now = t
-  place_bead()
-})
-"""
-# The same for the lines at the clock's time.
-MOVE_LINES = """
-if (spans.followed) return
-spans.followed = true
-const move = (t) => { for (const span of spans) span.setv({location: t}, {sync: false}) }
-window.addEventListener("tippe:clock", ({detail: {t}}) => move(t))
-move(window.tippe?.time() ?? 0)
-"""
-
-# The clock goes to `time`, and stands there as long as the hand is down.
-SEEK_BY_HAND = """
-const held = ["panstart", "pan"].includes(cb_obj.event_name)
-window.dispatchEvent(new CustomEvent("tippe:seek", {detail: {t: time, held}}))
-"""
-SEEK = "const time = cb_obj.x" + SEEK_BY_HAND
-
-
-# To the ear a canvas is a picture with a name. And a hand that rests before it pulls would count for Bokeh as one that
-# presses, from 300 ms on, and pull nothing; no figure here is pressed, so that none is in all time.
-READY = """
-const {el, canvas_view} = Bokeh.index.find_one(fig) ?? {}
-if (!el) return
-canvas_view.ui_event_bus.ui_gestures.constructor.press_threshold = 2 ** 31 - 1
-el.setAttribute("role", "img")
-el.setAttribute("aria-label", label)
-el.dataset.figure = fig.name
-"""
 
 
 def plain(**options):
@@ -102,7 +42,7 @@ def plain(**options):
     fig.axis.major_tick_in = 0
     if fig.name:
         label = say(f"roll.figures.{fig.name}")
-        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "label": label}, code=READY))
+        fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
 
 
@@ -153,7 +93,7 @@ class TimeFigures:
             self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
             fig.add_layout(self.spans[-1])
             for event in ("tap", "panstart", "pan", "panend"):
-                fig.js_on_event(event, CustomJS(code=SEEK))
+                fig.js_on_event(event, call("seekAlong"))
             fig.min_border_left = 44
             fig.ygrid.ticker = fig.yaxis.ticker
             fig.yaxis.ticker.desired_num_ticks = 3
@@ -166,8 +106,7 @@ class TimeFigures:
             BoxAnnotation(top=0, fill_color=COLOURS["normal"], fill_alpha=0.15, line_color=None)
         )
 
-        follow = CustomJS(args={"spans": self.spans}, code=MOVE_LINES)
-        self.figures["theta"].js_on_change("inner_width", follow)
+        self.figures["theta"].js_on_change("inner_width", call("moveLines", spans=self.spans))
         self._shown = None
 
     def show(self, scene):

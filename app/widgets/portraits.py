@@ -4,53 +4,17 @@ One Portrait is drawn at a time in each card; the beads go with the browser's cl
 """
 
 import numpy as np
-from bokeh.models import ColumnDataSource, CustomJS, DataRange1d, Range1d, Span
+from bokeh.models import ColumnDataSource, DataRange1d, Range1d, Span
 
+from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import say
-from app.widgets.plots import PAPER, SEEK_BY_HAND, plain
+from app.widgets.plots import PAPER, plain
 
 POINTS_OF_A_TRACK = 480
 POINTS_OF_A_CIRCLE = 73
 # A circle so much larger than the track is a straight line to the eye.
 STRAIGHT = 300
-
-# The bead is the browser's: not synced, so playing sends nothing to the server. A curve of one nutation is gone through
-# again and again.
-FOLLOW = """
-if (curve.followed) return
-curve.followed = true
-let now = window.tippe?.time() ?? 0
-const place = () => {
-  const {t, x, y} = curve.data, last = t.length - 1, span = t[last] - t[0]
-  if (!(span > 0)) return
-  const since = now - t[0], k = (since <= span ? Math.max(since, 0) : since % span) / span * last
-  const i = Math.min(Math.floor(k), last - 1), mix = (values) => values[i] + (k - i) * (values[i + 1] - values[i])
-  bead.data.x[0] = mix(x)
-  bead.data.y[0] = mix(y)
-  bead.change.emit()
-}
-curve.properties.data.change.connect(place)
-window.addEventListener("tippe:clock", ({detail: {t}}) => {
-  now = t
-  if (Bokeh.index.find_one(fig)?.el.offsetParent) place()
-})
-place()
-"""
-
-# The instant whose point on the curve is nearest to the hand; of several as near, the one nearest in time.
-NEAREST = """
-const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame
-const {t, x, y} = curve.data, span = t[t.length - 1] - t[0], now = window.tippe.time()
-const [hand_x, hand_y] = [x_scale.compute(cb_obj.x), y_scale.compute(cb_obj.y)]
-let found = now, least = Infinity
-for (let i = 0; i < t.length; i++) {
-  const turns = Math.round((now - t[i]) / span), at = t[i] + (whole ? 0 : Math.max(turns, 0) * span)
-  const away = Math.hypot(x_scale.compute(x[i]) - hand_x, y_scale.compute(y[i]) - hand_y) + Math.abs(at - now) / span
-  if (away < least) [found, least] = [at, away]
-}
-const time = found
-"""
 
 
 class Portrait:
@@ -75,10 +39,9 @@ class Portrait:
         if self.aspect:
             fig.x_range.renderers = fig.y_range.renderers = [line]
         self.above()
-        mine = {"curve": self.curve, "bead": self.bead, "fig": fig, "whole": self.whole}
-        fig.js_on_change("inner_width", CustomJS(args=mine, code=FOLLOW))
+        fig.js_on_change("inner_width", call("followCurve", curve=self.curve, bead=self.bead, fig=fig))
         for event in ("tap", "panstart", "pan", "panend"):
-            fig.js_on_event(event, CustomJS(args=mine, code=NEAREST + SEEK_BY_HAND))
+            fig.js_on_event(event, call("seekOnCurve", curve=self.curve, fig=fig, whole=self.whole))
         self._shown = None
 
     def below(self):

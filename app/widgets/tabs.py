@@ -6,26 +6,27 @@ import logging
 import panel as pn
 import panel_material_ui as pmui
 
+from app.bundle import CALL
 from app.state.keep import Field, OneOf
 from app.text import say
 from app.widgets.cards import BUTTON, alert, note, on_click, words
 
-# The message with the view comes later, and behind what is on its way already.
-TURN = "[{names}].forEach((place, i) => place.setv({{visible: i === cb_obj.active}}, {{sync: false}}))"
 AROUND = (24, 28)
 
 log = logging.getLogger("tippe")
 
 
 class Place:
-    """Where a view is to be. make: a function that returns it; soon: of a Pacer."""
+    """Where a view is to be. name: the place's own; make: a function that returns the view; soon: of a Pacer."""
 
-    def __init__(self, make, soon):
+    def __init__(self, name, make, soon):
         self._make, self._soon, self._view, self._asked = make, soon, None, False
         again = pmui.Button(label=say("main.making.again"), **BUTTON)
         on_click(again, lambda event: self.ask())
         self._wrong = [words(alert(say("main.making.failed")), margin=AROUND), pn.Row(again, margin=(0, 28))]
-        self.column = pn.Column(self._waiting(), sizing_mode="stretch_width", margin=0, visible=False)
+        self.column = pn.Column(
+            self._waiting(), name=f"place of {name}", sizing_mode="stretch_width", margin=0, visible=False
+        )
 
     @staticmethod
     def _waiting():
@@ -57,7 +58,7 @@ def tabs(views, keep, soon):
 
     views: {name in the address: maker}; the first is made with the page. soon: of a Pacer.
     """
-    places = [Place(make, soon) for make in views.values()]
+    places = [Place(name, make, soon) for name, make in views.items()]
     columns = [place.column for place in places]
     header = pmui.Tabs(
         *((say(f"main.tabs.{name}"), pn.Spacer(height=0)) for name in views),
@@ -80,8 +81,8 @@ def tabs(views, keep, soon):
     columns[0].visible = True
     places[0].fill()
     header.param.watch(lambda event: look(event.new), "active")
-    named = {f"place{i}": column for i, column in enumerate(columns)}
-    header.jscallback(args=named, active=TURN.format(names=", ".join(named)))
+    given = {"places": [column.name for column in columns]}
+    header.jscallback(args={"run": "turnTab", "given": given}, active=CALL)
     known = OneOf(**{name: i for i, name in enumerate(views)})
     keep.add(header, {"active": Field("tab", known, undoable=False)})
     return [header, *columns]

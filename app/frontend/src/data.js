@@ -8,6 +8,10 @@ export function float32(bytes) {
   return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength >> 2);
 }
 
+// Bytes that came in base64.
+/** @param {string} text */
+export const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+
 // The least of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is at least x: a number to put on a scale.
 /** @param {number} x */
 export function niceAbove(x) {

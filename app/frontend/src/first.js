@@ -1,6 +1,6 @@
 // The top of the page's first view, moving before the session has come: app/first.py wrote into the page what its model
 // will say. A stand-in for that model draws it, and hands the picture over when the model is there.
-import { float32 } from "./data.js";
+import { bytesOf, float32 } from "./data.js";
 import { pace, REST } from "./three/stage.js";
 import { renderTop3D } from "./three/top3d.js";
 
@@ -51,7 +51,7 @@ export function first() {
   if (location.search !== search) return; // another motion, or another view
   /** @type {any} */
   const values = Object.fromEntries(Object.entries(said).map(([name, value]) =>
-    [name, value?.base64 === undefined ? value : Uint8Array.from(atob(value.base64), (c) => c.charCodeAt(0)).buffer]));
+    [name, value?.base64 === undefined ? value : bytesOf(value.base64).buffer]));
   values.texts = inOneLanguage(said.texts);
   const { model, become } = standIn(values), view = {}, el = document.createElement("div");
   el.style.height = "100%";

@@ -1,9 +1,39 @@
-import { renderDial } from "./widgets/dial.js";
+import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
-import { renderGuide } from "./widgets/guide.js";
-import { renderLook } from "./widgets/look.js";
+import { letter } from "./letter.js";
 import { renderSurface3D } from "./three/surface3d.js";
+import { renderAddress } from "./widgets/address.js";
+import { renderCopy } from "./widgets/copy.js";
+import { renderDial } from "./widgets/dial.js";
+import { renderDownload } from "./widgets/download.js";
+import { renderGuide } from "./widgets/guide.js";
+import { renderLines } from "./widgets/lines.js";
+import { renderLook } from "./widgets/look.js";
+import { renderConnection } from "./widgets/notices.js";
+import { renderFailure } from "./widgets/notices.js";
+import { renderPainted } from "./widgets/painted.js";
+import { renderPhone } from "./widgets/phone.js";
+import { renderPhoto } from "./widgets/photo.js";
+
+offerCallbacks();
 
 // Panel looks a component up by its Python class's name.
-export default { Dial: { render: renderDial }, Guide: { render: renderGuide }, Look: { render: renderLook }, Surface3D: { render: renderSurface3D }, Top3D: { render: renderFirst }, first };
+export default {
+  Address: { render: renderAddress },
+  Connection: { render: renderConnection },
+  Copy: { render: renderCopy },
+  Dial: { render: renderDial },
+  Download: { render: renderDownload },
+  Failure: { render: renderFailure },
+  Guide: { render: renderGuide },
+  Lines: { render: renderLines },
+  Look: { render: renderLook },
+  Painted: { render: renderPainted },
+  Phone: { render: renderPhone },
+  Photo: { render: renderPhoto },
+  Surface3D: { render: renderSurface3D },
+  Top3D: { render: renderFirst },
+  first,
+  letter,
+};

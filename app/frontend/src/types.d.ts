@@ -95,11 +95,78 @@ interface LookModel extends Model {
   on_dark: Record<string, string>;
 }
 
-declare const Bokeh: { documents: any[] };
+interface DownloadModel extends Model {
+  label: string;
+  filename: string;
+  clicks: number;
+  file: [count: number, base64: string];
+  making: boolean;
+}
+
+interface PhotoModel extends Model {
+  caption: string[];
+  wide: number;
+}
+
+interface CopyModel extends Model {
+  text: string;
+  label: string;
+  rows: number;
+  says: [before: string, after: string];
+}
+
+interface AddressModel extends Model {
+  search: string;
+  page: string;
+  held: boolean;
+  gesture: number;
+  undone: number;
+  redone: number;
+}
+
+interface FailureModel extends Model {
+  words: string;
+  close: string;
+}
+
+interface ConnectionModel extends Model {
+  words: string;
+}
+
+interface PaintedModel extends Model {
+  sent: number;
+  painted: number;
+}
+
+interface PhoneModel extends Model {
+  mark: string;
+}
+
+interface LinesModel extends Model {
+  clock: string;
+  lines: any[];
+  symbols: Record<string, any>;
+  words: Record<string, string>;
+  rough: any;
+  smooth: any;
+  periods: number[];
+  widths: number[];
+}
+
+// A column of a figure's source, and between two of its rows.
+type Column = ArrayLike<number> & { reduce(take: (best: number, value: number, row: number) => number, first: number): number };
+type Spot = [row: number, share: number];
+type PixelScale = { compute(value: number): number; invert(px: number): number };
+type Tieline = { K_J: number; inner: number; outer: number };
+
+declare const Bokeh: { documents: any[]; index: any };
 
 interface Window {
   tippe: { time(clock?: string): number; photo(wide: number, clock?: string): HTMLCanvasElement | undefined };
-  __tippe: Record<string, any>; // for tests
+  // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.
+  __tippe: Record<string, any>;
+  tippeCallbacks: Record<string, (given: any, what: any) => unknown>; // of figures/callbacks.js
+  katex?: { render(tex: string, el: HTMLElement, options: object): void };
   // Our own events; what they carry stands where they are sent.
   addEventListener(type: `tippe:${string}`, run: (event: CustomEvent) => void, options?: AddEventListenerOptions): void;
   removeEventListener(type: `tippe:${string}`, run: (event: CustomEvent) => void): void;

@@ -2,55 +2,16 @@
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColumnDataSource, CustomJS, Range1d
+from bokeh.models import ColumnDataSource, Range1d
 
-from app.model.colours import COLOURS, GREY, INK
+from app.bundle import call
+from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
 from app.widgets.cards import swatch, words
 from app.widgets.plots import plain
 
 CLOCK = "learn"
 MARGIN = 0.06
-
-# Turns the section's drawing with the clock: only a rotation of the points that Python sent.
-TURN_SECTION = """
-if (motion.followed) return
-motion.followed = true
-let now = 0
-const draw = () => {
-  const {t, theta, push} = motion.data, last = t.length - 1
-  const i = Math.round(Math.min(Math.max((now - t[0]) / (t[last] - t[0]), 0), 1) * last)
-  const s = Math.sin(theta[i]), c = Math.cos(theta[i]), a = motion.data.a[0]
-  const {across, along} = body.data, x = body.data.x, y = body.data.y
-  for (let k = 0; k < across.length; k++) {
-    x[k] = across[k] * c - along[k] * s
-    y[k] = 1 + across[k] * s + along[k] * c
-  }
-  body.change.emit()
-  const G = [a * s, 1 - a * c], mark = (k, x0, y0, x1, y1) => {
-    Object.assign(lines.data.x0, {[k]: x0}); Object.assign(lines.data.y0, {[k]: y0})
-    Object.assign(lines.data.x1, {[k]: x1}); Object.assign(lines.data.y1, {[k]: y1})
-  }
-  // the axis 3; the verticals through G and C; r from C to G; the arm of the torque about z, above the points, which
-  // are larger than it; that about 3
-  const foot3 = [s * c, 1 - c * c]
-  mark(0, 1.25 * s, 1 - 1.25 * c, -1.9 * s, 1 + 1.9 * c)
-  mark(1, G[0], 0, G[0], 1.7)
-  mark(2, 0, 0, G[0], G[1])
-  mark(3, 0, 1.5, G[0], 1.5)
-  mark(4, 0, 0, foot3[0], foot3[1])
-  mark(5, 0, 0, 0, 1.7)
-  lines.change.emit()
-  const at = (k, x, y) => { points.data.x[k] = x; points.data.y[k] = y }
-  at(0, 0, 1); at(1, ...G); at(2, 0, 0); at(3, -1.9 * s, 1 + 1.9 * c)
-  points.data.name[4] = push[i] >= 0 ? "F⊙" : "F⊗"
-  at(4, 0, -0.02)
-  points.change.emit()
-}
-motion.properties.data.change.connect(draw)
-window.addEventListener("tippe:clock:CLOCK", ({detail: {t}}) => { now = t; draw() })
-draw()
-""".replace("CLOCK", CLOCK)
 
 
 class StepFigure:
@@ -106,7 +67,7 @@ class SectionFigure:
         five, six = [0.0] * 5, [0.0] * 6
         self.lines = ColumnDataSource(
             {"x0": six, "y0": list(six), "x1": list(six), "y1": list(six),
-             "colour": ["#8a96a3", "#8a96a3", GREY, COLOURS["friction"], COLOURS["theta"], "#8a96a3"],
+             "colour": [FAINT, FAINT, GREY, COLOURS["friction"], COLOURS["theta"], FAINT],
              "dash": ["dashed", "dotted", "solid", "solid", "solid", "dotted"],
              "width": [1.5, 1.5, 2, 8, 5, 1.5]})  # fmt: skip
         self.points = ColumnDataSource(
@@ -119,8 +80,9 @@ class SectionFigure:
         fig.scatter("x", "y", source=self.points, size="size", color=INK)
         fig.text("x", "y", "name", source=self.points, x_offset="dx", y_offset="dy", text_color=INK,
                  text_font_size="15px", text_font_style="italic")  # fmt: skip
-        turn = CustomJS(args={"motion": self.motion, "body": self.body, "lines": self.lines, "points": self.points},
-                        code=TURN_SECTION)  # fmt: skip
+        turn = call(
+            "turnSection", motion=self.motion, body=self.body, lines=self.lines, points=self.points, clock=CLOCK
+        )
         fig.js_on_change("inner_width", turn)
         self.words = words("")
 

@@ -11,7 +11,7 @@ from app.bundle import pack
 from app.model import lesson, lesson_sliding
 from app.model.bodies import outline
 from app.model.frames import in_space
-from app.model.regimes import FLIES, ROLLS, SLIPS
+from app.model.regimes import OF_CORE
 from app.model.runs import Run, Runs
 from app.state.keep import SECRET, Field, OneOf
 from app.tabs.learn.figures import CLOCK, SectionFigure, StepFigure
@@ -24,7 +24,6 @@ from app.widgets.top3d import Top3D, pack_frames, show_top
 from tippe_core import TopError
 
 SECTIONS = ("lesson", "derivation", "teach", "history")
-CODES = {"roll": ROLLS, "slip": SLIPS, "air": FLIES}
 ROLLING_SPEED, SLIDING_SPEED = 1 / 16, 1 / 4
 # MathML, which is what KaTeX leaves to the browser here, wants a font that has tall brackets.
 MATHS = "math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math }"
@@ -56,7 +55,7 @@ def show_motion(view, scene, motion, stem):
     if view.shown is motion:
         return
     view.shown = motion
-    codes = [CODES[regime] for regime in motion.regime]
+    codes = [OF_CORE[regime] for regime in motion.regime]
     view.param.update(
         mu_s=lesson_sliding.FRICTION.mu,
         profile=pack(scene.profile if stem else outline(scene.top)),

@@ -3,15 +3,15 @@
 import numpy as np
 import panel as pn
 import param
-from panel.custom import JSComponent
 
+from app.bundle import Bundled
 from app.model import derivation, stretches
 from app.text import listed, say
 
 PLANES = ("rough", "smooth")
 
 
-class Lines(JSComponent):
+class Lines(Bundled):
     """The lines. The tables hold a row an instant of one nutation, t first; the browser picks the row of its clock.
 
     It listens to `tippe:clock:<clock>`, and says with `tippe:highlight:<clock>` what is pointed at:
@@ -26,178 +26,6 @@ class Lines(JSComponent):
     smooth = param.Bytes(default=b"", doc="float64 rows of the smooth plane")
     periods = param.List(default=[1.0, 1.0])
     widths = param.List(default=[1, 1])
-
-    _esm = """
-    const STYLE = `
-      .lines { font: calc(14px * var(--type, 1))/1.45 system-ui, sans-serif; color: var(--ink, #22303c);
-        --link: color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c)) }
-      .line { border-top: 1px solid var(--rule, #e7ebef); padding: 7px 0 }
-      .line > .head { display: flex; gap: 8px; align-items: baseline; }
-      .eq { overflow-x: auto; overflow-y: hidden; font-size: 1.07em; padding: 3px 0; min-width: 0 }
-      math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math }
-      button { font: inherit; background: none; border: 1px solid #8a96a3; border-radius: 6px; color: var(--link);
-        padding: 1px 7px; cursor: pointer; min-width: 46px }
-      button[aria-expanded=true] { background: #0b5cad; color: white }
-      .sides { color: var(--faint, #5b6875); font-size: 0.9em; font-variant-numeric: tabular-nums;
-        overflow-wrap: anywhere }
-      .sides b { font-weight: 600; color: var(--ink, #22303c) }
-      .known { cursor: help; color: var(--link) } .known:hover { background: #fde9b8; color: #22303c }
-      .symbols { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 230px), 1fr)); gap: 4px;
-        margin-top: 5px; font-size: 0.9em } .symbols[hidden] { display: none }
-      .symbols div { border-radius: 6px; padding: 2px 6px;
-        background: color-mix(in srgb, var(--ink, #22303c) 6%, var(--card, white)) }
-      .symbols div:focus { outline: 2px solid var(--link) }
-      .tip { position: fixed; z-index: 99; pointer-events: none; background: #22303c; color: white; border-radius: 6px;
-        border: 1px solid #8a96a3; padding: 4px 8px; font-size: 0.9em; max-width: 280px }`
-    const bare = (node) => node.textContent.replace(/[\\s\\u2061\\u200b\\u2062]/g, "").replace("\\u20d7", "→")
-    const figures = (value, digits) => Number.isFinite(value)
-      ? String(Math.abs(value) < 1e-300 ? 0 : Math.abs(value) < 1e-4 ? value.toExponential(digits > 6 ? 3 : 1)
-        : Number(value.toPrecision(digits))).replaceAll("-", "−") : "—"
-
-    export function render({model, el}) {
-      const root = document.createElement("div"), tip = document.createElement("div")
-      const make = (parent, kind, name, text) => {
-        const node = document.createElement(kind)
-        if (name) node.className = name
-        if (text !== undefined) node.textContent = text
-        parent.append(node)
-        return node
-      }
-      root.className = "lines"
-      make(root, "style", "", STYLE)
-      tip.className = "tip"
-      tip.hidden = true
-      const tables = {}
-      let now = 0, shown = 0, due = null, pointed = null
-
-      const read = () => ["rough", "smooth"].forEach((plane, i) => {
-        const bytes = model[plane]
-        const buffer = bytes instanceof ArrayBuffer ? bytes : bytes.slice().buffer
-        tables[plane] = {values: new Float64Array(buffer), width: model.widths[i], period: model.periods[i]}
-      })
-      // the row nearest to the clock, in its nutation
-      const row = (plane) => {
-        const {values, width, period} = tables[plane], count = values.length / width
-        const t = now - Math.floor(now / period) * period
-        let low = 0, high = count - 1
-        while (high - low > 1) {
-          const middle = (low + high) >> 1
-          if (values[middle * width] <= t) low = middle
-          else high = middle
-        }
-        const i = t - values[low * width] <= values[high * width] - t ? low : high
-        return values.subarray(i * width, (i + 1) * width)
-      }
-      const said = (part, digits) => part.length == 1 ? figures(part[0], digits)
-        : "(" + Array.from(part, (x) => figures(x, 6)).join(", ") + ")"
-      const valueOf = (name, plane) => {
-        const {at, size} = model.symbols[name], part = row(plane).subarray(at, at + size)
-        return said(part, 6)
-      }
-      const point = (name, plane, anchor) => {
-        pointed = name && {name, plane, anchor}
-        tell()
-      }
-      const tell = () => {
-        let detail = null
-        tip.hidden = !pointed
-        if (pointed) {
-          const {name, plane, anchor} = pointed, {arrow, start, says, label} = model.symbols[name]
-          tip.textContent = `${says}, ${model.words.now} ${valueOf(name, plane)}`
-          const box = anchor.getBoundingClientRect()
-          tip.style.left = `${Math.max(4, Math.min(box.left, innerWidth - 290))}px`
-          tip.style.top = `${box.bottom + 6}px`
-          if (arrow >= 0 && plane == "rough")
-            detail = {vector: Array.from(row(plane).subarray(arrow, arrow + 3)), start, label}
-        }
-        window.dispatchEvent(new CustomEvent(`tippe:highlight:${model.clock}`, {detail}))
-      }
-
-      const rows = model.lines.map((line) => {
-        const box = make(root, "div", "line"), head = make(box, "div", "head")
-        const button = make(head, "button", "", line.number), eq = make(head, "div", "eq")
-        button.setAttribute("aria-expanded", "false")
-        button.setAttribute("aria-label", `${line.number}: ${model.words.symbols}`)
-        eq.tabIndex = 0  // it may have to be scrolled
-        eq.setAttribute("role", "group")
-        eq.setAttribute("aria-label", `${model.words.equation} ${line.number}`)
-        const options = {output: "mathml", throwOnError: false}
-        if (window.katex) window.katex.render(`\\\\displaystyle ${line.tex}`, eq, options)
-        else eq.textContent = line.tex
-        const marked = new Set()
-        for (const node of eq.querySelectorAll("semantics > mrow *")) {
-          if ([...marked].some((outer) => outer.contains(node))) continue
-          const text = bare(node), name = line.symbols.find((s) => model.symbols[s].texts.includes(text))
-          if (!name) continue
-          marked.add(node)
-          node.classList.add("known")
-          node.dataset.symbol = name
-          node.addEventListener("pointerenter", () => point(name, line.plane, node))
-          node.addEventListener("pointerleave", () => point(null))
-        }
-        make(box, "div", "", line.words)
-        const sides = make(box, "div", "sides"), list = make(box, "div", "symbols")
-        sides.dataset.line = line.number
-        list.hidden = true
-        const entries = line.symbols.map((name) => {
-          const entry = make(list, "div")
-          entry.tabIndex = 0
-          entry.setAttribute("role", "note")
-          for (const [on, off] of [["pointerenter", "pointerleave"], ["focus", "blur"]]) {
-            entry.addEventListener(on, () => point(name, line.plane, entry))
-            entry.addEventListener(off, () => point(null))
-          }
-          return [name, entry]
-        })
-        button.addEventListener("click", () => {
-          list.hidden = !list.hidden
-          button.setAttribute("aria-expanded", String(!list.hidden))
-          draw()
-        })
-        return {line, sides, list, entries}
-      })
-      root.append(tip)
-      el.append(root)
-
-      const draw = () => {
-        for (const {line, sides, list, entries} of rows) {
-          const values = row(line.plane), {at, size, scale} = line
-          const left = values.subarray(at, at + size), right = values.subarray(at + size, at + 2 * size)
-          const apart = Math.max(...left.map((x, i) => Math.abs(x - right[i]))) / scale
-          const {words} = model
-          sides.innerHTML = ""
-          for (const [word, text] of [[words.left, said(left, 10)], [words.right, said(right, 10)],
-                                      [words.differ, figures(apart, 2)]]) {
-            sides.append(`${word} `)
-            make(sides, "b", "", text)
-            sides.append("  ")
-          }
-          sides.dataset.apart = apart
-          if (!list.hidden) for (const [name, entry] of entries) {
-            const {label, says} = model.symbols[name]
-            entry.textContent = `${label}: ${says}, ${valueOf(name, line.plane)}`
-          }
-        }
-        if (pointed) tell()
-      }
-      const tick = ({detail: {t}}) => {
-        now = t
-        due ??= setTimeout(() => {  // so that the last instant before a pause is shown too
-          due = null
-          shown = performance.now()
-          if (root.isConnected && root.offsetParent) draw()
-        }, Math.max(0, 200 - (performance.now() - shown)))
-      }
-      read()
-      draw()
-      model.on("periods", () => { read(); draw() })  // the last of what is sent together
-      window.addEventListener(`tippe:clock:${model.clock}`, tick)
-      model.on("remove", () => {
-        clearTimeout(due)
-        window.removeEventListener(`tippe:clock:${model.clock}`, tick)
-      })
-    }
-    """
 
 
 def rows(m, plane):

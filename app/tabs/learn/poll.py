@@ -6,6 +6,7 @@ from dataclasses import asdict
 import panel as pn
 import panel_material_ui as pmui
 
+from app.borrowed import may_be_none
 from app.model import lesson, lesson_parts
 from app.model.ballots import Away
 from app.model.classroom import DESK, Refused
@@ -29,8 +30,7 @@ def prediction(step, asks, value=None):
     label = say("learn.page.yours")
     if isinstance(asks, lesson_parts.Choice):
         options = {option(step, key): key for key in asks.options}
-        group = pmui.RadioBoxGroup(label=label, options=options, value=value, inline=False, margin=(4, 0))
-        group._allows_none = True  # else it takes the first by itself, when made and again, unseen, when drawn
+        group = may_be_none(pmui.RadioBoxGroup(label=label, options=options, inline=False, margin=(4, 0)))
         group.value = value
         return group
     start = min(max(value, asks.low), asks.high) if value is not None else (asks.low + asks.high) / 2

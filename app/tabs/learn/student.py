@@ -3,8 +3,8 @@
 import panel as pn
 import panel_material_ui as pmui
 import param
-from panel.custom import JSComponent
 
+from app.bundle import Bundled
 from app.model.ballots import Away
 from app.model.classroom import MARK, Refused
 from app.tabs.learn.poll import Counter, prediction, question_of, refusal
@@ -13,23 +13,10 @@ from app.widgets.cards import PLAIN, note, on_click, px, words
 from app.widgets.connection import Connection
 
 
-class Phone(JSComponent):
+class Phone(Bundled):
     """Knows this phone again after a reload, by a number that it keeps."""
 
     mark = param.String(default="", regex=rf"({MARK.pattern})?", doc="the number; the browser writes it")
-
-    _esm = """
-    export function render({model}) {
-      const number = () => Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) =>
-        byte.toString(16).padStart(2, "0")).join("")
-      let mark = null
-      try {
-        mark = localStorage.getItem("tippe:phone")
-        if (!/^[0-9a-f]{32}$/.test(mark)) localStorage.setItem("tippe:phone", mark = number())
-      } catch { mark = number() }  // where nothing may be kept
-      model.mark = mark
-    }
-    """
 
 
 class Ballot:

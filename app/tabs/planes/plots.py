@@ -3,12 +3,13 @@
 from itertools import pairwise
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Label, Range1d, Span
+from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Range1d, Span
 
+from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.dimensions import named
 from app.model.planes_picture import PLANES
-from app.model.regimes import FLIES, ROLLS, SLIPS, WOULD_LIFT
+from app.model.regimes import COLOUR, ENDS, FLIES, ROLLS, SLIPS, WOULD_LIFT
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say
 from app.widgets.plots import plain
@@ -16,65 +17,15 @@ from tippe_core import PRESETS as BODIES
 from tippe_core import jellett_potential
 
 CLOCK = "planes"
-# Colour, and key in planes.toml.
-REGIMES = {ROLLS: (COLOURS["normal"], "rolls"), SLIPS: (COLOURS["friction"], "slips"),
-           FLIES: (COLOURS["omega"], "air"), WOULD_LIFT: ("#8C2D04", "lifts")}  # fmt: skip
-STOPPED = "#d5dae0"
-LEDGER = {"spin": "#CC79A7", "precession and nutation": "#E69F00", "motion of G": "#8a96a3", "height": "#56B4E9",
-          "heat": "#D55E00"}  # fmt: skip
+IN_RIBBON = (ROLLS, SLIPS, FLIES, WOULD_LIFT, ENDS)
+LEDGER = {"spin": COLOURS["omega"], "precession and nutation": COLOURS["momentum"], "motion of G": FAINT,
+          "height": COLOURS["jellett"], "heat": COLOURS["friction"]}  # fmt: skip
 QUANTITIES = ("theta", "omega3", "normal", "slip")
 BUCKETS, LEDGER_POINTS, BEAD_POINTS, WELL_POINTS = 500, 500, 4000, 361
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
 MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
 NEAR = 0.035  # of the map's width: a click so near to a known top is meant for it
 SAME = 1e-3  # two tops so near each other on the map are one mark
-
-# Moves the time lines and the bead in the browser; not synced, so playing sends nothing to the server.
-FOLLOW_CLOCK = """
-if (path.followed) return
-path.followed = true
-let now = 0
-const place_bead = () => {
-  const {t, theta, V, E, well} = path.data, last = t.length - 1
-  if (last < 1) return none.setv({visible: false}, {sync: false})
-  let low = 0, high = last
-  while (high - low > 1) {
-    const middle = (low + high) >> 1
-    if (t[middle] <= now) low = middle
-    else high = middle
-  }
-  const share = Math.min(Math.max((now - t[low]) / (t[high] - t[low]), 0), 1)
-  const at = (values) => values[low] + share * (values[high] - values[low])
-  const which = now >= t[last] ? well[last] : well[low] == well[high] ? well[low] : -1
-  const drawn = which < 0 ? {theta: [], V: [], E: []} : {theta: [at(theta)], V: [at(V)], E: [at(E)]}
-  bead.setv({data: drawn}, {sync: false})
-  if (which != shown) show_well(which)
-}
-let shown = null
-const show_well = (which) => {
-  shown = which
-  none.setv({visible: which < 0}, {sync: false})
-  const {alpha, low, high} = wells.data, {stable, well} = steady.data
-  wells.setv({data: {...wells.data, alpha: Array.from(alpha, (_, k) => k == which ? 1 : 0)}}, {sync: false})
-  const present = Array.from(well, (k) => k == which ? 1 : 0)
-  const points = {...steady.data, alpha: present, fill: present.map((on, k) => on * stable[k])}
-  steady.setv({data: points}, {sync: false})
-  if (which >= 0) range.setv({start: low[which], end: high[which]}, {sync: false})
-}
-const show = () => {
-  for (const span of spans) span.setv({location: now}, {sync: false})
-  place_bead()
-}
-path.properties.data.change.connect(() => { shown = null; place_bead() })
-window.addEventListener("tippe:clock:CLOCK", ({detail: {t}}) => {
-  now = t * path.tags[0]
-  show()
-})
-""".replace("CLOCK", CLOCK)
-SEEK = f"""
-const held = ["panstart", "pan"].includes(cb_obj.event_name)
-window.dispatchEvent(new CustomEvent("tippe:seek:{CLOCK}", {{detail: {{t: cb_obj.x / path.tags[0], held}}}}))
-"""
 
 
 class Figures:
@@ -139,7 +90,7 @@ class Figures:
             "end": [end for _, _, end, _ in ribbons],
             "low": [i + 0.1 for i in row],
             "high": [i + 0.9 for i in row],
-            "colour": [REGIMES[which][0] if which in REGIMES else STOPPED for *_, which in ribbons],
+            "colour": [COLOUR[int(which)] for *_, which in ribbons],
         }
         self.x_range.update(start=0, end=picture.settings.seconds)
 
@@ -326,11 +277,10 @@ class Map:
 
 def follow_clock(figures, well):
     """In the browser: the lines of the Figures and the bead of the Well go with the clock, which a hand on one sets."""
-    args = {"spans": figures.spans, "path": well.path, "bead": well.bead, "wells": well.wells, "steady": well.steady,
-            "none": well.none, "range": well.figure.y_range}  # fmt: skip
-    follow = CustomJS(args=args, code=FOLLOW_CLOCK)
+    follow = call("followPlanes", spans=figures.spans, path=well.path, bead=well.bead, wells=well.wells,
+                  steady=well.steady, none=well.none, range=well.figure.y_range, clock=CLOCK)  # fmt: skip
     well.figure.js_on_change("inner_width", follow)
     for figure in figures.figures.values():
-        seek = CustomJS(args={"path": well.path}, code=SEEK)
+        seek = call("seekAlong", path=well.path, clock=CLOCK)
         for event in ("tap", "panstart", "pan", "panend"):
             figure.js_on_event(event, seek)

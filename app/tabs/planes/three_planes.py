@@ -7,8 +7,9 @@ import panel_material_ui as pmui
 from app.bundle import pack
 from app.model.planes import PATIENCE, PRESETS, preset
 from app.model.planes_picture import LAWS, PLANES
+from app.model.regimes import COLOUR, NAMES
 from app.state.keep import Field, Number, OneOf
-from app.tabs.planes.plots import CLOCK, LEDGER, QUANTITIES, REGIMES, STOPPED, Figures, Map, Well, follow_clock
+from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
 from app.text import listed, say
 from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_click, progress, swatch, words
@@ -186,8 +187,7 @@ class ThreePlanes:
         figures = self._figures.figures
         planes = "".join(swatch(colour, say(f"planes.looks.{plane}")) for plane, colour in LOOKS.items())
         ledger = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
-        regimes = "".join(swatch(colour, say(f"planes.regimes.{name}"))
-                          for colour, name in [*REGIMES.values(), (STOPPED, "ended")])  # fmt: skip
+        regimes = "".join(swatch(COLOUR[code], say(f"planes.regimes.{NAMES[code]}")) for code in IN_RIBBON)
         return card(
             say("planes.cards.times"),
             words(f'<div class="key">{planes}</div>'),

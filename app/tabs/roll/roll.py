@@ -5,6 +5,7 @@ from functools import partial
 import panel as pn
 import panel_material_ui as pmui
 
+from app.borrowed import at_once
 from app.model.colours import COLOURS
 from app.model.hands import held, pulled
 from app.model.playing import together
@@ -12,7 +13,6 @@ from app.state import asked
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid, swatch, words
 from app.widgets.controls import SPIN, named
-from app.widgets.pacing import at_once
 from app.widgets.plane_figure import PlaneFigure
 from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track

@@ -3,8 +3,9 @@
 import math
 
 import numpy as np
-from bokeh.models import ColumnDataSource, CustomJS, HoverTool, Range1d
+from bokeh.models import ColumnDataSource, HoverTool, Range1d
 
+from app.bundle import call
 from app.model.bodies import body
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.dimensions import handles, pulled, value_of
@@ -16,14 +17,6 @@ from tippe_core import LoadedSphere, Turned
 PARTS = {"body": "#d9b98c", "hollow": "white", "core": "#8a96a3"}  # of the section, in the order they are drawn
 FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
-# Where a hand goes down: a quick one is elsewhere by the time it counts as dragging.
-PRESS = """
-if (pressed.followed) return
-pressed.followed = true
-const {canvas_view: {events_el}, frame: {x_scale, y_scale}} = Bokeh.index.find_one(fig)
-const press = ({offsetX, offsetY}) => { pressed.data = {x: [x_scale.invert(offsetX)], z: [y_scale.invert(offsetY)]} }
-events_el.addEventListener("pointerdown", press, {capture: true})
-"""
 
 
 class Section:
@@ -52,7 +45,7 @@ class Section:
                             line_width=3)  # fmt: skip
         fig.add_tools(HoverTool(renderers=[knobs], tooltips="@says", point_policy="snap_to_data"))
         self.pressed = ColumnDataSource({"x": [], "z": []})
-        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "pressed": self.pressed}, code=PRESS))
+        fig.js_on_change("inner_width", call("pressSection", fig=fig, pressed=self.pressed))
         fig.on_event("panstart", self._take)
         fig.on_event("pan", self._drag)
         fig.on_event("panend", self._let_go)

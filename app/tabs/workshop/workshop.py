@@ -7,8 +7,8 @@ from functools import partial
 
 import panel as pn
 import panel_material_ui as pmui
-import param
 
+from app.borrowed import WholeFile, at_once
 from app.model.builder import LARGEST_FILE
 from app.model.dimensions import FAMILIES, named, value_of
 from app.state import asked
@@ -17,7 +17,6 @@ from app.tabs.workshop.section import Section
 from app.text import listed, say
 from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
 from app.widgets.controls import Dial, asked_of, number, typed_number, wording
-from app.widgets.pacing import at_once
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, Turned
 
 KNOBS = 32  # made at a time
@@ -112,26 +111,8 @@ class Pieces:
         self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
 
 
-class TopFile(pmui.FileInput):
-    """Counts the files that were refused because they are too large; the base class has no word for them, and takes as
-    many as are sent, of any size. Of this one's each comes whole."""
-
-    refused = param.Integer(default=0)
-    _sent = None  # until the browser says that this is all
-
-    def _handle_msg(self, msg):
-        status = msg["status"]
-        if status == "upload_event":
-            self._sent = msg
-        elif status == "finished" and self._sent:
-            sent, self._sent = self._sent, None
-            if isinstance(sent["data"], bytes | memoryview) and len(sent["data"]) <= LARGEST_FILE:
-                self.param.update(value=bytes(sent["data"]), filename=sent["name"], mime_type=sent["mime_type"])
-            else:
-                self.refused += 1
-            self._send_msg({"status": "finished"})
-        elif status == "error":
-            self.refused += 1
+class TopFile(WholeFile):
+    LARGEST = LARGEST_FILE
 
 
 class Workshop:

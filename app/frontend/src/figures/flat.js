@@ -4,6 +4,7 @@ import { Place } from "../motion/clock.js";
 import { colours } from "../colours.js";
 import { coalesce, float32, penOf } from "../data.js";
 import { emptyPose } from "../motion/frames.js";
+import { wordOf } from "../regimes.js";
 import { followLook } from "../three/scene.js";
 
 const LEAST_REACH = 1.6, BELOW = 0.6; // from O upwards, and below the table, in R
@@ -80,7 +81,7 @@ export function renderFlat({ model, root, picture, view }) {
     // off the table, or on its stem, the sphere's centre is where G and the axis say
     const up = model.a === null ? 1 : pose.com.z + model.a * Math.cos(tilt);
     top(width / 2, table - up * R, R, tilt, Math.atan2(z, w) - Math.atan2(y, x)); // psi
-    verdict = model.texts.verdicts[pose.regime];
+    verdict = wordOf(pose.regime, model.texts.verdicts);
   }
 
   // The outline, turned about O, with a mark that goes round with the body.

@@ -1,6 +1,7 @@
 // A canvas with a camera that a person can turn: builds, resizes, draws when asked, and lets go of everything.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { bufferOf, likeAScreen } from "../borrowed.js";
 import { isHandOn } from "./hand.js";
 import { letGo } from "./scene.js";
 
@@ -66,7 +67,7 @@ export class Stage {
     this.target = new THREE.WebGLRenderTarget(1, 1, {
       samples: SAMPLES, colorSpace: THREE.SRGBColorSpace, internalFormat: "RGBA8",
     });
-    Object.assign(this.target, { isXRRenderTarget: true }); // three's own word for: the colours of a screen, not of a texture
+    likeAScreen(this.target);
     this.fineness = 1;
 
     const canvas = this.renderer.domElement;
@@ -296,8 +297,7 @@ export class Stage {
     if (canvas.width !== width) canvas.width = width;
     if (canvas.height !== height) canvas.height = height;
     // Beside three's own record of what is bound, so it is left as it was: nothing.
-    const { __webglFramebuffer: drawn } = /** @type {any} */ (renderer.properties.get(this.target));
-    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, drawn);
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, bufferOf(renderer, this.target));
     gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
     this.pictures += 1;

@@ -4,6 +4,7 @@ import { Axes, Scale } from "./axes.js";
 import { colours } from "../colours.js";
 import { coalesce, float32 } from "../data.js";
 import { Labels } from "./labels.js";
+import { colourOf, wordOf } from "../regimes.js";
 import { WideLine } from "./lines.js";
 import { followLook } from "./scene.js";
 import { tryStage } from "./stage.js";
@@ -26,7 +27,6 @@ const limits = {
     colour: colours.friction, text: "<i>F</i><sub>h</sub> = <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>", why: "above_slip",
   },
 };
-const worsts = [{ colour: colours.theta, why: "" }, { colour: colours.friction, why: "slips" }, { colour: colours.normal, why: "lifts" }];
 const GRIP_PX = 14;
 
 /** @param {Rendering<SurfaceModel>} rendering */
@@ -228,8 +228,8 @@ export function renderSurface3D({ model, el, view }) {
     const [chosen, inner, outer, worst = 0] = float32(model.selected), curve = float32(model.selected_curve);
     selected = chosen;
     ends = [inner, outer];
-    why = texts[worsts[worst].why];
-    for (const line of [...floor.selected, ...selectedCurves]) line.material.color.set(worsts[worst].colour);
+    why = wordOf(worst, texts.worst);
+    for (const line of [...floor.selected, ...selectedCurves]) line.material.color.set(colourOf(worst));
     if (gripped) say();
     const inBox = Number.isFinite(chosen) && chosen >= y.low && chosen <= y.high;
     for (const line of floor.selected) {

@@ -9,6 +9,7 @@ import { colours } from "../colours.js";
 import { coalesce, float32, niceAbove, tidy } from "../data.js";
 import { renderFlat } from "../figures/flat.js";
 import { emptyPose } from "../motion/frames.js";
+import { colourOf, ROLLS, wordOf } from "../regimes.js";
 import { Handle } from "./handle.js";
 import { Labels } from "./labels.js";
 import { photo } from "./photo.js";
@@ -24,8 +25,6 @@ const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the tabl
 const FOLLOW_MS = 160; // the camera follows the top's drift, not each of its small turns
 const FIRST_VIEW = [-1.12, 0.3, 1];
 const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
-// of the codes in app/model/regimes.py
-const regimeColours = [colours.normal, colours.friction, colours.omega, colours.friction, colours.omega, colours.omega];
 
 /** @param {Rendering<TopModel>} rendering */
 export function renderTop3D({ model, el, view }) {
@@ -177,7 +176,7 @@ export function renderTop3D({ model, el, view }) {
       sun.target.position.copy(stands);
       sun.position.set(stands.x - 3.2, stands.y - 3.4, 8.2);
       table.position.set(Math.round(stands.x / 5) * 5, Math.round(stands.y / 5) * 5, 0); // the grid repeats each 5 R
-      arrows.force.colour = regimeColours[moment.regime];
+      arrows.force.colour = moment.regime === ROLLS ? colours.normal : colourOf(moment.regime);
     }
     point("force", moment.contact, moment.force, some && model.show_force);
     point("omega", moment.com, moment.omega, some && model.show_omega);
@@ -199,7 +198,7 @@ export function renderTop3D({ model, el, view }) {
     show(track, model.show_track, passed, frames.count);
     show(comPath, model.show_com_path, passed, frames.count);
 
-    const [word, colour] = some ? [texts.verdicts[moment.regime], regimeColours[moment.regime]] : [texts.no_motion, "#7a8694"];
+    const [word, colour] = some ? [wordOf(moment.regime, texts.verdicts), colourOf(moment.regime)] : [texts.no_motion, colours.grey];
     if (verdict.textContent !== word) {
       verdict.textContent = word;
       verdict.style.setProperty("--verdict", colour);

@@ -1,12 +1,14 @@
 // How the page looks: light or dark, and large for a projector. The page's own type and the widgets follow by variables
 // of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
+import { modelsOf } from "../borrowed.js";
+import { colours } from "../colours.js";
 import { coalesce } from "../data.js";
 import { words } from "../three/scene.js";
 
 const LARGER = 1.35;
-const INKS = ["#22303c", "#8a96a3", "#e7ebef", "#ffffff"]; // app/widgets/plots.py: ink, faint, grid, paper
+const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff"]; // and grid, paper of app/widgets/plots.py
 const looks = {
-  light: ["#22303c", "#8a96a3", "#e7ebef", "#ffffff"],
+  light: INKS,
   "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff"],
   dark: ["#eef2f6", "#9aa7b4", "#333d48", "#161c23"],
   "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#000000"],
@@ -44,10 +46,10 @@ export function renderLook({ model }) {
     if (wanted.length) figurePart.setv(Object.fromEntries(wanted), { sync: false });
   }
 
-  const documentOf = () => Bokeh.documents.find((doc) => doc._all_models.has(model.id)) ?? Bokeh.documents[0];
+  const documentOf = () => Bokeh.documents.find((doc) => modelsOf(doc).has(model.id)) ?? Bokeh.documents[0];
   let seen = 0;
   function dressAll() {
-    const all = [...documentOf()._all_models.values()];
+    const all = [...modelsOf(documentOf()).values()];
     seen = all.length;
     for (const part of all) {
       if (part.type?.startsWith("panel.") || !part.attributes) continue;
@@ -85,7 +87,7 @@ export function renderLook({ model }) {
   const doc = documentOf();
   const again = coalesce(dressAll);
   const onChange = ({ attr = "" }) => {
-    if (name !== "light" && (doc._all_models.size !== seen || /(_color|font_size)$/.test(attr))) again();
+    if (name !== "light" && (modelsOf(doc).size !== seen || /(_color|font_size)$/.test(attr))) again();
   };
   doc.on_change(onChange);
   model.on("dark", update);

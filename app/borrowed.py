@@ -1,0 +1,178 @@
+"""The parts of Panel and Bokeh that are not ours to use, and are used all the same: each once, and all here.
+
+A newer version may change any of them without a word. tests/test_borrowed.py fails where one has changed, and where
+another stands anywhere else in the page. The issues named are the libraries' own.
+"""
+
+import inspect
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from functools import cache
+
+import panel.custom
+import panel.io.document
+import panel.layout.base
+import panel.layout.grid
+import panel.reactive
+import panel_material_ui as pmui
+import param
+from bokeh.document.models import DocumentModelManager
+from bokeh.server.session import ServerSession
+from panel.io.resources import LOCAL_DIST
+
+FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that have Panel's freeze_doc
+
+
+# --- of a server, whichever starts it
+
+
+class Here(ThreadPoolExecutor):
+    """Does what it is given at once, in the thread that gives it."""
+
+    def submit(self, function, /, *arguments, **named):
+        future = Future()
+        try:
+            future.set_result(function(*arguments, **named))
+        except BaseException as error:
+            future.set_exception(error)
+        return future
+
+
+def in_one_thread(loop, context):
+    """1. Keeps what sessions do in the server's own thread. loop: asyncio's; context: Bokeh's ApplicationContext.
+
+    From 3.10 on Bokeh gives it to the event loop's executor, and what is sent to one of its own, which is private. That
+    is no faster, for one thread at a time has the interpreter (a move costs an eighth more of the processor). But Panel
+    answers some messages of a page, such as a dragged slider's, in the event loop without the document's lock: beside a
+    thread, two of them would change one session at a time. What takes long is given to app.model.runs.
+    https://github.com/bokeh/bokeh/pull/15239, https://github.com/holoviz/panel/pull/8675
+    """
+    here = Here(1)
+    loop.set_default_executor(here)
+    executor = getattr(context, "_executor", None)  # Bokeh 3.9 has none
+    if executor is not None:
+        executor._executor = here
+
+
+def thawed(freeze):
+    """2. Bokeh's and Panel's methods that keep a document's list of models while they change, until they have changed:
+    where that fails it would be kept for good, and nothing new would reach the page.
+
+    Neither has a word on it; that there is such a thing: https://github.com/bokeh/bokeh/issues/14962
+    """
+
+    @contextmanager
+    def frozen(of, *arguments, **named):
+        models = getattr(of, "models", of)
+        before = getattr(models, "_freeze_count", 0)
+        try:
+            with freeze(of, *arguments, **named):
+                yield
+        finally:
+            while getattr(models, "_freeze_count", 0) > before:
+                models._pop_freeze()
+
+    return frozen
+
+
+def to_the_last(dispatch):
+    """3. Panel's function that writes what waits for a document's page. The first of two that were begun ends their
+    common mark, and the second then took it that there is nothing: what it had lay there until something else was sent.
+
+    It was made for https://github.com/holoviz/panel/pull/6667; on what it loses there is no issue that we found.
+    """
+    module = panel.io.document
+    waiting = module._WRITE_EVENTS if hasattr(module, "_WRITE_EVENTS") else module._WRITE_MSGS  # Panel 1.10, 1.9
+
+    async def dispatched(document):
+        if document in waiting:
+            module._WRITE_BLOCK[document] = True
+        await dispatch(document)
+
+    return dispatched
+
+
+@cache
+def mend():
+    """2, 3, and 4: where Panel takes its style sheets from for a part that never came into a document, because its view
+    failed. It would ask another machine; and all parts share their sheets, so the page would lose them.
+    https://github.com/holoviz/panel/issues/7073, https://github.com/holoviz/panel/pull/8408"""
+    DocumentModelManager.freeze = thawed(DocumentModelManager.freeze)
+    for module in FREEZES:
+        module.freeze_doc = thawed(module.freeze_doc)
+    panel.io.document._dispatch_msgs = to_the_last(panel.io.document._dispatch_msgs)
+    panel.reactive.CDN_DIST = LOCAL_DIST
+
+
+# --- of `python -m app`
+
+
+def counted(wrap, budget):
+    """5. Bokeh's method that readies what a session is to do later, at the next tick or after some time: with what that
+    costs put on the session's budget, whether it waits for the document's lock or, as Panel's own answers, does not.
+    budget: function of the session. No issue that we found."""
+
+    def wrap_and_count(session, callback):
+        ready = wrap(session, callback)
+
+        def work(*arguments, **named):
+            mine = budget(session)
+            with mine.work():
+                result = ready(*arguments, **named)
+            return mine.steps(result) if inspect.iscoroutine(result) else result
+
+        return work
+
+    return wrap_and_count
+
+
+def count(budget):
+    """From now on what sessions do later is counted."""
+    ServerSession._wrap_document_callback = counted(ServerSession._wrap_document_callback, budget)
+
+
+# --- of components
+
+
+def at_once(component, *properties):
+    """6. Lets these properties of a Panel component arrive without Panel's wait of 50 ms, and without its busy signal,
+    which costs as much as the rest of a small answer. No issue that we found."""
+    component._priority_changes = component._busy__ignore = list(properties)
+
+
+def address_of(component):
+    """7. Where the page that is being made finds the JavaScript of a component that came in a bundle (so since
+    https://github.com/holoviz/panel/pull/7410), so that the browser may fetch it before Panel says so."""
+    return component._render_esm(True, server=True)
+
+
+def may_be_none(group):
+    """8. A pmui.RadioBoxGroup of which nothing is chosen: else it takes the first by itself, when made and again,
+    unseen, when drawn. No issue that we found."""
+    group._allows_none = True
+    group.value = None
+    return group
+
+
+class WholeFile(pmui.FileInput):
+    """9. Takes a file in one piece, and counts those that were refused because they are too large: the base class has
+    no word for them, and puts together as many pieces as are sent, of any size.
+    https://github.com/panel-extensions/panel-material-ui/issues/282, https://github.com/holoviz/panel/issues/541"""
+
+    LARGEST = 0  # bytes
+    refused = param.Integer(default=0)
+    _sent = None  # until the browser says that this is all
+
+    def _handle_msg(self, msg):
+        status = msg["status"]
+        if status == "upload_event":
+            self._sent = msg
+        elif status == "finished" and self._sent:
+            sent, self._sent = self._sent, None
+            if isinstance(sent["data"], bytes | memoryview) and len(sent["data"]) <= self.LARGEST:
+                self.param.update(value=bytes(sent["data"]), filename=sent["name"], mime_type=sent["mime_type"])
+            else:
+                self.refused += 1
+            self._send_msg({"status": "finished"})
+        elif status == "error":
+            self.refused += 1

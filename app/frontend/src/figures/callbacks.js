@@ -1,0 +1,18 @@
+// What Python has Bokeh call, by its name: app/bundle.py. Each takes what it was given there, then what happened.
+import { moveLines, nameFigure } from "./common.js";
+import { followMotion, pullPlane, readPlane, sayPull } from "./plane.js";
+import { followPlanes } from "./planes.js";
+import { followCurve, seekOnCurve } from "./portraits.js";
+import { pressSection, turnSection } from "./sections.js";
+import { seekAlong } from "./seeking.js";
+import { turnTab } from "../widgets/tabs.js";
+
+const callbacks = {
+  followCurve, followMotion, followPlanes, moveLines, nameFigure, pressSection, pullPlane, readPlane, sayPull, seekAlong,
+  seekOnCurve, turnSection, turnTab,
+};
+
+export function offerCallbacks() {
+  window.tippeCallbacks = callbacks;
+  window.dispatchEvent(new CustomEvent("tippe:callbacks"));
+}

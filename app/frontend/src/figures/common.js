@@ -1,0 +1,23 @@
+// What all figures share. Not synced, so playing sends nothing to the server.
+import { elementOf, pressNever } from "../borrowed.js";
+import { followClock, isFollowed } from "./seeking.js";
+
+// To the ear a canvas is a picture with a name.
+export function nameFigure({ fig, label }) {
+  const el = elementOf(fig);
+  if (!el) return;
+  pressNever(fig);
+  el.setAttribute("role", "img");
+  el.setAttribute("aria-label", label);
+  el.dataset.figure = fig.name;
+}
+
+// Lines at the clock's time.
+export function moveLines({ spans }) {
+  if (isFollowed(spans[0])) return;
+  const move = (t) => {
+    for (const span of spans) span.setv({ location: t }, { sync: false });
+  };
+  followClock(move);
+  move(window.tippe?.time() ?? 0);
+}

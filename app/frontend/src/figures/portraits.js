@@ -1,0 +1,28 @@
+// One nutation, the track, the force: a bead at the clock's time on a curve, and a hand on it. Not synced.
+import { elementOf, scalesOf } from "../borrowed.js";
+import { spotInTurn, timeAtPoint, valueAt } from "./curves.js";
+import { followClock, isDown, isFollowed, seek } from "./seeking.js";
+
+export function followCurve({ curve, bead, fig }) {
+  if (isFollowed(curve)) return;
+  let now = window.tippe?.time() ?? 0;
+  const place = () => {
+    const { t, x, y } = curve.data;
+    if (!(t[t.length - 1] > t[0])) return;
+    const spot = spotInTurn(t, now);
+    bead.data.x[0] = valueAt(x, spot);
+    bead.data.y[0] = valueAt(y, spot);
+    bead.change.emit();
+  };
+  curve.properties.data.change.connect(place);
+  followClock((t) => {
+    now = t;
+    if (elementOf(fig)?.offsetParent) place();
+  });
+  place();
+}
+
+export function seekOnCurve({ curve, fig, whole }, event) {
+  const t = timeAtPoint(curve.data, [event.x, event.y], window.tippe.time(), whole, scalesOf(fig));
+  seek(t, isDown(event));
+}

@@ -1,0 +1,32 @@
+// The pictures in 3-D of a letter: a page that opens with no server. It has the values of their models.
+import { bytesOf } from "./data.js";
+import { renderSurface3D } from "./three/surface3d.js";
+import { renderTop3D } from "./three/top3d.js";
+
+const pictures = { Surface3D: renderSurface3D, Top3D: renderTop3D };
+
+// What Panel gives a component: its values, which tell who asked when they are set.
+export function modelOf(values) {
+  const asked = {};
+  return new Proxy(values, {
+    get: (_, name) => (name === "on" ? (event, run) => (asked[event] ??= []).push(run) : values[name]),
+    set: (_, name, value) => {
+      const news = values[name] !== value;
+      values[name] = value;
+      if (news) asked[name]?.forEach((run) => run());
+      return true;
+    },
+  });
+}
+
+/** @param {Record<string, Record<string, any>>} models by the names of their pictures, and of the elements that hold these */
+export function letter(models) {
+  for (const [name, said] of Object.entries(models)) {
+    const values = Object.fromEntries(Object.entries(said).map(([key, value]) =>
+      [key, value?.base64 === undefined ? value : bytesOf(value.base64)]));
+    const place = /** @type {HTMLElement} */ (document.getElementById(name)), el = document.createElement("div");
+    el.style.height = "100%";
+    place.attachShadow({ mode: "open" }).append(el);
+    pictures[name]({ model: modelOf(values), el, view: {} });
+  }
+}

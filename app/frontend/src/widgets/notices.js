@@ -1,0 +1,47 @@
+// What the page says over everything: that the server could not do what was asked of it, and that it is gone.
+import { colours } from "../colours.js";
+
+const ABOVE = { position: "fixed", margin: "auto", maxWidth: "560px", borderRadius: "8px", color: "white",
+  font: "15px/1.4 system-ui, sans-serif", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)" };
+const FIRST = 500, LONGEST = 8000; // ms between two tries, each half to one and a half times as long
+
+function notice(style) {
+  const words = document.createElement("div");
+  words.setAttribute("role", "alert");
+  Object.assign(words.style, ABOVE, style);
+  return words;
+}
+
+// One sentence, until it is closed or the page is loaded anew.
+/** @param {Pick<Rendering<FailureModel>, "model">} rendering */
+export function renderFailure({ model }) {
+  const words = notice({ inset: "auto 8px 8px", zIndex: 9998, display: "flex", gap: "12px", alignItems: "center",
+    padding: "8px 8px 8px 16px", background: "#b3261e" });
+  const close = document.createElement("button");
+  Object.assign(close.style, { font: "inherit", color: "inherit", background: "transparent", border: "1px solid",
+    borderRadius: "6px", padding: "4px 10px", cursor: "pointer" });
+  close.textContent = model.close;
+  close.onclick = () => words.remove();
+  model.on("times", () => {
+    words.replaceChildren(model.words, close);
+    document.body.append(words);
+  });
+  model.on("remove", () => words.remove());
+}
+
+// Once a server answers again, the page is loaded anew: its address holds what was set.
+/** @param {Pick<Rendering<ConnectionModel>, "model">} rendering */
+export function renderConnection({ model }) {
+  const words = notice({ inset: "8px 8px auto", zIndex: 9999, padding: "10px 16px", background: colours.ink, textAlign: "center" });
+  words.textContent = model.words;
+  async function recover() {
+    if (words.isConnected) return;
+    document.body.append(words);
+    for (let wait = FIRST; ; wait = Math.min(2 * wait, LONGEST)) {
+      await new Promise((resolve) => setTimeout(resolve, wait * (0.5 + Math.random())));
+      const answer = await fetch("./favicon.ico", { cache: "no-store" }).catch(() => null);
+      if (answer && answer.status < 500) return location.reload();
+    }
+  }
+  Bokeh.documents[0].on_event("connection_lost", recover);
+}

@@ -1,0 +1,24 @@
+// A button that saves a file, and how one is saved.
+const STYLE = `button { font: 500 13px system-ui, sans-serif; padding: 4px 10px; height: 31px;
+  border: 1px solid; border-radius: 4px; background: transparent; color: var(--link, #0072B2); cursor: pointer }
+  button:hover { background: #0072B214 } button[aria-busy=true] { opacity: 0.5; cursor: progress }
+  :focus-visible { outline: 2px solid; outline-offset: 2px }`;
+const KEPT_MS = 60000;
+
+/** @param {HTMLElement} el @param {string} label */
+export function addButton(el, label) {
+  const style = document.createElement("style"), button = document.createElement("button");
+  style.textContent = STYLE;
+  button.textContent = label;
+  el.append(style, button);
+  return button;
+}
+
+/** @param {Blob} blob @param {string} filename */
+export function save(blob, filename) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = filename;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), KEPT_MS);
+}

@@ -1,0 +1,74 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { nearestRow, rowBefore, spotInTurn, spotOf, timeAtPoint, timeAtTilt, valueAt } from "../../app/frontend/src/figures/curves.js";
+import { beadAt } from "../../app/frontend/src/figures/planes.js";
+import { sectionAt } from "../../app/frontend/src/figures/sections.js";
+import { near } from "./helping.js";
+
+const same = { compute: (value) => value, invert: (px) => px };
+
+test("a value between two rows is the straight line's, and at the ends that of the ends", () => {
+  const t = [10, 12, 14, 16], values = [0, 1, 4, 9];
+  for (const [now, wanted] of [[10, 0], [11, 0.5], [13.5, 3.25], [16, 9], [99, 9], [-5, 0]]) near(valueAt(values, spotOf(t, now)), wanted);
+});
+
+test("one nutation is gone through again and again", () => {
+  const t = [0, 1, 2], values = [5, 6, 7];
+  for (const [now, wanted] of [[-3, 5], [0.5, 5.5], [2, 7], [2.5, 5.5], [101.25, 6.25]]) near(valueAt(values, spotInTurn(t, now)), wanted);
+});
+
+test("a row is found among times spaced in any way, in columns and in tables", () => {
+  const t = [0, 1, 4, 4.5, 30];
+  for (const now of [-1, 0, 0.5, 1, 3.9, 4, 4.49, 29, 30, 31]) {
+    const wanted = Math.max(0, t.slice(0, -1).findLastIndex((time) => time <= now));
+    assert.equal(rowBefore(t, now), wanted);
+    assert.equal(rowBefore(t.flatMap((time) => [time, 7, 7]), now, 3), wanted);
+  }
+});
+
+test("of rows the nearest, of two the first", () => {
+  assert.deepEqual([nearestRow([1, 2, 3], 2.4), nearestRow([1, 2, 3], 1.5), nearestRow([1, 2, 3], 99)], [1, 0, 2]);
+});
+
+test("a hand at a tilt finds the time next to now, of the many at which the motion is there", () => {
+  const t = Float64Array.from({ length: 401 }, (_, i) => i / 20), theta = t.map(Math.sin); // three turns
+  const half = Math.PI / 6; // sin is 1/2 there, and at pi less that
+  for (const [now, wanted] of [[0, half], [2, Math.PI - half], [7, 2 * Math.PI + half], [15, 5 * Math.PI - half]]) {
+    near(timeAtTilt({ t, theta }, 0.5, now), wanted, 1e-3);
+  }
+  near(timeAtTilt({ t, theta }, 1, 1), Math.PI / 2, 0.05);
+});
+
+test("a hand beyond all tilts finds the nearest one", () => near(timeAtTilt({ t: [0, 1, 2], theta: [1, 2, 1] }, 5, 0), 1));
+
+test("a motion at rest in its tilt stays at its time", () => {
+  near(timeAtTilt({ t: [0, 1, 2], theta: [1, 1, 1] }, 1, 0), 0);
+});
+
+test("a hand near a curve finds its time, of a nutation in the turn of now", () => {
+  const t = Float64Array.from({ length: 101 }, (_, i) => i / 100);
+  const curve = { t, x: t.map((s) => 100 * Math.cos(2 * Math.PI * s)), y: t.map((s) => 100 * Math.sin(2 * Math.PI * s)) };
+  near(timeAtPoint(curve, [0, 130], 0.1, true, { x: same, y: same }), 0.25);
+  near(timeAtPoint(curve, [0, 130], 7.2, false, { x: same, y: same }), 7.25);
+  near(timeAtPoint(curve, [0, 130], 7.2, true, { x: same, y: same }), 0.25);
+});
+
+test("the bead is in the well of its time, and in none between two", () => {
+  const path = { t: [0, 1, 2, 3], theta: [0, 10, 20, 30], V: [1, 1, 2, 2], E: [3, 2, 2, 1], well: [0, 0, 1, 1] };
+  assert.deepEqual(beadAt(path, 0.5), { which: 0, theta: 5, V: 1, E: 2.5 });
+  assert.equal(beadAt(path, 1.5).which, -1);
+  assert.deepEqual(beadAt(path, 9), { which: 1, theta: 30, V: 2, E: 1 });
+});
+
+test("a section stands upright at no tilt and lies at a right angle, on the table each time", () => {
+  const circle = Array.from({ length: 360 }, (_, k) => (k * Math.PI) / 180);
+  const outline = { across: circle.map(Math.sin), along: circle.map(Math.cos) };
+  for (const theta of [0, 0.7, Math.PI / 2, 3]) {
+    const { y, points } = sectionAt(theta, 0.1, outline), [O, G] = points;
+    near(Math.min(...y), 0, 1e-3);
+    near(O, [0, 1]);
+    near(Math.hypot(G[0] - O[0], G[1] - O[1]), 0.1);
+  }
+  near(sectionAt(0, 0.1, outline).points[1], [0, 0.9]);
+  near(sectionAt(Math.PI / 2, 0.1, outline).points[3], [-1.9, 1]);
+});

@@ -1,0 +1,71 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { awayFromTieline, gripAt, REACH } from "../../app/frontend/src/figures/grips.js";
+import { isFollowed } from "../../app/frontend/src/figures/seeking.js";
+import { modelOf } from "../../app/frontend/src/letter.js";
+import { stepOf } from "../../app/frontend/src/widgets/address.js";
+import { figures, rowAt, said } from "../../app/frontend/src/widgets/lines.js";
+import { markOf } from "../../app/frontend/src/widgets/phone.js";
+
+// 100 px a radian, 10 px a unit of K_J
+const scale = (px) => ({ compute: (value) => px * value, invert: (at) => at / px });
+const scales = { x: scale(100), y: scale(10) };
+const shown = { K_J: 10, inner: 1, outer: 3, theta: 2 };
+const limits = { K_J: [0, 10, 20], slip_in: [0.5, 0.5, 0.5], slip_out: [1, 1, 4] };
+const at = (theta, K_J) => gripAt(shown, limits, [100 * theta, 10 * K_J], [theta, K_J], scales);
+
+test("a hand takes hold of the bead, an end, the tieline, another one, or a point beyond", () => {
+  assert.deepEqual([[2, 10], [2.13, 10], [1, 10], [3.1, 10.5], [1.5, 10], [1.5, 11], [0.7, 15.5], [2, 19], [5, 19]].map(([x, y]) => at(x, y)),
+    ["bead", "bead", "end", "end", "line", "line", "tieline", "tieline", "point"]);
+});
+
+test("a hand that has gone on holds what it went down on", () => {
+  assert.equal(gripAt(shown, limits, [100, 100], [2, 50], scales), "end");
+});
+
+test("the tieline on display is as far as its nearest point", () => {
+  const away = (px, py) => awayFromTieline(shown, px, py, scales);
+  assert.deepEqual([away(200, 100), away(200, 113), away(97, 104), away(303, 96)], [0, 13, 5, 5]);
+  assert.ok(REACH > 5);
+});
+
+test("what follows the clock begins to once", () => {
+  const [one, other] = [{}, {}];
+  assert.deepEqual([isFollowed(one), isFollowed(one), isFollowed(other)], [false, true, false]);
+});
+
+test("the keys that take back and make anew, on every system", () => {
+  const key = (name, ...held) => stepOf(/** @type {any} */ ({ key: name, ...Object.fromEntries(held.map((each) => [`${each}Key`, true])) }));
+  assert.deepEqual([key("z", "ctrl"), key("z", "meta"), key("Z", "ctrl", "shift"), key("y", "ctrl")], ["undone", "undone", "redone", "redone"]);
+  assert.deepEqual([key("z"), key("z", "ctrl", "alt"), key("y", "ctrl", "shift"), key("x", "ctrl")], [null, null, null, null]);
+});
+
+test("a phone keeps its number, gets another for what is none, and has one where nothing is kept", () => {
+  const kept = new Map(), store = { getItem: (key) => kept.get(key) ?? null, setItem: (key, mark) => kept.set(key, mark) };
+  const mark = markOf(store);
+  assert.match(mark, /^[0-9a-f]{32}$/);
+  assert.equal(markOf(store), mark);
+  kept.set([...kept.keys()][0], "not one");
+  assert.match(markOf(store), /^[0-9a-f]{32}$/);
+  const none = () => { throw new Error("nothing may be kept"); };
+  assert.match(markOf({ getItem: none, setItem: none }), /^[0-9a-f]{32}$/);
+});
+
+test("numbers of the derivation are short, and a vector has its brackets", () => {
+  assert.deepEqual([1.23456789, -0.5, 0, 3e-301, 0.00001234, -2e-7].map((x) => figures(x, 6)), ["1.23457", "−0.5", "0", "0", "1.2e−5", "−2.0e−7"]);
+  assert.equal(figures(0.00001234, 10), "1.234e−5");
+  assert.equal(figures(NaN, 6), "—");
+  assert.equal(said(Float64Array.of(1, -2), 6), "(1, −2)");
+});
+
+test("the row of a time is the nearest, in its nutation", () => {
+  const table = { values: Float64Array.of(0, 10, 1, 11, 2, 12), width: 2, period: 2 };
+  assert.deepEqual([0, 0.4, 0.6, 1.9, 2.4, -0.9, 7].map((now) => rowAt(table, now)[1]), [10, 10, 11, 12, 10, 11, 11]);
+});
+
+test("a letter's model tells who asked when a value is new", () => {
+  const model = modelOf({ time: 1 }), heard = [];
+  model.on("time", () => heard.push(model.time));
+  for (const time of [1, 2, 2, 3]) model.time = time;
+  assert.deepEqual(heard, [2, 3]);
+});

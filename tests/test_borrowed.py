@@ -1,0 +1,224 @@
+"""What is borrowed from the insides of Panel and Bokeh: each part is still there and does what is relied on, each patch
+does what it is for, and no other module of the page borrows anything."""
+
+import ast
+import asyncio
+import inspect
+import sys
+import threading
+from pathlib import Path
+from types import SimpleNamespace
+from unittest.mock import Mock
+
+import panel as pn
+import panel.io.document
+import panel.reactive
+import panel_material_ui as pmui
+import param
+import pytest
+from bokeh.document import Document
+from bokeh.document.models import DocumentModelManager
+from bokeh.models import ImportedStyleSheet
+from bokeh.server.contexts import ApplicationContext
+from bokeh.server.session import ServerSession
+from bokeh.server.tornado import BokehTornado
+from panel.custom import JSComponent
+from panel.io.resources import CDN_DIST, LOCAL_DIST
+from panel.io.state import set_curdoc
+
+from app import borrowed
+from app.bundle import BUNDLE, Bundled
+
+APP = Path(borrowed.__file__).parent
+# What Panel documents under these names: a component's JavaScript and style, and how it and its browser talk.
+DOCUMENTED = {"_esm", "_bundle", "_stylesheets", "_importmap"}
+
+
+def foreign(path):
+    """The private names that a file takes of what is not its own: x._name, getattr(x, "_name"), where x is not self,
+    cls or a name of the file; and its classes' that a library's class has too."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    made = {
+        node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
+    }
+    made |= {target.id for node in ast.walk(tree) if isinstance(node, ast.Assign)
+             for target in node.targets if isinstance(target, ast.Name)}  # fmt: skip
+    made |= {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)
+             and isinstance(node.value, ast.Name) and node.value.id in ("self", "cls")}  # fmt: skip
+    found = set()
+    for node in ast.walk(tree):
+        name = node.attr if isinstance(node, ast.Attribute) else None
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("getattr", "setattr"):
+            name = getattr(node.args[1], "value", None)
+        if isinstance(node, ast.ImportFrom) and not (node.module or "").startswith(("app", "tippe_core")):
+            found |= {alias.name for alias in node.names if private(alias.name)}
+        if isinstance(name, str) and private(name) and name not in made:
+            found.add(name)
+    return found
+
+
+def private(name):
+    return name.startswith("_") and not name.startswith("__")
+
+
+def ours():
+    """All modules of the page that have been imported here, by their files."""
+
+    import app.__main__
+    import app.app_hooks
+    import app.server.server  # noqa: F401
+
+    return {module.__file__: module for name, module in [*sys.modules.items()] if name.split(".")[0] == "app"}
+
+
+@pytest.mark.parametrize("path", sorted(APP.rglob("*.py")), ids=lambda path: path.relative_to(APP).as_posix())
+def test_no_other_module_borrows(path):
+    if path == Path(borrowed.__file__):
+        return
+    assert foreign(path) - {"_exit"} == set()
+    module = ours().get(str(path))
+    for kind in vars(module).values() if module else ():
+        if isinstance(kind, type) and kind.__module__ == module.__name__:
+            theirs = {name for base in kind.__mro__ if not base.__module__.startswith(("app", "tippe_core"))
+                      for name in vars(base) if private(name)}  # fmt: skip
+            mine = {name for name in vars(kind) if private(name) and not name.startswith(("_param_", "_abc_"))}
+            mine = {name for name in mine if f" {name}" in path.read_text(encoding="utf-8")}
+            assert mine & theirs - DOCUMENTED == set(), kind
+
+
+def test_the_test_finds_what_is_borrowed():
+    assert foreign(Path(borrowed.__file__)) >= {"_executor", "_freeze_count", "_pop_freeze", "_dispatch_msgs",
+        "_WRITE_BLOCK", "_wrap_document_callback", "_priority_changes", "_busy__ignore", "_render_esm",
+        "_allows_none", "_send_msg"}  # fmt: skip
+
+
+# --- of a server
+
+
+def test_a_session_works_in_the_servers_own_thread():
+    """1. What is given to an executor is done when it returns; Bokeh's own, where it has one, is where it was."""
+    where = []
+
+    async def work():
+        loop = asyncio.get_running_loop()
+        application = BokehTornado({"/app": lambda document: None}).applications["/app"]
+        borrowed.in_one_thread(loop, application)
+        await loop.run_in_executor(None, lambda: where.append(threading.get_ident()))
+        if hasattr(application, "_executor"):
+            await application._executor.run(lambda: where.append(threading.get_ident()))
+        with pytest.raises(ZeroDivisionError):
+            await loop.run_in_executor(None, lambda: 1 / 0)
+        return threading.get_ident()
+
+    [mine] = {asyncio.run(work())}
+    assert where and set(where) == {mine}
+    has = "executor" in inspect.signature(ApplicationContext).parameters
+    assert has == hasattr(ApplicationContext(SimpleNamespace()), "_executor")
+
+
+def test_a_list_of_models_is_kept_no_longer_than_the_change_that_failed():
+    """2."""
+    document = Document()
+    for freeze, of in ((DocumentModelManager.freeze, document.models), (panel.io.document.freeze_doc, document)):
+        named = {} if of is document.models else {"model": pmui.Button(), "properties": {}, "force": True}
+        with pytest.raises(ZeroDivisionError), borrowed.thawed(freeze)(of, **named):
+            assert document.models._freeze_count == 1
+            1 / 0  # noqa: B018
+        assert document.models._freeze_count == 0
+    for module in borrowed.FREEZES:
+        assert list(inspect.signature(module.freeze_doc).parameters)[:1] in (["doc"], ["of"])
+
+
+def test_what_writes_to_a_page_waits_under_these_names():
+    """3. What it does is tested in test_server.py."""
+    module = panel.io.document
+    assert list(inspect.signature(inspect.unwrap(module._dispatch_msgs)).parameters) in (["doc"], ["document"])
+    source = inspect.getsource(module.schedule_write_events)
+    assert "_WRITE_BLOCK[doc] = True" in source and "_dispatch_msgs" in source
+    assert "_WRITE_EVENTS" in source or "_WRITE_MSGS" in source
+
+
+def sheets():
+    """The addresses of the style sheets of a part whose document is none of a server's."""
+    with set_curdoc(Document()):
+        found = pmui.Button().get_root().stylesheets
+    return [sheet.url for sheet in found if isinstance(sheet, ImportedStyleSheet)]
+
+
+def test_style_sheets_of_a_part_without_a_document_stay_here(monkeypatch):
+    """4."""
+    monkeypatch.setattr(panel.reactive, "CDN_DIST", CDN_DIST)
+    assert any(url.startswith(CDN_DIST) for url in sheets())  # else this may go
+    monkeypatch.setattr(panel.reactive, "CDN_DIST", LOCAL_DIST)
+    assert sheets() and all(url.startswith(LOCAL_DIST) for url in sheets())
+
+
+def test_what_a_session_does_later_goes_through_the_method_that_is_counted(monkeypatch):
+    """5. What is counted is tested in test_server.py."""
+    assert list(inspect.signature(ServerSession._wrap_document_callback).parameters)[:2] in (
+        ["self", "callback"], ["session", "callback"])  # fmt: skip
+    seen, document = [], Document()
+    monkeypatch.setattr(ServerSession, "_wrap_document_callback", lambda session, callback: seen.append(callback))
+    document.add_next_tick_callback(print)
+    ServerSession("mine", document, io_loop=SimpleNamespace(add_callback=lambda *_: None, asyncio_loop=None))
+    assert len(seen) == 1
+
+
+# --- of components
+
+
+class Asked(JSComponent):
+    asked = param.Integer(default=0)
+    _esm = "export function render() {}"
+
+
+def test_a_property_arrives_without_waiting(monkeypatch):
+    """6. As Panel takes a change of a page: at once, and nobody is told that it is busy; else 50 ms later."""
+    waits, busy = [], []
+    monkeypatch.setattr(pn.state, "execute", lambda act, schedule=None: waits.append(0))
+    monkeypatch.setattr(type(pn.state), "_add_busy_event", lambda state, name: busy.append(name))
+    for prompt in (False, True):
+        with set_curdoc(Document()):
+            component = Asked()
+        if prompt:
+            borrowed.at_once(component, "asked")
+        document = Mock(session_context=True, add_timeout_callback=lambda act, wait: waits.append(wait))
+        component._server_change(document, "p1", None, "asked", 0, 1)
+        component._process_events({"asked": 2})
+        assert component.asked == 2
+    assert waits == [50, 0] and len(busy) == 1
+
+
+def test_a_bundle_is_where_panel_says():
+    """7."""
+    assert borrowed.address_of(Bundled) == f"./components/app.bundle/Bundled/_bundle_path/static/{BUNDLE.name}"
+    path, _, version = borrowed.address_of(pmui.Page).partition("?")
+    assert path == "./static/extensions/panel-material-ui/panel-material-ui.bundle.js" and version
+
+
+def test_of_a_choice_nothing_is_chosen_until_somebody_does():
+    """8. When made, and when drawn."""
+    with set_curdoc(Document()):
+        group = borrowed.may_be_none(pmui.RadioBoxGroup(options={"A": "a", "B": "b"}))
+        assert group.get_root().data.value is None and group.value is None
+        group.value = "b"
+        assert pmui.RadioBoxGroup(options=["a"]).value == "a"  # else this may go
+
+
+def test_a_file_comes_whole_and_a_large_one_is_counted(monkeypatch):
+    """9."""
+
+    class Small(borrowed.WholeFile):
+        LARGEST = 4
+
+    assert {"_handle_msg", "_send_msg"} <= set(dir(pmui.FileInput))
+    with set_curdoc(Document()):
+        small = Small()
+    sent = {"status": "upload_event", "name": "a.json", "mime_type": "application/json"}
+    for data, refused in ((b"1234", 0), (b"12345", 1)):
+        small._handle_msg(sent | {"data": b"before"})
+        small._handle_msg(sent | {"data": data})
+        small._handle_msg({"status": "finished"})
+        assert (small.value, small.filename, small.refused) == (b"1234", "a.json", refused)
+    small._handle_msg({"status": "error"})
+    assert small.refused == 2

@@ -1,0 +1,61 @@
+"""What the scripts use of Bokeh, Panel and three.js without their promise: all in one module, and still there."""
+
+import ast
+import re
+from pathlib import Path
+
+import bokeh.server
+import pytest
+
+FRONTEND = Path(__file__).parent.parent / "app/frontend"
+BORROWED = FRONTEND / "src/borrowed.js"
+BOKEH = Path(bokeh.server.__file__).parent / "static/js/bokeh.js"
+PYTHON = [path for path in FRONTEND.parent.rglob("*.py") if "node_modules" not in path.parts]
+OTHERS = [path for path in FRONTEND.glob("src/**/*.js") if path != BORROWED]
+
+# {name of ours: what it uses of Bokeh, as it stands in Bokeh's own script}
+USED = {
+    "viewOf": ["find_one("],
+    "scalesOf": ["get frame()", "x_scale", "y_scale"],
+    "eventsOf": ["this.events_el =", "canvas_view"],
+    "setCursor": ["this.ui_event_bus =", "set_cursor("],
+    "pressNever": ["this.ui_gestures =", "press_threshold = "],
+    "leaveHover": ["tool_views", "_move_exit()"],
+    "modelsOf": ["this._all_models ="],
+}
+
+
+@pytest.mark.parametrize("ours", USED)
+def test_what_is_borrowed_of_bokeh_is_still_there(ours):
+    assert re.search(rf"\b{ours}\b", BORROWED.read_text(encoding="utf-8"))
+    script = BOKEH.read_text(encoding="utf-8")
+    assert [name for name in USED[ours] if name not in script] == []
+
+
+def test_what_is_borrowed_of_three_is_still_there():
+    three = FRONTEND / "node_modules/three/build"
+    if not three.is_dir():
+        pytest.skip("three.js is only where the bundle was built")
+    script = "".join(path.read_text(encoding="utf-8") for path in three.glob("three.module*.js"))
+    for name in ("isXRRenderTarget", "__webglFramebuffer"):
+        assert name in BORROWED.read_text(encoding="utf-8") and name in script
+
+
+@pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.name)
+def test_no_other_script_borrows(path):
+    """A name that begins with _ is nobody's but its owner's; ours for tests is __tippe."""
+    private = {*re.findall(r"\.(_\w+)", path.read_text(encoding="utf-8"))} - {"__tippe"}
+    assert private == set()
+    assert not re.search(r"canvas_view|find_one|tool_views|ui_event_bus", path.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("path", PYTHON, ids=lambda path: path.name)
+def test_no_javascript_stands_in_python(path):
+    strings = [node.value for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+               if isinstance(node, ast.Constant) and isinstance(node.value, str)]  # fmt: skip
+    found = [
+        text
+        for text in strings
+        if re.search(r"=> ?\{|\b(const|let) [\w{\[]+.* = |addEventListener|document\.\w+\(", text)
+    ]
+    assert found == []
