@@ -16,6 +16,8 @@ from app.model.runs import Runs, connected_to, to_session
 from app.share.share import Share
 from app.state.keep import Field, OneOf, explorer_of, kept, read
 from app.tabs.families.compare import Compare
+from app.tabs.lab import opening
+from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.learn import kept as kept_of_learn
 from app.tabs.learn.student import student_page
@@ -55,6 +57,17 @@ THEME = {
         "MuiToggleButtonGroup": {
             "styleOverrides": {
                 "root": {"flexWrap": "wrap", "& .MuiToggleButton-root": {"width": "auto", "flex": "1 1 auto"}}
+            }
+        },
+        # as quiet as the ground: what is chosen, and the top, are the only things on the page that stand out
+        "MuiAppBar": {
+            "styleOverrides": {
+                "root": {
+                    "backgroundColor": "var(--mui-palette-background-default) !important",
+                    "color": "var(--mui-palette-text-primary) !important",
+                    "boxShadow": "none !important",
+                    "borderBottom": "1px solid var(--mui-palette-divider)",
+                }
             }
         },
         "MuiMenuItem": {"defaultProps": {"role": "option"}},  # all menus here are of a Select
@@ -121,6 +134,9 @@ class House:
 
     # ---- the tabs, each made when it is first looked at ----
 
+    def lab(self):
+        return lab_view(self.keep, self.runs, self.pacer.ask, lambda: self.look_at("roll"))
+
     def roll(self):
         return Roll(self.pacer, self.playing).main
 
@@ -168,7 +184,11 @@ class House:
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
         return learn.view
 
-    TABS = {"roll": roll, "three-planes": planes, "build-a-top": build, "families": families, "learn": learn}  # noqa: RUF012
+    @property
+    def tabs(self):
+        """{name in the address: maker}, in the order of the header."""
+        return {"lab": self.lab, "roll": self.roll, "three-planes": self.planes, "build-a-top": self.build,
+                "families": self.families, "learn": self.learn}  # fmt: skip
 
 
 def sidebar(controls, look, language):
@@ -207,15 +227,18 @@ def page():
     language = Tongue().choice(keep, share.reload)
     for show, when in ((share.show, "hand"), (controls.follow, "hand"), (controls.show, "rest"), (guide.show, "rest")):
         pacer.shows(show, when)
-    rooms = tabs({name: partial(make, house) for name, make in House.TABS.items()}, keep, pacer.soon)
-    pn.state.curdoc.template_variables.update(
-        first.variables(None if "tab" in texts else first.top_of(rooms), pn.state.location.search)
-    )
-    return pmui.Page(
+    opened, phone = opening.opened(texts), on_a_phone()
+    keep.shortest = opening.shortest
+    views = house.tabs
+    header, *rooms = tabs(views, keep, pacer.soon, opened if opened in views else opening.USUAL)
+    house.look_at = lambda name: setattr(header, "active", list(views).index(name))
+    pn.state.curdoc.template_variables.update(first.variables(first.top_of(rooms), search))
+
+    made = pmui.Page(
         template=first.PAGE,
         title=say("main.title"),
         sidebar=sidebar(controls, look, language),
-        sidebar_open=not on_a_phone(),
+        sidebar_open=not phone and opened != opening.FIRST,
         header=[*share.header, guide],
         # look and painted are not in the sidebar: what lies there is drawn anew each time that it opens on a phone
         main=[
@@ -224,6 +247,7 @@ def page():
             pacer.painted,
             Connection(words=say("main.lost"), width=0, height=0, margin=0),
             failed,
+            header,
             *rooms,
         ],
         sidebar_width=320,
@@ -233,6 +257,14 @@ def page():
         busy_indicator=None,
         stylesheets=STYLE,
     )
+
+    def beside(event):
+        """The controls in the sidebar are none of the Lab's, which has its own."""
+        if not phone and 0 in (event.old, event.new):
+            made.sidebar_open = event.new != 0
+
+    header.param.watch(beside, "active")
+    return made
 
 
 def show():

@@ -65,7 +65,7 @@ def look(url, browser):
     try:
         visit = Visit(page, url)
         tabs = page.get_by_role("tab").all()
-        for tab in tabs[1:]:
+        for tab in tabs[visitors.ROLL + 1 :]:
             known = page.evaluate("Bokeh.documents[0]._all_models.size")
             tab.click()
             page.wait_for_function("n => Bokeh.documents[0]._all_models.size > n && Bokeh.documents[0].is_idle",

@@ -92,7 +92,7 @@ def test_axe_finds_nothing_anywhere_in_any_look_and_no_other_machine_is_asked(ch
     asked = []
     page.on("request", lambda request: asked.append(request.url))
     page.add_init_script("localStorage.setItem('tippe:tour', '1')")
-    page.goto(server)
+    page.goto(f"{server}?tab=roll")
     page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && Bokeh.documents[0].is_idle")
     assert not page.evaluate("__tippe.top3d.playing")
     page.evaluate(AXE_SCRIPT)
@@ -124,7 +124,7 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
     page = phone.new_page()
     page.set_default_timeout(PATIENCE)
     page.add_init_script("localStorage.setItem('tippe:tour', '1')")
-    page.goto(server)
+    page.goto(f"{server}?tab=roll")
     page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
     page.evaluate(AXE_SCRIPT)
     page.get_by_role("button", name="Show the controls").click()

@@ -25,6 +25,7 @@ from bokeh.server.tornado import BokehTornado
 from panel.custom import JSComponent
 from panel.io.resources import CDN_DIST, LOCAL_DIST
 from panel.io.state import set_curdoc
+from tornado.ioloop import IOLoop
 
 from app import borrowed
 from app.bundle import BUNDLE, Bundled
@@ -157,11 +158,18 @@ def test_what_a_session_does_later_goes_through_the_method_that_is_counted(monke
     """5. What is counted is tested in test_server.py."""
     assert list(inspect.signature(ServerSession._wrap_document_callback).parameters)[:2] in (
         ["self", "callback"], ["session", "callback"])  # fmt: skip
-    seen, document = [], Document()
-    monkeypatch.setattr(ServerSession, "_wrap_document_callback", lambda session, callback: seen.append(callback))
-    document.add_next_tick_callback(print)
-    ServerSession("mine", document, io_loop=SimpleNamespace(add_callback=lambda *_: None, asyncio_loop=None))
-    assert len(seen) == 1
+    seen = []
+    monkeypatch.setattr(ServerSession, "_wrap_document_callback", lambda _, act: seen.append(act) or act)
+
+    async def later():
+        document = Document()
+        document.add_next_tick_callback(list)
+        session = ServerSession("mine", document, io_loop=IOLoop.current())
+        document.add_timeout_callback(list, 1)
+        session.destroy()
+
+    asyncio.run(later())
+    assert len(seen) == 2
 
 
 # --- of components

@@ -47,7 +47,7 @@ async def opened(url):
     """A Visitor with the builder's tab open, who reads what he asks for only."""
     visitor = await Visitor.enter(url)
     await visitor.ready()
-    await visitor.set(visitor.find("Tabs")[0], "active", 2)
+    await visitor.set(visitor.find("Tabs")[0], "active", 3)
     while visitor.component("TopFile") is None:
         visitor.note((await visitor.receive())[1])
     return visitor
@@ -242,15 +242,15 @@ def test_nothing_that_the_page_itself_sends_is_refused(chromium, server):
         box.click(force=True)
     assert page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
         .filter((model) => model.attributes.show_track === false && model.attributes.follow === false).length""")
-    page.locator("[role=tab]").nth(2).click()
+    page.get_by_role("tab", name="Build a top").click()
     page.locator("input[type=file]").set_input_files(
         {"name": "top.json", "mimeType": "application/json", "buffer": TOP})  # fmt: skip
     page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
         .some((model) => model.attributes.told?.[1] == 23.45)""")
     visit.drag(visit.pixel("section", 0, 5), visit.pixel("section", 2, 9))
     page.mouse.up()
-    for tab in (1, 3, 4):
-        page.locator("[role=tab]").nth(tab).click()
+    for tab in ("Three planes", "Families", "Learn", "Lab"):
+        page.get_by_role("tab", name=tab).click()
         page.locator("input[type=range]:visible").first.press("ArrowRight")
         page.wait_for_function("Bokeh.documents[0].is_idle")
     page.close()

@@ -10,6 +10,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
 from packaging.requirements import Requirement
 
 ROOT = Path(__file__).parent.parent
@@ -107,3 +108,32 @@ def test_the_source_archive_passes_its_tests_of_files(unpacked):
                            "(files or docs or readme or lock) and not archive"],
                           cwd=unpacked, capture_output=True, text=True)  # fmt: skip
     assert done.returncode == 0, done.stdout[-3000:]
+
+
+def test_the_command_of_the_package_is_that_of_the_module():
+    """What pip makes of it is `from app.__main__ import run; run()`."""
+    module, _, function = PROJECT["project"]["scripts"]["tippe-top"].partition(":")
+    tree = ast.parse((ROOT / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8"))
+    [defined] = [node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == function]
+    assert not defined.args.args
+
+
+def test_what_is_to_be_cited_is_this_version_and_the_paper():
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert {name: cited[name] for name in ("version", "license")} == {
+        name: PROJECT["project"][name] for name in ("version", "license")
+    }
+    [paper] = cited["references"]
+    assert (paper["volume"], paper["start"], paper["year"]) == (68, 821, 2000)
+    assert PROJECT["project"]["urls"]["Paper"] == f"https://doi.org/{paper['doi']}"
+
+
+def test_the_workflows_do_what_the_tests_and_the_readme_do():
+    tests, release = (
+        yaml.safe_load((ROOT / ".github" / "workflows" / f"{name}.yml").read_text(encoding="utf-8"))["jobs"]
+        for name in ("tests", "release")
+    )
+    assert {"run": ".ci/run"} in tests["all"]["steps"]
+    assert [f"{python}.0" for python in tests["every"]["strategy"]["matrix"]["python"]] == list(PYTHONS)
+    assert {*tests["every"]["strategy"]["matrix"]["system"]} == {"ubuntu-latest", "macos-latest", "windows-latest"}
+    assert {*release} == {"archives", "image"}

@@ -7,6 +7,9 @@ from pathlib import Path
 import bokeh.server
 import pytest
 
+import app.page  # noqa: F401  all components
+from app.bundle import Bundled
+
 FRONTEND = Path(__file__).parent.parent / "app/frontend"
 BORROWED = FRONTEND / "src/borrowed.js"
 BOKEH = Path(bokeh.server.__file__).parent / "static/js/bokeh.js"
@@ -59,3 +62,8 @@ def test_no_javascript_stands_in_python(path):
         if re.search(r"=> ?\{|\b(const|let) [\w{\[]+.* = |addEventListener|document\.\w+\(", text)
     ]
     assert found == []
+
+
+@pytest.mark.parametrize("kind", Bundled.__subclasses__(), ids=lambda kind: kind.__name__)
+def test_no_component_hides_what_all_have(kind):
+    assert "shown" not in vars(kind) and isinstance(vars(kind).get("says", classmethod(len)), classmethod)

@@ -1,7 +1,6 @@
 """`python -m app`: its settings, whom it lets in, what it sends, and how it ends."""
 
 import asyncio
-import json
 import os
 import re
 import signal
@@ -9,6 +8,7 @@ import subprocess
 import sys
 from contextlib import suppress
 from dataclasses import fields
+from html import escape
 from http.client import HTTPConnection
 from pathlib import Path
 from types import SimpleNamespace
@@ -28,7 +28,7 @@ from tornado.websocket import websocket_connect
 from visiting import free_port
 from wire import TOKEN, Closed, Visitor, answers, get, run, served, until
 
-from app.borrowed import counted, to_the_last
+from app.borrowed import counted, in_one_thread, to_the_last
 from app.server.door import Budget, Turns, budget
 from app.server.messages import Refused, look_at
 from app.server.settings import Settings
@@ -187,6 +187,7 @@ def test_what_a_session_does_later_is_counted_with_the_lock_and_without(how, mon
     )
 
     async def both():
+        in_one_thread(asyncio.get_running_loop(), None)
         session, done = ServerSession("mine", document := Document(), io_loop=IOLoop.current()), []
 
         @without_document_lock
@@ -286,7 +287,7 @@ def test_a_page_is_written_once_and_has_a_token_and_a_nonce_of_its_own(server):
     one, other, german = apart("en"), apart("en"), apart("de")
     assert one[2] == other[2] and one[0] != other[0] and one[1] != other[1]
     for language, page in (("en", one), ("de", german)):
-        assert json.dumps(say("main.server.made", language)) in page[2]
+        assert f'"{escape(say("main.server.made", language))}"' in page[2]
 
 
 def ask(server, method, path):

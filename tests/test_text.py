@@ -28,6 +28,7 @@ SAME = (
     "planes.survives.*",
     "browser.Dial.entry",
     "controls.notes.energy",
+    "lab.keeps.millimetres",
 )
 NUMBERS = r"\{[^{}]*\}"
 SHORT_ELEMENT = r"<(i|b|sub|sup)>[^<]{0,4}</\1>"
@@ -163,7 +164,7 @@ def test_what_the_bundle_asks_for_is_there(name, script, language):
     module = next(path for path in MODULES if re.search(rf"^class {name}\(Bundled\)", path.read_text("utf-8"), re.M))
     importlib.import_module(".".join(module.relative_to(APP.parent).with_suffix("").parts))
     [component] = [kind for kind in Bundled.__subclasses__() if kind.__name__ == name]
-    known = set().union(*(listed("browser", language).get(table, {}) for table in (*component.SAYS, name)))
+    known = set(component.says(language))
     wanted = {
         key for path in modules_of(script) for key in re.findall(r"\btexts\.(\w+)", path.read_text(encoding="utf-8"))
     }

@@ -69,7 +69,8 @@ class Visit:
     """A page that is open, and what it asked for, said and sent."""
 
     def __init__(self, page, url, first=False, whole=True):
-        """first: a visit of somebody who was never here, and gets the tour. whole: wait for all of the first tab."""
+        """An address without a query is Roll's here. first: a visit of somebody who was never here, and gets the tour.
+        whole: wait for all of the tab."""
         self.page, self.requests, self.errors, self.sent = page, [], [], []
         page.set_default_timeout(PATIENCE)
         page.on("request", lambda request: self.requests.append(request.url))
@@ -83,7 +84,7 @@ class Visit:
         )
         if not first:
             page.add_init_script("localStorage.setItem('tippe:tour', '1')")
-        page.goto(url)
+        page.goto(url if "?" in url else f"{url}?tab=roll")
         if not whole:
             return
         page.wait_for_function(DRAWN)

@@ -12,13 +12,13 @@ import sys
 from wire import Page, Visitor, run
 
 MOVES = 12  # of each visitor's slider
-TABS, A_TAB = 5, 20  # a tab that opens brings so many models and more
+TABS, ROLL, A_TAB = 6, 1, 20  # a tab that opens after Roll brings so many models and more
 PATIENCE = 300  # s
 
 
 async def come(url, language="en"):
-    """A Page whose document is there."""
-    page = Page(await Visitor.enter(url, headers={"Accept-Language": language}))
+    """A Page whose document is there; an address without a query is Roll's here."""
+    page = Page(await Visitor.enter(url if "?" in url else f"{url}?tab=roll", headers={"Accept-Language": language}))
     await page.visitor.ready()
     return page
 
@@ -35,7 +35,7 @@ async def open_tabs(page):
     """One after the other, each until it is there."""
     known = page.visitor.models
     [tabs] = page.visitor.find("Tabs")
-    for tab in range(1, TABS):
+    for tab in range(ROLL + 1, TABS):
         before = len(known)
         await page.set(tabs, "active", tab)
         await page.until(lambda before=before: len(known) > before + A_TAB)

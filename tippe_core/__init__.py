@@ -12,6 +12,7 @@ from .bodies.solids import Solid, ball, cylinder, frustum, zone
 from .endings import SUNK, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
 from .motion.friction import Contensou, Coulomb, SmoothedCoulomb, Viscous
+from .motion.grip import grip
 from .motion.many import Many, States, slide_many
 from .motion.rolling import Rolling, roll
 from .motion.sliding import beside, growth, sensitivity, slide
@@ -83,6 +84,7 @@ __all__ = [
     "friction_force",
     "frustum",
     "glide",
+    "grip",
     "growth",
     "jellett_potential",
     "limit_energy",

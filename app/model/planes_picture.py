@@ -6,7 +6,7 @@ In units of R, M and g but for what a person sets: rev/s, degrees, s.
 from dataclasses import dataclass, field
 from itertools import groupby
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -45,33 +45,18 @@ RTOL = 1e-9  # of slide()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Settings:
-    """All that a run depends on. rolling: the State that the constants chosen for rolling give; None: spin and tilt
-    are given. shape: None where a, I1 and I3 are not its own."""
+class Setup:
+    """A body on the tables, as a run takes it. shape: None where a, I1 and I3 are not its own."""
+
+    most_turn: ClassVar[float] = MOST_TURN
 
     top: Top
     scales: Scales
     shape: Shape | None
     profile: Array
-    rolling: State | None
-    spin: float
-    tilt: float
-    slip: float
-    law: str
-    mu_k: float
-    mu_s: float
-    gamma: float
-    mu: float
-    eps: float
     landing: str
     stem: bool
     seconds: float
-
-    @property
-    def inputs(self) -> MappingProxyType[str, Any]:
-        """What a person set, by the names of the Planes."""
-        by = "spin" if self.rolling is None else "constants"
-        return MappingProxyType({name: getattr(self, name) for name in SET} | {"by": by})
 
     @property
     def turns(self) -> float:
@@ -80,9 +65,13 @@ class Settings:
 
     @property
     def friction(self) -> Friction:
-        if self.law == "viscous":
-            return Viscous(self.gamma)
-        return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu_k, self.mu_s)
+        """The law of the table on which it slides."""
+        raise NotImplementedError
+
+    @property
+    def state(self) -> State:
+        """The State at t = 0."""
+        raise NotImplementedError
 
     @property
     def edge(self) -> Rim | None:
@@ -101,20 +90,6 @@ class Settings:
         return second_part(self.shape)
 
     @property
-    def state(self) -> State:
-        """The State at t = 0. slip 1: G at rest; 0: G moves as rolling needs; in between and beyond in proportion."""
-        if self.rolling is not None:
-            return self.rolling
-        if not 0 <= self.tilt <= 180:
-            raise TopError("tilt", self.tilt, "0 <= tilt <= 180 (°)")
-        for name in ("spin", "slip"):
-            if not np.isfinite(getattr(self, name)):
-                raise TopError(name, getattr(self, name), "a finite number", code="not-finite")
-        theta = float(np.radians(self.tilt))
-        spin = 2 * np.pi * self.spin / self.scales.angular_velocity
-        return State(theta, 0.0, 0.0, spin, vx=-(1 - self.slip) * spin * np.sin(theta), vy=0.0)
-
-    @property
     def times(self) -> Array:
         """(n,), short enough a step that the top turns little in it."""
         if not 0 < self.seconds <= MOST_SECONDS:
@@ -128,8 +103,51 @@ class Settings:
             most = FARTHEST_TURN * MOST_FRAMES / fastest * self.scales.time
             raise TopError("seconds", self.seconds, "at most {most:.3g} s with this spin",
                            "More turns than that are too many to show.", code="too-many-turns", most=most)  # fmt: skip
-        frames = np.clip(np.ceil(end * fastest / MOST_TURN), LEAST_FRAMES, MOST_FRAMES)
+        frames = np.clip(np.ceil(end * fastest / self.most_turn), LEAST_FRAMES, MOST_FRAMES)
         return np.linspace(0, end, int(frames) + 1)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Settings(Setup):
+    """All that a run of the three planes depends on. rolling: the State that the constants chosen for rolling give;
+    None: spin and tilt are given."""
+
+    rolling: State | None
+    spin: float
+    tilt: float
+    slip: float
+    law: str
+    mu_k: float
+    mu_s: float
+    gamma: float
+    mu: float
+    eps: float
+
+    @property
+    def inputs(self) -> MappingProxyType[str, Any]:
+        """What a person set, by the names of the Planes."""
+        by = "spin" if self.rolling is None else "constants"
+        return MappingProxyType({name: getattr(self, name) for name in SET} | {"by": by})
+
+    @property
+    def friction(self) -> Friction:
+        if self.law == "viscous":
+            return Viscous(self.gamma)
+        return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu_k, self.mu_s)
+
+    @property
+    def state(self) -> State:
+        """The State at t = 0. slip 1: G at rest; 0: G moves as rolling needs; in between and beyond in proportion."""
+        if self.rolling is not None:
+            return self.rolling
+        if not 0 <= self.tilt <= 180:
+            raise TopError("tilt", self.tilt, "0 <= tilt <= 180 (°)")
+        for name in ("spin", "slip"):
+            if not np.isfinite(getattr(self, name)):
+                raise TopError(name, getattr(self, name), "a finite number", code="not-finite")
+        theta = float(np.radians(self.tilt))
+        spin = 2 * np.pi * self.spin / self.scales.angular_velocity
+        return State(theta, 0.0, 0.0, spin, vx=-(1 - self.slip) * spin * np.sin(theta), vy=0.0)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

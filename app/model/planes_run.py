@@ -20,6 +20,7 @@ from app.model.planes_picture import (
     Motion,
     Picture,
     Settings,
+    Setup,
 )
 from app.model.regimes import ENDS, OF_CORE, WOULD_LIFT
 from app.text import told
@@ -51,17 +52,17 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
     """The Picture. progress: called with the time reached; what it raises stops the run. Raises TopError, whose name is
     the input at fault."""
     top, state, times = settings.top, settings.state, settings.times
-    _check_room(settings, state)
+    check_room(settings, state)
     runs = {
-        "rough": lambda: _clear(lambda: roll(top, None, times, replace(state, vx=None, vy=None)), settings, state),
-        "smooth": lambda: _clear(lambda: glide(top, state, times), settings, state),
-        "sliding": lambda: _slid(settings, state, times, progress),
+        "rough": lambda: clear(lambda: roll(top, None, times, replace(state, vx=None, vy=None)), settings, state),
+        "smooth": lambda: clear(lambda: glide(top, state, times), settings, state),
+        "sliding": lambda: slid(settings, state, times, progress),
     }
     motions: dict[str, Motion | None] = {}
     messages: dict[str, str] = {}
     for plane in PLANES:
         try:
-            motions[plane] = _motion(runs[plane](), settings, times, plane)
+            motions[plane] = motion_of(runs[plane](), settings, times, plane)
         except TopError as error:
             if plane == "sliding":
                 raise
@@ -72,14 +73,14 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
     )  # fmt: skip
 
 
-def _slid(settings: Settings, state: State, times: Array, progress: Progress | None) -> Trajectory:
+def slid(settings: Setup, state: State, times: Array, progress: Progress | None) -> Trajectory:
     moved = slide(settings.top, state, settings.friction, times, rtol=RTOL, landing=settings.landing,
                   edge=settings.edge, progress=progress)  # fmt: skip
     first = sunk(moved, body(settings.shape)) if settings.edge else len(moved.t)
     return moved if first == len(moved.t) else _until(moved, max(first, 1), float(moved.t[first]), ANOTHER)
 
 
-def _check_room(settings: Settings, state: State) -> None:
+def check_room(settings: Setup, state: State) -> None:
     """TopError where a part of the body that is neither ball nor edge would be below the table at the start."""
     if settings.edge is None:
         return
@@ -108,11 +109,11 @@ def nudged(picture: Picture, progress: Progress | None = None) -> float:
     settings, state, motion = picture.settings, picture.state, picture.motions["sliding"]
     assert motion is not None and motion.ending is not None  # it hits something there
     moved, until = motion.trajectory, motion.ending.stretches[0].end + BESIDE / settings.scales.time
-    near = _slid(settings, beside(state, NUDGE), moved.t[moved.t <= until], progress)
+    near = slid(settings, beside(state, NUDGE), moved.t[moved.t <= until], progress)
     return growth(moved, near, NUDGE)
 
 
-def _clear(motion: Callable[[], Trajectory], settings: Settings, state: State) -> Trajectory:
+def clear(motion: Callable[[], Trajectory], settings: Setup, state: State) -> Trajectory:
     """A motion on the ball alone, motion(), as far as the stem is clear of the table; TopError where it never is."""
     angle = settings.touch_angle
     if state.theta >= angle:
@@ -144,7 +145,7 @@ def for_reader(error: TopError, scales: Scales) -> TopError:
     return error.replaced(name, value, **numbers)
 
 
-def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str) -> Motion:
+def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str) -> Motion:
     n = len(trajectory.t)
     code = np.array([OF_CORE[word] for word in trajectory.regime])
     if plane == "rough":
@@ -174,7 +175,7 @@ def _motion(trajectory: Trajectory, settings: Settings, times: Array, plane: str
     )
 
 
-def touches(trajectory: Trajectory, time: float, settings: Settings) -> bool:
+def touches(trajectory: Trajectory, time: float, settings: Setup) -> bool:
     """Whether the top is so far tilted at that time, before which it was on its sphere, that the stem touches."""
     before = max(int(np.searchsorted(trajectory.t, time)) - 1, 0)
     theta = trajectory.theta[before] + (time - trajectory.t[before]) * trajectory.omega[before, 0]

@@ -171,6 +171,7 @@ CHANGES = {
     "Failure": {},
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
     "Guide": {},
+    "LabView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
     "Look": {"dark": FLAG, "large": FLAG},
     "Painted": {"painted": COUNT},
     "Phone": {"mark": text(32)},

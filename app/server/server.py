@@ -83,8 +83,10 @@ def serve(settings, sockets, show, parent=None):
 
     async def close():
         arrivals.stop()
-        for each in [*sockets, *tornado.door.sockets]:
+        for each in sockets:
             each.close()
+        for each in list(tornado.door.sockets):
+            each.close(1001, "The server is stopping.")
         await asyncio.sleep(0.2)
         server.stop(wait=False)
         loop.stop()

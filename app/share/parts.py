@@ -28,7 +28,7 @@ class Copy(Bundled):
     text = param.String(default="")
     label = param.String(default="")
     rows = param.Integer(default=1)
-    says = param.List(default=[], doc="what its button says, and what it says once that is done")
+    button = param.List(default=[], doc="what its button says, and what it says once that is done")
 
 
 class Photo(Bundled):

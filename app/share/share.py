@@ -57,9 +57,9 @@ class Share:
             label=say("share.share"),
             size="small",
             variant="outlined",
-            color="light",
+            color="default",
             margin=(0, 4),
-            sx=PLAIN["& button"] | {"color": "#fff"},
+            sx=PLAIN["& button"] | {"color": "inherit"},
         )
         on_click(self.share, self._open)
         self._dialog = pmui.Dialog(title=say("share.dialog.title"), title_variant="h6", show_close_button=True,
@@ -73,8 +73,8 @@ class Share:
 
     @staticmethod
     def _button(sign, says, act):
-        button = pmui.Button(label=sign, description=says, size="small", variant="text", color="light", margin=0,
-                             sx={"minWidth": 36, "fontSize": 20, "lineHeight": 1})  # fmt: skip
+        button = pmui.Button(label=sign, description=says, size="small", variant="text", color="default", margin=0,
+                             sx={"color": "inherit", "minWidth": 36, "fontSize": 20, "lineHeight": 1})  # fmt: skip
         on_click(button, act)
         return button
 
@@ -136,7 +136,7 @@ class Share:
         self._dialog.open = True
 
     def _make(self):
-        text = {"says": listed("share.copy"), "sizing_mode": "stretch_width", "margin": (4, 0)}
+        text = {"button": listed("share.copy"), "sizing_mode": "stretch_width", "margin": (4, 0)}
         self._link = Copy(label=say("share.dialog.link_label"), **text)
         self._code, self._length = words(""), words("", margin=(4, 0))
         self._photo = Photo(margin=0)

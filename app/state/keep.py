@@ -240,7 +240,8 @@ class Keep(param.Parameterized):
     """The state of a page: its query, and undo and redo.
 
     at_rest() is to be called when a gesture ends; it makes the query, and where something undoable changed, a step.
-    allowed: whether what is set now can be shown at all; else it is passed over.
+    allowed: whether what is set now can be shown at all; else it is passed over. shortest: of the
+    texts of a query, those that have to be said.
     """
 
     query = param.String(default="", doc="the state, from the question mark on; empty where all is the default")
@@ -251,6 +252,7 @@ class Keep(param.Parameterized):
 
     def __init__(self, texts=None, sentence="", allowed=lambda: True):
         super().__init__(sentence=sentence)
+        self.shortest = lambda texts: texts
         self._texts = dict(texts or {})  # of views that are not made yet
         self._parts, self._allowed = [], allowed
         self._steps, self._at, self._gesture = [{}], 0, None
@@ -325,7 +327,8 @@ class Keep(param.Parameterized):
                 for name, value in part.state().items()
                 if not same(value, first[name])
             }
-        texts = ({"v": str(VERSION)} | texts | self._texts) if texts or self._texts else {}
+        texts = self.shortest(texts | self._texts)
+        texts = {"v": str(VERSION)} | texts if texts else {}
         self.param.update(
             query="?" + "&".join(f"{quote(key)}={quote(text)}" for key, text in texts.items()) if texts else "",
             can_undo=self._at > 0,

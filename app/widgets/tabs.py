@@ -53,15 +53,17 @@ class Place:
             self.column.objects = self._wrong
 
 
-def tabs(views, keep, soon):
+def tabs(views, keep, soon, opened):
     """A list of the header and the places.
 
-    views: {name in the address: maker}; the first is made with the page. soon: of a Pacer.
+    views: {name in the address: maker}; opened: the name of the one that is made with the page. soon: of a Pacer.
     """
+    names, first = list(views), list(views).index(opened)
     places = [Place(name, make, soon) for name, make in views.items()]
     columns = [place.column for place in places]
     header = pmui.Tabs(
         *((say(f"main.tabs.{name}"), pn.Spacer(height=0)) for name in views),
+        active=first,
         sizing_mode="stretch_width",
         margin=0,
         sx={"& .MuiTab-root": {"textTransform": "none", "minHeight": 40, "padding": "8px 16px"}},
@@ -78,11 +80,12 @@ def tabs(views, keep, soon):
         else:
             pn.state.onload(places[active].ask)
 
-    columns[0].visible = True
-    places[0].fill()
+    columns[first].visible = True
+    places[first].fill()
     header.param.watch(lambda event: look(event.new), "active")
     given = {"places": [column.name for column in columns]}
     header.jscallback(args={"run": "turnTab", "given": given}, active=CALL)
-    known = OneOf(**{name: i for i, name in enumerate(views)})
-    keep.add(header, {"active": Field("tab", known, undoable=False)})
+    known = OneOf(**{name: i for i, name in enumerate(names)})
+    # it is said always, and left out where it goes without saying
+    keep.add(header, {"active": Field("tab", known, undoable=False)}, lambda header: {"active": None})
     return [header, *columns]

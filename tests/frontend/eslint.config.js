@@ -12,6 +12,8 @@ export default [
       "array-callback-return": "error",
       "default-param-last": "error",
       eqeqeq: "error",
+      "max-lines": ["error", 350],
+      "max-lines-per-function": ["error", 60],
       "no-constructor-return": "error",
       "no-self-compare": "error",
       "no-shadow": "error",

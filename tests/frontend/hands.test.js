@@ -5,6 +5,7 @@ import { isFollowed } from "../../app/frontend/src/figures/seeking.js";
 import { modelOf } from "../../app/frontend/src/letter.js";
 import { stepOf } from "../../app/frontend/src/widgets/address.js";
 import { figures, rowAt, said } from "../../app/frontend/src/widgets/lines.js";
+import { beside } from "../../app/frontend/src/widgets/tour.js";
 import { markOf } from "../../app/frontend/src/widgets/phone.js";
 
 // 100 px a radian, 10 px a unit of K_J
@@ -68,4 +69,15 @@ test("a letter's model tells who asked when a value is new", () => {
   model.on("time", () => heard.push(model.time));
   for (const time of [1, 2, 2, 3]) model.time = time;
   assert.deepEqual(heard, [2, 3]);
+});
+
+test("the tour's words stand beside their place where there is room, and never outside the window", () => {
+  const page = { wide: 1000, high: 800 }, words = { wide: 300, high: 200 };
+  const box = (left, top, right, bottom) => ({ left, top, right, bottom });
+  assert.deepEqual(beside(box(0, 100, 400, 700), words, page), { left: 414, top: 100 });
+  assert.deepEqual(beside(box(600, 100, 990, 700), words, page), { left: 286, top: 100 });
+  assert.deepEqual(beside(box(10, 0, 990, 300), words, page), { left: 14, top: 314 });
+  assert.deepEqual(beside(box(10, 500, 990, 790), words, page), { left: 14, top: 286 });
+  const { left, top } = beside(box(10, 10, 990, 790), words, page); // it fills the window
+  assert.ok(left >= 0 && left + words.wide <= page.wide && top >= 0 && top + words.high <= page.high);
 });

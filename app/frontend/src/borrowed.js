@@ -1,5 +1,5 @@
 // What is used here of Bokeh, Panel and three.js although their manuals do not promise it: it may go with any new version.
-// All of it stands here, but for what has to run before the bundle: first.html. tests/test_borrowed.py looks whether the
+// All of it stands here, but for what has to run before the bundle: first.html. tests/test_scripts.py looks whether the
 // names are still there, and the tests in a browser whether they still do the same.
 
 // The view of a figure that is drawn, with its scales and what hears of the mouse. Bokeh: no promised way from a model.

@@ -2,6 +2,7 @@ import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
+import { renderLab } from "./lab/lab.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
@@ -27,6 +28,7 @@ export default {
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
   Guide: { render: renderGuide },
+  LabView: { render: renderLab },
   Lines: { render: renderLines },
   Look: { render: renderLook },
   Painted: { render: renderPainted },

@@ -112,7 +112,7 @@ interface CopyModel extends Model {
   text: string;
   label: string;
   rows: number;
-  says: [before: string, after: string];
+  button: [before: string, after: string];
 }
 
 interface AddressModel extends Model {
@@ -158,6 +158,13 @@ type Column = ArrayLike<number> & { reduce(take: (best: number, value: number, r
 type Spot = [row: number, share: number];
 type PixelScale = { compute(value: number): number; invert(px: number): number };
 type Tieline = { K_J: number; inner: number; outer: number };
+
+// app/tabs/lab/lab.py says what each holds.
+type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
+  a: number;
+  seconds: number;
+  asked: [count: number, name: string, value: any] | [];
+};
 
 declare const Bokeh: { documents: any[]; index: any };
 

@@ -10,143 +10,166 @@ import { followLook } from "../three/scene.js";
 const LEAST_REACH = 1.6, BELOW = 0.6; // from O upwards, and below the table, in R
 const WIDTH = 640; // px, of a picture for print whose place on the page has no size
 
-/** @param {Omit<Rendering<TopModel>, "el"> & { root: HTMLElement, picture: HTMLElement }} rendering */
-export function renderFlat({ model, root, picture, view }) {
-  const canvas = document.createElement("canvas");
-  canvas.style.cursor = "default";
-  canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", model.label || model.texts.label);
-  picture.prepend(canvas);
-  const words = /** @type {HTMLElement} */ (picture.querySelector(".note"));
-  words.textContent = model.texts.flat;
-  Object.assign(words.style, { position: "static", marginTop: "6px" });
-  let pen;
-  const pose = emptyPose();
-  let pictures = 0, reach = LEAST_REACH, look, verdict = model.texts.no_motion;
-  const hex = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
+const hex = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
 
-  const report = {
-    get pictures() { return pictures; },
-    get t() { return player.t; },
-    get index() { return player.index; },
-    get count() { return player.frames.count; },
-    get playing() { return player.playing; },
-    get verdict() { return verdict; },
-  };
-  const place = new Place({
-    model, picture, report,
-    changed: () => draw(),
-    inView: () => picture.clientWidth > 0,
-    photo: (wide) => {
-      const still = document.createElement("canvas"), { clientWidth: width, clientHeight: height } = picture;
-      const scale = wide / (width || WIDTH);
-      still.width = wide;
-      still.height = Math.round(scale * (height || WIDTH));
-      paint(still, still.width / scale, still.height / scale, scale);
-      return still;
-    },
-  });
-  const { player } = place;
-  const bar = new Bar(root, picture, model, player, () => {});
-  for (const part of root.querySelectorAll(".shows, .view")) part.remove(); // there is nothing of that to see
-  root.append(words);
+// The outline of a body with R px for its radius, turned about O at (x, y); with a mark that goes round with the body.
+/** @param {CanvasRenderingContext2D} pen @param {Float32Array} profile @param {{ x: number, y: number, R: number, tilt: number, turn: number, edge: string }} place */
+function drawBody(pen, profile, { x, y, R, tilt, turn, edge }) {
+  const n = profile.length >> 1;
+  pen.save();
+  pen.translate(x, y);
+  pen.rotate(tilt);
+  pen.beginPath();
+  for (let i = 0; i < n; i++) pen.lineTo(R * profile[2 * i], -R * profile[2 * i + 1]);
+  for (let i = n - 1; i >= 0; i--) pen.lineTo(-R * profile[2 * i], -R * profile[2 * i + 1]);
+  pen.closePath();
+  pen.fillStyle = "#e3b981";
+  pen.strokeStyle = edge;
+  pen.lineWidth = 2;
+  pen.fill();
+  pen.stroke();
+  pen.setLineDash([8, 5]);
+  pen.beginPath();
+  pen.moveTo(0, 1.2 * R);
+  pen.lineTo(0, -1.8 * R);
+  pen.stroke();
+  pen.setLineDash([]);
+  if (Math.cos(turn) > 0) {
+    pen.fillStyle = colours.theta;
+    pen.beginPath();
+    pen.ellipse(0.8 * R * Math.sin(turn), 0.4 * R, 0.1 * R * Math.cos(turn), 0.1 * R, 0, 0, 2 * Math.PI);
+    pen.fill();
+  }
+  pen.restore();
+}
 
-  const draw = coalesce(() => {
+class Flat {
+  /** @param {TopModel} model @param {HTMLElement} root @param {HTMLElement} picture */
+  constructor(model, root, picture) {
+    this.model = model;
+    this.picture = picture;
+    this.canvas = document.createElement("canvas");
+    this.canvas.style.cursor = "default";
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", model.label || model.texts.label);
+    picture.prepend(this.canvas);
+    this.pose = emptyPose();
+    this.pictures = 0;
+    this.reach = LEAST_REACH;
+    this.verdict = model.texts.no_motion;
+    this.report = reportOf(this);
+    this.draw = coalesce(() => this.tick());
+    this.place = new Place({
+      model, picture, report: this.report,
+      changed: () => this.draw(),
+      inView: () => picture.clientWidth > 0,
+      photo: (wide) => this.photo(wide),
+    });
+    this.player = this.place.player;
+    this.bar = new Bar(root, picture, model, this.player, () => {});
+    for (const part of root.querySelectorAll(".shows, .view")) part.remove(); // there is nothing of that to see
+  }
+
+  tick() {
+    const { place, canvas, model, picture: { clientWidth: width, clientHeight: height } } = this;
     if (place.moves) place.advance(performance.now());
-    const { clientWidth: width, clientHeight: height } = picture;
     if (width && height) {
       canvas.width = width * devicePixelRatio;
       canvas.height = height * devicePixelRatio;
-      paint(canvas, width, height, devicePixelRatio);
-      pictures += 1;
+      this.paint(canvas, width, height, devicePixelRatio);
+      this.pictures += 1;
     }
-    if (player.frames.count) bar.update(model.seconds);
-    place.say(verdict);
-    if (place.moves) draw();
-  });
+    if (this.player.frames.count) this.bar.update(model.seconds);
+    place.say(this.verdict);
+    if (place.moves) this.draw();
+  }
 
-  function paint(on, width, height, scale) {
-    pen = penOf(on);
+  photo(wide) {
+    const still = document.createElement("canvas"), { clientWidth: width, clientHeight: height } = this.picture;
+    const scale = wide / (width || WIDTH);
+    still.width = wide;
+    still.height = Math.round(scale * (height || WIDTH));
+    this.paint(still, still.width / scale, still.height / scale, scale);
+    return still;
+  }
+
+  paint(on, width, height, scale) {
+    const pen = penOf(on), { look, player, pose, model } = this;
     pen.setTransform(scale, 0, 0, scale, 0, 0);
     pen.fillStyle = hex(look.sky);
     pen.fillRect(0, 0, width, height);
-    const R = height / (reach + 1.3 + BELOW), table = height - BELOW * R;
+    const R = height / (this.reach + 1.3 + BELOW), table = height - BELOW * R;
     pen.fillStyle = hex(look.table);
     pen.fillRect(0, table, width, height - table);
-    verdict = model.texts.no_motion;
+    this.verdict = model.texts.no_motion;
     if (!player.frames.count) return;
     player.frames.read(player.place, pose);
     const { x, y, z, w } = pose.quaternion;
-    const tilt = Math.acos(Math.min(1, Math.max(-1, 1 - 2 * (x * x + y * y))));
+    const tilt = Math.acos(Math.min(1, Math.max(-1, 1 - 2 * (x * x + y * y)))), psi = Math.atan2(z, w) - Math.atan2(y, x);
     // off the table, or on its stem, the sphere's centre is where G and the axis say
     const up = model.a === null ? 1 : pose.com.z + model.a * Math.cos(tilt);
-    top(width / 2, table - up * R, R, tilt, Math.atan2(z, w) - Math.atan2(y, x)); // psi
-    verdict = wordOf(pose.regime, model.texts.verdicts);
-  }
-
-  // The outline, turned about O, with a mark that goes round with the body.
-  function top(x, y, R, tilt, turn) {
-    const profile = float32(model.profile), n = profile.length >> 1;
-    pen.save();
-    pen.translate(x, y);
-    pen.rotate(tilt);
-    pen.beginPath();
-    for (let i = 0; i < n; i++) pen.lineTo(R * profile[2 * i], -R * profile[2 * i + 1]);
-    for (let i = n - 1; i >= 0; i--) pen.lineTo(-R * profile[2 * i], -R * profile[2 * i + 1]);
-    pen.closePath();
-    pen.fillStyle = "#e3b981";
-    pen.strokeStyle = hex(look.edge);
-    pen.lineWidth = 2;
-    pen.fill();
-    pen.stroke();
-    pen.setLineDash([8, 5]);
-    pen.beginPath();
-    pen.moveTo(0, 1.2 * R);
-    pen.lineTo(0, -1.8 * R);
-    pen.stroke();
-    pen.setLineDash([]);
-    if (Math.cos(turn) > 0) {
-      pen.fillStyle = colours.theta;
-      pen.beginPath();
-      pen.ellipse(0.8 * R * Math.sin(turn), 0.4 * R, 0.1 * R * Math.cos(turn), 0.1 * R, 0, 0, 2 * Math.PI);
-      pen.fill();
-    }
-    pen.restore();
+    drawBody(pen, float32(model.profile), { x: width / 2, y: table - up * R, R, tilt, turn: psi, edge: hex(look.edge) });
     pen.fillStyle = hex(look.ink);
     pen.font = "600 15px system-ui, sans-serif";
     pen.textAlign = "center";
-    pen.fillText(`θ = ${((180 * tilt) / Math.PI).toFixed(1)}°`, x, 24);
+    pen.fillText(`θ = ${((180 * tilt) / Math.PI).toFixed(1)}°`, width / 2, 24);
+    this.verdict = wordOf(pose.regime, model.texts.verdicts);
   }
 
-  model.on("frames", () => {
-    place.take();
-    draw();
-  });
-  const onProfile = () => {
-    const profile = float32(model.profile);
-    reach = LEAST_REACH;
-    for (let i = 0; i + 1 < profile.length; i += 2) reach = Math.max(reach, Math.hypot(profile[i], profile[i + 1]));
-    draw();
-  };
-  model.on("profile", onProfile);
-  const resizing = new ResizeObserver(draw);
-  resizing.observe(picture);
-  onProfile();
-  place.take();
-  place.begin();
-  if (!model.clock) window.__tippe.flat = report;
+  newProfile() {
+    const profile = float32(this.model.profile);
+    this.reach = LEAST_REACH;
+    for (let i = 0; i + 1 < profile.length; i += 2) this.reach = Math.max(this.reach, Math.hypot(profile[i], profile[i + 1]));
+    this.draw();
+  }
 
-  const unfollow = followLook((now) => {
-    look = now;
-    draw();
-  });
-  const dispose = () => {
-    unfollow();
-    draw.cancel();
-    resizing.disconnect();
-    place.leave();
-    if (window.__tippe.flat === report) delete window.__tippe.flat;
+  begin() {
+    const { model, place, draw, report } = this, resizing = new ResizeObserver(draw);
+    model.on("frames", () => {
+      place.take();
+      draw();
+    });
+    model.on("profile", () => this.newProfile());
+    resizing.observe(this.picture);
+    this.newProfile();
+    place.take();
+    place.begin();
+    if (!model.clock) window.__tippe.flat = report;
+    const unfollow = followLook((now) => {
+      this.look = now;
+      draw();
+    });
+    return () => {
+      unfollow();
+      draw.cancel();
+      resizing.disconnect();
+      place.leave();
+      if (window.__tippe.flat === report) delete window.__tippe.flat;
+    };
+  }
+}
+
+// What is drawn, for tests.
+/** @param {Flat} flat */
+function reportOf(flat) {
+  return {
+    get pictures() { return flat.pictures; },
+    get t() { return flat.player.t; },
+    get index() { return flat.player.index; },
+    get count() { return flat.player.frames.count; },
+    get playing() { return flat.player.playing; },
+    get verdict() { return flat.verdict; },
   };
+}
+
+/** @param {Omit<Rendering<TopModel>, "el"> & { root: HTMLElement, picture: HTMLElement }} rendering */
+export function renderFlat({ model, root, picture, view }) {
+  const words = /** @type {HTMLElement} */ (picture.querySelector(".note"));
+  words.textContent = model.texts.flat;
+  Object.assign(words.style, { position: "static", marginTop: "6px" });
+  const flat = new Flat(model, root, picture);
+  root.append(words);
+  const dispose = flat.begin();
   view.tippe = { dispose };
   model.on("remove", dispose);
 }

@@ -35,20 +35,18 @@ export class Stage {
    * @param {string} options.label
    * @param {Record<string, any>} options.texts
    * @param {number} options.fov
-   * @param {(now: number, held: boolean) => boolean} [options.tick] runs before each drawn frame and says whether another
-   *   one is to follow; held while a hand is on a control and the picture is to stand still
-   * @param {(aspect: number) => void} [options.fit] runs after a new size
-   * @param {() => void} [options.shown] a picture came out
-   * @param {() => void} [options.turned] a person turned it or zoomed
    */
-  constructor(holder, { label, texts, fov, tick = () => false, fit = () => {}, shown = () => {}, turned = () => {} }) {
+  constructor(holder, { label, texts, fov }) {
     this.holder = holder;
-    this.tick = tick;
-    this.fit = fit;
-    this.shown = shown;
-    this.turned = turned;
-    /** @type {(() => void) | undefined} */
-    this.beforeDraw = undefined;
+    // What a picture puts here. tick runs before each drawn frame and says whether another one is to follow; held while a
+    // hand is on a control and the picture is to stand still.
+    /** @type {(now: number, held: boolean) => boolean} */
+    this.tick = () => false;
+    /** @type {(aspect: number) => void} */
+    this.fit = () => {}; // after a new size
+    this.shown = () => {}; // a picture came out
+    this.turned = () => {}; // a person turned it or zoomed
+    this.beforeDraw = () => {};
     this.inView = true;
     this.width = this.height = 0; // px; not known yet
     this.cost = 0; // ms until a drawn picture is out, a running mean
@@ -79,6 +77,19 @@ export class Stage {
 
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = false;
+    this.listen(canvas, texts.lost);
+    this.resizing = new ResizeObserver(() => this.resize());
+    this.resizing.observe(holder);
+    this.seeing = new IntersectionObserver(([entry]) => {
+      this.inView = entry.isIntersecting;
+      this.invalidate();
+    });
+    this.seeing.observe(holder);
+  }
+
+  /** @param {HTMLCanvasElement} canvas @param {string} lost what is said where the browser takes the picture away */
+  listen(canvas, lost) {
+    const { holder } = this;
     canvas.style.touchAction = "pan-y"; // a finger moving up or down scrolls the page, as it does everywhere else
     this.controls.addEventListener("change", () => this.invalidate());
     this.controls.addEventListener("end", () => this.turned());
@@ -97,21 +108,13 @@ export class Stage {
       if (this.disposed) return;
       this.lost = true;
       this.forget();
-      this.note(texts.lost);
+      this.note(lost);
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.lost = false;
       this.note("");
       this.invalidate();
     });
-
-    this.resizing = new ResizeObserver(() => this.resize());
-    this.resizing.observe(holder);
-    this.seeing = new IntersectionObserver(([entry]) => {
-      this.inView = entry.isIntersecting;
-      this.invalidate();
-    });
-    this.seeing.observe(holder);
   }
 
   // Shift and an arrow turn the picture, + and - zoom: what a drag and the wheel do.
@@ -263,7 +266,7 @@ export class Stage {
     const { renderer, target, gl } = this;
     const pixels = this.fineness * Math.min(devicePixelRatio, MAX_PIXEL_RATIO);
     target.setSize(Math.round(this.width * pixels), Math.round(this.height * pixels));
-    this.beforeDraw?.();
+    this.beforeDraw();
     renderer.setRenderTarget(target);
     renderer.render(this.scene, this.camera);
     renderer.setRenderTarget(null);
@@ -274,9 +277,8 @@ export class Stage {
     this.drawnAt = performance.now();
   }
 
-  get gl() {
-    return /** @type {WebGL2RenderingContext} */ (this.renderer.getContext()); // three has no other any more
-  }
+  // three has no other any more
+  get gl() { return /** @type {WebGL2RenderingContext} */ (this.renderer.getContext()); }
 
   forget() {
     if (!this.fence) return;

@@ -16,7 +16,7 @@ export function renderCopy({ model, el }) {
   el.innerHTML = FRAME;
   const area = /** @type {HTMLTextAreaElement} */ (el.querySelector("textarea"));
   const button = /** @type {HTMLButtonElement} */ (el.querySelector("button"));
-  const [copy, copied] = model.says;
+  const [copy, copied] = model.button;
   button.textContent = copy;
   const show = () => {
     area.value = model.text;

@@ -38,30 +38,67 @@ export function spoken(value, { marks, unit, texts }) {
 
 let made = 0;
 
-/** @param {Rendering<DialModel>} rendering */
-export function renderDial({ model, el }) {
-  const id = `dial-${(made += 1)}`;
-  el.innerHTML = `<style>${style}</style>
-    <div class="head"><label class="name" for="${id}"></label><input type="text" autocomplete="off" spellcheck="false" maxlength="60"></div>
-    <input type="range" id="${id}" step="any"><div class="marks" aria-hidden="true"></div><div class="words" id="${id}-words"></div>`;
-  /** @returns {any} */
-  const part = (selector) => el.querySelector(selector);
-  /** @type {HTMLElement[]} */
-  const [name, marks, words] = [".name", ".marks", ".words"].map(part);
-  /** @type {HTMLInputElement[]} */
-  const [entry, slider] = ["input[type=text]", "input[type=range]"].map(part);
-  let count = 0; // of what was asked
-  let value = 0; // the slider's, to the last digit
-  let typing = false; // whether there is something in the entry that was not asked for yet
+class Dial {
+  /** @param {DialModel} model @param {HTMLElement} el */
+  constructor(model, el) {
+    const id = `dial-${(made += 1)}`;
+    el.innerHTML = `<style>${style}</style>
+      <div class="head"><label class="name" for="${id}"></label><input type="text" autocomplete="off" spellcheck="false" maxlength="60"></div>
+      <input type="range" id="${id}" step="any"><div class="marks" aria-hidden="true"></div><div class="words" id="${id}-words"></div>`;
+    /** @returns {any} */
+    const part = (selector) => el.querySelector(selector);
+    this.model = model;
+    /** @type {HTMLElement} */
+    this.marks = part(".marks");
+    /** @type {HTMLElement} */
+    this.words = part(".words");
+    /** @type {HTMLInputElement} */
+    this.entry = part("input[type=text]");
+    /** @type {HTMLInputElement} */
+    this.slider = part("input[type=range]");
+    this.count = 0; // of what was asked
+    this.value = 0; // the slider's, to the last digit
+    this.typing = false; // whether there is something in the entry that was not asked for yet
+    this.name(part(".name"));
+    this.listen();
+    for (const what of ["told", "start", "end"]) model.on(what, () => this.take());
+    for (const what of ["words", "wrong"]) model.on(what, () => this.say());
+    this.take();
+    this.say();
+  }
 
-  name.innerHTML = model.title;
-  name.title = model.hint;
-  slider.dataset.input = model.input;
-  slider.setAttribute("aria-label", model.spoken);
-  entry.setAttribute("aria-label", model.unit ? fill(model.texts.entry, { name: model.spoken, unit: model.unit }) : model.spoken);
-  for (const input of [slider, entry]) input.setAttribute("aria-describedby", words.id);
+  /** @param {HTMLElement} label */
+  name(label) {
+    const { model, slider, entry } = this;
+    label.innerHTML = model.title;
+    label.title = model.hint;
+    slider.dataset.input = model.input;
+    slider.setAttribute("aria-label", model.spoken);
+    entry.setAttribute("aria-label", model.unit ? fill(model.texts.entry, { name: model.spoken, unit: model.unit }) : model.spoken);
+    for (const input of [slider, entry]) input.setAttribute("aria-describedby", this.words.id);
+  }
 
-  function place() {
+  listen() {
+    const { model, slider, entry } = this;
+    slider.addEventListener("input", () => this.slide(Math.round(Number(slider.value) / model.step) * model.step));
+    slider.addEventListener("keydown", (event) => {
+      const steps = KEYS[event.key], end = { Home: slider.min, End: slider.max }[event.key];
+      if (event.ctrlKey || event.metaKey || event.altKey || (steps === undefined && end === undefined)) return;
+      event.preventDefault();
+      this.slide(steps === undefined ? Number(end) : this.value + steps * model.step);
+    });
+    entry.addEventListener("input", () => (this.typing = true));
+    entry.addEventListener("change", () => this.type());
+    entry.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") this.type();
+      if (event.key !== "Escape" || !this.typing) return;
+      this.typing = false;
+      entry.value = model.told[2];
+    });
+  }
+
+  place() {
+    const { model, slider, marks, value } = this;
     slider.min = String(Math.min(model.start, value));
     slider.max = String(Math.max(model.end, value));
     slider.value = String(value);
@@ -70,55 +107,47 @@ export function renderDial({ model, el }) {
     marks.hidden = !model.marks.length;
     marks.innerHTML = model.marks.map(([at, word]) => `<span style="left: ${(100 * (at - low)) / (high - low)}%">${word}</span>`).join("");
   }
-  function ask(wish, typed) {
-    count += 1;
-    model.asked = [count, wish, typed];
-  }
-  function slide(wish) {
-    const next = Math.min(Math.max(Number(wish.toPrecision(12)), Number(slider.min)), Number(slider.max));
-    if (next === value) return place();
-    value = next;
-    if (!model.marks.length) entry.value = written(value);
-    typing = false;
-    place();
-    ask(value, false);
-  }
-  function type() {
-    if (!typing) return;
-    typing = false;
-    ask(entry.value, true);
+
+  /** @param {number | string} wish @param {boolean} typed */
+  ask(wish, typed) {
+    this.count += 1;
+    this.model.asked = [this.count, wish, typed];
   }
 
-  slider.addEventListener("input", () => slide(Math.round(Number(slider.value) / model.step) * model.step));
-  slider.addEventListener("keydown", (event) => {
-    const steps = KEYS[event.key], end = { Home: slider.min, End: slider.max }[event.key];
-    if (event.ctrlKey || event.metaKey || event.altKey || (steps === undefined && end === undefined)) return;
-    event.preventDefault();
-    slide(steps === undefined ? Number(end) : value + steps * model.step);
-  });
-  entry.addEventListener("input", () => (typing = true));
-  entry.addEventListener("change", type);
-  entry.addEventListener("keydown", (event) => {
-    if (event.key === "Enter") type();
-    if (event.key !== "Escape" || !typing) return;
-    typing = false;
-    entry.value = model.told[2];
-  });
-
-  function take() {
-    const [heard, number, text] = model.told;
-    if (heard !== count) return;
-    value = number;
-    if (!typing) entry.value = text;
-    place();
+  /** @param {number} wish */
+  slide(wish) {
+    const { slider } = this, next = Math.min(Math.max(Number(wish.toPrecision(12)), Number(slider.min)), Number(slider.max));
+    if (next === this.value) return this.place();
+    this.value = next;
+    if (!this.model.marks.length) this.entry.value = written(next);
+    this.typing = false;
+    this.place();
+    this.ask(next, false);
   }
-  function say() {
+
+  type() {
+    if (!this.typing) return;
+    this.typing = false;
+    this.ask(this.entry.value, true);
+  }
+
+  take() {
+    const [heard, number, text] = this.model.told;
+    if (heard !== this.count) return;
+    this.value = number;
+    if (!this.typing) this.entry.value = text;
+    this.place();
+  }
+
+  say() {
+    const { model, words, entry } = this;
     words.innerHTML = model.words;
     words.style.minHeight = model.lines ? `${1.35 * model.lines}em` : "";
     entry.setAttribute("aria-invalid", String(model.wrong));
   }
-  for (const what of ["told", "start", "end"]) model.on(what, take);
-  for (const what of ["words", "wrong"]) model.on(what, say);
-  take();
-  say();
+}
+
+/** @param {Rendering<DialModel>} rendering */
+export function renderDial({ model, el }) {
+  return void new Dial(model, el);
 }

@@ -1,0 +1,172 @@
+// One picture at a time that answers a question of the run: where the height comes from, which way it turns, where it
+// touches the table.
+import { ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "./curves.js";
+import { Choice, drawn, part, say } from "./parts.js";
+
+const NAMES = ["energy", "spin", "path"];
+const LEFT = 46, RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
+const ROOM = 30; // px that words in a picture need
+const MOST_POINTS = 2400;
+const JUMP = 0.5; // R: from one frame to the next the contact goes so far only where another part takes over
+
+export class Answer {
+  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
+  constructor(texts, time) {
+    this.texts = texts;
+    this.time = time;
+    this.width = this.height = this.bottom = 0; // px; not known yet
+    /** @type {((t: number) => void)[]} */
+    this.moves = []; // of a picture that moves otherwise than by its line
+    this.name = "energy";
+    this.title = part("h2");
+    this.note = part("p", { class: "small" });
+    this.choice = new Choice({
+      role: "tab", label: texts.pictures, options: NAMES.map((name) => [name, texts.answers[name].tab, ""]),
+      choose: (name) => this.look(name),
+    });
+    this.choice.element.className = "mini";
+    this.drawing = drawn("svg", { role: "img" });
+    this.plot = part("div", { class: "plot", role: "tabpanel" }, this.drawing);
+    this.element = part("section", { class: "answer" },
+      part("div", { class: "titled" }, this.title, this.choice.element), this.note, this.plot);
+    this.resizing = new ResizeObserver(() => this.draw());
+    this.resizing.observe(this.plot);
+  }
+
+  look(name) {
+    this.name = name;
+    this.draw();
+  }
+
+  show(scene) {
+    this.scene = scene;
+    this.curves = scene.curves[scene.table === "three" ? "ordinary" : scene.table];
+    this.draw();
+  }
+
+  get right() {
+    return this.width - RIGHT;
+  }
+
+  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.end || 1);
+
+  draw() {
+    const { clientWidth: width, clientHeight: height } = this.plot, { scene, name, texts } = this, said = texts.answers[name];
+    this.choice.show(name);
+    this.title.textContent = said.question;
+    this.plot.setAttribute("aria-label", said.question);
+    this.drawing.setAttribute("aria-label", said.note);
+    if (!width || !scene) return;
+    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), said.note);
+    Object.assign(this, { width, height, bottom: height - FOOT });
+    this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
+    this.moves = [];
+    this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.drawing.replaceChildren(...(this.curves.count ? this[name]() : []));
+    this.at(this.time.t);
+  }
+
+  /** @param {number} least @param {number} most @param {string} unit @param {number} apart px between two marks */
+  axes(least, most, unit, apart = 90) {
+    const y = (value) => this.bottom - ((this.bottom - TOP) * (value - least)) / (most - least || 1), found = [];
+    const marks = ticks(least, most, Math.max(2, this.height / apart));
+    for (const value of marks) {
+      const digits = Math.abs(value % 1) > 1e-9 ? 1 : 0, text = say(this.texts, value === marks.at(-1) ? `{value} ${unit}` : "{value}", { value: [value, digits] });
+      found.push(drawn("line", { class: value ? "grid" : "axis", x1: LEFT, x2: this.right, y1: y(value), y2: y(value) }),
+        drawn("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, text));
+    }
+    for (const t of ticks(0, this.time.end || 1, 6)) {
+      found.push(drawn("text", { x: this.x(t), y: this.bottom + 16, "text-anchor": "middle" }, say(this.texts, t ? "{t}" : "{t} s", { t: [t, t % 1 ? 1 : 0] })));
+    }
+    return { y, found };
+  }
+
+  energy() {
+    const { curves, texts } = this, said = texts.answers.energy, start = curves.value(0, ENERGY);
+    const { y, found } = this.axes(0, 1.03 * curves.range(ENERGY)[1], "mm");
+    const line = (column) => curves.points(this.x, y, column), floor = `${this.x(curves.end)},${this.bottom} ${LEFT},${this.bottom}`;
+    const heights = curves.range(HEIGHT), t = (share) => share * curves.end, at = (share, column) => y(curves.at(t(share), column));
+    const words = [], put = (share, height, text, more) => words.push(
+      drawn("text", { class: "word halo", x: this.x(t(share)), y: height }, text),
+      ...(more ? [drawn("text", { class: "halo", x: this.x(t(share)), y: height, dy: "1.3em" }, more)] : []));
+    if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin);
+    const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
+    if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by);
+    const above = at(0.4, HEIGHT) - at(0.4, ENERGY) > ROOM;
+    const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
+    put(0.4, above ? Math.min(at(0.4, HEIGHT), at(0.6, HEIGHT)) - 8 : this.bottom - 6, say(texts, text, { least: [least, 0], most: [most, 0] }));
+    return [
+      ...found,
+      drawn("polygon", { class: "spins", points: `${line(ENERGY)} ${floor}` }), drawn("polygon", { class: "lifts", points: `${line(HEIGHT)} ${floor}` }),
+      drawn("polyline", { class: "energy", points: line(ENERGY) }),
+      drawn("line", { class: "first", x1: LEFT, x2: this.right, y1: y(start), y2: y(start) }), this.now, ...words,
+    ];
+  }
+
+  spin() {
+    const { curves, texts } = this, said = texts.answers.spin;
+    const [least, most] = curves.range(SPIN, TURNING), room = 0.06 * (most - least || 1);
+    const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? 2 * room : 0), Math.max(most, 0) + room, said.unit, 60);
+    let widest = 0, apart = 0; // where the two lines stand clearest of each other
+    for (let share = 0.2; share < 0.7; share += 0.05) {
+      const gap = Math.abs(y(curves.at(share * curves.end, SPIN)) - y(curves.at(share * curves.end, TURNING)));
+      if (gap > apart) [apart, widest] = [gap, share];
+    }
+    const words = [], put = (share, column, side, text) => words.push(drawn("text", {
+      class: `word halo ${column === SPIN ? "own" : ""}`, x: this.x(share * curves.end), y: y(curves.at(share * curves.end, column)) + (side > 0 ? 20 : -10),
+    }, text));
+    if (apart < 2 * ROOM) put(0.4, SPIN, curves.at(0.4 * curves.end, SPIN) > (most + Math.min(least, 0)) / 2 ? 1 : -1, said.both);
+    else {
+      put(widest, TURNING, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? -1 : 1, said.above);
+      put(widest, SPIN, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? 1 : -1, said.own);
+    }
+    return [
+      ...found, drawn("polyline", { class: "turning", points: curves.points(this.x, y, TURNING) }),
+      drawn("polyline", { class: "own", points: curves.points(this.x, y, SPIN) }), this.now, ...words,
+    ];
+  }
+
+  path() {
+    const { scene, texts } = this, track = /** @type {number[][]} */ (scene.track(scene.table === "three" ? "ordinary" : scene.table)), { R } = scene.state;
+    if (!track.length) return [];
+    const thin = Math.max(1, Math.ceil(track.length / MOST_POINTS)), kept = track.filter((_, i) => i % thin === 0 || i === track.length - 1);
+    const bounds = (i) => [Math.min(...kept.map((p) => p[i])), Math.max(...kept.map((p) => p[i]))];
+    const [[x0, x1], [y0, y1]] = [bounds(1), bounds(2)], wide = this.width - 2 * RIGHT, high = this.height - 2 * TOP - FOOT;
+    const scale = Math.min(wide / Math.max(x1 - x0, 0.05), high / Math.max(y1 - y0, 0.05));
+    const at = (/** @type {number[]} */ [, x, y]) => [this.width / 2 + scale * (x - (x0 + x1) / 2), TOP + high / 2 - scale * (y - (y0 + y1) / 2)];
+    const isJump = (i) => !i || Math.hypot(kept[i][1] - kept[i - 1][1], kept[i][2] - kept[i - 1][2]) > JUMP;
+    const points = kept.map((p, i) => `${isJump(i) ? "M" : "L"}${at(p).map((v) => v.toFixed(1)).join(" ")}`);
+    const past = drawn("path", { class: "past" }), dot = drawn("circle", { class: "dot", r: 6 });
+    this.moves.push((t) => {
+      const count = kept.filter(([when]) => when <= t + 1e-9).length, [x, y] = at(kept[Math.max(count - 1, 0)]);
+      past.setAttribute("d", points.slice(0, count).join(""));
+      dot.setAttribute("cx", String(x));
+      dot.setAttribute("cy", String(y));
+    });
+    const mm = ticks(0, (wide * R) / scale, 3)[1], bar = (mm / R) * scale, foot = this.height - 8;
+    return [
+      drawn("path", { class: "rest", d: points.join("") }), past, dot,
+      drawn("path", { class: "axis", d: `M${RIGHT} ${foot - 5}v5h${bar}v-5` }),
+      drawn("text", { x: RIGHT + bar + 8, y: foot + 2 }, say(texts, "{mm} mm", { mm: [mm, mm < 1 ? 1 : 0] })),
+    ];
+  }
+
+  /** @param {number} t */
+  at(t) {
+    if (!this.width || !this.scene) return;
+    for (const set of ["x1", "x2"]) this.now.setAttribute(set, String(this.x(t)));
+    for (const move of this.moves) move(t);
+  }
+
+  leave() {
+    this.resizing.disconnect();
+  }
+}
+
+// The point of contact over time, of frames as app/widgets/top3d.py packs them: [s, x, y], lengths in R.
+/** @param {Float32Array} rows @param {number} unit s in one unit of time @returns {number[][]} */
+export function trackOf(rows, unit) {
+  const width = 20, found = [];
+  for (let i = 0; i + width <= rows.length; i += width) found.push([unit * rows[i + TIME], rows[i + 5], rows[i + 6]]);
+  return found;
+}

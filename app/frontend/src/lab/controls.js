@@ -1,0 +1,200 @@
+// The start, as a hand gives it: spin, tilt, friction, each a slider and a number to type; and "Spin it".
+import { part, read, say, written } from "./parts.js";
+
+export const INPUTS = ["spin", "tilt", "mu"];
+const LATE = 2000; // ms: an answer that has not come by then is not waited for
+const THUMB = 10; // px from the end of a slider's track to the middle of its thumb there
+const WIDTH = 340, WIDE = 5.6, APART = 16; // px: of the strip of ends at least, of a letter under it, between words
+
+// What a hand asks for, one wish at a time under way; of those that wait only the newest for each input.
+export class Asking {
+  /** @param {(count: number, name: string, value: any) => void} send */
+  constructor(send) {
+    this.send = send;
+    this.count = 0;
+    this.answered = 0;
+    this.sentAt = -Infinity;
+    this.waiting = new Map();
+  }
+
+  /** @param {string} name @param {any} value */
+  ask(name, value) {
+    this.waiting.delete(name);
+    this.waiting.set(name, value);
+    this.next();
+  }
+
+  /** @param {number} answered the last count that came back */
+  hear(answered) {
+    this.answered = Math.max(answered, this.answered);
+    this.next();
+  }
+
+  next() {
+    clearTimeout(this.later);
+    if (!this.waiting.size) return;
+    const left = LATE - (performance.now() - this.sentAt);
+    if (this.answered < this.count && left > 0) {
+      this.later = setTimeout(() => this.next(), left);
+      return;
+    }
+    const [[name, value]] = this.waiting;
+    this.waiting.delete(name);
+    this.count += 1;
+    this.sentAt = performance.now();
+    this.send(this.count, name, value);
+  }
+
+  // Whether a hand is ahead of what is shown.
+  get isAhead() {
+    return this.waiting.size > 0 || this.answered < this.count;
+  }
+}
+
+class Control {
+  /** @param {string} name @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask */
+  constructor(name, texts, ask) {
+    const said = texts.inputs[name];
+    this.name = name;
+    this.texts = texts;
+    this.said = said;
+    this.ask = ask;
+    this.limits = { low: 0, high: 1, digits: 0 };
+    this.share = 0; // of the track, where the value is
+    const id = `lab-${name}`;
+    this.slider = part("input", { type: "range", id, oninput: () => {
+      this.put(Number(this.slider.value));
+      ask(name, Number(this.slider.value));
+    } });
+    this.number = part("input", {
+      class: "num", inputmode: "decimal", "aria-label": said.typed, "aria-describedby": `${id}-wrong`,
+      onchange: () => this.type(),
+    });
+    this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
+    this.below = part("div", { class: "below" });
+    this.element = part("div", { class: "ctl" }, part("label", { for: id }, said.name),
+      part("span", {}, this.number, part("span", { class: "unit" }, said.unit)), this.slider, this.below, this.wrong);
+  }
+
+  type() {
+    const value = read(this.number.value);
+    this.ask(this.name, Number.isFinite(value) ? value : this.number.value);
+    if (!Number.isFinite(value)) return;
+    this.slider.value = String(value);
+    this.put(value);
+  }
+
+  /** @param {number} value */
+  put(value) {
+    const { low, high, digits } = this.limits, share = (value - low) / (high - low);
+    this.slider.style.setProperty("--p", `${(100 * Math.min(Math.max(share, 0), 1)).toFixed(2)}%`);
+    this.number.value = written(value, digits, this.texts.decimal);
+    this.share = share;
+    if (this.mark) this.mark.style.left = this.along(share);
+  }
+
+  /** @param {number} share of the track */
+  along = (share) => `calc(${THUMB}px + ${share} * (100% - ${2 * THUMB}px))`;
+
+  /** @param {any} state @param {boolean} ahead whether a hand has moved it since */
+  show(state, ahead) {
+    const [low, high, step, digits] = state.sliders[this.name], message = state.messages[this.name];
+    this.limits = { low, high, digits };
+    Object.assign(this.slider, { min: low, max: high, step });
+    const [refused, kept] = [state.refused[this.name], state.values[this.name]];
+    if (!ahead) {
+      this.slider.value = String(kept);
+      this.put(kept);
+      this.slider.setAttribute("aria-valuetext", `${written(kept, this.limits.digits, this.texts.decimal)} ${this.said.unit}`);
+      if (message && refused !== undefined) this.number.value = typeof refused === "number" ? written(refused, Number.isInteger(refused) ? 0 : this.limits.digits, this.texts.decimal) : String(refused);
+    }
+    this.number.setAttribute("aria-invalid", String(Boolean(message)));
+    this.element.classList.toggle("bad", Boolean(message));
+    this.wrong.hidden = !message;
+    const back = say(this.texts, this.texts.back, { value: `${written(kept, this.limits.digits, this.texts.decimal)}${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}` });
+    if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), part("span", {}, message, " ",
+      part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, kept) }, back)));
+  }
+
+  // Under the track: how it ends for each spin.
+  /** @param {[from: number, to: number, code: string, word: string][] | null} ends */
+  showEnds(ends) {
+    const key = JSON.stringify(ends);
+    if (key === this.ends) return;
+    this.ends = key;
+    const { low, high } = this.limits, at = (value) => this.along((value - low) / (high - low));
+    const bar = part("div", { class: "ends", role: "img", "aria-label": this.texts.ends });
+    this.mark = part("i", { class: "mark" });
+    if (!ends?.length) {
+      this.below.replaceChildren(bar, part("div", { class: "words" }, part("span", {}, this.texts.ends_wait)));
+      bar.classList.add("none");
+      return;
+    }
+    bar.setAttribute("aria-label", `${this.texts.ends}: ${ends.map(([from, to, , word]) => `${this.digits(from)}–${this.digits(to)} ${word}`).join("; ")}`);
+    bar.append(...ends.map(([from, to, code, word]) => part("span", {
+      class: `end ${code}`, title: `${this.digits(from)}–${this.digits(to)} ${this.said.unit}: ${word}`,
+      style: `left: ${at(from)}; right: calc(100% - ${at(to)})`,
+    })), this.mark);
+    this.below.replaceChildren(bar, this.words(ends));
+    this.mark.style.left = this.along(this.share);
+  }
+
+  digits = (value) => written(value, value % 1 ? 1 : 0, this.texts.decimal);
+
+  // The words of its two largest stretches, left and right, and where the right one begins.
+  words(ends) {
+    const { low, high } = this.limits, size = ([from, to]) => to - from;
+    const [large, next] = [...ends].sort((a, b) => size(b) - size(a)), line = part("div", { class: "words" });
+    if (!next || next[3] === large[3]) line.append(part("span", {}, large[3]));
+    else {
+      const [left, right] = large[0] < next[0] ? [large, next] : [next, large], at = (right[0] - low) / (high - low);
+      line.append(part("span", {}, left[3]));
+      const letters = WIDE * (left[3].length + right[3].length);
+      if (at * WIDTH > WIDE * left[3].length + APART && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
+        line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));
+      }
+      line.append(part("span", {}, right[3]));
+    }
+    return line;
+  }
+}
+
+export class Controls {
+  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} spin */
+  constructor(texts, ask, spin) {
+    this.texts = texts;
+    this.parts = INPUTS.map((name) => new Control(name, texts, ask));
+    this.button = part("button", { class: "primary", type: "button", onclick: spin });
+    this.picks = part("div", { class: "picks", role: "group", "aria-label": texts.hand }, ...this.parts.map(({ said, name }) =>
+      part("button", { type: "button", onclick: () => this.pick(name) }, said.name, part("b"))));
+    this.element = part("section", { class: "controls", "aria-label": texts.hand },
+      part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks, this.button), ...this.parts.map(({ element }) => element));
+    this.pick("spin");
+  }
+
+  // On a phone one control at a time.
+  pick(name) {
+    this.parts.forEach((control, i) => {
+      control.element.classList.toggle("picked", control.name === name);
+      this.picks.children[i].setAttribute("aria-pressed", String(control.name === name));
+    });
+  }
+
+  /** @param {any} scene @param {boolean} ahead */
+  show({ state, table }, ahead) {
+    const { texts } = this;
+    this.button.textContent = table === "three" ? texts.spin_all : texts.spin_it;
+    for (const [i, control] of this.parts.entries()) {
+      // ice has no friction to set, and on the rough table nothing slips
+      const idle = control.name === "mu" && (table === "rough" || table === "ice");
+      control.element.hidden = this.picks.children[i].hidden = idle;
+      control.show(state, ahead);
+      const { digits } = control.limits, { unit } = control.said;
+      this.picks.children[i].lastChild.textContent = `${written(state.values[control.name], digits, texts.decimal)}${unit === "°" ? "" : " "}${unit}`;
+      if (state.messages[control.name]) this.pick(control.name);
+    }
+    if (table === "rough" || table === "ice") this.parts[0].below.replaceChildren();
+    else this.parts[0].showEnds(state.ends);
+    if (table === "rough" || table === "ice") this.parts[0].ends = undefined;
+  }
+}

@@ -1,0 +1,118 @@
+// One run over time, as numbers to draw: app/tabs/lab/lab.py says what each column is.
+import { float32, niceAbove } from "../data.js";
+
+const WIDTH = 8;
+export const TIME = 0, TILT = 1, HEIGHT = 2, ENERGY = 3, SPIN = 5, TURNING = 6;
+
+export class Curves {
+  /** @param {Bytes} [bytes] */
+  constructor(bytes) {
+    this.rows = float32(bytes);
+    this.count = Math.floor(this.rows.length / WIDTH);
+  }
+
+  get end() {
+    return this.count ? this.value(this.count - 1, TIME) : 0;
+  }
+
+  /** @param {number} i @param {number} column */
+  value(i, column) {
+    return this.rows[i * WIDTH + column];
+  }
+
+  // The last row at or before t.
+  /** @param {number} t */
+  row(t) {
+    let low = 0, high = this.count - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.value(middle, TIME) <= t) low = middle;
+      else high = middle;
+    }
+    return high > 0 && t >= this.value(high, TIME) ? high : low;
+  }
+
+  // On the straight line between two rows; before the first and after the last as there.
+  /** @param {number} t @param {number} column */
+  at(t, column) {
+    if (!this.count) return NaN;
+    const low = this.row(t), high = Math.min(low + 1, this.count - 1), from = this.value(low, TIME), to = this.value(high, TIME);
+    const share = to > from ? Math.min(Math.max((t - from) / (to - from), 0), 1) : 0;
+    return this.value(low, column) + share * (this.value(high, column) - this.value(low, column));
+  }
+
+  /** @param {number[]} columns @returns {[least: number, most: number]} */
+  range(...columns) {
+    let least = Infinity, most = -Infinity;
+    for (let i = 0; i < this.count; i++) {
+      for (const column of columns) {
+        least = Math.min(least, this.value(i, column));
+        most = Math.max(most, this.value(i, column));
+      }
+    }
+    return [least, most];
+  }
+
+  // For the points of a line.
+  /** @param {(t: number) => number} x @param {(value: number) => number} y @param {number} column */
+  points(x, y, column) {
+    const points = Array(this.count);
+    for (let i = 0; i < this.count; i++) points[i] = `${x(this.value(i, TIME)).toFixed(1)},${y(this.value(i, column)).toFixed(1)}`;
+    return points.join(" ");
+  }
+}
+
+// Of lists that begin with a time, the last that has begun.
+/** @param {any[][]} list @param {number} t */
+export function latest(list, t) {
+  return list.filter(([from]) => from <= t + 1e-9).at(-1) ?? list[0];
+}
+
+// Round numbers from least to most, at most so many.
+/** @param {number} least @param {number} most @param {number} count */
+export function ticks(least, most, count) {
+  const rough = (most - least) / count, decade = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((digit) => digit * decade).find((s) => s >= rough * (1 - 1e-9)) ?? niceAbove(rough);
+  const found = [];
+  for (let i = Math.ceil(least / step - 1e-9); i * step <= most + 1e-3 * step; i++) found.push(i * step);
+  return found;
+}
+
+const SLOW = 1 / 4, AFTER = 1 / 2, LOOK = 0.6; // s
+
+// How fast to play where nobody chose: slowly until it has turned over, and a moment more; where it never does, slowly.
+/** @param {any[][]} events @param {number} t in s */
+export function tempo(events, t) {
+  const over = events.filter(([, code]) => code === "over" || code === "stands").slice(0, 2);
+  return over.length && t > over[over.length - 1][0] + LOOK ? AFTER : SLOW;
+}
+
+// Where the words of events stand beside their lines: right of it or left, in full where all have room, else in short.
+/**
+ * @param {[x: number, word: string, short: string][]} lines
+ * @param {number} left @param {number} right
+ * @param {(word: string) => number} wide in px
+ * @returns {{ x: number, word: string, side: "start" | "end" }[]}
+ */
+export function placed(lines, left, right, wide) {
+  const whole = beside(lines.map(([x, word]) => [x, word]), left, right, wide);
+  const mixed = beside(lines, left, right, wide), short = beside(lines.map(([x, , word]) => [x, word]), left, right, wide);
+  return [whole, mixed, short].reduce((best, found) => (found.length > best.length ? found : best));
+}
+
+// The same, of the words that each line may have, the first of them that finds room.
+/** @param {[x: number, ...words: string[]][]} lines @param {number} left @param {number} right @param {(word: string) => number} wide */
+function beside(lines, left, right, wide) {
+  const taken = lines.map(([x]) => [x - 1, x + 1]), found = [];
+  const isFree = (from, to) => from >= left && to <= right && taken.every(([a, b]) => to < a || from > b);
+  for (const [x, ...words] of lines) {
+    for (const [text, side] of words.flatMap((word) => [[word, "start"], [word, "end"]])) {
+      const width = wide(text), from = side === "start" ? x + 3 : x - 4 - width;
+      if (!isFree(from, from + width + 1)) continue;
+      taken.push([from, from + width + 1]);
+      found.push({ x, word: text, side: /** @type {"start" | "end"} */ (side) });
+      break;
+    }
+  }
+  return found;
+}

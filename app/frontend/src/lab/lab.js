@@ -1,0 +1,134 @@
+// The Lab: one top, one start, and the table that is chosen, or all three. Python solves and says what happened; here it
+// is drawn, played, and asked for.
+import { Answer, trackOf } from "./answer.js";
+import { Asking, Controls } from "./controls.js";
+import { Curves } from "./curves.js";
+import { part } from "./parts.js";
+import { Stage, TABLES } from "./stage.js";
+import { Strip } from "./strip.js";
+import { style } from "./style.js";
+import { Time } from "./time.js";
+import { Keeps, Words } from "./words.js";
+import { coalesce, float32 } from "../data.js";
+
+const PATIENCE = 100; // ms: so long the old picture may stand beside the new start unsaid
+
+class Lab {
+  /** @param {Rendering<LabModel>} rendering */
+  constructor({ model, el }) {
+    const { texts } = model;
+    this.model = model;
+    this.patience = this.since = 0;
+    this.anew = "";
+    /** @type {Record<string, { bytes: Bytes, curves: Curves }>} */
+    this.bytes = {}; // what was read, and as what
+    this.time = new Time(coalesce(() => this.at()));
+    this.asking = new Asking((...asked) => (model.asked = asked));
+    const ask = (name, value) => this.ask(name, value);
+    this.stage = new Stage(texts, this.time, ask);
+    this.strip = new Strip(texts, this.time);
+    this.words = new Words(texts, ask);
+    this.answer = new Answer(texts, this.time);
+    this.keeps = new Keeps(texts);
+    this.controls = new Controls(texts, ask, () => this.spin());
+    this.element = part("div", { class: "lab" }, this.stage.element, this.strip.element, this.words.element,
+      this.answer.element, this.keeps.element, this.controls.element);
+    this.frame = part("div", { class: "frame" }, this.element);
+    el.replaceChildren(part("style", {}, style), this.frame);
+    this.look();
+    this.show = coalesce(() => this.showNow());
+  }
+
+  // Light or dark, and large, as the page.
+  look = () => {
+    const look = document.documentElement.dataset.look ?? "";
+    this.frame.dataset.look = look.startsWith("dark") ? "dark" : "light";
+    this.frame.toggleAttribute("data-large", look.endsWith("large"));
+    this.strip.draw();
+    this.answer.draw();
+  };
+
+  ask(name, value) {
+    if (name === "table") {
+      this.anew = value; // the same start on another table, from its beginning
+      this.stage.choice.show(value);
+    }
+    this.asking.ask(name, value);
+    this.patience ||= setTimeout(() => this.show(), PATIENCE);
+  }
+
+  // What the old picture is of, where it is old, and is to be named so.
+  old() {
+    const { state } = this.model, waits = this.asking.isAhead || state.busy;
+    if (!waits) {
+      clearTimeout(this.patience);
+      this.patience = this.since = 0;
+    } else this.since ||= performance.now();
+    if (waits) this.patience ||= setTimeout(() => this.show(), PATIENCE);
+    return state.old || (waits && performance.now() - this.since >= PATIENCE - 1 ? state.was : "");
+  }
+
+  spin() {
+    this.time.again();
+    this.time.play(true);
+  }
+
+  // What Python sent, as what the parts draw.
+  read() {
+    const { model } = this, { table } = model.state, state = { ...model.state, old: this.old() };
+    const each = (read) => Object.fromEntries(TABLES.map((name) => [name, read(name)]));
+    for (const name of TABLES) {
+      const bytes = model[`curves_${name}`];
+      if (this.bytes[name]?.bytes !== bytes) this.bytes[name] = { bytes, curves: new Curves(bytes) };
+    }
+    const alone = table === "three" ? "ordinary" : table, curves = each((name) => this.bytes[name].curves);
+    return {
+      state, texts: model.texts, table, curves, runs: state.runs, run: state.runs[alone], unit: model.seconds, a: model.a,
+      frames: each((name) => model[`frames_${name}`]), profile: model.profile && float32(model.profile),
+      end: Math.max(...Object.values(curves).map(({ end }) => end)),
+      track: (name) => trackOf(float32(model[`frames_${name}`]), model.seconds),
+    };
+  }
+
+  showNow() {
+    if (!this.model.state.runs) return; // Python has not got there
+    const scene = (this.scene = this.read()), { time, model } = this;
+    this.asking.hear(model.state.answered);
+    Object.assign(time, { unit: model.seconds, end: scene.end, events: scene.run?.events ?? [], tops: this.stage.tops });
+    this.element.dataset.table = scene.table;
+    this.stage.show({ ...scene, profile: model.profile });
+    for (const shown of [this.strip, this.words, this.answer, this.keeps]) shown.show({ ...scene, profile: scene.profile ?? [] });
+    this.controls.show(scene, this.asking.isAhead);
+    this.element.classList.toggle("old", Boolean(scene.state.old));
+    if (this.anew === scene.table) {
+      this.anew = "";
+      this.spin();
+    }
+    this.at();
+  }
+
+  at() {
+    if (!this.scene) return;
+    for (const shown of [this.stage, this.strip, this.words, this.answer]) shown.at(this.time.t);
+  }
+
+  leave() {
+    clearTimeout(this.patience);
+    this.show.cancel();
+    for (const gone of [this.time, this.stage, this.strip, this.answer]) gone.leave();
+    window.removeEventListener("tippe:look", this.look);
+  }
+}
+
+/** @param {Rendering<LabModel>} rendering */
+export function renderLab({ model, el, view }) {
+  view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
+  const lab = new Lab({ model, el, view });
+  for (const name of ["state", "profile", "a", "seconds", ...TABLES.flatMap((table) => [`frames_${table}`, `curves_${table}`])]) {
+    model.on(name, lab.show);
+  }
+  window.addEventListener("tippe:look", lab.look);
+  lab.show();
+  view.tippe = { dispose: () => lab.leave() };
+  model.on("remove", () => lab.leave());
+}

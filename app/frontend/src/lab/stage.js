@@ -1,0 +1,112 @@
+// The large picture: one top or three on their tables, and on it the switch of the table, the top's name, what it does
+// now, and how fast it turns.
+import { latest, TILT, TURNING } from "./curves.js";
+import { Choice, drawn, part, say } from "./parts.js";
+import { Top } from "./top.js";
+
+export const TABLES = ["ordinary", "rough", "ice"];
+const RING = "M18 14c-9 1.500-15 3.500-15 6 0 5 25 9 57 9 25 0 47-2.500 56-6";
+
+export class Stage {
+  /**
+   * @param {Record<string, any>} texts
+   * @param {import("./time.js").Time} time
+   * @param {(name: string, value: any) => void} ask
+   */
+  constructor(texts, time, ask) {
+    this.texts = texts;
+    /** @type {Record<string, HTMLElement>} */
+    this.lines = {}; // under three tops, what each does
+    this.alone = new Top({ texts, time, label: texts.stage, away: 1.3 });
+    this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75 }));
+    this.captions = TABLES.map(() => part("p", { class: "caption" }));
+    this.places = [part("div", { class: "place" }, this.alone.element),
+      ...this.three.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i]))];
+    this.choice = new Choice({
+      role: "radio", label: texts.table, choose: (table) => ask("table", table),
+      options: [...TABLES, "three"].map((name) => [name, texts.tables[name], texts.hints[name]]),
+    });
+    this.choice.element.className = "seg";
+    this.pill = part("div", { class: "pill" });
+    this.turns = part("span");
+    this.ring = part("div", { class: "ring" }, drawn("svg", { viewBox: "0 0 130 34", "aria-hidden": "true" },
+      drawn("path", { d: RING, fill: "none", stroke: "currentColor", "stroke-width": 3, "stroke-linecap": "round" }),
+      drawn("path", { d: "M128 19l-16 9-1-13z", fill: "currentColor" })), this.turns);
+    this.missing = part("p", { class: "missing", role: "status" });
+    this.toy = part("select", { "aria-label": texts.toy, onchange: () => ask("toy", this.toy.value) });
+    this.element = part("section", { class: "stage", "aria-label": texts.stage },
+      part("div", { class: "tops" }, ...this.places), this.ring,
+      part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element), this.toy),
+      this.pill, this.missing);
+    // The wheel scrolls the page; with Ctrl it is for the picture.
+    this.element.addEventListener("wheel", (event) => {
+      if (event.ctrlKey) event.composedPath()[0].focus?.({ preventScroll: true });
+      else event.stopPropagation();
+    }, { capture: true, passive: true });
+  }
+
+  get tops() {
+    return [this.alone, ...this.three];
+  }
+
+  show(scene) {
+    const { state, texts, table } = scene, three = table === "three";
+    this.scene = scene;
+    this.choice.show(table);
+    this.showToys(state);
+    const { profile, a, unit: seconds } = scene;
+    this.tops.forEach((top, i) => {
+      const shown = three === i > 0;
+      this.places[i].hidden = !shown;
+      if (!shown) return top.put({ frames: null }); // with nothing to move it costs nothing
+      top.put({ profile, a, seconds, frames: scene.frames[three ? TABLES[i - 1] : table] });
+      if (this.element.isConnected) top.begin();
+    });
+    TABLES.forEach((name, i) => this.captions[i].replaceChildren(...(three ? this.caption(name) : [])));
+    const why = three ? "" : scene.runs[table]?.why ?? "";
+    this.missing.textContent = why;
+    this.missing.hidden = !why;
+    this.old = state.old ? say(texts, texts.old, { what: state.old }) : "";
+  }
+
+  showToys({ toys, toy }) {
+    const names = JSON.stringify(toys);
+    if (names !== this.names) {
+      this.names = names;
+      const added = toys.some(([name]) => name === toy) ? toys : [[toy, toy], ...toys];
+      this.toy.replaceChildren(...added.map(([name, word]) => part("option", { value: name }, word)));
+    }
+    this.toy.value = toy;
+  }
+
+  caption(name) {
+    const { texts } = this;
+    this.lines[name] = part("span", { class: "does" });
+    return [part("b", {}, texts.tables[name]), ` ${texts.hints[name]}`, part("br"), this.lines[name]];
+  }
+
+  /** @param {number} t */
+  at(t) {
+    const { scene, texts } = this, three = scene.table === "three";
+    const curves = scene.curves[three ? "ordinary" : scene.table], run = scene.runs[three ? "ordinary" : scene.table];
+    this.pill.hidden = three || !curves.count;
+    this.ring.hidden = three || !curves.count;
+    if (three) {
+      for (const name of TABLES) {
+        const [, , , does] = latest(scene.runs[name]?.stages ?? [], t) ?? [];
+        this.lines[name].textContent = scene.runs[name]?.why || scene.runs[name]?.caption || (does ?? "");
+      }
+    } else if (curves.count) {
+      const [, , , word] = latest(run.stages, t) ?? [], tilt = [curves.at(t, TILT), 0];
+      const turning = curves.at(t, TURNING), most = Math.abs(turning);
+      this.pill.textContent = this.old || say(texts, texts.pill, { word: word ?? "", tilt });
+      this.turns.textContent = say(texts, texts.turns, { turns: [most, most < 9.95 ? 1 : 0] });
+      this.ring.classList.toggle("back", turning < 0);
+      this.ring.hidden = most < 0.05;
+    }
+  }
+
+  leave() {
+    for (const top of this.tops) top.leave();
+  }
+}

@@ -1,0 +1,191 @@
+// The tilt over time, which is also what moves the time: play, drag anywhere on it, how fast, and again from the start.
+import { latest, placed, ticks, TILT } from "./curves.js";
+import { drawn, part, say } from "./parts.js";
+import { TABLES } from "./stage.js";
+
+const SPEEDS = [1, 1 / 2, 1 / 4, 1 / 8, 1 / 16];
+const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
+const LETTER = 0.56; // how wide a letter is, in its size
+const NEED = 100; // px of a stage in which the top is drawn as it then stands
+const ICONS = {
+  play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z", again: "M4 4v4h4M4.500 8a6 6 0 1 1-.6 4",
+};
+const icon = (name, attributes) => drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" },
+  drawn("path", { d: ICONS[name], ...attributes }));
+
+export class Strip {
+  /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
+  constructor(texts, time) {
+    this.texts = texts;
+    this.time = time;
+    this.width = this.top = this.bottom = 0; // px; not known yet
+    this.play = part("button", { class: "round", type: "button", onclick: () => time.play(!time.playing) });
+    this.clock = part("span", { class: "clock" });
+    this.speed = part("select", {
+      class: "speed", "aria-label": texts.speed, onchange: () => (time.chosen = Number(this.speed.value)),
+    }, ...SPEEDS.map((speed, i) => part("option", { value: speed }, texts.speeds[i])));
+    const again = part("button", { class: "again", type: "button", title: texts.again_hint, onclick: () => {
+      time.again();
+      time.play(true);
+    } }, icon("again", { fill: "none", stroke: "currentColor", "stroke-width": 2 }), ` ${texts.again}`);
+    this.range = part("input", {
+      type: "range", class: "at", min: 0, step: 0.01, "aria-label": texts.time,
+      oninput: () => time.seek(Number(this.range.value)),
+      onkeydown: (event) => {
+        if (event.key !== " ") return;
+        event.preventDefault();
+        time.play(!time.playing);
+      },
+    });
+    this.drawing = drawn("svg", { "aria-hidden": "true" });
+    this.head = part("span", { class: "head" });
+    this.line = part("span", { class: "now" });
+    this.plot = part("div", { class: "plot" }, this.drawing, this.range, this.line, this.head);
+    this.element = part("section", { class: "strip", "aria-label": texts.bar },
+      part("div", { class: "starts" }, this.play, this.clock), this.plot, part("div", { class: "paces" }, this.speed, again));
+    this.listen();
+    this.resizing = new ResizeObserver(() => this.draw());
+    this.resizing.observe(this.plot);
+  }
+
+  // The hand has the time from the moment that it goes down, also where it rests first.
+  listen() {
+    const { plot, time } = this;
+    const put = (event, held) => time.seek(this.timeAt(event.clientX - plot.getBoundingClientRect().left), held);
+    plot.addEventListener("pointerdown", (event) => {
+      if (event.button || !this.scene) return;
+      event.preventDefault();
+      plot.setPointerCapture(event.pointerId);
+      this.range.focus({ preventScroll: true });
+      put(event, true);
+    });
+    plot.addEventListener("pointermove", (event) => plot.hasPointerCapture(event.pointerId) && put(event, true));
+    for (const end of ["pointerup", "pointercancel"]) {
+      plot.addEventListener(end, () => time.held && time.seek(time.t));
+    }
+  }
+
+  get right() {
+    return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 190 : 0);
+  }
+
+  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.end || 1);
+  y = (tilt) => this.bottom - ((this.bottom - this.top) * tilt) / 180;
+
+  /** @param {number} x in px */
+  timeAt(x) {
+    return ((x - LEFT) / (this.right - LEFT)) * this.time.end;
+  }
+
+  show(scene) {
+    this.scene = scene;
+    this.range.max = String(scene.end);
+    this.draw();
+  }
+
+  draw() {
+    const { clientWidth: width, clientHeight: height } = this.plot, { scene } = this;
+    if (!width || !scene) return;
+    Object.assign(this, { width, top: HEADROOM, bottom: height - FOOT });
+    const shown = scene.table === "three" ? TABLES : [scene.table];
+    const lines = shown.filter((table) => scene.curves[table].count).map((table) => {
+      const points = scene.curves[table].points(this.x, this.y, TILT);
+      return (of) => drawn("polyline", { class: `${of} ${table}`, points });
+    });
+    this.clip = drawn("rect", { x: 0, y: 0, width: 0, height });
+    this.drawing.replaceChildren(
+      drawn("clipPath", { id: "played" }, this.clip), ...this.axes(), ...this.events(), ...this.shapes(),
+      ...lines.map((line) => line("rest")), drawn("g", { "clip-path": "url(#played)" }, ...lines.map((line) => line("past"))),
+      ...this.names(),
+    );
+    this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.at(this.time.t);
+  }
+
+  axes() {
+    const { right, bottom, time, texts } = this, found = [];
+    for (const tilt of [0, 90, 180]) {
+      found.push(drawn("line", { class: tilt ? "grid" : "axis", x1: LEFT, x2: right, y1: this.y(tilt), y2: this.y(tilt) }),
+        drawn("text", { x: LEFT - 6, y: this.y(tilt) + 4, "text-anchor": "end" }, `${tilt}°`));
+    }
+    for (const t of ticks(0, time.end || 1, Math.min(8, this.width / 50))) {
+      found.push(drawn("text", { x: this.x(t), y: bottom + 16, "text-anchor": "middle" }, say(texts, t ? "{t}" : "{t} s", { t: [t, t % 1 ? 1 : 0] })));
+    }
+    return found;
+  }
+
+  // What it did and when, above the curve.
+  events() {
+    const { scene, texts } = this;
+    if (scene.table === "three") return [];
+    const size = parseFloat(getComputedStyle(this.plot).fontSize), events = scene.runs[scene.table]?.events ?? [];
+    const when = (t) => say(texts, "{t} s", { t: [t, 1] });
+    const lines = events.map(([t, , word, short]) => [this.x(t), `${word} ${when(t)}`, `${short} ${when(t)}`]);
+    const words = placed(lines, 0, this.width, (word) => LETTER * size * word.length);
+    return words.flatMap(({ x, word, side }) => {
+      const cut = word.lastIndexOf(" ", word.length - 3);
+      return [
+        drawn("line", { class: "event", x1: x, x2: x, y1: 4, y2: this.bottom }),
+        drawn("text", { x: side === "start" ? x + 5 : x - 5, y: 14, "text-anchor": side },
+          drawn("tspan", { class: "word" }, word.slice(0, cut)), word.slice(cut)),
+      ];
+    });
+  }
+
+  // The top as it stands in the middle of each long stage, where the curve leaves room.
+  shapes() {
+    const { scene } = this, run = scene.runs[scene.table], n = scene.profile.length >> 1, curves = scene.curves[scene.table];
+    if (!run || !n || this.width < 500) return [];
+    const outline = Array.from({ length: 2 * n }, (_, i) => {
+      const at = i < n ? i : 2 * n - 1 - i;
+      return [(i < n ? 1 : -1) * scene.profile[2 * at], -scene.profile[2 * at + 1]];
+    });
+    const from = [0, ...run.events.map(([t]) => t)], R = 12;
+    return from.flatMap((start, i) => {
+      const until = from[i + 1] ?? scene.end;
+      if (this.x(until) - this.x(start) < NEED) return [];
+      const t = start + 0.42 * (until - start), tilt = curves.at(t, TILT), angle = (Math.PI * tilt) / 180;
+      const c = Math.cos(angle), s = Math.sin(angle);
+      const turned = outline.map(([x, y]) => [x * c - y * s, x * s + y * c]), least = Math.max(...turned.map(([, y]) => y));
+      const table = tilt > 90 ? this.y(26) : this.y(95), x = this.x(t);
+      return [drawn("path", { class: "shape", d: `M${turned.map(([px, py]) => `${(x + R * px).toFixed(1)} ${(table + R * (py - least)).toFixed(1)}`).join("L")}Z` }),
+        drawn("line", { class: "shape", x1: x - 15, x2: x + 15, y1: table + 1, y2: table + 1 })];
+    });
+  }
+
+  // Of three curves, at their ends, each where there is room.
+  names() {
+    const { scene, texts } = this;
+    if (scene.table !== "three" || this.width <= 700) return [];
+    const ends = TABLES.filter((table) => scene.curves[table].count)
+      .map((table) => ({ table, y: this.y(scene.curves[table].at(scene.end, TILT)) + 4 })).sort((a, b) => b.y - a.y);
+    ends.forEach((end, i) => (end.y = i ? Math.min(end.y, ends[i - 1].y - 15) : end.y));
+    return ends.map(({ table, y }) => drawn("text", { x: this.right + 8, y },
+      drawn("tspan", { class: "word" }, texts.tables[table]), ` ${scene.runs[table].caption || (scene.runs[table].stages.at(-1)?.[3] ?? "")}`));
+  }
+
+  /** @param {number} t */
+  at(t) {
+    const { time, texts, scene } = this, name = time.playing ? "pause" : "play";
+    if (!this.width) return;
+    const x = this.x(t);
+    this.clip.setAttribute("width", String(Math.max(x, 0)));
+    for (const moved of [this.head, this.line]) moved.style.transform = `translateX(${x}px)`;
+    if (this.icon !== name) {
+      this.icon = name;
+      this.play.replaceChildren(icon(name, { fill: "currentColor" }));
+      this.play.setAttribute("aria-label", texts[name]);
+    }
+    this.clock.textContent = say(texts, "{t} s", { t: [t, 2] });
+    this.range.value = String(t);
+    const curves = scene.curves[scene.table === "three" ? "ordinary" : scene.table];
+    const [, headline] = latest(scene.run?.stages ?? [], t) ?? [];
+    this.range.setAttribute("aria-valuetext", say(texts, texts.time_says, { t: [t, 2], tilt: [curves.at(t, TILT) || 0, 0], headline: headline ?? "" }));
+    const speed = String(time.speed);
+    if (this.speed.value !== speed) this.speed.value = speed;
+  }
+
+  leave() {
+    this.resizing.disconnect();
+  }
+}

@@ -1,0 +1,192 @@
+// How the Lab looks: four sizes of type, a grid of 8 px, one blue for what is selected, one colour a quantity. It goes by
+// the width of its own place, not of the window.
+const tokens = `
+.frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
+  --family: Inter, Roboto, "Segoe UI", "Liberation Sans", Arial, system-ui, sans-serif;
+  --ground: #fff; --floor: #f1efea; --ink: #1b2430; --ink-2: #55606c; --line: #d8dce0; --line-2: #8b949e;
+  --accent: #1558c0; --q-spin: #a3246f; --q-energy: #6f5a00; --q-energy-wash: #dad3bd;
+  --end-0: #f6f1e6; --end-1: #e8dcc2; --end-2: #cdb88f; --end-3: #80632f; --shape: #55606c;
+  container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
+  -webkit-font-smoothing: antialiased; }
+.frame[data-look=dark] { --ground: #11161b; --floor: #191f25; --ink: #eef2f5; --ink-2: #a9b4bf; --line: #2d363f; --line-2: #75818d;
+  --accent: #86b6ff; --q-spin: #f08cc4; --q-energy: #dcc257; --q-energy-wash: #4b4630;
+  --end-0: #262219; --end-1: #4a402c; --end-2: #7a6a47; --end-3: #c9ad74; --shape: #a9b4bf; color-scheme: dark; }
+.frame[data-large] { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --bar: 176px; }
+`;
+
+const basics = `
+* { box-sizing: border-box; }
+[hidden] { display: none !important; }
+h2, p { margin: 0; } h2 { font-size: var(--t-m); font-weight: 600; }
+b { font-weight: 600; }
+.big { font-size: var(--t-l); font-weight: 600; letter-spacing: -.01em; line-height: 1.3; }
+.small { font-size: var(--t-s); color: var(--ink-2); }
+button, select, input { font: inherit; color: inherit; }
+:focus-visible { outline: 3px solid var(--accent); outline-offset: 2px; border-radius: 6px; }
+button { min-height: var(--touch); border: 0; background: none; border-radius: 6px; padding: 0 12px; cursor: pointer; }
+button:hover { background: color-mix(in srgb, var(--ink) 7%, transparent); }
+select { border: 0; background: none; min-height: var(--touch); padding: 0 4px; border-radius: 6px; cursor: pointer; }
+select option { color: var(--ink); background: var(--ground); }
+.primary, .round { background: var(--ink); color: var(--ground); font-weight: 600; }
+.primary { padding: 0 20px; min-height: 40px; white-space: nowrap; }
+.primary:hover, .round:hover { background: color-mix(in srgb, var(--ink) 85%, var(--ground)); }
+.round { width: 48px; height: 48px; padding: 0; border-radius: 50%; display: grid; place-items: center; }
+.round:focus-visible { border-radius: 50%; }
+.outline { padding: 8px 16px; box-shadow: inset 0 0 0 1px var(--line-2); text-align: left; line-height: 1.3; }
+.outline span { display: block; font-size: var(--t-s); color: var(--ink-2); }
+.link { min-height: 28px; padding: 0 2px; text-decoration: underline; text-underline-offset: 3px; text-decoration-color: var(--line-2); font-weight: 600; }
+.titled { display: flex; align-items: center; justify-content: space-between; min-height: 32px; gap: 8px; }
+.seg { display: inline-flex; gap: 2px; }
+.seg button { min-height: calc(var(--touch) - 4px); padding: 0 12px; border-radius: 5px; color: var(--ink-2); white-space: nowrap; }
+.seg [aria-checked=true] { background: var(--ground); color: var(--accent); font-weight: 600; box-shadow: 0 0 0 1.5px var(--accent); }
+.mini { display: flex; gap: 16px; align-items: baseline; }
+.mini button { padding: 0; min-height: max(28px, var(--touch) - 4px); min-width: 28px; color: var(--ink-2); }
+.mini [aria-selected=true] { color: var(--accent); font-weight: 600; box-shadow: 0 2px 0 var(--accent); border-radius: 0; }
+svg { display: block; overflow: visible; }
+svg text { font: 400 var(--t-s) var(--family); fill: var(--ink-2); }
+svg .word { font-weight: 600; fill: var(--ink); }
+svg .halo { paint-order: stroke; stroke: var(--ground); stroke-width: 4px; stroke-linejoin: round; }
+svg .axis { stroke: var(--line-2); fill: none; } svg .grid { stroke: var(--line); }
+polyline, .rest, .past { fill: none; stroke-linejoin: round; }
+`;
+
+// Where each part stands: the top and what answers it side by side, the bar that moves the time right under the top.
+const places = `
+.lab { display: grid; gap: 12px var(--gap); padding: 12px var(--gap) 8px; align-content: start;
+  --stage: clamp(390px, 100vh - 384px, 62cqw);
+  grid-template: "stage answer" calc(var(--stage) - 150px) "stage controls" 138px "strip controls" var(--bar) "say controls" auto / minmax(0, 1fr) var(--side); }
+.stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
+.strip { grid-area: strip; min-width: 0; } .say { grid-area: say; min-width: 0; } .answer { grid-area: answer; min-width: 0; }
+.controls { grid-area: controls; min-width: 0; } .keeps { grid-area: answer; min-width: 0; display: none; overflow-x: auto; }
+.lab[data-table=three] { --stage: clamp(300px, 100vh - 520px, 40cqw);
+  grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say answer" auto "controls answer" auto / var(--side) minmax(0, 1fr); }
+.lab[data-table=three] .answer { display: none; } .lab[data-table=three] .keeps { display: block; }
+.lab[data-table=three] .ctl:not(:nth-child(2)) { display: none; }
+.lab[data-table=three] .outline { display: none; }
+@container (min-width: 1500px) {
+  .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
+    --stage: clamp(390px, 100vh - 430px, 62cqw); }
+}
+@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; } }
+@container (max-width: 900px) { .lab { --side: 300px; } }
+@container (max-width: 700px) {
+  .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
+  .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: 0; z-index: 2; }
+  .lab[data-table=three] .stage { height: 340px; position: relative; }
+  .strip, .say, .answer, .keeps { padding: 8px 16px 0; }
+  .controls { position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
+}
+`;
+
+const stage = `
+.tops { position: absolute; inset: 0; display: flex; }
+.place { flex: 1 1 0; min-width: 0; position: relative; } .top { position: absolute; inset: 0; }
+.lab.old .top { opacity: .38; }
+.on { position: absolute; left: 12px; right: 12px; top: 12px; display: flex; justify-content: space-between; align-items: flex-start; gap: 8px; pointer-events: none; }
+.on > * { pointer-events: auto; }
+.switch, .on > select { background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
+.switch { display: inline-flex; } .switch > b { align-self: center; padding: 0 4px 0 10px; }
+.on > select { padding: 0 8px; min-height: calc(var(--touch) + 2px); min-width: 0; max-width: 46%; text-overflow: ellipsis; font-weight: 600; }
+.pill { position: absolute; left: 16px; bottom: 12px; background: var(--ground); border-radius: 16px; padding: 4px 12px; font-weight: 600; font-variant-numeric: tabular-nums; }
+.ring { position: absolute; left: 50%; top: max(58px, 9%); margin-left: -65px; display: flex; align-items: center; gap: 8px; color: var(--q-spin); font-weight: 600; white-space: nowrap;
+  font-variant-numeric: tabular-nums; pointer-events: none; }
+.ring svg { width: 130px; flex: none; } .ring.back svg { transform: scaleX(-1); }
+.ring span { font-size: var(--t-s); text-shadow: 0 0 3px var(--halo, #fff), 0 0 4px var(--halo, #fff); }
+.caption { position: absolute; left: 0; right: 0; bottom: 20px; text-align: center; color: var(--scene-faint, #4a5563); padding: 0 8px; pointer-events: none; }
+.caption b, .caption .does { color: var(--scene-ink, #1d2733); }
+.missing { position: absolute; left: 16px; right: 16px; bottom: 56px; background: var(--ground); border-radius: 8px; padding: 8px 12px; max-width: 60ch; }
+@container (max-width: 700px) {
+  .on { left: 8px; right: 8px; top: 8px; gap: 4px; } .switch > b { display: none; } .seg button { padding: 0 9px; min-height: 44px; }
+  .on > select { max-width: none; flex: 1; min-height: 50px; }
+  .ring { top: 66px; left: auto; right: 8px; margin: 0; flex-direction: column; gap: 0; } .ring svg { width: 64px; }
+  .lab[data-table=three] .top { top: 60px; bottom: 72px; } .caption { bottom: 4px; height: 68px; font-size: var(--t-s); padding: 0 4px; }
+  .lab[data-table=three] .stage { background: var(--scene, #eef1f5); }
+}
+`;
+
+const strip = `
+.strip { display: grid; grid-template-columns: 56px minmax(0, 1fr) auto; gap: 6px; align-items: center; }
+.starts { display: grid; gap: 4px; justify-items: center; } .clock { font-size: var(--t-s); font-variant-numeric: tabular-nums; }
+.paces { display: grid; gap: 4px; justify-items: start; } .again { padding: 0 4px; display: flex; align-items: center; gap: 6px; }
+.strip .plot { position: relative; height: 100%; font-size: var(--t-s); cursor: pointer; touch-action: pan-y; user-select: none; }
+.strip .plot svg { width: 100%; height: 100%; }
+.event { stroke: var(--line-2); stroke-dasharray: 2 3; }
+.strip .rest { stroke: var(--line-2); stroke-width: 1.5; } .strip .past { stroke: var(--ink); stroke-width: 2.2; }
+.lab[data-table=three] .strip .ice { stroke-dasharray: 2 3; } .lab.old .strip :is(.rest, .past, .shape) { opacity: .38; }
+path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
+.strip .now { position: absolute; left: -1px; top: 14px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
+.strip .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
+.at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; }
+.at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
+.say { display: grid; grid-template-columns: 1fr auto; gap: 8px 24px; align-items: start; }
+.say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; }
+@container (max-width: 1180px) { .outline { max-width: 230px; } }
+@container (max-width: 700px) {
+  .strip { grid-template-columns: minmax(0, 1fr); } .strip .plot { height: 116px; }
+  .starts, .paces { position: absolute; z-index: 3; top: calc(var(--stage) - 58px); } .starts { right: 12px; } .clock { display: none; }
+  .paces { right: 68px; display: flex; } .again { display: none; } .speed { background: var(--ground); border-radius: 22px; padding: 0 10px; min-height: 44px; }
+  .lab { position: relative; } .strip { position: static; }
+  .strip .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
+  .lab[data-table=three] .strip { grid-template: "starts paces" auto "plot plot" auto / auto 1fr; }
+  .lab[data-table=three] :is(.starts, .paces) { position: static; } .lab[data-table=three] .strip .plot { grid-area: plot; }
+  .say { grid-template-columns: 1fr; } .outline { max-width: none; } .outline span { display: inline; font-size: inherit; margin-right: 6px; }
+}
+`;
+
+const answer = `
+.answer { display: flex; flex-direction: column; } .answer .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; }
+.answer .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
+.spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .energy { stroke: var(--q-energy); stroke-width: 2; }
+.answer .halo { stroke: none; }
+.first { stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
+.own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); stroke: none; } .turning { stroke: var(--ink); stroke-width: 2; }
+.answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
+.dot { fill: var(--ground); stroke: var(--accent); stroke-width: 5; }
+.lab.old .answer :is(polyline, polygon, .rest, .past) { opacity: .38; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
+th, td { text-align: left; padding: 6px 12px 6px 0; vertical-align: baseline; } th { font-weight: 600; }
+thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody tr { border-top: 1px solid var(--line); }
+.kept { white-space: nowrap; margin-right: 6px; } .kept svg { display: inline-block; vertical-align: -2px; margin-right: 8px; }
+@container (max-width: 700px) { .answer .plot { flex: none; height: 240px; } .mini button { min-height: 44px; min-width: 44px; } }
+`;
+
+const controls = `
+.controls { display: grid; gap: 12px; align-content: start; } .controls .titled { min-height: 44px; }
+.picks { display: none; }
+.ctl { display: grid; grid-template-columns: 1fr auto; align-items: baseline; column-gap: 8px; }
+.ctl label { font-weight: 600; }
+.num { width: 72px; border: 0; border-bottom: 1px solid var(--line-2); background: none; padding: 0; height: 24px; border-radius: 0; text-align: right; font-variant-numeric: tabular-nums; }
+.unit { color: var(--ink-2); margin-left: 4px; display: inline-block; min-width: 3ch; }
+.ctl > :is(.below, .wrong) { grid-column: 1 / -1; }
+.ctl input[type=range] { grid-column: 1 / -1; -webkit-appearance: none; appearance: none; width: 100%; height: 24px; margin: 0; background: none; cursor: pointer; }
+.ctl input::-webkit-slider-runnable-track { height: 4px; border-radius: 2px; background: linear-gradient(90deg, var(--accent) var(--p, 50%), var(--line-2) var(--p, 50%)); }
+.ctl input::-moz-range-track { height: 4px; border-radius: 2px; background: linear-gradient(90deg, var(--accent) var(--p, 50%), var(--line-2) var(--p, 50%)); }
+.ctl input::-webkit-slider-thumb { -webkit-appearance: none; width: 20px; height: 20px; margin-top: -8px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); }
+.ctl input::-moz-range-thumb { box-sizing: border-box; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); }
+.bad .num { border-bottom: 3px solid var(--ink); font-weight: 600; }
+.wrong { display: flex; gap: 8px; margin-top: 4px; line-height: 1.4; }
+.wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: 13px; }
+.ends { position: relative; height: 10px; margin-top: -2px; } .ends.none { margin: -2px 10px 0; background: var(--end-0); }
+.end { position: absolute; top: 0; bottom: 0; background: var(--end-1); }
+.end:is(.upright, .rolls, .moves) { background: var(--end-0); } .end.falls { background: var(--end-2); } .end:is(.stands, .inverted) { background: var(--end-3); }
+.end.refused { background: var(--line); }
+.end.mixed { background: repeating-linear-gradient(45deg, var(--end-3) 0 3px, var(--end-1) 3px 6px); }
+.ends .mark { position: absolute; top: -6px; height: 20px; width: 2px; margin-left: -1px; background: var(--accent); }
+.words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }
+.words b { position: absolute; transform: translateX(-50%); color: var(--ink); font-weight: 400; }
+@container (max-width: 700px) {
+  .controls { gap: 0; } .controls h2 { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+  .picks { display: flex; gap: 4px; margin-left: -8px; } .controls .titled { align-items: center; }
+  .picks button { padding: 0 8px; min-height: 44px; line-height: 1.15; text-align: left; color: var(--ink-2); font-size: var(--t-s); border-radius: 0; }
+  .picks b { display: block; font-size: var(--t-m); color: var(--ink); font-variant-numeric: tabular-nums; white-space: nowrap; }
+  .picks [aria-pressed=true], .picks [aria-pressed=true] b { color: var(--accent); font-weight: 600; }
+  .picks [aria-pressed=true] { box-shadow: inset 0 -3px 0 var(--accent); }
+  .primary { min-height: 44px; } .controls .ctl:not(.picked) { display: none; }
+  .ctl label { display: none; } .ctl > span { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+  .ctl.bad > span { position: static; width: auto; height: auto; clip-path: none; grid-column: 1 / -1; }
+  .ctl input[type=range] { height: 44px; margin: -2px 0 -10px; }
+  .ctl input::-webkit-slider-thumb { width: 28px; height: 28px; margin-top: -12px; border-width: 6px; }
+}
+`;
+
+export const style = [tokens, basics, places, stage, strip, answer, controls].join("");

@@ -1,0 +1,51 @@
+// A top in 3-D as the Lab has it: without a bar of its own, its model made here.
+import { renderTop3D } from "../three/top3d.js";
+import { part } from "./parts.js";
+
+// The Lab says by itself what these say.
+const OURS = ".tippe :is(.bar, .verdict, .scales, .time) { display: none } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 }";
+
+const SHOWS = {
+  show_track: false, show_com_path: false, show_force: false, show_cone: false, show_omega: false, show_momentum: false, follow: true,
+};
+
+export class Top {
+  /**
+   * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time
+   * @param {number} of.away how far the eye is, in terms of where the whole top just fits
+   */
+  constructor({ texts, label, time, away }) {
+    const listeners = new Map();
+    this.listeners = listeners;
+    this.element = part("div", { class: "top" });
+    const values = {
+      texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, tiltable: false,
+      tilted: [], playing: true, camera: [-1.12, 0.26, away], ...SHOWS,
+      get speed() { return time.pace; },
+      set speed(_) {},
+      on: (name, run) => listeners.set(name, [...(listeners.get(name) ?? []), run]),
+    };
+    this.model = /** @type {any} */ (values);
+    this.view = {};
+  }
+
+  // Draws it, where that is not done yet.
+  begin() {
+    if (this.begun) return;
+    this.begun = true;
+    const shadow = this.element.attachShadow({ mode: "open" }), el = part("div", { style: "height: 100%" });
+    shadow.append(part("style", {}, OURS), el);
+    renderTop3D({ model: this.model, el, view: this.view });
+  }
+
+  /** @param {Record<string, any>} changes */
+  put(changes) {
+    const names = Object.keys(changes).filter((name) => this.model[name] !== changes[name]);
+    for (const name of names) this.model[name] = changes[name];
+    if (this.begun) for (const name of names) for (const run of this.listeners.get(name) ?? []) run();
+  }
+
+  leave() {
+    for (const run of this.listeners.get("remove") ?? []) run();
+  }
+}

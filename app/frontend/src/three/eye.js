@@ -1,0 +1,90 @@
+// Whence a top is seen: the camera moves along with it, keeping the direction and the distance that a person chose.
+import * as THREE from "three";
+/** @import { Stage } from "./stage.js" */
+
+const FOLLOW_MS = 160; // it follows the top's drift, not each of its small turns
+const FIRST_VIEW = [-1.12, 0.3, 1];
+
+export class Eye {
+  /**
+   * @param {Stage} stage
+   * @param {TopModel} model
+   * @param {THREE.Vector3} stands where the sphere's centre is
+   * @param {() => number} reach how far the body reaches from there
+   */
+  constructor(stage, model, stands, reach) {
+    const { camera, controls } = stage;
+    this.camera = camera;
+    this.controls = controls;
+    this.model = model;
+    this.stands = stands;
+    this.reach = reach;
+    this.seen = new THREE.Vector3(); // the point that the camera looks at
+    this.jumps = true; // at once to where the top is now
+  }
+
+  /** @returns {[x: number, y: number, z: number]} */
+  get direction() {
+    return this.camera.position.clone().sub(this.seen).normalize().toArray();
+  }
+
+  /** @param {number} now in ms @param {boolean} playing */
+  follow(now, playing) {
+    const ms = this.before === undefined ? 0 : now - this.before, { stands, seen } = this;
+    this.before = playing ? now : undefined;
+    const share = this.jumps || !playing ? 1 : 1 - Math.exp(-ms / FOLLOW_MS);
+    this.jumps = false;
+    if (this.model.follow) this.move((stands.x - seen.x) * share, (stands.y - seen.y) * share);
+  }
+
+  move(dx, dy) {
+    const { seen, camera, controls } = this;
+    seen.x += dx;
+    seen.y += dy;
+    camera.position.x += dx;
+    camera.position.y += dy;
+    controls.target.copy(seen);
+    camera.lookAt(seen);
+  }
+
+  // Far enough for the whole top with its stem and the arrows, whatever the shape of the window.
+  distance() {
+    const half = Math.atan(Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * Math.min(1, this.camera.aspect));
+    return this.reach() / Math.sin(half);
+  }
+
+  // As Python has it, else from the side.
+  begin() {
+    const { seen, camera, controls, model, stands } = this;
+    seen.set(stands.x, stands.y, 1.25);
+    const [azimuth, height, times] = model.camera.length ? model.camera : FIRST_VIEW, far = this.distance() * times;
+    camera.position.set(
+      seen.x + far * Math.cos(height) * Math.cos(azimuth),
+      seen.y + far * Math.cos(height) * Math.sin(azimuth),
+      seen.z + far * Math.sin(height),
+    );
+    controls.target.copy(seen);
+    controls.minDistance = 1.6;
+    controls.maxDistance = 22;
+    controls.maxPolarAngle = Math.PI / 2 - 0.02; // never from below the table
+    controls.update();
+  }
+
+  // A person has turned or zoomed: as seen from what the camera looks at.
+  tell() {
+    const { x, y, z } = this.camera.position.clone().sub(this.seen), far = Math.hypot(x, y, z);
+    this.model.camera = [Math.atan2(y, x), Math.asin(z / far), far / this.distance()].map((value) => Number(value.toFixed(3)));
+  }
+
+  // A new shape of the window. A person's own zoom is kept: only what the shape takes away is given back.
+  /** @param {number} aspect */
+  fit(aspect) {
+    if (this.aspect === undefined) this.begin();
+    else this.zoom(Math.min(1, this.aspect) / Math.min(1, aspect));
+    this.aspect = aspect;
+  }
+
+  zoom(times) {
+    if (times !== 1) this.camera.position.sub(this.seen).multiplyScalar(times).add(this.seen);
+  }
+}

@@ -1,0 +1,194 @@
+// What there is to see of a top on its table, and where each of it stands at a moment.
+import * as THREE from "three";
+import { Arrow } from "./arrow.js";
+import { Body } from "./body.js";
+import { frictionCone } from "./cone.js";
+import { colours } from "../colours.js";
+import { niceAbove } from "../data.js";
+import { emptyPose } from "../motion/frames.js";
+import { Labels } from "./labels.js";
+import { colourOf, ROLLS } from "../regimes.js";
+import { Ribbon, Thread } from "./ribbon.js";
+import { followLook } from "./scene.js";
+import { blobMaterial, dressTable, makeTable, TABLE } from "./table.js";
+/** @import { Stage } from "./stage.js" */
+/** @import { Frames } from "../motion/frames.js" */
+
+const SHADE = 4.5; // half the side of the square that can be in shadow
+const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
+const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
+
+function makeShade() {
+  const shade = new THREE.Mesh(
+    new THREE.PlaneGeometry(2 * SHADE, 2 * SHADE),
+    new THREE.ShadowMaterial({ color: 0x2a2118, opacity: 0.34, depthWrite: false }),
+  );
+  shade.receiveShadow = true;
+  return shade;
+}
+
+function makeSun() {
+  const sun = new THREE.DirectionalLight(0xfff4e2, 2.1);
+  sun.castShadow = true;
+  sun.shadow.mapSize.set(1024, 1024);
+  sun.shadow.radius = 3;
+  sun.shadow.bias = -0.002;
+  Object.assign(sun.shadow.camera, { left: -3.2, right: 3.2, top: 3.2, bottom: -3.2, near: 4, far: 16 });
+  return sun;
+}
+
+function makeUnderneath() {
+  const underneath = new THREE.Mesh(new THREE.PlaneGeometry(1.5, 1.5), blobMaterial());
+  underneath.renderOrder = -1;
+  return underneath;
+}
+
+function makeCentre() {
+  const material = new THREE.MeshBasicMaterial({ depthTest: false, transparent: true });
+  const centre = new THREE.Mesh(new THREE.SphereGeometry(0.045, 16, 12), material);
+  centre.renderOrder = 4;
+  return centre;
+}
+
+export class TopScene {
+  /** @param {Stage} stage */
+  constructor(stage) {
+    const { scene, renderer } = stage;
+    this.stage = stage;
+    this.moment = emptyPose(); // what Python says of the player's time
+    this.stands = new THREE.Vector3(); // the sphere's centre
+    this.scales = {};
+
+    // The table, the light, and the shadow that stands where the top is
+    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.background = scene.background = new THREE.Color();
+    this.fog = scene.fog = new THREE.Fog(0, 9, TABLE - 2);
+    this.table = makeTable();
+    this.shade = makeShade();
+    this.sun = makeSun();
+    this.underneath = makeUnderneath();
+    this.body = new Body();
+    scene.add(this.table, this.shade, new THREE.HemisphereLight(0xffffff, 0xb9a88f, 1.7), this.sun, this.sun.target);
+    scene.add(this.underneath, this.body);
+
+    // Paths: the whole one faintly, what has passed boldly
+    this.track = {
+      whole: new Ribbon(0.028, { color: colours.theta, opacity: 0.25 }),
+      passed: new Ribbon(0.045, { color: colours.theta, opacity: 0.95 }),
+    };
+    this.comPath = { whole: new Thread({ opacity: 0.3 }), passed: new Thread({ opacity: 0.9 }) };
+    scene.add(...Object.values(this.track), ...Object.values(this.comPath));
+
+    // Arrows, the friction cone, and the marks of C and G
+    this.arrows = {
+      force: new Arrow(colours.normal, { radius: 0.045, through: 0.85 }),
+      omega: new Arrow(colours.omega),
+      momentum: new Arrow(colours.momentum, { radius: 0.055 }),
+    };
+    this.pointedAt = new Arrow(0, { radius: 0.05, through: 0.85 }); // what a text beside points at, alone
+    this.cone = frictionCone();
+    this.centre = makeCentre();
+    scene.add(...Object.values(this.arrows), this.pointedAt, this.cone, this.centre);
+    this.labels = new Labels(stage);
+    const vector = (letter) => this.labels.add(letter, "vector");
+    this.tips = { force: vector("F"), omega: vector("ω"), momentum: vector("L"), centre: vector("G") };
+    this.pointedTip = vector("");
+    this.unfollow = followLook((look) => this.dress(look));
+  }
+
+  dress(look) {
+    for (const colour of [this.background, this.fog.color]) colour.set(look.sky);
+    dressTable(this.table, look);
+    for (const { material } of [this.comPath.whole, this.comPath.passed, this.centre]) material.color.set(look.ink);
+    this.shade.material.color.set(look.shade);
+    this.pointedAt.colour = look.ink;
+    for (const name of Object.keys(LONGEST)) this.tips[name].element.style.color = look[name];
+    this.stage.invalidate();
+  }
+
+  // A new motion: its paths, and how long its arrows are.
+  /** @param {Frames} frames */
+  setFrames(frames) {
+    for (const name of Object.keys(LONGEST)) this.scales[name] = 1 / niceAbove(frames.scales[name] / LONGEST[name]);
+    for (const line of Object.values(this.track)) line.setPath(frames.count, (i) => frames.contact(i), ABOVE_TABLE);
+    for (const line of Object.values(this.comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
+  }
+
+  // The picture at a place among the frames.
+  /** @param {Frames} frames @param {number} at @param {TopModel} model @param {Pointed | null} highlight */
+  pose(frames, at, model, highlight) {
+    const { moment, centre, tips } = this, some = frames.count > 0;
+    this.body.visible = this.underneath.visible = some;
+    centre.visible = some && model.show_com_path;
+    if (some) {
+      frames.read(at, moment);
+      this.put(model.a);
+    }
+    this.point("force", moment.contact, moment.force, some && model.show_force);
+    this.point("omega", moment.com, moment.omega, some && model.show_omega);
+    this.point("momentum", moment.com, moment.momentum, some && model.show_momentum);
+    this.showPointed(some ? highlight : null);
+    tips.centre.visible = centre.visible;
+    tips.centre.at.copy(moment.com);
+    tips.centre.shift = [-14, 6];
+    this.showCone(some && model.show_cone, model.mu_s);
+    const passed = Math.ceil(at);
+    this.showPath(this.track, model.show_track, passed, frames.count);
+    this.showPath(this.comPath, model.show_com_path, passed, frames.count);
+  }
+
+  // The body, what goes along with it, and the light.
+  /** @param {number | null} a where the sphere's centre is not over the contact: its distance from G */
+  put(a) {
+    const { moment, stands, body } = this;
+    stands.set(moment.contact.x, moment.contact.y, 1);
+    body.quaternion.copy(moment.quaternion);
+    body.position.copy(stands);
+    // off the table, or on its stem, the sphere's centre is where G and the axis say
+    if (a !== null) body.position.set(0, 0, a).applyQuaternion(moment.quaternion).add(moment.com);
+    this.underneath.position.set(stands.x, stands.y, ABOVE_TABLE / 2);
+    this.shade.position.set(stands.x + 1.2, stands.y + 1.3, ABOVE_TABLE / 3);
+    this.centre.position.copy(moment.com);
+    this.sun.target.position.copy(stands);
+    this.sun.position.set(stands.x - 3.2, stands.y - 3.4, 8.2);
+    this.table.position.set(Math.round(stands.x / 5) * 5, Math.round(stands.y / 5) * 5, 0); // the grid repeats each 5 R
+    this.arrows.force.colour = moment.regime === ROLLS ? colours.normal : colourOf(moment.regime);
+  }
+
+  point(name, from, vector, visible) {
+    const arrow = this.arrows[name], tip = this.tips[name], scale = this.scales[name] ?? 1;
+    arrow.point(from, vector.x * scale, vector.y * scale, vector.z * scale, tip.at);
+    arrow.visible = tip.visible = visible && arrow.drawable;
+    tip.shift = name === "omega" ? [16, -4] : [-15, -6];
+  }
+
+  // A vector along the turning axes 1', y, z, from "com" or "contact": only its direction is true where it is long.
+  /** @param {Pointed | null} highlight */
+  showPointed(highlight) {
+    const { moment, pointedAt, pointedTip } = this;
+    const axis = new THREE.Vector3(0, 0, 1).applyQuaternion(moment.quaternion);
+    const first = new THREE.Vector3(-axis.y, axis.x, 0).normalize(); // 1' = z x 3
+    const [x, y, z] = highlight?.vector ?? [0, 0, 0];
+    const along = new THREE.Vector3(first.x * x - first.y * y, first.y * x + first.x * y, z);
+    along.clampLength(0.4, 1.8);
+    pointedAt.point(highlight?.start === "contact" ? moment.contact : moment.com, along.x, along.y, along.z, pointedTip.at);
+    pointedAt.visible = pointedTip.visible = Boolean(highlight && pointedAt.drawable);
+    if (!pointedAt.visible) return;
+    pointedTip.shift = [14, -6];
+    for (const name of Object.keys(this.arrows)) this.arrows[name].visible = this.tips[name].visible = false;
+  }
+
+  // As high as the arrow reaches: its tip is then inside the rim where the top can roll.
+  showCone(visible, mu_s) {
+    const { moment, cone } = this, height = moment.force.z * this.scales.force;
+    cone.visible = visible && height > 1e-3 && mu_s > 0;
+    cone.position.copy(moment.contact);
+    cone.scale.set(height * mu_s, height * mu_s, height);
+  }
+
+  showPath(line, visible, passed, count) {
+    line.whole.points = visible ? count : 0;
+    line.passed.points = visible ? passed + 1 : 0;
+  }
+}

@@ -1,0 +1,10 @@
+// Elements of the page, which lie in the shadow roots of many components.
+/** @param {string} selector @param {ParentNode} root @returns {HTMLElement | null} the first that is seen */
+export function find(selector, root = document) {
+  for (const element of /** @type {NodeListOf<HTMLElement>} */ (root.querySelectorAll("*"))) {
+    if (element.matches(selector) && element.getClientRects().length) return element;
+    const inside = element.shadowRoot && find(selector, element.shadowRoot);
+    if (inside) return inside;
+  }
+  return null;
+}

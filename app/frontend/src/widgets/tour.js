@@ -1,0 +1,112 @@
+// The tour of a first visit: one place of the page after the other, with words beside it.
+import { fill } from "../data.js";
+import { find } from "./finding.js";
+
+// The places, in the order of their words.
+const STOPS = [
+  "[data-picture=top] canvas",
+  "input[data-input=K_J]",
+  "[data-figure=plane]",
+  "[data-picture=surface] canvas",
+  "[role=tab]:nth-of-type(2)",
+];
+const SEEN = "tippe:tour";
+const PLACED_MS = 200; // the page goes on being laid out
+const GAP = 14; // px
+
+export const tourFrame = (texts) => `<div class="ring" hidden></div>
+  <div class="stop" role="dialog" aria-labelledby="name" aria-describedby="what" hidden><h2 id="name" tabindex="-1"></h2><p id="what"></p>
+    <div><span class="count"></span><button class="skip">${texts.skip}</button><button class="back">${texts.back}</button><button class="next"></button></div></div>`;
+
+const isWhole = (element) => {
+  const box = element?.getBoundingClientRect();
+  return box && box.top >= 0 && box.bottom <= innerHeight && box.left >= 0 && box.right <= innerWidth;
+};
+
+// Where words are to stand: beside a box where there is room, else at the end of the window that is farther from it.
+/** @param {Pick<DOMRect, "left" | "right" | "top" | "bottom">} box @param {{ wide: number, high: number }} words @param {{ wide: number, high: number }} page */
+export function beside(box, { wide, high }, page) {
+  const inside = (value, most) => Math.min(Math.max(value, GAP), Math.max(most - GAP, GAP));
+  const rooms = [
+    [page.wide - box.right, wide, box.right + GAP, inside(box.top, page.high - high)],
+    [box.left, wide, box.left - GAP - wide, inside(box.top, page.high - high)],
+    [page.high - box.bottom, high, inside(box.left, page.wide - wide), box.bottom + GAP],
+    [box.top, high, inside(box.left, page.wide - wide), box.top - GAP - high],
+  ];
+  const farther = box.top > page.high - box.bottom ? 3 : 2;
+  const [, , left, top] = rooms.find(([room, needs]) => room > needs + 2 * GAP) ?? rooms[farther];
+  return { left: inside(left, page.wide - wide), top: inside(top, page.high - high) };
+}
+
+export class Tour {
+  /** @param {Record<string, any>} texts @param {ShadowRoot} over the page @param {AbortSignal} signal */
+  constructor(texts, over, signal) {
+    this.texts = texts;
+    /** @type {(selector: string) => any} */
+    this.part = (selector) => over.querySelector(selector);
+    this.ring = this.part(".ring");
+    this.stop = this.part(".stop");
+    this.at = 0;
+    /** @type {HTMLElement | null} */
+    this.target = null;
+    /** @type {HTMLElement | null} */
+    this.from = null; // where the keyboard was
+    this.part(".skip").onclick = () => this.end();
+    this.part(".back").onclick = () => this.go(this.at - 1);
+    this.part(".next").onclick = () => this.go(this.at + 1);
+    window.addEventListener("resize", () => this.place(), { signal });
+    window.addEventListener("scroll", () => this.place(), { signal, capture: true });
+    signal.addEventListener("abort", () => clearInterval(this.watching));
+    // Offered once, and only where nobody follows a link to something particular.
+    if (localStorage.getItem(SEEN) || location.search) return;
+    const first = () => find(STOPS[0]) && this.begin();
+    window.addEventListener("tippe:clock", () => setTimeout(first), { once: true, signal });
+  }
+
+  get isOn() {
+    return !this.stop.hidden;
+  }
+
+  /** @param {Element | null} [active] */
+  begin(active = null) {
+    this.from = /** @type {HTMLElement | null} */ (active);
+    this.stop.hidden = this.ring.hidden = false;
+    this.watching = setInterval(() => this.place(), PLACED_MS);
+    this.go(0);
+  }
+
+  end() {
+    this.stop.hidden = this.ring.hidden = true;
+    clearInterval(this.watching);
+    localStorage.setItem(SEEN, "1");
+    this.from?.focus?.();
+  }
+
+  /** @param {number} to */
+  go(to) {
+    const { part, texts } = this;
+    if (to >= STOPS.length) return this.end();
+    const at = (this.at = Math.max(to, 0)), [name, what] = texts.stops[at];
+    part("#name").textContent = name;
+    part("#what").textContent = what;
+    part(".count").textContent = fill(texts.count, { at: at + 1, all: STOPS.length });
+    part(".back").hidden = at === 0;
+    part(".next").textContent = at === STOPS.length - 1 ? texts.done : texts.next;
+    this.target = find(STOPS[at]);
+    if (!isWhole(this.target)) this.target?.scrollIntoView({ block: "center" });
+    this.place();
+    if (this.from) part("#name").focus({ preventScroll: true }); // who asked for none keeps the focus
+  }
+
+  place() {
+    const { stop, ring } = this;
+    if (stop.hidden) return;
+    if (!this.target?.isConnected) this.target = find(STOPS[this.at]);
+    const seen = this.target?.getBoundingClientRect(), box = seen && seen.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop;
+    ring.hidden = !box;
+    if (!box) return Object.assign(stop.style, { left: `${(innerWidth - wide) / 2}px`, top: `${innerHeight - high - GAP}px` });
+    Object.assign(ring.style, { left: `${box.left - 6}px`, top: `${box.top - 6}px`, width: `${box.width + 12}px`, height: `${box.height + 12}px` });
+    const { left, top } = beside(box, { wide, high }, { wide: innerWidth, high: innerHeight });
+    Object.assign(stop.style, { left: `${left}px`, top: `${top}px` });
+  }
+}

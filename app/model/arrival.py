@@ -1,0 +1,55 @@
+"""The motion that is seen on arrival, kept in app/data: it plays before anything is compiled.
+
+    python -m app.model.arrival
+
+computes it anew, after a change of the physics or of the start; a test compares it with a fresh run.
+"""
+
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tippe_core import Top, Trajectory
+
+FILE = Path(__file__).parent.parent / "data" / "arrival.npz"
+TABLE, TOY, SPIN, TILT, MU = ARRIVAL = "ordinary", "Leine and Glocker's toy", 28.65, 5.73, 0.3
+"""The table, the toy, its spin (rev/s: 180 rad/s), its tilt (degrees: 0.1 rad) and the friction: that it comes to stand
+does not hang on the digits of these."""
+HAPPENS = "events", "supports"
+
+
+def write(trajectory: Trajectory) -> None:
+    """Keeps a Trajectory, its numbers as float32."""
+    rows = {
+        part.name: getattr(trajectory, part.name) for part in fields(trajectory) if part.name not in ("top", *HAPPENS)
+    }
+    kept = {name: value if name == "regime" else value.astype(np.float32) for name, value in rows.items()}
+    for name in HAPPENS:
+        times, words = zip(*getattr(trajectory, name), strict=True)
+        kept |= {f"{name}.t": np.array(times), f"{name}.what": np.array(words)}
+    FILE.parent.mkdir(exist_ok=True)
+    np.savez_compressed(FILE, **kept)
+
+
+def read(top: Top) -> Trajectory:
+    """The Trajectory that is kept, of this top."""
+    with np.load(FILE) as kept:
+        found: dict[str, Any] = dict(kept)
+    for name in HAPPENS:
+        times, words = (found.pop(f"{name}.{part}").tolist() for part in ("t", "what"))
+        found[name] = tuple(zip(times, words, strict=True))
+    return Trajectory(top=top, **{
+        name: value.astype(float) if name not in ("regime", *HAPPENS) else value for name, value in found.items()
+    })  # fmt: skip
+
+
+def main() -> None:
+    from app.model.lab_run import computed, start_of  # which reads what is written here
+
+    write(computed(start_of(TOY, SPIN, TILT, MU), TABLE)[0])
+
+
+if __name__ == "__main__":
+    main()

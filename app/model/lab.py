@@ -1,0 +1,243 @@
+"""The view-model of the Lab: one toy, one start, let go by a hand, and the table on which it is watched.
+
+Of what is asked for the newest is computed, beside the server; the scene before stays until then, and where what was
+asked for cannot be.
+"""
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import partial
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+import param
+
+from app.model.arrival import ARRIVAL, MU, SPIN, TABLE, TILT, TOY
+from app.model.lab_ends import Ends, Key, ends_of, known_ends
+from app.model.lab_keeps import Row, keeps
+from app.model.lab_run import TABLES, TOYS, TableMotion, motion_on, start_of
+from app.model.runs import Result, Run, Runs, Stopped
+from app.model.story import Event, Stage, Story, story
+from app.text import say, told
+from tippe_core import TopError
+from tippe_core.types import Array
+
+LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5)})
+"""{input: what it may be}, in rev/s and degrees; the sliders show less."""
+CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
+SHOWN = 30  # characters of what is no number, in a sentence
+PATIENCE = 0.5  # s: a run that a newer one replaces may still finish within this
+Inputs: TypeAlias = tuple[str, str, float, float, float]  # table, toy, spin, tilt, mu
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LabScene:
+    """All that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu: what it is of.
+
+    motions: {table: TableMotion or None}; None where it is not watched, or cannot be: then refused has a sentence why.
+    stories: {table: Story}, of the motions. said: headline and explanation of all three together. keeps: {table: Rows},
+    of all three. messages: {input: a sentence} for what was asked for and cannot be; all else is the last good one.
+    profile: (k, 2) in R, a in R and seconds, of one unit of time, for the picture in 3-D; part: "stem" or "rim".
+    """
+
+    table: str
+    toy: str
+    spin: float
+    tilt: float
+    mu: float
+    motions: MappingProxyType[str, TableMotion | None]
+    stories: MappingProxyType[str, Story]
+    refused: MappingProxyType[str, str]
+    said: tuple[str, str]
+    keeps: MappingProxyType[str, tuple[Row, ...]]
+    profile: Array
+    a: float
+    seconds: float
+    part: str
+    messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """Of the table that is watched; of all three, the ordinary one's."""
+        return self._story.events
+
+    @property
+    def stages(self) -> tuple[Stage, ...]:
+        """As events; where that motion cannot be, one stage that says so."""
+        return self._story.stages
+
+    @property
+    def _story(self) -> Story:
+        table = "ordinary" if self.table == "three" else self.table
+        short = say("lab.caption.refused")
+        return self.stories.get(table) or Story((), (Stage(0.0, short, self.refused[table], short),), short)
+
+
+def scene_of(table: str, toy: str, spin: float, tilt: float, mu: float) -> LabScene:
+    """The LabScene of a start, in the page's language. Raises TopError, whose name is an input, where none of the
+    tables can have it because of that input's value."""
+    watched = tuple(TABLES) if table == "three" else (table,)
+    motions: dict[str, TableMotion | None] = dict.fromkeys(TABLES)
+    refused: dict[str, str] = {}
+    for each in watched:
+        try:
+            motions[each] = motion_on(each, toy, spin, tilt, mu)
+        except TopError as error:
+            if error.code == "body-below-table":
+                raise
+            refused[each] = _sentence(error)
+    found = {name: motion for name, motion in motions.items() if motion is not None}
+    start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
+    turned = "ordinary" in found and any(event.code == "over" for event in stories["ordinary"].events)
+    return LabScene(
+        table=table, toy=toy, spin=spin, tilt=tilt, mu=mu, motions=MappingProxyType(motions),
+        stories=MappingProxyType(stories), refused=MappingProxyType(refused),
+        said=(say(f"lab.three.{'turned' if turned else 'headline'}"), say("lab.three.why")),
+        keeps=MappingProxyType({name: keeps(motion) for name, motion in found.items()} if table == "three" else {}),
+        profile=start.profile, a=start.top.a, seconds=start.scales.time, part=start.part,
+    )  # fmt: skip
+
+
+def _sentence(error: TopError) -> str:
+    """Why a start cannot be."""
+    if error.code in ("stem-below-table", "body-below-table"):
+        return say(f"lab.refused.{error.code}", tilt=error.value, most=error.numbers["most"])
+    return told(error)
+
+
+def fault(name: str, value: object) -> str:
+    """Why an input cannot have a value, in a sentence; "" where it can."""
+    if name in CHOICES:
+        return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])
+    least, most = LIMITS[name]
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        return say("lab.inputs.number", value=str(value)[:SHOWN], least=least, most=most)
+    return "" if least <= value <= most else say(f"lab.inputs.{name}", value=value, least=least, most=most)
+
+
+class Lab(param.Parameterized):
+    """The controls, each set by ask(); one `scene` event for each answer. What cannot be set goes back to what was.
+
+    runs: the page's Runs. Of several starts asked for while one is computed only the newest is.
+    """
+
+    table: param.Selector[str] = param.Selector(
+        default=TABLE, objects=list(CHOICES["table"]), doc="on what it stands; all three beside each other"
+    )
+    toy: param.Selector[str] = param.Selector(
+        default=TOY, objects=list(CHOICES["toy"]), doc="a name in tippe_core.PRESETS"
+    )
+    spin = param.Number(SPIN, doc="about its axis at the start, rev/s")
+    tilt = param.Number(TILT, doc="at the start, degrees")
+    mu = param.Number(MU, doc="friction of the ordinary table")
+    busy = param.Boolean(False, constant=True, doc="whether a newer start is being computed")
+    scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last answer; None before show()")
+    ends = param.Parameter(None, constant=True, doc="lab_ends.Ends over the slider's spins; None until they are there")
+
+    INPUTS = ("table", "toy", "spin", "tilt", "mu")
+
+    def __init__(self, runs: Runs | None = None, **inputs: Any) -> None:
+        self._runs = runs or Runs()
+        self._run: Run | None = None
+        self._shown = self._again = False
+        self._messages: dict[str, str] = {}
+        self._good: Inputs = ARRIVAL
+        self._strip: Key = ARRIVAL[1], *ARRIVAL[3:]
+        super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
+
+    @property
+    def inputs(self) -> Inputs:
+        """What is set: table, toy, spin, tilt, mu."""
+        return self.table, self.toy, self.spin, self.tilt, self.mu
+
+    def show(self) -> None:
+        """Computes from now on what is set: before somebody looks nothing is."""
+        if not self._shown:
+            self._shown = True
+            self._follow()
+
+    def ask(self, **inputs: object) -> None:
+        """Sets what can be; for each that cannot there is a sentence in the scene's messages, and it stays."""
+        faults = {name: fault(name, value) for name, value in inputs.items()}
+        self._messages = {name: said for name, said in faults.items() if said}
+        good = {name: value for name, value in inputs.items() if not faults[name]}
+        if all(getattr(self, name) == value for name, value in good.items()):
+            self._tell()
+        self.param.update(**good)
+
+    def rest(self) -> None:
+        """To be called when no hand moves: where the runs of all spins end is looked up, or computed beside."""
+        key = self._strip = self.toy, self.tilt, self.mu
+        self._set(ends=known_ends(*key))
+        if self.ends is None:
+            self._runs.begin(Run(lambda run: ends_of(*key, look=run.look), partial(self._ended, key)), "ends")
+
+    def _ended(self, key: tuple[str, float, float], result: Result) -> None:
+        if isinstance(result, Ends) and key == (self.toy, self.tilt, self.mu):
+            self._set(ends=result)
+        elif isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
+            raise result
+
+    def _set(self, **values: object) -> None:
+        """Sets constants; an event where they are others."""
+        with param.edit_constant(self):
+            self.param.update(**values)
+
+    @param.depends(*INPUTS, watch=True)
+    def _follow(self) -> None:
+        """Computes what is set, now or when the present run is done."""
+        names, now = self.INPUTS, self.inputs
+        faults = {name: said for name, value in zip(names, now, strict=True) if (said := fault(name, value))}
+        if faults:  # of a link
+            self._messages |= faults
+            self.param.update(**{name: self._good[names.index(name)] for name in faults})
+            self._tell()
+            return
+        if self._strip != (self.toy, self.tilt, self.mu):
+            self._set(ends=None)
+        if not self._shown or (self.scene is not None and now == self._good and self._run is None):
+            return
+        if self._run is None:
+            self._begin()
+        else:
+            self._again = True
+            if self._run.elapsed > PATIENCE:
+                self._run.stop()
+
+    def _begin(self) -> None:
+        inputs, self._again = self.inputs, False
+        work = Run(lambda run: scene_of(*inputs), partial(self._done, inputs))
+        if inputs == ARRIVAL or not self._runs.beside:  # what ships needs no thread
+            work.done(work.result())
+            return
+        self._run = work
+        self._set(busy=True)
+        self._runs.begin(work, "lab")
+
+    def _done(self, inputs: Inputs, result: Result) -> None:
+        self._run = None
+        if self._again:
+            self._begin()
+        if self._run is None:
+            self._set(busy=False)
+        if isinstance(result, TopError):
+            self._refused(inputs, result)
+        elif isinstance(result, LabScene):
+            self._good = inputs
+            self._set(scene=result)
+            self._tell()
+        elif not isinstance(result, Stopped):
+            raise result
+
+    def _refused(self, inputs: Inputs, error: TopError) -> None:
+        """A tilt that this body cannot have: it goes back, of another body to the first one's."""
+        self._messages["tilt"] = _sentence(error)
+        if self.inputs != inputs:
+            return  # something else is asked for by now
+        self.param.update(tilt=self._good[3] if self._good[1] == self.toy and self.scene else TILT)
+        self._tell()
+
+    def _tell(self) -> None:
+        """The messages into the scene."""
+        if self.scene is not None and dict(self.scene.messages) != self._messages:
+            self._set(scene=replace(self.scene, messages=MappingProxyType(dict(self._messages))))

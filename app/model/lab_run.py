@@ -1,0 +1,143 @@
+"""One toy let go by a hand, on the three tables: what it does on each, as a Motion, and the curves of it.
+
+Ordinary: it slips, with the friction of a real contact. Rough: it can only roll, so it is gripped first. Ice: no
+friction at all.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache, partial
+from types import MappingProxyType
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.model import arrival
+from app.model.bodies import body
+from app.model.planes_picture import Motion, Setup
+from app.model.planes_run import check_room, clear, for_reader, motion_of, slid
+from app.model.runs import look
+from tippe_core import PRESETS, Contensou, Preset, State, TopError, Trajectory, glide, grip, roll
+from tippe_core.motion.friction import Friction
+from tippe_core.types import Array
+
+TABLES = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth"})
+"""{table: what planes_run.py calls it}."""
+TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
+PATCH = 0.5e-3  # m, the radius of the patch of contact
+SECONDS = 6.0
+STEP = 2  # a row of the curves for so many frames: 200 rows in a second of a fast top
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Start(Setup):
+    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees."""
+
+    most_turn: ClassVar[float] = 0.5  # 2000 frames of a fast one
+
+    toy: str
+    spin: float
+    tilt: float
+    mu: float
+
+    @property
+    def friction(self) -> Friction:
+        return Contensou(self.mu, PATCH / self.scales.R)
+
+    @property
+    def state(self) -> State:
+        turn = 2 * np.pi / self.scales.angular_velocity
+        return State(float(np.radians(self.tilt)), 0.0, 0.0, turn * self.spin, vx=0.0, vy=0.0)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TableMotion(Motion):
+    """A Motion of a Start on a table. lost: the energy that the rough table took when it gripped, MgR; heat counts it.
+
+    curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
+    (mm), heat so far in the same, spin about its own axis and turning seen from above (rev/s), and the code of
+    regimes.py."""
+
+    start: Start
+    table: str
+    lost: float
+    curves: Array
+
+    @property
+    def seconds(self) -> Array:
+        """The times of the trajectory in s."""
+        return self.trajectory.t * self.start.scales.time
+
+    @property
+    def tilt(self) -> Array:
+        """theta in degrees, as far as the trajectory goes."""
+        return np.degrees(self.trajectory.theta)
+
+    @property
+    def carried(self) -> NDArray[np.str_]:
+        """On what it stands at these times: "ball", "stem", "both" or "none"."""
+        since, on = zip(*self.trajectory.supports, strict=True)
+        return np.array(on)[np.searchsorted(since, self.trajectory.t, side="right") - 1]
+
+    @property
+    def rolls_since(self) -> float:
+        """From when on it rolls to the end, s; nan if it does not."""
+        slips = np.flatnonzero(self.trajectory.regime != "roll")
+        if not len(slips):
+            return 0.0
+        return float(self.seconds[slips[-1] + 1]) if slips[-1] + 1 < len(self.seconds) else np.nan
+
+
+def start_of(toy: str, spin: float, tilt: float, mu: float) -> Start:
+    """The Start of a toy, by its name in tippe_core.PRESETS."""
+    preset = TOYS[toy]
+    return Start(toy=toy, top=preset.top, scales=preset.shape.scales, shape=preset.shape, profile=body(preset.shape),
+                 landing="plastic", stem=True, seconds=SECONDS, spin=spin, tilt=tilt, mu=mu)  # fmt: skip
+
+
+@lru_cache(12)
+def motion_on(table: str, toy: str, spin: float, tilt: float, mu: float) -> TableMotion:
+    """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
+    units of the controls."""
+    start = start_of(toy, spin, tilt, mu)
+    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL:
+        return moved(start, table, arrival.read(start.top), 0.0)
+    try:
+        return moved(start, table, *computed(start, table))
+    except TopError as error:
+        raise for_reader(error, start.scales) from None
+
+
+def computed(start: Start, table: str) -> tuple[Trajectory, float]:
+    """What a Start does on a table, and the energy that the rough one took when it gripped, MgR."""
+    top, state, times, lost = start.top, start.state, start.times, 0.0
+    check_room(start, state)
+    if table == "ordinary":
+        return slid(start, state, times, look), lost
+    if table == "ice":
+        return clear(partial(glide, top, state, times), start, state), lost
+    state, lost = grip(top, state)
+    return clear(partial(roll, top, None, times, state), start, state), lost
+
+
+def moved(start: Start, table: str, trajectory: Trajectory, lost: float) -> TableMotion:
+    """The TableMotion of what computed() gives."""
+    motion = motion_of(trajectory, start, start.times, TABLES[table])
+    return TableMotion(**vars(motion), start=start, table=table, lost=lost, curves=_curves(motion, start, lost))
+
+
+def _curves(motion: Motion, start: Start, lost: float) -> Array:
+    moved, scales = motion.trajectory, start.scales
+    turns, millimetres = scales.angular_velocity / (2 * np.pi), 1e3 * scales.R
+    spin, above = moved.omega[:, 2], moved.omega[:, 1] * np.sin(moved.theta) + moved.omega[:, 2] * np.cos(moved.theta)
+    height = moved.com[:, 2]
+    energy = moved.ledger.kinetic + height
+    rows = np.column_stack([
+        moved.t * scales.time, np.degrees(moved.theta), millimetres * height, millimetres * energy,
+        millimetres * (moved.heat + lost), turns * spin, turns * above, motion.frames[-1][: len(moved.t)],
+    ])  # fmt: skip
+    if len(motion.t) > len(moved.t):  # it ended early, and stands still to the end
+        rows = np.concatenate([rows, rows[-1:]])
+        rows[-1, 0], rows[-1, -1] = motion.t[-1] * scales.time, motion.frames[-1][-1]
+    kept = np.arange(0, len(rows), STEP)
+    return rows[kept if kept[-1] == len(rows) - 1 else np.append(kept, len(rows) - 1)].astype(np.float32)

@@ -1,0 +1,1 @@
+"""The first tab: one top, one start, three tables."""

@@ -1,0 +1,214 @@
+"""The Lab: a top that is let go by a hand flips on an ordinary table, and does not on a rough one or on ice.
+
+The picture, its controls and its words are one component of the browser; here its wishes become a Lab's, and what the
+Lab then has becomes what the component draws.
+"""
+
+import re
+from functools import partial
+
+import panel as pn
+import param
+
+from app.borrowed import at_once
+from app.bundle import Bundled, pack
+from app.model.lab import Lab
+from app.model.lab_rolling import rolling
+from app.model.lab_run import TABLES, TOYS
+from app.state import asked
+from app.state.keep import Field, Number, OneOf
+from app.text import listed, say
+from app.widgets.failure import after
+from app.widgets.top3d import pack_frames
+
+INPUTS = ("spin", "tilt", "mu")
+SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2)}
+"""{input: (least, most, step, digits) of its slider}; more can be typed."""
+RESTS = 0.4  # s after its last wish a hand is taken to rest
+
+
+class Toy:
+    """One of the toys, by the place of its name, which is no word for a link."""
+
+    def __init__(self, names):
+        self._names = list(names)
+
+    def text(self, value):
+        """The place of a name; Unasked where there is no such toy."""
+        if value not in self._names:
+            raise asked.Unasked(value)
+        return str(self._names.index(value) + 1)
+
+    def value(self, text):
+        """The name at a place; else a ValueError."""
+        if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= len(self._names):
+            raise ValueError(say("share.link.one_of", words=f"1 ... {len(self._names)}"))
+        return self._names[int(text) - 1]
+
+
+def kept():
+    """What of a Lab a link keeps."""
+    return {
+        "table": Field("table", OneOf(**{table: table for table in (*TABLES, "three")}), undoable=False),
+        "toy": Field("toy", Toy(Lab.param.toy.objects)),
+        "spin": Field("turns", Number),
+        "tilt": Field("lean", Number),
+        "mu": Field("rub", Number),
+    }
+
+
+class LabView(Bundled):
+    """The whole tab: the top on its table, the tilt over time, what happens and why, one picture that answers, and the
+    controls of the start.
+
+    Each table has the frames of its motion, as `pack_frames` packs them, and its curves: float32 rows of the time (s),
+    the tilt (degrees), the height of G, the energy and the heat so far (mm of height), the spin about its own axis and
+    the turning seen from above (rev/s), and the code of the regime. Both are empty where there is no such motion.
+    """
+
+    SAYS = ("Stage", "Top3D")
+
+    state = param.Dict(default={}, doc="All that is no array: the inputs, the runs in words, what was refused.")
+    profile = param.Bytes(default=b"", doc="As of a Top3D.")
+    a = param.Number(default=0.0, doc="G's distance below O, in R.")
+    seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
+    frames_ordinary = param.Bytes(default=b"")
+    frames_rough = param.Bytes(default=b"")
+    frames_ice = param.Bytes(default=b"")
+    curves_ordinary = param.Bytes(default=b"")
+    curves_rough = param.Bytes(default=b"")
+    curves_ice = param.Bytes(default=b"")
+    asked = param.List(
+        default=[], doc="[count, name, value] of what a person asks for, the browser writes it; state tells the last "
+        "count that was answered. The names are a Lab's inputs, and research: the paper's figures."
+    )  # fmt: skip
+
+    @classmethod
+    def says(cls, language=None):
+        return super().says(language) | listed("lab_view.view", language)
+
+
+def spelled(words):
+    """Words with their numbers as the page's language writes them, and no line's end before a unit."""
+    words = re.sub(r"(?<=\d)\.(?=\d)", say("lab_view.view.decimal"), words)
+    return re.sub(r"(?<=\d) (?=(mm|s|rev/s|U/s)\b)", "\N{NO-BREAK SPACE}", words)
+
+
+def lab_view(keep, runs, ask, go):
+    """The tab. keep: a Keep; runs: a Runs; ask: of a Pacer; go: shows the paper's figures."""
+    lab = Lab(runs)
+    keep.add(lab, kept())
+
+    def research():
+        ask(**rolling(lab.toy, lab.spin, lab.tilt, lab.mu))
+        go()
+
+    def rests():
+        keep.at_rest()
+        lab.rest()
+
+    tab = LabTab(lab, research, rests)
+    if all(getattr(lab, name) == lab.param[name].default for name in Lab.INPUTS):
+        lab.show()  # it is kept, so that it is there with the page
+    if pn.state.loaded:
+        begin(lab)
+    else:
+        pn.state.onload(partial(begin, lab))
+    return tab.view
+
+
+def begin(lab):
+    """What takes a thread, which a page has once it is there."""
+    lab.show()
+    lab.rest()
+
+
+class LabTab:
+    """view: the tab. lab: the Lab it shows and asks; research: called for the paper's figures of this top and start;
+    rests: called when a hand that has changed something rests."""
+
+    def __init__(self, lab, research, rests):
+        self._lab, self._research, self._rests = lab, research, rests
+        self._answered, self._shown, self._tried = 0, None, {}
+        self.view = LabView(sizing_mode="stretch_width", margin=0)
+        at_once(self.view, "asked")
+        self.view.param.watch(asked.heard(self._heard), "asked")
+        lab.param.watch(lambda event: self.show(), ["scene", "ends", "busy"])
+        self.show()
+
+    def _heard(self, event):
+        """A wish of the browser."""
+        count, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
+        self._answered = int(count)
+        if name == "research":
+            self._research()
+        elif name in Lab.INPUTS:
+            if name in INPUTS:
+                self._tried[name] = value
+            self._lab.ask(**{name: value})
+        else:
+            raise asked.Unasked(name)
+        after(RESTS, partial(self._rest, self._answered))
+        self.show()
+
+    def _rest(self, answered):
+        if answered == self._answered:
+            self._rests()
+
+    def show(self):
+        """What the Lab has now."""
+        scene = self._lab.scene
+        if scene is None:
+            return
+        changes = {"state": self._state(scene)}
+        if scene is not self._shown:
+            self._shown = scene
+            changes |= {"profile": pack(scene.profile), "a": scene.a, "seconds": scene.seconds}
+            for table, motion in scene.motions.items():
+                changes[f"frames_{table}"] = pack_frames(*motion.frames) if motion else b""
+                changes[f"curves_{table}"] = pack(motion.curves) if motion else b""
+        self.view.param.update(**changes)
+
+    def _state(self, scene):
+        lab, names = self._lab, listed("workshop.presets")
+        messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
+        return {
+            "table": scene.table,
+            "toy": lab.toy,
+            "toys": [[toy, names[toy]["name"]] for toy in lab.param.toy.objects],
+            "values": {name: getattr(lab, name) for name in INPUTS},
+            "sliders": SLIDERS,
+            "messages": messages,
+            "refused": {name: self._tried.get(name) for name in messages},
+            "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
+            "was": ", ".join(self._named(scene, name) for name in INPUTS if getattr(scene, name) != getattr(lab, name)),
+            "runs": {table: self._run(scene, table) for table in scene.motions},
+            "said": list(map(spelled, scene.said)),
+            "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
+            "R": 1e3 * TOYS[scene.toy].shape.R,
+            "answered": self._answered,
+            "busy": lab.busy,
+        }
+
+    @staticmethod
+    def _named(scene, name):
+        """An input of the scene in words."""
+        said, digits = listed(f"lab_view.view.inputs.{name}"), SLIDERS[name][-1]
+        gap = "" if said["unit"] in ("", "°") else " "
+        return spelled(f"{said['name']} {getattr(scene, name):.{digits}f}{gap}{said['unit']}")
+
+    @staticmethod
+    def _run(scene, table):
+        """A table's run in words; None where it is not watched."""
+        if table in scene.refused:
+            return {"events": [], "stages": [], "keeps": [], "caption": "", "why": spelled(scene.refused[table])}
+        if table not in scene.stories:
+            return None
+        story = scene.stories[table]
+        return {
+            "events": [[t, code, spelled(word), spelled(short)] for t, code, word, short in story.events],
+            "stages": [[t, *map(spelled, said)] for t, *said in story.stages],
+            "keeps": [[row.mark, row.word, spelled(row.text)] for row in scene.keeps.get(table, ())],
+            "caption": spelled(story.caption),
+            "why": "",
+        }

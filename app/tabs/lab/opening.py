@@ -1,0 +1,17 @@
+"""Which tab an address opens, and how little an address need say for it.
+
+An address with no query opens the Lab. Any other that names no tab opens Roll, as it did before there was a Lab.
+"""
+
+FIRST, USUAL = "lab", "roll"
+
+
+def opened(texts):
+    """The name of the tab that the texts of a query open."""
+    return texts.get("tab", USUAL if texts else FIRST)
+
+
+def shortest(texts):
+    """The texts of a query without the tab, where that goes without saying."""
+    others = {key: text for key, text in texts.items() if key != "tab"}
+    return others if "tab" in texts and opened(others) == texts["tab"] else texts

@@ -1,0 +1,89 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { trackOf } from "../../app/frontend/src/lab/answer.js";
+import { Asking } from "../../app/frontend/src/lab/controls.js";
+import { Curves, latest, placed, tempo, ticks, TILT } from "../../app/frontend/src/lab/curves.js";
+import { read, say, written } from "../../app/frontend/src/lab/parts.js";
+import { near } from "./helping.js";
+
+const curves = (...rows) => new Curves(new Float32Array(rows.flatMap(([t, tilt]) => [t, tilt, 0, 0, 0, 0, 0, 0])).buffer);
+
+test("a curve is straight between its rows, and stays at its ends", () => {
+  const line = curves([0, 10], [1, 20], [3, 60]);
+  near([-1, 0, 0.5, 1, 2, 3, 9].map((t) => line.at(t, TILT)), [10, 10, 15, 20, 40, 60, 60]);
+  assert.equal(line.end, 3);
+  near(line.range(TILT), [10, 60]);
+  assert.equal(line.points((t) => 10 * t, (tilt) => -tilt, TILT), "0.0,-10.0 10.0,-20.0 30.0,-60.0");
+});
+
+test("no curve has no value and no end", () => {
+  const none = new Curves(null);
+  assert.ok(Number.isNaN(none.at(1, TILT)));
+  assert.equal(none.end, 0);
+  assert.equal(none.points(Number, Number, TILT), "");
+});
+
+test("the stage of a time is the last that has begun", () => {
+  const stages = [[0, "rises"], [1, "over"], [1.5, "stands"]];
+  assert.deepEqual([0, 0.99, 1, 5].map((t) => latest(stages, t)[1]), ["rises", "rises", "over", "stands"]);
+  assert.equal(latest([], 1), undefined);
+});
+
+test("marks of a scale are round and within it", () => {
+  near(ticks(0, 6, 7), [0, 1, 2, 3, 4, 5, 6]);
+  near(ticks(0, 5.9999, 7).at(-1), 6);
+  near(ticks(0, 211, 4), [0, 100, 200]);
+  near(ticks(-17, 31, 5), [-10, 0, 10, 20, 30]);
+});
+
+test("it plays slowly until it has turned over and stood a moment, and always where it never does", () => {
+  const events = [[0.98, "over"], [1.37, "stem"], [1.47, "stands"], [4.5, "falls"]];
+  assert.deepEqual([0, 1.4, 2, 2.1, 6].map((t) => tempo(events, t)), [0.25, 0.25, 0.25, 0.5, 0.5]);
+  assert.deepEqual([0, 6].map((t) => tempo([], t)), [0.25, 0.25]);
+  let t = 0, watched = 0;
+  for (; t < 2; watched += 0.01) t += 0.01 * tempo(events, t);
+  assert.ok(watched < 10, "the whole flip is seen within 10 s");
+});
+
+test("words of events stand where there is room, in short where there is little, and never over another", () => {
+  const wide = (word) => 6 * word.length;
+  const [over, stands, falls] = placed([[120, "turns over 1.0 s", "over 1.0 s"], [170, "stands 1.5 s", "stands 1.5 s"], [500, "starts to fall 4.5 s", "falls 4.5 s"]], 0, 580, wide);
+  assert.deepEqual([over.word, over.side], ["turns over 1.0 s", "end"]);
+  assert.deepEqual([stands.word, stands.side], ["stands 1.5 s", "start"]);
+  assert.deepEqual([falls.word, falls.side], ["starts to fall 4.5 s", "end"]);
+  assert.equal(placed([[5, "a long word", "short one"], [9, "a long word", "short one"], [13, "a long word", "short one"]], 0, 20, wide).length, 0);
+});
+
+test("numbers are written and read in the page's language", () => {
+  assert.equal(written(-15.34, 1, ","), "−15,3");
+  assert.equal(written(-0.04, 1, "."), "0.0");
+  near([" 28,65 ", "28.65", "−3"].map(read), [28.65, 28.65, -3]);
+  assert.ok([read(""), read("half"), read("1.2.3")].every(Number.isNaN));
+  assert.equal(say({ decimal: "," }, "{t} s, {what}", { t: [2.5, 2], what: "leans" }), "2,50 s, leans");
+});
+
+test("of what a hand asks for the newest waits, one wish at a time is under way, and none is lost", () => {
+  const sent = [], asking = new Asking((...wish) => sent.push(wish));
+  asking.ask("spin", 1);
+  asking.ask("spin", 2);
+  asking.ask("tilt", 5);
+  asking.ask("spin", 3);
+  assert.deepEqual(sent, [[1, "spin", 1]]);
+  assert.ok(asking.isAhead);
+  asking.hear(1);
+  assert.deepEqual(sent.at(-1), [2, "tilt", 5]);
+  asking.hear(2);
+  assert.deepEqual(sent.at(-1), [3, "spin", 3]);
+  asking.hear(2); // an old answer
+  assert.ok(asking.isAhead);
+  asking.hear(3);
+  assert.ok(!asking.isAhead);
+  assert.equal(sent.length, 3);
+});
+
+test("the track is the contact of each frame, in seconds and R", () => {
+  const rows = new Float32Array(40);
+  rows.set([2, 0, 0, 0, 1, 0.5, -0.25], 0);
+  rows.set([4, 0, 0, 0, 1, 0.75, 1], 20);
+  assert.deepEqual(trackOf(rows, 0.5), [[1, 0.5, -0.25], [2, 0.75, 1]]);
+});

@@ -1,0 +1,227 @@
+"""The Lab in Chromium: on arrival it flips, with nothing clicked; what a hand moves, types and chooses is shown."""
+
+from urllib.parse import parse_qs, urlsplit
+
+import numpy as np
+import pytest
+from axe_playwright_python.base import AXE_SCRIPT
+from test_axe import CONTRAST, DARK, LIGHT, LOOK, violations
+from visiting import PATIENCE, Visit
+
+from app.model.lab_run import TOYS, start_of
+from tippe_core import grip
+
+pytestmark = pytest.mark.served
+
+TOPS = "__tippe.tops('lab')"
+TIME = "Number(window.tippe.time('lab'))"
+# The tilt of the top that is looked at, in degrees, of its pose alone.
+TILT = f"""(() => {{
+    const [x, y] = {TOPS}[0].quaternion
+    return 180 / Math.PI * Math.acos(1 - 2 * (x * x + y * y))
+}})()"""
+DRAWN = "window.__tippe?.tops?.('lab').some((top) => top.pictures && top.count)"
+UNIT = TOYS["Leine and Glocker's toy"].shape.scales.time  # s
+
+
+def come(page, url):
+    """A page at this address, once its top is drawn."""
+    visit = Visit(page, url, whole=False)
+    page.wait_for_function(DRAWN)
+    return visit
+
+
+# What of the Lab a finger may touch that is less than 44 px high.
+SMALL = """() => {
+    const all = (root) => [...root.querySelectorAll("*")].flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
+    const lab = all(document).find((e) => e.matches(".lab"))
+    return [...lab.querySelectorAll("button, select, input:not(.num, .at)")].filter((e) => e.checkVisibility())
+        .map((e) => [e.className || e.textContent, e.getBoundingClientRect().height]).filter(([, h]) => h < 43.9)
+}"""
+
+
+@pytest.fixture(scope="module")
+def visit(server, chromium):
+    """The page as it comes, the same for all tests here, in this order; they fail on an error in it."""
+    visit = come(chromium.new_page(viewport={"width": 1400, "height": 900}), f"{server}?")
+    yield visit
+    visit.page.close()
+    assert not visit.errors
+
+
+@pytest.fixture
+def page(visit):
+    return visit.page
+
+
+def pause(page):
+    if page.get_by_role("button", name="Pause").count():
+        page.get_by_role("button", name="Pause").click()
+    page.get_by_role("button", name="Play", exact=True).wait_for()
+
+
+def entry(page, name):
+    return page.get_by_role("textbox", name=name)
+
+
+def put(page, name, value):
+    entry(page, name).fill(str(value))
+    entry(page, name).press("Enter")
+
+
+def choose(page, table):
+    page.get_by_role("radio", name=table).click()
+    page.locator(f".lab[data-table={table.lower()}]").wait_for()
+
+
+def line(page):
+    """The points of the tilt over time."""
+    return page.locator(".strip .rest").first.get_attribute("points")
+
+
+def test_it_flips_on_arrival_with_nothing_clicked(page):
+    assert urlsplit(page.url).query == ""
+    assert page.get_by_role("tab", name="Lab").get_attribute("aria-selected") == "true"
+    page.wait_for_function(f"{TILT} > 170", timeout=PATIENCE)
+    assert page.evaluate(TIME) * UNIT == pytest.approx(1.47, abs=0.3)  # physics says 1.471 s
+    page.get_by_text("It stands on its stem and spins on.").wait_for()
+    page.wait_for_function(f"{TIME} * {UNIT} > 2")
+    assert page.evaluate(TILT) > 170
+
+
+def test_the_head_of_the_bar_is_dragged_from_a_rest(page):
+    pause(page)
+    box = page.locator(".strip .head").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.wait_for_timeout(500)  # the rest itself
+    page.mouse.move(x + 80, y - 30)
+    page.mouse.move(x + 200, y - 60)
+    moved = page.locator(".strip .head").bounding_box()
+    assert moved["x"] - box["x"] == pytest.approx(200, abs=2)
+    page.mouse.up()
+    ends = page.locator(".strip .axis").first.bounding_box()
+    expected = 6 * (x + 200 - ends["x"]) / ends["width"]
+    page.wait_for_function(f"t => Math.abs({TIME} * {UNIT} - t) < 0.02", arg=expected)
+
+
+def test_the_bar_is_moved_by_keys(page):
+    slider = page.get_by_role("slider", name="Time")
+    slider.press("Home")
+    page.wait_for_function(f"{TIME} == 0")
+    assert slider.get_attribute("aria-valuetext").startswith("0.00 s, tilt 6 degrees")
+    slider.press("ArrowRight")
+    page.wait_for_function(f"{TIME} > 0")
+
+
+def test_another_table_keeps_the_start_and_begins_anew(page):
+    page.get_by_role("slider", name="Time").press("End")
+    put(page, "Spin, in turns a second", 30)
+    before = [entry(page, name).input_value() for name in ("Spin, in turns a second", "Tilt, in degrees")]
+    assert before == ["30.0", "5.7"]
+    page.get_by_role("button", name="On a table so rough that it can only roll").click()
+    page.locator(".lab[data-table=rough]").wait_for()
+    page.wait_for_function(f"{TIME} * {UNIT} < 5")
+    assert [entry(page, name).input_value() for name in ("Spin, in turns a second", "Tilt, in degrees")] == before
+    assert not entry(page, "Friction, its coefficient").is_visible()  # where nothing slips it does nothing
+    heights = np.array([float(point.split(",")[1]) for point in line(page).split()])
+    right_angle = page.locator(".strip .grid").first.get_attribute("y1")
+    assert heights.min() > float(right_angle) + 30  # it never comes near
+    page.get_by_text("Rolling, it never turns over.").wait_for()
+
+
+def test_what_cannot_be_is_said_beside_it_and_the_motion_stays(page):
+    choose(page, "Ordinary")
+    before = line(page)
+    put(page, "Tilt, in degrees", 185)
+    page.get_by_role("alert").filter(has_text="Tilt goes from 0°").wait_for()
+    page.get_by_text("Old picture: Tilt 5.7°").first.wait_for()
+    assert line(page) == before
+    assert entry(page, "Tilt, in degrees").input_value() == "185"
+    page.get_by_role("button", name="Back to 5.7°").click()
+    page.get_by_text("Old picture").first.wait_for(state="hidden")
+    assert entry(page, "Tilt, in degrees").input_value() == "5.7"
+    put(page, "Tilt, in degrees", "half")
+    page.get_by_role("alert").filter(has_text="half is no number").wait_for()
+    put(page, "Tilt, in degrees", "5,73")
+    page.get_by_role("alert").filter(has_text="half").wait_for(state="hidden")
+
+
+def test_a_slider_asks_at_every_move_and_the_newest_is_shown(page):
+    before = line(page)
+    slider = page.locator("#lab-spin")
+    for _ in range(12):
+        slider.press("ArrowLeft")
+    assert entry(page, "Spin, in turns a second").input_value() == "28.8"
+    page.wait_for_function("!location.search.includes('turns=30') && location.search.includes('turns=28.8')")
+    assert line(page) != before
+
+
+def test_a_link_opens_the_same_elsewhere(page, chromium, server):
+    put(page, "Tilt, in degrees", 12)
+    choose(page, "Ice")
+    page.wait_for_function("location.search.includes('table=ice') && location.search.includes('lean=12')")
+    asked = parse_qs(urlsplit(page.url).query)
+    assert asked == {"v": ["1"], "tab": ["lab"], "table": ["ice"], "turns": ["28.8"], "lean": ["12"]}
+    other = chromium.new_page(viewport={"width": 1400, "height": 900})
+    come(other, page.url)
+    other.locator(".lab[data-table=ice]").wait_for()
+    assert entry(other, "Tilt, in degrees").input_value() == "12.0"
+    assert line(other) == line(page)
+    other.close()
+
+
+def test_three_tables_are_seen_at_once_on_one_clock(page):
+    page.get_by_role("radio", name="All three").click()
+    page.locator(".lab[data-table=three]").wait_for()
+    page.wait_for_function(f"{TOPS}.filter((top) => top.count && top.pictures > 1).length == 3")
+    assert page.get_by_role("row").count() == 4
+    pause(page)
+    page.get_by_role("slider", name="Time").press("End")
+    page.wait_for_function(f"new Set({TOPS}.filter((top) => top.count).map((top) => top.t.toFixed(3))).size == 1")
+
+
+def test_the_papers_figures_have_this_top_and_start(page):
+    choose(page, "Rough")
+    page.get_by_role("button", name="The paper’s figures for this top").click()
+    page.locator("[data-figure=plane]").first.wait_for()
+    assert page.get_by_role("tab", name="Roll").get_attribute("aria-selected") == "true"
+    page.wait_for_function("location.search.includes('by=state')")
+    start = start_of("Leine and Glocker's toy", 28.8, 12.0, 0.3)
+    state, _ = grip(start.top, start.state)
+    asked = {
+        name: float(value[0])
+        for name, value in parse_qs(urlsplit(page.url).query).items()
+        if name in ("th", "w2", "w3")
+    }
+    assert asked == pytest.approx({"th": state.theta, "w2": state.omega2, "w3": state.omega3})
+
+
+@pytest.mark.parametrize("size", [(1400, 900), (390, 844)], ids=["1400", "390"])
+def test_axe_finds_nothing(chromium, server, size):
+    context = chromium.new_context(viewport={"width": size[0], "height": size[1]}, reduced_motion="reduce")
+    page = context.new_page()
+    come(page, f"{server}?")
+    assert not page.evaluate(f"{TOPS}[0].playing")  # it does not begin by itself
+    page.evaluate(AXE_SCRIPT)
+    for table in ("Ordinary", "All three"):
+        page.get_by_role("radio", name=table).click()
+        page.wait_for_function("Bokeh.documents[0].is_idle")
+        assert violations(page) == [], table
+        page.evaluate(LOOK, DARK)
+        assert violations(page, CONTRAST) == [], table
+        page.evaluate(LOOK, LIGHT)
+    page.get_by_role("button", name="Spin all three").click()
+    page.wait_for_function(f"{TOPS}.some((top) => top.playing && top.t > 0)")
+    context.close()
+
+
+def test_all_that_a_finger_touches_is_44_px_high(chromium, server):
+    phone = chromium.new_context(viewport={"width": 390, "height": 844}, is_mobile=True, has_touch=True)
+    page = phone.new_page()
+    come(page, f"{server}?")
+    small = page.evaluate(SMALL)
+    assert small == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    phone.close()

@@ -1,0 +1,38 @@
+"""Which tab an address opens: today's addresses open what they opened; an address with no query opens the Lab."""
+
+from urllib.parse import parse_qsl
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.state.keep import Keep, read
+from app.tabs.lab.opening import opened, shortest
+
+
+@pytest.mark.parametrize(("query", "tab"), {
+    "": "lab", "?": "lab",
+    "?v=1&KJ=6.5": "roll", "?tab=roll": "roll", "?lang=de": "roll", "?v=1&tab=three-planes&plane=rough": "three-planes",
+    "?tab=lab&turns=30": "lab", "?v=1&tab=learn&step=free": "learn",
+}.items())  # fmt: skip
+def test_an_address_opens(query, tab):
+    assert opened(read(query)[0]) == tab
+
+
+TEXTS = st.dictionaries(st.sampled_from(["KJ", "turns", "lang"]), st.just("1"))
+
+
+@given(TEXTS, st.sampled_from(["lab", "roll", "learn", "families"]))
+def test_what_goes_without_saying_opens_the_same(others, tab):
+    texts = others | {"tab": tab}
+    said = shortest(texts)
+    assert opened(said) == tab
+    assert {key: text for key, text in said.items() if key != "tab"} == others
+
+
+def test_a_page_as_it_comes_has_an_address_without_a_query():
+    for tab, query in (("lab", {}), ("roll", {"v": "1", "tab": "roll"})):
+        keep = Keep({"tab": tab})
+        keep.shortest = shortest
+        keep.at_rest()
+        assert dict(parse_qsl(keep.query[1:])) == query

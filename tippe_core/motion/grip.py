@@ -1,0 +1,52 @@
+"""What the rough table does to a top that comes to it without rolling: it grips the contact point, in an instant.
+
+An impulse (J_x, J_y, J_z) at the contact stops the slip, and J_z keeps the ball on the table. No other acts, so the
+angular momentum about the contact point, and with it C_J (14), is what it was. With G's velocity on the table,
+(vx, vy, a s w1), and the slip u of dynamics.py the axes x and y come apart:
+
+    J_x = -I3 u_x/f3^2 ,   I1 dw2 = -(c - a) J_x ,   I3 dw3 = s J_x ,   dvx = J_x ,
+    J_y = -m u_y/f1^2 ,    m dw1 = (1 - a c) J_y ,   dvy = J_y ,   m = I1 + a^2 s^2 ,
+
+    energy lost = (1/2) (I3 u_x^2/f3^2 + m u_y^2/f1^2) ,
+
+f1 and f3 those of (35) and (32). E. J. Routh, Dynamics of a System of Rigid Bodies, part I (impulses on perfectly rough
+bodies). The table of the paper holds with any force: J_z may be a pull, and |J_h| more than mu_s J_z.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..errors import TopError
+from ..paper import equations as eq
+from ..paper.constants import State, versines
+from ..paper.top import Top
+
+
+def grip(top: Top, state: State) -> tuple[State, float]:
+    """The State that rolls right after the rough table has gripped the ball of a top, and the energy that takes, in
+    MgR, never negative.
+
+    state: vx, vy left None mean G at rest, as for slide(). C_J stays, K_R and E do not; a State that rolls already
+    loses nothing. The angles and the place of G stay, but at a pole, where phi is turned so that 1' is along omega
+    (psi against it). Raises TopError for what is no Top or State.
+    """
+    for name, value, kind in (("top", top, Top), ("state", state, State)):
+        if not isinstance(value, kind):
+            raise TopError(name, value, kind.__name__, code="wrong-kind")
+    a, I1, I3 = top.a, top.I1, top.I3
+    v, m = (float(x) for x in versines(state.theta))
+    c, s = (1 - v if v <= m else m - 1), (v * m) ** 0.5
+    w1, w2, w3 = state.theta_dot, state.omega2, state.omega3
+    x, y = eq.rolling_velocity(c, s, w1, w2, w3, top)
+    ux, uy = (state.vx or 0.0) - x, (state.vy or 0.0) - y
+    inertia = I1 + (a * s) ** 2
+    Jx, Jy = -I3 * ux / eq.f3_2(c, s * s, top), -inertia * uy / eq.f1_2(c, top)
+    lost = -(Jx * ux + Jy * uy) / 2
+    w1, w2, w3 = w1 + (1 - a * c) * Jy / inertia, w2 - (c - a) * Jx / I1, w3 + s * Jx / I3
+    phi, psi = state.phi, state.psi
+    if s == 0.0 and w2:
+        lean = float(np.angle(c * (w1 + 1j * c * w2)))
+        w1, w2, phi, psi = c * float(np.hypot(w1, w2)), 0.0, phi + lean, psi - c * lean
+    vx, vy = eq.rolling_velocity(c, s, w1, w2, w3, top)
+    return replace(state, theta_dot=w1, omega2=w2, omega3=w3, phi=phi, psi=psi, vx=vx, vy=vy), lost
