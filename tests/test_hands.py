@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from app.model.explorer import Explorer
 from app.model.frames import in_space
 from app.model.hands import held, pulled
+from app.model.levers import levers
 from app.model.planes_run import solve as run
 from app.model.playing import Playing, together
 from app.widgets.pacing import Pacer
@@ -74,6 +75,22 @@ def test_vectors_in_space_are_those_of_the_pose(explorer):
     body = poses[1].inv().apply(omega[1])
     assert poses[1].apply(inertia @ body) == pytest.approx(momentum[1], abs=1e-9)
     assert force[:, 2] == pytest.approx(motion.force[:, 2], abs=1e-12)
+
+
+def test_the_lever_arms_are_those_of_the_torques(explorer):
+    """F_x's torque about the axis 3 is all that turns L_3, that about z all that turns L_z (Fig. 4): by differences of
+    the momentum of the motion."""
+    scene = explorer.scene
+    t = scene.trajectory.t
+    rate = np.gradient(scene.momentum[:, 2], t, edge_order=2)[1:-1]
+    rate_3 = np.gradient(scene.trajectory.omega[:, 2] * scene.top.I3, t, edge_order=2)[1:-1]
+    found = levers(scene)
+    step = (t[1] - t[0]) ** 2
+    arm_3 = np.hypot(*found.foot.T)
+    assert (found.push * found.G[:, 0])[1:-1] == pytest.approx(rate, abs=100 * step)
+    assert (found.push * arm_3)[1:-1] == pytest.approx(rate_3, abs=100 * step)
+    assert np.hypot(*(found.G - [0, 1]).T) == pytest.approx(abs(scene.top.a), abs=1e-12)
+    assert (found.foot * found.axis).sum(axis=1) == pytest.approx(0, abs=1e-12)  # at a right angle
 
 
 def test_the_spin_and_the_drift_that_are_said():

@@ -27,13 +27,13 @@ Bokeh._get_model = fails_in_panel
 """
 IN_MAKER = """
 import app.page as page
-failed_in_maker, real_in_maker = [], page.House.TABS["families"]
+failed_in_maker, real_in_maker = [], page.House.families
 def fails_in_maker(*arguments):
     if not failed_in_maker:
         failed_in_maker.append(True)
         raise RuntimeError("made to fail in the maker")
     return real_in_maker(*arguments)
-page.House.TABS["families"] = fails_in_maker
+page.House.families = fails_in_maker
 """
 IN_HOOKS = """
 from panel.viewable import Viewable
@@ -50,7 +50,7 @@ Viewable._preprocess = fails_in_hooks
 SLOW = """
 import os, sys, time
 import app.tabs.families.compare as compare, app.page as page
-real_view, real_map, maps = page.House.TABS["families"], compare.share_map, []
+real_view, real_map, maps = page.House.families, compare.share_map, []
 def late(*arguments):
     while not os.path.exists(GO):
         time.sleep(0.05)
@@ -70,7 +70,7 @@ def work(self, *arguments):
         return real_work(self, *arguments)
     finally:
         print("ENDED", flush=True)
-page.House.TABS["families"], compare.share_map, compare.Compare._work = late, endless, work
+page.House.families, compare.share_map, compare.Compare._work = late, endless, work
 """
 # How many rows of the map are there
 ROWS = """() => {

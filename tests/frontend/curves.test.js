@@ -63,12 +63,14 @@ test("the bead is in the well of its time, and in none between two", () => {
 test("a section stands upright at no tilt and lies at a right angle, on the table each time", () => {
   const circle = Array.from({ length: 360 }, (_, k) => (k * Math.PI) / 180);
   const outline = { across: circle.map(Math.sin), along: circle.map(Math.cos) };
+  const at = (theta) => [Math.sin(theta), Math.cos(theta)];
+  const tilted = (theta, [s, c] = at(theta)) => sectionAt({ axis: [-s, c], G: [0.1 * s, 1 - 0.1 * c], foot: [0, 0] }, outline);
   for (const theta of [0, 0.7, Math.PI / 2, 3]) {
-    const { y, points } = sectionAt(theta, 0.1, outline), [O, G] = points;
+    const { y, points } = tilted(theta), [O, G] = points;
     near(Math.min(...y), 0, 1e-3);
     near(O, [0, 1]);
     near(Math.hypot(G[0] - O[0], G[1] - O[1]), 0.1);
   }
-  near(sectionAt(0, 0.1, outline).points[1], [0, 0.9]);
-  near(sectionAt(Math.PI / 2, 0.1, outline).points[3], [-1.9, 1]);
+  near(tilted(0).points[1], [0, 0.9]);
+  near(tilted(Math.PI / 2).points[3], [-1.9, 1]);
 });

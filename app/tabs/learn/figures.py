@@ -6,6 +6,7 @@ from bokeh.models import ColumnDataSource, Range1d
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, GREY, INK
+from app.model.levers import levers
 from app.text import say
 from app.widgets.cards import swatch, words
 from app.widgets.plots import plain
@@ -54,6 +55,9 @@ class StepFigure:
         self.y.object = f"<div>{say(f'learn.axes.{picture.y}')}</div>"
 
 
+POSE = ("axis_x", "axis_y", "G_x", "G_y", "foot_x", "foot_y")
+
+
 class SectionFigure:
     """The paper's Fig. 4, live: the section through the contact point and the axis, with the two lever arms of F_x."""
 
@@ -62,7 +66,7 @@ class SectionFigure:
                                   match_aspect=True)  # fmt: skip
         fig.update(sizing_mode="stretch_width", height=330)
         fig.grid.visible = fig.axis.visible = False
-        self.motion = ColumnDataSource({"t": [0.0, 1.0], "theta": [0.5, 0.5], "push": [1.0, 1.0], "a": [0.07, 0.07]})
+        self.motion = ColumnDataSource({name: [0.0, 1.0] for name in ("t", "push", *POSE)})
         self.body = ColumnDataSource({name: np.zeros(1) for name in ("across", "along", "x", "y")})
         five, six = [0.0] * 5, [0.0] * 6
         self.lines = ColumnDataSource(
@@ -94,9 +98,9 @@ class SectionFigure:
         radius, height = scene.profile.T
         across, along = np.concatenate([radius, -radius[::-1]]), np.concatenate([height, height[::-1]])
         self.body.data = {"across": across, "along": along, "x": across.copy(), "y": along + 1}
-        motion = scene.trajectory
-        self.motion.data = {
-            "t": motion.t, "theta": motion.theta, "push": motion.force[:, 0], "a": np.full(len(motion.t), scene.top.a),
-        }  # fmt: skip
+        found = levers(scene)
+        points = (found.axis, found.G, found.foot)
+        pose = [column for point in points for column in np.ascontiguousarray(point.T)]
+        self.motion.data = {"t": scene.trajectory.t, "push": found.push, **dict(zip(POSE, pose, strict=True))}
         arms = swatch(COLOURS["friction"], say("learn.arms.z")) + swatch(COLOURS["theta"], say("learn.arms.three"))
         self.words.object = f'<div class="key">{arms}</div>'

@@ -5,17 +5,17 @@ import { followClock, isFollowed } from "./seeking.js";
 
 const ALONG = 1.9; // of the axis 3, beyond O, in R
 
-// The paper's Fig. 4 at a tilt, of points that Python sent: the outline, six lines and four points.
-/** @param {number} theta @param {number} a @param {{ across: Column, along: Column }} outline */
-export function sectionAt(theta, a, { across, along }) {
-  const s = Math.sin(theta), c = Math.cos(theta);
-  const x = Array.from(across, (_, k) => across[k] * c - along[k] * s);
-  const y = Array.from(across, (_, k) => 1 + across[k] * s + along[k] * c);
-  const G = [a * s, 1 - a * c], tip = [-ALONG * s, 1 + ALONG * c];
+// The paper's Fig. 4 at an instant, of points that Python sent: the outline, six lines and four points.
+/** @typedef {[number, number]} Point */
+/** @param {{ axis: Point, G: Point, foot: Point }} pose @param {{ across: Column, along: Column }} outline */
+export function sectionAt({ axis, G, foot }, { across, along }) {
+  const [e, f] = axis, tip = [ALONG * e, 1 + ALONG * f];
+  const x = Array.from(across, (_, k) => across[k] * f + along[k] * e);
+  const y = Array.from(across, (_, k) => 1 - across[k] * e + along[k] * f);
   // the axis 3; the verticals through G and C; r from C to G; the arm of the torque about z, above the points, which are
   // larger than it; that about 3
   const lines = [
-    [1.25 * s, 1 - 1.25 * c, ...tip], [G[0], 0, G[0], 1.7], [0, 0, ...G], [0, 1.5, G[0], 1.5], [0, 0, s * c, 1 - c * c],
+    [-1.25 * e, 1 - 1.25 * f, ...tip], [G[0], 0, G[0], 1.7], [0, 0, ...G], [0, 1.5, G[0], 1.5], [0, 0, ...foot],
     [0, 0, 0, 1.7],
   ];
   return { x, y, lines, points: [[0, 1], G, [0, 0], tip] };
@@ -25,9 +25,10 @@ export function turnSection({ motion, body, lines, points, clock }) {
   if (isFollowed(motion)) return;
   let now = 0;
   const draw = () => {
-    const { t, theta, push, a } = motion.data, last = t.length - 1;
+    const { t, push } = motion.data, last = t.length - 1;
     const i = Math.round(clamp((now - t[0]) / (t[last] - t[0]), 0, 1) * last);
-    const drawn = sectionAt(theta[i], a[0], body.data);
+    const at = (name) => /** @type {Point} */ ([motion.data[`${name}_x`][i], motion.data[`${name}_y`][i]]);
+    const drawn = sectionAt({ axis: at("axis"), G: at("G"), foot: at("foot") }, body.data);
     for (let k = 0; k < drawn.x.length; k++) [body.data.x[k], body.data.y[k]] = [drawn.x[k], drawn.y[k]];
     body.change.emit();
     drawn.lines.forEach((ends, k) => ["x0", "y0", "x1", "y1"].forEach((name, j) => (lines.data[name][k] = ends[j])));

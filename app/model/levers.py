@@ -1,0 +1,35 @@
+"""The paper's Fig. 4: the section through the contact point C and the axis 3, with the lever arms of the force F_x."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.model.frames import axes
+from app.model.scene import Scene
+from tippe_core.types import Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Levers:
+    """Points and directions seen along F_x, a row (across, up) a frame, in R, from C: the axis 3; G, whose distance
+    across is the arm of the torque about z; the foot on the axis, whose distance from C is that of the torque about 3.
+    push (n,): F_x, in Mg."""
+
+    axis: Array
+    G: Array
+    foot: Array
+    push: Array
+
+
+def levers(scene: Scene) -> Levers:
+    """From the poses of the scene's motion."""
+    motion = scene.trajectory
+    _, across, axis, _ = axes(motion.theta, motion.phi)
+    up = np.array([0.0, 0.0, 1.0])
+    contact = np.column_stack([motion.contact, np.zeros(len(motion.t))])
+    foot = up - axis[:, 2:] * axis  # O is above C; from there down the axis as far as it is nearest to C
+
+    def seen(vectors: Array) -> Array:
+        return np.column_stack([(vectors * across).sum(axis=1), vectors[:, 2]])
+
+    return Levers(axis=seen(axis), G=seen(motion.com - contact), foot=seen(foot), push=motion.force[:, 0])
