@@ -13,9 +13,9 @@ from typing import Any, TypeAlias
 import param
 
 from app.model.arrival import ARRIVAL, MU, SPIN, TABLE, TILT, TOY
-from app.model.lab_ends import Ends, ends_of, known_ends
+from app.model.lab_ends import Ends, Key, ends_of, known_ends
 from app.model.lab_keeps import Row, keeps
-from app.model.lab_run import TABLES, TOYS, TableMotion, motion_on, start_of
+from app.model.lab_run import TABLES, TOYS, TableMotion, TooLong, motion_on, start_of
 from app.model.runs import Result, Run, Runs, Stopped
 from app.model.story import Event, Stage, Story, story
 from app.text import say, told
@@ -86,6 +86,8 @@ def scene_of(table: str, toy: str, spin: float, tilt: float, mu: float) -> LabSc
             if error.code == "body-below-table":
                 raise
             refused[each] = _sentence(error)
+        except TooLong:
+            refused[each] = say("lab.refused.too-long")
     found = {name: motion for name, motion in motions.items() if motion is not None}
     start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
     turned = "ordinary" in found and any(event.code == "over" for event in stories["ordinary"].events)
@@ -142,6 +144,7 @@ class Lab(param.Parameterized):
         self._shown = self._again = False
         self._messages: dict[str, str] = {}
         self._good: Inputs = ARRIVAL
+        self._strip: Key = ARRIVAL[1], *ARRIVAL[3:]
         super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
 
     @property
@@ -166,7 +169,7 @@ class Lab(param.Parameterized):
 
     def rest(self) -> None:
         """To be called when no hand moves: where the runs of all spins end is looked up, or computed beside."""
-        key = self.toy, self.tilt, self.mu
+        key = self._strip = self.toy, self.tilt, self.mu
         self._set(ends=known_ends(*key))
         if self.ends is None:
             self._runs.begin(Run(lambda run: ends_of(*key, look=run.look), partial(self._ended, key)), "ends")
@@ -192,6 +195,8 @@ class Lab(param.Parameterized):
             self.param.update(**{name: self._good[names.index(name)] for name in faults})
             self._tell()
             return
+        if self._strip != (self.toy, self.tilt, self.mu):
+            self._set(ends=None)
         if not self._shown or (self.scene is not None and now == self._good and self._run is None):
             return
         if self._run is None:

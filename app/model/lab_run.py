@@ -26,7 +26,25 @@ TABLES = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smoo
 TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
 PATCH = 0.5e-3  # m, the radius of the patch of contact
 SECONDS = 6.0
+MOST_LOOKS = 20_000  # of slide() at its page: some seconds; a toy that flips needs a hundred
 STEP = 2  # a row of the curves for so many frames: 200 rows in a second of a fast top
+
+
+class TooLong(Exception):
+    """A run, of a rim that chatters, takes more work than anybody waits for."""
+
+
+class Patience:
+    """What a run calls now and then: ends it where its page has gone, or after MOST_LOOKS."""
+
+    def __init__(self) -> None:
+        self._left = MOST_LOOKS
+
+    def __call__(self, reached: float) -> None:
+        self._left -= 1
+        if self._left < 0:
+            raise TooLong
+        look(reached)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -113,7 +131,7 @@ def computed(start: Start, table: str) -> tuple[Trajectory, float]:
     top, state, times, lost = start.top, start.state, start.times, 0.0
     check_room(start, state)
     if table == "ordinary":
-        return slid(start, state, times, look), lost
+        return slid(start, state, times, Patience()), lost
     if table == "ice":
         return clear(partial(glide, top, state, times), start, state), lost
     state, lost = grip(top, state)

@@ -69,7 +69,8 @@ def story(motion: TableMotion) -> Story:
     found = marks(motion)
     words = listed("lab.events")
     part = say(f"planes.parts.{motion.start.part}")
-    events = tuple(Event(t, code, *(word.format(part=part) for word in words[code])) for t, code in found)
+    later = [mark for mark in found if mark.t > 0.0]
+    events = tuple(Event(t, code, *(word.format(part=part) for word in words[code])) for t, code in later)
     if motion.table == "ordinary":
         return Story(events, _Ordinary(motion, found).stages(), "")
     return Story(events, (_quiet(motion),), _caption(motion))
@@ -79,7 +80,7 @@ def story(motion: TableMotion) -> Story:
 
 
 def marks(motion: TableMotion) -> tuple[Mark, ...]:
-    """The marks of a motion in turn; none at its very start."""
+    """The marks of a motion in turn; at its very start only that it ends."""
     t, ended = motion.seconds, _ended(motion)
     found = [*_over(motion), *_touches(motion)]
     if motion.table == "ordinary":
@@ -173,8 +174,8 @@ class _Ordinary:
         self.motion, self.part = motion, say(f"planes.parts.{motion.start.part}")
         rests = min((mark.t for mark in found if mark.code in ("leans", "upright")), default=np.inf)
         staged = [mark for mark in found if mark.code not in UNSTAGED and (mark.code != "stem" or mark.t < rests)]
-        first = Mark(0.0, self._first(staged))
-        all_marks = [first, *staged]
+        first = staged[0] if staged and staged[0].t <= 0.0 else Mark(0.0, self._first(staged))
+        all_marks = [first, *(mark for mark in staged if mark is not first)]
         # what is over before it can be read says nothing, but what comes at last does
         self.marks = [mark for mark, after in pairwise(all_marks) if after.t - mark.t > WHILE or mark is first]
         self.marks += all_marks[-1:] if len(all_marks) > 1 else [first]
