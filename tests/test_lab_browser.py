@@ -184,6 +184,9 @@ def test_three_tables_are_seen_at_once_on_one_clock(page):
 
 def test_the_papers_figures_have_this_top_and_start(page):
     choose(page, "Rough")
+    put(page, "Spin, in turns a second", 28.8)
+    put(page, "Tilt, in degrees", 12)
+    page.wait_for_function("location.search.includes('turns=28.8') && location.search.includes('lean=12')")
     page.get_by_role("button", name="The paper’s figures for this top").click()
     page.locator("[data-figure=plane]").first.wait_for()
     assert page.get_by_role("tab", name="Roll").get_attribute("aria-selected") == "true"

@@ -62,7 +62,7 @@ class Control {
     this.limits = { low: 0, high: 1, digits: 0 };
     this.share = 0; // of the track, where the value is
     const id = `lab-${name}`;
-    this.slider = part("input", { type: "range", id, oninput: () => {
+    this.slider = part("input", { type: "range", id, "aria-label": said.name, oninput: () => {
       this.put(Number(this.slider.value));
       ask(name, Number(this.slider.value));
     } });
