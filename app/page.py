@@ -78,6 +78,7 @@ THEME = {
 STYLE = [
     ".MuiLinearProgress-root { display: none !important }",  # it stays there, and has no name
     ".MuiTooltip-popper { display: none !important }",  # in English; guide.js has ours
+    "h3.title { color: var(--mui-palette-text-primary); font-size: 20px }",
     "@media (max-width: 600px) { h3.title { font-size: 18px } }",
     "main { background: var(--mui-palette-background-default) !important }",  # it would keep the first theme's
 ]

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.model import arrival, lab_ends, lab_run
-from app.model.arrival import ARRIVAL, SPIN, TILT, TOY
+from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
 from app.model.lab import LIMITS, Lab, scene_of
 from app.model.lab_ends import SPINS, Ends, ends_of, mixed
 from app.model.lab_run import SECONDS, TABLES, TOYS, computed, motion_on, start_of
@@ -65,6 +65,13 @@ def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
     monkeypatch.setattr(lab_run, "slid", None)  # nothing is computed for it
     assert motion_on(*ARRIVAL).trajectory.theta.tolist() == kept.theta.tolist()
     motion_on.cache_clear()
+
+
+def test_where_the_runs_of_its_other_spins_end_ships_too(monkeypatch):
+    monkeypatch.setattr(lab_ends, "_kept", lab_ends.OrderedDict())
+    kept = lab_ends.known_ends(TOY, TILT, MU)
+    assert kept.codes == lab_ends.ends_of(TOY, TILT, MU).codes
+    assert lab_ends.known_ends(TOY, TILT, 2 * MU) is None
 
 
 @pytest.mark.slow

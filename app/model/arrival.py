@@ -20,8 +20,8 @@ does not hang on the digits of these."""
 HAPPENS = "events", "supports"
 
 
-def write(trajectory: Trajectory) -> None:
-    """Keeps a Trajectory, its numbers as float32."""
+def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:
+    """Keeps a Trajectory, its numbers as float32, and the codes of lab_ends.Ends."""
     rows = {
         part.name: getattr(trajectory, part.name) for part in fields(trajectory) if part.name not in ("top", *HAPPENS)
     }
@@ -30,13 +30,13 @@ def write(trajectory: Trajectory) -> None:
         times, words = zip(*getattr(trajectory, name), strict=True)
         kept |= {f"{name}.t": np.array(times), f"{name}.what": np.array(words)}
     FILE.parent.mkdir(exist_ok=True)
-    np.savez_compressed(FILE, **kept)
+    np.savez_compressed(FILE, ends=np.array(ends), **kept)
 
 
 def read(top: Top) -> Trajectory:
     """The Trajectory that is kept, of this top."""
     with np.load(FILE) as kept:
-        found: dict[str, Any] = dict(kept)
+        found: dict[str, Any] = {name: value for name, value in kept.items() if name != "ends"}
     for name in HAPPENS:
         times, words = (found.pop(f"{name}.{part}").tolist() for part in ("t", "what"))
         found[name] = tuple(zip(times, words, strict=True))
@@ -45,10 +45,18 @@ def read(top: Top) -> Trajectory:
     })  # fmt: skip
 
 
-def main() -> None:
-    from app.model.lab_run import computed, start_of  # which reads what is written here
+def read_ends() -> tuple[str, ...]:
+    """The code of each of lab_ends.SPINS: how a run ends with this tilt and friction."""
+    with np.load(FILE) as kept:
+        return tuple(kept["ends"].tolist())
 
-    write(computed(start_of(TOY, SPIN, TILT, MU), TABLE)[0])
+
+def main() -> None:
+    # which read what is written here
+    from app.model.lab_ends import ends_of
+    from app.model.lab_run import computed, start_of
+
+    write(computed(start_of(TOY, SPIN, TILT, MU), TABLE)[0], ends_of(TOY, TILT, MU).codes)
 
 
 if __name__ == "__main__":

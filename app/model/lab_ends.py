@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from app.model import arrival
 from app.model.lab_run import start_of
 from app.text import say
 from tippe_core import Many, slide_many
@@ -52,8 +53,10 @@ _kept: OrderedDict[Key, Ends] = OrderedDict()
 
 
 def known_ends(toy: str, tilt: float, mu: float) -> Ends | None:
-    """What ends_of() has found before; None if it has to be asked."""
+    """What ends_of() has found before, or ships with the arrival; None if it has to be asked."""
     found = _kept.get((toy, tilt, mu))
+    if found is None and (toy, tilt, mu) == (arrival.TOY, arrival.TILT, arrival.MU):
+        found = _kept[toy, tilt, mu] = Ends(SPINS, arrival.read_ends(), start_of(toy, 0.0, tilt, mu).part)
     if found is not None:
         _kept.move_to_end((toy, tilt, mu))
     return found
