@@ -26,7 +26,7 @@ class PlaneFigure:
     """Fig. 6: tielines under the friction limit, what friction costs shaded, and the selected motion on top."""
 
     def __init__(self, motion):
-        self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane")
+        self.figure = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane")
         self.limits = ColumnDataSource()
         self.limits.data = {
             name: np.zeros(0)
@@ -59,7 +59,14 @@ class PlaneFigure:
             }
         )
         self.hand = ColumnDataSource({"grip": [""], "theta": [0.0], "K_J": [0.0]})
+        self._plane = None
+        self._draw_limits()
+        self._draw_hover()
+        self._draw_selected()
+        self._listen(motion.source)
 
+    def _draw_limits(self):
+        fig = self.figure
         for left, right in (("lift_in", "slip_in"), ("slip_out", "lift_out")):
             fig.harea(y="K_J", x1=left, x2=right, source=self.limits, fill_color=COLOURS["friction"], fill_alpha=0.16)
         fig.segment(
@@ -90,6 +97,9 @@ class PlaneFigure:
             text_color=INK,
         )
 
+    def _draw_hover(self):
+        """What is read of any point of the plane."""
+        fig = self.figure
         everywhere = fig.image("E", x="x", y="y", dw="w", dh="h", source=self.field, global_alpha=0, level="overlay")
         read = on_hover("readPlane", limits=self.limits, words=listed("roll.plane"))
         self.hover = HoverTool(
@@ -100,6 +110,9 @@ class PlaneFigure:
         )
         fig.add_tools(self.hover)
 
+    def _draw_selected(self):
+        """The motion, above all others, and why it does not roll."""
+        fig = self.figure
         on_top = {"source": self.selected, "level": "overlay"}
         fig.segment(
             x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5, line_cap="round", **on_top
@@ -125,8 +138,6 @@ class PlaneFigure:
             padding=6,
         )
         fig.add_layout(self.sentence)
-        self._plane = None
-        self._listen(motion.source)
 
     def _listen(self, motion):
         """To the browser's own clock, which moves the bead, and to hands."""
