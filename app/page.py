@@ -157,7 +157,7 @@ def page():
     pn.state.curdoc.on_session_destroyed(lambda context: runs.leave())
     share = Share(explorer, roll, texts, " ".join(filter(None, (sentence, wrong))), runs)
     share.keep.param.watch(lambda event: builder.follow(), "returned")
-    opened, phone = opening.opened(texts), on_a_phone()
+    opened, phone = opening.opened(texts, search), on_a_phone()
     share.keep.shortest = opening.shortest
     pn.state.curdoc.template_variables.update(first.variables(roll.top if opened == opening.USUAL else None, search))
 
@@ -172,11 +172,12 @@ def page():
         "families": lambda: family_view(explorer, runs),
         "learn": lambda: learn_view(explorer, roll, share.keep, runs),
     }
+    language = Tongue().choice(share)
     header, *places = tabs(views, share.keep, roll.pacer.soon, opened if opened in views else opening.USUAL)
     made = pmui.Page(
         template=first.PAGE,
         title=say("main.title"),
-        sidebar=[*roll.sidebar, Tongue().choice(share)],
+        sidebar=[*roll.sidebar, language],
         sidebar_open=not phone and opened != opening.FIRST,
         header=[*share.header, roll.guide],
         main=[
