@@ -228,7 +228,7 @@ def page():
     language = Tongue().choice(keep, share.reload)
     for show, when in ((share.show, "hand"), (controls.follow, "hand"), (controls.show, "rest"), (guide.show, "rest")):
         pacer.shows(show, when)
-    opened, phone = opening.opened(texts), on_a_phone()
+    opened, phone = opening.opened(texts, search), on_a_phone()
     keep.shortest = opening.shortest
     views = house.tabs
     header, *rooms = tabs(views, keep, pacer.soon, opened if opened in views else opening.USUAL)

@@ -18,9 +18,12 @@ from bokeh.document import Document
 from panel.io.state import set_curdoc
 
 from app import page, text
+from app.model.explorer import Explorer
 from app.state.keep import Body, Keep
 from app.widgets import tabs
 
+ROLL = "?v=1&tab=roll"  # what an address without a query opened, and said, before there was a Lab
+BEFORE = 1  # tabs that have come before those of then, which have their numbers of then here
 FILE = Path(__file__).parent / "data" / "links.json"
 
 
@@ -46,23 +49,25 @@ def opened(link):
     """What a link opens, of numbers, words and truth values: every setting by its name in a link; the language; the
     top, its body in SI and R, the motion and its turning points in units of R, M, g; what is said of the link."""
     with set_curdoc(Document()), kept() as parts:
-        pn.state.location.search = link
+        pn.state.location.search = link if link.strip("?") else ROLL
         page.page()
         if not parts:
             return {"language": text.spoken(), "settings": {}}  # a student's page
-        [explorer] = [owner for _, owner, _ in parts if hasattr(owner, "scene")]
+        [explorer] = [owner for _, owner, _ in parts if isinstance(owner, Explorer)]
+        [header] = [owner for _, owner, fields in parts if "active" in fields]
         keep, scene = parts[0][0], explorer.scene
         return {
             "language": text.spoken(),
             "settings": {field.key: plain(field.codec, getattr(owner, name))
-                         for _, owner, fields in parts for name, field in fields.items()},
+                         for _, owner, fields in parts for name, field in fields.items() if field.key != "tab"}
+            | {"tab": header.active - BEFORE},
             "body": {"R": scene.scales.R, "M": scene.scales.M, "height": float(np.ptp(scene.profile[:, 1]))},
             "top": asdict(scene.top),
             "motion": {name: float(getattr(scene.constants, name)) for name in ("K_J", "K_R", "E")},
             "turns": [float(theta) for theta in scene.turning],
             "wrong": sorted(scene.messages),
-            "address": keep.query,
-            "said": keep.sentence,
+            "address": "" if keep.query == ROLL else keep.query,
+            "said": keep.sentence.replace("lab, ", ""),  # of the tabs there are
         }  # fmt: skip
 
 

@@ -11,12 +11,12 @@ from app.tabs.lab.opening import opened, shortest
 
 
 @pytest.mark.parametrize(("query", "tab"), {
-    "": "lab", "?": "lab",
+    "": "lab", "?": "lab", "?v=1": "roll",
     "?v=1&KJ=6.5": "roll", "?tab=roll": "roll", "?lang=de": "roll", "?v=1&tab=three-planes&plane=rough": "three-planes",
     "?tab=lab&turns=30": "lab", "?v=1&tab=learn&step=free": "learn",
 }.items())  # fmt: skip
 def test_an_address_opens(query, tab):
-    assert opened(read(query)[0]) == tab
+    assert opened(read(query)[0], query) == tab
 
 
 TEXTS = st.dictionaries(st.sampled_from(["KJ", "turns", "lang"]), st.just("1"))

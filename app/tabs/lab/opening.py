@@ -6,9 +6,9 @@ An address with no query opens the Lab. Any other that names no tab opens Roll, 
 FIRST, USUAL = "lab", "roll"
 
 
-def opened(texts):
-    """The name of the tab that the texts of a query open."""
-    return texts.get("tab", USUAL if texts else FIRST)
+def opened(texts, query=""):
+    """The name of the tab that the texts of a query open; query: as it came, of which the texts may be a part."""
+    return texts.get("tab", USUAL if texts or query.strip("?") else FIRST)
 
 
 def shortest(texts):
