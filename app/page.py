@@ -239,7 +239,7 @@ def page():
         template=first.PAGE,
         title=say("main.title"),
         sidebar=sidebar(controls, look, language),
-        sidebar_open=not phone and opened != opening.FIRST,
+        sidebar_open=not phone,
         header=[*share.header, guide],
         # look and painted are not in the sidebar: what lies there is drawn anew each time that it opens on a phone
         main=[
@@ -259,12 +259,15 @@ def page():
         stylesheets=STYLE,
     )
 
-    def beside(event):
-        """The controls in the sidebar are none of the Lab's, which has its own."""
-        if not phone and 0 in (event.old, event.new):
-            made.sidebar_open = event.new != 0
+    def beside(*events):
+        """What goes with the tab that is looked at. The controls in the sidebar are none of the Lab's."""
+        now = list(views)[header.active]
+        guide.tour = now == opening.USUAL
+        if not phone and opening.FIRST in (now, *(list(views)[event.old] for event in events)):
+            made.sidebar_open = now != opening.FIRST
 
     header.param.watch(beside, "active")
+    beside()
     return made
 
 

@@ -91,7 +91,6 @@ def test_axe_finds_nothing_anywhere_in_any_look_and_no_other_machine_is_asked(ch
     page.set_default_timeout(PATIENCE)
     asked = []
     page.on("request", lambda request: asked.append(request.url))
-    page.add_init_script("localStorage.setItem('tippe:tour', '1')")
     page.goto(f"{server}?tab=roll")
     page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && Bokeh.documents[0].is_idle")
     assert not page.evaluate("__tippe.top3d.playing")
@@ -123,7 +122,6 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
                                  has_touch=True, user_agent="Mozilla/5.0 (Linux; Android 14) Mobile")  # fmt: skip
     page = phone.new_page()
     page.set_default_timeout(PATIENCE)
-    page.add_init_script("localStorage.setItem('tippe:tour', '1')")
     page.goto(f"{server}?tab=roll")
     page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
     page.evaluate(AXE_SCRIPT)

@@ -68,9 +68,8 @@ def wait(page, ready):
 class Visit:
     """A page that is open, and what it asked for, said and sent."""
 
-    def __init__(self, page, url, first=False, whole=True):
-        """An address without a query is Roll's here. first: a visit of somebody who was never here, and gets the tour.
-        whole: wait for all of the tab."""
+    def __init__(self, page, url, whole=True):
+        """An address without a query is Roll's here. whole: wait for all of the tab."""
         self.page, self.requests, self.errors, self.sent = page, [], [], []
         page.set_default_timeout(PATIENCE)
         page.on("request", lambda request: self.requests.append(request.url))
@@ -82,8 +81,6 @@ class Visit:
                 socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")
             ],
         )
-        if not first:
-            page.add_init_script("localStorage.setItem('tippe:tour', '1')")
         page.goto(url if "?" in url else f"{url}?tab=roll")
         if not whole:
             return

@@ -1,4 +1,4 @@
-"""The page by keyboard and by ear, and the tour of a first visit."""
+"""The page by keyboard and by ear, and the tour of Roll."""
 
 import numpy as np
 import param
@@ -11,6 +11,7 @@ from app.widgets.controls import worst
 class Guide(Bundled):
     """Two buttons, "Tour" and "?"; the keys of the page; and what the top does now as a text that is read out."""
 
+    tour = param.Boolean(default=True, doc="Whether what the tour shows is looked at.")
     said = param.String(default="", doc="What the motion on display is, in plain words; for a hand at rest.")
     seconds = param.Number(default=1.0, doc="Seconds of the real top in one unit of time.")
 

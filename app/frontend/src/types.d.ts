@@ -84,6 +84,7 @@ interface DialModel extends Model {
 }
 
 interface GuideModel extends Model {
+  tour: boolean;
   said: string;
   seconds: number;
 }

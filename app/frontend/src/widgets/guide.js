@@ -107,6 +107,12 @@ export function renderGuide({ model, el }) {
     tour.begin(document.activeElement);
   };
   list.onclick = (event) => event.target === list && list.close();
+  const offer = () => {
+    for (const button of [part(el, ".tour"), part(over, ".again")]) button.hidden = !model.tour;
+    if (!model.tour && tour.isOn) tour.end();
+  };
+  model.on("tour", offer);
+  offer();
   model.on("remove", () => {
     listening.abort();
     forgetNames();

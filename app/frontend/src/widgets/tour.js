@@ -1,4 +1,4 @@
-// The tour of a first visit: one place of the page after the other, with words beside it.
+// The tour of Roll, for who asks: one place of the page after the other, with words beside it.
 import { fill } from "../data.js";
 import { find } from "./finding.js";
 
@@ -8,9 +8,8 @@ const STOPS = [
   "input[data-input=K_J]",
   "[data-figure=plane]",
   "[data-picture=surface] canvas",
-  "[role=tab]:nth-of-type(2)",
+  "[role=tab]:nth-of-type(3)",
 ];
-const SEEN = "tippe:tour";
 const PLACED_MS = 200; // the page goes on being laid out
 const GAP = 14; // px
 
@@ -57,18 +56,14 @@ export class Tour {
     window.addEventListener("resize", () => this.place(), { signal });
     window.addEventListener("scroll", () => this.place(), { signal, capture: true });
     signal.addEventListener("abort", () => clearInterval(this.watching));
-    // Offered once, and only where nobody follows a link to something particular.
-    if (localStorage.getItem(SEEN) || location.search) return;
-    const first = () => find(STOPS[0]) && this.begin();
-    window.addEventListener("tippe:clock", () => setTimeout(first), { once: true, signal });
   }
 
   get isOn() {
     return !this.stop.hidden;
   }
 
-  /** @param {Element | null} [active] */
-  begin(active = null) {
+  /** @param {Element | null} active */
+  begin(active) {
     this.from = /** @type {HTMLElement | null} */ (active);
     this.stop.hidden = this.ring.hidden = false;
     this.watching = setInterval(() => this.place(), PLACED_MS);
@@ -78,7 +73,6 @@ export class Tour {
   end() {
     this.stop.hidden = this.ring.hidden = true;
     clearInterval(this.watching);
-    localStorage.setItem(SEEN, "1");
     this.from?.focus?.();
   }
 
@@ -95,7 +89,7 @@ export class Tour {
     this.target = find(STOPS[at]);
     if (!isWhole(this.target)) this.target?.scrollIntoView({ block: "center" });
     this.place();
-    if (this.from) part("#name").focus({ preventScroll: true }); // who asked for none keeps the focus
+    part("#name").focus({ preventScroll: true });
   }
 
   place() {
