@@ -3,7 +3,7 @@ export const style = `
 :host { --line: color-mix(in srgb, currentColor 18%, transparent); }
 .tippe { display: flex; flex-direction: column; width: 100%; height: 100%; min-height: 300px; box-sizing: border-box;
   font: calc(13px * var(--type, 1))/1.35 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif; }
-.picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: var(--scene, #eef1f5); }
+.picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: var(--scene, #f1efea); }
 .picture canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline: none; cursor: grab; }
 .picture canvas:active { cursor: grabbing; }
 .picture canvas:focus-visible { outline: 2px solid var(--focus, #0072B2); outline-offset: -2px; }

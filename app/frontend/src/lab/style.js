@@ -100,7 +100,7 @@ const stage = `
   .on > select { max-width: none; flex: 1; min-height: 50px; }
   .ring { top: 66px; left: auto; right: 8px; margin: 0; flex-direction: column; gap: 0; } .ring svg { width: 64px; }
   .lab[data-table=three] .top { top: 60px; bottom: 72px; } .caption { bottom: 4px; height: 68px; font-size: var(--t-s); padding: 0 4px; }
-  .lab[data-table=three] .stage { background: var(--scene, #eef1f5); }
+  .lab[data-table=three] .stage { background: var(--scene, #f1efea); }
 }
 `;
 

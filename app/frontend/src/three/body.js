@@ -1,9 +1,9 @@
 // The top: its outline turned round axis 3, painted so that every turn shows.
 import * as THREE from "three";
-import { colours } from "../colours.js";
 import { penOf } from "../data.js";
 
 const AROUND = 56;
+const PAINT = "#8f2313"; // of no quantity
 const CORNER = 0.35; // rad: a sharper bend than this is an edge of the wood, not a curve
 
 // Rows of (radius, height, normal r, normal z, share of the outline's length); a corner has two, one for each side.
@@ -106,9 +106,9 @@ function paint(firstCorner) {
   };
   for (const centre of [0.5, 0.75]) meridian(centre, 0.007, 0, 1, "#5a3312");
   meridian(0.25, 0.07, 0, 0.985, "#f7f3ea"); // the bold mark: one side only
-  meridian(0.25, 0.047, 0, 0.985, colours.theta);
+  meridian(0.25, 0.047, 0, 0.985, PAINT);
   band(0.7, 0.715, "#5a3312");
-  band(0.73, 0.79, colours.theta);
+  band(0.73, 0.79, PAINT);
   band(0.805, 0.82, "#5a3312");
   // One round spot opposite, drawn wide where the parallels are short.
   pen.fillStyle = "#f7f3ea";

@@ -2,19 +2,19 @@
 // from variables of CSS, which look.js sets.
 export const scenes = {
   light: {
-    sky: 0xeef1f5, edge: 0x5a3312, table: 0xf6f1e9, grid: 0xd6d5d1, strong: 0xa9b0b8, ink: 0x1d2733, shade: 0x2a2118,
+    sky: 0xf1efea, edge: 0x5a3312, table: 0xf6f1e9, grid: 0xd6d5d1, strong: 0xa9b0b8, ink: 0x1d2733, shade: 0x2a2118,
     ground: 0xf7f8fa, lines: 0x6b7a88, walls: 0.68, edges: 0.3,
     force: "#009E73", omega: "#a8538a", momentum: "#9a6a00", // the palette's, where needed darkened to be read
   },
   dark: {
-    sky: 0x1b232c, edge: 0xf0cfa3, table: 0x2b323a, grid: 0x3d4751, strong: 0x66727e, ink: 0xeef2f6, shade: 0x000000,
+    sky: 0x191f25, edge: 0xf0cfa3, table: 0x2b323a, grid: 0x3d4751, strong: 0x66727e, ink: 0xeef2f6, shade: 0x000000,
     ground: 0x1b232c, lines: 0x8a97a5, walls: 0.06, edges: 0.36,
     force: "#2bbf94", omega: "#dd94bd", momentum: "#E69F00",
   },
 };
 export const words = {
-  light: { "--scene": "#eef1f5", "--scene-ink": "#1d2733", "--scene-faint": "#4a5563", "--pill": "#ffffffe6", "--halo": "#fff" },
-  dark: { "--scene": "#1b232c", "--scene-ink": "#eef2f6", "--scene-faint": "#b6c1cc", "--pill": "#0e1318e6", "--halo": "#0e1318" },
+  light: { "--scene": "#f1efea", "--scene-ink": "#1d2733", "--scene-faint": "#4a5563", "--pill": "#ffffffe6", "--halo": "#fff" },
+  dark: { "--scene": "#191f25", "--scene-ink": "#eef2f6", "--scene-faint": "#b6c1cc", "--pill": "#0e1318e6", "--halo": "#0e1318" },
 };
 
 const now = () => scenes[document.documentElement.dataset.look?.startsWith("dark") ? "dark" : "light"];
