@@ -231,7 +231,7 @@ def page():
     opened, phone = opening.opened(texts, search), on_a_phone()
     keep.shortest = opening.shortest
     views = house.tabs
-    header, *rooms = tabs(views, keep, pacer.soon, opened if opened in views else opening.USUAL)
+    header, *rooms = tabs(views, keep, pacer.soon, opened if opened in views else opening.USUAL, opening.AT_ONCE)
     house.look_at = lambda name: setattr(header, "active", list(views).index(name))
     pn.state.curdoc.template_variables.update(first.variables(first.top_of(rooms), search))
 

@@ -53,10 +53,11 @@ class Place:
             self.column.objects = self._wrong
 
 
-def tabs(views, keep, soon, opened):
+def tabs(views, keep, soon, opened, at_once):
     """A list of the header and the places.
 
-    views: {name in the address: maker}; opened: the name of the one that is made with the page. soon: of a Pacer.
+    views: {name in the address: maker}; opened: the name of the one that is looked at first; at_once: those that are
+    then made with the page. soon: of a Pacer.
     """
     names, first = list(views), list(views).index(opened)
     places = [Place(name, make, soon) for name, make in views.items()]
@@ -74,14 +75,17 @@ def tabs(views, keep, soon, opened):
             return
         for i, column in enumerate(columns):
             column.visible = i == active
-        # One that the address names is made when the page is there: what it computes might overtake the page itself.
+        # What another computes might overtake the page itself: it is made when that is there.
         if pn.state.loaded:
             places[active].ask()
         else:
             pn.state.onload(places[active].ask)
 
-    columns[first].visible = True
-    places[first].fill()
+    if opened in at_once:
+        columns[first].visible = True
+        places[first].fill()
+    else:
+        look(first)
     header.param.watch(lambda event: look(event.new), "active")
     given = {"places": [column.name for column in columns]}
     header.jscallback(args={"run": "turnTab", "given": given}, active=CALL)

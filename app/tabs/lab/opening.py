@@ -3,7 +3,8 @@
 An address with no query opens the Lab. Any other that names no tab opens Roll, as it did before there was a Lab.
 """
 
-FIRST, USUAL = "lab", "roll"
+FIRST, USUAL = AT_ONCE = "lab", "roll"
+"""And these are there with the page."""
 
 
 def opened(texts, query=""):
