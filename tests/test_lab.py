@@ -288,6 +288,7 @@ def test_before_somebody_looks_nothing_is_computed(monkeypatch):
 @pytest.mark.parametrize(("name", "value", "says"), [
     ("tilt", 185, "Tilt goes from 0° (stem up) to 180° (stem down); 185° is beyond."),
     ("tilt", float("nan"), "nan is no number. Type one from 0 to 180."),
+    ("spin", " ", "Nothing is no number. Type one from −100 to 100."),
     ("spin", "fast", "fast is no number. Type one from −100 to 100."),
     ("spin", 1e9, "Spin goes from −100 to 100 turns a second; 1e+09 is beyond. "
                   "Less than nothing is the other way round."),

@@ -113,7 +113,8 @@ def fault(name: str, value: object) -> str:
         return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])
     least, most = LIMITS[name]
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        return say("lab.inputs.number", value=str(value)[:SHOWN], least=least, most=most)
+        typed = str(value).strip()[:SHOWN] or say("lab.inputs.nothing")
+        return say("lab.inputs.number", value=typed, least=least, most=most)
     return "" if least <= value <= most else say(f"lab.inputs.{name}", value=value, least=least, most=most)
 
 

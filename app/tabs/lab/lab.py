@@ -195,7 +195,8 @@ class LabTab:
         """An input of the scene in words."""
         said, digits = listed(f"lab_view.view.inputs.{name}"), SLIDERS[name][-1]
         gap = "" if said["unit"] in ("", "°") else " "
-        return spelled(f"{said['name']} {getattr(scene, name):.{digits}f}{gap}{said['unit']}")
+        number = f"{getattr(scene, name):.{digits}f}".replace("-", "\N{MINUS SIGN}")
+        return spelled(f"{said['name']} {number}{gap}{said['unit']}")
 
     @staticmethod
     def _run(scene, table):

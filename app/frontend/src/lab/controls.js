@@ -90,7 +90,14 @@ class Control {
     this.slider.style.setProperty("--p", `${(100 * Math.min(Math.max(share, 0), 1)).toFixed(2)}%`);
     this.number.value = written(value, digits, this.texts.decimal);
     this.share = share;
-    if (this.mark) this.mark.style.left = this.along(share);
+    this.point();
+  }
+
+  // The mark of the present value; one typed beyond the track has no place on it.
+  point() {
+    if (!this.mark) return;
+    this.mark.hidden = this.share < 0 || this.share > 1;
+    this.mark.style.left = this.along(this.share);
   }
 
   /** @param {number} share of the track */
@@ -136,7 +143,7 @@ class Control {
       style: `left: ${at(from)}; right: calc(100% - ${at(to)})`,
     })), this.mark);
     this.below.replaceChildren(bar, this.words(ends));
-    this.mark.style.left = this.along(this.share);
+    this.point();
   }
 
   digits = (value) => written(value, value % 1 ? 1 : 0, this.texts.decimal);

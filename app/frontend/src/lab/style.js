@@ -109,7 +109,7 @@ const strip = `
 .starts { display: grid; gap: 4px; justify-items: center; } .clock { font-size: var(--t-s); font-variant-numeric: tabular-nums; }
 .paces { display: grid; gap: 4px; justify-items: start; } .again { padding: 0 4px; display: flex; align-items: center; gap: 6px; }
 .strip .plot { position: relative; height: 100%; font-size: var(--t-s); cursor: pointer; touch-action: pan-y; user-select: none; }
-.strip .plot svg { width: 100%; height: 100%; }
+.strip .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
 .event { stroke: var(--line-2); stroke-dasharray: 2 3; }
 .strip .rest { stroke: var(--line-2); stroke-width: 1.5; } .strip .past { stroke: var(--ink); stroke-width: 2.2; }
 .lab[data-table=three] .strip .ice { stroke-dasharray: 2 3; } .lab.old .strip :is(.rest, .past, .shape) { opacity: .38; }
