@@ -67,7 +67,7 @@ def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
         # those that wait outside are taken when the first have gone, and all are let go in the end
         until(lambda: all(map(closed, connections)), 60)
         assert get(server.url)[0] == 200
-        assert run(Visitor.enter(server.url)).find("ReactiveESM", class_name="LabView")
+        assert run(Visitor.enter(server.url)).component("LabView")
         assert server.log.count("no more connections") == 1 and len(server.log.splitlines()) < 10
         for each in connections:
             each.close()
@@ -78,7 +78,7 @@ def test_those_who_do_not_read_what_they_asked_for_make_room(tmp_path):
     """And while they are sent it, it is no second open file each."""
     with served(tmp_path / "log", before=UNDER) as server:
         connections = [greedy(server.url) for _ in range(FEW)]
-        assert run(Visitor.enter(server.url)).find("ReactiveESM", class_name="LabView")
+        assert run(Visitor.enter(server.url)).component("LabView")
         assert "no more connections" in server.log and len(server.log.splitlines()) < 10
         for each in connections:
             each.close()

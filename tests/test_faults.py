@@ -127,7 +127,7 @@ def test_a_full_disk_stops_nobody(tmp_path):
     try:
         until(lambda: answers(f"http://127.0.0.1:{port}/liveness"), 60)
         visitor = run(Visitor.enter(f"http://127.0.0.1:{port}/app"))
-        assert visitor.find("ReactiveESM", class_name="LabView")
+        assert visitor.component("LabView")
     finally:
         process.terminate()
         assert process.wait(10) == 0

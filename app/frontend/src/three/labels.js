@@ -21,6 +21,7 @@ export class Labels {
     element.className = className;
     element.setAttribute("aria-hidden", "true");
     element.innerHTML = html;
+    element.style.display = "none"; // until it is placed
     this.layer.append(element);
     /** @type {Label} */
     const label = { element, at: new Vector3(), shift: [0, 0], visible: true };
