@@ -16,6 +16,7 @@ from app.state.keep import Field, OneOf, explorer_of, read
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn, kept
 from app.tabs.learn.student import student_page
+from app.tabs.maps.maps import Maps
 from app.tabs.planes.three_planes import KEPT, ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.tabs.workshop.measure import Measure
@@ -175,6 +176,7 @@ def page():
                     "three-planes": lambda: planes_view(explorer, roll, builder, share.keep, runs),
                     "build-a-top": lambda: build_view(explorer, roll, builder),
                     "families": lambda: family_view(explorer, runs),
+                    "maps": lambda: Maps(runs).view,
                     "learn": lambda: learn_view(explorer, roll, share.keep, runs),
                 },
                 share.keep,
