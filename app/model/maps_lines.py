@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from contourpy import contour_generator
 
 from app.model.maps import Map
 from app.model.maps_solving import Level
@@ -61,9 +60,21 @@ def lines(asked: Map) -> tuple[tuple[str, Array], ...]:
     wanted = ("stands", "leaves", *(WINDOW if {"a", "ratio"} & {asked.across, asked.up} else ()))
     found: list[tuple[str, Array]] = []
     for name in wanted:
-        z = np.ma.masked_invalid([[each[name] for each in row] for row in fields])
-        found += [(name, np.asarray(line)) for line in contour_generator(x, y, z).lines(0.0) if len(line) > 1]
+        z = np.array([[each[name] for each in row] for row in fields])
+        along, up = _crossings(x, y, z), [line[:, ::-1] for line in _crossings(y, x, z.T)]
+        found += [(name, line) for line in max(along, up, key=lambda lines: sum(map(len, lines)))]
     return tuple(found)
+
+
+def _crossings(x: Array, y: Array, z: Array) -> list[Array]:
+    """Where z (y, x) passes 0 along each row: the first places of all rows as one line, the second as another, ..."""
+    found: dict[int, list[tuple[float, float]]] = {}
+    for row, other in zip(z, y, strict=True):
+        at = np.flatnonzero((row[:-1] < 0) & (row[1:] >= 0) | (row[:-1] >= 0) & (row[1:] < 0))
+        for k, i in enumerate(at):
+            place = x[i] + (x[i + 1] - x[i]) * row[i] / (row[i] - row[i + 1])
+            found.setdefault(k, []).append((float(place), float(other)))
+    return [np.array(line) for line in found.values() if len(line) > 1]
 
 
 def allowed(level: Level) -> Bools:

@@ -72,7 +72,7 @@ class MapFigure:
         self.words = []
         for _ in ENDS:
             self.words.append(Label(x=0, y=0, text=" ", visible=False, text_align="center", text_baseline="middle",
-                                    text_font_size="13px", text_font_style="bold"))  # fmt: skip
+                                    text_font_size="12px", text_font_style="bold"))  # fmt: skip
             fig.add_layout(self.words[-1])
         self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [False]})
         mine = {"fig": fig, "hand": self.hand, "bead": self.bead}

@@ -15,7 +15,8 @@ LINE = {"dashed": "dashed", "dotted": "dotted", "dashdot": "dashed", "dotdash": 
 
 
 def _patch(style, text):
-    return f'<span style="margin-right: 14px; white-space: nowrap"><span style="{PATCH.format(style)}"></span>{text}</span> '
+    patch = f'<span style="{PATCH.format(style)}"></span>'
+    return f'<span style="margin-right: 14px; white-space: nowrap">{patch}{text}</span> '
 
 
 def colours_say(level, colour):
@@ -62,6 +63,6 @@ def of_disagreement(found, asked):
     says = say("maps.agree")
     if found is not None:
         unit = QUANTITIES[asked.across].unit
-        says = say("maps.in_words", count=found.count, allowed=found.allowed, low=found.low, high=found.high, unit=unit)
+        says = say("maps.in_words", count=found.count, all=found.allowed, low=found.low, high=found.high, unit=unit)
         says += say(f"maps.why.{found.why}")
     return f"<h2>{say('maps.disagree')}</h2>{says}" if found else note(says)
