@@ -6,7 +6,6 @@ import json
 
 import numpy as np
 import pytest
-import references
 
 from app.model import maps_kept
 from app.model.maps import ENDS, LAWS, UNITS, Map
@@ -66,8 +65,7 @@ def passes(cell, moved):
 @pytest.mark.slow
 def test_random_cells_of_random_maps_are_single_runs():
     """The end equal; theta at the end and the times to 1e-6. Near a border, where a nudge grows, no run is certain."""
-    rng, count = np.random.default_rng(29), 200 if references.REMAKE else 20
-    left_out = 0
+    rng, count, left_out = np.random.default_rng(29), 20, 0
     for _ in range(count):
         level = last(random_map(rng))
         i, j = rng.integers(0, 3, 2)

@@ -61,7 +61,7 @@ class MapFigure:
         for source in (self.coarse, self.fine):
             fig.image_rgba("image", x="x", y="y", dw="w", dh="h", source=source)
         self.mixed = ColumnDataSource({"left": [], "right": [], "bottom": [], "top": []})
-        fig.quad("left", "right", "bottom", "top", source=self.mixed, fill_alpha=0, line_color=None,
+        self._hatch = fig.quad("left", "right", "bottom", "top", source=self.mixed, fill_alpha=0, line_color=None,
                  hatch_pattern="right_diagonal_line", hatch_color=DARK, hatch_alpha=0.55, hatch_scale=7)  # fmt: skip
         self.lines = ColumnDataSource({"xs": [], "ys": [], "dash": []})
         fig.multi_line("xs", "ys", source=self.lines, line_color="#fefefe", line_width=5)
@@ -100,6 +100,7 @@ class MapFigure:
         if level.whole:
             self.coarse.data = drawn
             self._name_areas(level, colour)
+        self._hatch.glyph.hatch_color = DARK if colour == "end" else "#fefefe"  # as seen on these
         if level.finest:
             self._mark(level)
             drawn = lines(level.asked)
