@@ -21,6 +21,7 @@ from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.learn import kept as kept_of_learn
 from app.tabs.learn.student import student_page
+from app.tabs.maps.maps import Maps
 from app.tabs.planes.three_planes import KEPT, ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.tabs.workshop.measure import Measure
@@ -189,7 +190,7 @@ class House:
     def tabs(self):
         """{name in the address: maker}, in the order of the header."""
         return {"lab": self.lab, "roll": self.roll, "three-planes": self.planes, "build-a-top": self.build,
-                "families": self.families, "learn": self.learn}  # fmt: skip
+                "families": self.families, "learn": self.learn, "maps": lambda: Maps(self.runs).view}  # fmt: skip
 
 
 def sidebar(controls, look, language):

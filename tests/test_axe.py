@@ -76,6 +76,7 @@ STEPS = {
     "Build a top": [click("tab", "Build a top"), awaited("button:text-is('Put on')")],
     "a list": [lambda page: page.get_by_label("Presets").first.click(), awaited("[role=listbox]")],
     "Families": [escape, click("tab", "Families"), awaited("button:text-is('Compute the map')")],
+    "Maps": [click("tab", "Maps"), awaited("h2:text-is('Where runs and formula disagree')")],
     "Learn *": [click("tab", "Learn"), click("radio", "It stays upright"), click("button", "Predict, and run it"),
                 awaited("math")],
     "Derivation": [click("button", "Derivation"), awaited(".line .sides b"),

@@ -58,6 +58,12 @@ class Pool:
                     del self._waiting[visitor]
         return waits
 
+    def before(self, visitor: Hashable) -> int:
+        """How many others wait for a thread before a visitor who waits; 0 where he does not."""
+        with self._changing:
+            waiting = list(self._waiting)
+            return waiting.index(visitor) if visitor in waiting else 0
+
     def rest(self, visitor: Hashable) -> float:
         """s for which a piece of this visitor's rests after each turn: he has one share, however many his pieces."""
         alone = len(self._working) < 2
@@ -94,6 +100,7 @@ class Pool:
 # Who asks while all are busy waits, and sees that nothing is done yet.
 WORK = Pool(4, "run")
 FILES = Pool(1, "file")  # matplotlib draws one figure at a time
+MAPS = Pool(2, "map")  # each piece of a map takes all cores, so that more at a time would only all be later
 
 
 class Run:

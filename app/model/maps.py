@@ -1,0 +1,182 @@
+"""What a map is: two quantities of a sliding top across and up, all others fixed, and one run in each cell.
+
+In the units of a person: rev/s, degrees, s, mm; a/R and I1/I3 have none. A map's runs are in units of R, M and g.
+"""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tippe_core import PRESETS, Contensou, Coulomb, Preset, Scales, SmoothedCoulomb, State, Top, TopError, Viscous
+from tippe_core.motion.friction import Friction
+from tippe_core.types import Array, Rim
+
+LAWS = ("coulomb", "viscous", "smoothed", "contensou")
+COLOURS_BY = ("end", "time_90", "theta_end", "F_z_least", "flew", "heat", "hops", "growth")
+ENDS = ("upright", "leaning", "rolling", "moving", "inverted", "stem", "refused")
+MOST_CELLS, MOST_SECONDS = 96, 60.0
+FIRST = 8  # cells a side of the first look
+NUDGE = 1e-6  # rad
+
+
+class Quantity(NamedTuple):
+    """What can go across or up: least and most that can be, and the range that is looked at first."""
+
+    least: float
+    most: float
+    low: float
+    high: float
+    unit: str
+
+
+QUANTITIES = {
+    "spin": Quantity(-300.0, 300.0, 5.0, 50.0, "rev/s"),
+    "tilt": Quantity(0.0, 180.0, 1.0, 40.0, "°"),
+    "mu": Quantity(0.001, 2.0, 0.05, 0.6, ""),
+    "second": Quantity(0.0, 5.0, 0.1, 2.0, ""),
+    "slip": Quantity(0.0, 2.0, 0.0, 1.0, ""),
+    "a": Quantity(-5.0, 0.95, 0.02, 0.4, ""),
+    "ratio": Quantity(0.5, 5.0, 0.7, 1.5, ""),
+    "R": Quantity(0.5, 500.0, 8.0, 30.0, "mm"),
+    "stem": Quantity(0.0, 1000.0, 10.0, 25.0, "mm"),
+    "rounding": Quantity(0.0, 100.0, 1.0, 8.0, "mm"),
+}
+SECONDS = {"coulomb": "mu_s", "viscous": "", "smoothed": "eps", "contensou": "radius"}
+"""{law: what its second number is}: friction at rest; (gR)^1/2; the patch in mm."""
+UNITS = {"theta_end": "°", "time_90": "s", "time_stem": "s", "hops": "", "flew": "", "F_z_least": "Mg", "heat": "MgR",
+         "energy_error": "MgR", "C_J_drift": "", "growth": ""}  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Map:
+    """All that a map depends on. values: those of QUANTITIES, of which across and up are not looked at; stem is how far
+    the end of the stem reaches above O, and with it the edge moves, but not the mass. nudged: whether each cell is run
+    twice, the second time NUDGE further tilted. Raises TopError for what cannot be."""
+
+    body: str = "Leine and Glocker's toy"
+    across: str = "spin"
+    up: str = "tilt"
+    across_range: tuple[float, float] = (5.0, 50.0)
+    up_range: tuple[float, float] = (1.0, 40.0)
+    law: str = "contensou"
+    values: tuple[tuple[str, float], ...] = ()
+    seconds: float = 6.0
+    cells: int = 48
+    nudged: bool = False
+    rtol: float = 1e-6
+
+    def __post_init__(self) -> None:
+        if self.across == self.up:
+            raise TopError("up", self.up, f"up != across = {self.across}")
+        for name, (low, high) in zip((self.across, self.up), (self.across_range, self.up_range), strict=True):
+            self._check_possible(name)
+            for value in (low, high):
+                _check(name, value)
+            if not low < high:
+                raise TopError(f"{name}_from", low, f"{name}_from < {name}_to = {high:g}")
+        for name, value in self.values:
+            _check(name, value)
+        if not 0 < self.seconds <= MOST_SECONDS:
+            raise TopError("seconds", self.seconds, f"0 < seconds <= {MOST_SECONDS:g} (s)")
+        if self.cells not in range(3, MOST_CELLS + 1, 3):
+            raise TopError("cells", self.cells, f"3 <= cells <= {MOST_CELLS}, cells = 3 n")
+
+    def _check_possible(self, name: str) -> None:
+        if name not in QUANTITIES:
+            raise TopError("axis", name, ", ".join(QUANTITIES))
+        if name in ("stem", "rounding") and self.preset.shape.edge is None:
+            raise TopError(name, self.body, "r > 0", code="half-a-stem")
+        if name == "second" and not SECONDS[self.law]:
+            raise TopError("law", self.law, ", ".join(law for law, second in SECONDS.items() if second))
+
+    @property
+    def preset(self) -> Preset:
+        """The body of tippe_core.PRESETS."""
+        return next(preset for preset in PRESETS if preset.name == self.body)
+
+    @property
+    def start(self) -> dict[str, float]:
+        """{name: value} of all QUANTITIES, where nothing is on an axis."""
+        top, edge, R = self.preset.top, self.preset.shape.edge, 1e3 * self.preset.shape.R
+        second = {"contensou": 0.5, "smoothed": 0.1, "coulomb": 0.3, "viscous": 0.0}[self.law]
+        stem = (edge[1] + edge[2]) * R if edge else 0.0
+        own = {"spin": 28.6, "tilt": 5.7, "mu": 0.3, "second": second, "slip": 1.0, "a": top.a,
+               "ratio": top.I1 / top.I3, "R": R, "stem": stem, "rounding": edge[2] * R if edge else 0.0}  # fmt: skip
+        return own | dict(self.values)
+
+    def levels(self) -> tuple[int, ...]:
+        """Cells a side, coarse to fine; the middle of each cell of the second is that of one in nine of the third."""
+        third = self.cells // 3
+        return (*((FIRST,) if third > FIRST else ()), *((third,) if self.cells > FIRST else ()), self.cells)
+
+    def centres(self, n: int) -> tuple[Array, Array]:
+        """The middles of n cells across, and of n up."""
+        part = (np.arange(n) + 0.5) / n
+        (left, right), (bottom, top) = self.across_range, self.up_range
+        return left + (right - left) * part, bottom + (top - bottom) * part
+
+    def at(self, across: float, up: float) -> "Cell":
+        """The Cell with these."""
+        return Cell.of(self, self.start | {self.across: float(across), self.up: float(up)})
+
+
+class Cell(NamedTuple):
+    """One run, as slide() takes it: t_end in (R/g)^1/2."""
+
+    top: Top
+    scales: Scales
+    edge: Rim | None
+    state: State
+    friction: Friction
+    t_end: float
+
+    @classmethod
+    def of(cls, asked: Map, x: dict[str, float]) -> "Cell":
+        """Of the values of QUANTITIES; TopError where there is none."""
+        own = asked.preset.top
+        top = own if not {"a", "ratio"} & {asked.across, asked.up} else Top(x["a"], x["ratio"] * own.I3, own.I3)
+        mine = asked.preset.shape.scales
+        scales = Scales(x["R"] / 1e3, mine.M, mine.g)
+        theta, spin = float(np.radians(x["tilt"])), 2 * np.pi * x["spin"] / scales.angular_velocity
+        state = State(theta, 0.0, 0.0, spin, vx=-(1 - x["slip"]) * spin * np.sin(theta), vy=0.0)
+        return cls(top, scales, _edge(asked, x), state, _law(asked.law, x, scales), asked.seconds / scales.time)
+
+
+def _edge(asked: Map, x: dict[str, float]) -> Rim | None:
+    """The stem's, in R of the body as it is, whose lengths grow with R unless they are on an axis."""
+    edge = asked.preset.shape.edge
+    if edge is None or not {"stem", "rounding"} & {asked.across, asked.up}:
+        return edge
+    own = 1e-3 / asked.preset.shape.R
+    return edge[0], (x["stem"] - x["rounding"]) * own, x["rounding"] * own
+
+
+def _law(law: str, x: dict[str, float], scales: Scales) -> Friction:
+    if law == "coulomb":
+        return Coulomb(x["mu"], max(x["second"], x["mu"]))  # friction at rest is the larger one
+    if law == "viscous":
+        return Viscous(x["mu"])
+    if law == "smoothed":
+        return SmoothedCoulomb(x["mu"], x["second"])
+    return Contensou(x["mu"], x["second"] / 1e3 / scales.R)
+
+
+def cells_of(asked: Map, places: list[tuple[float, float]]) -> SimpleNamespace:
+    """What slide_many() takes of these places, and which of them are possible."""
+    found: list[Cell | None] = []
+    for across, up in places:
+        try:
+            found.append(asked.at(across, up))
+        except TopError:
+            found.append(None)
+    good = [cell for cell in found if cell is not None]
+    return SimpleNamespace(good=good, which=np.array([cell is not None for cell in found], bool))
+
+
+def _check(name: str, value: Any) -> None:
+    quantity = QUANTITIES[name]
+    if not quantity.least <= value <= quantity.most:
+        unit = f" ({quantity.unit})" if quantity.unit else ""
+        raise TopError(name, value, f"{quantity.least:g} <= {name} <= {quantity.most:g}{unit}")

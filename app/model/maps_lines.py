@@ -1,0 +1,112 @@
+"""What closed forms say of a map: lines over it, and why runs end otherwise than they allow."""
+
+from collections import Counter
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from app.model.maps import Map
+from app.model.maps_solving import Level
+from tippe_core import Thresholds, Top, TopError, thresholds
+from tippe_core.paper import equations as eq
+from tippe_core.types import Array, Bools
+
+FINE = 61  # points a side at which closed forms are asked
+MANY = 20  # hops that cost more than a little spin
+TURNED = ("stem", "inverted")
+WINDOW = ("window_low", "window_high")  # I1/I3 = 1 - a/R and 1 + a/R: the borders of the groups of tops
+
+
+@dataclass(frozen=True)
+class Disagreement:
+    """Where a closed form lets a top stand turned over and no run does: how many cells, of how many it allows; why most
+    of them do not, a key of maps.toml; one of them, (across, up); from and to which value across."""
+
+    count: int
+    allowed: int
+    why: str
+    one: tuple[float, float]
+    low: float
+    high: float
+
+
+@lru_cache(256)
+def _limits(top: Top) -> Thresholds:
+    return thresholds(top)
+
+
+def _excess(asked: Map, x: float, y: float) -> dict[str, float]:
+    """{line: by how much a start is beyond it}; nan where there is no such start, or no such line."""
+    none = {"stands": np.nan, "leaves": np.nan} | dict.fromkeys(WINDOW, np.nan)
+    try:
+        cell = asked.at(x, y)
+    except TopError:
+        return none
+    top, state, limits = cell.top, cell.state, _limits(cell.top)
+    C_J = eq.C_J(np.cos(state.theta), np.sin(state.theta), 0.0, state.omega3, top)
+    launch = abs(C_J / eq.C_J(1.0, 0.0, 0.0, 1.0, top))
+    found = {"stands": launch - limits.launch if limits.inverted.stable == "above" else np.nan,
+             "leaves": launch - limits.upright.spin if limits.upright.stable == "below" else np.nan}  # fmt: skip
+    return found | {"window_low": top.I1 / top.I3 - (1 - top.a), "window_high": top.I1 / top.I3 - (1 + top.a)}
+
+
+@lru_cache(32)
+def lines(asked: Map) -> tuple[tuple[str, Array], ...]:
+    """(name, (k, 2) places) of each line: "stands", above which a top can stand turned over; "leaves", above which it
+    cannot stay upright; and of a map over tops the WINDOW."""
+    x, y = (np.linspace(*span, FINE) for span in (asked.across_range, asked.up_range))
+    fields = [[_excess(asked, float(one), float(other)) for one in x] for other in y]
+    wanted = ("stands", "leaves", *(WINDOW if {"a", "ratio"} & {asked.across, asked.up} else ()))
+    found: list[tuple[str, Array]] = []
+    for name in wanted:
+        z = np.array([[each[name] for each in row] for row in fields])
+        along, up = _crossings(x, y, z), [line[:, ::-1] for line in _crossings(y, x, z.T)]
+        found += [(name, line) for line in max(along, up, key=lambda lines: sum(map(len, lines)))]
+    return tuple(found)
+
+
+def _crossings(x: Array, y: Array, z: Array) -> list[Array]:
+    """Where z (y, x) passes 0 along each row: the first places of all rows as one line, the second as another, ..."""
+    found: dict[int, list[tuple[float, float]]] = {}
+    for row, other in zip(z, y, strict=True):
+        at = np.flatnonzero((row[:-1] < 0) & (row[1:] >= 0) | (row[:-1] >= 0) & (row[1:] < 0))
+        for k, i in enumerate(at):
+            place = x[i] + (x[i + 1] - x[i]) * row[i] / (row[i] - row[i + 1])
+            found.setdefault(k, []).append((float(place), float(other)))
+    return [np.array(line) for line in found.values() if len(line) > 1]
+
+
+def allowed(level: Level) -> Bools:
+    """Where the closed form lets a top stand turned over, (up, across)."""
+    excess = [[_excess(level.asked, float(x), float(y))["stands"] for x in level.x] for y in level.y]
+    return np.array(excess) > 0
+
+
+def disagreement(level: Level) -> Disagreement | None:
+    """Of a level that is whole; None where all runs do what they may."""
+    may = allowed(level)
+    not_there = may & ~np.isin(level.end, TURNED) & (level.end != "refused")
+    if not not_there.any():
+        return None
+    places = np.argwhere(not_there)
+    reasons = [_why(level, int(i), int(j)) for i, j in places]
+    why = Counter(reasons).most_common(1)[0][0]
+    own = places[[reason == why for reason in reasons]]
+    i, j = own[len(own) // 2]
+    across = level.x[places[:, 1]]
+    return Disagreement(len(places), int(may.sum()), why, (float(level.x[j]), float(level.y[i])),
+                        float(across.min()), float(across.max()))  # fmt: skip
+
+
+def _why(level: Level, i: int, j: int) -> str:
+    """Why a run does not stand turned over, by what it did itself."""
+    end = str(level.end[i, j])
+    if end == "rolling":
+        return "sticks"
+    if np.isfinite(level.columns["time_stem"][i, j]):
+        pivots = "falls" if level.asked.law == "contensou" else "stem"
+        return "lifts" if level.columns["hops"][i, j] > MANY else pivots
+    if end == "moving":
+        return "time"
+    return "pivoting" if level.asked.law == "contensou" else "time"

@@ -1,0 +1,1 @@
+"""Families: tops side by side, and maps of many."""

@@ -1,0 +1,134 @@
+"""A map as a file, with all its parameters and units in it: CSV, NPZ, PNG, SVG, and the Python that makes it."""
+
+import csv
+import io
+import json
+from dataclasses import asdict
+
+import numpy as np
+
+from app.model.maps import QUANTITIES, UNITS, Map
+from app.model.maps_lines import lines
+from app.tabs.maps.picture import END_COLOURS, span
+from app.text import listed, say
+
+DPI = 300
+KINDS = ("csv", "npz", "png", "svg")
+LAWS = {
+    "coulomb": "SimpleNamespace(mu_k=v.mu, mu_s=np.maximum(v.mu, v.second))",
+    "viscous": "SimpleNamespace(gamma=v.mu)",
+    "smoothed": "SimpleNamespace(mu=v.mu, eps=v.second)",
+    "contensou": "SimpleNamespace(mu=v.mu, radius=v.second / v.R)",
+}
+
+
+def made(level, colour, kind):
+    """One of KINDS, as bytes."""
+    return {"csv": _csv, "npz": _npz}.get(kind, lambda *given: _drawn(*given, kind))(level, colour)
+
+
+def _parameters(asked):
+    fixed = {name: value for name, value in asked.start.items() if name not in (asked.across, asked.up)}
+    units = {name: quantity.unit for name, quantity in QUANTITIES.items()} | {"seconds": "s"} | UNITS
+    return asdict(asked) | {"values": fixed, "units": units}
+
+
+def _csv(level, colour):
+    file = io.StringIO()
+    file.write(f"# {json.dumps(_parameters(level.asked), ensure_ascii=False)}\n")
+    table = csv.writer(file)
+    table.writerow((level.asked.across, level.asked.up, "end", *level.columns, "mixed"))
+    mixed = level.mixed
+    for i, j in np.ndindex(level.end.shape):
+        values = (float(column[i, j]) for column in level.columns.values())
+        table.writerow((float(level.x[j]), float(level.y[i]), level.end[i, j], *values, int(mixed[i, j])))
+    return file.getvalue().encode()
+
+
+def _npz(level, colour):
+    file = io.BytesIO()
+    parameters = json.dumps(_parameters(level.asked), ensure_ascii=False)
+    np.savez_compressed(file, allow_pickle=False, parameters=np.array(parameters), across=level.x, up=level.y,
+                        end=level.end, mixed=level.mixed, **level.columns)  # fmt: skip
+    return file.getvalue()
+
+
+def _drawn(level, colour, kind):
+    import matplotlib
+    from matplotlib.colors import ListedColormap
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
+
+    asked, named = level.asked, listed("maps.quantities")
+    with matplotlib.rc_context({"font.size": 9, "svg.hashsalt": "maps"}):
+        figure = Figure(figsize=(7.2, 4.8), layout="constrained")
+        axes = figure.add_subplot(
+            xlabel=with_unit(asked.across), ylabel=with_unit(asked.up), title=title(asked, colour)
+        )
+        if colour == "end":
+            ends = list(END_COLOURS)
+            index = np.vectorize(lambda end: ends.index(end) if end else np.nan, otypes=[float])(level.end)
+            shown = ListedColormap(list(END_COLOURS.values()))
+            axes.pcolormesh(level.x, level.y, index, cmap=shown, vmin=-0.5, vmax=len(ends) - 0.5, rasterized=True)
+            patches = [Patch(color=END_COLOURS[end], label=listed("maps.ends")[end])
+                       for end in ends if (level.end == end).any()]  # fmt: skip
+            axes.legend(handles=patches, fontsize=7)
+        elif span(level, colour):
+            unit = f" ({UNITS[colour]})" if UNITS[colour] else ""
+            mesh = axes.pcolormesh(level.x, level.y, level.columns[colour], rasterized=True)
+            figure.colorbar(mesh, label=listed("maps.colours")[colour] + unit)
+        for _, line in lines(asked):
+            axes.plot(*line.T, "--", color="black", linewidth=1)
+        fixed = ", ".join(f"{named[name]} {value:.4g} {QUANTITIES[name].unit}".strip()
+                          for name, value in _parameters(asked)["values"].items())  # fmt: skip
+        figure.supxlabel(f"{asked.body}; {listed('maps.laws')[asked.law]}; {fixed}", fontsize=6)
+        file = io.BytesIO()
+        figure.savefig(file, format=kind, dpi=DPI, metadata={"Date": None} if kind == "svg" else {})
+    return file.getvalue()
+
+
+def title(asked: Map, colour):
+    """What is drawn over what."""
+    named = listed("maps.quantities")
+    return say("maps.title", colour=listed("maps.colours")[colour], seconds=asked.seconds, across=named[asked.across],
+               up=named[asked.up])  # fmt: skip
+
+
+def with_unit(name):
+    """The name of an axis."""
+    unit = QUANTITIES[name].unit
+    return listed("maps.quantities")[name] + (f", {unit}" if unit else "")
+
+
+def python(asked: Map):
+    """A program whose `many` has what the map shows, row by row of up."""
+    values = {name: repr(float(value)) for name, value in asked.start.items()} | {asked.across: "x", asked.up: "y"}
+    given = ", ".join(f"{name}={value}" for name, value in values.items())
+    tops = {"a", "ratio"} & {asked.across, asked.up}
+    top = "SimpleNamespace(a=v.a, I1=v.ratio * body.top.I3, I3=body.top.I3)" if tops else "body.top"
+    edge = "body.shape.edge"
+    if {"stem", "rounding"} & {asked.across, asked.up}:
+        edge = ("np.stack(np.broadcast_arrays(body.shape.edge[0], (v.stem - v.rounding) / 1e3 / body.shape.R, "
+                "v.rounding / 1e3 / body.shape.R), axis=-1)")  # fmt: skip
+    nudge = ", nudge=1e-6" if asked.nudged else ""
+    return f"""\
+from types import SimpleNamespace
+
+import numpy as np
+from tippe_core import PRESETS, slide_many
+
+body = next(preset for preset in PRESETS if preset.name == {asked.body!r})
+part = (np.arange({asked.cells}) + 0.5) / {asked.cells}
+x = {asked.across_range[0]!r} + {asked.across_range[1] - asked.across_range[0]!r} * part  # {with_unit(asked.across)}
+y = ({asked.up_range[0]!r} + {asked.up_range[1] - asked.up_range[0]!r} * part)[:, None]  # {with_unit(asked.up)}
+v = SimpleNamespace({given})
+time = (v.R / 1e3 / body.shape.scales.g) ** 0.5
+theta, spin = np.radians(v.tilt), 2 * np.pi * v.spin * time
+start = SimpleNamespace(theta=theta, theta_dot=0.0, omega2=0.0, omega3=spin,
+                        vx=-(1 - v.slip) * spin * np.sin(theta), vy=0.0)
+top = {top}
+edge = {edge}
+friction = {LAWS[asked.law]}
+many = slide_many(top, start, friction, {asked.seconds!r} / time + 0 * (x + y), edge, rtol={asked.rtol!r}{nudge})
+print(many.end)
+"""

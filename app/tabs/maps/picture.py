@@ -1,0 +1,170 @@
+"""A Level of a map -> Bokeh: one picture of cells, a hatch on those that are mixed, closed-form lines, the bead."""
+
+import numpy as np
+from bokeh.models import ColumnDataSource, CustomJS, Label, Range1d
+from bokeh.palettes import Viridis256
+
+from app.model.colours import INK
+from app.model.maps import ENDS
+from app.model.maps_lines import lines
+from app.text import listed, say
+from app.widgets.plots import READY, plain
+
+# One hue, light to dark by tilt, always with the word; what rolls or changes stands between.
+END_COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2", "moving": "#cdb88f",
+               "inverted": "#a88a55", "stem": "#80632f", "refused": "#9aa3ac"}  # fmt: skip
+ON_END = {"inverted": "#ffffff", "stem": "#ffffff"}  # words on these; else dark
+DARK = "#1b2430"
+LEAST_AREA = 0.06  # of the map: an end with less has its word in the key alone
+DASHES = {"stands": "dashed", "leaves": "dotted", "window_low": "dashdot", "window_high": "dotdash"}
+# A hand near the bead takes hold of it; a click goes to the cell. At most one place in WAIT ms is sent while it moves.
+HAND = """
+const {event_name} = cb_obj, {x_range, y_range} = fig
+const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame
+const [bead_x, bead_y] = [x_scale.compute(bead.data.x[0]), y_scale.compute(bead.data.y[0])]
+if (event_name == "panstart") hand.held = Math.hypot(bead_x - cb_obj.sx, bead_y - cb_obj.sy) < 40
+if (event_name != "tap" && !hand.held) return
+const x = Math.min(Math.max(cb_obj.x, x_range.start), x_range.end)
+const y = Math.min(Math.max(cb_obj.y, y_range.start), y_range.end)
+bead.setv({data: {x: [x], y: [y]}}, {sync: false})
+const done = event_name == "tap" || event_name == "panend", now = performance.now()
+if (done) hand.held = false
+if (!done && now - (hand.sent ?? 0) < 80) return
+hand.sent = now
+hand.data = {x: [x], y: [y], cell: [event_name == "tap"]}
+"""
+# A finger near the bead moves it, and scrolls the page from everywhere else.
+KEEP = """
+const {events_el} = Bokeh.index.find_one(fig)?.canvas_view ?? {}
+if (!events_el || hand.listens) return
+hand.listens = true
+events_el.addEventListener("touchstart", (event) => {
+  const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame, {left, top} = events_el.getBoundingClientRect()
+  const [touch] = event.touches
+  const x = x_scale.compute(bead.data.x[0]) - touch.clientX + left
+  const y = y_scale.compute(bead.data.y[0]) - touch.clientY + top
+  if (event.touches.length == 1 && Math.hypot(x, y) < 40) event.preventDefault()
+}, {passive: false})
+"""
+
+
+class MapFigure:
+    """The figure; show() fills it. go: called with a place and whether it was a click on a cell."""
+
+    def __init__(self, go):
+        self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1))
+        fig.name = "maps"
+        fig.update(sizing_mode="stretch_width", height=440, min_border_left=44)
+        fig.grid.visible = False
+        empty = {"image": [], "x": [], "y": [], "w": [], "h": []}
+        self.coarse, self.fine = ColumnDataSource(empty), ColumnDataSource(empty)
+        for source in (self.coarse, self.fine):
+            fig.image_rgba("image", x="x", y="y", dw="w", dh="h", source=source)
+        self.mixed = ColumnDataSource({"left": [], "right": [], "bottom": [], "top": []})
+        self._hatch = fig.quad("left", "right", "bottom", "top", source=self.mixed, fill_alpha=0, line_color=None,
+                 hatch_pattern="right_diagonal_line", hatch_color=DARK, hatch_alpha=0.55, hatch_scale=7)  # fmt: skip
+        self.lines = ColumnDataSource({"xs": [], "ys": [], "dash": []})
+        fig.multi_line("xs", "ys", source=self.lines, line_color="#fefefe", line_width=5)
+        fig.multi_line("xs", "ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
+        self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
+        fig.scatter("x", "y", source=self.bead, level="overlay", size=17, fill_color="#fefefe", line_color="#1558c0",
+                    line_width=5)  # fmt: skip
+        self.words = []
+        for _ in ENDS:
+            self.words.append(Label(x=0, y=0, text=" ", visible=False, text_align="center", text_baseline="middle",
+                                    text_font_size="12px", text_font_style="bold"))  # fmt: skip
+            fig.add_layout(self.words[-1])
+        self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [False]})
+        mine = {"fig": fig, "hand": self.hand, "bead": self.bead}
+        for event in ("tap", "panstart", "pan", "panend"):
+            fig.js_on_event(event, CustomJS(args=mine, code=HAND))
+        label = say("maps.label")
+        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "label": label}, code=READY),
+                         CustomJS(args=mine, code=KEEP))  # fmt: skip
+        self.hand.on_change("data", lambda attr, old, new: go(new))
+
+    def begin(self, asked):
+        """Another map: nothing of the one before is left."""
+        self.figure.x_range.update(start=asked.across_range[0], end=asked.across_range[1])
+        self.figure.y_range.update(start=asked.up_range[0], end=asked.up_range[1])
+        for source in (self.coarse, self.fine, self.mixed, self.lines):
+            source.data = {name: [] for name in source.data}
+        for word in self.words:
+            word.visible = False
+
+    def show(self, level, colour):
+        """What there is of a level; a coarser one stays below until it is whole."""
+        left, right, bottom, top = *level.asked.across_range, *level.asked.up_range
+        drawn = {"image": [cells(level, colour)], "x": [left], "y": [bottom], "w": [right - left], "h": [top - bottom]}
+        self.fine.data = drawn
+        if level.whole:
+            self.coarse.data = drawn
+            self._name_areas(level, colour)
+        self._hatch.glyph.hatch_color = DARK if colour == "end" else "#fefefe"  # as seen on these
+        if level.finest:
+            self._mark(level)
+            drawn = lines(level.asked)
+            self.lines.data = {"xs": [line[:, 0] for _, line in drawn], "ys": [line[:, 1] for _, line in drawn],
+                               "dash": [DASHES[name] for name, _ in drawn]}  # fmt: skip
+
+    def _mark(self, level):
+        rows, columns = np.nonzero(level.mixed)
+        wide, high = (half_step(x) for x in (level.x, level.y))
+        x, y = level.x[columns], level.y[rows]
+        self.mixed.data = {"left": x - wide, "right": x + wide, "bottom": y - high, "top": y + high}
+
+    def _name_areas(self, level, colour):
+        named = listed("maps.ends")
+        for word, end in zip(self.words, ENDS, strict=True):
+            own = np.argwhere(level.end == end)
+            if colour != "end" or len(own) < LEAST_AREA * level.end.size:
+                word.visible = False
+                continue
+            i, j = own[np.argmin(np.sum((own - own.mean(axis=0)) ** 2, axis=1))]
+            word.update(x=level.x[j], y=level.y[i], text=named[end], text_color=ON_END.get(end, DARK), visible=True)
+
+
+class RunFigure:
+    """The tilt of one run over time."""
+
+    def __init__(self):
+        self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 180))
+        fig.name = "maps-run"
+        fig.update(sizing_mode="stretch_width", height=200, min_border_left=44)
+        fig.yaxis.ticker.desired_num_ticks = 4
+        self.source = ColumnDataSource({"t": [], "theta": []})
+        fig.line("t", "theta", source=self.source, line_color=INK, line_width=2)
+        label = say("maps.label_run")
+        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "label": label}, code=READY))
+
+    def show(self, t, theta, seconds):
+        self.source.data = {"t": t, "theta": theta}
+        self.figure.x_range.end = seconds
+
+
+def half_step(x):
+    """Half of the distance from one to the next."""
+    return (x[1] - x[0]) / 2
+
+
+def span(level, colour):
+    """The least and the largest of a column, of what there is; None where there is nothing."""
+    values = level.columns[colour]
+    values = values[np.isfinite(values)]
+    return (float(values.min()), float(values.max())) if values.size else None
+
+
+def cells(level, colour):
+    """The colours as Bokeh takes them, (up, across) of uint32; transparent where no run was made or nothing is."""
+    rgba = np.zeros((*level.end.shape, 4), np.uint8)
+    if colour == "end":
+        for end, name in END_COLOURS.items():
+            rgba[level.end == end] = (*bytes.fromhex(name[1:]), 255)
+    elif found := span(level, colour):
+        low, high = found
+        values = level.columns[colour]
+        there = np.isfinite(values)
+        palette = np.array([[*bytes.fromhex(name[1:]), 255] for name in Viridis256], np.uint8)
+        share = (values[there] - low) / ((high - low) or 1.0)
+        rgba[there] = palette[np.clip((255 * share).astype(int), 0, 255)]
+    return rgba.view(np.uint32).reshape(level.end.shape)

@@ -1,0 +1,68 @@
+"""What the tab Maps says: the key of colours, what a run did, where runs and closed forms disagree."""
+
+import numpy as np
+from bokeh.palettes import Viridis256
+
+from app.model.maps import ENDS, QUANTITIES, UNITS
+from app.model.maps_lines import lines
+from app.tabs.maps.picture import DASHES, END_COLOURS, span
+from app.text import listed, say
+from app.widgets.cards import note, px, swatch
+
+PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid #8a96a3; {}"
+HATCHED = "background: repeating-linear-gradient(135deg, #dccaa2 0 3px, #1b2430 3px 4px)"
+LINE = {"dashed": "dashed", "dotted": "dotted", "dashdot": "dashed", "dotdash": "dotted"}
+
+
+def _patch(style, text):
+    patch = f'<span style="{PATCH.format(style)}"></span>'
+    return f'<span style="margin-right: 14px; white-space: nowrap">{patch}{text}</span> '
+
+
+def colours_say(level, colour):
+    """The key, by words."""
+    said = [f"<h2>{say('maps.colours_say')}</h2>"]
+    if colour == "end":
+        named = listed("maps.ends")
+        said += [_patch(f"background: {END_COLOURS[end]}", named[end]) for end in ENDS if (level.end == end).any()]
+    elif found := span(level, colour):
+        ramp = ", ".join(Viridis256[::51])
+        unit = UNITS[colour]
+        said.append(f'{found[0]:.3g} {unit} <span style="display: inline-block; width: 120px; height: 13px; '
+                    f'background: linear-gradient(90deg, {ramp})"></span> {found[1]:.3g} {unit}; ')  # fmt: skip
+        said.append(_patch("background: transparent", say("maps.missing")))
+    if level.finest:
+        said.append(_patch(HATCHED, say("maps.hatched")))
+        names = dict.fromkeys(name for name, _ in lines(level.asked))
+        said += [f"<br>{swatch('#5b6875', say(f'maps.lines.{name}'), LINE[DASHES[name]])}" for name in names]
+    return "".join(said)
+
+
+def of_run(asked, across, up, found):
+    """What became of one run."""
+    units = [QUANTITIES[name].unit for name in (asked.across, asked.up)]
+    says = say("maps.run.says", across=across, across_unit=units[0], up=up, up_unit=units[1],
+               end=listed("maps.ends")[found.end])  # fmt: skip
+    times = [say("maps.run.passes", time=found.time_90) if np.isfinite(found.time_90) else say("maps.run.never")]
+    if np.isfinite(found.time_stem):
+        times.append(say("maps.run.stem", time=found.time_stem))
+    if found.hops:
+        times.append(say("maps.run.hops", hops=found.hops))
+    return f'<div role="status"><b style="font-size: {px(17)}">{says}</b><br>{" ".join(times)}</div>'
+
+
+def of_worst(level):
+    """The worst numbers of a map, and what hatching is."""
+    drift = level.worst("C_J_drift")
+    kept = f"{drift:.0e}" if np.isfinite(drift) else say("maps.drift_none")
+    return say("maps.worst", energy=level.worst("energy_error"), drift=kept) + " " + say("maps.unsettled")
+
+
+def of_disagreement(found, asked):
+    """Where the closed form allows what no run does, and why."""
+    says = say("maps.agree")
+    if found is not None:
+        unit = QUANTITIES[asked.across].unit
+        says = say("maps.in_words", count=found.count, all=found.allowed, low=found.low, high=found.high, unit=unit)
+        says += say(f"maps.why.{found.why}")
+    return f"<h2>{say('maps.disagree')}</h2>{says}" if found else note(says)

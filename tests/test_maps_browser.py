@@ -1,0 +1,77 @@
+"""The tab Maps in Chromium: the map comes, a click and a drag lead to runs, what cannot be leaves it as it is."""
+
+import re
+
+import pytest
+from visiting import PIXEL, Visit, wait
+
+pytestmark = pytest.mark.served
+
+# How many cells a side the finest picture has, and whether something is hatched or lined.
+SIDE = """() => {
+  const map = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "maps" && m.renderers)
+  return map?.renderers[1].data_source.data.image[0]?.shape?.[0] ?? 0
+}"""
+BEAD = """() => {
+  const map = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "maps" && m.renderers)
+  const {x, y} = map.renderers.at(-1).data_source.data
+  return [x[0], y[0]]
+}"""
+
+
+@pytest.fixture(scope="module")
+def page(server, chromium):
+    page = chromium.new_page(viewport={"width": 1400, "height": 1000})
+    visit = Visit(page, f"{server}?v=1&tab=maps", whole=False)
+    page.get_by_role("status").filter(has_text="28.6 rev/s, 5.7").wait_for()
+    enter(page, "Cells a side", "9")
+    page.wait_for_function(f"() => ({SIDE})() == 9")
+    page.get_by_role("button", name="Stop").and_(page.locator(":disabled")).wait_for()
+    yield page
+    page.close()
+    assert not visit.errors
+
+
+def enter(page, label, text):
+    entry = page.get_by_label(label, exact=True)
+    entry.fill(text)
+    entry.press("Enter")
+
+
+def said(page):
+    return page.get_by_role("status").filter(has_text="rev/s,").inner_text()
+
+
+def test_a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page):
+    page.mouse.click(*page.evaluate(PIXEL, ["maps", 44.0, 6.0]))
+    page.get_by_role("status").filter(has_text="stands on its stem").wait_for()
+    x, y = page.evaluate(BEAD)
+    assert abs(x - 42.5) < 1e-9 and abs(y - (1 + 39 * 1.5 / 9)) < 1e-9  # the middle of its cell
+    page.mouse.move(*page.evaluate(PIXEL, ["maps", x, y]))
+    page.mouse.down()
+    for share in (0.3, 0.6, 1.0):
+        page.mouse.move(*page.evaluate(PIXEL, ["maps", x - 36 * share, y + 10 * share]))
+    page.mouse.up()
+    wait(page, lambda: re.match(r"6\.\d+ rev/s, 17", said(page)))
+    entry = page.get_by_label("The run at, Across", exact=True)
+    wait(page, lambda: entry.input_value().startswith("6."))
+
+
+def test_what_cannot_be_is_said_and_the_map_stays(page):
+    enter(page, "Across, to", "3")
+    page.get_by_role("alert").filter(has_text="spin_from = 5").wait_for()
+    assert page.evaluate(SIDE) == 9
+    enter(page, "Across, to", "50")
+    page.get_by_role("alert").filter(has_text="spin_from").wait_for(state="detached")
+
+
+def test_a_disagreement_can_be_gone_to(page):
+    before = page.evaluate(BEAD)
+    page.get_by_role("button", name="Show one such run").click()
+    wait(page, lambda: page.evaluate(BEAD) != before)
+    assert page.get_by_text("Where runs and formula disagree").is_visible()
+
+
+def test_it_fits_a_phone(page):
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.wait_for_function("() => document.documentElement.scrollWidth <= 390")
