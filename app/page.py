@@ -186,11 +186,14 @@ class House:
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
         return learn.view
 
+    def maps(self):
+        return Maps(self.runs).view
+
     @property
     def tabs(self):
         """{name in the address: maker}, in the order of the header."""
         return {"lab": self.lab, "roll": self.roll, "three-planes": self.planes, "build-a-top": self.build,
-                "families": self.families, "learn": self.learn, "maps": lambda: Maps(self.runs).view}  # fmt: skip
+                "families": self.families, "learn": self.learn, "maps": self.maps}  # fmt: skip
 
 
 def sidebar(controls, look, language):
