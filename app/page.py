@@ -14,6 +14,7 @@ from app.model.runs import Runs, connected_to, to_session
 from app.share.share import Share
 from app.state.keep import Field, OneOf, explorer_of, read
 from app.tabs.families.compare import Compare
+from app.tabs.film.film import Film
 from app.tabs.learn.learn import Learn, kept
 from app.tabs.learn.student import student_page
 from app.tabs.planes.three_planes import KEPT, ThreePlanes
@@ -176,6 +177,7 @@ def page():
                     "build-a-top": lambda: build_view(explorer, roll, builder),
                     "families": lambda: family_view(explorer, runs),
                     "learn": lambda: learn_view(explorer, roll, share.keep, runs),
+                    "measure": lambda: Film(explorer, runs).view,
                 },
                 share.keep,
                 roll.pacer.soon,
