@@ -158,12 +158,12 @@ def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: 
         notes.append(("no-header", {"line": rows[0][0]}))
         names = [str(i + 1) for i in range(width)]
     if len(rows[-1][1]) < width and len(rows) > 1:
-        notes.append(("cut-short", {"line": rows[-1][0], "found": len(rows[-1][1]), "width": width}))
+        notes.append(("cut-short", {"line": rows[-1][0], "found": len(rows[-1][1]), "expected": width}))
         rows = rows[:-1]
     for number, cells in rows:
         # a gap at the end of a row may have lost its separator with the row's own end
         if len(cells) not in (width, width - 1) or (len(cells) < width and between in ", "):
-            raise FilmError("width", line=number, found=len(cells), width=width)
+            raise FilmError("width", line=number, found=len(cells), expected=width)
         cells.extend([""] * (width - len(cells)))
     if not FEWEST <= len(rows) <= MOST:
         raise FilmError("rows", rows=len(rows), least=FEWEST, most=MOST)
