@@ -43,8 +43,7 @@ def numbers_table(fit, unit):
         value, error = _number(fit.model.values[name] * size, fit.errors[name] * size)
         marks = [say("film.with", name=other, correlation=r) for other, r in _partners(fit, name)]
         if name in fit.unknown:
-            vague = fit.errors[name] > 0.5 * abs(fit.model.values[name])
-            marks.insert(0, say("film.unknown" if vague else "film.rough"))
+            marks.insert(0, say("film.unknown" if _vague(fit, name) else "film.rough"))
         rows.append(
             _row(say(f"film.numbers.{name}"), value, f"± {error}", say(f"film.number_units.{name}"), ", ".join(marks))
         )
@@ -52,7 +51,9 @@ def numbers_table(fit, unit):
         for name, (value, error) in fit.constants.items():
             rows.append(_row(say(f"film.constants.{name}"), *(f"{mark}{part}" for mark, part in
                              zip(("", "± "), _number(value, error), strict=True)), "", ""))  # fmt: skip
-    sentences = "".join(f"<p>{_together(*pair)}</p>" for pair in fit.together if {*pair[:2]} <= {*fit.unknown})
+    sentences = "".join(
+        f"<p>{_together(*pair)}</p>" for pair in fit.together if all(_vague(fit, name) for name in pair[:2])
+    )
     return (
         f"<table><tr><th colspan=5>{say(f'film.models.{fit.model.name}')}</th></tr>{''.join(rows)}</table>{sentences}"
     )
@@ -62,6 +63,11 @@ def _row(*cells):
     return (
         "<tr>" + "".join(f"<td{' class=n' if 0 < i < 3 else ''}>{cell}</td>" for i, cell in enumerate(cells)) + "</tr>"
     )
+
+
+def _vague(fit, name):
+    """Whether a number is known to no better than half of itself."""
+    return fit.errors[name] > 0.5 * abs(fit.model.values[name])
 
 
 def _partners(fit, name):
