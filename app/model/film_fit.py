@@ -26,7 +26,9 @@ RANGES = {
     "air_drag": (1e-4, 0.02),
 }  # fmt: skip
 """{number: least and largest of these starts}, evenly in its logarithm where it is above 0."""
-AGREEING, SAME = 3, 0.01  # so many starts end at one chi-square, to this part of it, where it is surely the least
+AGREEING, SAME = 3, 1e-3  # so many starts end at one chi-square, to this part of it, where it is surely the least
+APART = 4.0  # standard errors, by which such others lie elsewhere
+ALSO = 9.0  # by less of chi-square other numbers are as good: three standard errors
 ALL = slice(None)
 GROWING = (0.25, 0.5, 0.75)  # parts of the time that are fitted one after the other
 TOGETHER = 0.95  # correlation from which two numbers are said to move together
@@ -124,18 +126,27 @@ def fit(model: Model, data: Data) -> Fit:
         for row in shares:
             x = problem.followed(x, 12, row)[1]
         ends.append(problem.followed(x, 25))
-        if problem.good(ends[-1][0]):  # no need to look elsewhere
-            break
-    else:
+    if not _settled(ends, problem):
         # A law's number that the beginning hardly tells may have been led astray by it: others, by the whole motion.
         for x in problem.best_of(_scattered(model, data), FOLLOWED):
             ends.append(problem.followed(x, 25))
-            if problem.good(ends[-1][0]):
+            if _settled(ends, problem):
                 break
     _, x = min(ends, key=lambda end: end[0])
     best, x = problem.followed(x, 60, exactly=True)
-    near = sum(end < best + max(1.0, SAME * best) for end, _ in ends)
-    return _judged(model, data, x, problem, problem.good(best) or near >= AGREEING)
+    sure = problem.good(best) or _alike(ends) >= AGREEING
+    return _judged(model, data, x, problem, sure, [x for chi2, x in ends if chi2 < best + ALSO])
+
+
+def _alike(ends: list[tuple[float, Array]]) -> int:
+    """How many end at the least."""
+    least = min(chi2 for chi2, _ in ends)
+    return sum(chi2 < least + max(0.1, SAME * least) for chi2, _ in ends)
+
+
+def _settled(ends: list[tuple[float, Array]], problem: "_Problem") -> bool:
+    """Whether there is no need to look elsewhere: one that is as good as chance allows may still be a false one."""
+    return problem.good(min(chi2 for chi2, _ in ends)) and _alike(ends) > 1
 
 
 class _Problem:
@@ -220,7 +231,7 @@ def _scattered(model: Model, data: Data) -> list[Array]:
     return list(np.array(columns).T)
 
 
-def _judged(model: Model, data: Data, x: Array, problem: _Problem, sure: bool) -> Fit:
+def _judged(model: Model, data: Data, x: Array, problem: _Problem, sure: bool, others: list[Array]) -> Fit:
     names, J = model.free, problem.slopes(x)
     model = model.with_values(dict(zip(names, map(float, x), strict=True)))
     left = left_over(model, data)
@@ -235,6 +246,7 @@ def _judged(model: Model, data: Data, x: Array, problem: _Problem, sure: bool) -
     low, high = np.array([BOUNDS[name] for name in names]).T
     vague = errors > np.where(low >= 0, 0.5 * np.abs(x), 0.1 * (high - low))
     vague |= ((x - low < 2 * errors) & (low >= 0)) | (high - x < 2 * errors)
+    vague |= np.any([np.abs(other - x) > APART * errors for other in others], axis=0)
     bent = np.array([not _straight(problem.residuals, x, axis, low, high) for axis in axes])
     vague |= (axes[bent] ** 2).sum(axis=0) > BENT * errors**2
     pairs = [(names[i], names[j], float(correlation[i, j])) for i, j in itertools.combinations(range(len(names)), 2)
@@ -270,7 +282,10 @@ def runs(row: Array) -> float:
 
 
 def verdict(rolling: Fit, sliding: Fit) -> str:
-    """ "rolled", "slipped", "neither", or "either" where these data cannot tell: a key of [found] in film.toml."""
+    """ "rolled", "slipped", "neither", "either" where these data cannot tell, or "unsure" where a fit that is refused
+    may not be the best one: a key of [found] in film.toml."""
+    if any(fit.refused and not fit.sure for fit in (rolling, sliding)):
+        return "unsure"
     if rolling.refused and sliding.refused:
         return "neither"
     if rolling.refused or sliding.refused:

@@ -2,12 +2,13 @@
 
 import numpy as np
 import panel as pn
-from bokeh.models import BoxAnnotation, ColumnDataSource, CustomJS, Range1d, Whisker
+from bokeh.models import BoxAnnotation, ColumnDataSource, Range1d, Whisker
 
+from app.bundle import call
 from app.model.colours import COLOURS, GREY, INK
 from app.text import say
 from app.widgets.cards import words
-from app.widgets.plots import READY, plain
+from app.widgets.plots import plain
 
 SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
 """{quantity: how many of its unit on the axis one of the data is}; of lengths 1000, mm."""
@@ -18,7 +19,7 @@ def size_of(quantity):
 
 
 def _named(fig, label):
-    fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "label": label}, code=READY))
+    fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
 
 

@@ -88,11 +88,17 @@ def models_table(rolling, sliding):
     for fit in (sliding, rolling):
         seldom = f"{min(fit.runs.values()):.1f}".replace("-", "−")
         rows.append(_row(say(f"film.models.{fit.model.name}"), f"{fit.chi2:.0f}", f"{fit.freedom}", f"{fit.aic:.0f}",
-                         seldom, say("film.refused" if fit.refused else "film.stands")))  # fmt: skip
+                         seldom, say(f"film.{_state(fit)}")))  # fmt: skip
         for name, (chi2, count) in fit.chi2_of.items():
             rows.append(_row(f"&nbsp; {say(f'film.quantities.{name}')}", f"{chi2:.0f}", f"{count}", "",
                              f"{fit.runs[name]:.1f}".replace("-", "−"), ""))  # fmt: skip
     return f"<table><tr>{head}</tr>{''.join(rows)}</table>"
+
+
+def _state(fit):
+    if fit.refused:
+        return "refused" if fit.sure else "unsure"
+    return "stands"
 
 
 def notes_words(notes):
