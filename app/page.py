@@ -16,6 +16,7 @@ from app.model.runs import Runs, connected_to, to_session
 from app.share.share import Share
 from app.state.keep import Field, OneOf, explorer_of, kept, read
 from app.tabs.families.compare import Compare
+from app.tabs.film.film import Film
 from app.tabs.lab import opening
 from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
@@ -189,11 +190,16 @@ class House:
     def maps(self):
         return Maps(self.runs).view
 
+    def film(self):
+        film = Film(self.scene, self.runs)
+        self.pacer.shows(film.show, "hand")
+        return film.view
+
     @property
     def tabs(self):
         """{name in the address: maker}, in the order of the header."""
         return {"lab": self.lab, "roll": self.roll, "three-planes": self.planes, "build-a-top": self.build,
-                "families": self.families, "learn": self.learn, "maps": self.maps}  # fmt: skip
+                "families": self.families, "learn": self.learn, "maps": self.maps, "measure": self.film}  # fmt: skip
 
 
 def sidebar(controls, look, language):

@@ -413,7 +413,7 @@ def test_the_page_needs_no_tab_but_the_first_to_be_made(query, first, monkeypatc
 
         return making
 
-    for name in ("lab", "roll", "planes", "build", "families", "learn"):
+    for name in ("lab", "roll", "planes", "build", "families", "learn", "film"):
         monkeypatch.setattr(House, name, noted(getattr(House, name)))
     with set_curdoc(Document()):
         pn.state.location.search = query

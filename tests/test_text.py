@@ -29,6 +29,8 @@ SAME = (
     "browser.Dial.entry",
     "controls.notes.energy",
     "lab.keeps.millimetres",
+    "film.heads.*",
+    "film.units.*",
 )
 NUMBERS = r"\{[^{}]*\}"
 SHORT_ELEMENT = r"<(i|b|sub|sup)>[^<]{0,4}</\1>"
@@ -182,7 +184,8 @@ NOT_SAID = {
     "asked.py": {"": "said to the log"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
     **{name: {"": "files of data and programs, which are the same in every language"}
-       for name in ("export.py", "glb.py", "programs.py")},
+       for name in ("export.py", "film_examples.py", "film_report.py", "glb.py", "programs.py")},
+    "film_table.py": {"": "what tables call their columns"},
     "keep.py": {"not one of {}": "said to the log"},
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},

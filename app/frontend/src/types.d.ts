@@ -104,6 +104,12 @@ interface DownloadModel extends Model {
   making: boolean;
 }
 
+interface FilmFileModel extends Model {
+  most: number;
+  table: [text: string, each: number];
+  refused: number;
+}
+
 interface PhotoModel extends Model {
   caption: string[];
   wide: number;

@@ -1,14 +1,15 @@
 """A Level of a map -> Bokeh: one picture of cells, a hatch on those that are mixed, closed-form lines, the bead."""
 
 import numpy as np
-from bokeh.models import ColumnDataSource, CustomJS, Label, Range1d
+from bokeh.models import ColumnDataSource, Label, Range1d
 from bokeh.palettes import Viridis256
 
+from app.bundle import call
 from app.model.colours import INK
 from app.model.maps import ENDS
 from app.model.maps_lines import lines
 from app.text import listed, say
-from app.widgets.plots import READY, plain
+from app.widgets.plots import plain
 
 # One hue, light to dark by tilt, always with the word; what rolls or changes stands between.
 END_COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2", "moving": "#cdb88f",
@@ -17,35 +18,6 @@ ON_END = {"inverted": "#ffffff", "stem": "#ffffff"}  # words on these; else dark
 DARK = "#1b2430"
 LEAST_AREA = 0.06  # of the map: an end with less has its word in the key alone
 DASHES = {"stands": "dashed", "leaves": "dotted", "window_low": "dashdot", "window_high": "dotdash"}
-# A hand near the bead takes hold of it; a click goes to the cell. At most one place in WAIT ms is sent while it moves.
-HAND = """
-const {event_name} = cb_obj, {x_range, y_range} = fig
-const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame
-const [bead_x, bead_y] = [x_scale.compute(bead.data.x[0]), y_scale.compute(bead.data.y[0])]
-if (event_name == "panstart") hand.held = Math.hypot(bead_x - cb_obj.sx, bead_y - cb_obj.sy) < 40
-if (event_name != "tap" && !hand.held) return
-const x = Math.min(Math.max(cb_obj.x, x_range.start), x_range.end)
-const y = Math.min(Math.max(cb_obj.y, y_range.start), y_range.end)
-bead.setv({data: {x: [x], y: [y]}}, {sync: false})
-const done = event_name == "tap" || event_name == "panend", now = performance.now()
-if (done) hand.held = false
-if (!done && now - (hand.sent ?? 0) < 80) return
-hand.sent = now
-hand.data = {x: [x], y: [y], cell: [event_name == "tap"]}
-"""
-# A finger near the bead moves it, and scrolls the page from everywhere else.
-KEEP = """
-const {events_el} = Bokeh.index.find_one(fig)?.canvas_view ?? {}
-if (!events_el || hand.listens) return
-hand.listens = true
-events_el.addEventListener("touchstart", (event) => {
-  const {x_scale, y_scale} = Bokeh.index.find_one(fig).frame, {left, top} = events_el.getBoundingClientRect()
-  const [touch] = event.touches
-  const x = x_scale.compute(bead.data.x[0]) - touch.clientX + left
-  const y = y_scale.compute(bead.data.y[0]) - touch.clientY + top
-  if (event.touches.length == 1 && Math.hypot(x, y) < 40) event.preventDefault()
-}, {passive: false})
-"""
 
 
 class MapFigure:
@@ -77,10 +49,9 @@ class MapFigure:
         self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [False]})
         mine = {"fig": fig, "hand": self.hand, "bead": self.bead}
         for event in ("tap", "panstart", "pan", "panend"):
-            fig.js_on_event(event, CustomJS(args=mine, code=HAND))
-        label = say("maps.label")
-        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "label": label}, code=READY),
-                         CustomJS(args=mine, code=KEEP))  # fmt: skip
+            fig.js_on_event(event, call("pullBead", **mine))
+        fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label")))
+        fig.js_on_change("inner_width", call("keepFinger", fig=fig, bead=self.bead))
         self.hand.on_change("data", lambda attr, old, new: go(new))
 
     def begin(self, asked):
@@ -134,8 +105,7 @@ class RunFigure:
         fig.yaxis.ticker.desired_num_ticks = 4
         self.source = ColumnDataSource({"t": [], "theta": []})
         fig.line("t", "theta", source=self.source, line_color=INK, line_width=2)
-        label = say("maps.label_run")
-        fig.js_on_change("inner_width", CustomJS(args={"fig": fig, "label": label}, code=READY))
+        fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label_run")))
 
     def show(self, t, theta, seconds):
         self.source.data = {"t": t, "theta": theta}

@@ -1,4 +1,5 @@
 // What Python has Bokeh call, by its name: app/bundle.py. Each takes what it was given there, then what happened.
+import { keepFinger, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
 import { followMotion, pullPlane, readPlane, sayPull } from "./plane.js";
 import { followPlanes } from "./planes.js";
@@ -8,8 +9,8 @@ import { seekAlong } from "./seeking.js";
 import { turnTab } from "../widgets/tabs.js";
 
 const callbacks = {
-  followCurve, followMotion, followPlanes, moveLines, nameFigure, pressSection, pullPlane, readPlane, sayPull, seekAlong,
-  seekOnCurve, turnSection, turnTab,
+  followCurve, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullPlane, readPlane,
+  sayPull, seekAlong, seekOnCurve, turnSection, turnTab,
 };
 
 export function offerCallbacks() {

@@ -1,0 +1,264 @@
+"""A table of what somebody measured of a top on film or with a phone: what was understood of each column.
+
+Tracker writes a tab or a comma between its columns, below a line or two of names; phyphox names and units in quotes;
+a spreadsheet semicolons, and decimal commas. What cannot be read is told with its line, as a FilmError; what could be
+read but was left out is a note of the Table.
+"""
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from tippe_core.types import Array
+
+LARGEST = 200_000
+"""Bytes of a table: the server takes a message of 256 KiB, and text grows a little on its way."""
+FEWEST, MOST = 8, 5000
+"""Rows of a table."""
+
+ANGLES = {"deg": math.pi / 180, "rad": 1.0}
+RATES = {"rev/s": 2 * math.pi, "rad/s": 1.0, "deg/s": math.pi / 180, "rpm": math.pi / 30}
+LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
+UNITS = {
+    "time": {"s": 1.0, "ms": 1e-3, "frames": 1.0},
+    "tilt": ANGLES,
+    "azimuth": ANGLES,
+    "spin": RATES,
+    "precession": RATES,
+    "height": LENGTHS,
+    "tip": LENGTHS,
+    "x": LENGTHS,
+    "y": LENGTHS,
+    "tip_x": LENGTHS,
+    "tip_y": LENGTHS,
+}
+"""{quantity: {unit: its size in s, rad, rad/s or m}}; a frame's is one over the frame rate."""
+
+# The names by which tables call a quantity, in lower case and without what is no letter; the first that fits.
+NAMES = {
+    "time": "t time zeit seconds frame frames bild bilder timestamp",
+    "tilt": "tilt theta θ neigung inclination nutation tiltangle neigungswinkel",
+    "azimuth": "azimuth azimut phi φ ϕ",
+    "spin": "spin omega3 ω3 w3 ω drehung drehzahl eigendrehung gyroscopez gyroskopz angularvelocityz",
+    "precession": "precession präzession phidot precessionrate präzessionsrate",
+    "height": "height höhe heightofg h zg",
+    "tip": "tip tipheight stemtip spitze stielende heightoftip",
+    "x": "x contactx trackx",
+    "y": "y contacty tracky",
+    "tip_x": "tipx stemtipx spitzex",
+    "tip_y": "tipy stemtipy spitzey",
+}
+_QUANTITY = {name: quantity for quantity, names in NAMES.items() for name in names.split()}
+_UNIT = {
+    "s": "s", "sec": "s", "second": "s", "seconds": "s", "sekunden": "s", "ms": "ms", "frame": "frames",
+    "frames": "frames", "bild": "frames", "bilder": "frames", "deg": "deg", "°": "deg", "degree": "deg",
+    "degrees": "deg", "grad": "deg", "rad": "rad", "radian": "rad", "radians": "rad", "rev/s": "rev/s",
+    "u/s": "rev/s", "1/s": "rev/s", "hz": "rev/s", "rad/s": "rad/s", "deg/s": "deg/s", "°/s": "deg/s",
+    "grad/s": "deg/s", "rpm": "rpm", "rev/min": "rpm", "u/min": "rpm", "1/min": "rpm", "mm": "mm", "cm": "cm", "m": "m",
+}  # fmt: skip
+_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?", re.A)
+_GAP = {"", "-", "nan", "na", "n/a", "null", "none"}
+
+
+class FilmError(ValueError):
+    """What is wrong with a table. code: a key of [wrong] in film.toml, numbers: what stands in its words."""
+
+    def __init__(self, code: str, **numbers: object) -> None:
+        super().__init__(f"{code}: {numbers}")
+        self.code, self.numbers = code, numbers
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """name: as it stands in the table. quantity: a key of UNITS, or "" where it is not used. guessed: the unit does not
+    stand in the table. error: of one value, in the unit, where the name ends in "± error", else None."""
+
+    name: str
+    quantity: str
+    unit: str
+    guessed: bool
+    error: float | None
+    values: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """lines: the line of the file in which each row stands. notes: (code, numbers), codes of [notes] in film.toml."""
+
+    columns: tuple[Column, ...]
+    lines: tuple[int, ...]
+    notes: tuple[tuple[str, dict[str, object]], ...] = ()
+
+
+def read(data: bytes | str) -> Table:
+    """The Table in a file's bytes, or in a text. Raises FilmError, and nothing else."""
+    size = len(data if isinstance(data, bytes) else data.encode("utf-8", "replace"))
+    if size > LARGEST:
+        raise FilmError("too-large", size=size / 1000, most=LARGEST / 1000)
+    text = _decoded(data) if isinstance(data, bytes) else data.removeprefix("\ufeff")
+    if "\0" in text:
+        raise FilmError("no-text", line=text[: text.index("\0")].count("\n") + 1)
+    lines = [(number, line) for number, line in enumerate(re.split(r"\r\n|\r|\n", text), 1)
+             if line.strip() and not line.lstrip().startswith("#")]  # fmt: skip
+    if not lines:
+        raise FilmError("empty")
+    between = _separator(lines)
+    rows = [(number, _cells(line, between)) for number, line in lines]
+    if all(len(cells) > 1 and not cells[-1] for _, cells in rows):  # a separator after each line's last cell
+        rows = [(number, cells[:-1]) for number, cells in rows]
+    first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, between)), None)
+    if first is None:
+        raise FilmError("no-numbers", line=rows[0][0], text=rows[0][1][0][:40])
+    names = next((cells for _, cells in reversed(rows[:first]) if len(cells) == len(rows[first][1])), None)
+    return _table(names, rows[first:], between)
+
+
+def _decoded(data: bytes) -> str:
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return data.decode("utf-16", "replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", "replace")
+
+
+def _separator(lines: list[tuple[int, str]]) -> str:
+    """What stands between columns: what is in most lines; a space only where nothing else is."""
+    for between in "\t;,":
+        if sum(between in line for _, line in lines) > len(lines) / 2:
+            return between
+    return " "
+
+
+def _cells(line: str, between: str) -> list[str]:
+    """The cells of a line, without the quotes around them."""
+    if between == " ":
+        return line.split()
+    cells = re.findall(rf'(?:^|{between})[ ]*("[^"]*"|[^{between}]*)', line)
+    return [cell.strip().strip('"').strip() for cell in cells]
+
+
+def _is_number(cell: str, between: str) -> bool:
+    return bool(_NUMBER.fullmatch(cell)) and (between != "," or "," not in cell)
+
+
+def _is_data(cells: list[str], between: str) -> bool:
+    """Whether this is a row of numbers, gaps among them."""
+    numbers = sum(_is_number(cell, between) for cell in cells)
+    return numbers > 0 and numbers >= len(cells) / 2
+
+
+def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: str) -> Table:
+    notes: list[tuple[str, dict[str, object]]] = []
+    width = len(names or rows[0][1])
+    if names is None:
+        notes.append(("no-header", {"line": rows[0][0]}))
+        names = [str(i + 1) for i in range(width)]
+    if len(rows[-1][1]) < width and len(rows) > 1:
+        notes.append(("cut-short", {"line": rows[-1][0], "found": len(rows[-1][1]), "expected": width}))
+        rows = rows[:-1]
+    for number, cells in rows:
+        # a gap at the end of a row may have lost its separator with the row's own end
+        if len(cells) not in (width, width - 1) or (len(cells) < width and between in ", "):
+            raise FilmError("width", line=number, found=len(cells), expected=width)
+        cells.extend([""] * (width - len(cells)))
+    if not FEWEST <= len(rows) <= MOST:
+        raise FilmError("rows", rows=len(rows), least=FEWEST, most=MOST)
+    _check_decimals(rows, between)
+    values = np.array([[_value(cell, number, name) for cell, name in zip(cells, names, strict=True)]
+                       for number, cells in rows])  # fmt: skip
+    lines = np.array([number for number, _ in rows])
+    columns = _columns(names, values)
+    time = next((i for i, column in enumerate(columns) if column.quantity == "time"), None)
+    if time is not None:
+        timed = np.isfinite(values[:, time])
+        if not timed.all():
+            notes.append(("no-time", {"count": int((~timed).sum()), "line": int(lines[~timed][0])}))
+        values, lines = values[timed], lines[timed]
+    columns = _columns(names, values)
+    notes.extend(_gaps(columns, lines))
+    return Table(columns, tuple(map(int, lines)), tuple(notes))
+
+
+def _gaps(columns: tuple[Column, ...], lines: Array) -> Iterator[tuple[str, dict[str, object]]]:
+    for column in columns:
+        missing = ~np.isfinite(column.values)
+        if column.quantity and missing.any():
+            found: dict[str, object] = {
+                "name": column.name,
+                "count": int(missing.sum()),
+                "line": int(lines[missing][0]),
+            }
+            yield "gaps", found
+
+
+def _check_decimals(rows: list[tuple[int, list[str]]], between: str) -> None:
+    """FilmError where some numbers have a decimal comma and others a point."""
+    if between == ",":
+        return
+    first = ""
+    for number, cells in rows:
+        for cell in cells:
+            mark = next((mark for mark in ".," if mark in cell), "")
+            if mark and _NUMBER.fullmatch(cell):
+                first = first or mark
+                if mark != first:
+                    raise FilmError("decimals", line=number, text=cell, mark=first)
+
+
+def _value(cell: str, line: int, name: str) -> float:
+    if cell.lower() in _GAP:
+        return math.nan
+    value = float(cell.replace(",", ".")) if _NUMBER.fullmatch(cell) else math.inf
+    if not math.isfinite(value):
+        raise FilmError("not-a-number", line=line, name=name[:40], text=cell[:40])
+    return value
+
+
+def _columns(names: list[str], values: Array) -> tuple[Column, ...]:
+    columns: list[Column] = []
+    taken = {""}
+    for i, name in enumerate(names):
+        quantity, unit, error = _understood(name)
+        if quantity in taken:
+            quantity = ""
+        taken.add(quantity)
+        guessed = bool(quantity) and unit not in UNITS[quantity]
+        if guessed:
+            unit = _likely(quantity, values[:, i], name)
+        columns.append(Column(name, quantity, unit if quantity else "", guessed, error, values[:, i]))
+    return tuple(columns)
+
+
+def _understood(name: str) -> tuple[str, str, float | None]:
+    """(quantity, unit, error) of a column's name; "" for what it does not tell."""
+    name, _, error = name.partition("±")
+    found = _NUMBER.fullmatch(error.strip())
+    unit = re.search(r"[(\[]([^)\]]*)[)\]]", name) or re.search(r"[/_ ]\s*([^/_\s]+(?:/[^/_\s]+)?)\s*$", name)
+    known = _UNIT.get(unit[1].strip().lower(), "") if unit else ""
+    called = name[: unit.start()] + name[unit.end() :] if unit and known else name
+    bare = re.sub(r"[^a-zäöüßθφϕω0-9]", "", called.lower())
+    return _QUANTITY.get(bare, ""), known, float(error.strip().replace(",", ".")) if found else None
+
+
+def _likely(quantity: str, values: Array, name: str) -> str:
+    """The unit of a column that does not say it."""
+    largest = float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
+    if quantity == "time":
+        return "frames" if re.match("frame|bild", name.lower()) else "s"
+    if UNITS[quantity] is ANGLES:
+        return "rad" if largest <= math.pi + 0.2 else "deg"
+    if UNITS[quantity] is RATES:
+        return "rev/s"
+    return "m" if largest < 2 else "mm"
+
+
+def written(table: Table) -> str:
+    """The table as text that read() takes, tabs between the columns."""
+    heads = [column.name for column in table.columns]
+    rows = zip(*(column.values for column in table.columns), strict=True)
+    cells = [["" if math.isnan(x) else repr(float(x)) for x in row] for row in rows]
+    return "".join("\t".join(row) + "\n" for row in [heads, *cells])

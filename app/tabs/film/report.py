@@ -1,0 +1,49 @@
+"""One HTML file of a fit, to be read without this page, and printed."""
+
+import html
+
+import numpy as np
+
+from app.tabs.film.figures import size_of
+from app.text import say, spoken
+
+WIDTH, HEIGHT, REST = 720, 220, 60
+STYLE = """body { font: 15px/1.45 system-ui, sans-serif; max-width: 760px; margin: 24px auto; padding: 0 16px;
+  color: #1b2430 }
+table { border-collapse: collapse } td, th { padding: 3px 14px 3px 0; text-align: left; font-weight: normal }
+pre { font-size: 11px; white-space: pre-wrap; overflow-wrap: anywhere } svg { max-width: 100%; height: auto }
+@media print { svg, table { break-inside: avoid } }"""
+
+
+def report(data, fits, found, program):
+    """The text of the file. found: what the page says of the fit, HTML."""
+    better = min(fits, key=lambda each: each.aic)
+    curves = "".join(_picture(name, data, better) for name in data.series)
+    return (f'<!doctype html><html lang="{spoken()}"><meta charset="utf-8"><title>{say("film.report.title")}</title>'
+            f"<style>{STYLE}</style><h1>{say('film.report.title')}</h1>{found}{curves}"
+            f"<h2>{say('film.report.program')}</h2><pre>{html.escape(program)}</pre></html>")  # fmt: skip
+
+
+def _picture(name, data, fit):
+    series, size = data.series[name], size_of(name)
+    y, curve, error = series.values * size, fit.left.values[name] * size, series.error * size
+    low, high = min(y.min(), curve.min()) - error, max(y.max(), curve.max()) + error
+    x = 50 + (WIDTH - 60) * (series.t - series.t[0]) / (np.ptp(series.t) or 1)
+
+    def place(values):
+        return 10 + (HEIGHT - 20) * (high - values) / (high - low or 1)
+
+    rest = HEIGHT + REST / 2 - fit.left.residuals[name] * REST / 2 / max(3.5, np.abs(fit.left.residuals[name]).max())
+    line = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, place(curve), strict=True))
+    dots = "".join(f'<circle cx="{a:.1f}" cy="{b:.1f}" r="2.4" fill="none" stroke="#1b2430"/>'
+                   f'<circle cx="{a:.1f}" cy="{c:.1f}" r="1.4"/>'
+                   for a, b, c in zip(x, place(y), rest, strict=True))  # fmt: skip
+    marks = "".join(f'<text x="46" y="{place(value) + 4:.0f}" text-anchor="end">{value:.3g}</text>'
+                    for value in (low + 0.1 * (high - low), high - 0.1 * (high - low)))  # fmt: skip
+    foot = HEIGHT + REST + 14
+    ends = (f'<text x="50" y="{foot}">{series.t[0]:.2f} s</text>'
+            f'<text x="{WIDTH - 10}" y="{foot}" text-anchor="end">{series.t[-1]:.2f} s</text>')  # fmt: skip
+    title = f"{say(f'film.quantities.{name}')} {say(f'film.units.{name}')}"
+    return (f'<h3>{title}</h3><svg viewBox="0 0 {WIDTH} {HEIGHT + REST + 18}" font-size="12" role="img" '
+            f'aria-label="{title}"><polyline points="{line}" fill="none" stroke="#a3246f" stroke-width="2"/>'
+            f"{dots}{marks}{ends}</svg>")  # fmt: skip

@@ -1,0 +1,85 @@
+"""The tab Measure without a browser: the examples, what is refused, what is taken home; and the tab in Chromium."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.model.explorer import Explorer
+from app.model.film_examples import EXAMPLES, FOLDER, example
+from app.model.film_table import read
+from app.tabs.film.film import Film
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_an_example_is_what_its_program_makes(name):
+    """To its last digit but one: another processor may round another way."""
+    there, made = (read(text) for text in ((FOLDER / f"made-{name}.csv").read_bytes(), example(name)))
+    for one, other in zip(there.columns, made.columns, strict=True):
+        assert one.name == other.name
+        assert abs(one.values - other.values).max() < 0.011
+
+
+@pytest.fixture(scope="module")
+def film():
+    """The tab, with the example that slips, fitted."""
+    tab = Film(Explorer().scene)
+    tab.take((FOLDER / "made-slips.csv").read_bytes())
+    tab.compute()
+    return tab
+
+
+@pytest.mark.slow
+def test_the_example_that_slips_is_told_so_and_recovered(film):
+    assert "This top slipped." in film.found.object
+    sliding = film._fits[1]
+    for name, made in {"tilt": 0.2, "spin": 8.0, "mu": 0.35, "radius": 0.02}.items():
+        assert abs(sliding.model.values[name] - made) < 3 * sliding.errors[name]
+
+
+@pytest.mark.slow
+def test_what_cannot_be_read_leaves_what_was_there(film):
+    before = film.curves.objects
+    film.take("no table\n")
+    assert "Line 1" not in film.said.object or "alert" in film.said.object
+    assert 'role="alert"' in film.said.object
+    assert film.curves.objects is before or film.curves.objects == before
+
+
+@pytest.mark.slow
+def test_the_program_taken_home_repeats_the_fit(film):
+    program = film._program(*film._home).decode()
+    said = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    again = {name: float(value) for name, value in re.findall(r"  (\w+) = (\S+)", said.split("contensou")[1])}
+    sliding = film._fits[1]
+    for name, error in sliding.errors.items():
+        assert abs(again[name] - sliding.model.values[name]) < 0.1 * error
+
+
+@pytest.mark.slow
+def test_the_report_is_whole(film):
+    report = film._report(*film._home).decode()
+    assert report.count("<svg") == 2
+    assert "This top slipped." in report
+    assert "http" not in report
+    assert len(film._residuals(*film._home).splitlines()) == 1 + 2 * 216
+
+
+@pytest.mark.served
+def test_an_example_is_fitted_in_the_page(server, chromium):
+    page = chromium.new_page(viewport={"width": 390, "height": 800})
+    page.set_default_timeout(180_000)
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.add_init_script("localStorage.setItem('tippe:tour', '1')")
+    page.goto(f"{server}?tab=measure")
+    page.get_by_role("button", name="Example: it rolls").click()
+    page.get_by_role("button", name="Fit", exact=True).click()
+    page.get_by_text("This top rolled.").wait_for()
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    page.close()
+    assert not errors

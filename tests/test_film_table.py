@@ -1,0 +1,157 @@
+"""Tables as Tracker, phyphox and spreadsheets write them, and what is wrong with others."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.model.film_data import corrected, roughness, settled
+from app.model.film_table import LARGEST, FilmError, read, written
+from app.text import LANGUAGES, listed, say
+
+ROWS = [(i / 60, 5 + 2 * i, 28 - i / 8) for i in range(20)]
+
+
+def table(head, between, decimal="."):
+    lines = [between.join(f"{x:.4f}".replace(".", decimal) for x in row) for row in ROWS]
+    return "\n".join([*([head] if head else []), *lines]) + "\n"
+
+
+TRACKER = table("mass A\t\t\nt\tθ (°)\tspin (rev/s) ± 0.3", "\t", ",")
+PHYPHOX = table('"Time (s)","Gyroscope x (rad/s)","Gyroscope z (rad/s)"', ",")
+SHEET = table("Zeit/s;Neigung [Grad];Drehzahl (U/min)", ";", ",")
+NAMED = table("t_ms tilt_deg spin", " ")
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (TRACKER, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
+        (PHYPHOX, [("time", "s"), ("", ""), ("spin", "rad/s")]),
+        (SHEET, [("time", "s"), ("tilt", "deg"), ("spin", "rpm")]),
+        (NAMED, [("time", "ms"), ("tilt", "deg"), ("spin", "rev/s")]),
+    ],
+)
+def test_columns_are_understood(text, expected):
+    found = read(text)
+    assert [(column.quantity, column.unit) for column in found.columns] == expected
+    got = np.array([column.values for column in found.columns]).T
+    np.testing.assert_allclose(got, ROWS, atol=6e-5)
+
+
+def test_values_come_in_radians_and_seconds():
+    data = settled(read(TRACKER))
+    np.testing.assert_allclose(data.series["tilt"].values[:2], np.radians([5, 7]), atol=1e-12)
+    np.testing.assert_allclose(data.series["spin"].values[0], 28 * 2 * math.pi)
+    assert data.series["spin"].error == pytest.approx(0.3 * 2 * math.pi)
+    assert data.series["tilt"].t[1] == pytest.approx(1 / 60, abs=1e-4)
+    assert settled(read(NAMED)).series["tilt"].t[-1] == pytest.approx(19 / 60 / 1000, abs=1e-7)
+
+
+def test_frames_need_their_rate():
+    found = read("\n".join(["frame\ttilt (deg)", *(f"{i}\t{5 + i}" for i in range(12))]))
+    assert found.columns[0].unit == "frames"
+    assert settled(found, rate=240).series["tilt"].t[-1] == pytest.approx(11 / 240)
+    with pytest.raises(FilmError, match="rate"):
+        settled(found)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-8"])
+def test_bytes_are_decoded(encoding):
+    assert read(TRACKER.encode(encoding)).columns[1].name == "θ (°)"
+    assert read(TRACKER.replace("θ", "tilt").encode("cp1252")).columns[1].quantity == "tilt"
+
+
+def lines(*changed, base=TRACKER):
+    """A table with some of its lines, counted from 1, changed."""
+    parts = base.splitlines()
+    for number, line in changed:
+        parts[number - 1] = line
+    return "\n".join(parts)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "numbers"),
+    [
+        ("", "empty", {}),
+        ("some words\nand more of them\n", "no-numbers", {"line": 1}),
+        ("t\ttilt\n1\t\0\n", "no-text", {"line": 2}),
+        ("x" * (LARGEST + 1), "too-large", {"most": 200}),
+        (lines((7, "0,1")), "width", {"line": 7, "found": 1}),
+        (lines((9, "0.1\t5.0\t28.0")), "decimals", {"line": 9, "text": "0.1"}),
+        (lines((9, "0,1\tfive\t28,0")), "not-a-number", {"line": 9, "text": "five"}),
+        (lines((9, "0,1\t1e999\t28,0")), "not-a-number", {"line": 9}),
+        ("\n".join(TRACKER.splitlines()[:6]), "rows", {"rows": 4}),
+    ],
+)
+def test_what_cannot_be_read_is_said_with_its_line(text, code, numbers):
+    with pytest.raises(FilmError) as caught:
+        read(text)
+    assert caught.value.code == code
+    assert caught.value.numbers.items() >= numbers.items()
+    for language in LANGUAGES:
+        assert say(f"film.wrong.{code}", language, **caught.value.numbers)
+
+
+def test_times_that_fall_are_said_and_repeated_ones_are_data():
+    with pytest.raises(FilmError) as caught:
+        settled(read(lines((10, "0,0\t5,0\t28,0"))))
+    assert caught.value.code == "falling"
+    assert caught.value.numbers["line"] == 10
+    again = lines((10, TRACKER.splitlines()[8]))
+    assert len(settled(read(again)).series["tilt"].t) == 20
+
+
+def test_what_is_left_out_is_a_note():
+    gaps = read(lines((5, "0,05\tNaN\t27,75"), (6, "\t9,0\t27,0"), (22, "0,31\t4")))
+    assert [code for code, _ in gaps.notes] == ["cut-short", "no-time", "gaps"]
+    assert gaps.notes[0][1]["line"] == 22
+    assert gaps.notes[1][1] == {"count": 1, "line": 6}
+    assert len(settled(gaps).series["tilt"].t) == 17
+    bare = read(table("", "\t"))
+    assert bare.notes[0] == ("no-header", {"line": 1})
+    assert {code for code, _ in (*gaps.notes, *bare.notes)} == set(listed("film.notes"))
+
+
+def test_a_column_can_be_corrected():
+    found = read(table("a\tb\tc", "\t"))
+    with pytest.raises(FilmError, match="no-time-column"):
+        settled(found)
+    columns = [corrected(column, *as_what) for column, as_what in
+               zip(found.columns, [("time", "s"), ("tilt", "deg"), ("precession", "m")], strict=True)]  # fmt: skip
+    data = settled(type(found)(tuple(columns), found.lines))
+    assert list(data.series) == ["tilt", "precession"]
+    assert columns[2].unit == "rev/s"
+    twice = type(found)((columns[0], columns[1], corrected(found.columns[2], "tilt", "rad")), found.lines)
+    with pytest.raises(FilmError, match="twice"):
+        settled(twice)
+
+
+def test_the_error_of_a_value_is_read_off_its_jumps():
+    noise = np.random.default_rng(7).normal(size=4000)
+    assert roughness(np.sin(np.linspace(0, 20, 4000)) + 0.02 * noise) == pytest.approx(0.02, rel=0.05)
+
+
+@given(st.one_of(st.text(), st.text(alphabet='t1,.;\t\n -θ(°)"±#e'), st.binary()))
+def test_no_text_raises_anything_else(data):
+    try:
+        settled(read(data))
+    except FilmError as error:
+        for language in LANGUAGES:
+            assert say(f"film.wrong.{error.code}", language, **error.numbers)
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(0, 1e3), st.floats(-1e9, 1e9), st.none() | st.floats(-1e-9, 1e-9)), min_size=8, max_size=30
+    )
+)
+def test_what_is_written_is_read_again(rows):
+    values = [[repr(x) if x is not None else "" for x in row] for row in rows]
+    first = read("\n".join("\t".join(cells) for cells in [["t (s)", "tilt (rad)", "spin (rad/s)"], *values]))
+    second = read(written(first))
+    assert [column.name for column in second.columns] == [column.name for column in first.columns]
+    for one, two in zip(first.columns, second.columns, strict=True):
+        assert np.array_equal(one.values, two.values, equal_nan=True)
