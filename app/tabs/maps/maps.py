@@ -48,7 +48,7 @@ class Maps:
         self.show_one = pmui.Button(label=say("maps.show_one"), visible=False, **BUTTON)
         on_click(self.stop, lambda event: self._run and self._run.stop())
         on_click(self.show_one, lambda event: self.go(*self._found.one, cell=True))
-        self.python = Copy(label=say("maps.python"), says=listed("share.copy"), rows=6, sizing_mode="stretch_width")
+        self.python = Copy(label=say("maps.python"), button=listed("share.copy"), rows=6, sizing_mode="stretch_width")
         self.files = [
             Download(self._runs, lambda: (self.level, self.colour.value), partial(_file, kind), label=kind.upper(),
                      filename=f"tippe-top-map.{kind}", margin=0)
