@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.model import maps_kept
-from app.model.maps import ENDS, LAWS, UNITS, Map
+from app.model.maps import ENDINGS, LAWS, UNITS, Map
 from app.model.maps_lines import disagreement, lines
 from app.model.maps_solving import Level, run, solve
 from app.tabs.maps.export import made, python
@@ -92,7 +92,7 @@ def test_coarse_first_and_what_was_run_is_kept():
     nine, finest = (next(each for each in seen if len(each.x) == n and each.whole) for n in (9, 27))
     np.testing.assert_allclose(finest.x[1::3], nine.x, rtol=1e-12)
     np.testing.assert_array_equal(finest.columns["heat"][1::3, 1::3], nine.columns["heat"])
-    assert finest.finest and not nine.finest and {*finest.end.ravel()} <= {*ENDS}
+    assert finest.finest and not nine.finest and {*finest.end.ravel()} <= {*ENDINGS}
 
 
 def test_a_look_stops_it_and_knows_how_far_it_is():

@@ -6,7 +6,7 @@ from bokeh.palettes import Viridis256
 
 from app.bundle import call
 from app.model.colours import INK
-from app.model.maps import ENDS
+from app.model.maps import ENDINGS
 from app.model.maps_lines import lines
 from app.text import listed, say
 from app.widgets.plots import plain
@@ -42,7 +42,7 @@ class MapFigure:
         fig.scatter("x", "y", source=self.bead, level="overlay", size=17, fill_color="#fefefe", line_color="#1558c0",
                     line_width=5)  # fmt: skip
         self.words = []
-        for _ in ENDS:
+        for _ in ENDINGS:
             self.words.append(Label(x=0, y=0, text=" ", visible=False, text_align="center", text_baseline="middle",
                                     text_font_size="12px", text_font_style="bold"))  # fmt: skip
             fig.add_layout(self.words[-1])
@@ -86,7 +86,7 @@ class MapFigure:
 
     def _name_areas(self, level, colour):
         named = listed("maps.ends")
-        for word, end in zip(self.words, ENDS, strict=True):
+        for word, end in zip(self.words, ENDINGS, strict=True):
             own = np.argwhere(level.end == end)
             if colour != "end" or len(own) < LEAST_AREA * level.end.size:
                 word.visible = False

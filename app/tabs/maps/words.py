@@ -3,7 +3,7 @@
 import numpy as np
 from bokeh.palettes import Viridis256
 
-from app.model.maps import ENDS, QUANTITIES, UNITS
+from app.model.maps import ENDINGS, QUANTITIES, UNITS
 from app.model.maps_lines import lines
 from app.tabs.maps.picture import DASHES, END_COLOURS, span
 from app.text import listed, say
@@ -24,7 +24,7 @@ def colours_say(level, colour):
     said = [f"<h2>{say('maps.colours_say')}</h2>"]
     if colour == "end":
         named = listed("maps.ends")
-        said += [_patch(f"background: {END_COLOURS[end]}", named[end]) for end in ENDS if (level.end == end).any()]
+        said += [_patch(f"background: {END_COLOURS[end]}", named[end]) for end in ENDINGS if (level.end == end).any()]
     elif found := span(level, colour):
         ramp = ", ".join(Viridis256[::51])
         unit = UNITS[colour]
