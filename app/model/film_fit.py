@@ -116,7 +116,7 @@ def fit(model: Model, data: Data) -> Fit:
     count = sum(len(series.t) for series in data.series.values())
     if count <= len(model.free) + shifted(data):
         raise TopError("values", count, "more than {least} measured values", "Free fewer numbers, or measure more.",
-                       least=len(model.free) + shifted(data))  # fmt: skip
+                       code="too-few-values", least=len(model.free) + shifted(data))  # fmt: skip
     problem = _Problem(model, data, count)
     # At first of the beginning alone: of a whole motion, that turns many times, there are many false minima.
     t = np.concatenate([series.t for series in data.series.values()])

@@ -69,7 +69,7 @@ class Map:
 
     def __post_init__(self) -> None:
         if self.across == self.up:
-            raise TopError("up", self.up, f"up != across = {self.across}")
+            raise TopError("up", self.up, f"!= {self.across}")
         for name, (low, high) in zip((self.across, self.up), (self.across_range, self.up_range), strict=True):
             self._check_possible(name)
             for value in (low, high):
@@ -81,7 +81,7 @@ class Map:
         if not 0 < self.seconds <= MOST_SECONDS:
             raise TopError("seconds", self.seconds, f"0 < seconds <= {MOST_SECONDS:g} (s)")
         if self.cells not in range(3, MOST_CELLS + 1, 3):
-            raise TopError("cells", self.cells, f"3 <= cells <= {MOST_CELLS}, cells = 3 n")
+            raise TopError("cells", self.cells, f"3, 6, 9, ... {MOST_CELLS}")
 
     def _check_possible(self, name: str) -> None:
         if name not in QUANTITIES:

@@ -24,6 +24,7 @@ CODES = {
     "too-many-turns": "a motion too long to be shown, as fast as it turns",
     "stem-below-table": "a tilt at which a stem or rim is below the table",
     "body-below-table": "a tilt at which another part is",
+    "too-few-values": "fewer measured values than the numbers that are fitted need",
 }
 """{code: what is wrong}: those of the page itself, beside tippe_core.errors.CODES."""
 Found: TypeAlias = Any  # what stands under a key: words, a list of them, or a table
