@@ -159,6 +159,11 @@ def serve(*command, path="app", **environment):
     raise RuntimeError(f"{command} does not answer on {url}")
 
 
+def of_roll(server, url):
+    """The same, at the address of the tab whose parts are measured."""
+    return server, f"{url}?tab=roll"
+
+
 SHOWN = """
 () => ["figure", "page"].every((part) => Math.abs(bench[part].at(-1)?.[1] - bench.inputs.at(-1)?.[1]) < 1e-6)
 """
@@ -256,8 +261,8 @@ def main():
         servers = {}
         try:
             servers["bare"] = serve("bokeh", "serve", str(bare), path="bare")
-            servers["panel serve"] = serve("panel", "serve", "app")
-            servers["python -m app"] = serve("app", TIPPE_PORT="{port}")
+            servers["panel serve"] = of_roll(*serve("panel", "serve", "app"))
+            servers["python -m app"] = of_roll(*serve("app", TIPPE_PORT="{port}"))
             browser = launch(playwright)
             print(f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, "
                   f"load {os.getloadavg()[0]:.1f}, Python {platform.python_version()}, "
