@@ -36,7 +36,7 @@ from playwright.sync_api import sync_playwright
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
-from visiting import WHOLE, free_port, launch  # noqa: E402
+from visiting import WHOLE, free_port, launch, of_roll  # noqa: E402
 
 VISITS = 6
 STEPS, MOVES, RATE, ROUNDS = 60, 90, 30, 3
@@ -140,7 +140,7 @@ def visit(browser, url, kind):
     return came
 
 
-def serve(*command, path="app", **environment):
+def serve(*command, path, **environment):
     """A server's process and address. A first visitor came before: what it then imports is not the visit's."""
     port = free_port()
     if not environment:
@@ -157,11 +157,6 @@ def serve(*command, path="app", **environment):
             time.sleep(0.1)
     server.terminate()
     raise RuntimeError(f"{command} does not answer on {url}")
-
-
-def of_roll(server, url):
-    """The same, at the address of the tab whose parts are measured."""
-    return server, f"{url}?tab=roll"
 
 
 SHOWN = """
@@ -261,8 +256,8 @@ def main():
         servers = {}
         try:
             servers["bare"] = serve("bokeh", "serve", str(bare), path="bare")
-            servers["panel serve"] = of_roll(*serve("panel", "serve", "app"))
-            servers["python -m app"] = of_roll(*serve("app", TIPPE_PORT="{port}"))
+            servers["panel serve"] = serve("panel", "serve", "app", path=of_roll("app"))
+            servers["python -m app"] = serve("app", TIPPE_PORT="{port}", path=of_roll("app"))
             browser = launch(playwright)
             print(f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, "
                   f"load {os.getloadavg()[0]:.1f}, Python {platform.python_version()}, "
@@ -315,3 +310,16 @@ if __name__ == "__main__":
 # drag  page                         panel serve 337  486  8.22    python -m app 267  372  6.29
 # Aims of 1.5 (figure) and 4 (page): a step of the figure meets it with python -m app, the others do not. Without that
 # wait the page of panel serve is 4.0 to 4.7 and its figure 1.8 to 1.9 times bare.
+#
+# 2026-11-25, x86_64, 2 cores, nothing else running, Python 3.11.7, panel 1.9.4, bokeh 3.9.2, Chromium 156.0.8078.79,
+# Roll, before (aeb9244) and after the page's house was put in order, in times bare: of first the least, else p95
+#                    panel serve       python -m app
+#                    before  after     before  after
+# first top           3.03    3.96      2.41    5.11   (after: 2565 and 3306 ms, before: 2100 and 1669)
+# first hand          3.01    3.38      2.91    2.94
+# first page          5.26    5.91      5.11    6.00
+# first cpu           4.33    4.59      4.29    4.45
+# steps figure        1.25    1.30      0.92    1.01
+# steps page          5.41    5.55      4.09    4.52
+# drag  figure        2.49    2.41      1.59    1.56
+# drag  page          8.17    8.39      7.04    6.60

@@ -46,6 +46,11 @@ WHOLE = """
 DRAWN = "window.__tippe?.top3d?.pictures > 0 && (innerWidth < 600 || window.__tippe.surface3d?.pictures > 0)"
 
 
+def of_roll(url):
+    """An address that says nothing, as Roll's; another as it is."""
+    return url if "?" in url else f"{url}?tab=roll"
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
@@ -81,7 +86,7 @@ class Visit:
                 socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")
             ],
         )
-        page.goto(url if "?" in url else f"{url}?tab=roll")
+        page.goto(of_roll(url))
         if not whole:
             return
         page.wait_for_function(DRAWN)

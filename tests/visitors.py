@@ -9,6 +9,7 @@ for the Pythons of this machine (tests/pythons.py), and for a server that somebo
 import asyncio
 import sys
 
+from visiting import of_roll
 from wire import Page, Visitor, run
 
 MOVES = 12  # of each visitor's slider
@@ -18,7 +19,7 @@ PATIENCE = 300  # s
 
 async def come(url, language="en"):
     """A Page whose document is there; an address without a query is Roll's here."""
-    page = Page(await Visitor.enter(url if "?" in url else f"{url}?tab=roll", headers={"Accept-Language": language}))
+    page = Page(await Visitor.enter(of_roll(url), headers={"Accept-Language": language}))
     await page.visitor.ready()
     return page
 
