@@ -15,18 +15,18 @@ from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
 from app.share.share import Share
 from app.state.keep import Field, OneOf, explorer_of, kept, read
+from app.tabs.build.build import Build
+from app.tabs.build.rocking import RockingFields
 from app.tabs.families.compare import Compare
-from app.tabs.film.film import Film
 from app.tabs.lab import opening
 from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.learn import kept as kept_of_learn
 from app.tabs.learn.student import student_page
 from app.tabs.maps.maps import Maps
+from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import KEPT, ThreePlanes
 from app.tabs.roll.roll import Roll
-from app.tabs.workshop.measure import Measure
-from app.tabs.workshop.workshop import Workshop
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid, section
 from app.widgets.connection import Connection
@@ -144,14 +144,14 @@ class House:
         return Roll(self.pacer, self.playing).main
 
     def build(self):
-        workshop = Workshop(self.builder, self.pacer.soon)
-        self.pacer.shows(workshop.show, "rest")
-        measure = card(say("main.cards.measure"), *Measure(self.builder).view, height="max-content")
-        measure.styles = measure.styles | {"grid-column": "1 / -1"}
+        bench = Build(self.builder, self.pacer.soon)
+        self.pacer.shows(bench.show, "rest")
+        rocking = card(say("main.cards.measure"), *RockingFields(self.builder).view, height="max-content")
+        rocking.styles = rocking.styles | {"grid-column": "1 / -1"}
         return grid(
-            card(say("main.cards.section"), *workshop.section_view, height="max-content"),
-            card(say("main.cards.bench"), *workshop.bench_view, height="max-content"),
-            measure,
+            card(say("main.cards.section"), *bench.section_view, height="max-content"),
+            card(say("main.cards.bench"), *bench.bench_view, height="max-content"),
+            rocking,
         )
 
     def planes(self):
@@ -190,16 +190,16 @@ class House:
     def maps(self):
         return Maps(self.runs).view
 
-    def film(self):
-        film = Film(self.scene, self.runs)
-        self.pacer.shows(film.show, "hand")
-        return film.view
+    def measure(self):
+        measure = Measure(self.scene, self.runs)
+        self.pacer.shows(measure.show, "hand")
+        return measure.view
 
     @property
     def tabs(self):
         """{name in the address: maker}, in the order of the header."""
         return {"lab": self.lab, "roll": self.roll, "three-planes": self.planes, "build-a-top": self.build,
-                "families": self.families, "learn": self.learn, "maps": self.maps, "measure": self.film}  # fmt: skip
+                "families": self.families, "learn": self.learn, "maps": self.maps, "measure": self.measure}  # fmt: skip
 
 
 def sidebar(controls, look, language):

@@ -12,8 +12,8 @@ from app.model.explorer import Explorer
 from app.model.playing import Playing
 from app.share.share import PLAYING
 from app.state.keep import Field, Keep, Numbers, OneOf
+from app.tabs.build.build import Build
 from app.tabs.roll.roll import Roll
-from app.tabs.workshop.workshop import Workshop
 from app.widgets.controls import Controls
 from app.widgets.pacing import Pacer
 from app.widgets.surface3d import Surface3D
@@ -88,7 +88,7 @@ def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, pacer, va
 def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line):
     with set_curdoc(Document()):
         explorer = Explorer()
-        workshop = Workshop(builder_of(explorer))
+        workshop = Build(builder_of(explorer))
         knob = next(iter(workshop._knobs.values()))
         for sent in lists(value, 1, 20.0, False):
             if value != 1e308:  # a number, if an odd one: it is answered as such

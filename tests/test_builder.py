@@ -14,8 +14,8 @@ from app.model.builder import Rocking
 from app.model.dimensions import FAMILIES, changed, handles, pulled, sentence, value_of
 from app.model.explorer import Explorer
 from app.model.family import neighbours, pegs, presets, region, share_map
+from app.tabs.build.build import KNOBS, Build
 from app.tabs.families.compare import Compare
-from app.tabs.workshop.workshop import KNOBS, Workshop
 from tippe_core import (
     PRESETS,
     Ball,
@@ -337,7 +337,7 @@ def test_a_diameter_that_cannot_be_is_called_a_diameter():
 
 
 def test_the_bench_says_what_is_printed_and_goes_back_to_a_preset(builder, explorer):
-    bench = Workshop(builder)
+    bench = Build(builder)
     bench.families.value = "loaded sphere"
     assert bench.presets.value == "Loaded sphere" and "the core is not in it" in bench.derived.object
     builder.set("core_density", 0.0)  # a cavity is
@@ -546,7 +546,7 @@ def test_many_pieces_have_their_knobs_in_portions(builder, explorer):
     many = 100
     points = tuple((0.01 + 0.001 * (i % 2), -0.009 + 0.0005 * i) for i in range(many))
     asked = []
-    bench = Workshop(builder, asked.append)
+    bench = Build(builder, asked.append)
     builder.load(save_top(Lathe(R=0.02, points=points, density=(700.0,) * many)))
     assert len(bench._knobs) == KNOBS and len(asked) == 1
     while asked:

@@ -60,9 +60,9 @@ def test_the_outcome_is_said_as_the_core_says_it():
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_body_and_start_has_a_name(language):
-    bodies = listed("workshop.presets", language)
+    bodies = listed("build.presets", language)
     assert [*bodies] == [preset.name for preset in PRESETS]
-    assert [*listed("workshop.families", language)] == [name for name, _ in FAMILIES.values()]
+    assert [*listed("build.families", language)] == [name for name, _ in FAMILIES.values()]
     assert [*listed("planes.presets", language)] == [*STARTS]
     # a choice is by its name: no two alike
     for names in ([body["name"] for body in bodies.values()], listed("planes.presets", language).values()):
@@ -71,7 +71,7 @@ def test_every_body_and_start_has_a_name(language):
         assert [(name, body["source"]) for name, body in bodies.items()] == [
             (preset.name, preset.source) for preset in PRESETS]  # fmt: skip
     for kind, dimensions in FAMILIES.values():
-        assert all(say(f"workshop.dimensions.{each.key}", language) for each in dimensions), kind
+        assert all(say(f"build.dimensions.{each.key}", language) for each in dimensions), kind
 
 
 def test_an_error_is_told_in_german_with_the_units_of_the_sliders(monkeypatch):

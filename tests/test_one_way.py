@@ -34,14 +34,14 @@ from app.model.scene import Scene, solve
 from app.page import House, page
 from app.share.share import Share
 from app.state.keep import Keep
+from app.tabs.build.build import Build
+from app.tabs.build.section import Section
 from app.tabs.families.compare import Compare
 from app.tabs.learn.figures import SectionFigure
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.lines import Derivation
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
-from app.tabs.workshop.section import Section
-from app.tabs.workshop.workshop import Workshop
 from app.widgets.controls import FACES, Control, Controls
 from app.widgets.guide import Guide
 from app.widgets.pacing import Pacer
@@ -145,7 +145,7 @@ def learn(section):
 def bench(scene):
     """The builder's tab is of a Builder, whose draft is a function of the scene."""
     builder = Builder(scene, nothing)
-    view = Workshop(builder)
+    view = Build(builder)
 
     def show(scene):
         builder.follow(scene)
@@ -187,7 +187,7 @@ VIEWS = {
     "Top3D": in_three_dimensions(Top3D, show_top), "Surface3D": in_three_dimensions(Surface3D, show_surface),
     "Derivation": lambda scene: (lambda view: (view, view.show))(Derivation("a")),
     "Controls": controls, "Roll": roll, "Learn, the lesson": learn("lesson"), "Learn, the lines": learn("derivation"),
-    "Workshop": bench, "Section": section, "Share": share, "Compare": compare,
+    "Build": bench, "Section": section, "Share": share, "Compare": compare,
 }  # fmt: skip
 
 
@@ -413,7 +413,7 @@ def test_the_page_needs_no_tab_but_the_first_to_be_made(query, first, monkeypatc
 
         return making
 
-    for name in ("lab", "roll", "planes", "build", "families", "learn", "film"):
+    for name in ("lab", "roll", "planes", "build", "families", "learn", "measure"):
         monkeypatch.setattr(House, name, noted(getattr(House, name)))
     with set_curdoc(Document()):
         pn.state.location.search = query

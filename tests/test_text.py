@@ -29,8 +29,8 @@ SAME = (
     "browser.Dial.entry",
     "controls.notes.energy",
     "lab.keeps.millimetres",
-    "film.heads.*",
-    "film.units.*",
+    "measure.heads.*",
+    "measure.units.*",
 )
 NUMBERS = r"\{[^{}]*\}"
 SHORT_ELEMENT = r"<(i|b|sub|sup)>[^<]{0,4}</\1>"
@@ -184,8 +184,8 @@ NOT_SAID = {
     "asked.py": {"": "said to the log"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
     **{name: {"": "files of data and programs, which are the same in every language"}
-       for name in ("export.py", "film_examples.py", "film_report.py", "glb.py", "programs.py")},
-    "film_table.py": {"": "what tables call their columns"},
+       for name in ("export.py", "measured_examples.py", "measured_report.py", "glb.py", "programs.py")},
+    "measured_table.py": {"": "what tables call their columns"},
     "keep.py": {"not one of {}": "said to the log"},
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},

@@ -63,7 +63,7 @@ class Draft:
 
     @property
     def family(self) -> str:
-        """What kind of body it is: a key in workshop.toml."""
+        """What kind of body it is: a key in build.toml."""
         return FAMILIES[type(self.shape)][0]
 
     @property
@@ -272,7 +272,7 @@ def _draft(shape: Shape, top: Top) -> Draft:
     if not known:
         return Draft(shape=shape)
     known = next((preset for preset in known if preset.top == top), known[-1])
-    return Draft(shape=shape, name=known.name, source=listed("workshop.presets")[known.name]["source"])
+    return Draft(shape=shape, name=known.name, source=listed("build.presets")[known.name]["source"])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -293,11 +293,11 @@ class Rocking:
             # what was measured is the diameter
             if error.name == "R":
                 raise TopError(
-                    say("workshop.own.diameter"), self.D, "{range} ({unit})", range="2e-09 <= D <= 2e+09", unit="m"
+                    say("build.own.diameter"), self.D, "{range} ({unit})", range="2e-09 <= D <= 2e+09", unit="m"
                 ) from None
             if error.name == "dR":
                 raise TopError(
-                    say("workshop.own.diameter_uncertainty"),
+                    say("build.own.diameter_uncertainty"),
                     self.dD,
                     "{range} ({unit})",
                     range="0 <= dD <= 2e+09",

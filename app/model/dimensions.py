@@ -29,7 +29,7 @@ Value: TypeAlias = Any  # of a field: a number, a tuple of them or of points, a 
 class Dimension:
     """A field of a shape as a person reads it: factor is the number of units in one of SI; low to high, the slider.
 
-    key: of its words, in workshop.toml; numbers: what stands in them, (name, value).
+    key: of its words, in build.toml; numbers: what stands in them, (name, value).
     """
 
     name: str
@@ -43,7 +43,7 @@ class Dimension:
 
     @property
     def words(self) -> str:
-        return say(f"workshop.dimensions.{self.key}", **dict(self.numbers))
+        return say(f"build.dimensions.{self.key}", **dict(self.numbers))
 
 
 def _length(name: str, key: str, low: float, high: float) -> Dimension:
@@ -82,12 +82,12 @@ FAMILIES = {
     Lathe: ("turned from points", (_length("R", "peg", 0.5, 40), density_dimension("density", "density"), MASS)),
     Turned: ("turned from pieces", (MASS,)),
 }  # fmt: skip
-"""{kind of shape: the name of its family, a key in workshop.toml, and the Dimensions that can be set}."""
+"""{kind of shape: the name of its family, a key in build.toml, and the Dimensions that can be set}."""
 
 
 def named(preset: str) -> str:
     """What a preset of tippe_core is called on the page."""
-    return listed("workshop.presets")[preset]["name"]
+    return listed("build.presets")[preset]["name"]
 
 
 def sentence(error: TopError) -> str:

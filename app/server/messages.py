@@ -170,7 +170,7 @@ CHANGES = {
     "Download": {"clicks": COUNT},
     "Failure": {},
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
-    "FilmFile": {"table": row(text(200_000), COUNT), "refused": COUNT},
+    "MeasuredFile": {"table": row(text(200_000), COUNT), "refused": COUNT},
     "Guide": {},
     "LabView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
     "Look": {"dark": FLAG, "large": FLAG},

@@ -8,7 +8,7 @@ import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
 import { renderDial } from "./widgets/dial.js";
 import { renderDownload } from "./widgets/download.js";
-import { renderFilmFile } from "./widgets/film_file.js";
+import { renderMeasuredFile } from "./widgets/measured_file.js";
 import { renderGuide } from "./widgets/guide.js";
 import { renderLines } from "./widgets/lines.js";
 import { renderLook } from "./widgets/look.js";
@@ -28,7 +28,7 @@ export default {
   Dial: { render: renderDial },
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
-  FilmFile: { render: renderFilmFile },
+  MeasuredFile: { render: renderMeasuredFile },
   Guide: { render: renderGuide },
   LabView: { render: renderLab },
   Lines: { render: renderLines },

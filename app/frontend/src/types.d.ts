@@ -104,7 +104,7 @@ interface DownloadModel extends Model {
   making: boolean;
 }
 
-interface FilmFileModel extends Model {
+interface MeasuredFileModel extends Model {
   most: number;
   table: [text: string, each: number];
   refused: number;

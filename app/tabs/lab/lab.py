@@ -170,7 +170,7 @@ class LabTab:
         self.view.param.update(**changes)
 
     def _state(self, scene):
-        lab, names = self._lab, listed("workshop.presets")
+        lab, names = self._lab, listed("build.presets")
         messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
         return {
             "table": scene.table,

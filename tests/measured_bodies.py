@@ -6,9 +6,9 @@ import numpy as np
 import rigid_body as rb
 import sliding_body as sb
 
-from app.model.film_data import Data, Series
-from app.model.film_fit import fit
-from app.model.film_motion import model_of
+from app.model.measured_data import Data, Series
+from app.model.measured_fit import fit
+from app.model.measured_motion import model_of
 from tippe_core import Scales, Top
 
 FRAMES, RATE = 72, 60

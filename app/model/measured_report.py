@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from app.model.film_data import Data
-from app.model.film_fit import Fit
+from app.model.measured_data import Data
+from app.model.measured_fit import Fit
 
 PROGRAM = '''"""Repeats a fit of the tippe top explorer; run it in the explorer's folder."""
 
-from app.model.film_data import settled
-from app.model.film_fit import fit
-from app.model.film_motion import model_of
-from app.model.film_table import read
+from app.model.measured_data import settled
+from app.model.measured_fit import fit
+from app.model.measured_motion import model_of
+from app.model.measured_table import read
 from tippe_core import Scales, Top
 
 TABLE = """{table}"""
@@ -36,7 +36,7 @@ def residuals_table(data: Data, fit: Fit) -> str:
 
 
 def table_of(data: Data) -> str:
-    """The data as a table that film_table.read takes: one row a time, an empty cell where nothing was measured."""
+    """The data as a table that measured_table.read takes: one row a time, an empty cell where nothing was measured."""
     units = {"tilt": "rad", "azimuth": "rad", "spin": "rad/s", "precession": "rad/s"}
     heads = [f"{name} ({units.get(name, 'm')}) ± {series.error:.6g}" for name, series in data.series.items()]
     rows = ["\t".join(["time (s)", *(head.replace("_", " ") for head in heads)])]

@@ -6,12 +6,12 @@ from types import MappingProxyType
 
 import numpy as np
 import pytest
-from film_bodies import film, recovered
+from measured_bodies import film, recovered
 
-from app.model.film_data import Data, Series
-from app.model.film_fit import fit, runs, verdict
-from app.model.film_kept import kept
-from app.model.film_motion import Left, left_over, model_of
+from app.model.measured_data import Data, Series
+from app.model.measured_fit import fit, runs, verdict
+from app.model.measured_kept import kept
+from app.model.measured_motion import Left, left_over, model_of
 from app.model.runs import Run, Runs, Stopped
 from tippe_core import Scales, Top, TopError
 

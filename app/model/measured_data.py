@@ -5,7 +5,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from app.model.film_table import UNITS, Column, FilmError, Table
+from app.model.measured_table import UNITS, Column, MeasuredError, Table
 from tippe_core.types import Array
 
 TOGETHER = (("x", "y"), ("tip_x", "tip_y"))
@@ -38,7 +38,7 @@ class Data:
             inside = (series.t >= start) & (series.t <= end)
             parts[name] = Series(series.t[inside], series.values[inside], series.error)
         if sum(len(series.t) for series in parts.values()) < 8:
-            raise FilmError("part", start=start, end=end)
+            raise MeasuredError("part", start=start, end=end)
         return Data(MappingProxyType({name: part for name, part in parts.items() if len(part.t)}))
 
 
@@ -54,27 +54,27 @@ def settled(table: Table, rate: float = 0.0) -> Data:
     for quantity in UNITS:
         alike = [column.name for column in used if column.quantity == quantity]
         if len(alike) > 1:
-            raise FilmError("twice", first=alike[0], second=alike[1])
+            raise MeasuredError("twice", first=alike[0], second=alike[1])
     time = next((column for column in used if column.quantity == "time"), None)
     if time is None:
-        raise FilmError("no-time-column", line=max(table.lines[0] - 1, 1))
+        raise MeasuredError("no-time-column", line=max(table.lines[0] - 1, 1))
     if time.unit == "frames" and not rate > 0:
-        raise FilmError("rate", rate=rate)
+        raise MeasuredError("rate", rate=rate)
     known = np.isfinite(time.values)
     t = time.values[known] * (1 / rate if time.unit == "frames" else UNITS["time"][time.unit])
     lines = np.array(table.lines)[known]
     falls = np.flatnonzero(np.diff(t) < 0)
     if falls.size:
         before, after = time.values[known][falls[0] : falls[0] + 2]
-        raise FilmError("falling", line=int(lines[falls[0] + 1]), before=float(before), after=float(after))
+        raise MeasuredError("falling", line=int(lines[falls[0] + 1]), before=float(before), after=float(after))
     series = {column.quantity: _series(column, t, known) for column in used if column is not time}
     for one, other in TOGETHER:
         if (one in series) != (other in series):
-            raise FilmError(
+            raise MeasuredError(
                 "half-a-track", here=one if one in series else other, missing=other if one in series else one
             )
     if not series:
-        raise FilmError("nothing", line=max(table.lines[0] - 1, 1))
+        raise MeasuredError("nothing", line=max(table.lines[0] - 1, 1))
     return Data(MappingProxyType(series))
 
 
@@ -83,7 +83,7 @@ def _series(column: Column, t: Array, known: Array) -> Series:
     values = column.values[known] * size
     good = np.isfinite(values)
     if good.sum() < 4:
-        raise FilmError("few-values", name=column.name, count=int(good.sum()))
+        raise MeasuredError("few-values", name=column.name, count=int(good.sum()))
     values, t = values[good], t[good]
     if column.quantity == "azimuth":
         values = np.unwrap(values)

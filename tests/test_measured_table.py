@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.model.film_data import corrected, roughness, settled
-from app.model.film_table import LARGEST, FilmError, read, written
+from app.model.measured_data import corrected, roughness, settled
+from app.model.measured_table import LARGEST, MeasuredError, read, written
 from app.text import LANGUAGES, listed, say
 
 ROWS = [(i / 60, 5 + 2 * i, 28 - i / 8) for i in range(20)]
@@ -54,7 +54,7 @@ def test_frames_need_their_rate():
     found = read("\n".join(["frame\ttilt (deg)", *(f"{i}\t{5 + i}" for i in range(12))]))
     assert found.columns[0].unit == "frames"
     assert settled(found, rate=240).series["tilt"].t[-1] == pytest.approx(11 / 240)
-    with pytest.raises(FilmError, match="rate"):
+    with pytest.raises(MeasuredError, match="rate"):
         settled(found)
 
 
@@ -87,16 +87,16 @@ def lines(*changed, base=TRACKER):
     ],
 )
 def test_what_cannot_be_read_is_said_with_its_line(text, code, numbers):
-    with pytest.raises(FilmError) as caught:
+    with pytest.raises(MeasuredError) as caught:
         read(text)
     assert caught.value.code == code
     assert caught.value.numbers.items() >= numbers.items()
     for language in LANGUAGES:
-        assert say(f"film.wrong.{code}", language, **caught.value.numbers)
+        assert say(f"measure.wrong.{code}", language, **caught.value.numbers)
 
 
 def test_times_that_fall_are_said_and_repeated_ones_are_data():
-    with pytest.raises(FilmError) as caught:
+    with pytest.raises(MeasuredError) as caught:
         settled(read(lines((10, "0,0\t5,0\t28,0"))))
     assert caught.value.code == "falling"
     assert caught.value.numbers["line"] == 10
@@ -112,12 +112,12 @@ def test_what_is_left_out_is_a_note():
     assert len(settled(gaps).series["tilt"].t) == 17
     bare = read(table("", "\t"))
     assert bare.notes[0] == ("no-header", {"line": 1})
-    assert {code for code, _ in (*gaps.notes, *bare.notes)} == set(listed("film.notes"))
+    assert {code for code, _ in (*gaps.notes, *bare.notes)} == set(listed("measure.notes"))
 
 
 def test_a_column_can_be_corrected():
     found = read(table("a\tb\tc", "\t"))
-    with pytest.raises(FilmError, match="no-time-column"):
+    with pytest.raises(MeasuredError, match="no-time-column"):
         settled(found)
     columns = [corrected(column, *as_what) for column, as_what in
                zip(found.columns, [("time", "s"), ("tilt", "deg"), ("precession", "m")], strict=True)]  # fmt: skip
@@ -125,7 +125,7 @@ def test_a_column_can_be_corrected():
     assert list(data.series) == ["tilt", "precession"]
     assert columns[2].unit == "rev/s"
     twice = type(found)((columns[0], columns[1], corrected(found.columns[2], "tilt", "rad")), found.lines)
-    with pytest.raises(FilmError, match="twice"):
+    with pytest.raises(MeasuredError, match="twice"):
         settled(twice)
 
 
@@ -138,9 +138,9 @@ def test_the_error_of_a_value_is_read_off_its_jumps():
 def test_no_text_raises_anything_else(data):
     try:
         settled(read(data))
-    except FilmError as error:
+    except MeasuredError as error:
         for language in LANGUAGES:
-            assert say(f"film.wrong.{error.code}", language, **error.numbers)
+            assert say(f"measure.wrong.{error.code}", language, **error.numbers)
 
 
 @given(

@@ -31,9 +31,9 @@ def pictures(data, left=None, start=None, end=None):
     x_range = Range1d(first - pad, last + pad)
     inner = data.between(start, end) if left else None
     for name, series in data.series.items():
-        unit, size = say(f"film.units.{name}"), size_of(name)
-        title = say(f"film.quantities.{name}")
-        fig = _named(plain(x_range=x_range), say("film.picture", name=title))
+        unit, size = say(f"measure.units.{name}"), size_of(name)
+        title = say(f"measure.quantities.{name}")
+        fig = _named(plain(x_range=x_range), say("measure.picture", name=title))
         fig.update(sizing_mode="stretch_width", height=190, min_border_left=52)
         y, error = series.values * size, series.error * size
         dots = ColumnDataSource({"t": series.t, "y": y, "low": y - error, "high": y + error})
@@ -52,7 +52,7 @@ def pictures(data, left=None, start=None, end=None):
 
 def _rest(t, residuals, x_range, title):
     most = max(3.5, float(np.abs(residuals).max()) * 1.1)
-    fig = _named(plain(x_range=x_range, y_range=Range1d(-most, most)), say("film.rest", name=title))
+    fig = _named(plain(x_range=x_range, y_range=Range1d(-most, most)), say("measure.rest", name=title))
     fig.update(sizing_mode="stretch_width", height=80, min_border_left=52)
     fig.add_layout(BoxAnnotation(bottom=-1, top=1, fill_color=GREY, fill_alpha=0.18, line_color=None))
     fig.scatter(t, residuals, size=3, color=INK)

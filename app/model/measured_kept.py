@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import chi2 as chi_square
 
-from app.model.film_data import Data
+from app.model.measured_data import Data
 from tippe_core import Scales, Top
 from tippe_core.paper import equations as eq
 from tippe_core.types import Array

@@ -12,8 +12,8 @@ from app.borrowed import WholeFile, at_once
 from app.model.builder import LARGEST_FILE
 from app.model.dimensions import FAMILIES, named, value_of
 from app.state import asked
-from app.tabs.workshop.fields import grid, symbol
-from app.tabs.workshop.section import Section
+from app.tabs.build.fields import grid, symbol
+from app.tabs.build.section import Section
 from app.text import listed, say
 from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
 from app.widgets.controls import Dial, asked_of, number, typed_number, wording
@@ -43,7 +43,7 @@ class Knob:
             try:
                 value = typed_number(value)
             except ValueError:
-                self.say(say("workshop.bench.not_a_number", text=value, number=self.dimension.high))
+                self.say(say("build.bench.not_a_number", text=value, number=self.dimension.high))
                 return
         self._pull(self.dimension.name, value / self.dimension.factor)
 
@@ -63,23 +63,23 @@ class Pieces:
 
     def __init__(self, builder):
         self.builder, self._exact = builder, 0.0
-        kinds = {says: kind for kind, says in listed("workshop.pieces.kinds").items()}
-        self.kind = pmui.Select(label=say("workshop.pieces.kind"), options=kinds, value="ball", size="small",
+        kinds = {says: kind for kind, says in listed("build.pieces.kinds").items()}
+        self.kind = pmui.Select(label=say("build.pieces.kind"), options=kinds, value="ball", size="small",
                                 width=120, margin=(8, 0, 0, 0))  # fmt: skip
-        spoken = listed("workshop.pieces.spoken")
+        spoken = listed("build.pieces.spoken")
         self.entries = {name: field(value, spoken[name], width=58) for name, value in self.FIELDS}
         self.density = field("", spoken["density"], width=78)
         self.words = words()
         self.put, self.take, self.undo = (
-            pmui.Button(label=say(f"workshop.pieces.{does}"), **BUTTON) for does in ("put", "take", "undo")
+            pmui.Button(label=say(f"build.pieces.{does}"), **BUTTON) for does in ("put", "take", "undo")
         )
         on_click(self.put, lambda event: self._compose(1))
         on_click(self.take, lambda event: self._compose(-1))
         on_click(self.undo, lambda event: builder.take_off())
         self._view = pn.Column(
-            words(note(say("workshop.pieces.says"))),
+            words(note(say("build.pieces.says"))),
             flow(self.kind, beside("<i>r</i>", self.entries["r"]),
-                 *(beside(say(f"workshop.pieces.{name}"), self.entries[name]) for name in ("from", "to")),
+                 *(beside(say(f"build.pieces.{name}"), self.entries[name]) for name in ("from", "to")),
                  beside("<i>ρ</i>", self.density),
                  self.put, self.take, self.undo),
             self.words, sizing_mode="stretch_width", margin=0)  # fmt: skip
@@ -104,8 +104,8 @@ class Pieces:
             try:
                 values[name] = typed_number(entry.value)
             except ValueError:
-                which = say(f"workshop.pieces.names.{name}")
-                self.words.object = alert(say("workshop.pieces.not_a_number", name=which, text=entry.value))
+                which = say(f"build.pieces.names.{name}")
+                self.words.object = alert(say("build.pieces.not_a_number", name=which, text=entry.value))
                 return
         density = self._exact if self.density.value == number(self._exact) else values["density"]
         self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
@@ -115,7 +115,7 @@ class TopFile(WholeFile):
     LARGEST = LARGEST_FILE
 
 
-class Workshop:
+class Build:
     """The builder's cards. builder: a Builder; soon: of a Pacer; a body of many pieces has its knobs in portions,
     others' work between. show() is for each scene of a hand at rest."""
 
@@ -131,31 +131,31 @@ class Workshop:
         self.parting = self._button("parts", lambda event: builder.part_densities())
         buttons = flow(self._button("add", lambda event: builder.add_point()), self._button("remove", self._remove),
                        self.parting)  # fmt: skip
-        self.points = pn.Column(words(note(say("workshop.bench.twice"))), buttons, sizing_mode="stretch_width",
+        self.points = pn.Column(words(note(say("build.bench.twice"))), buttons, sizing_mode="stretch_width",
                                 margin=0)  # fmt: skip
         self.pieces = Pieces(builder)
         self.stl = self._download("stl", "top.stl", lambda: builder.stl() or b"")
         self.saved = self._download("save", "top.json", lambda: builder.save().encode())
-        self.file = TopFile(label=say("workshop.bench.load"), accept=".json", multiple=False,
+        self.file = TopFile(label=say("build.bench.load"), accept=".json", multiple=False,
                             max_file_size=LARGEST_FILE, **BUTTON)  # fmt: skip
         self.file.param.watch(self._loaded, "value", onlychanged=False)
         self.file.param.watch(lambda event: builder.refuse_file(LARGEST_FILE), "refused")
         self.back = self._button("back", lambda event: builder.attach())
         self.parted = pn.Column(
-            words(f'<div class="alert">{say("workshop.bench.parted")}</div>'), self.back,
+            words(f'<div class="alert">{say("build.bench.parted")}</div>'), self.back,
             visible=False, sizing_mode="stretch_width", margin=0)  # fmt: skip
         builder.param.watch(lambda event: self._show(event.new), "draft")
         self._show(builder.draft)
 
     def _choice(self, key, choose):
-        select = pmui.Select(label=say(f"workshop.bench.{key}"), options={}, value=None, size="small",
+        select = pmui.Select(label=say(f"build.bench.{key}"), options={}, value=None, size="small",
                              margin=(10, 6, 4, 0), sizing_mode="stretch_width")  # fmt: skip
         select.param.watch(lambda event: None if self._silent or not event.new else choose(event.new), "value")
         return select
 
     @staticmethod
     def _button(key, click):
-        button = pmui.Button(label=say(f"workshop.bench.{key}"), **BUTTON)
+        button = pmui.Button(label=say(f"build.bench.{key}"), **BUTTON)
         on_click(button, click)
         return button
 
@@ -175,7 +175,7 @@ class Workshop:
 
     @staticmethod
     def _download(key, filename, content):
-        return pmui.FileDownload(label=say(f"workshop.bench.{key}"), filename=filename,
+        return pmui.FileDownload(label=say(f"build.bench.{key}"), filename=filename,
                                  callback=lambda: io.BytesIO(content()), **BUTTON)  # fmt: skip
 
     @property
@@ -215,7 +215,7 @@ class Workshop:
         free = isinstance(draft.shape, Lathe)
         self.points.visible = free
         if free:
-            self.parting.label = say(f"workshop.bench.{'one' if isinstance(draft.shape.density, tuple) else 'parts'}")
+            self.parting.label = say(f"build.bench.{'one' if isinstance(draft.shape.density, tuple) else 'parts'}")
         self.pieces.show(draft.shape)
         for name, knob in self._knobs.items():
             if name in draft.messages:
@@ -224,11 +224,11 @@ class Workshop:
                 knob.show(draft.shape)
         self._silent = True
         # what is chosen already cannot be chosen: a changed body has an entry of its own, beside those to go back to
-        own = {} if draft.name else {say("workshop.bench.none"): OWN}
+        own = {} if draft.name else {say("build.bench.none"): OWN}
         presets = {named(preset.name): preset.name for preset in PRESETS}
         self.presets.param.update(options=own | presets, value=draft.name)
-        called = listed("workshop.families")
-        own = {} if draft.name else {say("workshop.bench.changed", family=called[draft.family]): OWN}
+        called = listed("build.families")
+        own = {} if draft.name else {say("build.bench.changed", family=called[draft.family]): OWN}
         families = {called[family]: family for family, _ in (FAMILIES[type(preset.shape)] for preset in PRESETS)}
         self.families.param.update(options=own | families, value=draft.family if draft.name else OWN)
         self._silent = False
@@ -259,14 +259,14 @@ def derived_words(shape):
         ("<i>a</i>/<i>R</i>", f"= {top.a:.4f}".replace("-", "−")),
         ("<i>I</i><sub>1</sub>", f"= {top.I1:.4f} <i>MR</i><sup>2</sup>"),
         ("<i>I</i><sub>3</sub>", f"= {top.I3:.4f} <i>MR</i><sup>2</sup>"),
-        (say("workshop.body.mass"), f"{1e3 * shape.mass:.4g} g"),
+        (say("build.body.mass"), f"{1e3 * shape.mass:.4g} g"),
     ]
     if not isinstance(shape, BareSphere):
         # one number where it is of one material, else the mean
-        rows.append((say("workshop.body.density"), f"{shape.mass / shape.volume:.0f} kg/m³"))
+        rows.append((say("build.body.density"), f"{shape.mass / shape.volume:.0f} kg/m³"))
     numbers = "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
-    touch = say("workshop.body.never") if angle is None else say("workshop.body.touches", angle=math.degrees(angle))
+    touch = say("build.body.never") if angle is None else say("build.body.touches", angle=math.degrees(angle))
     prints = "unknown" if isinstance(shape, BareSphere) else ""
     if isinstance(shape, LoadedSphere) and shape.core_density:  # a cavity is in it
         prints = "outside"
-    return f"<div>{numbers}</div><div>{touch}{say(f'workshop.body.{prints}') if prints else ''}</div>"
+    return f"<div>{numbers}</div><div>{touch}{say(f'build.body.{prints}') if prints else ''}</div>"

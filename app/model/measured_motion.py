@@ -5,7 +5,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from app.model.film_data import TOGETHER, Data
+from app.model.measured_data import TOGETHER, Data
 from tippe_core import (
     Contensou,
     Scales,

@@ -6,18 +6,18 @@ from dataclasses import replace
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.film_data import corrected, settled
-from app.model.film_examples import EXAMPLES, FOLDER
-from app.model.film_fit import fit
-from app.model.film_kept import kept
-from app.model.film_motion import model_of
-from app.model.film_report import program, residuals_table
-from app.model.film_table import UNITS, FilmError, read
+from app.model.measured_data import corrected, settled
+from app.model.measured_examples import EXAMPLES, FOLDER
+from app.model.measured_fit import fit
+from app.model.measured_kept import kept
+from app.model.measured_motion import model_of
+from app.model.measured_report import program, residuals_table
+from app.model.measured_table import UNITS, MeasuredError, read
 from app.model.runs import Run, Runs, Stopped
-from app.tabs.film.figures import pictures
-from app.tabs.film.file import FilmFile
-from app.tabs.film.report import report
-from app.tabs.film.words import TABLE, found_words, models_table, notes_words, numbers_table
+from app.tabs.measure.figures import pictures
+from app.tabs.measure.file import MeasuredFile
+from app.tabs.measure.report import report
+from app.tabs.measure.words import TABLE, found_words, models_table, notes_words, numbers_table
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, card, field, flow, grid, note, on_click, words
 from app.widgets.controls import typed_number
@@ -28,7 +28,7 @@ LOOSE = {"body": ("a", "I1", "I3"), "push": ("tilt_rate", "across"), "losses": (
 SELECT = {"size": "small", "margin": 0, "width": 150}
 
 
-class Film:
+class Measure:
     """view: the tab. scene: the first, whose top is the one that was filmed; show() is for others. runs: the page's
     Runs."""
 
@@ -36,40 +36,40 @@ class Film:
         self._scene, self._runs, self._run = scene, runs or Runs(), None
         self._table, self._data, self._fits, self._part = None, None, None, (0.0, 0.0)
         self._thinned = 1
-        self.file = FilmFile(sizing_mode="stretch_width", margin=(6, 0))
+        self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
         self.file.param.watch(lambda event: self.take(event.new[0], event.new[1]), "table")
-        self.file.param.watch(lambda event: self._wrong(say("film.large", size=event.new)), "refused")
+        self.file.param.watch(lambda event: self._wrong(say("measure.large", size=event.new)), "refused")
         self.said, self.columns = words(), pn.Column(sizing_mode="stretch_width", margin=0)
-        self.rate = field("", say("film.rate"))
+        self.rate = field("", say("measure.rate"))
         self.rate.param.watch(lambda event: self._settle(), "value")
-        self.part = pmui.RangeSlider(label=say("film.part"), start=0, end=1, value=(0, 1), step=0.01, format="0.00",
+        self.part = pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01, format="0.00",
                                      visible=False, margin=(6, 12), sizing_mode="stretch_width")  # fmt: skip
         self.part.param.watch(lambda event: self._draw(), "value_throttled")
-        self.law = pmui.RadioButtonGroup(label="", options={says: name for name, says in listed("film.laws").items()},
+        self.law = pmui.RadioButtonGroup(label="", options={says: law for law, says in listed("measure.laws").items()},
                                          value="contensou", size="small", margin=0, sx=PLAIN)  # fmt: skip
-        self.loose = pmui.CheckBoxGroup(label=say("film.loose_label"), value=[], inline=True, margin=(4, 0),
-                                        options={says: name for name, says in listed("film.loose").items()},
+        self.loose = pmui.CheckBoxGroup(label=say("measure.loose_label"), value=[], inline=True, margin=(4, 0),
+                                        options={says: name for name, says in listed("measure.loose").items()},
                                         )  # fmt: skip
-        self.start = pmui.Button(label=say("film.fit"), disabled=True, **BUTTON)
-        self.cancel = pmui.Button(label=say("film.cancel"), disabled=True, **BUTTON)
+        self.start = pmui.Button(label=say("measure.fit"), disabled=True, **BUTTON)
+        self.cancel = pmui.Button(label=say("measure.cancel"), disabled=True, **BUTTON)
         on_click(self.start, self.compute)
         on_click(self.cancel, lambda event: self._run and self._run.stop())
         self.curves = pn.Column(sizing_mode="stretch_width", margin=0)
-        self.found = words(note(say("film.nothing_yet")), style=TABLE)
+        self.found = words(note(say("measure.nothing_yet")), style=TABLE)
         self.home = flow(*self._downloads())
         self.home.visible = False
 
     @property
     def view(self):
         """Two cards: what was measured, and what was found."""
-        examples = [pmui.Button(label=says, **BUTTON) for says in listed("film.examples").values()]
+        examples = [pmui.Button(label=says, **BUTTON) for says in listed("measure.examples").values()]
         for button, name in zip(examples, EXAMPLES, strict=True):
             on_click(button, lambda event, name=name: self.take((FOLDER / f"made-{name}.csv").read_bytes()))
-        measured = card(say("film.measured"), words(say("film.says")), self.file, flow(*examples), self.said,
+        measured = card(say("measure.measured"), words(say("measure.says")), self.file, flow(*examples), self.said,
                         self.columns, self.part, self.curves, height="max-content")  # fmt: skip
-        found = card(say("film.found_title"), words(say("film.of_this_top")), flow(self.law), self.loose,
-                     flow(self.start, self.cancel), self.found, self.home, words(note(say("film.private"))),
-                     words(say("film.recipe")), height="max-content")  # fmt: skip
+        found = card(say("measure.found_title"), words(say("measure.of_this_top")), flow(self.law), self.loose,
+                     flow(self.start, self.cancel), self.found, self.home, words(note(say("measure.private"))),
+                     words(say("measure.recipe")), height="max-content")  # fmt: skip
         return grid(measured, found)
 
     def show(self, scene):
@@ -79,7 +79,7 @@ class Film:
     def _downloads(self):
         kinds = {"report": "top-on-film.html", "residuals": "residuals.csv", "program": "repeat_fit.py"}
         for kind, name in kinds.items():
-            yield Download(self._runs, lambda: self._home, getattr(self, f"_{kind}"), label=say(f"film.home.{kind}"),
+            yield Download(self._runs, lambda: self._home, getattr(self, f"_{kind}"), label=say(f"measure.home.{kind}"),
                            filename=name)  # fmt: skip
 
     @property
@@ -103,8 +103,8 @@ class Film:
         """A table, bytes or text. One that cannot be read leaves what was there."""
         try:
             table = read(text)
-        except FilmError as error:
-            self._wrong(say(f"film.wrong.{error.code}", **error.numbers))
+        except MeasuredError as error:
+            self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
             return
         self._table, self._thinned = table, each
         self.columns.objects = [self._column(i, column) for i, column in enumerate(table.columns)]
@@ -113,18 +113,18 @@ class Film:
     def _column(self, i, column):
         """Its name, and what it is taken for."""
         name = words(f"{i + 1}. {html.escape(column.name)}", sizing_mode=None, width=120, margin=(6, 0))
-        quantity = pmui.Select(label=say("film.column.quantity", name=column.name), value=column.quantity,
+        quantity = pmui.Select(label=say("measure.column.quantity", name=column.name), value=column.quantity,
                                options={says: key for key, says in self._quantities().items()}, **SELECT)  # fmt: skip
-        unit = pmui.Select(label=say("film.column.unit"), value=column.unit,
+        unit = pmui.Select(label=say("measure.column.unit"), value=column.unit,
                            options=[*UNITS.get(column.quantity, {"": 1})], **SELECT | {"width": 85})  # fmt: skip
-        error = field("" if column.error is None else f"{column.error:g}", say("film.column.error"), width=56)
+        error = field("" if column.error is None else f"{column.error:g}", say("measure.column.error"), width=56)
 
         def changed(event):
             now = corrected(self._table.columns[i], quantity.value, unit.value)
             try:
                 now = replace(now, error=typed_number(error.value) if error.value.strip() else None)
             except ValueError:
-                self._wrong(say("film.wrong.error", name=column.name))
+                self._wrong(say("measure.wrong.error", name=column.name))
                 return
             unit.param.update(options=[*UNITS.get(now.quantity, {"": 1})], value=now.unit)
             columns = (*self._table.columns[:i], now, *self._table.columns[i + 1 :])
@@ -137,8 +137,8 @@ class Film:
 
     @staticmethod
     def _quantities():
-        return {"": say("film.unused"), "time": say("film.quantities.time"),
-                **{name: say(f"film.quantities.{name}") for name in UNITS if name != "time"}}  # fmt: skip
+        return {"": say("measure.unused"), "time": say("measure.quantities.time"),
+                **{name: say(f"measure.quantities.{name}") for name in UNITS if name != "time"}}  # fmt: skip
 
     def _settle(self):
         """The data of the table as it is understood now."""
@@ -146,15 +146,15 @@ class Film:
             return
         frames = any(column.unit == "frames" for column in self._table.columns)
         if frames and self.rate not in self.columns.objects:
-            self.columns.append(flow(words(say("film.rate"), sizing_mode=None), self.rate))
+            self.columns.append(flow(words(say("measure.rate"), sizing_mode=None), self.rate))
         try:
             data = settled(self._table, self._frame_rate())
-        except FilmError as error:
-            self._wrong(say(f"film.wrong.{error.code}", **error.numbers))
+        except MeasuredError as error:
+            self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
             self.start.disabled = True
             return
         self._data = data
-        thinned = note(say("film.thinned", each=self._thinned)) if self._thinned > 1 else ""
+        thinned = note(say("measure.thinned", each=self._thinned)) if self._thinned > 1 else ""
         self.said.object = note(notes_words(self._table.notes)) + thinned
         first, last = float(data.t[0]), float(data.t[-1])
         self.part.param.update(start=first, end=last, value=(first, last), step=(last - first) / 200 or 0.01,
@@ -171,11 +171,11 @@ class Film:
         """The dots alone: what was fitted before is no longer of this."""
         self._fits, self._part = None, tuple(map(float, self.part.value))
         self.home.visible = False
-        self.found.object = note(say("film.ready"))
+        self.found.object = note(say("measure.ready"))
         try:
             self._data.between(*self._part)
-        except FilmError as error:
-            self._wrong(say(f"film.wrong.{error.code}", **error.numbers))
+        except MeasuredError as error:
+            self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
             self.start.disabled = True
             return
         self.start.disabled = False
@@ -196,15 +196,15 @@ class Film:
             return (*(fit(model, data) for model in models), kept(data, scene.top, scene.scales))
 
         self.start.disabled, self.cancel.disabled = True, False
-        self.found.object = f'<div role="status">{note(say("film.waits"))}</div>'
+        self.found.object = f'<div role="status">{note(say("measure.waits"))}</div>'
         self._run = Run(work, self._done)
-        self._runs.begin(self._run, "film")
+        self._runs.begin(self._run, "fit")
 
     def _done(self, result):
         self.start.disabled, self.cancel.disabled = False, True
         if isinstance(result, Exception):
-            said = told(result) if isinstance(result, TopError) else say("film.failed")
-            self.found.object = note(say("film.cancelled")) if isinstance(result, Stopped) else alert(said)
+            said = told(result) if isinstance(result, TopError) else say("measure.failed")
+            self.found.object = note(say("measure.cancelled")) if isinstance(result, Stopped) else alert(said)
             if not isinstance(result, (Stopped, TopError)):
                 raise result
             return

@@ -5,7 +5,7 @@ import param
 from app.bundle import Bundled
 
 
-class FilmFile(Bundled):
+class MeasuredFile(Bundled):
     """The newest text of a table. Nothing of it is kept anywhere but in this session."""
 
     most = param.Integer(default=180_000, constant=True, doc="characters of a text; of a longer one rows are left out")

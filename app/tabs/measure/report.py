@@ -4,7 +4,7 @@ import html
 
 import numpy as np
 
-from app.tabs.film.figures import size_of
+from app.tabs.measure.figures import size_of
 from app.text import say, spoken
 
 WIDTH, HEIGHT, REST = 720, 220, 60
@@ -19,9 +19,9 @@ def report(data, fits, found, program):
     """The text of the file. found: what the page says of the fit, HTML."""
     better = min(fits, key=lambda each: each.aic)
     curves = "".join(_picture(name, data, better) for name in data.series)
-    return (f'<!doctype html><html lang="{spoken()}"><meta charset="utf-8"><title>{say("film.report.title")}</title>'
-            f"<style>{STYLE}</style><h1>{say('film.report.title')}</h1>{found}{curves}"
-            f"<h2>{say('film.report.program')}</h2><pre>{html.escape(program)}</pre></html>")  # fmt: skip
+    return (f'<!doctype html><html lang="{spoken()}"><meta charset="utf-8"><title>{say("measure.report.title")}</title>'
+            f"<style>{STYLE}</style><h1>{say('measure.report.title')}</h1>{found}{curves}"
+            f"<h2>{say('measure.report.program')}</h2><pre>{html.escape(program)}</pre></html>")  # fmt: skip
 
 
 def _picture(name, data, fit):
@@ -43,7 +43,7 @@ def _picture(name, data, fit):
     foot = HEIGHT + REST + 14
     ends = (f'<text x="50" y="{foot}">{series.t[0]:.2f} s</text>'
             f'<text x="{WIDTH - 10}" y="{foot}" text-anchor="end">{series.t[-1]:.2f} s</text>')  # fmt: skip
-    title = f"{say(f'film.quantities.{name}')} {say(f'film.units.{name}')}"
+    title = f"{say(f'measure.quantities.{name}')} {say(f'measure.units.{name}')}"
     return (f'<h3>{title}</h3><svg viewBox="0 0 {WIDTH} {HEIGHT + REST + 18}" font-size="12" role="img" '
             f'aria-label="{title}"><polyline points="{line}" fill="none" stroke="#a3246f" stroke-width="2"/>'
             f"{dots}{marks}{ends}</svg>")  # fmt: skip

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from app.model.explorer import Explorer
-from app.model.film_examples import EXAMPLES, FOLDER, example
-from app.model.film_table import read
-from app.tabs.film.film import Film
+from app.model.measured_examples import EXAMPLES, FOLDER, example
+from app.model.measured_table import read
+from app.tabs.measure.measure import Measure
 
 ROOT = Path(__file__).parent.parent
 
@@ -25,48 +25,48 @@ def test_an_example_is_what_its_program_makes(name):
 
 
 @pytest.fixture(scope="module")
-def film():
+def tab():
     """The tab, with the example that slips, fitted."""
-    tab = Film(Explorer().scene)
-    tab.take((FOLDER / "made-slips.csv").read_bytes())
-    tab.compute()
-    return tab
+    made = Measure(Explorer().scene)
+    made.take((FOLDER / "made-slips.csv").read_bytes())
+    made.compute()
+    return made
 
 
 @pytest.mark.slow
-def test_the_example_that_slips_is_told_so_and_recovered(film):
-    assert "This top slipped." in film.found.object
-    sliding = film._fits[1]
+def test_the_example_that_slips_is_told_so_and_recovered(tab):
+    assert "This top slipped." in tab.found.object
+    sliding = tab._fits[1]
     for name, made in {"tilt": 0.2, "spin": 8.0, "mu": 0.35, "radius": 0.02}.items():
         assert abs(sliding.model.values[name] - made) < 3 * sliding.errors[name]
 
 
 @pytest.mark.slow
-def test_what_cannot_be_read_leaves_what_was_there(film):
-    before = film.curves.objects
-    film.take("no table\n")
-    assert "Line 1" not in film.said.object or "alert" in film.said.object
-    assert 'role="alert"' in film.said.object
-    assert film.curves.objects is before or film.curves.objects == before
+def test_what_cannot_be_read_leaves_what_was_there(tab):
+    before = tab.curves.objects
+    tab.take("no table\n")
+    assert "Line 1" not in tab.said.object or "alert" in tab.said.object
+    assert 'role="alert"' in tab.said.object
+    assert tab.curves.objects is before or tab.curves.objects == before
 
 
 @pytest.mark.slow
-def test_the_program_taken_home_repeats_the_fit(film):
-    program = film._program(*film._home).decode()
+def test_the_program_taken_home_repeats_the_fit(tab):
+    program = tab._program(*tab._home).decode()
     said = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     again = {name: float(value) for name, value in re.findall(r"  (\w+) = (\S+)", said.split("contensou")[1])}
-    sliding = film._fits[1]
+    sliding = tab._fits[1]
     for name, error in sliding.errors.items():
         assert abs(again[name] - sliding.model.values[name]) < 0.1 * error
 
 
 @pytest.mark.slow
-def test_the_report_is_whole(film):
-    report = film._report(*film._home).decode()
+def test_the_report_is_whole(tab):
+    report = tab._report(*tab._home).decode()
     assert report.count("<svg") == 2
     assert "This top slipped." in report
     assert "http" not in report
-    assert len(film._residuals(*film._home).splitlines()) == 1 + 2 * 216
+    assert len(tab._residuals(*tab._home).splitlines()) == 1 + 2 * 216
 
 
 @pytest.mark.served

@@ -116,7 +116,7 @@ class Section:
             "z": [1e3 * z for _, z in at.values()],
             "name": list(at),
             "says": [f"{said[name].words}: {number(value_of(shape, name) * said[name].factor)} {said[name].unit}"
-                     if name in said else say("workshop.bench.point", x=number(1e3 * x), z=number(1e3 * z))
+                     if name in said else say("build.bench.point", x=number(1e3 * x), z=number(1e3 * z))
                      for name, (x, z) in at.items()],
         }  # fmt: skip
 

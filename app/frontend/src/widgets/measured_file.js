@@ -26,8 +26,8 @@ export function decoded(bytes) {
   return text.includes("\ufffd") ? new TextDecoder("windows-1252").decode(bytes) : text;
 }
 
-/** @param {Rendering<FilmFileModel>} rendering */
-export function renderFilmFile({ model, el }) {
+/** @param {Rendering<MeasuredFileModel>} rendering */
+export function renderMeasuredFile({ model, el }) {
   el.innerHTML = FRAME;
   const zone = /** @type {HTMLDivElement} */ (el.querySelector(".drop"));
   const input = /** @type {HTMLInputElement} */ (el.querySelector("input"));

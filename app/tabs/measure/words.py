@@ -4,7 +4,7 @@ import html
 
 import numpy as np
 
-from app.model.film_fit import verdict
+from app.model.measured_fit import verdict
 from app.text import listed, say
 
 SHOWN = {"tilt": 180 / np.pi}
@@ -25,12 +25,14 @@ def _number(value, error):
 def found_words(rolling, sliding, kept):
     """The sentence of what was found, and why."""
     found = verdict(rolling, sliding)
-    parts = [f"<h3>{say(f'film.found.{found}.title')}</h3>", f"<p>{say(f'film.found.{found}.why')}</p>"]
+    parts = [f"<h3>{say(f'measure.found.{found}.title')}</h3>", f"<p>{say(f'measure.found.{found}.why')}</p>"]
     for name, constant in kept.items():
         (before, one), (after, other) = constant.before, constant.after
         key = "stayed" if constant.stayed else "went"
-        says = say(f"film.kept.{name}")
-        parts.append(f"<p>{say(f'film.kept.{key}', name=says, before=before, one=one, after=after, other=other)}</p>")
+        says = say(f"measure.kept.{name}")
+        parts.append(
+            f"<p>{say(f'measure.kept.{key}', name=says, before=before, one=one, after=after, other=other)}</p>"
+        )
     return "".join(parts)
 
 
@@ -41,22 +43,27 @@ def numbers_table(fit, unit):
     for name in fit.model.free:
         size = sizes.get(name, 1.0)
         value, error = _number(fit.model.values[name] * size, fit.errors[name] * size)
-        marks = [say("film.with", name=other, correlation=r) for other, r in _partners(fit, name)]
+        marks = [say("measure.with", name=other, correlation=r) for other, r in _partners(fit, name)]
         if name in fit.unknown:
-            marks.insert(0, say("film.unknown" if _vague(fit, name) else "film.rough"))
+            marks.insert(0, say("measure.unknown" if _vague(fit, name) else "measure.rough"))
         rows.append(
-            _row(say(f"film.numbers.{name}"), value, f"± {error}", say(f"film.number_units.{name}"), ", ".join(marks))
+            _row(
+                say(f"measure.numbers.{name}"),
+                value,
+                f"± {error}",
+                say(f"measure.number_units.{name}"),
+                ", ".join(marks),
+            )
         )
     if fit.model.name == "rolling":
         for name, (value, error) in fit.constants.items():
-            rows.append(_row(say(f"film.constants.{name}"), *(f"{mark}{part}" for mark, part in
+            rows.append(_row(say(f"measure.constants.{name}"), *(f"{mark}{part}" for mark, part in
                              zip(("", "± "), _number(value, error), strict=True)), "", ""))  # fmt: skip
     sentences = "".join(
         f"<p>{_together(*pair)}</p>" for pair in fit.together if all(_vague(fit, name) for name in pair[:2])
     )
-    return (
-        f"<table><tr><th colspan=5>{say(f'film.models.{fit.model.name}')}</th></tr>{''.join(rows)}</table>{sentences}"
-    )
+    head = f"<tr><th colspan=5>{say(f'measure.models.{fit.model.name}')}</th></tr>"
+    return f"<table>{head}{''.join(rows)}</table>{sentences}"
 
 
 def _row(*cells):
@@ -73,24 +80,24 @@ def _vague(fit, name):
 def _partners(fit, name):
     for one, other, r in fit.together:
         if name in (one, other):
-            yield say(f"film.numbers.{other if name == one else one}"), r
+            yield say(f"measure.numbers.{other if name == one else one}"), r
 
 
 def _together(one, other, r):
-    names = say(f"film.numbers.{one}"), say(f"film.numbers.{other}")
-    return say("film.together.up" if r > 0 else "film.together.down", one=names[0], other=names[1])
+    names = say(f"measure.numbers.{one}"), say(f"measure.numbers.{other}")
+    return say("measure.together.up" if r > 0 else "measure.together.down", one=names[0], other=names[1])
 
 
 def models_table(rolling, sliding):
     """Both models on the same data."""
-    head = "".join(f"<th>{word}</th>" for word in listed("film.heads"))
+    head = "".join(f"<th>{word}</th>" for word in listed("measure.heads"))
     rows = []
     for fit in (sliding, rolling):
         seldom = f"{min(fit.runs.values()):.1f}".replace("-", "−")
-        rows.append(_row(say(f"film.models.{fit.model.name}"), f"{fit.chi2:.0f}", f"{fit.freedom}", f"{fit.aic:.0f}",
-                         seldom, say(f"film.{_state(fit)}")))  # fmt: skip
+        rows.append(_row(say(f"measure.models.{fit.model.name}"), f"{fit.chi2:.0f}", f"{fit.freedom}", f"{fit.aic:.0f}",
+                         seldom, say(f"measure.{_state(fit)}")))  # fmt: skip
         for name, (chi2, count) in fit.chi2_of.items():
-            rows.append(_row(f"&nbsp; {say(f'film.quantities.{name}')}", f"{chi2:.0f}", f"{count}", "",
+            rows.append(_row(f"&nbsp; {say(f'measure.quantities.{name}')}", f"{chi2:.0f}", f"{count}", "",
                              f"{fit.runs[name]:.1f}".replace("-", "−"), ""))  # fmt: skip
     return f"<table><tr>{head}</tr>{''.join(rows)}</table>"
 
@@ -103,7 +110,7 @@ def _state(fit):
 
 def notes_words(notes):
     """What was left out of a table."""
-    return "".join(f"<div>{say(f'film.notes.{code}', **_escaped(numbers))}</div>" for code, numbers in notes)
+    return "".join(f"<div>{say(f'measure.notes.{code}', **_escaped(numbers))}</div>" for code, numbers in notes)
 
 
 def _escaped(numbers):

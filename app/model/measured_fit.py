@@ -9,8 +9,8 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2 as chi_square
 from scipy.stats import norm, qmc
 
-from app.model.film_data import Data
-from app.model.film_motion import BODY, BOUNDS, NO_MOTION, Left, Model, left_over, shifted
+from app.model.measured_data import Data
+from app.model.measured_motion import BODY, BOUNDS, NO_MOTION, Left, Model, left_over, shifted
 from app.model.runs import look
 from tippe_core import Constants, TopError
 from tippe_core.types import Array
@@ -283,7 +283,7 @@ def runs(row: Array) -> float:
 
 def verdict(rolling: Fit, sliding: Fit) -> str:
     """ "rolled", "slipped", "neither", "either" where these data cannot tell, or "unsure" where a fit that is refused
-    may not be the best one: a key of [found] in film.toml."""
+    may not be the best one: a key of [found] in measure.toml."""
     if any(fit.refused and not fit.sure for fit in (rolling, sliding)):
         return "unsure"
     if rolling.refused and sliding.refused:

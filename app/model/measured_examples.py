@@ -1,4 +1,4 @@
-"""The example films of the tab Measure, made by tippe_core with noise: `python -m app.model.film_examples` writes them.
+"""The examples of the tab Measure, made by tippe_core with noise; `python -m app.model.measured_examples` writes them.
 
 All are of the paper's top. Nobody filmed them; their names say so.
 """
@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from app.model.film_motion import Model, model_of
+from app.model.measured_motion import Model, model_of
 from tippe_core import Scales, Top, TruncatedSphere
 
-FOLDER = Path(__file__).parent.parent / "data" / "film"
+FOLDER = Path(__file__).parent.parent / "data" / "measured"
 RATE = 120.0  # frames a second
 TILT, SPIN, TURN = np.radians(1.0), 2 * np.pi * 0.3, np.radians(1.5)  # errors of one value
 EXAMPLES = ("slips", "rolls", "air")

@@ -5,14 +5,14 @@ import panel_material_ui as pmui
 
 from app.model.builder import Rocking
 from app.model.dimensions import sentence
-from app.tabs.workshop.fields import grid
+from app.tabs.build.fields import grid
 from app.text import listed, say
 from app.widgets.cards import BUTTON, alert, field, note, on_click, words
 from app.widgets.controls import typed_number
 from tippe_core import TopError
 
 
-class Measure:
+class RockingFields:
     """A top of one's own: mass, diameter and the period of small rocking at rest -> a/R."""
 
     # name, what stands there at first, and SI in one of the unit
@@ -20,10 +20,10 @@ class Measure:
 
     def __init__(self, builder):
         self.builder = builder
-        spoken = listed("workshop.own.spoken")
+        spoken = listed("build.own.spoken")
         self.entries = {name: field(value, spoken[name]) for name, value, _ in self.FIELDS}
         self.result = words()
-        self.use = pmui.Button(label=say("workshop.own.explore"), **BUTTON | {"margin": (4, 0)})
+        self.use = pmui.Button(label=say("build.own.explore"), **BUTTON | {"margin": (4, 0)})
         on_click(self.use, self._use)
         for entry in self.entries.values():
             entry.param.watch(lambda event: self._show(), "value")
@@ -36,8 +36,8 @@ class Measure:
         fields = [
             pn.Row(words(note(says), margin=(5, 6, 0, 0)), self.entries[name], sizing_mode="stretch_width",
                    margin=(2, 0))
-            for name, says in listed("workshop.own.fields").items()]  # fmt: skip
-        return [words(say("workshop.own.says")), grid(*fields), self.result, self.use]
+            for name, says in listed("build.own.fields").items()]  # fmt: skip
+        return [words(say("build.own.says")), grid(*fields), self.result, self.use]
 
     def _found(self):
         """(Rocking, Measured); raises TopError, ValueError."""
@@ -47,14 +47,14 @@ class Measure:
             try:
                 values[name] = typed_number(entry.value) * unit
             except ValueError:
-                raise ValueError(say("workshop.own.not_a_number", text=entry.value)) from None
+                raise ValueError(say("build.own.not_a_number", text=entry.value)) from None
         rocking = Rocking(**values)
         return rocking, rocking.a(self.builder.draft.shape)
 
     def _show(self):
         said = self.builder.draft.messages.get("measured")
         if self.builder.draft.shape.top.a < 0:
-            self.result.object = note(say("workshop.own.cannot"))
+            self.result.object = note(say("build.own.cannot"))
             self.use.disabled = True
             return
         try:
@@ -65,7 +65,7 @@ class Measure:
             return
         self.use.disabled = False
         self.result.object = alert(said) or say(
-            "workshop.own.found", a=found.value, uncertainty=found.uncertainty, period=found.shares["T"],
+            "build.own.found", a=found.value, uncertainty=found.uncertainty, period=found.shares["T"],
             diameter=found.shares["R"], below=found.value * rocking.D / 2 * 1e3,
             I1=self.builder.draft.shape.top.I1)  # fmt: skip
 

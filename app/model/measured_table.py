@@ -1,8 +1,8 @@
 """A table of what somebody measured of a top on film or with a phone: what was understood of each column.
 
 Tracker writes a tab or a comma between its columns, below a line or two of names; phyphox names and units in quotes;
-a spreadsheet semicolons, and decimal commas. What cannot be read is told with its line, as a FilmError; what could be
-read but was left out is a note of the Table.
+a spreadsheet semicolons, and decimal commas. What cannot be read is told with its line, as a MeasuredError; what
+could be read but was left out is a note of the Table.
 """
 
 import math
@@ -63,8 +63,8 @@ _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?", re.A)
 _GAP = {"", "-", "nan", "na", "n/a", "null", "none"}
 
 
-class FilmError(ValueError):
-    """What is wrong with a table. code: a key of [wrong] in film.toml, numbers: what stands in its words."""
+class MeasuredError(ValueError):
+    """What is wrong with a table. code: a key of [wrong] in measure.toml, numbers: what stands in its words."""
 
     def __init__(self, code: str, **numbers: object) -> None:
         super().__init__(f"{code}: {numbers}")
@@ -86,7 +86,7 @@ class Column:
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """lines: the line of the file in which each row stands. notes: (code, numbers), codes of [notes] in film.toml."""
+    """lines: the line of the file in which each row stands. notes: (code, numbers); codes: [notes] in measure.toml."""
 
     columns: tuple[Column, ...]
     lines: tuple[int, ...]
@@ -94,24 +94,24 @@ class Table:
 
 
 def read(data: bytes | str) -> Table:
-    """The Table in a file's bytes, or in a text. Raises FilmError, and nothing else."""
+    """The Table in a file's bytes, or in a text. Raises MeasuredError, and nothing else."""
     size = len(data if isinstance(data, bytes) else data.encode("utf-8", "replace"))
     if size > LARGEST:
-        raise FilmError("too-large", size=size / 1000, most=LARGEST / 1000)
+        raise MeasuredError("too-large", size=size / 1000, most=LARGEST / 1000)
     text = _decoded(data) if isinstance(data, bytes) else data.removeprefix("\ufeff")
     if "\0" in text:
-        raise FilmError("no-text", line=text[: text.index("\0")].count("\n") + 1)
+        raise MeasuredError("no-text", line=text[: text.index("\0")].count("\n") + 1)
     lines = [(number, line) for number, line in enumerate(re.split(r"\r\n|\r|\n", text), 1)
              if line.strip() and not line.lstrip().startswith("#")]  # fmt: skip
     if not lines:
-        raise FilmError("empty")
+        raise MeasuredError("empty")
     between = _separator(lines)
     rows = [(number, _cells(line, between)) for number, line in lines]
     if all(len(cells) > 1 and not cells[-1] for _, cells in rows):  # a separator after each line's last cell
         rows = [(number, cells[:-1]) for number, cells in rows]
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, between)), None)
     if first is None:
-        raise FilmError("no-numbers", line=rows[0][0], text=rows[0][1][0][:40])
+        raise MeasuredError("no-numbers", line=rows[0][0], text=rows[0][1][0][:40])
     names = next((cells for _, cells in reversed(rows[:first]) if len(cells) == len(rows[first][1])), None)
     return _table(names, rows[first:], between)
 
@@ -163,10 +163,10 @@ def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: 
     for number, cells in rows:
         # a gap at the end of a row may have lost its separator with the row's own end
         if len(cells) not in (width, width - 1) or (len(cells) < width and between in ", "):
-            raise FilmError("width", line=number, found=len(cells), expected=width)
+            raise MeasuredError("width", line=number, found=len(cells), expected=width)
         cells.extend([""] * (width - len(cells)))
     if not FEWEST <= len(rows) <= MOST:
-        raise FilmError("rows", rows=len(rows), least=FEWEST, most=MOST)
+        raise MeasuredError("rows", rows=len(rows), least=FEWEST, most=MOST)
     _check_decimals(rows, between)
     values = np.array([[_value(cell, number, name) for cell, name in zip(cells, names, strict=True)]
                        for number, cells in rows])  # fmt: skip
@@ -196,7 +196,7 @@ def _gaps(columns: tuple[Column, ...], lines: Array) -> Iterator[tuple[str, dict
 
 
 def _check_decimals(rows: list[tuple[int, list[str]]], between: str) -> None:
-    """FilmError where some numbers have a decimal comma and others a point."""
+    """MeasuredError where some numbers have a decimal comma and others a point."""
     if between == ",":
         return
     first = ""
@@ -206,7 +206,7 @@ def _check_decimals(rows: list[tuple[int, list[str]]], between: str) -> None:
             if mark and _NUMBER.fullmatch(cell):
                 first = first or mark
                 if mark != first:
-                    raise FilmError("decimals", line=number, text=cell, mark=first)
+                    raise MeasuredError("decimals", line=number, text=cell, mark=first)
 
 
 def _value(cell: str, line: int, name: str) -> float:
@@ -214,7 +214,7 @@ def _value(cell: str, line: int, name: str) -> float:
         return math.nan
     value = float(cell.replace(",", ".")) if _NUMBER.fullmatch(cell) else math.inf
     if not math.isfinite(value):
-        raise FilmError("not-a-number", line=line, name=name[:40], text=cell[:40])
+        raise MeasuredError("not-a-number", line=line, name=name[:40], text=cell[:40])
     return value
 
 
