@@ -1,6 +1,6 @@
 """What a top does at a moment, or would do were its table no rougher than it is. A motion's frames hold the codes.
 
-regimes.json is the one list, which frontend/src/regimes.js reads too: a code is a place in it. A colour has its name from
+regimes.json is the one list, which frontend/src/regimes.js reads too: a code is a place in it, a colour a name in
 colours.json. What is said of a regime stands under its name in regimes.toml.
 """
 

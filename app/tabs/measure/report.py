@@ -46,5 +46,6 @@ def _picture(name, data, fit):
             f'<text x="{WIDTH - 10}" y="{foot}" text-anchor="end">{series.t[-1]:.2f} s</text>')  # fmt: skip
     title = f"{say(f'measure.quantities.{name}')} {say(f'measure.units.{name}')}"
     return (f'<h3>{title}</h3><svg viewBox="0 0 {WIDTH} {HEIGHT + REST + 18}" font-size="12" role="img" '
-            f'aria-label="{title}"><polyline points="{line}" fill="none" stroke="{ON_LIGHT["omega"]}" stroke-width="2"/>'
+            f'aria-label="{title}"><polyline points="{line}" fill="none" stroke-width="2" '
+            f'stroke="{ON_LIGHT["omega"]}"/>'
             f"{dots}{marks}{ends}</svg>")  # fmt: skip
