@@ -13,6 +13,7 @@ from panel.io.server import ComponentResourceHandler, get_static_routes
 from tornado.web import ErrorHandler, HTTPError, RequestHandler, StaticFileHandler
 
 from app import text
+from app.state.names import LANGUAGE
 
 PIECE = 64 * 1024  # bytes of a file
 HEADERS = {
@@ -79,7 +80,7 @@ class Handler(Answer, RequestHandler):
     @property
     def language(self):
         """The one of the address, else the one that this browser prefers."""
-        asked = self.request.query_arguments.get("lang", [b""])[-1].decode(errors="replace")
+        asked = self.request.query_arguments.get(LANGUAGE, [b""])[-1].decode(errors="replace")
         return asked if asked in text.LANGUAGES else text.preferred(self.request.headers.get("Accept-Language", ""))
 
     def words(self, name):
