@@ -1,5 +1,6 @@
 // Fig. 6: the bead at the clock's time, and a hand, which `hand` takes to Python.
 import { eventsOf, leaveHover, scalesOf, setCursor } from "../borrowed.js";
+import { timeOf } from "../motion/clock.js";
 import { ROLLS, wordOf } from "../regimes.js";
 import { clamp, nearestRow, spotOf, timeAtTilt, valueAt } from "./curves.js";
 import { awayFromTieline, gripAt, REACH } from "./grips.js";
@@ -79,7 +80,7 @@ export function pullPlane(given, event) {
 
 function moveClock({ motion }, { inner, outer }, theta, held) {
   const aim = clamp(theta, Math.min(inner, outer), Math.max(inner, outer));
-  seek(timeAtTilt(motion.data, aim, window.tippe.time()), held);
+  seek(timeAtTilt(motion.data, aim, timeOf()), held);
 }
 
 // Why not, where the hand is.
