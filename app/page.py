@@ -243,7 +243,7 @@ def page():
     views = house.tabs
     header, *rooms = tabs(views, keep, pacer.soon, opened if opened in views else opening.USUAL, opening.AT_ONCE)
     house.look_at = lambda name: setattr(header, "active", list(views).index(name))
-    pn.state.curdoc.template_variables.update(first.variables(first.top_of(rooms), search))
+    pn.state.curdoc.template_variables.update(first.variables())
 
     made = pmui.Page(
         template=first.PAGE,

@@ -2,8 +2,8 @@ import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
-import { renderLab } from "./lab/lab.js";
 import { renderSurface3D } from "./three/surface3d.js";
+import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
 import { renderDial } from "./widgets/dial.js";
@@ -30,14 +30,14 @@ export default {
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
   Guide: { render: renderGuide },
-  LabView: { render: renderLab },
+  LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },
   Painted: { render: renderPainted },
   Phone: { render: renderPhone },
   Photo: { render: renderPhoto },
   Surface3D: { render: renderSurface3D },
-  Top3D: { render: renderFirst },
+  Top3D: { render: renderTop3D },
   first,
   letter,
 };
