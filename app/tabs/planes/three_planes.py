@@ -6,9 +6,8 @@ import panel_material_ui as pmui
 
 from app.bundle import pack
 from app.model.planes import PATIENCE, PRESETS, preset
-from app.model.planes_picture import LAWS, PLANES
+from app.model.planes_picture import PLANES
 from app.model.regimes import COLOUR, NAMES
-from app.state.keep import Field, Number, OneOf
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
 from app.text import listed, say
@@ -30,19 +29,6 @@ td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertica
 th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: #009E73 }
 .line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
 """
-
-
-KEPT = {
-    "plane": Field("plane", OneOf(**{plane: plane for plane in (*PLANES, "compare")}), undoable=False),
-    "by": Field("start", OneOf(spin="spin", constants="constants")),
-    "law": Field("law", OneOf(**{law: law for law in LAWS})),
-    "landing": Field("land", OneOf(stop="stop", plastic="plastic")),
-    "stem": Field("stem", OneOf(yes=True, no=False)),
-    **{name: Field(name, Number) for name in ("spin", "tilt", "slip", "seconds", "mu_k", "gamma", "eps")},
-    "mu": Field("mu_smooth", Number),
-    "mu_s": Field("mu_stick", Number),
-}
-"""What of a Planes a link keeps."""
 
 
 class ThreePlanes:
