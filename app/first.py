@@ -1,7 +1,8 @@
-"""The page around Bokeh's own: in it the arrival's top moves before the scripts, the session and the controls have come.
+"""The page around Bokeh's own: in it the arrival's top moves before the scripts, the session and the controls come.
 
-What the Lab of a session says on arrival is the same for all. Its words are written into the page, its numbers are a file
-that the browser keeps. first.js draws both, and hands the picture over to the session's component when that is made.
+What the Lab of a session says on arrival is the same for all. Its words are written into the page, its numbers are a
+file that the browser keeps. first.js draws both, and hands the picture over to the session's component when that is
+made.
 
     python -m app.first
 

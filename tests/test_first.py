@@ -1,4 +1,4 @@
-"""What is seen before Bokeh and the session have come: little has to arrive for it, it moves, and is taken over as it is."""
+"""What is seen before Bokeh and the session have come: little has to arrive for it, it moves, and is taken over."""
 
 import gzip
 import json
@@ -48,7 +48,7 @@ def test_what_must_arrive_before_the_first_frame_is_small(server):
     url = server.rstrip("/")
     page = urllib.request.urlopen(url).read()
     head, text = page.partition(b"</head>")[0].decode(), page.decode()
-    files = re.findall(r'rel="stylesheet" href="([^"]+)"', head) + [re.search(r'fetch\("([^"]+)"\)', text)[1]]
+    files = [*re.findall(r'rel="stylesheet" href="([^"]+)"', head), re.search(r'fetch\("([^"]+)"\)', text)[1]]
     files += [next(name for name in re.findall(r'rel="modulepreload" href="([^"]+)"', head) if "tippe" in name)]
     assert len(files) > 3
     assert not re.findall(r"<script[^>]* src=", text.partition('id="first"')[0])  # none holds it up
@@ -69,25 +69,45 @@ def test_it_moves_without_bokeh_and_a_session(server, chromium):
     page.close()
 
 
-@pytest.mark.served
-def test_the_session_takes_over_the_same_picture_at_the_same_time(server, chromium):
-    """And what a hand has moved before it came is asked for then."""
+@pytest.fixture
+def waiting(server, chromium):
+    """The page while its session has not come, and what lets it come."""
     context = chromium.new_context(viewport={"width": 1400, "height": 900})
     page, held = context.new_page(), []
     page.set_default_timeout(PATIENCE)
-    page.route("**/panel.min.js*", lambda route: held.append(route))  # without which there is no session
+    page.route("**/panel.min.js*", lambda route: held.append(route))
     page.goto(f"{server}?", wait_until="commit")
     page.wait_for_function(f"{DRAWN} && {TIME} > 2")
-    page.evaluate(f"window.before = {TOPS}[0]")
-    page.locator("#lab-spin").press("ArrowRight")
+
+    def go():
+        held[0].continue_()
+        page.locator("#first").wait_for(state="detached")
+
+    yield page, go
+    context.close()
+
+
+@pytest.mark.served
+def test_the_session_takes_over_the_same_picture_at_the_same_time(waiting):
+    page, go = waiting
     page.get_by_role("button", name="Pause").click()
+    page.get_by_role("slider", name="Time").press("Home")
+    page.evaluate(f"window.before = {TOPS}[0]")
+    page.wait_for_function("before.quaternion[1] == 0 && before.quaternion[2] == 0")  # drawn, as it is let go
     pose = page.evaluate("[before.t, ...before.quaternion, ...before.eye]")
-    held[0].continue_()
-    page.locator("#first").wait_for(state="detached")
+    go()
+    page.wait_for_function("Bokeh.documents[0].is_idle")
     assert page.evaluate(f"before == {TOPS}[0]")
     assert page.evaluate("[before.t, ...before.quaternion, ...before.eye]") == pytest.approx(pose, abs=2e-3)
-    page.wait_for_function("location.search.includes('turns=28.')")
-    context.close()
+
+
+@pytest.mark.served
+def test_what_a_hand_moved_before_the_session_came_is_asked_for_then(waiting):
+    page, go = waiting
+    page.locator("#lab-spin").press("ArrowRight")
+    go()
+    page.wait_for_function("location.search.includes('turns=28.8')")
+    assert page.get_by_role("textbox", name="Spin, in turns a second").input_value() == "28.8"
 
 
 @pytest.mark.served
