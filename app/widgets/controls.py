@@ -86,7 +86,7 @@ def named(name):
 
 def worst(scene):
     """What the motion does, in the words of its worst instant."""
-    return say(f"controls.worst.{NAMES[scene.regime.max()]}")
+    return say(f"regimes.way.{NAMES[scene.regime.max()]}")
 
 
 class Dial(Bundled):

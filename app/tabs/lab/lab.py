@@ -36,6 +36,7 @@ class LabView(Bundled):
     """
 
     SAYS = ("Stage", "Top3D")
+    REGIMES = "here"
 
     state = param.Dict(default={}, doc="All that is no array: the inputs, the runs in words, what was refused.")
     profile = param.Bytes(default=b"", doc="As of a Top3D.")
