@@ -14,6 +14,7 @@ import hashlib
 import json
 from functools import cache
 from pathlib import Path
+from urllib.parse import urlencode
 
 import numpy as np
 import panel_material_ui as pmui
@@ -78,7 +79,7 @@ def variables():
     """What PAGE needs."""
     address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.parent.name}/{FILE.name}"
     return {"bundles": [address_of(kind) for kind in (Bundled, pmui.Page)],
-            "first": words(), "numbers": f"{address}?v={version()}"}  # fmt: skip
+            "first": words(), "numbers": f"{address}?{urlencode({'v': version()})}"}  # fmt: skip
 
 
 if __name__ == "__main__":
