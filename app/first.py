@@ -23,6 +23,8 @@ from panel.custom import JSComponent
 from app.borrowed import address_of
 from app.bundle import Bundled
 from app.model.lab import Lab
+from app.state import names
+from app.state.keep import VERSION
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 
@@ -70,6 +72,15 @@ def words():
     return json.dumps(found).replace("<", "\\u003c")
 
 
+def searches():
+    """{search of an address that opens the arrival: its language, or "" for the browser's own}."""
+    found = {"": ""}
+    for language in LANGUAGES:
+        asked = {names.LANGUAGE: language}
+        found |= {names.query(asked): language, names.query({names.VERSION_NAME: str(VERSION)} | asked): language}
+    return found
+
+
 @cache
 def version():
     return hashlib.sha256(FILE.read_bytes()).hexdigest()[:12]
@@ -78,8 +89,12 @@ def version():
 def variables():
     """What PAGE needs."""
     address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.parent.name}/{FILE.name}"
-    return {"bundles": [address_of(kind) for kind in (Bundled, pmui.Page)],
-            "first": words(), "numbers": f"{address}?{urlencode({'v': version()})}"}  # fmt: skip
+    return {
+        "bundles": [address_of(kind) for kind in (Bundled, pmui.Page)],
+        "first": words(),
+        "searches": json.dumps(searches()),
+        "numbers": f"{address}?{urlencode({'v': version()})}",
+    }
 
 
 if __name__ == "__main__":

@@ -10,19 +10,19 @@ let isLate = false; // the session was faster
 let early = null; // the picture that waits for its model
 
 // The address's language, else of those that the browser prefers, as the server chooses.
-function inOneLanguage(words) {
+function inOneLanguage(words, asked) {
   const preferred = navigator.languages.map((tag) => tag.split("-")[0].toLowerCase());
-  return words[[new URLSearchParams(location.search).get("lang"), ...preferred].find((language) => language && language in words) ?? "en"];
+  return words[asked || preferred.find((language) => language in words) || "en"];
 }
 
-/** @param {Promise<Response>} numbers the file, on its way */
-export async function first(numbers) {
+/** @param {Promise<Response>} numbers the file, on its way @param {string} language of the address; empty: the browser's */
+export async function first(numbers, language) {
   const { body } = await numbers;
   const bytes = await new Response(body?.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
   if (isLate) return;
   /** @returns {any} */
   const part = (id) => document.getElementById(id);
-  const place = part("first"), values = { ...inOneLanguage(JSON.parse(part("first-words").textContent)), ...numbersIn(bytes) };
+  const place = part("first"), values = { ...inOneLanguage(JSON.parse(part("first-words").textContent), language), ...numbersIn(bytes) };
   const { model, become } = standIn(values), view = {}, el = document.createElement("div");
   place.attachShadow({ mode: "open" }).append(el);
   place.hidden = false;
