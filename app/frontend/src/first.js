@@ -5,6 +5,7 @@ import { numbersIn, standIn } from "./stand_in.js";
 import { pace, REST } from "./three/stage.js";
 
 const MEANWHILE = 5 * REST; // where the processor draws, it has a page to make
+const SOON = 50; // ms
 let isLate = false; // the session was faster
 /** @type {Omit<Rendering<LabModel>, "model"> & { values: LabModel, become: (model: LabModel) => void, place: HTMLElement } | null} */
 let early = null; // the picture that waits for its model
@@ -48,5 +49,11 @@ export function renderFirst({ model, el, view }) {
   el.replaceChildren(...was.el.childNodes);
   view.tippe = was.view.tippe;
   become(model);
-  view.tippe?.hold?.(false);
+  whenHeard(() => view.tippe?.hold?.(false));
+}
+
+// What the server is told before the page has said that it is whole, it answers only after the next word.
+function whenHeard(run) {
+  if (Bokeh.documents.some((doc) => doc.is_idle)) run();
+  else setTimeout(() => whenHeard(run), SOON);
 }
