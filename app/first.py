@@ -29,6 +29,7 @@ from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 
 PAGE = Path(__file__).with_name("first.html")
+BORROWED = Path(__file__).with_name("borrowed.js").read_text(encoding="utf-8")
 FILE = Path(__file__).parent / "data" / "arrival.gz"
 FRAME, POSE, CURVE = 20, 10, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
 NUMBERS = {"profile": (2, 2, 2**20), "frames_ordinary": (FRAME, POSE, 2**12), "curves_ordinary": (CURVE, CURVE, 2**7)}
@@ -90,6 +91,7 @@ def variables():
     """What PAGE needs."""
     address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.parent.name}/{FILE.name}"
     return {
+        "borrowed": BORROWED,
         "bundles": [address_of(kind) for kind in (Bundled, pmui.Page)],
         "first": words(),
         "searches": json.dumps(searches()),
