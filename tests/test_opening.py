@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.state.keep import Keep, read
-from app.tabs.lab.opening import opened, shortest
+from app.tabs.lab.room import opened, shortest
 
 
 @pytest.mark.parametrize(("query", "tab"), {

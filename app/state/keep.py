@@ -257,6 +257,11 @@ class Keep(param.Parameterized):
         self._parts, self._allowed = [], allowed
         self._steps, self._at, self._gesture = [{}], 0, None
 
+    @property
+    def waits(self):
+        """{key: text} of the link that no view has asked for yet."""
+        return dict(self._texts)
+
     def add(self, owner, known, usual=None, opened=False):
         """Keeps these parameters of a view too, at what the link said of them.
 

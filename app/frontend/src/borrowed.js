@@ -35,13 +35,6 @@ export const leaveHover = (fig, hover) => viewOf(fig).tool_views.get(hover)._mov
 /** @returns {Map<string, any>} */
 export const modelsOf = (doc) => doc._all_models;
 
-// The sidebar of panel-material-ui's Page: Python hears of the width of a window only when it is open already.
-export function closeSidebar() {
-  for (const { data } of Bokeh.documents.flatMap((doc) => [...modelsOf(doc).values()])) {
-    if (data?.attributes && "sidebar_open" in data.attributes) data.setv({ sidebar_open: false });
-  }
-}
-
 // three.js: a target whose colours are a screen's, not a texture's, is one of its headset's.
 /** @param {import("three").WebGLRenderTarget} target */
 export const likeAScreen = (target) => Object.assign(target, { isXRRenderTarget: true });
