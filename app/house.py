@@ -10,16 +10,16 @@ from app.model.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
 from app.state.keep import explorer_of, kept
+from app.state.names import LEVELS, ROOMS
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
 from app.tabs.families.compare import Compare
 from app.tabs.lab import room
 from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
-from app.tabs.learn.learn import kept as kept_of_learn
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
-from app.tabs.planes.three_planes import KEPT, ThreePlanes
+from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
 from app.widgets.cards import card, grid
@@ -30,7 +30,7 @@ from app.widgets.pacing import Pacer
 
 def alike(*rooms):
     """The rooms of a tab that has the same at each level."""
-    return dict.fromkeys(room.LEVELS, rooms)
+    return dict.fromkeys(LEVELS, rooms)
 
 
 TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"), "maps": alike("families", "maps"),
@@ -51,7 +51,7 @@ class House:
         self.builder = Builder(self.explorer.scene, self.pacer.ask)
         self.pacer.shows(self.builder.follow, "hand")
         self.playing, self._look_at = Playing(), look_at
-        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))))
+        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))), shortest=room.shortest)
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
         self.lab_of = Lab(self.runs)
@@ -69,7 +69,7 @@ class House:
 
     def roll(self):
         controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
-        self.keep.add(controls, Controls.KNOWN)
+        self.keep.add(controls)
         for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show, when)
         return Roll(self.pacer, self.playing, controls).main
@@ -87,7 +87,7 @@ class House:
 
     def planes(self):
         planes = Planes(self.scene, self.runs)
-        self.keep.add(planes, KEPT)
+        self.keep.add(planes)
         inputs = {name: getattr(planes, name) for name in ("plane", *Planes.INPUTS)}
         view = ThreePlanes(inputs, self.pacer.ask_of(planes), self.pacer.ask, self.builder.choose, planes)
         planes.param.watch(lambda event: view.show(event.new), "picture")
@@ -114,7 +114,7 @@ class House:
     def learn(self):
         learn = Learn(self.scene, self.pacer.ask, self.runs)
         self.pacer.shows(learn.show, "rest")
-        self.keep.add(learn, kept_of_learn())
+        self.keep.add(learn)
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
         return learn.view
 
@@ -129,5 +129,5 @@ class House:
     @property
     def makers(self):
         """{name of a room in the address: its maker}."""
-        return {"lab": self.lab, "roll": self.roll, "three-planes": self.planes, "build-a-top": self.build,
-                "families": self.families, "learn": self.learn, "maps": self.maps, "measure": self.measure}  # fmt: skip
+        made = (self.lab, self.roll, self.planes, self.build, self.families, self.learn, self.maps, self.measure)
+        return dict(zip(ROOMS, made, strict=True))

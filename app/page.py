@@ -10,7 +10,8 @@ from panel.util import edit_readonly
 from app import first, text
 from app.house import TABS, House
 from app.share.share import Share
-from app.state.keep import Field, OneOf, read
+from app.state.keep import read
+from app.state.names import LANGUAGE, VOTE
 from app.tabs.lab import room
 from app.tabs.learn.student import student_page
 from app.text import say
@@ -32,27 +33,25 @@ class Tongue(param.Parameterized):
     """Which language the page speaks; another one means another page, so it is loaded anew, with its state."""
 
     lang = param.Selector(default="", objects=["", *text.LANGUAGES], doc='"": the one the browser prefers')
-    KNOWN = {"lang": Field("lang", OneOf(**{name: name for name in text.LANGUAGES}), undoable=False)}  # noqa: RUF012
 
 
 def page():
     search = pn.state.location.search
-    asked = read(search)[0].get("lang")
+    asked = read(search)[0].get(LANGUAGE)
     accepted = text.preferred(pn.state.headers.get("Accept-Language", ""))
     SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
     texts, sentence = read(search)  # what it says is in that language
     failed = failure()
-    if "vote" in texts:  # a student's link
-        return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"]), failed], stylesheets=STYLE, **BARE)
+    if VOTE in texts:  # a student's link
+        return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), failed], stylesheets=STYLE, **BARE)
     house = House(texts, sentence, lambda name: setattr(rooms, "room", name))
     pacer, keep = house.pacer, house.keep
     look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()
     share = Share(keep, house.playing, house.scene, house.runs)
     for owner in (look, tongue):
-        keep.add(owner, owner.KNOWN)
+        keep.add(owner)
     for show, when in ((share.show, "hand"), (guide.show, "rest")):
         pacer.shows(show, when)
-    keep.shortest = room.shortest
     rooms = Rooms(house.makers, TABS, keep, pacer.soon, room.AT_ONCE, room.opened(texts, search), room.USUAL,
                   room.level(texts, search))  # fmt: skip
     choices = Choices(rooms, house.lab_of, house.builder, tongue, share)

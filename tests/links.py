@@ -19,9 +19,10 @@ from panel.io.state import set_curdoc
 
 from app import page, text
 from app.model.explorer import Explorer
-from app.state.keep import Body, Keep
+from app.state.codecs import Body
+from app.state.keep import Keep
+from app.state.names import NAMES, of
 from app.widgets import rooms
-from app.widgets.controls import Controls
 
 ROLL = "?v=1&tab=roll"  # what an address without a query opened, and said, before there was a Lab
 TABS = ("roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")  # as they were numbered then
@@ -35,12 +36,12 @@ def known():
 
 @contextmanager
 def kept():
-    """A list of (Keep, owner, {parameter: Field}) of all that a page keeps; a tab is made when it is asked for."""
+    """A list of (Keep, owner, {parameter: Name}) of all that a page keeps; a tab is made when it is asked for."""
     parts, add = [], Keep.add
 
-    def noted(keep, owner, known, *rest, **named):
-        add(keep, owner, known, *rest, **named)
-        parts.append((keep, owner, known))
+    def noted(keep, owner, *rest, **named):
+        add(keep, owner, *rest, **named)
+        parts.append((keep, owner, of(type(owner).__name__)))
 
     with patch.object(Keep, "add", noted), patch.object(rooms.Place, "ask", rooms.Place.fill):
         yield parts
@@ -57,7 +58,7 @@ def opened(link):
         [explorer] = [owner for _, owner, _ in parts if isinstance(owner, Explorer)]
         [seen] = [owner for _, owner, fields in parts if "room" in fields and "level" in fields]
         keep, scene = parts[0][0], explorer.scene
-        face = Controls.KNOWN["face"].codec.value(keep.waits.get("face", "constants"))  # was there on every page
+        face = NAMES["face"].codec.value(keep.waits.get("face", "constants"))  # was there on every page
         return {
             "language": text.spoken(),
             "settings": {"face": face}

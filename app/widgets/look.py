@@ -7,7 +7,6 @@ The widgets keep one theme, whose colours are variables of CSS; the look changes
 import param
 
 from app.bundle import Bundled
-from app.state.keep import Field, OneOf
 
 # Of the widgets' theme: name: (on light, on dark); those with an rgb are asked for as three numbers too.
 COLOURS = {
@@ -65,4 +64,3 @@ class Look(Bundled):
         constant=True,
         doc="The variables of the widgets' colours on dark.",
     )
-    KNOWN = {name: Field(name, OneOf(yes=True, no=False), undoable=False) for name in ("dark", "large")}  # noqa: RUF012

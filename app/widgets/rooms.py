@@ -8,7 +8,6 @@ import panel as pn
 import panel_material_ui as pmui
 import param
 
-from app.state.keep import Field, OneOf
 from app.text import say
 from app.widgets.cards import BUTTON, alert, note, on_click, words
 
@@ -81,10 +80,8 @@ class Rooms(param.Parameterized):
         else:
             self._look()
         self.param.watch(self._moved, ["room", "level"])
-        known = {"room": Field("tab", OneOf(**{name: name for name in makers}), undoable=False),
-                 "level": Field("level", OneOf(**{name: name for name in levels}), undoable=False)}  # fmt: skip
         # they are said always, and left out where they go without saying
-        keep.add(self, known, lambda rooms: {"room": None, "level": None})
+        keep.add(self, lambda rooms: {"room": None, "level": None})
 
     @property
     def tab(self):

@@ -7,26 +7,27 @@ An address with no query opens the first, as does one that names it. Any other t
 did before there was a Lab; and one that names no level is of a time when there was only what is now research.
 """
 
+from app.state.names import LEVEL, LEVELS, TAB
+
 FIRST, USUAL = AT_ONCE = "lab", "roll"
 """And these are there with the page."""
-VIEWS = {"explore": (FIRST,), "research": (USUAL, "three-planes")}
-LEVELS = tuple(VIEWS)
+VIEWS = dict(zip(LEVELS, ((FIRST,), (USUAL, "three-planes")), strict=True))
 
 
 def opened(texts, query=""):
     """The name of what the texts of a query open; query: as it came, of which the texts may be a part."""
-    return texts.get("tab", USUAL if texts or query.strip("?") else FIRST)
+    return texts.get(TAB, USUAL if texts or query.strip("?") else FIRST)
 
 
 def level(texts, query=""):
     """The level at which the texts of a query open it."""
     explores = opened(texts, query) == FIRST
-    return texts.get("level", "explore" if explores else "research")
+    return texts.get(LEVEL, "explore" if explores else "research")
 
 
 def shortest(texts):
     """The texts of a query without the tab and the level, where these go without saying."""
-    for key, usual in (("level", level), ("tab", opened)):
+    for key, usual in ((LEVEL, level), (TAB, opened)):
         others = {name: text for name, text in texts.items() if name != key}
         if key in texts and usual(others) == texts[key]:
             texts = others
