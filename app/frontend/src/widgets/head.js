@@ -39,6 +39,10 @@ class Head {
     this.steps = [0, 1].map(() => ["undo", "redo"].map((name) =>
       part("button", { type: "button", class: "icon", "aria-label": texts[name], title: texts[name], onclick: () => this.ask(name) }, texts.signs[name])));
     this.shares = [0, 1].map(() => part("button", { type: "button", onclick: () => this.ask("share") }, texts.share));
+    /** @type {any} */
+    this.languages = null;
+    /** @type {{ name: string, box: HTMLInputElement, element: HTMLElement }[]} */
+    this.switches = [];
     this.more = part("button", { type: "button", class: "icon", "aria-label": texts.more, "aria-expanded": "false", onclick: () => this.open(this.menu.hidden) }, "⋯");
     this.menu = this.makeMenu();
     this.row = part("header", { class: "row" }, part("h1", {}, texts.title), this.toy, part("nav", { "aria-label": texts.tabs }, this.tabs.element),
