@@ -26,6 +26,7 @@ export async function first(numbers, language) {
   const place = part("first"), values = { ...inOneLanguage(JSON.parse(part("first-words").textContent), language), ...numbersIn(bytes) };
   const { model, become } = standIn(values), view = {}, el = document.createElement("div");
   place.attachShadow({ mode: "open" }).append(el);
+  place.dataset.title = document.title;
   place.hidden = false;
   pace.rest = MEANWHILE;
   renderLab({ model, el, view });
