@@ -111,11 +111,10 @@ def _constants(model: Model) -> Array:
 def fit(model: Model, data: Data) -> Fit:
     """The best Fit of the model's free numbers. It looks whether it is to end. Raises TopError where none of the starts
     is a motion."""
-    count = sum(len(series.t) for series in data.series.values())
-    if count <= len(model.free) + shifted(data):
+    problem = Problem(model, data)
+    if (count := problem.count) <= len(model.free) + shifted(data):
         raise TopError("values", count, "more than {least} measured values", "Free fewer numbers, or measure more.",
                        code="too-few-values", least=len(model.free) + shifted(data))  # fmt: skip
-    problem = _Problem(model, data, count)
     # At first of the beginning alone: of a whole motion, that turns many times, there are many false minima.
     t = np.concatenate([series.t for series in data.series.values()])
     shares = [t <= t.min() + share * np.ptp(t) for share in GROWING]
@@ -142,7 +141,7 @@ def fit(model: Model, data: Data) -> Fit:
     return _judged(model, data, problem, x, sure, [x for chi2, x in ends if chi2 < best + ALSO])
 
 
-def _least(ends: list[tuple[float, Array]], problem: "_Problem") -> tuple[float, Array]:
+def _least(ends: list[tuple[float, Array]], problem: "Problem") -> tuple[float, Array]:
     """The least of the ends, followed to its own end."""
     at = min(range(len(ends)), key=lambda i: ends[i][0])
     ends[at] = problem.followed(ends[at][1], 60, exactly=True)
@@ -155,16 +154,17 @@ def _alike(ends: list[tuple[float, Array]]) -> int:
     return sum(chi2 < least + max(0.1, SAME * least) for chi2, _ in ends)
 
 
-def _settled(ends: list[tuple[float, Array]], problem: "_Problem") -> bool:
+def _settled(ends: list[tuple[float, Array]], problem: "Problem") -> bool:
     """Whether there is no need to look elsewhere: one that is as good as chance allows may still be a false one."""
     return problem.good(min(chi2 for chi2, _ in ends)) and _alike(ends) > 1
 
 
-class _Problem:
+class Problem:
     """Least squares of a Model's free numbers, in their order."""
 
-    def __init__(self, model: Model, data: Data, count: int) -> None:
-        self.model, self.data, self.count = model, data, count
+    def __init__(self, model: Model, data: Data) -> None:
+        self.model, self.data = model, data
+        self.count = sum(len(series.t) for series in data.series.values())
         self.bounds = np.array([BOUNDS[name] for name in model.free]).T
         self.sizes = np.array([SIZES.get(name, 0.1 * max(abs(model.values[name]), 0.01)) for name in model.free])
 
@@ -204,7 +204,7 @@ class _Problem:
         return chi2 < self.count + np.sqrt(2 * self.count)
 
 
-def _judged(model: Model, data: Data, problem: "_Problem", x: Array, sure: bool, others: list[Array]) -> Fit:
+def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, others: list[Array]) -> Fit:
     names = model.free
     for _ in range(MOST_BETTER):
         found = known(problem, x)

@@ -9,6 +9,7 @@ import { renderCopy } from "./widgets/copy.js";
 import { renderDial } from "./widgets/dial.js";
 import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
+import { renderMeasuredStage } from "./widgets/measured_stage.js";
 import { renderGuide } from "./widgets/guide.js";
 import { renderLines } from "./widgets/lines.js";
 import { renderLook } from "./widgets/look.js";
@@ -29,6 +30,7 @@ export default {
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
+  MeasuredStage: { render: renderMeasuredStage },
   Guide: { render: renderGuide },
   LabView: { render: renderLab },
   Lines: { render: renderLines },
