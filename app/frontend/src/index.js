@@ -11,6 +11,7 @@ import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
 import { renderMeasuredStage } from "./widgets/measured_stage.js";
 import { renderGuide } from "./widgets/guide.js";
+import { renderHead } from "./widgets/head.js";
 import { renderLines } from "./widgets/lines.js";
 import { renderLook } from "./widgets/look.js";
 import { renderConnection } from "./widgets/notices.js";
@@ -32,6 +33,7 @@ export default {
   MeasuredFile: { render: renderMeasuredFile },
   MeasuredStage: { render: renderMeasuredStage },
   Guide: { render: renderGuide },
+  Head: { render: renderHead },
   LabView: { render: renderLab },
   Lines: { render: renderLines },
   Look: { render: renderLook },

@@ -12,6 +12,7 @@ class MeasuredStage(Bundled):
     """Plays a motion on the film's clock, which the pictures over time follow: `tippe:clock:film`, in s of the film."""
 
     SAYS = ("Stage", "Top3D")
+    REGIMES = "here"
 
     frames = param.Bytes(default=b"", doc="The motion, from pack_frames, its times in s; empty where there is none.")
     profile = param.Bytes(default=b"", doc="The body's outline, as of Top3D.")

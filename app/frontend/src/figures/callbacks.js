@@ -7,11 +7,10 @@ import { followPlanes } from "./planes.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
 import { pressSection, turnSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
-import { turnTab } from "../widgets/tabs.js";
 
 const callbacks = {
   followCurve, followFilm, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullFilm,
-  pullPlane, readPlane, sayPull, seekAlong, seekOnCurve, turnSection, turnTab,
+  pullPlane, readPlane, sayPull, seekAlong, seekOnCurve, turnSection,
 };
 
 export function offerCallbacks() {

@@ -66,7 +66,7 @@ export class Measured {
       return one + share * (other - one);
     });
     const far = REACH / (Math.hypot(...axis) || 1), { x, y, z } = body.position, [a, b, c] = axis.map((part) => part * far);
-    const put = (share, to) => to(x + a * share, y + b * share, z + c * share);
+    const put = (part, to) => to(x + a * part, y + b * part, z + c * part);
     this.halo.setPath(2, (i, to) => put(2 * i - 1, to));
     this.line.setSegments(DASHES, (i, to) => {
       put(2 * i / DASHES - 1, to);

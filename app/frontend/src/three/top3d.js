@@ -102,7 +102,7 @@ class Top {
     const { regime } = scene.moment;
     this.handle?.follow(scene.body, some && !playing);
     this.measured?.follow(scene.body, this.player.t);
-    this.say(some ? wordOf(regime, model.texts.verdicts) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
+    this.say(some ? wordOf(regime, model.texts.regimes) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
   }
 
   say(word, colour) {

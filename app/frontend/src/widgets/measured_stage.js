@@ -1,6 +1,7 @@
 // The fitted top beside what a film saw of it, and the film's clock: a button that plays it, and the time and tilt.
 import { Top } from "../lab/top.js";
 import { drawn, part, say } from "../lab/parts.js";
+import { colours } from "../colours.js";
 import { coalesce, float32 } from "../data.js";
 
 export const CLOCK = "film";
@@ -13,7 +14,7 @@ const STYLE = `<style>
   .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: 14px/1.4 system-ui, sans-serif; color: var(--scene-faint, #55606c) }
   button { position: absolute; right: 16px; bottom: 12px; width: 44px; height: 44px; border: 0; border-radius: 50%; cursor: pointer;
     display: grid; place-items: center; background: var(--scene-ink, #1b2430); color: var(--scene, #fff) }
-  button:focus-visible { outline: 3px solid var(--focus, #1558c0); outline-offset: 2px }
+  button:focus-visible { outline: 3px solid var(--focus, ${colours.chosen}); outline-offset: 2px }
   [hidden] { display: none !important }</style>`;
 const PLAY = "M4 2l12 7-12 7z", PAUSE = "M4 2h4v14H4zm7 0h4v14h-4z";
 
