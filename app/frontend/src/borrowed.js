@@ -31,13 +31,6 @@ export function pressNever(fig) {
 // As if the mouse had left: Bokeh's tooltip stays where it is while a hand pulls. https://github.com/bokeh/bokeh/issues/7671
 export const leaveHover = (fig, hover) => viewOf(fig).tool_views.get(hover)._move_exit();
 
-// The sidebar of panel-material-ui's Page: Python hears of the width of a window only when it is open already.
-export function closeSidebar() {
-  for (const { data } of Bokeh.documents.flatMap((doc) => [...doc.all_models])) {
-    if (data?.attributes && "sidebar_open" in data.attributes) data.setv({ sidebar_open: false });
-  }
-}
-
 // 6. three.js: a target whose colours are a screen's, not a texture's, is one of its headset's.
 // https://github.com/mrdoob/three.js/issues/29429
 /** @param {import("three").WebGLRenderTarget} target */
