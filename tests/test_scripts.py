@@ -23,7 +23,6 @@ USED = {
     "eventsOf": ["this.events_el =", "canvas_view"],
     "setCursor": ["this.ui_event_bus =", "set_cursor("],
     "pressNever": ["this.ui_gestures =", "press_threshold = "],
-    "leaveHover": ["tool_views", "_move_exit()"],
     "modelsOf": ["this._all_models ="],
 }
 

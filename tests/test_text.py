@@ -188,7 +188,7 @@ NOT_SAID = {
     "measured_table.py": {"": "what tables call their columns"},
     "keep.py": {"not one of {}": "said to the log"},
     "planes.py": {"no friction: {}": "the beginning of a key"},
-    "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
+    "prints.py": {"tippe top": "never shown"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
        for name in ("server.py", "arrivals.py", "ballots.py", "messages.py", "settings.py", "sockets.py")},
     "look.js": {"dark large": "a key"},

@@ -16,6 +16,7 @@ from urllib.parse import parse_qsl, quote
 import param
 
 from app.model.explorer import Explorer
+from app.model.region import PAPER
 from app.state import asked
 from app.text import say, told
 from tippe_core import TopError, load_top, save_top
@@ -153,7 +154,7 @@ EXPLORER = {
     "omega3": Field("w3", Number),
     "phi": Field("phi", Number),
     "psi": Field("psi", Number),
-    "upper": Field("half", OneOf(yes=True, no=False)),
+    "upper": Field("half", OneOf(yes=True, no=False, paper=PAPER)),
     "limit": Field("limit", OneOf(lift="lift-off", slip="slip")),
 }
 FOLLOWING = {name for names in Explorer.GIVEN.values() for name in names}

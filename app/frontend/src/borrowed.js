@@ -28,9 +28,6 @@ export function pressNever(fig) {
   viewOf(fig).canvas_view.ui_event_bus.ui_gestures.constructor.press_threshold = 2 ** 31 - 1;
 }
 
-// As if the mouse had left: Bokeh's tooltip stays where it is while a hand pulls.
-export const leaveHover = (fig, hover) => viewOf(fig).tool_views.get(hover)._move_exit();
-
 // All models of a page, also those that no other one names. Bokeh has a getter, which makes a copy each time it is asked.
 /** @returns {Map<string, any>} */
 export const modelsOf = (doc) => doc._all_models;
