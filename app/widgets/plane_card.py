@@ -2,6 +2,7 @@
 
 import panel as pn
 
+from app.model.colours import COLOURS, FAINT
 from app.model.slipping import slipping
 from app.text import say
 from app.widgets.cards import swatch, words
@@ -44,11 +45,11 @@ def key():
     """What each line is."""
     return "".join(
         (
-            swatch("#8a96a3", say("roll.key.tielines")),
-            swatch("#D55E00", say("roll.key.verge")),
-            swatch("#009E73", f"{SYMBOLS['normal']} = 0"),
+            swatch(FAINT, say("roll.key.tielines")),
+            swatch(COLOURS["friction"], say("roll.key.verge")),
+            swatch(COLOURS["normal"], f"{SYMBOLS['normal']} = 0"),
             swatch("var(--ink, #22303c)", say("roll.key.steady"), "dashed"),
-            swatch("#fbe3d5", say("roll.key.lost")),
-            swatch("#0072B2", say("roll.key.motion")),
+            swatch(f"color-mix(in srgb, {COLOURS['friction']} 16%, transparent)", say("roll.key.lost")),
+            swatch(COLOURS["theta"], say("roll.key.motion")),
         )
     )

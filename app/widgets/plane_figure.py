@@ -106,7 +106,7 @@ class PlaneFigure:
         fig, hand = self.figure, {"fig": self.figure, "hand": self.hand, "selected": self.selected}
         fig.js_on_change("inner_width", call("followMotion", motion=motion, **hand))
         words = listed("roll.plane") | {"place": place_words()}
-        hand |= {"limits": self.limits, "field": self.field, "words": words, "pulled": listed("roll.pull")}
+        hand |= {"limits": self.limits, "field": self.field, "words": words, "pulled": listed("regimes.why_html")}
         pull = call("pullPlane", motion=motion, **hand)
         for event in ("tap", "panstart", "pan", "panend", "mousemove"):
             fig.js_on_event(event, pull)

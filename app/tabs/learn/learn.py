@@ -13,27 +13,19 @@ from app.model.bodies import outline
 from app.model.frames import in_space
 from app.model.regimes import OF_CORE
 from app.model.runs import Run, Runs
-from app.state.keep import SECRET, Field, OneOf
+from app.state.names import SECTIONS
 from app.tabs.learn.figures import CLOCK, SectionFigure, StepFigure
 from app.tabs.learn.lines import Derivation
 from app.tabs.learn.poll import option, prediction
-from app.tabs.learn.teach import Key, history_view, teach_view
+from app.tabs.learn.teach import history_view, teach_view
 from app.text import listed, say, told
 from app.widgets.cards import PLAIN, alert, card, grid, note, on_click, px, words
 from app.widgets.top3d import Top3D, pack_frames, show_top
 from tippe_core import TopError
 
-SECTIONS = ("lesson", "derivation", "teach", "history")
 ROLLING_SPEED, SLIDING_SPEED = 1 / 16, 1 / 4
 # MathML, which is what KaTeX leaves to the browser here, wants a font that has tall brackets.
 MATHS = "math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math }"
-
-
-def kept():
-    """What of a Learn a link keeps."""
-    return {"step": Field("step", OneOf(**{name: name for name in lesson.NAMES}), undoable=False),
-            "section": Field("learn", OneOf(**{name: name for name in SECTIONS}), undoable=False),
-            "room": Field(SECRET, Key, undoable=False)}  # fmt: skip
 
 
 def paragraphs(text):
