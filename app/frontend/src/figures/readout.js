@@ -2,9 +2,11 @@
 // is about.
 
 const GAP = 14, EDGE = 6; // px from the hand or from what is kept clear, and from the window's edge
-const STYLE = `position: fixed; z-index: 1500; pointer-events: none; max-width: min(280px, calc(100vw - 12px));
-  padding: 6px 10px; border-radius: 6px; font: calc(13px * var(--type, 1))/1.5 system-ui, sans-serif;
-  color: var(--ink, #22303c); background: var(--card, #fff); border: 1px solid var(--faint, #8a96a3); white-space: nowrap`;
+const STYLE = {
+  position: "fixed", zIndex: "1500", pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px",
+  borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 system-ui, sans-serif", color: "var(--ink, #22303c)",
+  background: "var(--card, #fff)", border: "1px solid var(--faint, #8a96a3)",
+};
 
 /** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
 
@@ -45,7 +47,7 @@ function boxOf() {
   if (!box?.isConnected) {
     box = document.createElement("div");
     box.className = "tippe-readout";
-    box.style.cssText = STYLE;
+    Object.assign(box.style, STYLE);
     document.body.append(box);
   }
   return box;
