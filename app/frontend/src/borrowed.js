@@ -28,13 +28,6 @@ export function pressNever(fig) {
   viewOf(fig).canvas_view.ui_event_bus.ui_gestures.constructor.press_threshold = 2 ** 31 - 1;
 }
 
-// The sidebar of panel-material-ui's Page: Python hears of the width of a window only when it is open already.
-export function closeSidebar() {
-  for (const { data } of Bokeh.documents.flatMap((doc) => [...doc.all_models])) {
-    if (data?.attributes && "sidebar_open" in data.attributes) data.setv({ sidebar_open: false });
-  }
-}
-
 // 6. three.js: a target whose colours are a screen's, not a texture's, is one of its headset's.
 // https://github.com/mrdoob/three.js/issues/29429
 /** @param {import("three").WebGLRenderTarget} target */

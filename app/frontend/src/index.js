@@ -10,6 +10,7 @@ import { renderDial } from "./widgets/dial.js";
 import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
 import { renderGuide } from "./widgets/guide.js";
+import { renderHead } from "./widgets/head.js";
 import { renderLines } from "./widgets/lines.js";
 import { renderLook } from "./widgets/look.js";
 import { renderConnection } from "./widgets/notices.js";
@@ -30,6 +31,7 @@ export default {
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
   Guide: { render: renderGuide },
+  Head: { render: renderHead },
   LabView: { render: renderLab },
   Lines: { render: renderLines },
   Look: { render: renderLook },

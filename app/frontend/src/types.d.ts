@@ -89,6 +89,11 @@ interface GuideModel extends Model {
   seconds: number;
 }
 
+interface HeadModel extends Model {
+  state: Record<string, any>;
+  asked: [count: number, name: string, value: any] | [];
+}
+
 interface LookModel extends Model {
   id: string;
   dark: boolean;

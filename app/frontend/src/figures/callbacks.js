@@ -6,11 +6,10 @@ import { followPlanes } from "./planes.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
 import { pressSection, turnSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
-import { turnTab } from "../widgets/tabs.js";
 
 const callbacks = {
-  followCurve, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullPlane,
-  sayPull, seekAlong, seekOnCurve, turnSection, turnTab,
+  followCurve, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullPlane, sayPull,
+  seekAlong, seekOnCurve, turnSection,
 };
 
 export function offerCallbacks() {
