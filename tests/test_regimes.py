@@ -44,7 +44,7 @@ def test_every_regime_has_its_words(language):
     assert [*words["way"]] == could
     assert [*words["why_html"]] == could[1:]
     assert {*words["stretch"]} == {regimes.NAMES[code] for code in IN_RIBBON}
-    assert len(words) == 5
+    assert len(words) == 4
 
 
 def test_regimes_that_stand_beside_each_other_are_told_apart():
