@@ -1,6 +1,7 @@
 // What Python has Bokeh call, by its name: app/bundle.py. Each takes what it was given there, then what happened.
 import { keepFinger, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
+import { followFilm, pullFilm } from "./measured.js";
 import { followMotion, pullPlane, sayPull } from "./plane.js";
 import { followPlanes } from "./planes.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
@@ -8,8 +9,8 @@ import { pressSection, turnSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
 
 const callbacks = {
-  followCurve, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullPlane, sayPull,
-  seekAlong, seekOnCurve, turnSection,
+  followCurve, followFilm, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullFilm,
+  pullPlane, sayPull, seekAlong, seekOnCurve, turnSection,
 };
 
 export function offerCallbacks() {
