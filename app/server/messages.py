@@ -172,6 +172,7 @@ CHANGES = {
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
     "MeasuredFile": {"table": row(text(200_000), COUNT), "refused": COUNT},
     "Guide": {},
+    "LessonView": {"asked": row(COUNT, SHORT, SHORT)},
     "LabView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
     "Look": {"dark": FLAG, "large": FLAG},
     "Painted": {"painted": COUNT},

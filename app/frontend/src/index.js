@@ -3,6 +3,7 @@ import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
 import { renderLab } from "./lab/lab.js";
+import { renderLesson } from "./learn/lesson.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
@@ -31,6 +32,7 @@ export default {
   MeasuredFile: { render: renderMeasuredFile },
   Guide: { render: renderGuide },
   LabView: { render: renderLab },
+  LessonView: { render: renderLesson },
   Lines: { render: renderLines },
   Look: { render: renderLook },
   Painted: { render: renderPainted },

@@ -4,13 +4,13 @@ import { moveLines, nameFigure } from "./common.js";
 import { followMotion, pullPlane, readPlane, sayPull } from "./plane.js";
 import { followPlanes } from "./planes.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
-import { pressSection, turnSection } from "./sections.js";
+import { pressSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
 import { turnTab } from "../widgets/tabs.js";
 
 const callbacks = {
   followCurve, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullPlane, readPlane,
-  sayPull, seekAlong, seekOnCurve, turnSection, turnTab,
+  sayPull, seekAlong, seekOnCurve, turnTab,
 };
 
 export function offerCallbacks() {
