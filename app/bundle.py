@@ -40,6 +40,7 @@ class Bundled(JSComponent):
 
     texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")
     SAYS = ()  # the tables of its words, beside the one of its own name
+    REGIMES = ""  # and a table in regimes.toml, which it calls `regimes`
     shown = None  # what was last put into it; for those who would put it there again
 
     _bundle = BUNDLE
@@ -53,4 +54,4 @@ class Bundled(JSComponent):
         known, texts = listed("browser", language), {}
         for name in (*cls.SAYS, cls.__name__):
             texts |= known.get(name, {})
-        return texts
+        return texts | ({"regimes": listed(f"regimes.{cls.REGIMES}", language)} if cls.REGIMES else {})

@@ -14,18 +14,18 @@ from app.model.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
 from app.share.share import Share
-from app.state.keep import Field, OneOf, explorer_of, kept, read
+from app.state.keep import explorer_of, kept, read
+from app.state.names import LANGUAGE, TABS, VOTE
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
 from app.tabs.families.compare import Compare
 from app.tabs.lab import opening
 from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
-from app.tabs.learn.learn import kept as kept_of_learn
 from app.tabs.learn.student import student_page
 from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
-from app.tabs.planes.three_planes import KEPT, ThreePlanes
+from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid, section
@@ -94,11 +94,10 @@ class Tongue(param.Parameterized):
     """Which language the page speaks; another one means another page, so it is loaded anew, with its state."""
 
     lang = param.Selector(default="", objects=["", *text.LANGUAGES], doc='"": the one the browser prefers')
-    KNOWN = {"lang": Field("lang", OneOf(**{name: name for name in text.LANGUAGES}), undoable=False)}  # noqa: RUF012
 
     def choice(self, keep, reload):
         """The control. keep: a Keep; reload: what loads the page anew."""
-        keep.add(self, self.KNOWN)
+        keep.add(self)
         select = pmui.RadioButtonGroup(label="", options={name: key for key, name in text.LANGUAGES.items()},
                                        value=text.spoken(), size="small", margin=(4, 16), sx=PLAIN)  # fmt: skip
 
@@ -125,7 +124,7 @@ class House:
         self.builder = Builder(self.explorer.scene, self.pacer.ask)
         self.pacer.shows(self.builder.follow, "hand")
         self.playing = Playing()
-        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))))
+        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))), shortest=opening.shortest)
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
@@ -156,7 +155,7 @@ class House:
 
     def planes(self):
         planes = Planes(self.scene, self.runs)
-        self.keep.add(planes, KEPT)
+        self.keep.add(planes)
         inputs = {name: getattr(planes, name) for name in ("plane", *Planes.INPUTS)}
         view = ThreePlanes(inputs, self.pacer.ask_of(planes), self.pacer.ask, self.builder.choose, planes)
         planes.param.watch(lambda event: view.show(event.new), "picture")
@@ -183,7 +182,7 @@ class House:
     def learn(self):
         learn = Learn(self.scene, self.runs)
         self.pacer.shows(learn.show, "rest")
-        self.keep.add(learn, kept_of_learn())
+        self.keep.add(learn)
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
         return learn.view
 
@@ -198,8 +197,8 @@ class House:
     @property
     def tabs(self):
         """{name in the address: maker}, in the order of the header."""
-        return {"lab": self.lab, "roll": self.roll, "three-planes": self.planes, "build-a-top": self.build,
-                "families": self.families, "learn": self.learn, "maps": self.maps, "measure": self.measure}  # fmt: skip
+        made = (self.lab, self.roll, self.planes, self.build, self.families, self.learn, self.maps, self.measure)
+        return dict(zip(TABS, made, strict=True))
 
 
 def sidebar(controls, look, language):
@@ -221,25 +220,24 @@ def sidebar(controls, look, language):
 
 def page():
     search = pn.state.location.search
-    asked = read(search)[0].get("lang")
+    asked = read(search)[0].get(LANGUAGE)
     accepted = text.preferred(pn.state.headers.get("Accept-Language", ""))
     SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
     texts, sentence = read(search)  # what it says is in that language
     failed = failure()
-    if "vote" in texts:  # a student's link
-        return pmui.Page(title=say("main.title"), main=[student_page(texts["vote"]), failed], theme_toggle=False,
+    if VOTE in texts:  # a student's link
+        return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), failed], theme_toggle=False,
                          busy_indicator=None, stylesheets=STYLE)  # fmt: skip
     house, look, guide = House(texts, sentence), Look(width=0, height=0, margin=0), Guide(margin=(0, 8))
     pacer, keep = house.pacer, house.keep
     controls = Controls(house.scene, pacer.ask, pacer.soon)
-    keep.add(controls, Controls.KNOWN)
+    keep.add(controls)
     share = Share(keep, house.playing, house.scene, house.runs)
-    keep.add(look, Look.KNOWN)
+    keep.add(look)
     language = Tongue().choice(keep, share.reload)
     for show, when in ((share.show, "hand"), (controls.follow, "hand"), (controls.show, "rest"), (guide.show, "rest")):
         pacer.shows(show, when)
     opened, phone = opening.opened(texts, search), on_a_phone()
-    keep.shortest = opening.shortest
     views = house.tabs
     header, *rooms = tabs(views, keep, pacer.soon, opened if opened in views else opening.USUAL, opening.AT_ONCE)
     house.look_at = lambda name: setattr(header, "active", list(views).index(name))

@@ -19,7 +19,9 @@ from panel.io.state import set_curdoc
 
 from app import page, text
 from app.model.explorer import Explorer
-from app.state.keep import Body, Keep
+from app.state.codecs import Body
+from app.state.keep import Keep
+from app.state.names import of
 from app.widgets import tabs
 
 ROLL = "?v=1&tab=roll"  # what an address without a query opened, and said, before there was a Lab
@@ -34,12 +36,12 @@ def known():
 
 @contextmanager
 def kept():
-    """A list of (Keep, owner, {parameter: Field}) of all that a page keeps; a tab is made when it is asked for."""
+    """A list of (Keep, owner, {parameter: Name}) of all that a page keeps; a tab is made when it is asked for."""
     parts, add = [], Keep.add
 
-    def noted(keep, owner, known, *rest, **named):
-        add(keep, owner, known, *rest, **named)
-        parts.append((keep, owner, known))
+    def noted(keep, owner, *rest, **named):
+        add(keep, owner, *rest, **named)
+        parts.append((keep, owner, of(type(owner).__name__)))
 
     with patch.object(Keep, "add", noted), patch.object(tabs.Place, "ask", tabs.Place.fill):
         yield parts

@@ -10,8 +10,8 @@ from panel.io.state import set_curdoc
 
 from app.model.explorer import Explorer
 from app.model.playing import Playing
-from app.share.share import PLAYING
-from app.state.keep import Field, Keep, Numbers, OneOf
+from app.state.codecs import Numbers
+from app.state.keep import Keep
 from app.tabs.build.build import Build
 from app.tabs.roll.roll import Roll
 from app.widgets.controls import Controls
@@ -102,10 +102,10 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
 def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line):
     keep, playing = Keep(), Playing()
     roll = Roll(pacer, playing)
-    keep.add(playing, PLAYING)
+    keep.add(playing)
     [top] = roll.main.select(Top3D)
     tabs = pmui.Tabs(("a", pmui.Button()), ("b", pmui.Button()))
-    keep.add(tabs, {"active": Field("tab", OneOf(a=0, b=1), undoable=False)})
+    keep.add(tabs)
     for owner, name in ((top, "camera"), (top, "speed"), (tabs, "active")):
         before = getattr(owner, name)
         for sent in (value, [value], [1.0, value, 2.0]):

@@ -6,15 +6,17 @@ from dataclasses import fields
 from urllib.parse import urlencode
 
 import numpy as np
-import param
 import pytest
+from house import planes_of
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from app.model.explorer import Explorer
 from app.model.playing import Playing
 from app.share.parts import Clock
-from app.state.keep import EXPLORER, LONGEST_QUERY, STEPS, Body, Field, Keep, Number, OneOf, explorer_of, read, usual
+from app.state.codecs import Body, Number
+from app.state.keep import EXPLORER, LONGEST_QUERY, STEPS, Keep, explorer_of, read, usual
+from app.state.names import of
 from app.text import say
 from app.widgets.controls import Controls
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
@@ -33,7 +35,7 @@ BODIES = [
 
 def kept(explorer, texts=None):
     keep = Keep(texts, allowed=lambda: not explorer.scene.messages)
-    keep.add(explorer, EXPLORER, usual, opened=True)
+    keep.add(explorer, usual, opened=True)
     return keep
 
 
@@ -54,7 +56,7 @@ def assert_same_picture(explorer, other):
 
 
 def test_version_1_is_what_it_was():
-    parts = {Explorer: EXPLORER, Controls: Controls.KNOWN}
+    parts = {Explorer: EXPLORER, Controls: of("Controls")}
     assert {field.key: owner.param[name].default for owner, known in parts.items() for name, field in known.items()
             } == VERSION_1  # fmt: skip
 
@@ -221,18 +223,13 @@ def test_what_cannot_be_is_neither_kept_nor_a_step():
     assert not explorer.scene.messages and (explorer.I3, explorer.K_J) == (0.408, 6.0) and keep.query == query
 
 
-class Other(param.Parameterized):
-    plane = param.Selector(default="rough", objects=["rough", "smooth"])
-    gamma = param.Number(default=1.0)
-
-
 def test_a_view_made_later_gets_its_part_of_the_link():
-    known = {"plane": Field("plane", OneOf(rough="rough", smooth="smooth")), "gamma": Field("gamma", Number)}
     texts, _ = read("?v=1&plane=smooth&gamma=.25&KJ=6&x=%26a%3Db")
-    keep, other = kept(explorer_of(texts)[0], texts), Other()
+    explorer, _ = explorer_of(texts)
+    keep, other = kept(explorer, texts), planes_of(explorer)
     assert opened(keep.query)[0].K_J == 6
     assert read(keep.query)[0] == texts  # what belongs to views not made yet stays in the link
-    keep.add(other, known)
+    keep.add(other)
     assert keep.sentence == "" and (other.plane, other.gamma) == ("smooth", 0.25)
     assert not keep.can_undo
     other.gamma = 0.5
@@ -240,8 +237,9 @@ def test_a_view_made_later_gets_its_part_of_the_link():
     assert read(keep.query)[0]["gamma"] == ".5"
     keep.undo()
     assert other.gamma == 0.25
-    keep, other = kept(Explorer(), {"gamma": "much"}), Other()
-    keep.add(other, known)
+    explorer = Explorer()
+    keep, other = kept(explorer, {"gamma": "much"}), planes_of(explorer)
+    keep.add(other)
     keep.at_rest()
     assert "gamma" in keep.sentence
     other.gamma = 2.0
@@ -260,7 +258,7 @@ def test_every_input_of_the_explorer_is_kept():
 def test_what_was_paused_plays_on_when_it_is_played():
     top = Playing()
     keep, clock = Keep(), Clock(top)
-    keep.add(clock, Clock.KNOWN)
+    keep.add(clock)
     for playing in (False, True, False, True):
         top.playing = playing
         keep.at_rest()

@@ -4,7 +4,9 @@ import pytest
 
 from app.model.lab import Lab
 from app.state.asked import Unasked
-from app.tabs.lab.lab import SLIDERS, LabTab, Toy, kept, spelled
+from app.state.codecs import Toy
+from app.state.names import of
+from app.tabs.lab.lab import SLIDERS, LabTab, spelled
 from app.text import speaking
 from tippe_core import PRESETS
 
@@ -61,7 +63,7 @@ def test_what_a_page_never_sends_changes_nothing(tab, asked):
 
 
 def test_every_input_that_a_link_keeps_is_written_and_read():
-    fields, lab = kept(), Lab()
+    fields, lab = of("Lab"), Lab()
     assert set(fields) == set(Lab.INPUTS)
     for name, field in fields.items():
         value = getattr(lab, name)

@@ -8,7 +8,7 @@ from visiting import Visit
 
 from app.model import derivation, lesson, lesson_parts
 from app.model.explorer import Explorer
-from app.state.keep import Body
+from app.state.codecs import Body
 from app.text import listed, say
 from tippe_core import PRESETS
 

@@ -3,14 +3,7 @@
 import pytest
 from links import known, opened
 
-from app.page import Tongue
-from app.share.parts import Clock
-from app.share.share import PLAYING
-from app.state.keep import EXPLORER
-from app.tabs.learn import learn
-from app.tabs.planes.three_planes import KEPT
-from app.widgets.controls import Controls
-from app.widgets.look import Look
+from app.state.names import NAMES, SECRET
 
 LINKS = known()
 
@@ -30,17 +23,8 @@ def approximately(found):
     return pytest.approx(found, rel=1e-9, abs=1e-12) if type(found) is float else found
 
 
-# What the views keep, each by itself.
-VIEWS = (EXPLORER, Controls.KNOWN, Clock.KNOWN, PLAYING, Look.KNOWN, Tongue.KNOWN, KEPT, learn.kept())
-
-
-def test_no_two_settings_have_one_name():
-    names = [field.key for known in VIEWS for field in known.values()]
-    assert len(names) == len({*names})
-
-
 def test_every_setting_is_in_a_link():
     usual = LINKS[""]["settings"] | LINKS["?v=1&tab=three-planes"]["settings"] | LINKS["?v=1&tab=learn"]["settings"]
     changed = {name for what in LINKS.values() for name, value in what["settings"].items() if value != usual[name]}
-    assert {*usual} == {field.key for known in VIEWS for field in known.values()} | {"tab"}
-    assert {*usual} - changed == {learn.SECRET}  # only a teacher who is there has one
+    assert {*usual} == {key for key, name in NAMES.items() if name.owner != "Lab"}
+    assert {*usual} - changed == {SECRET}  # only a teacher who is there has one

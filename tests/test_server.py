@@ -125,7 +125,7 @@ def test_it_starts_and_serves_where_the_system_lacks_what_windows_lacks(tmp_path
     assert "Traceback" not in server.log
     done = subprocess.run([sys.executable, "-c", LACKS, "", "", "", "--workers=2"], cwd=ROOT, capture_output=True,
                           text=True, timeout=120)  # fmt: skip
-    assert done.returncode == 2 and "--workers is 2; allowed is 1 on this system" in done.stderr
+    assert done.returncode == 2 and "--workers is '2'; allowed is 1 on this system" in done.stderr
 
 
 class Clock:

@@ -186,7 +186,8 @@ NOT_SAID = {
     **{name: {"": "files of data and programs, which are the same in every language"}
        for name in ("export.py", "measured_examples.py", "measured_report.py", "glb.py", "programs.py")},
     "measured_table.py": {"": "what tables call their columns"},
-    "keep.py": {"not one of {}": "said to the log"},
+    "codecs.py": {"not one of {}": "said to the log"},
+    **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
     **{name: {"": "said to the operator, or to a program that is no browser"}

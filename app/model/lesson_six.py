@@ -124,11 +124,12 @@ def asked(*options: str) -> Choice:
     return Choice((*options, UNSURE))
 
 
+DOT = 0.6235  # s: its painted dot faces who looks
 THREE = ("ordinary", "rough", "ice")
 SIX = (
     Step("flips", asked("over", "upright", "falls"), flips, ("ordinary",), 0.25, 6.0, sources=("perry", "bohr")),
-    Step("way", asked("same", "other", "stopped"), way, ("ordinary",), 0.745, 2.4, "spin", sources=("gray",)),
-    Step("height", asked("push", "spin", "free"), height, ("ordinary",), 0.745, 1.6, "energy", sources=("pliskin",)),
+    Step("way", asked("same", "other", "stopped"), way, ("ordinary",), DOT, 2.3737, "spin", sources=("gray",)),
+    Step("height", asked("push", "spin", "free"), height, ("ordinary",), DOT, 1.6, "energy", sources=("pliskin",)),
     Step("tables", asked("both", "rough", "ice", "neither"), tables, THREE, 0.25, 2.4, sources=("gallop",)),
     Step("arms", asked("own", "above", "alike"), arms, ("ordinary",), 0.745, 1.36, "arms",
          tex=(r"\frac{\tau_z}{\tau_3}=\frac{a\sin\theta}{R\sin\theta}=\frac aR",

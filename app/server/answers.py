@@ -1,26 +1,19 @@
-"""What is answered over HTTP: the page, where it is, whether the server lives, and files; with the headers of all."""
+"""What is answered over HTTP beside the page: where it is, whether the server lives, files; and the headers of all."""
 
 import logging
 import os
 import re
-import secrets
 import sys
-import time
-from html import escape
 from http.client import responses
 from pathlib import Path
-from string import Template
 
 from bokeh.server.urls import toplevel_patterns
 from bokeh.server.views.ico_handler import IcoHandler
-from bokeh.util.token import generate_jwt_token, generate_session_id
-from panel.io.resources import Resources
-from panel.io.server import ComponentResourceHandler, get_static_routes, server_html_page_for_session
+from panel.io.server import ComponentResourceHandler, get_static_routes
 from tornado.web import ErrorHandler, HTTPError, RequestHandler, StaticFileHandler
 
 from app import text
-
-log = logging.getLogger("tippe")
+from app.state.names import LANGUAGE
 
 PIECE = 64 * 1024  # bytes of a file
 HEADERS = {
@@ -35,8 +28,7 @@ POLICY = (
     "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws://{host} wss://{host} blob: data:; "
     "worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames}"
 )
-# While the page waits for its turn, and where it is not let in.
-WAITING = Template(Path(__file__).with_name("waiting.html").read_text(encoding="utf-8"))
+# Where a page is not let in.
 SENTENCE = Path(__file__).with_name("sentence.html").read_text(encoding="utf-8")
 
 
@@ -88,7 +80,7 @@ class Handler(Answer, RequestHandler):
     @property
     def language(self):
         """The one of the address, else the one that this browser prefers."""
-        asked = self.request.query_arguments.get("lang", [b""])[-1].decode(errors="replace")
+        asked = self.request.query_arguments.get(LANGUAGE, [b""])[-1].decode(errors="replace")
         return asked if asked in text.LANGUAGES else text.preferred(self.request.headers.get("Accept-Language", ""))
 
     def words(self, name):
@@ -104,73 +96,6 @@ class Handler(Answer, RequestHandler):
         refresh = f'<meta http-equiv="refresh" content="{again}">' if again else ""
         title = text.say("main.title", self.language)
         self.finish(SENTENCE.format(lang=self.language, title=title, sentence=sentence, again=refresh))
-
-
-class Sheet:
-    """The page as all get it, written once in each language; what each visitor has of his own is put into it."""
-
-    TOKEN, NONCE = secrets.token_hex(), secrets.token_hex()  # stand in for them
-
-    def __init__(self, session, resources):
-        document = session.document
-        html = server_html_page_for_session(
-            session, Resources.from_bokeh(resources), document.title, token=self.TOKEN, template=document.template,
-            template_variables=document.template_variables)  # fmt: skip
-        before, after = html.rsplit("</body>", 1)
-        self._pages = {}
-        for language in text.LANGUAGES:
-            words = {name: escape(text.say(f"main.server.{name}", language)) for name in ("made", "busy")}
-            html = f"{before}{WAITING.substitute(words)}</body>{after}"
-            self._pages[language] = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', html)
-
-    def page(self, language, token, nonce):
-        """For one visitor."""
-        return self._pages[language].replace(self.NONCE, nonce).replace(self.TOKEN, token)
-
-
-class Page(Handler):
-    """The page, from one template session: a visitor's own is made when his browser opens the socket. Pages are given
-    out one at a time, in turn among the addresses that ask."""
-
-    async def get(self):
-        if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
-            Root.get(self)
-            return
-        app, address = self.application, self.request.remote_ip
-        if not app.tippe.lets(self.request.host):
-            log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
-            self.say(403, self.words("stranger"))
-            return
-        hurried = app.door.pages.waiting(address) >= app.tippe.sessions_per_address
-        refusal = "hurried" if hurried else app.door.refusal(address)
-        if refusal:
-            log.warning("refused %s a page: %s", address, text.say(f"main.server.{refusal}", text.DEFAULT))
-            self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
-            return
-        await app.door.pages.turn(address)
-        start = time.monotonic()
-        try:
-            nonce = secrets.token_urlsafe(16)
-            self.set_header("Cache-Control", "no-store")  # it holds the token of one session
-            self.set_header("Content-Type", "text/html; charset=utf-8")
-            self.set_policy(nonce)
-            self.finish(app.sheet.page(self.language, self._token(), nonce))
-        finally:
-            app.door.pages.done(time.monotonic() - start)
-
-    head = get
-
-    def _token(self):
-        """What opens a session, with what its page is made of."""
-        app, request = self.application, self.request
-        headers = {name: value for name, value in request.headers.items() if name in app.include_headers}
-        return generate_jwt_token(
-            generate_session_id(secret_key=app.secret_key, signed=True),
-            secret_key=app.secret_key, signed=True, expiration=app.session_token_expiration,
-            extra_payload={"headers": headers, "cookies": {}, "arguments": request.arguments})  # fmt: skip
-
-    def compute_etag(self):
-        """None: no two are the same."""
 
 
 class Root(Handler):
@@ -194,13 +119,12 @@ class Liveness(Handler):
 
 
 def routes(application):
-    """What is served beside the sockets, and nothing else: of all that Bokeh and Panel have, the files."""
+    """What is served beside the page, and nothing else: of all that Bokeh and Panel have, the files."""
     prefix = application.tippe.prefix
     files = [(pattern, type(handler.__name__, (Files, handler), {}), *more) for pattern, handler, *more
              in toplevel_patterns if issubclass(handler, StaticFileHandler)]  # fmt: skip
     [(components, _, _)] = get_static_routes({})
     return [
-        (f"{prefix}/app/?", Page),
         *((f"{prefix}{pattern}", *more) for pattern, *more in [("/?", Root), *files, (components, Component)]),
         ("/", Root),  # there, whatever the prefix
         ("/liveness", Liveness),

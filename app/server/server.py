@@ -7,17 +7,14 @@ slowly. docs/DEPLOY.md and SECURITY.md say what follows from that.
 """
 
 import asyncio
-import ctypes
 import gc
 import logging
-import os
 import platform
 import secrets
 import signal
 import sys
 import threading
 import webbrowser
-from contextlib import suppress
 from dataclasses import replace
 
 import panel as pn
@@ -35,14 +32,15 @@ from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.iostream import StreamClosedError
 from tornado.netutil import bind_sockets
-from tornado.process import fork_processes
 from tornado.websocket import WebSocketClosedError
 
 from app import borrowed
 from app.kernels import compile_beside
-from app.server.answers import Sheet, log_request, routes
+from app.server.answers import log_request, routes
 from app.server.arrivals import Arrivals, most_files
 from app.server.door import Door, budget
+from app.server.pages import Page, Sheet
+from app.server.processes import tidier, workers
 from app.server.sockets import LARGEST_FRAGMENT, Socket, note
 
 log = logging.getLogger("tippe")
@@ -52,7 +50,6 @@ IDLE, IDLE_PROXY = 5, 75
 PING = 45  # s
 FRESH = 120  # s in which a page that was sent may open its session
 TIDY = 10  # s
-LIBC = ctypes.CDLL(None) if os.name == "posix" else None
 GRACE = 3  # s from SIGTERM to the end, whatever still runs
 
 
@@ -137,7 +134,8 @@ def prepared(settings, show):
     tornado.tippe, tornado.door, tornado.sheet = settings, Door(settings, context), Sheet(template, tornado.resources())
     path = f"{settings.prefix}/app/ws"
     socket = (path, Socket, {"application_context": context, "bokeh_websocket_path": path})
-    tornado.add_handlers(".*", [socket, *routes(tornado)])  # before Bokeh's own, all of them
+    page = (f"{settings.prefix}/app/?", Page)
+    tornado.add_handlers(".*", [socket, page, *routes(tornado)])  # before Bokeh's own, all of them
     for each in template.document.session_destroyed_callbacks:
         each(template.document.session_context)
     template.destroy()
@@ -148,45 +146,6 @@ def unheard(loop, context):
     """What nobody waits for: that a page has closed while something was on its way to it is no error."""
     if not isinstance(context.get("exception"), (WebSocketClosedError, StreamClosedError)):
         loop.default_exception_handler(context)
-
-
-def tidier(door):
-    """A function that gives the memory of ended sessions back to the system: their models refer to each other. What
-    lives is frozen: else Python looks through all of it now and then, which is a second for 100 sessions, and finds
-    nothing."""
-    known, gone = set(), 0
-
-    def tidy():
-        nonlocal known, gone
-        now = {session.id for session in door.sessions}
-        made, gone = now - known, gone + len(known - now)
-        known, ended = now, gone >= 20 or (gone and not now)
-        if ended:
-            gone = 0
-            gc.unfreeze()
-            gc.collect()
-            if hasattr(LIBC, "malloc_trim"):  # glibc's
-                LIBC.malloc_trim(0)
-        if made or ended:
-            gc.freeze()
-
-    return tidy
-
-
-def workers(count):
-    """So many processes; one that ends is replaced, and all end with this one, however it ends. Returns, in each of
-    them, the end of a pipe whose other end this one holds."""
-    held, ours = os.pipe()
-    try:
-        fork_processes(count)
-    except SystemExit:  # by __main__, at SIGTERM
-        os.close(ours)
-        with suppress(ChildProcessError):
-            while True:
-                os.wait()
-        raise
-    os.close(ours)
-    return held
 
 
 def main(settings, show):

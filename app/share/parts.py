@@ -3,7 +3,6 @@
 import param
 
 from app.bundle import Bundled
-from app.state.keep import Field, Number
 
 # A phone at arm's length reads modules of this size, px.
 MODULE = 4
@@ -42,7 +41,6 @@ class Clock(param.Parameterized):
     """The time at which a Playing stands."""
 
     at = param.Number(default=None, allow_None=True, doc="in (R/g)^1/2; None while it plays")
-    KNOWN = {"at": Field("t", Number, undoable=False)}  # noqa: RUF012
 
     def __init__(self, playing):
         super().__init__(at=None if playing.playing else playing.time)

@@ -13,7 +13,7 @@ from app.share import export, glb, programs
 from app.share.letter import letter
 from app.share.parts import MODULE, Address, Clock, Copy, Photo
 from app.share.prints import FIGURES, caption, draw
-from app.state.keep import Field, Numbers, OneOf, shared
+from app.state.keep import shared
 from app.text import listed, say
 from app.widgets.cards import PLAIN, on_click, words
 from app.widgets.download import Download
@@ -21,14 +21,6 @@ from app.widgets.failure import after
 
 # Nothing may move for so long before the address of the page is changed and a step is made, s.
 REST = 0.25
-SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
-SHOWS = {"show_track": "track", "show_com_path": "G", "show_force": "F", "show_cone": "cone", "show_omega": "w",
-         "show_momentum": "L", "follow": "follow"}  # fmt: skip
-PLAYING = (
-    {"speed": Field("slow", OneOf(**SPEEDS), undoable=False)}
-    | {name: Field(key, OneOf(yes=True, no=False), undoable=False) for name, key in SHOWS.items()}
-    | {"camera": Field("view", Numbers(3), undoable=False)}
-)
 
 
 class Share:
@@ -39,8 +31,8 @@ class Share:
 
     def __init__(self, keep, playing, scene, runs=None):
         self.keep, self._playing, self._scene, self._runs = keep, playing, scene, runs or Runs()
-        self.keep.add(Clock(playing), Clock.KNOWN)
-        self.keep.add(playing, PLAYING)
+        self.keep.add(Clock(playing))
+        self.keep.add(playing)
         self.address = Address(search=self.keep.query, width=0, height=0, margin=0)
         at_once(self.address, "held", "gesture", "undone", "redone", "page")
         self._notice = pn.Column(sizing_mode="stretch_width", margin=0)

@@ -5,6 +5,8 @@ import html
 import panel as pn
 import panel_material_ui as pmui
 
+from app.model.colours import COLOURS
+
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
 LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light and on dark
 UNSEEN_LABEL = {
@@ -72,7 +74,7 @@ def on_click(button, act):
 
 def progress(percent, says):
     """A bar, filled so far; says: of what, for the ear."""
-    style = "width: 100%; accent-color: #0072B2"
+    style = f"width: 100%; accent-color: {COLOURS['chosen']}"
     return f'<progress max="100" value="{percent:.0f}" aria-label="{says}" style="{style}"></progress>'
 
 

@@ -11,7 +11,6 @@ from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.regimes import NAMES
 from app.state import asked
-from app.state.keep import Field, OneOf
 from app.text import listed, say
 from app.widgets.cards import NOTES, PLAIN, alert, note
 from tippe_core import Top
@@ -87,7 +86,7 @@ def named(name):
 
 def worst(scene):
     """What the motion does, in the words of its worst instant."""
-    return say(f"controls.worst.{NAMES[scene.regime.max()]}")
+    return say(f"regimes.way.{NAMES[scene.regime.max()]}")
 
 
 class Dial(Bundled):
@@ -224,7 +223,6 @@ class Controls(param.Parameterized):
     scene. motion: the sliders of both faces of the motion, and their switch; pictures: what Figs. 5 and 6 show."""
 
     face = param.Selector(default="constants", objects=list(FACES), doc="which face is shown; it changes nothing else")
-    KNOWN = {"face": Field("face", OneOf(**{face: face for face in FACES}), undoable=False)}  # noqa: RUF012
 
     def __init__(self, scene, ask, soon):
         super().__init__()

@@ -9,7 +9,6 @@ import panel_material_ui as pmui
 import param
 
 from app.bundle import Bundled
-from app.state.keep import Field, OneOf
 from app.text import say
 
 # Of the widgets' theme: name: (on light, on dark); those with an rgb are asked for as three numbers too.
@@ -68,7 +67,6 @@ class Look(Bundled):
         constant=True,
         doc="The variables of the widgets' colours on dark.",
     )
-    KNOWN = {name: Field(name, OneOf(yes=True, no=False), undoable=False) for name in ("dark", "large")}  # noqa: RUF012
 
     @property
     def switches(self):
@@ -76,6 +74,6 @@ class Look(Bundled):
         each = [
             pmui.Switch.from_param(self.param[name], label=say(f"roll.switches.{name}"), description="", size="small",
                                    margin=(4, 0, 0, 16))
-            for name in self.KNOWN
+            for name in ("dark", "large")
         ]  # fmt: skip
         return pn.Row(*each, margin=0, sizing_mode="stretch_width", styles={"flex-wrap": "wrap"})

@@ -143,7 +143,7 @@ class PlaneFigure:
         """To the browser's own clock, which moves the bead, and to hands."""
         fig, hand = self.figure, {"fig": self.figure, "hand": self.hand, "selected": self.selected}
         fig.js_on_change("inner_width", call("followMotion", motion=motion, **hand))
-        hand |= {"sentence": self.sentence, "words": listed("roll.pull")}
+        hand |= {"sentence": self.sentence, "words": listed("regimes.why")}
         pull = call("pullPlane", motion=motion, limits=self.limits, hover=self.hover, **hand)
         for event in ("tap", "panstart", "pan", "panend", "mousemove"):
             fig.js_on_event(event, pull)

@@ -13,6 +13,7 @@ class Surface3D(Bundled):
     """
 
     SAYS = ("Stage",)
+    REGIMES = "why_html"
 
     K_J = param.Bytes(default=b"", doc="(n,) ascending")
     theta = param.Bytes(default=b"", doc="(n, m) in rad")

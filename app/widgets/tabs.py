@@ -7,7 +7,6 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.bundle import CALL
-from app.state.keep import Field, OneOf
 from app.text import say
 from app.widgets.cards import BUTTON, alert, note, on_click, words
 
@@ -59,7 +58,7 @@ def tabs(views, keep, soon, opened, at_once):
     views: {name in the address: maker}; opened: the name of the one that is looked at first; at_once: those that are
     then made with the page. soon: of a Pacer.
     """
-    names, first = list(views), list(views).index(opened)
+    first = list(views).index(opened)
     places = [Place(name, make, soon) for name, make in views.items()]
     columns = [place.column for place in places]
     header = pmui.Tabs(
@@ -89,7 +88,6 @@ def tabs(views, keep, soon, opened, at_once):
     header.param.watch(lambda event: look(event.new), "active")
     given = {"places": [column.name for column in columns]}
     header.jscallback(args={"run": "turnTab", "given": given}, active=CALL)
-    known = OneOf(**{name: i for i, name in enumerate(names)})
     # it is said always, and left out where it goes without saying
-    keep.add(header, {"active": Field("tab", known, undoable=False)}, lambda header: {"active": None})
+    keep.add(header, lambda header: {"active": None})
     return [header, *columns]

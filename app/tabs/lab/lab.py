@@ -13,10 +13,9 @@ from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.lab import Lab
 from app.model.lab_rolling import rolling
-from app.model.lab_run import TABLES, TOYS
+from app.model.lab_run import TOYS
 from app.state import asked
-from app.state.keep import Field, Number, OneOf
-from app.text import listed, say
+from app.text import listed
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
@@ -25,36 +24,6 @@ INPUTS = ("spin", "tilt", "mu")
 SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2)}
 """{input: (least, most, step, digits) of its slider}; more can be typed."""
 RESTS = 0.4  # s after its last wish a hand is taken to rest
-
-
-class Toy:
-    """One of the toys, by the place of its name, which is no word for a link."""
-
-    def __init__(self, names):
-        self._names = list(names)
-
-    def text(self, value):
-        """The place of a name; Unasked where there is no such toy."""
-        if value not in self._names:
-            raise asked.Unasked(value)
-        return str(self._names.index(value) + 1)
-
-    def value(self, text):
-        """The name at a place; else a ValueError."""
-        if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= len(self._names):
-            raise ValueError(say("share.link.one_of", words=f"1 ... {len(self._names)}"))
-        return self._names[int(text) - 1]
-
-
-def kept():
-    """What of a Lab a link keeps."""
-    return {
-        "table": Field("table", OneOf(**{table: table for table in (*TABLES, "three")}), undoable=False),
-        "toy": Field("toy", Toy(Lab.param.toy.objects)),
-        "spin": Field("turns", Number),
-        "tilt": Field("lean", Number),
-        "mu": Field("rub", Number),
-    }
 
 
 class LabView(Bundled):
@@ -67,6 +36,7 @@ class LabView(Bundled):
     """
 
     SAYS = ("Stage", "Top3D")
+    REGIMES = "here"
 
     state = param.Dict(default={}, doc="All that is no array: the inputs, the runs in words, what was refused.")
     profile = param.Bytes(default=b"", doc="As of a Top3D.")
@@ -91,7 +61,7 @@ class LabView(Bundled):
 def lab_view(keep, runs, ask, go):
     """The tab. keep: a Keep; runs: a Runs; ask: of a Pacer; go: shows the paper's figures."""
     lab = Lab(runs)
-    keep.add(lab, kept())
+    keep.add(lab)
 
     def research():
         ask(**rolling(lab.toy, lab.spin, lab.tilt, lab.mu))

@@ -8,25 +8,16 @@ from app.model import lesson
 from app.model.lesson_runs import on_table
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
-from app.state.keep import SECRET, Field, OneOf
+from app.state.names import SECTIONS
 from app.tabs.learn.lesson import FIRST, LessonView, cut, runs_of, said
 from app.tabs.learn.lines import Derivation
-from app.tabs.learn.teach import Key, history_view, teach_view
+from app.tabs.learn.teach import history_view, teach_view
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid, words
 from app.widgets.top3d import Top3D, show_top
 
-SECTIONS = ("lesson", "theory", "derivation", "teach", "history")
 IN_VIEW = ("lesson", "theory")
 CLOCK, SPEED = "learn", 1 / 16
-
-
-def kept():
-    """What of a Learn a link keeps."""
-    steps = {name: name for name in lesson.NAMES} | lesson.BEFORE
-    return {"step": Field("step", OneOf(**steps), undoable=False),
-            "section": Field("learn", OneOf(**{name: name for name in SECTIONS}), undoable=False),
-            "room": Field(SECRET, Key, undoable=False)}  # fmt: skip
 
 
 class Learn(param.Parameterized):

@@ -11,9 +11,10 @@ from bokeh.models import ColumnDataSource, FactorRange, Range1d
 
 from app.model import lesson, lesson_parts
 from app.model.ballots import Away
-from app.model.classroom import KEY, MOST_VOTES, Refused
+from app.model.classroom import MOST_VOTES, Refused
 from app.model.colours import COLOURS
 from app.model.runs import Run
+from app.state import names
 from app.tabs.learn.poll import Counter, asked_of, option, page_address, question_of, refusal, truth_of
 from app.text import listed, say, told
 from app.widgets.cards import PLAIN, alert, card, grid, note, on_click, px, words
@@ -26,24 +27,12 @@ QR_MODULE = 4
 
 def link(step):
     """The query that opens a step."""
-    return f"?tab=learn&step={step.name}"
+    return names.link(tab="learn", step=step.name)
 
 
 def bullets(items, ordered=False):
     kind = "ol" if ordered else "ul"
     return f"<{kind} style='margin: 4px 0; padding-left: 20px'>{''.join(f'<li>{item}</li>' for item in items)}</{kind}>"
-
-
-class Key:
-    """A teacher's, in his link."""
-
-    text = staticmethod(str)
-
-    @staticmethod
-    def value(text):
-        if not KEY.fullmatch(text):
-            raise ValueError(say("teach.vote.key"))
-        return text
 
 
 class Vote:
@@ -148,8 +137,8 @@ class Vote:
             self._shut(refusal("vote", Refused("over")))
             return
         self.which.value = room.step
-        address = f"{page_address()}?vote={room.code}"
-        mine = f"{page_address()}?tab=learn&learn=teach&room={self._kept.room}"
+        address = page_address() + names.link(vote=room.code)
+        mine = page_address() + names.link(tab="learn", learn="teach", room=self._kept.room)
         picture = segno.make(address, error="m", micro=False).svg_inline(scale=QR_MODULE, light="white")
         self.address.object = (
             f"<div>{say('teach.vote.link')}: <a href='{address}' target='_blank'>{address}</a></div>{picture}"

@@ -5,10 +5,10 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.bundle import pack
+from app.model.colours import COLOURS
 from app.model.planes import PATIENCE, PRESETS, preset
-from app.model.planes_picture import LAWS, PLANES
+from app.model.planes_picture import PLANES
 from app.model.regimes import COLOUR, NAMES
-from app.state.keep import Field, Number, OneOf
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
 from app.text import listed, say
@@ -24,25 +24,15 @@ POLL = 200  # ms between looks at a run under way
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
 # Three bars side by side have room for what matters only.
 SMALL_BAR = [":host .bar .shows, :host .bar .view, :host .bar .back, :host .bar .forward { display: none }"]
-TABLE = """
+TABLE = (
+    f":host {{ --kept: {COLOURS['normal']} }}"
+    + """
 table { border-collapse: collapse; margin: 6px 0 0; font-size: inherit }
 td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: top }
-th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: #009E73 }
+th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: var(--kept) }
 .line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
 """
-
-
-KEPT = {
-    "plane": Field("plane", OneOf(**{plane: plane for plane in (*PLANES, "compare")}), undoable=False),
-    "by": Field("start", OneOf(spin="spin", constants="constants")),
-    "law": Field("law", OneOf(**{law: law for law in LAWS})),
-    "landing": Field("land", OneOf(stop="stop", plastic="plastic")),
-    "stem": Field("stem", OneOf(yes=True, no=False)),
-    **{name: Field(name, Number) for name in ("spin", "tilt", "slip", "seconds", "mu_k", "gamma", "eps")},
-    "mu": Field("mu_smooth", Number),
-    "mu_s": Field("mu_stick", Number),
-}
-"""What of a Planes a link keeps."""
+)
 
 
 class ThreePlanes:
@@ -187,7 +177,7 @@ class ThreePlanes:
         figures = self._figures.figures
         planes = "".join(swatch(colour, say(f"planes.looks.{plane}")) for plane, colour in LOOKS.items())
         ledger = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
-        regimes = "".join(swatch(COLOUR[code], say(f"planes.regimes.{NAMES[code]}")) for code in IN_RIBBON)
+        regimes = "".join(swatch(COLOUR[code], say(f"regimes.stretch.{NAMES[code]}")) for code in IN_RIBBON)
         return card(
             say("planes.cards.times"),
             words(f'<div class="key">{planes}</div>'),

@@ -6,7 +6,7 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.borrowed import at_once
-from app.model.colours import COLOURS
+from app.model.colours import COLOURS, FAINT
 from app.model.hands import held, pulled
 from app.model.playing import together
 from app.state import asked
@@ -27,12 +27,12 @@ def plane_symbols():
 def plane_content(plane):
     key = "".join(
         (
-            swatch("#8a96a3", say("roll.key.tielines")),
-            swatch("#D55E00", say("roll.key.verge")),
-            swatch("#009E73", f"{named('normal')} = 0"),
+            swatch(FAINT, say("roll.key.tielines")),
+            swatch(COLOURS["friction"], say("roll.key.verge")),
+            swatch(COLOURS["normal"], f"{named('normal')} = 0"),
             swatch("var(--ink, #22303c)", say("roll.key.steady"), "dashed"),
-            swatch("#fbe3d5", say("roll.key.lost")),
-            swatch("#0072B2", say("roll.key.motion")),
+            swatch(f"color-mix(in srgb, {COLOURS['friction']} 16%, transparent)", say("roll.key.lost")),
+            swatch(COLOURS["theta"], say("roll.key.motion")),
         )
     )
     return (

@@ -96,7 +96,7 @@ class Top {
     scene.pose(frames, place, model, this.highlight);
     const { regime } = scene.moment;
     this.handle?.follow(scene.body, some && !playing);
-    this.say(some ? wordOf(regime, model.texts.verdicts) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
+    this.say(some ? wordOf(regime, model.texts.regimes) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
   }
 
   say(word, colour) {

@@ -1,7 +1,7 @@
 // How the page looks: light or dark, and large for a projector. The page's own type and the widgets follow by variables
 // of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
 import { modelsOf } from "../borrowed.js";
-import { colours } from "../colours.js";
+import { colours, onDark } from "../colours.js";
 import { coalesce } from "../data.js";
 import { words } from "../three/scene.js";
 
@@ -29,7 +29,7 @@ function setVariables(model, name) {
   const [ink, , line, paper] = looks[name], { style, dataset } = document.documentElement;
   const values = {
     "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper, "--alert": model.dark ? "#ffb4ab" : "#b3261e",
-    "--focus": model.dark ? "#56b4e9" : "#0072b2", "--link": model.dark ? "#8ec7f5" : "#0b5cad",
+    "--focus": (model.dark ? onDark : colours).chosen, "--link": model.dark ? "#8ec7f5" : "#0b5cad",
     "--type": model.large ? LARGER : 1, ...words[model.dark ? "dark" : "light"],
   };
   for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));

@@ -1,8 +1,10 @@
 // A table that is chosen, dropped or pasted. It is read here, and of one that is too long rows are left out.
+import { colours } from "../colours.js";
+
 const FRAME = `<style>
   .drop { font: 14px/1.4 system-ui, sans-serif; color: var(--ink, #22303c); border: 1px dashed; border-radius: 8px;
     padding: 10px 12px; display: flex; flex-wrap: wrap; gap: 8px 12px; align-items: center }
-  .drop.over { background: #0072B222 }
+  .drop.over { background: ${colours.chosen}22 }
   textarea { flex: 1 1 180px; min-width: 0; height: 34px; font: inherit; color: inherit; background: transparent;
     border: 1px solid #8a96a3; border-radius: 6px; padding: 5px 8px; box-sizing: border-box; resize: vertical }
   input { max-width: 100%; font: inherit; color: inherit }

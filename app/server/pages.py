@@ -1,0 +1,88 @@
+"""The page: written once, given out in turn."""
+
+import logging
+import re
+import secrets
+import time
+from html import escape
+from pathlib import Path
+from string import Template
+
+from bokeh.util.token import generate_jwt_token, generate_session_id
+from panel.io.resources import Resources
+from panel.io.server import server_html_page_for_session
+
+from app import text
+from app.server.answers import Handler, Root
+
+log = logging.getLogger("tippe")
+
+# While a page waits for its turn.
+WAITING = Template(Path(__file__).with_name("waiting.html").read_text(encoding="utf-8"))
+
+
+class Sheet:
+    """The page as all get it, written once in each language; what each visitor has of his own is put into it."""
+
+    TOKEN, NONCE = secrets.token_hex(), secrets.token_hex()  # stand in for them
+
+    def __init__(self, session, resources):
+        document = session.document
+        html = server_html_page_for_session(
+            session, Resources.from_bokeh(resources), document.title, token=self.TOKEN, template=document.template,
+            template_variables=document.template_variables)  # fmt: skip
+        before, after = html.rsplit("</body>", 1)
+        self._pages = {}
+        for language in text.LANGUAGES:
+            words = {name: escape(text.say(f"main.server.{name}", language)) for name in ("made", "busy")}
+            html = f"{before}{WAITING.substitute(words)}</body>{after}"
+            self._pages[language] = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', html)
+
+    def page(self, language, token, nonce):
+        """For one visitor."""
+        return self._pages[language].replace(self.NONCE, nonce).replace(self.TOKEN, token)
+
+
+class Page(Handler):
+    """The page, from one template session: a visitor's own is made when his browser opens the socket. Pages are given
+    out one at a time, in turn among the addresses that ask."""
+
+    async def get(self):
+        if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
+            Root.get(self)
+            return
+        app, address = self.application, self.request.remote_ip
+        if not app.tippe.lets(self.request.host):
+            log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
+            self.say(403, self.words("stranger"))
+            return
+        hurried = app.door.pages.waiting(address) >= app.tippe.sessions_per_address
+        refusal = "hurried" if hurried else app.door.refusal(address)
+        if refusal:
+            log.warning("refused %s a page: %s", address, text.say(f"main.server.{refusal}", text.DEFAULT))
+            self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
+            return
+        await app.door.pages.turn(address)
+        start = time.monotonic()
+        try:
+            nonce = secrets.token_urlsafe(16)
+            self.set_header("Cache-Control", "no-store")  # it holds the token of one session
+            self.set_header("Content-Type", "text/html; charset=utf-8")
+            self.set_policy(nonce)
+            self.finish(app.sheet.page(self.language, self._token(), nonce))
+        finally:
+            app.door.pages.done(time.monotonic() - start)
+
+    head = get
+
+    def _token(self):
+        """What opens a session, with what its page is made of."""
+        app, request = self.application, self.request
+        headers = {name: value for name, value in request.headers.items() if name in app.include_headers}
+        return generate_jwt_token(
+            generate_session_id(secret_key=app.secret_key, signed=True),
+            secret_key=app.secret_key, signed=True, expiration=app.session_token_expiration,
+            extra_payload={"headers": headers, "cookies": {}, "arguments": request.arguments})  # fmt: skip
+
+    def compute_etag(self):
+        """None: no two are the same."""

@@ -1,0 +1,146 @@
+"""How a value is written in the address, and read from there: text() of a value, value() of a text.
+
+What a stranger wrote there is read, never believed: value() raises a ValueError with a sentence.
+"""
+
+import base64
+import binascii
+import re
+import zlib
+from dataclasses import fields
+
+from app.model.classroom import KEY
+from app.state import asked
+from app.text import say
+from tippe_core import load_top, save_top
+from tippe_core.bodies.files import LONGEST
+from tippe_core.bodies.shapes import KINDS
+
+LONGEST_NUMBER = 32
+
+NUMBER = re.compile(r"-?(\d+\.?\d*|\.\d+)(e-?\d+)?", re.ASCII)
+
+
+class Number:
+    """A float, as short as it can be and to the last digit."""
+
+    @staticmethod
+    def text(value):
+        """Of a finite number."""
+        text = repr(float(value)).removesuffix(".0").replace("e+", "e").replace("e-0", "e-")
+        return re.sub(r"^(-?)0\.", r"\1.", text)
+
+    @staticmethod
+    def value(text):
+        """Of what text() wrote; else a ValueError."""
+        if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text) or abs(float(text)) == float("inf"):
+            raise ValueError(say("share.link.number"))
+        return float(text)
+
+
+class Numbers:
+    """So many floats in a list, or none."""
+
+    def __init__(self, count):
+        self._count = count
+
+    @staticmethod
+    def text(value):
+        """Of finite numbers."""
+        return "_".join(map(Number.text, map(asked.number, value)))
+
+    def value(self, text):
+        """Of what text() wrote; else a ValueError."""
+        parts = text.split("_") if text else []
+        if len(parts) not in (0, self._count):
+            raise ValueError(say("share.link.numbers", count=self._count))
+        return [Number.value(part) for part in parts]
+
+
+class OneOf:
+    """One of a few values, each by its word."""
+
+    def __init__(self, **words):
+        self._words = words
+
+    def text(self, value):
+        """The word of a value; Unasked where it has none."""
+        for word, known in self._words.items():
+            if known == value:
+                return word
+        raise asked.Unasked(f"not one of {', '.join(self._words)}")
+
+    def value(self, text):
+        """The value of a word; else a ValueError."""
+        if text not in self._words:
+            raise ValueError(say("share.link.one_of", words=", ".join(self._words)))
+        return self._words[text]
+
+
+class Body:
+    """A shape: its kind and its dimensions in SI; where those are lists, its file, packed."""
+
+    PACKED = "z"
+
+    @classmethod
+    def text(cls, shape):
+        """Of any Shape."""
+        dimensions = [getattr(shape, field.name) for field in fields(shape)]
+        if all(isinstance(value, float) for value in dimensions):
+            return "_".join([type(shape).__name__, *map(Number.text, dimensions)])
+        return cls.PACKED + base64.urlsafe_b64encode(zlib.compress(save_top(shape).encode(), 9)).decode().rstrip("=")
+
+    @classmethod
+    def value(cls, text):
+        """Of what text() wrote; else a ValueError, which may be the TopError of an impossible body."""
+        if text.startswith(cls.PACKED):
+            shape = cls._unpacked(text[len(cls.PACKED) :])
+        else:
+            name, *dimensions = text.split("_")
+            kind = KINDS.get(name)
+            if kind is None or len(dimensions) != len(fields(kind)):
+                raise ValueError(say("share.link.body"))
+            names = (field.name for field in fields(kind))
+            shape = kind(**{name: Number.value(size) for name, size in zip(names, dimensions, strict=True)})
+        shape.top  # noqa: B018  (a body may be sound and still stand on no peg)
+        return shape
+
+    @staticmethod
+    def _unpacked(text):
+        unpack = zlib.decompressobj()
+        try:
+            document = unpack.decompress(base64.urlsafe_b64decode(text + "=" * (-len(text) % 4)), LONGEST)
+        except (binascii.Error, zlib.error, ValueError):
+            raise ValueError(say("share.link.file")) from None
+        return load_top(document)
+
+
+class Toy:
+    """One of the toys, by the place of its name, which is no word for a link."""
+
+    def __init__(self, names):
+        self._names = list(names)
+
+    def text(self, value):
+        """The place of a name; Unasked where there is no such toy."""
+        if value not in self._names:
+            raise asked.Unasked(value)
+        return str(self._names.index(value) + 1)
+
+    def value(self, text):
+        """The name at a place; else a ValueError."""
+        if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= len(self._names):
+            raise ValueError(say("share.link.one_of", words=f"1 ... {len(self._names)}"))
+        return self._names[int(text) - 1]
+
+
+class Key:
+    """A teacher's, in his link."""
+
+    text = staticmethod(str)
+
+    @staticmethod
+    def value(text):
+        if not KEY.fullmatch(text):
+            raise ValueError(say("teach.vote.key"))
+        return text

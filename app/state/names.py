@@ -1,0 +1,124 @@
+"""Every name that an address can have: what it is of, how it is written, whether changing it is a step to undo.
+
+A view keeps nothing that has no row here; a Keep finds the rows by the owner's class.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import quote
+
+from app.model.lab_run import TABLES, TOYS
+from app.model.lesson import BEFORE
+from app.model.lesson import NAMES as STEPS
+from app.model.planes_picture import LAWS, PLANES
+from app.state.codecs import Body, Key, Number, Numbers, OneOf, Toy
+from app.text import LANGUAGES
+
+TABS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
+"""In the order of the header."""
+SECTIONS = ("lesson", "theory", "derivation", "teach", "history")
+"""Of the tab of lessons."""
+SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
+
+VERSION_NAME, TAB, LANGUAGE, VOTE, SECRET = "v", "tab", "lang", "vote", "room"
+"""Those that are read before there is a view. SECRET: the teacher's key of a vote, in his own address alone."""
+
+
+@dataclass(frozen=True)
+class Name:
+    """key: in the address; owner: the class whose parameter it keeps; codec: of codecs.py."""
+
+    key: str
+    owner: str
+    parameter: str
+    codec: Any
+    undoable: bool = True
+
+
+def _words(*words):
+    return OneOf(**{word: word for word in words})
+
+
+_SWITCH = OneOf(yes=True, no=False)
+
+ROWS = (
+    Name("body", "Explorer", "shape", Body),
+    Name("a", "Explorer", "a", Number),
+    Name("I1", "Explorer", "I1", Number),
+    Name("I3", "Explorer", "I3", Number),
+    Name("mu", "Explorer", "mu_s", Number),
+    Name("by", "Explorer", "given", _words("share", "E", "state")),
+    Name("KJ", "Explorer", "K_J", Number),
+    Name("KR", "Explorer", "K_R", Number),
+    Name("e", "Explorer", "energy", Number),
+    Name("E", "Explorer", "E", Number),
+    Name("th", "Explorer", "theta", Number),
+    Name("thd", "Explorer", "theta_dot", Number),
+    Name("w2", "Explorer", "omega2", Number),
+    Name("w3", "Explorer", "omega3", Number),
+    Name("phi", "Explorer", "phi", Number),
+    Name("psi", "Explorer", "psi", Number),
+    Name("half", "Explorer", "upper", _SWITCH),
+    Name("limit", "Explorer", "limit", OneOf(lift="lift-off", slip="slip")),
+    # how it is played and looked at
+    Name("t", "Clock", "at", Number, undoable=False),
+    Name("slow", "Playing", "speed", OneOf(**SPEEDS), undoable=False),
+    Name("view", "Playing", "camera", Numbers(3), undoable=False),
+    Name("track", "Playing", "show_track", _SWITCH, undoable=False),
+    Name("G", "Playing", "show_com_path", _SWITCH, undoable=False),
+    Name("F", "Playing", "show_force", _SWITCH, undoable=False),
+    Name("cone", "Playing", "show_cone", _SWITCH, undoable=False),
+    Name("w", "Playing", "show_omega", _SWITCH, undoable=False),
+    Name("L", "Playing", "show_momentum", _SWITCH, undoable=False),
+    Name("follow", "Playing", "follow", _SWITCH, undoable=False),
+    # the page
+    Name(TAB, "Tabs", "active", OneOf(**{tab: at for at, tab in enumerate(TABS)}), undoable=False),
+    Name("face", "Controls", "face", _words("constants", "state"), undoable=False),
+    Name("dark", "Look", "dark", _SWITCH, undoable=False),
+    Name("large", "Look", "large", _SWITCH, undoable=False),
+    Name(LANGUAGE, "Tongue", "lang", _words(*LANGUAGES), undoable=False),
+    # the Lab
+    Name("table", "Lab", "table", _words(*TABLES, "three"), undoable=False),
+    Name("toy", "Lab", "toy", Toy(TOYS)),
+    Name("turns", "Lab", "spin", Number),
+    Name("lean", "Lab", "tilt", Number),
+    Name("rub", "Lab", "mu", Number),
+    # the three planes
+    Name("plane", "Planes", "plane", _words(*PLANES, "compare"), undoable=False),
+    Name("start", "Planes", "by", _words("spin", "constants")),
+    Name("law", "Planes", "law", _words(*LAWS)),
+    Name("land", "Planes", "landing", _words("stop", "plastic")),
+    Name("stem", "Planes", "stem", _SWITCH),
+    Name("spin", "Planes", "spin", Number),
+    Name("tilt", "Planes", "tilt", Number),
+    Name("slip", "Planes", "slip", Number),
+    Name("seconds", "Planes", "seconds", Number),
+    Name("mu_k", "Planes", "mu_k", Number),
+    Name("gamma", "Planes", "gamma", Number),
+    Name("eps", "Planes", "eps", Number),
+    Name("mu_smooth", "Planes", "mu", Number),
+    Name("mu_stick", "Planes", "mu_s", Number),
+    # the lessons
+    Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False),
+    Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False),
+    Name(SECRET, "Learn", "room", Key, undoable=False),
+)
+NAMES = {row.key: row for row in ROWS}
+
+
+def of(owner):
+    """{parameter: Name} of a class."""
+    return {row.parameter: row for row in ROWS if row.owner == owner}
+
+
+def link(**texts):
+    """The query of an address that the page gives away, of names that it knows."""
+    unknown = texts.keys() - NAMES.keys() - {VOTE}
+    if unknown:
+        raise LookupError(f"no such name in an address: {', '.join(unknown)}")
+    return query(texts)
+
+
+def query(texts):
+    """The query of an address that says these texts, some of which may be a stranger's."""
+    return "?" + "&".join(f"{quote(key)}={quote(text)}" for key, text in texts.items())

@@ -1,0 +1,89 @@
+"""What an address can say stands in one table, and nowhere else."""
+
+import ast
+import re
+from pathlib import Path
+
+import param
+import pytest
+
+from app.model.explorer import Explorer
+from app.state import names
+from app.state.keep import Keep
+from app.state.names import NAMES, ROWS
+
+APP = Path(__file__).parent.parent / "app"
+TABLE = APP / "state" / "names.py"
+EVERY = sorted({*NAMES, names.VOTE, names.VERSION_NAME})
+SOURCES = [path for kind in ("*.py", "*.js", "*.html", "*.toml") for path in APP.rglob(kind)
+           if path != TABLE and not {"node_modules", "static"} & {*path.parts}]  # fmt: skip
+IN_A_LINK = re.compile(rf"[?&]({'|'.join(EVERY)})=")
+READ = re.compile(r"URLSearchParams|searchParams")
+
+
+def test_a_name_is_given_once():
+    assert len(ROWS) == len(NAMES)
+    assert len({(name.owner, name.parameter) for name in ROWS}) == len(ROWS)
+    assert not {names.VOTE, names.VERSION_NAME} & NAMES.keys()
+    assert {names.TAB, names.LANGUAGE, names.SECRET} < NAMES.keys()
+
+
+def test_what_the_table_does_not_have_is_not_kept():
+    class Other(param.Parameterized):
+        a = param.Number(default=1.0)
+
+    with pytest.raises(LookupError, match="Other"):
+        Keep().add(Other())
+
+
+def test_a_name_that_is_taken_is_not_given_again():
+    keep = Keep()
+    keep.add(Explorer())
+    with pytest.raises(LookupError, match=r"taken: body, a, .*KJ"):
+        keep.add(Explorer())
+
+
+def test_a_link_that_is_given_away_has_only_names_of_the_table():
+    assert names.link(tab="learn", vote="A B") == "?tab=learn&vote=A%20B"
+    with pytest.raises(LookupError, match="stpe"):
+        names.link(tab="learn", stpe="lift")
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(APP)))
+def test_there_is_no_second_place(path):
+    """No row, no name looked up in an address by its letters, and no link that is put together by hand."""
+    text = path.read_text(encoding="utf-8")
+    assert path.name == "keep.py" or not IN_A_LINK.search(text)  # whose head shows an address
+    assert not READ.search(text)
+    if path.suffix == ".py":
+        assert [line for line in second_places(ast.parse(text))] == []
+
+
+def second_places(tree):
+    """The lines of rows, and of names that are looked up by their letters in texts."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Call(func=ast.Name(id="Name") | ast.Attribute(attr="Name")):
+                yield node.lineno
+            case ast.Call(func=ast.Attribute(attr="get" | "pop"), args=[ast.Constant(value=str(key)), *_]) if (
+                key in EVERY and asks_texts(node.func.value)
+            ):
+                yield node.lineno
+            case ast.Subscript(value=found, slice=ast.Constant(value=str(key))) if key in EVERY and asks_texts(found):
+                yield node.lineno
+            case ast.Compare(left=ast.Constant(value=str(key)), ops=[ast.In() | ast.NotIn()], comparators=[found]) if (
+                key in EVERY and asks_texts(found)
+            ):
+                yield node.lineno
+
+
+def asks_texts(node):
+    """Whether it is what read() returns, or the arguments of a request."""
+    return re.search(r"\btexts\b|\bread\(|query_arguments", ast.unparse(node)) is not None
+
+
+@pytest.mark.parametrize("second", [
+    'Name("x", "Lab", "x", Number)', 'texts.get("tab")', 'read(search)[0].get("lang")', 'texts["vote"]', '"v" in texts',
+    'self.request.query_arguments.get("lang", [b""])'])  # fmt: skip
+def test_a_second_place_is_found(second):
+    assert [*second_places(ast.parse(second))] == [1]
