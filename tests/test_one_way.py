@@ -130,7 +130,7 @@ def roll(scene):
 
 def learn(section):
     def make(scene):
-        view = Learn(scene, nothing)
+        view = Learn(scene)
 
         def show(scene):
             for view.section in ("lesson", section):  # what is not looked at is shown when it is

@@ -114,9 +114,9 @@ def contradiction(scene: Scene) -> Answer:
 def yours(scene: Scene) -> Answer:
     """Whether the page's own top turns over."""
     motion = own(scene)
-    turned = bool(motion.tilt.max() > ON_ITS_SIDE)
-    half = motion.seconds[int(np.argmax(motion.tilt > ON_ITS_SIDE))]
-    numbers = {"over": half, "low": motion.tilt.min(), "high": motion.tilt.max(), "seconds": motion.seconds[-1]}
+    over = times(motion).get("over", np.nan)
+    numbers = {"over": over, "low": motion.tilt.min(), "high": motion.tilt.max(), "seconds": motion.seconds[-1]}
+    turned = bool(np.isfinite(over))
     return Answer("over" if turned else "not", numbers, told="told_over" if turned else "told_not")
 
 

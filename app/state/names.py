@@ -16,7 +16,7 @@ from app.text import LANGUAGES
 
 TABS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
 """In the order of the header."""
-SECTIONS = ("lesson", "theory", "derivation", "teach", "history")
+SECTIONS = ("lesson", "derivation", "teach", "history")
 """Of the tab of lessons."""
 SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
 

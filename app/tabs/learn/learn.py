@@ -16,7 +16,6 @@ from app.text import say
 from app.widgets.cards import PLAIN, card, grid, words
 from app.widgets.top3d import Top3D, show_top
 
-IN_VIEW = ("lesson", "theory")
 CLOCK, SPEED = "learn", 1 / 16
 
 
@@ -33,7 +32,7 @@ class Learn(param.Parameterized):
 
     def __init__(self, scene, runs=None):
         super().__init__()
-        self._scene, self._runs, self._of, self._answered = scene, runs or Runs(), {}, 0
+        self._scene, self._runs, self._of = scene, runs or Runs(), {}
         self.lesson = LessonView(sizing_mode="stretch_width", margin=0)
         self.lesson.param.watch(asked.heard(self._heard), "asked")
         self.top = Top3D(clock=CLOCK, height=360, sizing_mode="stretch_width")
@@ -42,10 +41,11 @@ class Learn(param.Parameterized):
             self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
             size="small", sx=PLAIN, margin=(10, 12, 0, 12), styles={"max-width": "calc(100% - 24px)"},
         )  # fmt: skip
-        self.param.watch(lambda event: self._go(), "step")
+        self.param.watch(lambda event: self._tell(), "step")
         self.param.watch(lambda event: self._look(), "section")
         self.view = self._build()
         self._begin()
+        self._tell()
         self._look()
 
     def _build(self):
@@ -99,8 +99,7 @@ class Learn(param.Parameterized):
 
     def _heard(self, event):
         """A wish of the browser."""
-        count, name, value = asked.parts(event.new, asked.number, asked.text, asked.text)
-        self._answered = int(count)
+        _, name, value = asked.parts(event.new, asked.number, asked.text, asked.text)
         if name == "step" and value in lesson.NAMES:
             self.step = value
         elif name == "section" and value in SECTIONS:
@@ -108,28 +107,18 @@ class Learn(param.Parameterized):
         else:
             raise asked.Unasked(name)
 
-    def _go(self):
-        """To a step, which stands in one of the two sections."""
-        theory = lesson.OF_NAME[self.step] in lesson.THEORY
-        if (self.section == "theory") != theory:
-            self.section = "theory" if theory else "lesson"
-        self._tell()
-
     # ---- the sections ----
 
     def _look(self):
         """Shows the section; the teacher's page and the history are made when first looked at."""
-        section, theory = self.section, lesson.OF_NAME[self.step] in lesson.THEORY
-        if section in IN_VIEW and theory != (section == "theory"):
-            self.step = lesson.THEORY[0].name if section == "theory" else lesson.NAMES[0]
+        section = self.section
         makers = {"teach": lambda: teach_view(lambda: self._scene, self._runs, self), "history": history_view}
         if section in makers and section not in self._made:
             self._made[section] = makers[section]()
-        self.sections.visible = section not in IN_VIEW
-        self.lesson.visible = section in IN_VIEW
+        self.sections.visible = section != "lesson"
+        self.lesson.visible = section == "lesson"
         self.pair.visible = section == "derivation"
         self.others.objects = [self._made[section]] if section in makers else []
-        self._tell()
         self.show(self._scene)
 
     def _tell(self):
@@ -140,7 +129,8 @@ class Learn(param.Parameterized):
         new = scene.top != self._scene.top or scene.inputs["shape"] != self._scene.inputs["shape"]
         self._scene = scene
         if new:
-            self._find([step for step in lesson.STEPS if step.inputs or "yours" in step.tops])
+            of_it = [step for step in lesson.STEPS if step.inputs or "yours" in step.tops]
+            self._find(of_it if self._of else lesson.STEPS)
         if self.section == "derivation":
             self.top.speed = SPEED
             show_top(self.top, scene)

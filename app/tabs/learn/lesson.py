@@ -3,6 +3,8 @@
 A page has all of it after a moment, so that it goes on where the network does not.
 """
 
+from contextlib import suppress
+
 import numpy as np
 import param
 
@@ -36,6 +38,7 @@ class LessonView(Bundled):
     """
 
     SAYS = ("Stage", "Top3D")
+    REGIMES = "here"
 
     steps = param.List(default=[], doc="Each step in words; a number of JavaScript's where it is drawn.")
     runs = param.Dict(default={}, doc="{name: run}, of the lesson.")
@@ -83,14 +86,17 @@ def nutations(plan, count):
 
 def runs_of(steps, scene):
     """{name: run} of some steps, the page's own top and theory by this scene."""
-    ends = {}
+    ends, found = {}, {}
     for step in steps:
         for name in step.tops:
             ends[name] = max(step.end, ends.get(name, 0.0))
-    found = {name: cut(own(scene) if name == "yours" else named(name), end) for name, end in ends.items()}
+    for name, end in ends.items():
+        with suppress(TopError):  # its step says so
+            found[name] = cut(own(scene) if name == "yours" else named(name), end)
     for step in steps:
         if step.inputs:
-            found[step.name] = nutations(lesson.planned(step, scene), step.end)
+            with suppress(TopError):
+                found[step.name] = nutations(lesson.planned(step, scene), step.end)
     return found
 
 
@@ -131,7 +137,9 @@ def _top(name):
 
 
 def _events(motion):
-    return [[t, code, spelled(word), spelled(short)] for t, code, word, short in story(motion).events] if motion else []
+    found = story(motion).events if motion else ()
+    stands = any(code == "stands" for _, code, *_ in found)
+    return [[t, code, spelled(word), spelled(short)] for t, code, word, short in found if code != "stem" or not stands]
 
 
 def truth_of(truth):

@@ -16,8 +16,8 @@ export class Arms {
     this.hull = drawn("path", { class: "hull" });
     this.axis = drawn("path", { class: "axis thin" });
     this.upwards = drawn("path", { class: "axis thin" });
-    this.own = drawn("path", { class: "arm own" });
-    this.upright = drawn("path", { class: "arm upright" });
+    this.own = drawn("path", { class: "arm-own" });
+    this.upright = drawn("path", { class: "arm-upright" });
     this.push = drawn("g", {}, drawn("circle", { r: 8, class: "pushed" }), drawn("circle", { r: 2.5, class: "mass" }));
     this.mass = drawn("circle", { r: 4, class: "mass" });
     this.words = {

@@ -35,7 +35,7 @@ export class Graph {
     this.title = part("h3");
     this.drawing = drawn("svg", { role: "img" });
     this.plot = part("div", { class: "plot" }, this.drawing);
-    this.below = part("p", { class: "small axis-name" });
+    this.below = part("p", { class: "axis-name" });
     this.element = part("section", { class: "picture" }, this.title, this.plot, this.below);
     this.resizing = new ResizeObserver(() => this.draw());
     this.resizing.observe(this.plot);
@@ -127,7 +127,7 @@ export class Graph {
     const found = this.words.map((word) => {
       const point = word.at ?? word.points.findLast(([t]) => t <= seen + 1e-6) ?? word.points[0], px = x(point[0]);
       const py = y(point[1]);
-      return { word, px, y: py + (word.below ? 16 : word.above ? -6 : 4) };
+      return { word, px, y: py + (word.below ? 16 : word.above || px >= middle ? -8 : 4) };
     });
     for (const { word, px, y: py } of apart(found, TOP + 8, bottom - 6)) {
       const after = px < middle;

@@ -10,7 +10,7 @@ import { Question } from "./question.js";
 import { Stage } from "./stage.js";
 import { style } from "./style.js";
 
-const SECTIONS = ["theory", "derivation", "teach", "history"];
+const SECTIONS = ["derivation", "teach", "history"];
 const NEARLY = 0.03; // s
 
 class Lesson {
@@ -30,7 +30,7 @@ class Lesson {
     this.stage = new Stage(texts, this.time);
     this.bar = new Bar(texts, this.time);
     this.question = new Question(texts, {
-      guess: (value) => this.guess(value), watch: () => this.watch(), next: () => this.go(1), section: (name) => this.ask("section", name),
+      guess: (value) => this.guess(value), watch: () => this.watch(), next: () => this.go(1),
     });
     this.graph = new Graph(texts);
     this.more = part("nav", { class: "more", "aria-label": texts.lesson.more });
@@ -159,13 +159,14 @@ class Lesson {
       return part("li", {}, part("button", { type: "button", class: done ? "done" : "", "aria-current": name === step.name ? "step" : undefined, title, onclick: () => this.open(name) },
         part("b", {}, done && name !== step.name ? "✓" : String(i + 1)), part("span", {}, title)));
     }));
+    const other = this.model.steps.find(({ theory }) => theory !== step.theory);
     this.more.replaceChildren(
-      ...(step.theory ? [["lesson", lesson.home]] : []).map(([name, word]) => this.link(name, word)),
-      ...SECTIONS.filter((name) => name !== "theory" || !step.theory).map((name) => this.link(name, lesson.sections[name])));
+      ...(other ? [this.link(step.theory ? lesson.home : lesson.sections.theory, () => this.open(other.name))] : []),
+      ...SECTIONS.map((name) => this.link(lesson.sections[name], () => this.ask("section", name))));
   }
 
-  link(name, word) {
-    return part("button", { type: "button", class: "link", onclick: () => this.ask("section", name) }, word);
+  link(word, onclick) {
+    return part("button", { type: "button", class: "link", onclick }, word);
   }
 
   draw() {

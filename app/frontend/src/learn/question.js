@@ -15,19 +15,19 @@ const digitsOf = (step) => (step < 1 ? 1 : 0);
 export class Question {
   /**
    * @param {Record<string, any>} texts
-   * @param {{ guess(value: any): void, watch(): void, next(): void, section(name: string): void }} hand
+   * @param {{ guess(value: any): void, watch(): void, next(): void }} hand
    */
   constructor(texts, hand) {
     this.texts = texts;
     this.hand = hand;
     this.hint = part("p", { class: "hint" });
     this.place = part("div", { class: "answers" });
-    this.verdict = part("div", { class: "verdict", role: "status" });
+    this.verdict = part("div", { class: "told", role: "status" });
     this.watch = part("button", { class: "primary", type: "button", onclick: () => hand.watch() });
     this.next = part("button", { class: "primary", type: "button", onclick: () => hand.next() }, `${texts.lesson.next} →`);
     this.guess = part("span", { class: "small" }, texts.lesson.guess);
     this.dock = part("div", { class: "dock" }, this.watch, this.next, this.guess);
-    this.element = part("section", { class: "side" }, this.hint, this.place, this.dock, this.verdict);
+    this.element = part("section", { class: "side" }, this.hint, this.place, this.verdict, this.dock);
   }
 
   show(step, record, { playing, last }) {
@@ -94,7 +94,7 @@ export class Question {
   }
 
   told() {
-    const { step, record, texts: { lesson }, hand } = this, verdict = verdictOf(step.asks, step.truth, record.guess);
+    const { step, record, texts: { lesson } } = this, verdict = verdictOf(step.asks, step.truth, record.guess);
     const row = (name, words) => part("p", {}, part("b", {}, `${name}: `), words);
     const html = (words, kind) => Object.assign(part("p", { class: kind }), { innerHTML: words });
     const found = [part("p", { class: "big" }, lesson[verdict]), row(lesson.truth, this.word(step.truth))];
@@ -105,7 +105,6 @@ export class Question {
     learned.prepend(part("b", {}, `${lesson.learned}: `));
     found.push(part("div", { class: "learned" }, learned));
     if (step.sources.length) found.push(part("p", { class: "small" }, `${lesson.read}: `, ...step.sources.flatMap(([, short, full], i) => [i ? " · " : "", part("span", { title: full }, short)])));
-    if (step.name === "yours") found.push(part("p", {}, part("button", { type: "button", class: "link", onclick: () => hand.section("theory") }, `${lesson.sections.theory} →`)));
     return found;
   }
 }

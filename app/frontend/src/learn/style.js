@@ -29,9 +29,9 @@ const places = `
 .bar .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
 .at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; } .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
 .side { grid-area: side; display: flex; flex-direction: column; gap: 10px; min-width: 0; overflow: auto; }
-.lesson:has(.verdict > *) { grid-template-rows: auto auto minmax(var(--stage), auto); } .lesson:has(.verdict > *) .stage { height: var(--stage); position: sticky; top: 8px; }
+.lesson:has(.told > *) { grid-template-rows: auto auto minmax(var(--stage), auto); } .lesson:has(.told > *) .stage { height: var(--stage); position: sticky; top: 8px; }
 .picture { grid-area: picture; min-width: 0; } .picture .plot { position: relative; height: 160px; } .picture h3 { font-size: var(--t-m); font-weight: 600; margin: 0 0 4px; }
-.axis-name { text-align: right; } .axis-name:empty { display: none; }
+.axis-name { text-align: right; font-size: var(--t-s); color: var(--ink-2); } .axis-name:empty { display: none; }
 .more { grid-area: more; display: flex; flex-wrap: wrap; gap: 0 20px; } .more .link { font-weight: 400; color: var(--ink-2); }
 `;
 
@@ -47,9 +47,9 @@ fieldset { border: 0; margin: 0; padding: 0; display: grid; gap: 8px; min-width:
 .primary.quiet { background: none; color: var(--ink); box-shadow: inset 0 0 0 1px var(--line-2); } .dock .quiet { order: 1; }
 .number { display: grid; gap: 8px; font-weight: 600; } .number input { width: 100%; height: 44px; margin: 0; accent-color: var(--accent); }
 .number .unset::-webkit-slider-thumb { opacity: .3; } .number .unset::-moz-range-thumb { opacity: .3; }
-.verdict { display: grid; gap: 8px; } .verdict:empty { display: none; } .learned { border-left: 4px solid var(--accent); padding-left: 12px; }
+.told { display: grid; gap: 8px; } .told:empty { display: none; } .learned { border-left: 4px solid var(--accent); padding-left: 12px; }
 .equation { overflow-x: auto; overflow-y: hidden; padding: 4px 0 6px; } .equations { display: grid; gap: 4px; } math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math; }
-.verdict .small span { cursor: help; }
+.told .small span { cursor: help; }
 `;
 
 const drawings = `
@@ -57,7 +57,7 @@ const drawings = `
 svg text.own { fill: var(--q-spin); stroke: none; } svg text { stroke: none; } svg .halo { paint-order: stroke; stroke: var(--ground); stroke-width: 4px; }
 .spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .picture .now { stroke: var(--accent); stroke-width: 2; } .mark { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
 .hull { fill: color-mix(in srgb, #d9b48a 45%, var(--ground)); stroke: var(--q-energy); } .table { stroke: var(--ink); stroke-width: 1.5; } .thin { stroke: var(--line-2); stroke-dasharray: 5 4; fill: none; }
-.arm { stroke-width: 5; stroke-linecap: round; fill: none; } .arm.upright { stroke: var(--accent); } svg text.upright { fill: var(--accent); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
+.arm-own, .arm-upright { stroke-width: 5; stroke-linecap: round; fill: none; } .arm-own { stroke: var(--q-spin); } .arm-upright { stroke: var(--accent); } svg text.upright { fill: var(--accent); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
 `;
 
 const small = `
