@@ -18,6 +18,7 @@ from app.widgets.cards import HEIGHT_OF_A_CARD
 from app.widgets.top3d import Top3D
 
 PAGE = Path(__file__).with_name("first.html")
+BORROWED = Path(__file__).with_name("borrowed.js").read_text(encoding="utf-8")
 
 
 def top_of(rooms):
@@ -28,7 +29,7 @@ def top_of(rooms):
 
 def variables(top, search):
     """What PAGE needs. top: the Top3D that the page begins with, or None; search: of the address that it is for."""
-    found = {"bundles": [address_of(kind) for kind in (Bundled, pmui.Page)]}
+    found = {"borrowed": BORROWED, "bundles": [address_of(kind) for kind in (Bundled, pmui.Page)]}
     if top is not None:
         found["card_height"] = HEIGHT_OF_A_CARD
         found["first"] = json.dumps({"search": search, "model": said(top)}).replace("<", "\\u003c")

@@ -11,7 +11,7 @@ from tippe_core import Constants, Top, roll, tielines, turning_points
 pytestmark = pytest.mark.served
 
 TOP = Top.paper()
-FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # places in the sidebar
+FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # places among the controls
 STATE_FIELDS = {"theta": 0, "theta_dot": 1, "omega2": 2, "omega3": 3}
 
 # The motion on display, as Fig. 6 shows it.
@@ -39,7 +39,7 @@ def until_selected(visit, **values):
 
 
 def field(visit, place):
-    """The number that stands in a field of the sidebar that is seen."""
+    """The number that stands in a field of the controls that is seen."""
     text = visit.page.locator("input[type=text]:visible").nth(place).input_value()
     return float(text.replace("−", "-"))
 

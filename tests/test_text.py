@@ -31,6 +31,7 @@ SAME = (
     "lab.keeps.millimetres",
     "measure.heads.*",
     "measure.units.*",
+    "measure.number_units.radius",
 )
 NUMBERS = r"\{[^{}]*\}"
 SHORT_ELEMENT = r"<(i|b|sub|sup)>[^<]{0,4}</\1>"

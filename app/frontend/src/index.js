@@ -10,7 +10,9 @@ import { renderCopy } from "./widgets/copy.js";
 import { renderDial } from "./widgets/dial.js";
 import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
+import { renderMeasuredStage } from "./widgets/measured_stage.js";
 import { renderGuide } from "./widgets/guide.js";
+import { renderHead } from "./widgets/head.js";
 import { renderLines } from "./widgets/lines.js";
 import { renderLook } from "./widgets/look.js";
 import { renderConnection } from "./widgets/notices.js";
@@ -30,7 +32,9 @@ export default {
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
+  MeasuredStage: { render: renderMeasuredStage },
   Guide: { render: renderGuide },
+  Head: { render: renderHead },
   LabView: { render: renderLab },
   LessonView: { render: renderLesson },
   Lines: { render: renderLines },

@@ -58,9 +58,8 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def lab_view(keep, runs, ask, go):
-    """The tab. keep: a Keep; runs: a Runs; ask: of a Pacer; go: shows the paper's figures."""
-    lab = Lab(runs)
+def lab_view(lab, keep, ask, go):
+    """The tab. lab: a Lab; keep: a Keep; ask: of a Pacer; go: shows the paper's figures."""
     keep.add(lab)
 
     def research():
@@ -134,12 +133,11 @@ class LabTab:
         self.view.param.update(**changes)
 
     def _state(self, scene):
-        lab, names = self._lab, listed("build.presets")
+        lab = self._lab
         messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
         return {
             "table": scene.table,
             "toy": lab.toy,
-            "toys": [[toy, names[toy]["name"]] for toy in lab.param.toy.objects],
             "values": {name: getattr(lab, name) for name in INPUTS},
             "sliders": SLIDERS,
             "messages": messages,

@@ -1,4 +1,4 @@
-"""The first tab: a top that rolls, as Figs. 5 and 6, over time, and in 3-D."""
+"""A view of the Lab: a top that rolls, as Figs. 5 and 6, over time, and in 3-D."""
 
 from functools import partial
 
@@ -11,7 +11,7 @@ from app.model.hands import held, pulled
 from app.model.playing import together
 from app.state import asked
 from app.text import say
-from app.widgets.cards import PLAIN, card, grid, swatch, words
+from app.widgets.cards import PLAIN, card, grid, section, swatch, words
 from app.widgets.controls import SPIN, named
 from app.widgets.plane_figure import PlaneFigure
 from app.widgets.plots import Motion, TimeFigures
@@ -124,10 +124,31 @@ class Switch:
         self._says.object = self._made[chosen].words(scene)
 
 
-class Roll:
-    """main: the pictures. pacer: a Pacer, which shows them scenes and is asked; playing: what the top goes with."""
+def controls_card(controls):
+    """What sets the motion, the top, and what Figs. 5 and 6 show."""
+    side = {"sizing_mode": "stretch_width", "margin": 0, "styles": {"flex": "1 1 220px", "min-width": "0"}}
+    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "0 12px"}
+    made = card(
+        say("roll.sections.motion"),
+        pn.Column(
+            pn.Column(*controls.motion, **side),
+            pn.Column(
+                section(say("roll.sections.table")), *controls.views("mu_s"),
+                section(say("roll.sections.top")), *controls.views("a", "I1", "I3"),
+                section(say("roll.sections.pictures")), *controls.pictures, **side,
+            ),
+            sizing_mode="stretch_width", margin=(0, -14), styles=styles,
+        ), height="max-content",
+    )  # fmt: skip
+    made.styles = made.styles | {"grid-row": "span 2"}  # as high as two pictures
+    return made
 
-    def __init__(self, pacer, playing):
+
+class Roll:
+    """main: the pictures and the controls. pacer: a Pacer, which shows them scenes and is asked; playing: what the top
+    goes with; controls: a Controls."""
+
+    def __init__(self, pacer, playing, controls):
         self._pacer, self._scene = pacer, None
         self._grasp, self._held = None, {}
         self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
@@ -149,6 +170,7 @@ class Roll:
             card(say("roll.cards.top"), self._top),
             card(say("roll.cards.plane", plane=plane_symbols()), *plane_content(self._plane)),
             self._floor,
+            controls_card(controls),
             self._over_time,
             self._tilt.view,
             self._table.view,
