@@ -5,6 +5,7 @@ import { letter } from "./letter.js";
 import { renderLab } from "./lab/lab.js";
 import { renderLesson } from "./learn/lesson.js";
 import { renderSurface3D } from "./three/surface3d.js";
+import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
 import { renderDial } from "./widgets/dial.js";
@@ -37,13 +38,14 @@ export default {
   Head: { render: renderHead },
   LabView: { render: renderLab },
   LessonView: { render: renderLesson },
+  LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },
   Painted: { render: renderPainted },
   Phone: { render: renderPhone },
   Photo: { render: renderPhoto },
   Surface3D: { render: renderSurface3D },
-  Top3D: { render: renderFirst },
+  Top3D: { render: renderTop3D },
   first,
   letter,
 };

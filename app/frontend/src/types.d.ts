@@ -28,7 +28,7 @@ interface Model {
 interface Rendering<M extends Model> {
   model: M;
   el: HTMLElement;
-  view: { tippe?: { dispose(): void } };
+  view: { tippe?: { dispose(): void; hold?(held: boolean): void } };
 }
 
 type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
