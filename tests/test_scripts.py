@@ -22,7 +22,6 @@ USED = {
     "scalesOf": ["get frame()", "x_scale", "y_scale"],
     "eventsOf": ["this.events_el =", "canvas_view"],
     "pressNever": ["this.ui_event_bus =", "this.ui_gestures =", "press_threshold = "],
-    "leaveHover": ["tool_views", "_move_exit()"],
 }
 
 

@@ -2,7 +2,6 @@ import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
-import { renderLab } from "./lab/lab.js";
 import { renderLesson } from "./learn/lesson.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
@@ -36,7 +35,6 @@ export default {
   MeasuredStage: { render: renderMeasuredStage },
   Guide: { render: renderGuide },
   Head: { render: renderHead },
-  LabView: { render: renderLab },
   LessonView: { render: renderLesson },
   LabView: { render: renderFirst },
   Lines: { render: renderLines },

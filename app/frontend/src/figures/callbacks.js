@@ -2,7 +2,7 @@
 import { keepFinger, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
 import { followFilm, pullFilm } from "./measured.js";
-import { followMotion, pullPlane, readPlane, sayPull } from "./plane.js";
+import { followMotion, pullPlane, sayPull } from "./plane.js";
 import { followPlanes } from "./planes.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
 import { pressSection } from "./sections.js";
@@ -10,7 +10,7 @@ import { seekAlong } from "./seeking.js";
 
 const callbacks = {
   followCurve, followFilm, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullFilm,
-  pullPlane, readPlane, sayPull, seekAlong, seekOnCurve,
+  pullPlane, sayPull, seekAlong, seekOnCurve,
 };
 
 export function offerCallbacks() {
