@@ -21,7 +21,7 @@ from tippe_core.types import Array
 
 SMALL_PATCH = 1e-4  # m: of a hard toy
 HEAD_SECONDS = 1.2  # s for which a top on its head is shown
-SLIPS = SmoothedCoulomb(0.3, 1.0)
+LAW = SmoothedCoulomb(0.3, 1.0)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -124,7 +124,7 @@ def slipped() -> Trajectory:
     """The proof's top, let slip: with an ordinary friction of 0.3 it comes onto its head."""
     found = proof()
     state = State(THROWN_TILT, 0.0, 0.0, found.spin / found.setup.turns)
-    return slide(found.top, state, SLIPS, np.linspace(0.0, 400.0, 4001), landing="plastic")
+    return slide(found.top, state, LAW, np.linspace(0.0, 400.0, 4001), landing="plastic")
 
 
 def on_ball(motion: TableMotion) -> int:
