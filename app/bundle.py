@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import param
-from bokeh.models import CustomJS, CustomJSHover
+from bokeh.models import CustomJS
 from panel.custom import JSComponent
 
 from app.text import listed
@@ -21,8 +21,8 @@ def pack(values):
     return np.asarray(values, "<f4").tobytes()
 
 
-# Both run a function of frontend/src/figures/callbacks.js: `run` names it, and `given` is its first argument.
-CALL, HOVER = (Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("call.js", "hover.js"))
+# It runs a function of frontend/src/figures/callbacks.js: `run` names it, and `given` is its first argument.
+CALL = Path(__file__).with_name("call.js").read_text(encoding="utf-8")
 
 
 def call(run, **given):
@@ -30,16 +30,12 @@ def call(run, **given):
     return CustomJS(args={"run": run, "given": given}, code=CALL, module=False)
 
 
-def on_hover(run, **given):
-    """What makes the texts beside the mouse."""
-    return CustomJSHover(args={"run": run, "given": given}, code=HOVER)
-
-
 class Bundled(JSComponent):
     """A component whose JavaScript is in the bundle; one base class, so that a page loads the bundle once."""
 
     texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")
     SAYS = ()  # the tables of its words, beside the one of its own name
+    REGIMES = ""  # and a table in regimes.toml, which it calls `regimes`
     shown = None  # what was last put into it; for those who would put it there again
 
     _bundle = BUNDLE
@@ -53,4 +49,4 @@ class Bundled(JSComponent):
         known, texts = listed("browser", language), {}
         for name in (*cls.SAYS, cls.__name__):
             texts |= known.get(name, {})
-        return texts
+        return texts | ({"regimes": listed(f"regimes.{cls.REGIMES}", language)} if cls.REGIMES else {})

@@ -8,16 +8,13 @@ import numpy as np
 import pytest
 
 from app.model import maps_kept
-from app.model.maps import ENDINGS, LAWS, UNITS, Map
+from app.model.maps import ENDINGS, UNITS, Map
 from app.model.maps_lines import disagreement, lines
 from app.model.maps_solving import Level, run, solve
 from app.tabs.maps.export import made, python
 from app.tabs.maps.maps import Maps
 from app.text import speaking
-from tippe_core import PRESETS, Scales, TopError, ending, slide
-
-BODIES = [preset.name for preset in PRESETS if preset.shape.edge is not None and preset.top.a > 0]
-NEAR = 100.0  # a nudge that grows more makes more than 1e-6 of what rtol = 1e-9 leaves open
+from tippe_core import Scales, TopError
 
 
 def last(asked):
@@ -36,53 +33,7 @@ def nothing_kept(monkeypatch):
     maps_kept._memory.clear()
 
 
-# ---- every cell is a run ----
-
-
-def random_map(rng):
-    low, tilt = rng.uniform(4, 20), rng.uniform(2, 20)
-    values = {"mu": rng.uniform(0.1, 0.4), "second": rng.uniform(0.1, 0.5), "slip": rng.uniform(0.5, 1)}
-    return Map(body=str(rng.choice(BODIES)), law=str(rng.choice(LAWS)), across_range=(low, low + rng.uniform(2, 20)),
-               up_range=(tilt, tilt + rng.uniform(2, 20)), values=tuple(values.items()), cells=3, nudged=True,
-               rtol=1e-9, seconds=rng.uniform(0.5, 3))  # fmt: skip
-
-
-def single(cell, times):
-    return slide(cell.top, cell.state, cell.friction, times, rtol=1e-9, landing="plastic", edge=cell.edge)
-
-
-def passes(cell, moved):
-    """When theta first passes 90 degrees, in (R/g)^1/2, from a second run looked at closely there."""
-    at = np.flatnonzero(np.diff(np.sign(moved.theta - np.pi / 2)))
-    if not at.size:
-        return np.nan
-    close = np.linspace(*moved.t[at[0] : at[0] + 2], 2001)
-    theta = single(cell, np.append(0.0, close)).theta[1:] - np.pi / 2
-    k = np.flatnonzero(np.diff(np.sign(theta)))[0]
-    return close[k] - theta[k] * (close[k + 1] - close[k]) / (theta[k + 1] - theta[k])
-
-
-@pytest.mark.slow
-def test_random_cells_of_random_maps_are_single_runs():
-    """The end equal; theta at the end and the times to 1e-6. Near a border, where a nudge grows, no run is certain."""
-    rng, count, left_out = np.random.default_rng(29), 20, 0
-    for _ in range(count):
-        level = last(random_map(rng))
-        i, j = rng.integers(0, 3, 2)
-        column = {name: values[i, j] for name, values in level.columns.items()}
-        if not column["growth"] < NEAR:
-            left_out += 1
-            continue
-        cell = level.asked.at(level.x[j], level.y[i])
-        moved = single(cell, np.linspace(0, cell.t_end, 6001))
-        assert level.end[i, j] == ending(moved).end
-        assert column["time_90"] / cell.scales.time == pytest.approx(passes(cell, moved), abs=1e-6, nan_ok=True)
-        assert abs(column["energy_error"]) < 1e-6 and np.ptp(moved.heat[[0, -1]]) >= 0
-        assert np.all(np.diff(moved.energy) < 1e-6)
-        if not (moved.events and moved.events[-1][1] == "stands upright"):
-            assert np.radians(column["theta_end"]) == pytest.approx(moved.theta[-1], abs=1e-6)
-            assert column["heat"] == pytest.approx(moved.heat[-1], abs=1e-6)
-    assert left_out <= count / 10
+# ---- coarse to fine ----
 
 
 def test_coarse_first_and_what_was_run_is_kept():

@@ -1,5 +1,6 @@
 """Regimes and colours: one list of each, for Python and for JavaScript; tests/frontend/regimes.test.js has its side."""
 
+import colorsys
 import json
 import re
 from pathlib import Path
@@ -7,11 +8,12 @@ from pathlib import Path
 import pytest
 
 from app.model import regimes
-from app.model.colours import COLOURS, FAINT, GREY, INK
+from app.model.colours import COLOURS, FAINT, GREY, INK, ON_LIGHT
+from app.tabs.planes.plots import IN_RIBBON
 from app.text import LANGUAGES, listed
 
 APP = Path(__file__).parent.parent / "app"
-SOURCES = [path for kind in ("*.py", "*.js") for path in APP.rglob(kind)
+SOURCES = [path for kind in ("*.py", "*.js", "*.html", "*.css", "*.json", "*.toml", "*.svg") for path in APP.rglob(kind)
            if not {"node_modules", "static"} & {*path.parts}]  # fmt: skip
 
 
@@ -23,22 +25,26 @@ def test_python_has_the_one_list_of_regimes():
     listed_ones = read("regimes.json")
     codes = {name.lower(): code for name, code in vars(regimes).items() if isinstance(code, int)}
     assert codes == {regime["name"]: code for code, regime in enumerate(listed_ones)}
-    assert list(regimes.COLOUR) == [regime["colour"] for regime in listed_ones]
+    assert list(regimes.COLOUR) == [COLOURS[regime["colour"]] for regime in listed_ones]
 
 
 def test_python_has_the_one_list_of_colours():
-    assert read("colours.json") == COLOURS
+    listed_ones = read("colours.json")
+    light, dark = (listed_ones.pop(ground) for ground in ("on_light", "on_dark"))
+    assert listed_ones == COLOURS and COLOURS | light == ON_LIGHT
+    assert {*dark} - {*light} <= {*COLOURS}  # what a ground changes there is on the other
     assert (COLOURS["ink"], COLOURS["faint"], COLOURS["grey"]) == (INK, FAINT, GREY)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_regime_has_its_words(language):
-    assert [*listed("browser.Top3D.verdicts", language)] == [*regimes.NAMES]
+    words = listed("regimes", language)
+    assert [*words["here"]] == [*regimes.NAMES]
     could = [name for name in regimes.NAMES if name == "rolls" or name.startswith("would")]
-    assert [*listed("controls.worst", language)] == could
-    for key in ("browser.Surface3D.worst", "roll.pull"):
-        assert [*listed(key, language)] == could[1:]
-    assert {*listed("planes.regimes", language)} < {*regimes.NAMES}
+    assert [*words["way"]] == could
+    assert [*words["why_html"]] == could[1:]
+    assert {*words["stretch"]} == {regimes.NAMES[code] for code in IN_RIBBON}
+    assert len(words) == 4
 
 
 def test_regimes_that_stand_beside_each_other_are_told_apart():
@@ -51,9 +57,57 @@ def test_regimes_that_stand_beside_each_other_are_told_apart():
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.name)
 def test_there_is_no_second_table_of_regimes(path):
     text = path.read_text(encoding="utf-8")
-    assert not re.search(r"""["']would_(slip|lift)["']|\bwould_(slip|lift):""", text)  # their names
+    if path.name in ("regimes.json", "regimes.toml"):
+        return
+    assert not re.search(r"""["']would_(slip|lift)["']|\bwould_(slip|lift)( =|:)""", text)  # their names
     assert not re.search(r"""["']roll["'].{0,40}["']slip["'].{0,40}["']air["']""", text)  # the core's
     if path.stem != "regimes":
         assert not re.search(r"\b(ROLLS|WOULD_SLIP|WOULD_LIFT|SLIPS|FLIES|ENDS)(, \w+)* = ", text)  # their codes
-    violet = regimes.COLOUR[regimes.FLIES]  # no quantity has this one
-    assert violet not in text
+
+
+HEX = re.compile(r"(?:#|0x)([0-9a-f]{6}|[0-9a-f]{3})(?:[0-9a-f]{2})?\b", re.IGNORECASE)
+TRIPLE = re.compile(r"\brgba?\(\s*(\d+)[ ,]+(\d+)[ ,]+(\d+)")
+# Of a quantity by its name in any of the tables that there were.
+NAMED = re.compile(
+    r"""["'\w-]*\b(theta|normal|friction|omega|spin|momentum|jellett|routh|energy|force|K_J|K_R|heat|flies|slips|rolls)"""
+    r"""["']?\]?\s*[:=]\s*["'`]?(#|0x)[0-9a-f]""", re.IGNORECASE)  # fmt: skip
+
+
+def colours_in(text):
+    """Each as six digits, in lower case."""
+    for digits in HEX.findall(text):
+        yield (digits if len(digits) == 6 else "".join(2 * digit for digit in digits)).lower()
+    for triple in TRIPLE.findall(text):
+        yield "".join(f"{int(part):02x}" for part in triple)
+
+
+def hue(digits):
+    """(degrees, how colourful 0 to 1)"""
+    red, green, blue = (int(digits[i : i + 2], 16) / 255 for i in (0, 2, 4))
+    return 360 * colorsys.rgb_to_hsv(red, green, blue)[0], max(red, green, blue) - min(red, green, blue)
+
+
+OURS = {name: colour[1:].lower() for name, colour in COLOURS.items() if name not in ("ink", "faint", "grey")}
+OF_ITS_OWN = ("omega", "normal", "flies")  # hues that nothing else has, so that a shade of them is known for one
+
+
+def second_colours(text):
+    """Those of a text that are a quantity's or a regime's."""
+    for digits in colours_in(text):
+        where, much = hue(digits)
+        shade = much > 0.15 and any(abs(where - hue(OURS[name])[0]) < 12 for name in OF_ITS_OWN)
+        if shade or digits in OURS.values():
+            yield digits
+    yield from (found[0] for found in NAMED.finditer(text))
+
+
+@pytest.mark.parametrize("path", [path for path in SOURCES if path.name != "colours.json"], ids=lambda path: path.name)
+def test_there_is_no_second_table_of_colours(path):
+    assert [*second_colours(path.read_text(encoding="utf-8"))] == []
+
+
+@pytest.mark.parametrize("second", [
+    "--q-spin: #f1c", 'omega: "#123456"', "0x009e73", "#A3246F", "stroke='#0072b214'", "rgb(0 158 115 / 20%)",
+    "LEDGER = {'energy': '#111111'}"])  # fmt: skip
+def test_a_second_colour_is_found(second):
+    assert [*second_colours(second)]

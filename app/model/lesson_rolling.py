@@ -152,5 +152,5 @@ def slip(scene: Scene) -> Answer:
         "lost": lost, "left": 100 - lost, "mu_s": mu_s, "ratio": scene.ratio.max(), "K_J": scene.constants.K_J,
         "E": scene.constants.E, "slips": limit_words(scene.marks.slip), "jumps": limit_words(scene.marks.lift),
     }  # fmt: skip
-    curves = (tied(lift, "lift", "#e3b394"), tied(slips, "slip", COLOURS["friction"]), selected(scene))
+    curves = (tied(lift, "lift", COLOURS["normal"]), tied(slips, "slip", COLOURS["friction"]), selected(scene))
     return Answer(lost, numbers, Picture("degrees", "K_J", curves))

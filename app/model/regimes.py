@@ -1,18 +1,20 @@
 """What a top does at a moment, or would do were its table no rougher than it is. A motion's frames hold the codes.
 
-regimes.json is the one list, which frontend/src/regimes.js reads too: a code is a place in it. What is said of a regime
-stands under its name, in browser.toml for a moment and in planes.toml for a stretch of time.
+regimes.json is the one list, which frontend/src/regimes.js reads too: a code is a place in it, a colour a name in
+colours.json. What is said of a regime stands under its name in regimes.toml.
 """
 
 import json
 from pathlib import Path
+
+from app.model.colours import COLOURS
 
 _LIST: list[dict[str, str]] = json.loads(Path(__file__).with_name("regimes.json").read_text(encoding="utf-8"))
 
 ROLLS, WOULD_SLIP, WOULD_LIFT, SLIPS, FLIES, ENDS = range(len(_LIST))
 NAMES = tuple(regime["name"] for regime in _LIST)
 """By their codes."""
-COLOUR = tuple(regime["colour"] for regime in _LIST)
+COLOUR = tuple(COLOURS[regime["colour"]] for regime in _LIST)
 """By their codes, the same in every picture."""
 OF_CORE = {regime["in_core"]: code for code, regime in enumerate(_LIST) if "in_core" in regime}
 """{what a Trajectory calls it: its code}"""

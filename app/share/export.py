@@ -9,7 +9,7 @@ from app.model.regimes import NAMES, SLIPS
 from app.model.scene import Scene
 from app.text import DEFAULT, listed
 
-REGIMES = listed("browser.Top3D.verdicts", DEFAULT)
+REGIMES = listed("regimes.here", DEFAULT)
 # name: (what it is, unit, the scale of that unit in SI, the SI unit)
 UNITS = {
     "t": ("time", "(R/g)^1/2", "time", "s"),

@@ -14,6 +14,7 @@ from bokeh.embed import components
 from bokeh.settings import settings
 
 from app.bundle import BUNDLE, Bundled
+from app.model.colours import COLOURS, ON_LIGHT
 from app.share.export import parameters
 from app.text import say, spoken
 from app.widgets.controls import SYMBOLS
@@ -43,8 +44,9 @@ LABELS = {
     "theta": "<i>θ</i><br>rad",
     "normal": "<i>F</i><sub>z</sub><br><i>Mg</i>",
     "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
-    "constants": '<span style="color:#56B4E9"><i>K</i><sub>J</sub></span><br>'
-    '<span style="color:#A0527F"><i>K</i><sub>R</sub></span><br><span style="color:#8C6D00"><i>E</i></span>',
+    "constants": f'<span style="color:{ON_LIGHT["jellett"]}"><i>K</i><sub>J</sub></span><br>'
+    f'<span style="color:{ON_LIGHT["omega"]}"><i>K</i><sub>R</sub></span><br>'
+    f'<span style="color:{ON_LIGHT["energy"]}"><i>E</i></span>',
 }
 
 
@@ -85,6 +87,7 @@ def letter(scene, link="", look=None):
     }
     return PAGE.substitute(
         lang=spoken(),
+        chosen=COLOURS["chosen"],
         title=say("share.letter.title", K_J=scene.constants.K_J, K_R=scene.constants.K_R),
         explorer=say("main.title"),
         notices=(BUNDLE.parent / "THIRD_PARTY_NOTICES.txt").read_text(encoding="utf-8"),

@@ -5,6 +5,8 @@ import html
 import panel as pn
 import panel_material_ui as pmui
 
+from app.model.colours import COLOURS
+
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
 LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light and on dark
 UNSEEN_LABEL = {
@@ -18,6 +20,7 @@ FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}
 HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
 )
+TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # of two figures, one above the other
 # A name, a note, and what is wrong, wherever they stand.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
@@ -72,7 +75,7 @@ def on_click(button, act):
 
 def progress(percent, says):
     """A bar, filled so far; says: of what, for the ear."""
-    style = "width: 100%; accent-color: #0072B2"
+    style = f"width: 100%; accent-color: {COLOURS['chosen']}"
     return f'<progress max="100" value="{percent:.0f}" aria-label="{says}" style="{style}"></progress>'
 
 

@@ -36,6 +36,7 @@ class Top3D(Bundled):
     """
 
     SAYS = ("Stage",)
+    REGIMES = "here"
 
     frames = param.Bytes(default=b"", doc="The motion, from `pack_frames`; empty where there is none.")
     profile = param.Bytes(

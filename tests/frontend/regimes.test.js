@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { colours } from "../../app/frontend/src/colours.js";
+import { colours, onDark, onLight } from "../../app/frontend/src/colours.js";
 import { colourOf, nameOf, ROLLS, wordOf } from "../../app/frontend/src/regimes.js";
 
 const listed = (name) => JSON.parse(readFileSync(new URL(`../../app/model/${name}.json`, import.meta.url), "utf8"));
@@ -9,7 +9,7 @@ const listed = (name) => JSON.parse(readFileSync(new URL(`../../app/model/${name
 test("the browser has the one list of regimes", () => {
   const regimes = listed("regimes");
   assert.deepEqual(regimes.map((_, code) => nameOf(code)), regimes.map(({ name }) => name));
-  assert.deepEqual(regimes.map((_, code) => colourOf(code)), regimes.map(({ colour }) => colour));
+  assert.deepEqual(regimes.map((_, code) => colourOf(code)), regimes.map(({ colour }) => colours[colour]));
   assert.equal(nameOf(ROLLS), "rolls");
 });
 
@@ -17,4 +17,8 @@ test("a regime is said in the words of a picture", () => {
   assert.equal(wordOf(ROLLS, { rolls: "it rolls" }), "it rolls");
 });
 
-test("the browser has the one list of colours", () => assert.deepEqual(colours, listed("colours")));
+test("the browser has the one list of colours", () => {
+  const { on_light, on_dark, ...all } = listed("colours");
+  assert.deepEqual(colours, all);
+  assert.deepEqual([onLight, onDark], [{ ...all, ...on_light }, { ...all, ...on_dark }]);
+});

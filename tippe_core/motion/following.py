@@ -10,8 +10,8 @@ from .friction import CONTENSOU, COULOMB
 from .impulses import halted
 from .poses import record, turned
 from .records import Record
-from .stepper import STAGES, A, B, at_share, densely, error, factor, stage, steady_direction, when, within
-from .tally import tally
+from .stepper import STAGES, A, B, at_end, at_share, densely, error, factor, stage, steady_direction, when, within
+from .tally import tally, tally_tilt
 from .watching import first_event
 
 # How following ends for now: the times are over; more steps are needed; Coulomb's friction holds the ball; for good.
@@ -68,7 +68,8 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
     if timed:  # without the rounding of its integration
         S.new[12] = end if h == end - y[12] else y[12] + h
     event, share, k, N = NO_ONE, 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
-    if near < NEAR or S.new[12] > end or (k < len(times) and times[k] <= S.new[12]):
+    dense = near < NEAR or S.new[12] > end or (k < len(times) and times[k] <= S.new[12])
+    if dense:
         densely(W, P, slowest, h)
     if near < NEAR:
         event, share = first_event(W, P, slowest)
@@ -82,10 +83,8 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
         at_share(S, x, S.at)
         sample(W, P, S.at, slowest, times[k], rows)
         k = W.samples
-    if share == 1.0:
-        S.at[:] = S.new
-    else:
-        at_share(S, share, S.at)
+    at_end(S, share)
+    tally_tilt(W, P, slowest, h, share, dense)
     before = moved(W, P, slowest, t)
     if event == NO_ONE and share == 1.0:
         event = comes_to_rest(W, P, slowest, before)

@@ -6,12 +6,13 @@ import numpy as np
 
 from ..compiled import compiled
 from ..types import Array
-from .dynamics import NO_ONE, turning
+from .dynamics import NO_ONE
 from .following import ENDED, MORE, OVER, ROLLS, follow
 from .happening import happens, run
 from .poses import turned
 from .records import Record
 from .stepper import at_share, densely
+from .tally import up_rate, zero
 
 
 @compiled
@@ -29,62 +30,50 @@ def run_all(W: Record, P: Record, log: Array, end: float, steps: int) -> int:
 
 
 @compiled
-def e_z_rate(y: Array, P: Record) -> float:
-    """(w x e)_z"""
-    e, w, _ = turning(y, P)
-    return w[0] * e[1] - w[1] * e[0]
-
-
-@compiled
 def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: int) -> int:
     """Rolls on as follow() does; from the second largest theta on by whole nutations."""
-    first, second, T = np.zeros(5), np.zeros(5), W.tally
-    passed, least, most = 0, np.inf, -np.inf
+    first, second, least, T, passed = np.zeros(6), np.zeros(6), np.zeros(6), W.tally, 0
     while passed < 2:
-        before = e_z_rate(W.y, P)
+        before = up_rate(W.y, P)
         event = follow(W, P, none, rows, end, min(limit, W.steps + 1))
         if event != MORE or W.steps >= limit:
             return event
-        theta = 2 * np.arctan2(np.hypot(W.y[0], W.y[1]), np.hypot(W.y[2], W.y[3]))
-        least, most = min(least, theta), max(most, theta)
-        if before < 0.0 <= e_z_rate(W.y, P):
-            farthest(W, P, second)
+        if before < 0.0 <= up_rate(W.y, P):
+            turns(W, P, second)
             passed += 1
             if passed == 1:
                 first[:] = second
-    skip(W.y, W.angles, first, second, end)
+        elif passed and up_rate(W.y, P) < 0.0 <= before:
+            turns(W, P, least)
+    period = second[0] - first[0]
+    whole = end - T.since >= period  # the last of the time sees all of a nutation
+    if skip(W.y, W.angles, first, second, end if whole else T.since) and whole:
+        T.least, T.most, T.seen = min(T.least, least[5]), max(T.most, second[5]), T.seen | 2
     W.rated = 0
-    if W.y[12] >= T.since:
-        T.least, T.most, T.seen = min(T.least, least), max(T.most, most), T.seen | 2
     return follow(W, P, none, rows, end, limit)
 
 
 @compiled
-def farthest(W: Record, P: Record, out: Array) -> None:
-    """(t, phi, psi, x, y) where theta is largest in the last step."""
-    S, angles, low, high = W.step, W.angles.copy(), 0.0, 1.0
+def turns(W: Record, P: Record, out: Array) -> None:
+    """(t, phi, psi, x, y, theta) where theta is largest or least in the last step."""
+    S, angles = W.step, W.angles.copy()
     densely(W, P, NO_ONE, S.new[12] - S.z[12])
-    for _ in range(50):
-        x = (low + high) / 2
-        at_share(S, x, S.at)
-        if e_z_rate(S.at, P) < 0.0:
-            low = x
-        else:
-            high = x
+    at_share(S, zero(W, P, True, 0.0, 1.0), S.at)
     turned(S.at, angles)
     out[0], out[1], out[2] = S.at[12], angles[0] + angles[1], angles[0] - angles[1] + S.at[4]
     out[3], out[4] = S.at[10], S.at[11]
+    out[5] = 2 * np.arctan2(np.hypot(S.at[0], S.at[1]), np.hypot(S.at[2], S.at[3]))
 
 
 @compiled
-def skip(y: Array, angles: Array, first: Array, second: Array, end: float) -> None:
-    """y after as many whole nutations, from first to second, as there is time for.
+def skip(y: Array, angles: Array, first: Array, second: Array, end: float) -> bool:
+    """y after as many whole nutations, from first to second, as there is time for; whether any.
 
     In each G's place G_h goes over into turn G_h + moves, in complex numbers, turn = exp i(phi's advance).
     """
     n = np.floor((end - y[12]) / (second[0] - first[0]))
     if n < 1.0:
-        return
+        return False
     phi, psi = second[1] - first[1], second[2] - first[2]
     turn, turns = complex(np.cos(phi), np.sin(phi)), complex(np.cos(n * phi), np.sin(n * phi))
     moves = complex(second[3], second[4]) - turn * complex(first[3], first[4])
@@ -99,3 +88,4 @@ def skip(y: Array, angles: Array, first: Array, second: Array, end: float) -> No
     angles[1] += n * phi / 2
     y[4] += n * psi
     y[12] += n * (second[0] - first[0])
+    return True

@@ -117,6 +117,15 @@ def at_share(S: Record, x: float, out: Array) -> None:
 
 
 @compiled
+def at_end(S: Record, share: float) -> None:
+    """The end of the step, or of its part up to a share, into step.at."""
+    if share == 1.0:
+        S.at[:] = S.new
+    else:
+        at_share(S, share, S.at)
+
+
+@compiled
 def when(S: Record, t: float) -> float:
     """The share of the step at which its component t is this, by the method of false position (Illinois)."""
     low, high, f_low, f_high = 0.0, 1.0, S.z[12] - t, S.new[12] - t

@@ -3,8 +3,10 @@
 import numpy as np
 
 from ..compiled import compiled
+from ..types import Array
 from .dynamics import BALL, OPEN, STEM, STICK, carried, kinetic, turning
 from .records import Record
+from .stepper import at_end, at_share, densely, when, within
 
 LAST = 0.1  # the share of the time by which the end is told
 UPRIGHT, LEANS = 0.2, 0.05  # rad: so near to a pole; so little change of the tilt
@@ -29,35 +31,79 @@ def begin_tally(W: Record, P: Record, since: float) -> None:
 @compiled
 def tally(W: Record, P: Record, N: float) -> None:
     """At the end of a step, with the load N that the table carried there."""
-    T, y, (e, _, L3) = W.tally, W.y, turning(W.y, P)
+    T, y, (_, _, L3) = W.tally, W.y, turning(W.y, P)
     ball, stem = W.modes[BALL], W.modes[STEM]
     if ball != OPEN or stem != OPEN:
         T.F_z_least = min(T.F_z_least, N)
-    if np.isnan(T.time_90) and (1 - 2 * (W.step.z[0] ** 2 + W.step.z[1] ** 2)) * e[2] <= 0.0:
-        T.time_90 = passes_90(W, P)
     if np.isnan(T.time_stem):
         T.drift = max(T.drift, abs(y[7] - P.a * L3 - T.C_J))
     if y[12] >= T.since:
-        theta = 2 * np.arctan2(np.hypot(y[0], y[1]), np.hypot(y[2], y[3]))
-        T.least, T.most = min(T.least, theta), max(T.most, theta)
         T.seen |= 1 << carried(ball, stem)
         if ball not in (OPEN, STICK) or stem not in (OPEN, STICK) or (ball == OPEN and stem == OPEN):
             T.slips = 1
 
 
 @compiled
-def passes_90(W: Record, P: Record) -> float:
-    """When e_z = 0 in the last step, by the cubic through it and e_z' = (w x e)_z at both ends, and bisection."""
-    z, y = W.step.z, W.y
-    (e, w, _), (e1, w1, _), h = turning(z, P), turning(y, P), y[12] - z[12]
-    rate, rate1 = (w[0] * e[1] - w[1] * e[0]) * h, (w1[0] * e1[1] - w1[1] * e1[0]) * h
-    low, high = 0.0, 1.0
+def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense: bool) -> None:
+    """When theta first passes 90 degrees, and how far it swings once that counts: in the step of length h from step.z,
+    up to the share where it ends, by the step's own polynomial; dense: whether that is there yet."""
+    T, S = W.tally, W.step
+    e, rate, e1, rate1, begins, ends = up(S.z), up_rate(S.z, P), up(S.at), up_rate(S.at, P), S.z[12], S.at[12]
+    turns = rate * rate1 < 0.0
+    near = turns and e * rate < 0.0 and min(abs(e), abs(e1)) < (abs(rate) + abs(rate1)) * (ends - begins)
+    passes, counts = np.isnan(T.time_90) and (e * e1 <= 0.0 or near), ends >= T.since
+    if counts:
+        widen(T, S.at)
+    if not (passes or (counts and (turns or begins < T.since))):
+        return
+    if not dense:
+        densely(W, P, slowest, h)
+    turn = zero(W, P, True, 0.0, share) if turns else share
+    at_share(S, turn, S.at)
+    there, when_there = up(S.at), within(S, turn, 12)
+    if counts and when_there >= T.since:
+        widen(T, S.at)
+    if counts and begins < T.since:
+        at_share(S, when(S, T.since), S.at)
+        widen(T, S.at)
+    if passes and e * there <= 0.0:
+        T.time_90 = within(S, zero(W, P, False, 0.0, turn), 12)
+    elif passes and e * e1 <= 0.0:
+        T.time_90 = within(S, zero(W, P, False, turn, share), 12)
+    at_end(S, share)
+
+
+@compiled
+def up(y: Array) -> float:
+    """e_z = cos(theta), but for the length of p."""
+    return y[2] * y[2] + y[3] * y[3] - y[0] * y[0] - y[1] * y[1]
+
+
+@compiled
+def up_rate(y: Array, P: Record) -> float:
+    """e_z' = (w x e)_z"""
+    e, w, _ = turning(y, P)
+    return w[0] * e[1] - w[1] * e[0]
+
+
+@compiled
+def widen(T: Record, y: Array) -> None:
+    """The tilts that were seen, by one more."""
+    theta = 2 * np.arctan2(np.hypot(y[0], y[1]), np.hypot(y[2], y[3]))
+    T.least, T.most = min(T.least, theta), max(T.most, theta)
+
+
+@compiled
+def zero(W: Record, P: Record, of_rate: bool, low: float, high: float) -> float:
+    """The share of the step, between two, at which e_z' or e_z itself passes 0, by bisection."""
+    S = W.step
+    at_share(S, high, S.at)
+    beyond = up_rate(S.at, P) if of_rate else up(S.at)
     for _ in range(50):
         x = (low + high) / 2
-        across = e1[2] - e[2]
-        now = e[2] + x * across + x * (1 - x) * ((rate - across) * (1 - x) - (rate1 - across) * x)
-        if now * e[2] > 0.0:
-            low = x
-        else:
+        at_share(S, x, S.at)
+        if (up_rate(S.at, P) if of_rate else up(S.at)) * beyond > 0.0:
             high = x
-    return z[12] + high * h
+        else:
+            low = x
+    return high

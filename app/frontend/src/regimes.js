@@ -1,4 +1,5 @@
 // What a top does at a moment: app/model/regimes.json is the one list, for Python too. A code is a place in it.
+import { colours } from "./colours.js";
 import regimes from "../../model/regimes.json" with { type: "json" };
 
 const codes = Object.fromEntries(regimes.map(({ name }, code) => [name, code]));
@@ -7,6 +8,6 @@ export const ROLLS = codes.rolls;
 /** @param {number} code */
 export const nameOf = (code) => regimes[code].name;
 /** @param {number} code */
-export const colourOf = (code) => regimes[code].colour;
+export const colourOf = (code) => colours[regimes[code].colour];
 /** @param {number} code @param {Record<string, string>} words by the names of regimes */
 export const wordOf = (code, words) => words[nameOf(code)];

@@ -36,6 +36,7 @@ class LabView(Bundled):
     """
 
     SAYS = ("Stage", "Top3D")
+    REGIMES = "here"
 
     state = param.Dict(default={}, doc="All that is no array: the inputs, the runs in words, what was refused.")
     profile = param.Bytes(default=b"", doc="As of a Top3D.")
@@ -63,9 +64,8 @@ def spelled(words):
     return re.sub(r"(?<=\d) (?=(mm|s|rev/s|U/s)\b)", "\N{NO-BREAK SPACE}", words)
 
 
-def lab_view(keep, runs, ask, go):
-    """The tab. keep: a Keep; runs: a Runs; ask: of a Pacer; go: shows the paper's figures."""
-    lab = Lab(runs)
+def lab_view(lab, keep, ask, go):
+    """The tab. lab: a Lab; keep: a Keep; ask: of a Pacer; go: shows the paper's figures."""
     keep.add(lab)
 
     def research():
@@ -139,12 +139,11 @@ class LabTab:
         self.view.param.update(**changes)
 
     def _state(self, scene):
-        lab, names = self._lab, listed("build.presets")
+        lab = self._lab
         messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
         return {
             "table": scene.table,
             "toy": lab.toy,
-            "toys": [[toy, names[toy]["name"]] for toy in lab.param.toy.objects],
             "values": {name: getattr(lab, name) for name in INPUTS},
             "sliders": SLIDERS,
             "messages": messages,

@@ -4,6 +4,7 @@ import html
 
 import numpy as np
 
+from app.model.colours import ON_LIGHT
 from app.tabs.measure.figures import size_of
 from app.text import say, spoken
 
@@ -45,5 +46,6 @@ def _picture(name, data, fit):
             f'<text x="{WIDTH - 10}" y="{foot}" text-anchor="end">{series.t[-1]:.2f} s</text>')  # fmt: skip
     title = f"{say(f'measure.quantities.{name}')} {say(f'measure.units.{name}')}"
     return (f'<h3>{title}</h3><svg viewBox="0 0 {WIDTH} {HEIGHT + REST + 18}" font-size="12" role="img" '
-            f'aria-label="{title}"><polyline points="{line}" fill="none" stroke="#a3246f" stroke-width="2"/>'
+            f'aria-label="{title}"><polyline points="{line}" fill="none" stroke-width="2" '
+            f'stroke="{ON_LIGHT["omega"]}"/>'
             f"{dots}{marks}{ends}</svg>")  # fmt: skip

@@ -5,6 +5,7 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.bundle import pack
+from app.model.colours import COLOURS
 from app.model.planes import PATIENCE, PRESETS, preset
 from app.model.planes_picture import PLANES
 from app.model.regimes import COLOUR, NAMES
@@ -23,12 +24,15 @@ POLL = 200  # ms between looks at a run under way
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
 # Three bars side by side have room for what matters only.
 SMALL_BAR = [":host .bar .shows, :host .bar .view, :host .bar .back, :host .bar .forward { display: none }"]
-TABLE = """
+TABLE = (
+    f":host {{ --kept: {COLOURS['normal']} }}"
+    + """
 table { border-collapse: collapse; margin: 6px 0 0; font-size: inherit }
 td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: top }
-th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: #009E73 }
+th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { content: "● "; color: var(--kept) }
 .line { margin: 2px 0 } .line .swatch { margin-left: 0 } .line b { font-weight: 600 } .says { margin: 6px 0 0 }
 """
+)
 
 
 class ThreePlanes:
@@ -173,7 +177,7 @@ class ThreePlanes:
         figures = self._figures.figures
         planes = "".join(swatch(colour, say(f"planes.looks.{plane}")) for plane, colour in LOOKS.items())
         ledger = "".join(swatch(colour, say(f"planes.ledger.{name}")) for name, colour in LEDGER.items())
-        regimes = "".join(swatch(COLOUR[code], say(f"planes.regimes.{NAMES[code]}")) for code in IN_RIBBON)
+        regimes = "".join(swatch(COLOUR[code], say(f"regimes.stretch.{NAMES[code]}")) for code in IN_RIBBON)
         return card(
             say("planes.cards.times"),
             words(f'<div class="key">{planes}</div>'),

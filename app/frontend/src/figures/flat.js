@@ -113,7 +113,7 @@ class Flat {
     pen.font = "600 15px system-ui, sans-serif";
     pen.textAlign = "center";
     pen.fillText(`θ = ${((180 * tilt) / Math.PI).toFixed(1)}°`, width / 2, 24);
-    this.verdict = wordOf(pose.regime, model.texts.verdicts);
+    this.verdict = wordOf(pose.regime, model.texts.regimes);
   }
 
   newProfile() {

@@ -1,15 +1,17 @@
 // How the Lab looks: four sizes of type, a grid of 8 px, one blue for what is selected, one colour a quantity. It goes by
 // the width of its own place, not of the window.
+import { onDark, onLight } from "../colours.js";
+
 const tokens = `
 .frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
   --family: Inter, Roboto, "Segoe UI", "Liberation Sans", Arial, system-ui, sans-serif;
   --ground: #fff; --floor: #f1efea; --ink: #1b2430; --ink-2: #55606c; --line: #d8dce0; --line-2: #8b949e;
-  --accent: #1558c0; --q-spin: #a3246f; --q-energy: #6f5a00; --q-energy-wash: #dad3bd;
+  --accent: #1558c0; --q-spin: ${onLight.omega}; --q-energy: ${onLight.energy}; --q-energy-wash: ${onLight.energy_wash};
   --end-0: #f6f1e6; --end-1: #e8dcc2; --end-2: #cdb88f; --end-3: #80632f; --shape: #55606c;
   container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
   -webkit-font-smoothing: antialiased; }
 .frame[data-look=dark] { --ground: #11161b; --floor: #191f25; --ink: #eef2f5; --ink-2: #a9b4bf; --line: #2d363f; --line-2: #75818d;
-  --accent: #86b6ff; --q-spin: #f08cc4; --q-energy: #dcc257; --q-energy-wash: #4b4630;
+  --accent: #86b6ff; --q-spin: ${onDark.omega}; --q-energy: ${onDark.energy}; --q-energy-wash: ${onDark.energy_wash};
   --end-0: #262219; --end-1: #4a402c; --end-2: #7a6a47; --end-3: #c9ad74; --shape: #a9b4bf; color-scheme: dark; }
 .frame[data-large] { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --bar: 176px; }
 `;

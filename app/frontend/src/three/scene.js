@@ -1,15 +1,17 @@
 // The colours of the pictures in 3-D: those of things in space, on a light page and on a dark one. Their words take theirs
 // from variables of CSS, which look.js sets.
+import { onDark, onLight } from "../colours.js";
+
 export const scenes = {
   light: {
     sky: 0xf1efea, edge: 0x5a3312, table: 0xf6f1e9, grid: 0xd6d5d1, strong: 0xa9b0b8, ink: 0x1d2733, shade: 0x2a2118,
     ground: 0xf7f8fa, lines: 0x6b7a88, walls: 0.68, edges: 0.3,
-    force: "#009E73", omega: "#a8538a", momentum: "#9a6a00", // the palette's, where needed darkened to be read
+    force: onLight.normal, omega: onLight.omega, momentum: onLight.momentum,
   },
   dark: {
     sky: 0x191f25, edge: 0xf0cfa3, table: 0x2b323a, grid: 0x3d4751, strong: 0x66727e, ink: 0xeef2f6, shade: 0x000000,
     ground: 0x1b232c, lines: 0x8a97a5, walls: 0.06, edges: 0.36,
-    force: "#2bbf94", omega: "#dd94bd", momentum: "#E69F00",
+    force: onDark.normal, omega: onDark.omega, momentum: onDark.momentum,
   },
 };
 export const words = {

@@ -115,7 +115,7 @@ export class Surface {
   showSelected() {
     const [K_J, inner, outer, worst = 0] = float32(this.model.selected), { texts } = this.model;
     this.selected = { K_J, inner, outer };
-    this.wrong = wordOf(worst, texts.worst) ?? "";
+    this.wrong = wordOf(worst, texts.regimes) ?? "";
     this.hand.say();
     this.lines.showSelected(this.selected, float32(this.model.selected_curve), worst);
   }

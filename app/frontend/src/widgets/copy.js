@@ -1,4 +1,6 @@
 // A text to take along, and a button that copies it, also where a page without https may not.
+import { colours } from "../colours.js";
+
 const FRAME = `<style>
   :host > div { width: 100% }
   .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start }
@@ -6,8 +8,8 @@ const FRAME = `<style>
     border: 1px solid #8a96a3; border-radius: 6px; color: inherit; background: transparent; resize: none;
     box-sizing: border-box }
   button { font: 500 13px system-ui, sans-serif; padding: 7px 12px; border: 1px solid; border-radius: 6px;
-    background: transparent; color: var(--link, #0072B2); cursor: pointer; white-space: nowrap; min-width: 72px }
-  button:hover { background: #0072B214 } :focus-visible { outline: 2px solid; outline-offset: 2px }
+    background: transparent; color: var(--link, ${colours.chosen}); cursor: pointer; white-space: nowrap; min-width: 72px }
+  button:hover { background: ${colours.chosen}14 } :focus-visible { outline: 2px solid; outline-offset: 2px }
   </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button></button></div>`;
 const SAID_MS = 1500;
 

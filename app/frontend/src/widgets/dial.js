@@ -1,3 +1,4 @@
+import { colours } from "../colours.js";
 import { fill } from "../data.js";
 
 // One control: its name, a slider, a number to type, words below. What a person does goes to Python as a numbered
@@ -11,8 +12,8 @@ input { font: inherit; color: inherit; box-sizing: border-box; margin: 0; }
 input[type=text] { width: calc(100px * var(--type, 1)); flex: none; height: calc(28px * var(--type, 1)); padding: 2px 8px; text-align: right;
   background: transparent; border: 1px solid var(--edge, #7b8794); border-radius: 4px; font-variant-numeric: tabular-nums; }
 input[type=text][aria-invalid=true] { border-color: var(--alert, #b3261e); }
-input:focus-visible { outline: 2px solid var(--focus, #0072B2); outline-offset: 1px; border-radius: 4px; }
-input[type=range] { display: block; width: 100%; height: 26px; accent-color: var(--focus, #0072B2); cursor: pointer; touch-action: pan-y; }
+input:focus-visible { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: 1px; border-radius: 4px; }
+input[type=range] { display: block; width: 100%; height: 26px; accent-color: var(--focus, ${colours.chosen}); cursor: pointer; touch-action: pan-y; }
 .marks { position: relative; height: 1.5em; margin: -3px 8px 2px; font-size: 12px; color: var(--faint, #5b6875); }
 .marks span { position: absolute; transform: translateX(-50%); white-space: nowrap; }
 .marks span:first-child { transform: translateX(-8px); }
