@@ -137,7 +137,7 @@ def test_at_sigterm_no_page_is_let_in_and_those_that_are_open_are_told(tmp_path)
         with pytest.raises(Closed) as closed:
             while True:
                 await visitor.receive()
-        assert closed.value.args[0] == 1001 and "stopping" in closed.value.args[1]
+        assert closed.value.args == (1001, say("main.server.stopping", "en"))
 
     async def drained():
         inside = [await Visitor.enter(server.url) for _ in range(4)]

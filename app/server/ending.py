@@ -7,6 +7,7 @@ import signal
 
 from tornado.ioloop import IOLoop
 
+from app import text
 from app.server.processes import REPLACE
 
 log = logging.getLogger("tippe")
@@ -47,7 +48,7 @@ class Ending:
         for count, each in enumerate(told):
             if count:
                 await self._wait(apart)
-            each.close(1001, "The server is stopping.")
+            each.close(1001, text.say("main.server.stopping", text.DEFAULT))
         self._arrivals.stop()
         for each in self._arrivals.sockets:
             each.close()
