@@ -16,8 +16,8 @@ from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_c
 from app.widgets.controls import Control, Wish
 from app.widgets.top3d import Top3D, pack_frames
 
-NUMBERS = {"coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
-NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps")
+NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
+NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps", "patch")
 SWITCHES = {"plane": {"margin": (4, 0)}, "by": {}, "law": {}, "landing": {}}
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
@@ -136,10 +136,7 @@ class ThreePlanes:
     def _start_card(self):
         views = {name: control.view for name, control in self._controls.items()}
         self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
-        self._numbers = {
-            law: pn.Column(*(views[name] for name in names), sizing_mode="stretch_width", margin=0)
-            for law, names in NUMBERS.items()
-        }
+        self._numbers = {name: views[name] for names in NUMBERS.values() for name in names}
         self._bar = words(margin=(10, 8))
         self._show_progress(0)
         stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
@@ -214,8 +211,8 @@ class ThreePlanes:
         settings, messages = picture.settings, picture.messages
         with pn.io.hold():
             self._starts.visible = inputs["by"] == "spin"
-            for law, numbers in self._numbers.items():
-                numbers.visible = inputs["law"] == law
+            for name, number in self._numbers.items():
+                number.visible = name in NUMBERS[inputs["law"]]
             if not self._work.busy:
                 for name, control in self._controls.items():
                     control.show(inputs[name], inputs[name], self._note(name, picture), messages.get(name))

@@ -53,6 +53,8 @@ def in_force(picture, plane):
     if kind == "viscous":
         return say("planes.force.viscous" if law.gamma else "planes.force.none", gamma=law.gamma,
                    si=law.gamma / velocity)  # fmt: skip
+    if kind == "contact":
+        return say("planes.force.contact", mu=law.mu, patch=picture.settings.patch)
     return say("planes.force.smoothed", mu=law.mu, speed=100 * law.eps * velocity)
 
 
