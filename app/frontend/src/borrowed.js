@@ -28,9 +28,6 @@ export function pressNever(fig) {
   viewOf(fig).canvas_view.ui_event_bus.ui_gestures.constructor.press_threshold = 2 ** 31 - 1;
 }
 
-// As if the mouse had left: Bokeh's tooltip stays where it is while a hand pulls. https://github.com/bokeh/bokeh/issues/7671
-export const leaveHover = (fig, hover) => viewOf(fig).tool_views.get(hover)._move_exit();
-
 // 6. three.js: a target whose colours are a screen's, not a texture's, is one of its headset's.
 // https://github.com/mrdoob/three.js/issues/29429
 /** @param {import("three").WebGLRenderTarget} target */
