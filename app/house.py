@@ -127,7 +127,7 @@ class House:
         self._look_at("build-a-top")
 
     def learn(self):
-        learn = Learn(self.scene, self.pacer.ask, self.runs)
+        learn = Learn(self.scene, self.runs)
         self.pacer.shows(learn.show, "rest")
         self.keep.add(learn)
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it

@@ -267,8 +267,7 @@ from app.model.known_tops import known_tops
 from app.model.planes import LAWS, Planes
 explorer = Explorer()
 for step in lesson.STEPS:
-    explorer.param.update(**step.inputs(explorer.scene.top))
-    step.answer(explorer.scene)
+    step.answer(lesson.planned(step, explorer.scene))
 planes = Planes(explorer.scene)
 for law in LAWS:
     planes.param.update(law=law, seconds=0.5)

@@ -39,7 +39,6 @@ from app.tabs.build.build import Build
 from app.tabs.build.section import Section
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
-from app.tabs.learn.figures import SectionFigure
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.lines import Derivation
 from app.tabs.planes.three_planes import ThreePlanes
@@ -135,7 +134,7 @@ def roll(scene):
 
 def learn(section):
     def make(scene):
-        view = Learn(scene, nothing)
+        view = Learn(scene)
 
         def show(scene):
             for view.section in ("lesson", section):  # what is not looked at is shown when it is
@@ -186,7 +185,7 @@ def compare(scene):
 
 
 VIEWS = {
-    **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide, SectionFigure)},
+    **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide)},
     "PlaneFigure": with_motion(PlaneFigure), "TimeFigures": with_motion(TimeFigures),
     "Top3D": in_three_dimensions(Top3D, show_top), "Surface3D": in_three_dimensions(Surface3D, show_surface),
     "Derivation": lambda scene: (lambda view: (view, view.show))(Derivation("a")),

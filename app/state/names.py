@@ -8,6 +8,7 @@ from typing import Any
 from urllib.parse import quote
 
 from app.model.lab_run import TABLES, TOYS
+from app.model.lesson import BEFORE
 from app.model.lesson import NAMES as STEPS
 from app.model.planes_picture import LAWS, PLANES
 from app.model.region import PAPER
@@ -101,7 +102,7 @@ ROWS = (
     Name("mu_smooth", "Planes", "mu", Number),
     Name("mu_stick", "Planes", "mu_s", Number),
     # the lessons
-    Name("step", "Learn", "step", _words(*STEPS), undoable=False),
+    Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False),
     Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False),
     Name(SECRET, "Learn", "room", Key, undoable=False),
 )

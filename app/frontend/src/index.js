@@ -2,6 +2,7 @@ import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
+import { renderLesson } from "./learn/lesson.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
@@ -35,6 +36,7 @@ export default {
   MeasuredStage: { render: renderMeasuredStage },
   Guide: { render: renderGuide },
   Head: { render: renderHead },
+  LessonView: { render: renderLesson },
   LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },

@@ -196,10 +196,18 @@ type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${
   asked: [count: number, name: string, value: any] | [];
 };
 
+// app/tabs/learn/lesson.py says what each holds.
+type LessonRun = Record<"frames" | "profile" | "curves" | "arms", Bytes> & { a: number; seconds: number };
+type LessonModel = Model & Record<"state", any> & {
+  steps: any[];
+  runs: Record<string, LessonRun>;
+  others: Record<string, LessonRun>;
+  asked: [count: number, name: string, value: string] | [];
+};
+
 declare const Bokeh: { documents: any[]; index: any };
 
 interface Window {
-  tippe: { time(clock?: string): number; photo(wide: number, clock?: string): HTMLCanvasElement | undefined };
   // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.
   __tippe: Record<string, any>;
   tippeCallbacks: Record<string, (given: any, what: any) => unknown>; // of figures/callbacks.js

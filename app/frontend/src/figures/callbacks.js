@@ -5,12 +5,12 @@ import { followFilm, pullFilm } from "./measured.js";
 import { followMotion, pullPlane, sayPull } from "./plane.js";
 import { followPlanes } from "./planes.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
-import { pressSection, turnSection } from "./sections.js";
+import { pressSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
 
 const callbacks = {
   followCurve, followFilm, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullFilm,
-  pullPlane, sayPull, seekAlong, seekOnCurve, turnSection,
+  pullPlane, sayPull, seekAlong, seekOnCurve,
 };
 
 export function offerCallbacks() {

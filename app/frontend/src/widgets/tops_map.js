@@ -16,7 +16,7 @@ const STYLE = `<style>
     fill: var(--ink, #22303c); touch-action: pan-y } .area { --wood: #9a7434 } .axis { fill: var(--faint, #5b6875) }
   .turns { fill: color-mix(in srgb, var(--wood) 50%, var(--card, #fff)) } .part { fill: color-mix(in srgb, var(--wood) 26%, var(--card, #fff)) }
   .never { fill: color-mix(in srgb, var(--wood) 10%, var(--card, #fff)) } .line { stroke: var(--ink, #22303c); fill: none; stroke-width: 1.5 }
-  .group { font-size: calc(17px * var(--type, 1)); font-weight: 600 } .small { font-size: calc(13px * var(--type, 1)) } .known { cursor: pointer; outline: none }
+  .group { font-size: calc(17px * var(--type, 1)); font-weight: 600 } .small { font-size: calc(12px * var(--type, 1)) } .known { cursor: pointer; outline: none }
   .known .shape { fill: color-mix(in srgb, var(--ink, #22303c) 78%, var(--card, #fff)); stroke: var(--card, #fff); stroke-width: 1.5 }
   .known text { font-weight: 600; paint-order: stroke; stroke: color-mix(in srgb, var(--card, #fff) 70%, transparent); stroke-width: 3 } .ring { fill: none; stroke-width: 3.5 } .known:hover .shape, .known:focus .shape { fill: var(--ink, #22303c) }
   .known:focus-visible .ring.of { stroke: var(--focus, ${colours.chosen}); stroke-width: 3 } .here { cursor: grab; touch-action: none; outline: none }
@@ -86,7 +86,7 @@ function axes({ x, y, first, foot, last }, words) {
 
 function groups({ x, y, first, last }, words, narrow) {
   const places = [["ordinary", first + 10, TOP + 24, "start"], ["part", x(0) + 20, TOP + 24, "start"],
-    ["turns", last - 14, y(1.04), "end"], ["never", x(0) + 20, y(0.5), "start"]];
+    ["turns", last - 14, y(1.04), "end"], ["never", x(0) + 20, y(0.46), "start"]];
   return places.map(([name, across, down, anchor]) => {
     const [head, more] = words.groups[name], below = narrow ? "" : `<text x="${across}" y="${down + 18}" text-anchor="${anchor}">${more}</text>`;
     return `<text class="group${narrow ? " small" : ""}" x="${across}" y="${down}" text-anchor="${anchor}">${head}</text>${below}`;
