@@ -14,7 +14,7 @@ from app.model.lab_rolling import rolling
 from app.model.lab_run import TOYS, Toy
 from tippe_core import BareSphere
 
-TOY, ROLLS, PLANES = "lab", "roll", "three-planes"
+TOY, ROLLING, PLANES = "lab", "roll", "three-planes"
 PLANE = {"ordinary": "sliding", "rough": "rough", "ice": "smooth", "three": "compare"}
 """{table of the Lab: what the three planes call it}."""
 TABLE = {plane: table for table, plane in PLANE.items()}
@@ -46,11 +46,11 @@ class OneStart(param.Parameterized):
 
     def moved(self, left, room):
         """A room of the page was left for another, by their names in an address."""
-        if left == room or not {left, room} <= {TOY, ROLLS, PLANES}:
+        if left == room or not {left, room} <= {TOY, ROLLING, PLANES}:
             return
         start = self._left(left)
         if room == TOY:
-            self._let_go(start, "rough" if left == ROLLS else TABLE[self._planes.plane])
+            self._let_go(start, "rough" if left == ROLLING else TABLE[self._planes.plane])
             return
         if start.by_hand and not self._rolls(start):
             self._gripped, self._asked = start, rolling(start.toy, start.spin, start.tilt, start.mu)
@@ -71,7 +71,7 @@ class OneStart(param.Parameterized):
             self._waits = self._waits or (None, None)
             self._waits = self._waits[0], PLANE[name]
             self._set_planes()
-        return ROLLS if name == "rough" else PLANES
+        return ROLLING if name == "rough" else PLANES
 
     def _left(self, room):
         lab, scene = self._lab, self._explorer.scene

@@ -2,7 +2,7 @@
 
 from app.model.lab_run import TOYS
 from app.state import asked
-from app.state.start import PLANE, PLANES, ROLLS, TABLE, TOY
+from app.state.start import PLANE, PLANES, ROLLING, TABLE, TOY
 from app.text import LANGUAGES, listed, say
 
 OWN = ""  # a body that is none of those with a name
@@ -53,9 +53,9 @@ class Choices:
 
         def tables(*events):
             room = self._rooms.room
-            known = [[name, word, ROLLS if name == "rough" else PLANES]
+            known = [[name, word, ROLLING if name == "rough" else PLANES]
                      for name, word in listed("main.tables").items()]  # fmt: skip
-            head.tables("rough" if room == ROLLS else TABLE[start.plane], known if room in (ROLLS, PLANES) else [])
+            head.tables("rough" if room == ROLLING else TABLE[start.plane], known if room in (ROLLING, PLANES) else [])
 
         self._rooms.param.watch(tops, "room")
         self._rooms.param.watch(tables, "room")
