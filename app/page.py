@@ -59,7 +59,7 @@ def page():
     choices.shown_in(head)
     rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
     guide.tour = rooms.room == room.USUAL
-    pn.state.curdoc.template_variables.update(first.variables(first.top_of(rooms.columns), search))
+    pn.state.curdoc.template_variables.update(first.variables())
     around = [look, guide, pacer.painted, Connection(words=say("main.lost"), width=0, height=0, margin=0), failed]
     return pmui.Page(template=first.PAGE, title=say("main.title"), theme_config={"light": THEME, "dark": THEME},
                      main=[head.view, *share.main, *around, *rooms.columns], stylesheets=[*STYLE, *HEADLESS],

@@ -2,8 +2,9 @@ import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
-import { renderLab } from "./lab/lab.js";
+import { renderLesson } from "./learn/lesson.js";
 import { renderSurface3D } from "./three/surface3d.js";
+import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
 import { renderDial } from "./widgets/dial.js";
@@ -18,6 +19,7 @@ import { renderConnection } from "./widgets/notices.js";
 import { renderFailure } from "./widgets/notices.js";
 import { renderPainted } from "./widgets/painted.js";
 import { renderPhone } from "./widgets/phone.js";
+import { renderTopsMap } from "./widgets/tops_map.js";
 import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
@@ -34,14 +36,16 @@ export default {
   MeasuredStage: { render: renderMeasuredStage },
   Guide: { render: renderGuide },
   Head: { render: renderHead },
-  LabView: { render: renderLab },
+  LessonView: { render: renderLesson },
+  LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },
   Painted: { render: renderPainted },
   Phone: { render: renderPhone },
   Photo: { render: renderPhoto },
   Surface3D: { render: renderSurface3D },
-  Top3D: { render: renderFirst },
+  Top3D: { render: renderTop3D },
+  TopsMap: { render: renderTopsMap },
   first,
   letter,
 };
