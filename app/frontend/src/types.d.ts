@@ -85,6 +85,13 @@ interface DialModel extends Model {
   wrong: boolean;
 }
 
+type KnownTop = { name: string; label: string; a: number; ratio: number; outline: [radius: number, height: number][] };
+interface TopsMapModel extends Model {
+  state: { tops: KnownTop[]; here: { a: number; ratio: number; outline: [radius: number, height: number][] | null }; chosen: string };
+  picked: [count: number, name: string] | [];
+  moved: [count: number, a: number, ratio: number] | [];
+}
+
 interface GuideModel extends Model {
   tour: boolean;
   said: string;
