@@ -41,7 +41,11 @@ class PlaneInset:
         (inner, outer), plane = scene.turning, scene.plane
         length = outer - inner
         short = length < SHORT * plane.theta_range[1]
-        if short:
+        if not short:
+            self.figure.x_range.update(start=0, end=1)
+            self.figure.y_range.update(start=0, end=1)
+            self._says.object = ""
+        else:
             around = max(ROUND * length, 1e-3)
             self.figure.x_range.update(start=inner - around, end=outer + around)
             high = 0.06 * (plane.K_J_range[1] - plane.K_J_range[0])
