@@ -15,6 +15,8 @@ w3 s = w2 (c - a): of the sliding equations (theta, w1, w2, w3, v) their derivat
 which lose no digits. The spin is taken to stay as it is, which pivoting changes slowly.
 """
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -100,6 +102,6 @@ def _rolling(y: Modes, top: Top, k: float) -> Modes:
     return np.concatenate([[w1], np.linalg.solve(A, right)[:3]])
 
 
-def _sorted(matrix: NDArray[np.generic]) -> Modes:
+def _sorted(matrix: NDArray[Any]) -> Modes:
     found = np.linalg.eigvals(matrix)
     return np.asarray(found[np.argsort(-found.real, kind="stable")], complex)
