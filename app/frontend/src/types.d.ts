@@ -201,7 +201,6 @@ type LessonModel = Model & Record<"state", any> & {
 declare const Bokeh: { documents: any[]; index: any };
 
 interface Window {
-  tippe: { time(clock?: string): number; photo(wide: number, clock?: string): HTMLCanvasElement | undefined };
   // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.
   __tippe: Record<string, any>;
   tippeCallbacks: Record<string, (given: any, what: any) => unknown>; // of figures/callbacks.js

@@ -1,5 +1,6 @@
 // What all figures share. Not synced, so playing sends nothing to the server.
 import { elementOf, pressNever } from "../borrowed.js";
+import { timeOf } from "../motion/clock.js";
 import { followClock, isFollowed } from "./seeking.js";
 
 // To the ear a canvas is a picture with a name.
@@ -19,5 +20,5 @@ export function moveLines({ spans }) {
     for (const span of spans) span.setv({ location: t }, { sync: false });
   };
   followClock(move);
-  move(window.tippe?.time() ?? 0);
+  move(timeOf());
 }

@@ -1,6 +1,7 @@
 // Fig. 6: the bead at the clock's time, and a hand, which `hand` takes to Python.
 import { eventsOf, scalesOf, setCursor } from "../borrowed.js";
 import { fill } from "../data.js";
+import { timeOf } from "../motion/clock.js";
 import { ROLLS, wordOf } from "../regimes.js";
 import { clamp, nearestRow, spotOf, timeAtTilt, valueAt } from "./curves.js";
 import { awayFromTieline, gripAt, REACH } from "./grips.js";
@@ -35,7 +36,7 @@ export function followMotion({ fig, hand, motion, selected }) {
     now = t;
     placeBead();
   });
-  now = window.tippe?.time() ?? 0;
+  now = timeOf();
   placeBead(); // a clock that stands says nothing
   const events = eventsOf(fig);
   const onTieline = ({ clientX, clientY }) => {
@@ -85,7 +86,7 @@ export function pullPlane(given, event) {
 
 function moveClock({ motion }, { inner, outer }, theta, held) {
   const aim = clamp(theta, Math.min(inner, outer), Math.max(inner, outer));
-  seek(timeAtTilt(motion.data, aim, window.tippe.time()), held);
+  seek(timeAtTilt(motion.data, aim, timeOf()), held);
 }
 
 // A place of the plane and the tieline on display, on the window.
