@@ -5,7 +5,7 @@
 first: a visit with nothing cached, from the request until something is there to see, and to take hold of:
 
     top    the third picture of a top that moves; of the bare app its one figure
-    hand   the slider of Jellett's constant, or the bare app's, answers
+    hand   the session has taken over the Lab, whose sliders answer from then on; or the bare app's does
     page   all that the first view shows
 
 hand: from input to paint. The bare app redraws one line of 400 points when a Bokeh slider moves. Both get the same
@@ -114,10 +114,10 @@ FIGURE = "() => window.Bokeh?.documents?.[0]?.is_idle"
 ARRIVED = {
     "bare": f"{{top: {FIGURE}, hand: {FIGURE}, page: {FIGURE}}}",
     "ours": f"""{{
-      top: () => window.__tippe?.top3d?.pictures > 2 && __tippe.top3d.playing,
-      hand: (models) => window.Bokeh?.index && models().some((m) => m.data?.told
-          && Bokeh.index.find_one(m)?.shadow_el?.querySelector("input[type=range]")),
-      page: () => window.__tippe?.surface3d?.pictures > 0 && ({WHOLE})(),
+      top: () => window.__tippe?.tops?.("lab").some((top) => top.pictures > 2 && top.playing),
+      hand: () => window.Bokeh?.documents?.[0] && !document.getElementById("first")
+          && __tippe.tops("lab").some((top) => top.count),
+      page: () => ({FIGURE})() && window.came.top && window.came.hand,
     }}""",
 }
 
@@ -224,7 +224,7 @@ def hands(playwright, servers):
             page = browser.new_page(viewport={"width": 1400, "height": 900}, locale="en")
             page.set_default_timeout(120_000)
             page.add_init_script("localStorage.setItem('tippe:tour', '1')")
-            page.goto(servers[name][1])
+            page.goto(servers[name][1] if name == "bare" else of_roll(servers[name][1]))
             page.wait_for_function(FIGURE)
             page.locator(handle).first.wait_for()
             if name != "bare":
@@ -256,8 +256,8 @@ def main():
         servers = {}
         try:
             servers["bare"] = serve("bokeh", "serve", str(bare), path="bare")
-            servers["panel serve"] = serve("panel", "serve", "app", path=of_roll("app"))
-            servers["python -m app"] = serve("app", TIPPE_PORT="{port}", path=of_roll("app"))
+            servers["panel serve"] = serve("panel", "serve", "app", path="app")
+            servers["python -m app"] = serve("app", TIPPE_PORT="{port}", path="app")
             browser = launch(playwright)
             print(f"{datetime.date.today()}, {platform.machine()}, {os.cpu_count()} cores, "
                   f"load {os.getloadavg()[0]:.1f}, Python {platform.python_version()}, "

@@ -18,20 +18,26 @@ from bokeh.document import Document
 from panel.io.state import set_curdoc
 
 from app import page, text
+from app.model import lesson
 from app.model.explorer import Explorer
 from app.state.codecs import Body
 from app.state.keep import Keep
-from app.state.names import of
-from app.widgets import tabs
+from app.state.names import NAMES, of
+from app.widgets import rooms
 
 ROLL = "?v=1&tab=roll"  # what an address without a query opened, and said, before there was a Lab
-BEFORE = 1  # tabs that have come before those of then, which have their numbers of then here
+TABS = ("roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")  # as they were numbered then
 FILE = Path(__file__).parent / "data" / "links.json"
 
 
 def known():
-    """{link: what it opened}."""
-    return json.loads(FILE.read_text(encoding="utf-8"))
+    """{link: what it opened}; a step of the ten that there were opens what tells it now."""
+    found = json.loads(FILE.read_text(encoding="utf-8"))
+    for what in found.values():
+        step = what["settings"].get("step")
+        if step:
+            what["settings"]["step"] = lesson.BEFORE.get(step, step)
+    return found
 
 
 @contextmanager
@@ -43,7 +49,7 @@ def kept():
         add(keep, owner, *rest, **named)
         parts.append((keep, owner, of(type(owner).__name__)))
 
-    with patch.object(Keep, "add", noted), patch.object(tabs.Place, "ask", tabs.Place.fill):
+    with patch.object(Keep, "add", noted), patch.object(rooms.Place, "ask", rooms.Place.fill):
         yield parts
 
 
@@ -56,13 +62,15 @@ def opened(link):
         if not parts:
             return {"language": text.spoken(), "settings": {}}  # a student's page
         [explorer] = [owner for _, owner, _ in parts if isinstance(owner, Explorer)]
-        [header] = [owner for _, owner, fields in parts if "active" in fields]
+        [seen] = [owner for _, owner, fields in parts if "room" in fields and "level" in fields]
         keep, scene = parts[0][0], explorer.scene
+        face = NAMES["face"].codec.value(keep.waits.get("face", "constants"))  # was there on every page
         return {
             "language": text.spoken(),
-            "settings": {field.key: plain(field.codec, getattr(owner, name))
-                         for _, owner, fields in parts for name, field in fields.items() if field.key != "tab"}
-            | {"tab": header.active - BEFORE},
+            "settings": {"face": face}
+            | {field.key: plain(field.codec, getattr(owner, name))
+               for _, owner, fields in parts if owner is not seen for name, field in fields.items()}
+            | {"tab": TABS.index(seen.room)},
             "body": {"R": scene.scales.R, "M": scene.scales.M, "height": float(np.ptp(scene.profile[:, 1]))},
             "top": asdict(scene.top),
             "motion": {name: float(getattr(scene.constants, name)) for name in ("K_J", "K_R", "E")},

@@ -6,7 +6,8 @@ on the table, as seven linear equations for (w', v', N) by LAPACK:
 
     v' = N (z - k) - z,   I w' + w x I w = -r x N (z - k),   z . (v - w x r)' = 0,   r = z - a 3
 
-k (horizontal) is friction over N, opposite in sign; the law k(u) of the slip u = v - w x r is the caller's.
+k (horizontal) is friction over N, opposite in sign; the law k(u) of the slip u = v - w x r is the caller's. Losses
+(delta, drag) are two more moments about G: -N delta w_h/|w_h|, w_h the horizontal part of w, and -drag w.
 """
 
 from dataclasses import dataclass
@@ -32,14 +33,17 @@ def slip(top, axis, w, v):
     return v - np.cross(w, UP - top.a * axis)
 
 
-def accelerations(top, law, axis, w, v):
+def accelerations(top, law, axis, w, v, losses=(0.0, 0.0)):
     """(w', v', N) with the axis 3, w and v in space axes."""
+    delta, drag = losses
     r = UP - top.a * axis
     inertia = top.I1 * np.eye(3) + (top.I3 - top.I1) * np.outer(axis, axis)
     direction = UP - law(slip(top, axis, w, v))
     left, right = np.zeros((7, 7)), np.zeros(7)
     left[:3, :3], left[:3, 6] = inertia, np.cross(r, direction)
-    right[:3] = -np.cross(w, inertia @ w)
+    right[:3] = -np.cross(w, inertia @ w) - drag * w
+    if delta:
+        left[:2, 6] += delta * w[:2] / np.hypot(*w[:2])
     left[3:6, 3:6], left[3:6, 6] = np.eye(3), -direction
     right[3:6] = -UP
     left[6, :3], left[6, 3:6] = UP @ skew(r), UP  # z . (v' + r x w') = z . (w x r')
@@ -98,17 +102,17 @@ class Motion:
     work: np.ndarray
 
 
-def integrate(top, law, quaternion, omega, velocity, com, times, rtol=1e-12, contacts=None):
+def integrate(top, law, quaternion, omega, velocity, com, times, rtol=1e-12, contacts=None, losses=(0.0, 0.0)):
     """From the state at times[0], velocity and com (3,) those of G, through times (rising).
 
-    contacts: those that press on the table all the time; the sphere's alone if not given.
+    contacts: those that press on the table all the time; the sphere's alone if not given, and then with losses.
     """
 
     def rates(_, y):
         q, w, v = y[:4], y[4:7], y[7:10]
         axis = matrix(q)[:, 2]
         if contacts is None:
-            w_dot, v_dot, N = accelerations(top, law, axis, w, v)
+            w_dot, v_dot, N = accelerations(top, law, axis, w, v, losses)
             slips, loads = [slip(top, axis, w, v)], [N]
         else:
             w_dot, v_dot, loads = supported(top, law, contacts, axis, w, v)

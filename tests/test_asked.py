@@ -2,7 +2,6 @@
 
 import math
 
-import panel_material_ui as pmui
 import pytest
 from bokeh.document import Document
 from house import builder_of
@@ -72,7 +71,7 @@ def test_a_dial_passes_over_what_it_never_sends(explorer, pacer, value, one_line
 
 @pytest.mark.slow
 def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, pacer, value, one_line):
-    roll = Roll(pacer, Playing())
+    roll = Roll(pacer, Playing(), Controls(explorer.scene, pacer.ask, pacer.soon))
     while not roll.main.select(Surface3D):
         pacer._later.pop(0)()
     [surface], [top] = roll.main.select(Surface3D), roll.main.select(Top3D)
@@ -101,12 +100,12 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
 @pytest.mark.slow
 def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line):
     keep, playing = Keep(), Playing()
-    roll = Roll(pacer, playing)
+    controls = Controls(pacer._explorer.scene, pacer.ask, pacer.soon)
+    roll = Roll(pacer, playing, controls)
     keep.add(playing)
     [top] = roll.main.select(Top3D)
-    tabs = pmui.Tabs(("a", pmui.Button()), ("b", pmui.Button()))
-    keep.add(tabs)
-    for owner, name in ((top, "camera"), (top, "speed"), (tabs, "active")):
+    keep.add(controls)
+    for owner, name in ((top, "camera"), (top, "speed"), (controls, "face")):
         before = getattr(owner, name)
         for sent in (value, [value], [1.0, value, 2.0]):
             try:

@@ -2,7 +2,7 @@
 
 import pytest
 from axe_playwright_python.base import AXE_SCRIPT
-from visiting import PATIENCE, WHOLE
+from visiting import PATIENCE, WHOLE, go_to
 
 pytestmark = pytest.mark.served
 
@@ -55,6 +55,10 @@ def an_error(page):
     page.locator("[role=alert]:visible").first.wait_for()
 
 
+def room(name):
+    return lambda page: go_to(page, name)
+
+
 def below(page):
     page.get_by_role("button", name="unrolled").scroll_into_view_if_needed()
 
@@ -69,19 +73,19 @@ STEPS = {
     "Share": [click("button", "Skip"), click("button", "Share"),
                 awaited("svg:has(title:text-is('QR code of the link'))")],
     "an error": [escape, click("button", "initial state"), an_error],
-    "Three planes *": [high, click("tab", "Three planes"), click("button", "compare all three"),
+    "Three planes *": [high, room("Three planes"), click("button", "compare all three"),
                        click("button", "viscous")],
     "Three planes otherwise": [click("button", "smooth"), click("button", "smoothed"),
                                click("button", "as on the tab Roll")],
-    "Build a top": [click("tab", "Build a top"), awaited("button:text-is('Put on')")],
+    "Build a top": [room("Build a top"), awaited("button:text-is('Put on')")],
     "a list": [lambda page: page.get_by_label("Presets").first.click(), awaited("[role=listbox]")],
-    "Families": [escape, click("tab", "Families"), awaited("button:text-is('Compute the map')")],
-    "Maps": [click("tab", "Maps"), awaited("h2:text-is('Where runs and formula disagree')")],
-    "Learn *": [click("tab", "Learn"), click("radio", "It stays upright"), click("button", "Predict, and run it"),
-                awaited("math")],
-    "Derivation": [click("button", "Derivation"), awaited(".line .sides b"),
+    "Families": [escape, room("Families"), awaited("button:text-is('Compute the map')")],
+    "Maps": [room("Maps"), awaited("h2:text-is('Where runs and formula disagree')")],
+    "Learn *": [room("Learn"), click("radio", "It falls on its side"), click("button", "Watch what it does"),
+                awaited(".covered >> nth=0")],
+    "Derivation": [click("button", "The derivation"), awaited(".line .sides b"),
                    lambda page: page.locator(".line button").first.click()],
-    "Teachers": [click("button", "Teachers"), click("button", "Open the vote"), awaited("a[href*='?vote=']")],
+    "Teachers": [click("button", "For teachers"), click("button", "Open the vote"), awaited("a[href*='?vote=']")],
     "History": [click("button", "History"), awaited("ol >> nth=0")],
 }  # fmt: skip
 LIGHT, DARK, LARGE, DARK_LARGE = (False, False), (True, False), (False, True), (True, True)
@@ -126,13 +130,11 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
     page.goto(f"{server}?tab=roll")
     page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
     page.evaluate(AXE_SCRIPT)
-    page.get_by_role("button", name="Show the controls").click()
-    assert violations(page) == [], "the drawer"
-    page.keyboard.press("Escape")
-    page.locator(".MuiBackdrop-root:visible").wait_for(state="hidden")
+    page.get_by_role("button", name="More", exact=True).click()
+    assert violations(page) == [], "the menu"
     for name, ready in {"Roll": "canvas", "Three planes": "canvas:visible", "Build a top": "button:text-is('Put on')",
                         "Families": "button:text-is('Compute the map')", "Learn": "main"}.items():  # fmt: skip
-        click("tab", name)(page)
+        go_to(page, name)
         awaited(ready)(page)
         page.wait_for_function("Bokeh.documents[0].is_idle")
         assert violations(page, but=["color-contrast"]) == [], name  # which does not go by the width

@@ -10,7 +10,7 @@ from tippe_core import Top
 
 pytestmark = pytest.mark.served
 
-K_J_FIELD, I3_FIELD = 0, 6  # places in the sidebar
+K_J_FIELD, I3_FIELD = 0, 6  # places among the controls
 
 FIELDS = "input[type=text]:visible"
 # Where every figure, picture in 3-D and control stands.
@@ -58,7 +58,7 @@ def test_the_lines_over_time_go_with_the_clock_of_the_top(visit):
 
 
 def test_after_a_slider_moved_the_data_on_display_are_tippe_cores(visit):
-    thumb = visit.page.locator("input[type=range]:visible").nth(K_J_FIELD)
+    thumb = visit.page.locator("input[data-input]:visible").nth(K_J_FIELD)
     thumb.focus()
     for _ in range(30):
         thumb.press("ArrowLeft")
@@ -80,7 +80,7 @@ def test_nothing_moves_while_a_slider_is_dragged(visit):
     """Numbers get longer and sentences come and go; the page stands still."""
     page = visit.page
     before = page.evaluate(PLACES)
-    thumb = page.locator("input[type=range]:visible").nth(K_J_FIELD).bounding_box()
+    thumb = page.locator("input[data-input]:visible").nth(K_J_FIELD).bounding_box()
     across, up = thumb["x"], thumb["y"] + thumb["height"] / 2
     visit.drag((across + 0.7 * thumb["width"], up), (across + 0.2 * thumb["width"], up))
     field = page.locator(FIELDS).nth(K_J_FIELD)
@@ -118,7 +118,7 @@ def test_a_bad_value_is_said_beside_its_control(visit):
 def test_a_tab_that_paints_nothing_loses_no_request(visit):
     """Of a hidden tab no frame is asked for, so nothing tells the server that its pictures arrived."""
     visit.page.evaluate("() => { window.requestAnimationFrame = () => 0 }")
-    thumb = visit.page.locator("input[type=range]:visible").nth(K_J_FIELD)
+    thumb = visit.page.locator("input[data-input]:visible").nth(K_J_FIELD)
     thumb.focus()
     for _ in range(8):
         thumb.press("ArrowLeft")

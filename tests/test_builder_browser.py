@@ -5,7 +5,7 @@ import struct
 
 import numpy as np
 import pytest
-from visiting import Visit, wait
+from visiting import Visit, go_to, wait
 
 from tippe_core import PRESETS, TruncatedSphere, load_top, save_top
 
@@ -43,7 +43,7 @@ DRAWN = """() => {
 def bench(server, chromium):
     page = chromium.new_page(viewport={"width": 1400, "height": 1500})
     visit = Visit(page, server)
-    page.get_by_role("tab", name="Build a top").click()
+    go_to(page, "Build a top")
     page.get_by_role("button", name="Save this top").wait_for()
     page.wait_for_function("Bokeh.documents[0].is_idle")
     yield visit

@@ -266,8 +266,7 @@ from app.model.explorer import Explorer
 from app.model.planes import LAWS, Planes
 explorer = Explorer()
 for step in lesson.STEPS:
-    explorer.param.update(**step.inputs(explorer.scene.top))
-    step.answer(explorer.scene)
+    step.answer(lesson.planned(step, explorer.scene))
 planes = Planes(explorer.scene)
 for law in LAWS:
     planes.param.update(law=law, seconds=0.5)

@@ -41,7 +41,7 @@ SPECIAL = (
 )
 EVENTS = ("tap", "pan", "panstart", "panend", "button_click", "document_ready", "connection_lost", "lodend",
           "nonsense", "selectiongeometry", "rangesupdate", "value_submit", "dom_event", "esm_event")  # fmt: skip
-HANDS = ("Dial", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Tabs", "Painted", "Top3D",
+HANDS = ("Dial", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFile", "Head", "Painted", "Top3D",
          "Surface3D", "Range1d", "ColumnDataSource", "Location", "Button")  # fmt: skip
 
 
@@ -191,7 +191,7 @@ def test_a_message_of_100_MB_is_not_read(attacked):
 ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 3000,
           {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
 GOOD = {"asked": [7, 6.5, False], "active": 1, "value_input": "7", "hand": [], "tilted": [], "playing": False,
-        "gesture": 7, "dark": False, "sidebar_open": True}  # fmt: skip
+        "gesture": 7, "dark": False}  # fmt: skip
 
 
 def attributes_of(name):
@@ -205,13 +205,13 @@ async def each_attribute(url):
     """What is sent: eleven values to what the browser changes of each component; to the rest, which is refused by its
     name, one of them. Then good ones, which are taken. Returns how many were sent."""
     page, count = await visitors.come(url), 0
-    await visitors.open_tabs(page)
+    await visitors.open_rooms(page)
     visitor = await Visitor.enter(url, page.visitor.token, pull=False)  # one more socket of the same session
     components = {}
     for id, (name, _) in page.visitor.models.items():
         if re.fullmatch(r"[A-Z]\w*\d+", name) and attributes_of(re.sub(r"\d+$", "", name)):
             components.setdefault(re.sub(r"\d+$", "", name), []).append(id)
-    assert {"Dial", "Tabs", "Select", "TextInput", "Top3D", "Surface3D", "TopFile"} <= set(components)
+    assert {"Dial", "Head", "Select", "TextInput", "Top3D", "Surface3D", "TopFile"} <= set(components)
     for name, ids in components.items():
         for i, attribute in enumerate(attributes_of(name)):
             known = attribute in CHANGES.get(name, {})

@@ -24,7 +24,7 @@ FRAMES = """() => {
 }"""
 COLUMNS = [("theta", 0, "theta"), ("normal", 0, "normal"), ("ratio", 0, "ratio"), ("constants", 0, "E"),
            ("plane", 0, "K_J"), ("plane", 0, "slip_in"), ("plane", 0, "verge")]  # fmt: skip
-K_J_FIELD = 0  # place in the sidebar
+K_J_FIELD = 0  # places among the controls
 
 
 @pytest.fixture
@@ -43,7 +43,7 @@ def go(chromium):
 
 
 def thumb(visit, place=K_J_FIELD):
-    return visit.page.locator("input[type=range]").nth(place)
+    return visit.page.locator("input[data-input]").nth(place)
 
 
 def until_address(visit, pattern):
@@ -62,6 +62,7 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
     visit.page.get_by_role("button", name="Pause").click()
     until_address(visit, "[?&]t=")
     assert visit.page.evaluate("history.length") == steps  # replaced, not added to
+    visit.page.get_by_role("button", name="More", exact=True).click()
     visit.page.get_by_label("dark", exact=True).click()
     for key in ("Shift+ArrowRight", "Shift+ArrowUp", "-"):
         visit.page.locator("canvas[aria-label^='The top']").press(key)

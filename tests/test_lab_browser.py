@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from axe_playwright_python.base import AXE_SCRIPT
 from test_axe import CONTRAST, DARK, LIGHT, LOOK, violations
-from visiting import PATIENCE, Visit
+from visiting import PATIENCE, Visit, is_seen
 
 from app.model.lab_run import TOYS, start_of
 from tippe_core import grip
@@ -189,7 +189,7 @@ def test_the_papers_figures_have_this_top_and_start(page):
     page.wait_for_function("location.search.includes('turns=28.8') && location.search.includes('lean=12')")
     page.get_by_role("button", name="The paper’s figures for this top").click()
     page.locator("[data-figure=plane]").first.wait_for()
-    assert page.get_by_role("tab", name="Roll").get_attribute("aria-selected") == "true"
+    assert is_seen(page, "Roll")
     page.wait_for_function("location.search.includes('by=state')")
     start = start_of("Leine and Glocker's toy", 28.8, 12.0, 0.3)
     state, _ = grip(start.top, start.state)

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.served
 
 PAGES = 3
 # What stands on each tab but the first.
-TABS = ("planes.cards.stage", "build.bench.save", "family.map.start", "learn.page.predict")
+TABS = ("planes.cards.stage", "build.bench.save", "family.map.start", "learn.view.watch")
 PATIENCE = 300  # s
 
 
@@ -63,10 +63,9 @@ async def opens(page, language, part):
     known, key = page.visitor.models, ("share.dialog.motion", *TABS)[part]
     before = set(known)
     if part:
-        [tabs] = page.visitor.find("Tabs")
-        await page.set(tabs, "active", part + visitors.ROLL)
+        await page.head("room", visitors.ROOMS[part - 1])
     else:
-        await page.click(page.labelled("Button", say("share.share", language)))
+        await page.head("share")
 
     def said():
         return json.dumps([model for id, model in known.items() if id not in before], ensure_ascii=False)
@@ -120,9 +119,8 @@ async def fails(page, monkeypatch, part, act):
 
 async def ask_of_a_broken_server(here, monkeypatch):
     page = await visitors.come(here.url, "de")
-    share = page.labelled("Button", say("share.share", "de"))
-    await fails(page, monkeypatch, "app.share.share.segno.make", lambda: page.click(share))
-    await page.click(share)  # and can be asked for again
+    await fails(page, monkeypatch, "app.share.share.segno.make", lambda: page.head("share"))
+    await page.head("share")  # and can be asked for again
     await page.until(lambda: page.visitor.find("Download"))
 
     table = page.visitor.find("Download")[16]
@@ -141,8 +139,7 @@ async def ask_of_a_broken_server(here, monkeypatch):
     await page.set(dial, "asked", [2, 5.6, False])
     await page.until(lambda: page.now(dial, "told")[:2] == [2, 5.6])
 
-    [tabs] = page.visitor.find("Tabs")
-    await page.set(tabs, "active", 4)
+    await page.head("room", "families")
     await page.until(lambda: len(page.visitor.models) > known + 50)
     start = page.labelled("Button", say("family.map.start", "de"))
     await fails(page, monkeypatch, "app.tabs.families.compare.share_map", lambda: page.click(start))
@@ -171,7 +168,7 @@ async def flood(here, monkeypatch):
     pages = {}
     for who, K_J in (("flood", 5.5), ("other", 6.5)):
         pages[who] = page = await visitors.come(f"{here.url}?KJ={K_J}")
-        await page.click(page.labelled("Button", say("share.share", "en")))
+        await page.head("share")
         await page.until(lambda page=page: len(page.visitor.find("Download")) > 16)
     flooder, other = pages["flood"], pages["other"]
     figures = flooder.visitor.find("Download")[:3]
@@ -223,7 +220,7 @@ def globals_of_ours():
 
 async def live(here):
     page = await visitors.come(here.url, "de")
-    await page.click(page.labelled("Button", say("share.share", "de")))
+    await page.head("share")
     await page.until(lambda: page.visitor.find("Photo"))
     await page.vanish()
     await asyncio.to_thread(here.wait_for_sessions, 0)

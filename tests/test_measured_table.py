@@ -112,7 +112,9 @@ def test_what_is_left_out_is_a_note():
     assert len(settled(gaps).series["tilt"].t) == 17
     bare = read(table("", "\t"))
     assert bare.notes[0] == ("no-header", {"line": 1})
-    assert {code for code, _ in (*gaps.notes, *bare.notes)} == set(listed("measure.notes"))
+    again = read(lines((7, TRACKER.splitlines()[5])))
+    assert again.notes == (("repeated", {"count": 1, "line": 7}),)
+    assert {code for code, _ in (*gaps.notes, *bare.notes, *again.notes)} == set(listed("measure.notes"))
 
 
 def test_a_column_can_be_corrected():

@@ -10,7 +10,7 @@ import pytest
 import visitors
 from bokeh.core.serialization import Serialized
 from bokeh.model import DataModel
-from visiting import Visit
+from visiting import Visit, go_to
 from wire import Visitor, event, megabytes, run, served
 
 from app.model.builder import LARGEST_FILE
@@ -47,7 +47,7 @@ async def opened(url):
     """A Visitor with the builder's tab open, who reads what he asks for only."""
     visitor = await Visitor.enter(url)
     await visitor.ready()
-    await visitor.set(visitor.find("Tabs")[0], "active", 3)
+    await visitor.set(visitor.find("Head")[0], "asked", [1, "room", "build-a-top"])
     while visitor.component("TopFile") is None:
         visitor.note((await visitor.receive())[1])
     return visitor
@@ -147,7 +147,8 @@ def look(*events, models, buffers=()):
     ("Dial1", "asked", [[1, 6.5, False], [2, "6,5", True]],
      [None, 7, [], [1, 6.5], [1, 6.5, 0], [True, 6.5, False], [-1, 6.5, False], [1, 1e16, False], [1, [], False],
       [1, "9" * 301, True], [1, float("nan"), False], [1, 10**400, False], [1, 6.5, False, 0]]),
-    ("Tabs1", "active", [0, 2], [3, -1, 1.0, True, 10**400, "1", None, []]),
+    ("Head1", "asked", [[1, "room", "lab"], [2, "dark", True]],
+     [None, 7, [1, "room"], [-1, "room", "lab"], [1, "room", 7], [1, "x" * 301, ""], [1, "toy", None]]),
     ("Select1", "value", ["a", None], ["c", 1, ["a"], {}]),
     ("TextInput1", "value", ["", "x" * 20], ["x" * 21, 7, None]),
     ("FloatSlider1", "value", [0, 0.5, 1], [1.1, -1, True, "0.5", None, float("nan"), 10**400]),
@@ -214,7 +215,7 @@ def test_every_component_of_the_page_is_in_the_table(server):
 
     async def all_models():
         page = await visitors.come(server.url)
-        await visitors.open_tabs(page)
+        await visitors.open_rooms(page)
         names = {name for name, _ in page.visitor.models.values()}
         await page.leave()
         return names
@@ -242,7 +243,7 @@ def test_nothing_that_the_page_itself_sends_is_refused(chromium, server):
         box.click(force=True)
     assert page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
         .filter((model) => model.attributes.show_track === false && model.attributes.follow === false).length""")
-    page.get_by_role("tab", name="Build a top").click()
+    go_to(page, "Build a top")
     page.locator("input[type=file]").set_input_files(
         {"name": "top.json", "mimeType": "application/json", "buffer": TOP})  # fmt: skip
     page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
@@ -250,7 +251,7 @@ def test_nothing_that_the_page_itself_sends_is_refused(chromium, server):
     visit.drag(visit.pixel("section", 0, 5), visit.pixel("section", 2, 9))
     page.mouse.up()
     for tab in ("Three planes", "Families", "Learn", "Lab"):
-        page.get_by_role("tab", name=tab).click()
+        go_to(page, tab)
         page.locator("input[type=range]:visible").first.press("ArrowRight")
         page.wait_for_function("Bokeh.documents[0].is_idle")
     page.close()

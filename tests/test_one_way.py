@@ -23,6 +23,7 @@ from panel.io.state import set_curdoc
 import app.model.explorer
 import app.tabs.roll.roll
 from app.bundle import Bundled
+from app.house import House
 from app.model import planes_run
 from app.model.builder import Builder
 from app.model.explorer import Explorer
@@ -31,13 +32,12 @@ from app.model.planes_picture import Settings
 from app.model.playing import Playing
 from app.model.runs import Runs
 from app.model.scene import Scene, solve
-from app.page import House, page
+from app.page import page
 from app.share.share import Share
 from app.state.keep import Keep
 from app.tabs.build.build import Build
 from app.tabs.build.section import Section
 from app.tabs.families.compare import Compare
-from app.tabs.learn.figures import SectionFigure
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.lines import Derivation
 from app.tabs.planes.three_planes import ThreePlanes
@@ -126,12 +126,14 @@ def controls(scene):
 
 def roll(scene):
     pacer = Shown(scene)
-    return Roll(pacer, Playing()), pacer.show
+    controls = Controls(scene, nothing, pacer.soon)
+    pacer.shows(controls.show, "rest")
+    return Roll(pacer, Playing(), controls), pacer.show
 
 
 def learn(section):
     def make(scene):
-        view = Learn(scene, nothing)
+        view = Learn(scene)
 
         def show(scene):
             for view.section in ("lesson", section):  # what is not looked at is shown when it is
@@ -161,11 +163,11 @@ def section(scene):
 
 def share(scene):
     view = Share(Keep(), Playing(), scene)
-    view._open(None)
+    view.open()
 
     def show(scene):
         view.show(scene)
-        view._open(None)
+        view.open()
 
     return view, show
 
@@ -182,7 +184,7 @@ def compare(scene):
 
 
 VIEWS = {
-    **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide, SectionFigure)},
+    **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide)},
     "PlaneFigure": with_motion(PlaneFigure), "TimeFigures": with_motion(TimeFigures),
     "Top3D": in_three_dimensions(Top3D, show_top), "Surface3D": in_three_dimensions(Surface3D, show_surface),
     "Derivation": lambda scene: (lambda view: (view, view.show))(Derivation("a")),
@@ -292,7 +294,7 @@ def test_the_three_planes_work_alone(alone, plane):
 def test_what_a_view_asks_is_all_that_it_does(alone):
     """A hand on Fig. 6, and on the axis of the top: the scene stays, until another one is shown."""
     pacer = Shown(stored(TOPS[0]))
-    view = Roll(pacer, Playing())
+    view = Roll(pacer, Playing(), Controls(pacer.scene, nothing, pacer.soon))
     view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.0]}
     [top] = view.main.select(Top3D)
     top.tilted = [0.6, 0.0, 1]
@@ -337,11 +339,11 @@ def walk(monkeypatch):
         monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
     with set_curdoc(Document()):
-        house = House({}, "")
+        house = House({}, "", nothing)
         house.runs = Runs()
         controls = Controls(house.scene, house.pacer.ask, house.pacer.soon)
         for show, when in ((Share(house.keep, house.playing, house.scene).show, "hand"), (controls.follow, "hand"),
-                           (controls.show, "rest"), (Guide().show, "rest")):  # fmt: skip
+                           (Guide().show, "rest"), (controls.show, "rest")):  # fmt: skip
             house.pacer.shows(show, when)
 
         def rest():
@@ -363,7 +365,7 @@ def told(title):
 
 def test_the_walk_of_a_slider(walk):
     house, controls, passed, rest = walk
-    view = Roll(house.pacer, house.playing)
+    view = Roll(house.pacer, house.playing, controls)
     rest()
     passed.clear()
     controls._controls["K_J"].view.asked = [1, 6.5, False]
@@ -373,8 +375,8 @@ def test_the_walk_of_a_slider(walk):
 
 
 def test_the_walk_of_a_tieline_that_is_pulled(walk):
-    house, _, passed, rest = walk
-    view = Roll(house.pacer, house.playing)
+    house, controls, passed, rest = walk
+    view = Roll(house.pacer, house.playing, controls)
     rest()
     passed.clear()
     view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.5]}

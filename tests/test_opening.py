@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.state.keep import Keep, read
-from app.tabs.lab.opening import opened, shortest
+from app.state.names import LEVELS
+from app.tabs.lab.room import level, opened, shortest
 
 
 @pytest.mark.parametrize(("query", "tab"), {
@@ -16,18 +17,20 @@ from app.tabs.lab.opening import opened, shortest
     "?tab=lab&turns=30": "lab", "?v=1&tab=learn&step=free": "learn",
 }.items())  # fmt: skip
 def test_an_address_opens(query, tab):
-    assert opened(read(query)[0], query) == tab
+    texts, _ = read(query)
+    assert opened(texts, query) == tab
+    assert level(texts, query) == ("explore" if tab == "lab" else "research")  # as it was before there were levels
+    assert level(texts | {"level": "explore"}, query) == "explore"
 
 
 TEXTS = st.dictionaries(st.sampled_from(["KJ", "turns", "lang"]), st.just("1"))
 
 
-@given(TEXTS, st.sampled_from(["lab", "roll", "learn", "families"]))
-def test_what_goes_without_saying_opens_the_same(others, tab):
-    texts = others | {"tab": tab}
-    said = shortest(texts)
-    assert opened(said) == tab
-    assert {key: text for key, text in said.items() if key != "tab"} == others
+@given(TEXTS, st.sampled_from(["lab", "roll", "learn", "families"]), st.sampled_from(LEVELS))
+def test_what_goes_without_saying_opens_the_same(others, tab, shown):
+    said = shortest(others | {"tab": tab, "level": shown})
+    assert (opened(said), level(said)) == (tab, shown)
+    assert {key: text for key, text in said.items() if key not in ("tab", "level")} == others
 
 
 def test_a_page_as_it_comes_has_an_address_without_a_query():

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from house import planes_of
-from visiting import PIXEL, Visit
+from visiting import PIXEL, Visit, go_to
 
 from app.model.explorer import Explorer
 from tippe_core import PRESETS
@@ -29,7 +29,7 @@ def page(server, chromium):
     visit = Visit(chromium.new_page(viewport={"width": 1400, "height": 900}), server)
     page = visit.page
     page.set_default_timeout(PATIENCE)
-    page.get_by_role("tab", name="Three planes").click()
+    go_to(page, "Three planes")
     page.wait_for_function(f"{TOPS}.some(top => top.count > 0 && top.pictures > 2)")
     yield page
     page.close()

@@ -21,10 +21,7 @@ USED = {
     "viewOf": ["find_one("],
     "scalesOf": ["get frame()", "x_scale", "y_scale"],
     "eventsOf": ["this.events_el =", "canvas_view"],
-    "setCursor": ["this.ui_event_bus =", "set_cursor("],
-    "pressNever": ["this.ui_gestures =", "press_threshold = "],
-    "leaveHover": ["tool_views", "_move_exit()"],
-    "modelsOf": ["this._all_models ="],
+    "pressNever": ["this.ui_event_bus =", "this.ui_gestures =", "press_threshold = "],
 }
 
 

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from visiting import Visit
+from visiting import Visit, go_to, is_seen
 from wire import serving, until
 
 pytestmark = pytest.mark.served
@@ -26,7 +26,7 @@ def fails_in_panel(pane, *arguments, **named):
 Bokeh._get_model = fails_in_panel
 """
 IN_MAKER = """
-import app.page as page
+import app.house as page
 failed_in_maker, real_in_maker = [], page.House.families
 def fails_in_maker(*arguments):
     if not failed_in_maker:
@@ -49,7 +49,7 @@ Viewable._preprocess = fails_in_hooks
 # The view waits for a file, and so does the whole server; the first map is never done.
 SLOW = """
 import os, sys, time
-import app.tabs.families.compare as compare, app.page as page
+import app.tabs.families.compare as compare, app.house as page
 real_view, real_map, maps = page.House.families, compare.share_map, []
 def late(*arguments):
     while not os.path.exists(GO):
@@ -109,14 +109,14 @@ def test_a_tab_that_cannot_be_made_says_so_costs_nothing_and_can_be_opened_again
         before = page.evaluate(URLS)
         alert = page.get_by_role("alert").filter(has_text="could not be made")
         for _ in FAILURES:
-            page.get_by_role("tab", name="Families").click()
+            go_to(page, "Families")
             alert.wait_for()
-            page.get_by_role("tab", name="Build a top").click()  # another one, after it
+            go_to(page, "Build a top")  # another one, after it
             page.get_by_role("button", name="Save this top").wait_for()
             assert not alert.is_visible()
-        page.get_by_role("tab", name="Families").click()
+        go_to(page, "Families")
         page.get_by_role("button", name="Compute the map").wait_for()
-        page.get_by_role("tab", name="Roll").click()
+        go_to(page, "Roll")
         page.locator("[data-figure=plane]").first.wait_for()
         assert not re.findall("cdn", " ".join(page.evaluate(URLS)), re.I)
         assert set(before) <= set(page.evaluate(URLS))
@@ -128,10 +128,10 @@ def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromiu
     go = tmp_path / "go"
     with broken(SLOW.replace("GO", repr(str(go))), tmp_path) as server:
         Visit(page, server.url)
-        page.get_by_role("tab", name="Families").click()
+        go_to(page, "Families")
         page.get_by_text("This tab is being made").locator("visible=true").wait_for()  # with the server at a standstill
         assert not page.locator("[data-figure=plane]").first.is_visible()
-        assert page.get_by_role("tab", name="Families").get_attribute("aria-selected") == "true"
+        assert is_seen(page, "Families")
         go.touch()
         page.get_by_role("button", name="Compute the map").wait_for()
         page.locator("svg[aria-label*='Top S']").first.wait_for()
@@ -142,13 +142,13 @@ def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromiu
 
         again = chromium.new_page(viewport={"width": 1400, "height": 900})
         Visit(again, server.url)
-        again.get_by_role("tab", name="Families").click()
+        go_to(again, "Families")
         again.wait_for_function(f"() => ({ROWS})() > 1000")
         again.get_by_role("progressbar").wait_for(state="hidden")
         rows = again.evaluate(ROWS)
-        again.get_by_role("tab", name="Roll").click()
+        go_to(again, "Roll")
         again.locator("[data-figure=plane]").first.wait_for()
-        again.get_by_role("tab", name="Families").click()
+        go_to(again, "Families")
         button = again.get_by_role("button", name="Compute the map")
         button.wait_for()
         assert again.evaluate(ROWS) == rows and button.is_enabled()

@@ -31,6 +31,7 @@ SAME = (
     "lab.keeps.millimetres",
     "measure.heads.*",
     "measure.units.*",
+    "measure.number_units.radius",
 )
 NUMBERS = r"\{[^{}]*\}"
 SHORT_ELEMENT = r"<(i|b|sub|sup)>[^<]{0,4}</\1>"
@@ -189,7 +190,7 @@ NOT_SAID = {
     "codecs.py": {"not one of {}": "said to the log"},
     **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},
     "planes.py": {"no friction: {}": "the beginning of a key"},
-    "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
+    "prints.py": {"tippe top": "never shown"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
        for name in ("server.py", "arrivals.py", "ballots.py", "messages.py", "settings.py", "sockets.py")},
     "look.js": {"dark large": "a key"},

@@ -51,6 +51,37 @@ def of_roll(url):
     return url if "?" in url else f"{url}?tab=roll"
 
 
+# Where in the head a room of the page is.
+ROOMS = {
+    "Lab": ("Lab", "Explore", None),
+    "Roll": ("Lab", "Research", "It rolls: the paper"),
+    "Three planes": ("Lab", "Research", "It slips, it rolls, or neither"),
+    "Build a top": ("Build", None, None),
+    "Families": ("Maps", None, "Which tops can turn over"),
+    "Maps": ("Maps", None, "Maps of many runs"),
+    "Learn": ("Learn", None, None),
+    "Measure": ("Measure", None, None),
+}
+
+
+def go_to(page, room):
+    """Clicks what leads to a room, as far as it is not seen already."""
+    for role, name in zip(("tab", "radio", "radio"), ROOMS[room], strict=True):
+        button = page.get_by_role(role, name=name or "none", exact=True).locator("visible=true").first
+        if button.count() and not is_chosen(button):
+            button.click()
+
+
+def is_seen(page, room):
+    """Whether the head marks the last of what leads to a room."""
+    role, name = [(role, name) for role, name in zip(("tab", "radio", "radio"), ROOMS[room], strict=True) if name][-1]
+    return is_chosen(page.get_by_role(role, name=name, exact=True).locator("visible=true").first)
+
+
+def is_chosen(button):
+    return "true" in (button.get_attribute("aria-selected"), button.get_attribute("aria-checked"))
+
+
 def free_port():
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
@@ -105,10 +136,11 @@ class Visit:
     def pixel(self, figure, x, y):
         return self.page.evaluate(PIXEL, [figure, float(x), float(y)])
 
-    def drag(self, start, end, moves=6):
-        """The mouse goes down at start, to end in some moves, and stays down."""
+    def drag(self, start, end, moves=6, rest=0):
+        """The mouse goes down at start, rests for so many ms, to end in some moves, and stays down."""
         self.page.mouse.move(*start)
         self.page.mouse.down()
+        self.page.wait_for_timeout(rest)
         for i in range(1, moves + 1):
             self.page.mouse.move(*(a + (b - a) * i / moves for a, b in zip(start, end, strict=True)))
 

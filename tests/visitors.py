@@ -1,4 +1,4 @@
-"""Visitors by websocket to a server that runs: they come together, move a slider, open the tabs, and leave one by one.
+"""Visitors by websocket to a server that runs: they come together, move a slider, open the rooms, and leave one by one.
 
     python tests/visitors.py http://localhost:5006/app [VISITORS]
 
@@ -13,7 +13,8 @@ from visiting import of_roll
 from wire import Page, Visitor, run
 
 MOVES = 12  # of each visitor's slider
-TABS, ROLL, A_TAB = 6, 1, 20  # a tab that opens after Roll brings so many models and more
+ROOMS = ("three-planes", "build-a-top", "families", "learn")  # beside Roll, where a visitor comes
+A_ROOM = 20  # each brings so many models and more
 PATIENCE = 300  # s
 
 
@@ -25,21 +26,20 @@ async def come(url, language="en"):
 
 
 async def stay(page, K_J):
-    """Does what a person does: moves the first slider, and looks at each tab."""
+    """Does what a person does: moves the first slider, and looks at each room."""
     dial = page.visitor.find("Dial")[0]
     for i in range(MOVES):
         await page.set(dial, "asked", [i + 1, K_J + 0.05 * i, False])
-    await open_tabs(page)
+    await open_rooms(page)
 
 
-async def open_tabs(page):
-    """One after the other, each until it is there."""
+async def open_rooms(page):
+    """Each room after the other, until it is there."""
     known = page.visitor.models
-    [tabs] = page.visitor.find("Tabs")
-    for tab in range(ROLL + 1, TABS):
+    for room in ROOMS:
         before = len(known)
-        await page.set(tabs, "active", tab)
-        await page.until(lambda before=before: len(known) > before + A_TAB)
+        await page.head("room", room)
+        await page.until(lambda before=before: len(known) > before + A_ROOM)
 
 
 async def visit(url, count):
@@ -62,7 +62,7 @@ def main(url, count=8):
     except Exception as error:
         print(f"{type(error).__name__}: {error}")
         return 1
-    print(f"{count + 1} visitors came, moved a slider {MOVES} times each, opened all {TABS} tabs, and left")
+    print(f"{count + 1} visitors came, moved a slider {MOVES} times each, opened all {len(ROOMS) + 1} rooms, and left")
     return 0
 
 

@@ -228,6 +228,12 @@ class Page:
         [found] = [id for id in self.visitor.find(kind, "label") if self.visitor.models[id][1]["label"] == label]
         return found
 
+    async def head(self, name, value=""):
+        """As if something in the page's head had been clicked."""
+        [head] = self.visitor.find("Head")
+        self._clicks = getattr(self, "_clicks", 0) + 1
+        await self.set(head, "asked", [self._clicks, name, value])
+
     def now(self, model, attribute, default=None):
         """What the server has said of it so far."""
         return self.visitor.models[model][1].get(attribute, default)

@@ -11,6 +11,7 @@ from app.model.measured_motion import Model, model_of
 from tippe_core import Scales, Top, TruncatedSphere
 
 FOLDER = Path(__file__).parent.parent / "data" / "measured"
+FILMED = TruncatedSphere.paper()  # as a shape; its numbers are those that the paper rounds
 RATE = 120.0  # frames a second
 TILT, SPIN, TURN = np.radians(1.0), 2 * np.pi * 0.3, np.radians(1.5)  # errors of one value
 EXAMPLES = ("slips", "rolls", "air")

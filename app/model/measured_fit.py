@@ -1,16 +1,17 @@
 """The fit of a Model to Data: least squares from several starts, what it knows and what it cannot tell."""
 
 import itertools
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import chi2 as chi_square
-from scipy.stats import norm, qmc
+from scipy.stats import norm
 
 from app.model.measured_data import Data
+from app.model.measured_known import RISE, known
 from app.model.measured_motion import BODY, BOUNDS, NO_MOTION, Left, Model, left_over, shifted
+from app.model.measured_starts import around, scattered, starts
 from app.model.runs import look
 from tippe_core import Constants, TopError
 from tippe_core.types import Array
@@ -18,35 +19,27 @@ from tippe_core.types import Array
 STEP = 1e-4  # of a number, or of its typical size, for central differences
 SIZES = {"tilt": 0.1, "tilt_rate": 0.3, "across": 0.3, "spin": 3.0, "rolling_resistance": 1e-3, "air_drag": 1e-3}
 STARTS = 6  # of the grid, the best are followed
-SCATTERED, FOLLOWED = 256, 10  # if that is in vain, so many starts are looked at, and of them the best followed
-FIRST = 4.0  # standard errors about the first values, in which these lie
-RANGES = {
-    "tilt": (0.05, 1.3), "tilt_rate": (-1.0, 1.0), "across": (-3.0, 3.0), "spin": (-12.0, 12.0), "mu": (0.05, 0.8),
-    "eps": (0.01, 1.0), "radius": (3e-3, 0.2), "gamma": (0.03, 1.5), "rolling_resistance": (1e-4, 0.02),
-    "air_drag": (1e-4, 0.02),
-}  # fmt: skip
-"""{number: least and largest of these starts}, evenly in its logarithm where it is above 0."""
+FOLLOWED = 10  # if that is in vain, of those scattered widely so many
 AGREEING, SAME = 3, 1e-3  # so many starts end at one chi-square, to this part of it, where it is surely the least
-APART = 4.0  # standard errors, by which such others lie elsewhere
-ALSO = 9.0  # by less of chi-square other numbers are as good: three standard errors
+ALSO = RISE  # by less of chi-square other numbers are as good: two standard errors
+MOST_BETTER = 3  # times that a valley may lead to a better place
 ALL = slice(None)
 GROWING = (0.25, 0.5, 0.75)  # parts of the time that are fitted one after the other
 TOGETHER = 0.95  # correlation from which two numbers are said to move together
 REFUSED = 1e-3  # a model that is right is refused as often
-BENT = 0.25  # part of a number's variance in which chi-square is no parabola, from which it is not known
-ROUGHLY = 1.7  # times: how far it may be from one
 CLEARLY = 6.0  # by so much of AIC one model is better
 
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """model: with the numbers found. errors: their standard errors, of the free ones; correlation (k, k) of these.
+    """model: with the numbers found. sides: one standard error of each free one, below and above it, inf where
+    chi-square never says no; covariance: (k, k), by the curvature of chi-square.
     left: what it leaves over. runs: {quantity: how many standard errors its residuals change sign too seldom}.
     unknown: free numbers that these data do not tell; together: (one, other, correlation), likewise.
     sure: whether it is as good as chance allows, or several starts ended here: else a better one may be elsewhere."""
 
     model: Model
-    errors: dict[str, float]
+    sides: dict[str, tuple[float, float]]
     covariance: Array
     left: Left
     hidden: int
@@ -54,6 +47,11 @@ class Fit:
     unknown: tuple[str, ...]
     together: tuple[tuple[str, str, float], ...]
     sure: bool
+
+    @property
+    def errors(self) -> dict[str, float]:
+        """The standard error of each free number, to the side on which it is larger."""
+        return {name: max(both) for name, both in self.sides.items()}
 
     @property
     def chi2(self) -> float:
@@ -113,29 +111,41 @@ def _constants(model: Model) -> Array:
 def fit(model: Model, data: Data) -> Fit:
     """The best Fit of the model's free numbers. It looks whether it is to end. Raises TopError where none of the starts
     is a motion."""
-    count = sum(len(series.t) for series in data.series.values())
-    if count <= len(model.free) + shifted(data):
+    problem = Problem(model, data)
+    if (count := problem.count) <= len(model.free) + shifted(data):
         raise TopError("values", count, "more than {least} measured values", "Free fewer numbers, or measure more.",
                        code="too-few-values", least=len(model.free) + shifted(data))  # fmt: skip
-    problem = _Problem(model, data, count)
     # At first of the beginning alone: of a whole motion, that turns many times, there are many false minima.
     t = np.concatenate([series.t for series in data.series.values()])
     shares = [t <= t.min() + share * np.ptp(t) for share in GROWING]
     ends: list[tuple[float, Array]] = []
-    for x in problem.best_of(_starts(model, data), STARTS, shares[0]):
+    for x in problem.best_of(starts(model, data), STARTS, shares[0]):
         for row in shares:
             x = problem.followed(x, 12, row)[1]
         ends.append(problem.followed(x, 25))
     if not _settled(ends, problem):
         # A law's number that the beginning hardly tells may have been led astray by it: others, by the whole motion.
-        for x in problem.best_of(_scattered(model, data), FOLLOWED):
+        for x in problem.best_of(scattered(model, data), FOLLOWED):
             ends.append(problem.followed(x, 25))
             if _settled(ends, problem):
                 break
-    _, x = min(ends, key=lambda end: end[0])
-    best, x = problem.followed(x, 60, exactly=True)
+    best, x = _least(ends, problem)
+    if not problem.good(best) and _alike(ends) < AGREEING:
+        # Nothing fits, so that there may be a better place: whether those around the best lead back to it.
+        for y in problem.best_of(around(x, problem.sizes), FOLLOWED):
+            ends.append(problem.followed(y, 60))
+            best, x = _least(ends, problem)
+            if _alike(ends) >= AGREEING:
+                break
     sure = problem.good(best) or _alike(ends) >= AGREEING
-    return _judged(model, data, x, problem, sure, [x for chi2, x in ends if chi2 < best + ALSO])
+    return _judged(model, data, problem, x, sure, [x for chi2, x in ends if chi2 < best + ALSO])
+
+
+def _least(ends: list[tuple[float, Array]], problem: "Problem") -> tuple[float, Array]:
+    """The least of the ends, followed to its own end."""
+    at = min(range(len(ends)), key=lambda i: ends[i][0])
+    ends[at] = problem.followed(ends[at][1], 60, exactly=True)
+    return ends[at]
 
 
 def _alike(ends: list[tuple[float, Array]]) -> int:
@@ -144,16 +154,17 @@ def _alike(ends: list[tuple[float, Array]]) -> int:
     return sum(chi2 < least + max(0.1, SAME * least) for chi2, _ in ends)
 
 
-def _settled(ends: list[tuple[float, Array]], problem: "_Problem") -> bool:
+def _settled(ends: list[tuple[float, Array]], problem: "Problem") -> bool:
     """Whether there is no need to look elsewhere: one that is as good as chance allows may still be a false one."""
     return problem.good(min(chi2 for chi2, _ in ends)) and _alike(ends) > 1
 
 
-class _Problem:
+class Problem:
     """Least squares of a Model's free numbers, in their order."""
 
-    def __init__(self, model: Model, data: Data, count: int) -> None:
-        self.model, self.data, self.count = model, data, count
+    def __init__(self, model: Model, data: Data) -> None:
+        self.model, self.data = model, data
+        self.count = sum(len(series.t) for series in data.series.values())
         self.bounds = np.array([BOUNDS[name] for name in model.free]).T
         self.sizes = np.array([SIZES.get(name, 0.1 * max(abs(model.values[name]), 0.01)) for name in model.free])
 
@@ -193,79 +204,27 @@ class _Problem:
         return chi2 < self.count + np.sqrt(2 * self.count)
 
 
-def _starts(model: Model, data: Data) -> list[Array]:
-    """Where to begin: what the first values say, and a grid of what they do not."""
-    first = {name: float(np.median(series.values[:5])) for name, series in data.series.items()}
-    unit = model.scales.angular_velocity
-    tilts = [first["tilt"]] if "tilt" in first else [0.1, 0.4, 0.9]
-    spins = [first["spin"] / unit] if "spin" in first else [way * size for size in (3, 5, 8, 12) for way in (1, -1)]
-    grid = {"tilt": tilts, "spin": spins, "mu": [0.1, 0.2, 0.3, 0.5], "eps": [0.03, 0.1, 0.4],
-            "radius": [0.01, 0.03, 0.1], "gamma": [0.05, 0.15, 0.4, 1.0],
-            "rolling_resistance": [1e-3], "air_drag": [1e-3]}  # fmt: skip
-    if model.name == "rolling":
-        turn = first.get("precession")
-        if turn is None and "azimuth" in data.series:
-            series = data.series["azimuth"]
-            turn = float(np.polyfit(series.t, series.values, 1)[0])
-        known = [] if turn is None else [turn / unit * np.sin(tilt) for tilt in tilts]
-        grid |= {"across": [*known, -1.0, -0.3, 0.0, 0.3, 1.0, 3.0], "tilt_rate": [-0.4, 0.0, 0.4]}
-    choices = [grid.get(name, [model.values[name]]) for name in model.free]
-    return [np.array(x, dtype=float) for x in itertools.product(*choices)]
-
-
-def _scattered(model: Model, data: Data) -> list[Array]:
-    """Starts spread evenly over what the first values allow."""
-    unit = {"tilt": 1.0, "spin": model.scales.angular_velocity}
-    points = qmc.Sobol(len(model.free), seed=0).random(SCATTERED)
-    columns = []
-    for share, name in zip(points.T, model.free, strict=True):
-        if name in data.series and name in unit:
-            series = data.series[name]
-            value, error = float(np.median(series.values[:5])) / unit[name], series.error / unit[name]
-            columns.append(value + FIRST * error * (2 * share - 1))
-        elif name in RANGES:
-            low, high = RANGES[name]
-            columns.append(low * (high / low) ** share if low > 0 else low + (high - low) * share)
-        else:
-            columns.append(model.values[name] * (0.8 + 0.4 * share))
-    return list(np.array(columns).T)
-
-
-def _judged(model: Model, data: Data, x: Array, problem: _Problem, sure: bool, others: list[Array]) -> Fit:
-    names, J = model.free, problem.slopes(x)
+def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, others: list[Array]) -> Fit:
+    names = model.free
+    for _ in range(MOST_BETTER):
+        found = known(problem, x)
+        if found.better is None:
+            break
+        _, x = problem.followed(found.better, 60, exactly=True)
     model = model.with_values(dict(zip(names, map(float, x), strict=True)))
     left = left_over(model, data)
-    norms = np.linalg.norm(J, axis=0)
-    norms[norms == 0] = 1e-300
-    # Numbers that move together to the last digits still have errors, very large ones.
-    _, sizes, turned = np.linalg.svd(J / norms, full_matrices=False)
-    axes = turned / np.maximum(sizes, 1e-9 * sizes[0])[:, None] / norms  # of the ellipsoid of one standard error
-    covariance = axes.T @ axes
-    errors = np.sqrt(np.diag(covariance))
-    correlation = covariance / np.outer(errors, errors)
-    low, high = np.array([BOUNDS[name] for name in names]).T
-    vague = errors > np.where(low >= 0, 0.5 * np.abs(x), 0.1 * (high - low))
-    vague |= ((x - low < 2 * errors) & (low >= 0)) | (high - x < 2 * errors)
-    vague |= np.any([np.abs(other - x) > APART * errors for other in others], axis=0)
-    bent = np.array([not _straight(problem.residuals, x, axis, low, high) for axis in axes])
-    vague |= (axes[bent] ** 2).sum(axis=0) > BENT * errors**2
+    tells = found.tells(x, problem.bounds)
+    for other in others:  # as good, and outside of what the valley around the best allows
+        tells = np.all([tells, other > x - 2 * found.below, other < x + 2 * found.above], axis=0)
+    errors = np.sqrt(np.diag(found.covariance))
+    correlation = found.covariance / np.outer(errors, errors)
     pairs = [(names[i], names[j], float(correlation[i, j])) for i, j in itertools.combinations(range(len(names)), 2)
              if abs(correlation[i, j]) > TOGETHER]  # fmt: skip
-    return Fit(model, dict(zip(names, map(float, errors), strict=True)), covariance, left, shifted(data),
+    sides = {name: (float(below), float(above))
+             for name, below, above in zip(names, found.below, found.above, strict=True)}  # fmt: skip
+    return Fit(model, sides, found.covariance, left, shifted(data),
                {name: runs(row) for name, row in left.residuals.items()},
-               tuple(name for name, so in zip(names, vague, strict=True) if so), tuple(pairs), sure)  # fmt: skip
-
-
-def _straight(residuals: Callable[[Array], Array], x: Array, axis: Array, low: Array, high: Array) -> bool:
-    """Whether chi-square rises by about 4 at two standard errors to either side, as the standard errors suppose."""
-    least = float(np.sum(residuals(x) ** 2))
-    rises = []
-    for way in (-2, 2):
-        there = x + way * axis
-        if np.any((there < low) | (there > high)):
-            return False
-        rises.append(float(np.sum(residuals(there) ** 2)) - least)
-    return 4 / ROUGHLY < min(rises) and max(rises) < 4 * ROUGHLY
+               tuple(name for name, so in zip(names, tells, strict=True) if not so), tuple(pairs), sure)  # fmt: skip
 
 
 def runs(row: Array) -> float:

@@ -178,6 +178,9 @@ def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: 
         if not timed.all():
             notes.append(("no-time", {"count": int((~timed).sum()), "line": int(lines[~timed][0])}))
         values, lines = values[timed], lines[timed]
+        again = lines[1:][np.diff(values[:, time]) == 0]
+        if again.size:
+            notes.append(("repeated", {"count": int(again.size), "line": int(again[0])}))
     columns = _columns(names, values)
     notes.extend(_gaps(columns, lines))
     return Table(columns, tuple(map(int, lines)), tuple(notes))

@@ -120,7 +120,6 @@ COLUMNS = Value("a few numbers or words in each of its columns", _is_column)
 OPTION = Value("one of its options", _is_option)
 TYPED = Value("text as long as its field takes", lambda value, of: text(of.max_length or LONGEST).fits(value, of))
 ON_SLIDER = Value("a number on the slider", lambda value, of: _is_number(value, of.start, of.end))
-TAB = Value("the number of a tab", lambda value, of: type(value) is int and 0 <= value < len(of.objects))
 
 
 # --- who may be told what
@@ -157,12 +156,11 @@ CHANGES = {
     "FileDownload": {},
     "FloatSlider": {"value": ON_SLIDER, "value_throttled": ON_SLIDER},
     "MessageState": {},  # Panel's, of the page's notifications
-    "Page": {"sidebar_open": FLAG, "dark_theme": FLAG},
+    "Page": {"dark_theme": FLAG},
     "RadioBoxGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
     "RadioButtonGroup": {"value": OPTION, "active": COUNT | many(COUNT)},
     "Select": {"value": OPTION | NONE, "dropdown_open": FLAG, "filter_str": TEXT},
     "Switch": {"value": FLAG},
-    "Tabs": {"active": TAB},
     "TextInput": {"value": TYPED, "value_input": TYPED},
     # ours
     "Address": {"page": TEXT, "held": FLAG, "gesture": COUNT, "undone": COUNT, "redone": COUNT},
@@ -170,8 +168,11 @@ CHANGES = {
     "Download": {"clicks": COUNT},
     "Failure": {},
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
-    "MeasuredFile": {"table": row(text(200_000), COUNT), "refused": COUNT},
+    "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT)},
+    "MeasuredStage": {},
     "Guide": {},
+    "LessonView": {"asked": row(COUNT, SHORT, SHORT)},
+    "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
     "LabView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
     "Look": {"dark": FLAG, "large": FLAG},
     "Painted": {"painted": COUNT},

@@ -15,7 +15,7 @@ from app.share.parts import MODULE, Address, Clock, Copy, Photo
 from app.share.prints import FIGURES, caption, draw
 from app.state.keep import shared
 from app.text import listed, say
-from app.widgets.cards import PLAIN, on_click, words
+from app.widgets.cards import PLAIN, words
 from app.widgets.download import Download
 from app.widgets.failure import after
 
@@ -24,7 +24,7 @@ REST = 0.25
 
 
 class Share:
-    """header: the buttons for the page's head; main: what was wrong with the link, and the dialog, above all views.
+    """main: what was wrong with the link, and the dialog, above all views.
 
     keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs. show() is for each scene.
     """
@@ -40,35 +40,16 @@ class Share:
         self.keep.param.watch(self._changed, "changed")
         self.keep.param.watch(self._say, "sentence")
         self._say()
-        self.keep.param.watch(self._kept, ["query", "can_undo", "can_redo"])
+        self.keep.param.watch(self._kept, "query")
         self.address.param.watch(lambda event: self.keep.undo(), "undone")
         self.address.param.watch(lambda event: self.keep.redo(), "redone")
-        self.undo = self._button("↶", say("share.undo"), lambda event: self.keep.undo())
-        self.redo = self._button("↷", say("share.redo"), lambda event: self.keep.redo())
-        self.share = pmui.Button(
-            label=say("share.share"),
-            size="small",
-            variant="outlined",
-            color="default",
-            margin=(0, 4),
-            sx=PLAIN["& button"] | {"color": "inherit"},
-        )
-        on_click(self.share, self._open)
         self._dialog = pmui.Dialog(title=say("share.dialog.title"), title_variant="h6", show_close_button=True,
                                    close_on_click=True, width_option="md", sizing_mode="stretch_width")  # fmt: skip
-        self.header = [pn.Spacer(sizing_mode="stretch_width"), self.undo, self.redo, self.share]
         self.main = [self._notice, self.address, self._dialog]
         self._kept()
 
     def show(self, scene):
         self._scene = scene
-
-    @staticmethod
-    def _button(sign, says, act):
-        button = pmui.Button(label=sign, description=says, size="small", variant="text", color="default", margin=0,
-                             sx={"color": "inherit", "minWidth": 36, "fontSize": 20, "lineHeight": 1})  # fmt: skip
-        on_click(button, act)
-        return button
 
     @property
     def link(self):
@@ -105,11 +86,11 @@ class Share:
 
     def _kept(self, *events):
         self.address.search = self.keep.query
-        self.undo.disabled, self.redo.disabled = not self.keep.can_undo, not self.keep.can_redo
 
     # --- the dialog ---
 
-    def _open(self, event):
+    def open(self):
+        """Opens the dialog, of what is shown now."""
         if not self._dialog.objects:
             self._make()
         link = self.link

@@ -126,6 +126,11 @@ class Keep(param.Parameterized):
         self._parts, self._allowed = [], allowed
         self._steps, self._at, self._gesture = [{}], 0, None
 
+    @property
+    def waits(self):
+        """{key: text} of the link that no view has asked for yet."""
+        return dict(self._texts)
+
     def add(self, owner, usual=None, opened=False):
         """Keeps of a view too what NAMES has of its class, at what the link said of it.
 

@@ -8,18 +8,21 @@ from typing import Any
 from urllib.parse import quote
 
 from app.model.lab_run import TABLES, TOYS
+from app.model.lesson import BEFORE
 from app.model.lesson import NAMES as STEPS
 from app.model.planes_picture import LAWS, PLANES
+from app.model.region import PAPER
 from app.state.codecs import Body, Key, Number, Numbers, OneOf, Toy
 from app.text import LANGUAGES
 
-TABS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
-"""In the order of the header."""
+ROOMS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
+"""Of which several may be one tab's."""
+LEVELS = ("explore", "research")
 SECTIONS = ("lesson", "derivation", "teach", "history")
 """Of the tab of lessons."""
 SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
 
-VERSION_NAME, TAB, LANGUAGE, VOTE, SECRET = "v", "tab", "lang", "vote", "room"
+VERSION_NAME, TAB, LEVEL, LANGUAGE, VOTE, SECRET = "v", "tab", "level", "lang", "vote", "room"
 """Those that are read before there is a view. SECRET: the teacher's key of a vote, in his own address alone."""
 
 
@@ -57,7 +60,7 @@ ROWS = (
     Name("w3", "Explorer", "omega3", Number),
     Name("phi", "Explorer", "phi", Number),
     Name("psi", "Explorer", "psi", Number),
-    Name("half", "Explorer", "upper", _SWITCH),
+    Name("half", "Explorer", "upper", OneOf(yes=True, no=False, paper=PAPER)),
     Name("limit", "Explorer", "limit", OneOf(lift="lift-off", slip="slip")),
     # how it is played and looked at
     Name("t", "Clock", "at", Number, undoable=False),
@@ -71,7 +74,8 @@ ROWS = (
     Name("L", "Playing", "show_momentum", _SWITCH, undoable=False),
     Name("follow", "Playing", "follow", _SWITCH, undoable=False),
     # the page
-    Name(TAB, "Tabs", "active", OneOf(**{tab: at for at, tab in enumerate(TABS)}), undoable=False),
+    Name(TAB, "Rooms", "room", _words(*ROOMS), undoable=False),
+    Name(LEVEL, "Rooms", "level", _words(*LEVELS), undoable=False),
     Name("face", "Controls", "face", _words("constants", "state"), undoable=False),
     Name("dark", "Look", "dark", _SWITCH, undoable=False),
     Name("large", "Look", "large", _SWITCH, undoable=False),
@@ -98,7 +102,7 @@ ROWS = (
     Name("mu_smooth", "Planes", "mu", Number),
     Name("mu_stick", "Planes", "mu_s", Number),
     # the lessons
-    Name("step", "Learn", "step", _words(*STEPS), undoable=False),
+    Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False),
     Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False),
     Name(SECRET, "Learn", "room", Key, undoable=False),
 )

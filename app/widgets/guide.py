@@ -9,7 +9,7 @@ from app.widgets.controls import worst
 
 
 class Guide(Bundled):
-    """Two buttons, "Tour" and "?"; the keys of the page; and what the top does now as a text that is read out."""
+    """The tour and the list of keys, which the head opens; the keys; and what the top does now, read out."""
 
     tour = param.Boolean(default=True, doc="Whether what the tour shows is looked at.")
     said = param.String(default="", doc="What the motion on display is, in plain words; for a hand at rest.")

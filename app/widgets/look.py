@@ -4,12 +4,9 @@ The widgets keep one theme, whose colours are variables of CSS; the look changes
 (Another theme would be worked out by each widget for itself, which takes seconds.)
 """
 
-import panel as pn
-import panel_material_ui as pmui
 import param
 
 from app.bundle import Bundled
-from app.text import say
 
 # Of the widgets' theme: name: (on light, on dark); those with an rgb are asked for as three numbers too.
 COLOURS = {
@@ -67,13 +64,3 @@ class Look(Bundled):
         constant=True,
         doc="The variables of the widgets' colours on dark.",
     )
-
-    @property
-    def switches(self):
-        """In a row."""
-        each = [
-            pmui.Switch.from_param(self.param[name], label=say(f"roll.switches.{name}"), description="", size="small",
-                                   margin=(4, 0, 0, 16))
-            for name in ("dark", "large")
-        ]  # fmt: skip
-        return pn.Row(*each, margin=0, sizing_mode="stretch_width", styles={"flex-wrap": "wrap"})

@@ -30,7 +30,7 @@ export default [
     files: ["app/*.js"],
     languageOptions: {
       sourceType: "commonjs",
-      globals: Object.fromEntries(["run", "given", "cb_obj", "value", "format", "special_vars"].map((name) => [name, "readonly"])),
+      globals: Object.fromEntries(["run", "given", "cb_obj", "value", "format", "special_vars", "bundles"].map((name) => [name, "readonly"])),
     },
   },
   { files: ["tests/frontend/*.js"], languageOptions: { globals: globals.node } },

@@ -2,14 +2,17 @@ import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
-import { renderLab } from "./lab/lab.js";
+import { renderLesson } from "./learn/lesson.js";
 import { renderSurface3D } from "./three/surface3d.js";
+import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
 import { renderCopy } from "./widgets/copy.js";
 import { renderDial } from "./widgets/dial.js";
 import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
+import { renderMeasuredStage } from "./widgets/measured_stage.js";
 import { renderGuide } from "./widgets/guide.js";
+import { renderHead } from "./widgets/head.js";
 import { renderLines } from "./widgets/lines.js";
 import { renderLook } from "./widgets/look.js";
 import { renderConnection } from "./widgets/notices.js";
@@ -29,15 +32,18 @@ export default {
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
+  MeasuredStage: { render: renderMeasuredStage },
   Guide: { render: renderGuide },
-  LabView: { render: renderLab },
+  Head: { render: renderHead },
+  LessonView: { render: renderLesson },
+  LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },
   Painted: { render: renderPainted },
   Phone: { render: renderPhone },
   Photo: { render: renderPhoto },
   Surface3D: { render: renderSurface3D },
-  Top3D: { render: renderFirst },
+  Top3D: { render: renderTop3D },
   first,
   letter,
 };

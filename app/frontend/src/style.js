@@ -89,7 +89,6 @@ button { font: inherit; color: inherit; background: transparent; border: 1px sol
   min-width: 34px; height: calc(34px * var(--type, 1)); padding: 0 10px; }
 button:hover { background: color-mix(in srgb, currentColor 12%, transparent); }
 button:focus-visible { outline: 2px solid currentColor; outline-offset: 2px; } h2 { outline: none; }
-.head-button { color: var(--ink, #22303c); } @media (max-width: 600px) { .head-button.tour { display: none; } }
 dialog, .stop { color: var(--ink, #22303c); background: var(--card, #fff); border: 1px solid var(--edge, #7b8794); border-radius: 10px; padding: 14px 18px;
   box-shadow: 0 6px 24px #0006; box-sizing: border-box; max-width: min(560px, calc(100vw - 28px)); }
 dialog::backdrop { background: #0008; }

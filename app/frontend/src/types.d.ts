@@ -28,7 +28,7 @@ interface Model {
 interface Rendering<M extends Model> {
   model: M;
   el: HTMLElement;
-  view: { tippe?: { dispose(): void } };
+  view: { tippe?: { dispose(): void; hold?(held: boolean): void } };
 }
 
 type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
@@ -47,6 +47,8 @@ interface TopModel extends Model, Record<Shown, boolean> {
   playing: boolean;
   speed: number;
   camera: number[];
+  measured?: Bytes;
+  measured_label?: string;
 }
 type Shown = "show_track" | "show_com_path" | "show_force" | "show_cone" | "show_omega" | "show_momentum" | "follow";
 
@@ -89,6 +91,11 @@ interface GuideModel extends Model {
   seconds: number;
 }
 
+interface HeadModel extends Model {
+  state: Record<string, any>;
+  asked: [count: number, name: string, value: any] | [];
+}
+
 interface LookModel extends Model {
   id: string;
   dark: boolean;
@@ -104,10 +111,19 @@ interface DownloadModel extends Model {
   making: boolean;
 }
 
+interface MeasuredStageModel extends Model {
+  frames: Bytes;
+  profile: Bytes;
+  tilts: Bytes;
+  measured: Bytes;
+  measured_label: string;
+  a: number | null;
+  start: number;
+}
+
 interface MeasuredFileModel extends Model {
   most: number;
-  table: [text: string, each: number];
-  refused: number;
+  table: [text: string, each: number, count: number];
 }
 
 interface PhotoModel extends Model {
@@ -171,6 +187,15 @@ type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${
   a: number;
   seconds: number;
   asked: [count: number, name: string, value: any] | [];
+};
+
+// app/tabs/learn/lesson.py says what each holds.
+type LessonRun = Record<"frames" | "profile" | "curves" | "arms", Bytes> & { a: number; seconds: number };
+type LessonModel = Model & Record<"state", any> & {
+  steps: any[];
+  runs: Record<string, LessonRun>;
+  others: Record<string, LessonRun>;
+  asked: [count: number, name: string, value: string] | [];
 };
 
 declare const Bokeh: { documents: any[]; index: any };

@@ -4,7 +4,6 @@ The picture, its controls and its words are one component of the browser; here i
 Lab then has becomes what the component draws.
 """
 
-import re
 from functools import partial
 
 import panel as pn
@@ -16,8 +15,9 @@ from app.model.lab import Lab
 from app.model.lab_rolling import rolling
 from app.model.lab_run import TOYS
 from app.state import asked
-from app.text import listed, say
+from app.text import listed
 from app.widgets.failure import after
+from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 
 INPUTS = ("spin", "tilt", "mu")
@@ -58,15 +58,8 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def spelled(words):
-    """Words with their numbers as the page's language writes them, and no line's end before a unit."""
-    words = re.sub(r"(?<=\d)\.(?=\d)", say("lab_view.view.decimal"), words)
-    return re.sub(r"(?<=\d) (?=(mm|s|rev/s|U/s)\b)", "\N{NO-BREAK SPACE}", words)
-
-
-def lab_view(keep, runs, ask, go):
-    """The tab. keep: a Keep; runs: a Runs; ask: of a Pacer; go: shows the paper's figures."""
-    lab = Lab(runs)
+def lab_view(lab, keep, ask, go):
+    """The tab. lab: a Lab; keep: a Keep; ask: of a Pacer; go: shows the paper's figures."""
     keep.add(lab)
 
     def research():
@@ -140,12 +133,11 @@ class LabTab:
         self.view.param.update(**changes)
 
     def _state(self, scene):
-        lab, names = self._lab, listed("build.presets")
+        lab = self._lab
         messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
         return {
             "table": scene.table,
             "toy": lab.toy,
-            "toys": [[toy, names[toy]["name"]] for toy in lab.param.toy.objects],
             "values": {name: getattr(lab, name) for name in INPUTS},
             "sliders": SLIDERS,
             "messages": messages,

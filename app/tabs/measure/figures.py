@@ -1,60 +1,156 @@
 """What was measured as dots with their errors, over the model's curve, and what it leaves over below."""
 
+from functools import partial
+
 import numpy as np
 import panel as pn
-from bokeh.models import BoxAnnotation, ColumnDataSource, Range1d, Whisker
+from bokeh.models import BoxAnnotation, ColumnDataSource, FixedTicker, Label, Range1d, Span, Whisker
 
 from app.bundle import call
-from app.model.colours import COLOURS, GREY, INK
+from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
 from app.widgets.cards import words
 from app.widgets.plots import plain
 
 SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
 """{quantity: how many of its unit on the axis one of the data is}; of lengths 1000, mm."""
+COLOUR = {"spin": "omega", "precession": "omega", "azimuth": "theta"}
+HEIGHT, SMALL, REST, LEFT = 250, 180, 56, 52  # px; SMALL where there are more than two
+NOTHING = {"t": np.zeros(0), "y": np.zeros(0)}
+HEAD = "display: flex; flex-wrap: wrap; justify-content: space-between; align-items: baseline; gap: 0 16px"
 
 
 def size_of(quantity):
     return SHOWN.get(quantity, 1e3)
 
 
-def _named(fig, label):
+def named(fig, label):
+    """The figure, which is a picture of this name to the ear."""
     fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
 
 
-def pictures(data, left=None, start=None, end=None):
-    """A column of a figure a quantity. left: what a fit leaves over of the data from start to end, s."""
-    column = []
-    first, last = data.t[0], data.t[-1]
-    pad = 0.02 * (last - first)
-    x_range = Range1d(first - pad, last + pad)
-    inner = data.between(start, end) if left else None
-    for name, series in data.series.items():
-        unit, size = say(f"measure.units.{name}"), size_of(name)
+def _heard(pulled, attr, old, new):
+    match new:  # whoever speaks past the page may send anything
+        case {"start": [int() | float() as start]} if np.isfinite(start):
+            pulled(float(start))
+
+
+class Pictures:
+    """view: a figure a quantity. pulled: told the moment in s at which a hand lets the motion begin."""
+
+    def __init__(self, pulled):
+        self._hand = ColumnDataSource({"start": [0.0]})
+        self._hand.on_change("data", partial(_heard, pulled))
+        self.view = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._parts, self._starts = {}, []
+
+    def begin(self, data, start, source):
+        """New data. source: where they are from, in words."""
+        first, last = data.t[0], data.t[-1]
+        pad = 0.02 * (last - first)
+        x_range = Range1d(first - pad, last + pad)
+        high = HEIGHT if len(data.series) < 3 else SMALL
+        self._parts = {name: _Picture(name, series, x_range, high) for name, series in data.series.items()}
+        figures = [fig for part in self._parts.values() for fig in (part.fig, part.rest)]
+        spans = [
+            Span(dimension="height", level="overlay", line_color=COLOURS["chosen"], line_width=1.5) for _ in figures
+        ]
+        self._starts = [Span(location=start, dimension="height", line_color=INK, line_width=1.5, line_dash=[5, 4])
+                        for _ in figures]  # fmt: skip
+        curves = [part.curve for part in self._parts.values()]
+        for fig, span, begun in zip(figures, spans, self._starts, strict=True):
+            fig.add_layout(span)
+            fig.add_layout(begun)
+            given = {"fig": fig, "hand": self._hand, "starts": self._starts, "curves": curves}
+            for event in ("tap", "panstart", "pan", "panend", "mousemove"):
+                fig.js_on_event(event, call("pullFilm", **given))
+        figures[0].js_on_change("inner_width", call("followFilm", spans=spans))
+        figures[0].add_layout(Label(x=start, y=high - 32, y_units="screen", x_offset=5, text=say("measure.begins"),
+                                    text_color=FAINT, text_font_size="12px"))  # fmt: skip
+        figures[-1].xaxis.visible = True
+        self.view.objects = [
+            words(f'<div style="{HEAD}"><b>{say("measure.overlay")}</b><span class="key">{source}</span></div>'),
+            *(pane for part in self._parts.values() for pane in part.panes),
+            words(f'<div class="key">{say("measure.time")}. {say("measure.below")}</div>', margin=(0, 0, 0, LEFT)),
+        ]
+
+    def show(self, shown, fit=None):
+        """The curves of a Shown, and where they are fitted what they leave over. None: none."""
+        for name, part in self._parts.items():
+            part.show(shown, name, fit)
+
+
+class _Picture:
+    """Of one quantity: fig with the dots and the curve, rest with what it leaves over."""
+
+    def __init__(self, name, series, x_range, high):
+        self.name, self.size = name, size_of(name)
         title = say(f"measure.quantities.{name}")
-        fig = _named(plain(x_range=x_range), say("measure.picture", name=title))
-        fig.update(sizing_mode="stretch_width", height=190, min_border_left=52)
-        y, error = series.values * size, series.error * size
+        self.fig = named(plain(x_range=x_range), say("measure.picture", name=title))
+        self.rest = named(plain(x_range=x_range, y_range=Range1d(-3.5, 3.5)), say("measure.rest", name=title))
+        self.curve, self.left = ColumnDataSource(NOTHING), ColumnDataSource(NOTHING)
+        for fig, height in ((self.fig, high), (self.rest, REST)):
+            fig.update(sizing_mode="stretch_width", height=height, min_border_left=LEFT)
+            fig.xaxis.visible, fig.xgrid.visible = False, False
+            fig.yaxis.update(axis_line_color=None, major_tick_line_color=None)
+        self._dots(series)
+        self.rest.add_layout(BoxAnnotation(bottom=-1, top=1, fill_color=GREY, fill_alpha=0.18, line_color=None))
+        self.rest.scatter("t", "y", source=self.left, size=3.5, color=FAINT)
+        self.rest.yaxis.ticker = FixedTicker(ticks=[0])
+        self.rest.ygrid.ticker = self.rest.yaxis.ticker
+        self.head = words(self._head())
+        self.panes = [self.head, *(pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=height, margin=0)
+                                   for fig, height in ((self.fig, high), (self.rest, REST)))]  # fmt: skip
+
+    def _head(self, after=""):
+        unit, title = say(f"measure.units.{self.name}"), say(f"measure.quantities.{self.name}")
+        left, right = (f"<span class='key'>{text}</span>" for text in (unit, after))
+        return f"<div style='{HEAD}'><span><b>{title}</b> {left}</span>{right}</div>"
+
+    def _dots(self, series):
+        y, error = series.values * self.size, series.error * self.size
         dots = ColumnDataSource({"t": series.t, "y": y, "low": y - error, "high": y + error})
-        fig.add_layout(Whisker(base="t", lower="low", upper="high", source=dots, line_color=GREY,
-                               upper_head=None, lower_head=None))  # fmt: skip
-        fig.scatter("t", "y", source=dots, size=5, fill_color=None, line_color=INK)
-        column += [words(f"<b>{title}</b> <span class='key'>{unit}</span>"),
-                   pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=190, margin=0)]  # fmt: skip
-        if left and name in left.residuals:
-            colour = COLOURS["omega" if name in ("spin", "precession") else "theta"]
-            t = inner.series[name].t
-            fig.line(t, left.values[name] * size, line_color=colour, line_width=2)
-            column.append(_rest(t, left.residuals[name], x_range, title))
-    return column
+        self.fig.add_layout(Whisker(base="t", lower="low", upper="high", source=dots, line_color=GREY,
+                                    upper_head=None, lower_head=None))  # fmt: skip
+        colour = COLOURS[COLOUR[self.name]] if self.name in COLOUR else INK
+        self.fig.line("t", "y", source=self.curve, line_color=colour, line_width=2)
+        self.fig.scatter("t", "y", source=dots, size=5.5, fill_color="#ffffff", line_color=INK)
+
+    def show(self, shown, name, fit):
+        if shown is None or name not in shown.curves:
+            self.curve.data, self.left.data = NOTHING, NOTHING
+            self.head.object = self._head()
+            return
+        t, values = shown.curves[name]
+        self.curve.data = {"t": np.array(t), "y": values * self.size}
+        if fit is None:
+            self.left.data, self.head.object = NOTHING, self._head(say("measure.not_fitted"))
+            return
+        rest = shown.left.residuals[name]
+        most = max(3.5, float(np.abs(rest).max()) * 1.1)
+        self.rest.y_range.update(start=-most, end=most)
+        chi2, count = fit.chi2_of[name]
+        self.left.data = {"t": shown.data.series[name].t, "y": rest}
+        self.head.object = self._head(say("measure.chi2", chi2=chi2, count=count))
 
 
-def _rest(t, residuals, x_range, title):
-    most = max(3.5, float(np.abs(residuals).max()) * 1.1)
-    fig = _named(plain(x_range=x_range, y_range=Range1d(-most, most)), say("measure.rest", name=title))
-    fig.update(sizing_mode="stretch_width", height=80, min_border_left=52)
-    fig.add_layout(BoxAnnotation(bottom=-1, top=1, fill_color=GREY, fill_alpha=0.18, line_color=None))
-    fig.scatter(t, residuals, size=3, color=INK)
-    fig.yaxis.ticker.desired_num_ticks = 2
-    return pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=80, margin=0)
+def constants(kept):
+    """A picture a constant of the motion, from the data themselves, with its error at each moment."""
+    panes = []
+    for name, constant in kept.items():
+        colour = COLOURS["jellett" if name == "K_J" else "omega"]
+        fig = named(plain(), say("measure.kept.picture", name=say(f"measure.kept.{name}")))
+        fig.update(sizing_mode="stretch_width", height=150, min_border_left=LEFT)
+        fig.xgrid.visible = False
+        t, values, errors = constant.t, constant.values, constant.errors
+        fig.varea(t, values - errors, values + errors, fill_color=colour, fill_alpha=0.2)
+        fig.line(t, values, line_color=colour, line_width=1.5)
+        mean, _ = constant.mean
+        fig.add_layout(Span(location=mean, dimension="width", line_color=INK, line_dash=[6, 4]))
+        middle, half = mean, max(3 * float(np.abs(values - mean).max() + errors.max()) / 2, 0.05 * abs(mean))
+        fig.y_range = Range1d(middle - half, middle + half)
+        fig.yaxis.ticker.desired_num_ticks = 4
+        head = f"<b>{say(f'measure.kept.{name}')}</b> <span class='key'>{say('measure.kept.band')}</span>"
+        panes += [words(head), pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=150, margin=0)]
+    return panes

@@ -1,31 +1,35 @@
 """The tab Measure: what somebody measured of a top on film, beside rolling and sliding, with fitted numbers."""
 
-import html
-from dataclasses import replace
-
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.measured_data import corrected, settled
-from app.model.measured_examples import EXAMPLES, FOLDER
-from app.model.measured_fit import fit
+from app.borrowed import at_once
+from app.model.bodies import body
+from app.model.measured_data import settled
+from app.model.measured_examples import EXAMPLES, FILMED, FOLDER
 from app.model.measured_kept import kept
-from app.model.measured_motion import model_of
 from app.model.measured_report import program, residuals_table
-from app.model.measured_table import UNITS, MeasuredError, read
+from app.model.measured_shown import placed
+from app.model.measured_table import MeasuredError, read
+from app.model.measured_work import LOOSE_BODY, found, found_of_example, models
 from app.model.runs import Run, Runs, Stopped
-from app.tabs.measure.figures import pictures
+from app.state import asked
+from app.tabs.measure.columns import Columns
+from app.tabs.measure.figures import Pictures, constants
 from app.tabs.measure.file import MeasuredFile
+from app.tabs.measure.recipe import recipe
 from app.tabs.measure.report import report
-from app.tabs.measure.words import TABLE, found_words, models_table, notes_words, numbers_table
+from app.tabs.measure.stage import MeasuredStage, show_film
+from app.tabs.measure.words import TABLE, found_words, kept_words, models_table, notes_words, numbers_table
 from app.text import listed, say, told
-from app.widgets.cards import BUTTON, PLAIN, alert, card, field, flow, grid, note, on_click, words
-from app.widgets.controls import typed_number
+from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from app.widgets.download import Download
-from tippe_core import TopError
+from tippe_core import Top, TopError
 
-LOOSE = {"body": ("a", "I1", "I3"), "push": ("tilt_rate", "across"), "losses": ("rolling_resistance", "air_drag")}
-SELECT = {"size": "small", "margin": 0, "width": 150}
+LOOSE = {"body": LOOSE_BODY, "push": ("tilt_rate", "across"), "losses": ("rolling_resistance", "air_drag")}
+SIDES = {"display": "flex", "flex-flow": "row wrap", "gap": "12px 24px", "padding": "12px 24px 16px",
+         "align-items": "start"}  # fmt: skip
+FIRST = EXAMPLES[0]
 
 
 class Measure:
@@ -34,169 +38,190 @@ class Measure:
 
     def __init__(self, scene, runs=None):
         self._scene, self._runs, self._run = scene, runs or Runs(), None
-        self._table, self._data, self._fits, self._part = None, None, None, (0.0, 0.0)
-        self._thinned = 1
+        self._table, self._data, self._part, self._example = None, None, (0.0, 0.0), ""
+        self._read = None
+        self._found, self._kept, self._thinned = None, {}, 1
         self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
-        self.file.param.watch(lambda event: self.take(event.new[0], event.new[1]), "table")
-        self.file.param.watch(lambda event: self._wrong(say("measure.large", size=event.new)), "refused")
-        self.said, self.columns = words(), pn.Column(sizing_mode="stretch_width", margin=0)
-        self.rate = field("", say("measure.rate"))
-        self.rate.param.watch(lambda event: self._settle(), "value")
-        self.part = pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01, format="0.00",
-                                     visible=False, margin=(6, 12), sizing_mode="stretch_width")  # fmt: skip
+        at_once(self.file, "table")
+        self.file.param.watch(asked.heard(self._brought), "table")
+        self.stage, self.pictures = MeasuredStage(sizing_mode="stretch_width", height=300), Pictures(self._pulled)
+        self.columns = Columns(self._corrected, self._wrong)
+        self.said, self.about = words(), words()
+        self.constants = pn.Column(sizing_mode="stretch_width", margin=0)
+        self._make_controls()
+        self.found = words(note(say("measure.nothing_yet")), style=TABLE)
+        self.home = pn.Column(flow(*self._downloads()), sizing_mode="stretch_width", margin=0, visible=False)
+
+    def _make_controls(self):
+        self.part = pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01, format="0.000",
+                                     margin=(6, 12), sizing_mode="stretch_width")  # fmt: skip
         self.part.param.watch(lambda event: self._draw(), "value_throttled")
         self.law = pmui.RadioButtonGroup(label="", options={says: law for law, says in listed("measure.laws").items()},
                                          value="contensou", size="small", margin=0, sx=PLAIN)  # fmt: skip
+        self.law.param.watch(lambda event: self._draw(), "value")
         self.loose = pmui.CheckBoxGroup(label=say("measure.loose_label"), value=[], inline=True, margin=(4, 0),
                                         options={says: name for name, says in listed("measure.loose").items()},
                                         )  # fmt: skip
-        self.start = pmui.Button(label=say("measure.fit"), disabled=True, **BUTTON)
+        self.loose.param.watch(lambda event: self._draw(), "value")
+        self.start = pmui.Button(label=say("measure.fit"), disabled=True, **BUTTON | {"variant": "contained"})
         self.cancel = pmui.Button(label=say("measure.cancel"), disabled=True, **BUTTON)
         on_click(self.start, self.compute)
         on_click(self.cancel, lambda event: self._run and self._run.stop())
-        self.curves = pn.Column(sizing_mode="stretch_width", margin=0)
-        self.found = words(note(say("measure.nothing_yet")), style=TABLE)
-        self.home = flow(*self._downloads())
-        self.home.visible = False
+        self.take_home = pmui.Button(label=say("measure.take_home"), disabled=True, **BUTTON)
+        on_click(self.take_home, lambda event: self.home.param.update(visible=not self.home.visible))
+        self.recipe = Download(self._runs, tuple, lambda: recipe().encode(), label=say("measure.recipe"),
+                               filename="film-a-top.html")  # fmt: skip
 
     @property
     def view(self):
-        """Two cards: what was measured, and what was found."""
+        """The pictures and what was understood of the table; beside them the top, what was found, and what to do."""
         examples = [pmui.Button(label=says, **BUTTON) for says in listed("measure.examples").values()]
         for button, name in zip(examples, EXAMPLES, strict=True):
-            on_click(button, lambda event, name=name: self.take((FOLDER / f"made-{name}.csv").read_bytes()))
-        measured = card(say("measure.measured"), words(say("measure.says")), self.file, flow(*examples), self.said,
-                        self.columns, self.part, self.curves, height="max-content")  # fmt: skip
-        found = card(say("measure.found_title"), words(say("measure.of_this_top")), flow(self.law), self.loose,
-                     flow(self.start, self.cancel), self.found, self.home, words(note(say("measure.private"))),
-                     words(say("measure.recipe")), height="max-content")  # fmt: skip
-        return grid(measured, found)
+            on_click(button, lambda event, name=name: self.take_example(name))
+        if self._table is None:
+            self.take_example(FIRST)
+        left = [self.pictures.view, self.part, _head("columns"), self.said, self.columns.view,
+                _head("constants"), self.constants]  # fmt: skip
+        right = [self.stage, self.found, self.about, flow(self.law), self.loose, flow(self.start, self.cancel),
+                 self.file, flow(self.take_home, self.recipe), self.home, flow(*examples),
+                 words(note(say("measure.private")))]  # fmt: skip
+        sides = [pn.Column(*parts, margin=0, styles={"flex": flex, "min-width": "0"})
+                 for parts, flex in ((left, "6 1 560px"), (right, "1 1 340px"))]  # fmt: skip
+        return pn.Column(*sides, sizing_mode="stretch_width", margin=0, styles=SIDES)
 
     def show(self, scene):
         """From now on a film is of the top of this scene; what was fitted stays as it is."""
         self._scene = scene
+        if not self._example:
+            self._say_top()
 
-    def _downloads(self):
-        kinds = {"report": "top-on-film.html", "residuals": "residuals.csv", "program": "repeat_fit.py"}
-        for kind, name in kinds.items():
-            yield Download(self._runs, lambda: self._home, getattr(self, f"_{kind}"), label=say(f"measure.home.{kind}"),
-                           filename=name)  # fmt: skip
+    # ---- which top, and what is free ----
 
     @property
-    def _home(self):
-        """What the files are made of."""
-        return self._data.between(*self._part), self._fits, tuple(self._loose), self._part, self.found.object
+    def _body(self):
+        """(top, scales, shape, outline) of what was filmed: an example's own, else the page's."""
+        if self._example:
+            return Top.paper(), FILMED.scales, FILMED, body(FILMED)
+        scene = self._scene
+        return scene.top, scene.scales, scene.shape, scene.profile
 
-    def _report(self, data, fits, loose, part, found):
-        return report(data, fits, found, program(data, fits, loose, *part)).encode()
+    def _say_top(self):
+        top, scales, *_ = self._body
+        numbers = {"a": top.a, "I1": top.I1, "I3": top.I3, "R": 1e3 * scales.R}
+        self.about.object = note(say("measure.of_example" if self._example else "measure.of_this_top", **numbers))
 
-    def _residuals(self, data, fits, *others):
-        return residuals_table(data, min(fits, key=lambda each: each.aic)).encode()
+    @property
+    def _loose(self):
+        return tuple(name for key in self.loose.value for name in LOOSE[key])
 
-    def _program(self, data, fits, loose, part, found):
-        return program(data, fits, loose, *part).encode()
+    def _models(self):
+        """Rolling and sliding, as they are to be fitted."""
+        return models(*self._body[:3], self.law.value, self._loose)
+
+    # ---- what comes in ----
 
     def _wrong(self, sentence):
         self.said.object = alert(sentence)
 
-    def take(self, text, each=1):
+    def _brought(self, event):
+        text, each, _ = asked.parts(event.new, asked.text, asked.number, asked.number)
+        self.take(text, int(each))
+
+    def take_example(self, name):
+        """One of EXAMPLES."""
+        self.take((FOLDER / f"made-{name}.csv").read_bytes(), example=name)
+
+    def take(self, text, each=1, example=""):
         """A table, bytes or text. One that cannot be read leaves what was there."""
         try:
             table = read(text)
         except MeasuredError as error:
             self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
             return
-        self._table, self._thinned = table, each
-        self.columns.objects = [self._column(i, column) for i, column in enumerate(table.columns)]
-        self._settle()
+        self._thinned, self._example, self._read = each, example, table
+        self._say_top()
+        self.columns.show(table)
+        self._corrected(table)
 
-    def _column(self, i, column):
-        """Its name, and what it is taken for."""
-        name = words(f"{i + 1}. {html.escape(column.name)}", sizing_mode=None, width=120, margin=(6, 0))
-        quantity = pmui.Select(label=say("measure.column.quantity", name=column.name), value=column.quantity,
-                               options={says: key for key, says in self._quantities().items()}, **SELECT)  # fmt: skip
-        unit = pmui.Select(label=say("measure.column.unit"), value=column.unit,
-                           options=[*UNITS.get(column.quantity, {"": 1})], **SELECT | {"width": 85})  # fmt: skip
-        error = field("" if column.error is None else f"{column.error:g}", say("measure.column.error"), width=56)
-
-        def changed(event):
-            now = corrected(self._table.columns[i], quantity.value, unit.value)
-            try:
-                now = replace(now, error=typed_number(error.value) if error.value.strip() else None)
-            except ValueError:
-                self._wrong(say("measure.wrong.error", name=column.name))
-                return
-            unit.param.update(options=[*UNITS.get(now.quantity, {"": 1})], value=now.unit)
-            columns = (*self._table.columns[:i], now, *self._table.columns[i + 1 :])
-            self._table = replace(self._table, columns=columns)
-            self._settle()
-
-        for entry in (quantity, unit, error):
-            entry.param.watch(changed, "value")
-        return flow(name, quantity, unit, words("±", sizing_mode=None), error, margin=(4, 0))
-
-    @staticmethod
-    def _quantities():
-        return {"": say("measure.unused"), "time": say("measure.quantities.time"),
-                **{name: say(f"measure.quantities.{name}") for name in UNITS if name != "time"}}  # fmt: skip
-
-    def _settle(self):
-        """The data of the table as it is understood now."""
-        if self._table is None:
-            return
-        frames = any(column.unit == "frames" for column in self._table.columns)
-        if frames and self.rate not in self.columns.objects:
-            self.columns.append(flow(words(say("measure.rate"), sizing_mode=None), self.rate))
+    def _corrected(self, table):
+        """The data of the table as it is understood now; of one that makes none, what was there stays."""
+        self._table = table
         try:
-            data = settled(self._table, self._frame_rate())
+            data = settled(table, self.columns.frames_a_second)
         except MeasuredError as error:
             self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
             self.start.disabled = True
             return
         self._data = data
         thinned = note(say("measure.thinned", each=self._thinned)) if self._thinned > 1 else ""
-        self.said.object = note(notes_words(self._table.notes)) + thinned
+        self.said.object = note(notes_words(table.notes)) + thinned
         first, last = float(data.t[0]), float(data.t[-1])
-        self.part.param.update(start=first, end=last, value=(first, last), step=(last - first) / 200 or 0.01,
-                               visible=True)  # fmt: skip
+        self.part.param.update(start=first, end=last, value=(first, last), step=(last - first) / 400 or 0.01)
+        self._begin()
+
+    def _begin(self):
+        source = listed("measure.examples")[self._example] if self._example else say("measure.own")
+        self.pictures.begin(self._data, self.part.value[0], source)
         self._draw()
 
-    def _frame_rate(self):
-        try:
-            return typed_number(self.rate.value)
-        except ValueError:
-            return 0.0
+    def _pulled(self, start):
+        """A hand let the motion begin there."""
+        start = min(max(start, self.part.start), self.part.end)
+        self.part.value = (start, max(self.part.value[1], start))
+        self._begin()
+
+    # ---- the dots alone ----
 
     def _draw(self):
-        """The dots alone: what was fitted before is no longer of this."""
-        self._fits, self._part = None, tuple(map(float, self.part.value))
-        self.home.visible = False
-        self.found.object = note(say("measure.ready"))
+        """What was fitted before is no longer of this: a motion that begins with the first values, and the dots."""
+        if self._data is None:
+            return
+        self._found, self._part = None, tuple(map(float, self.part.value))
+        self.home.visible, self.take_home.disabled = False, True
         try:
-            self._data.between(*self._part)
+            data = self._data.between(*self._part)
         except MeasuredError as error:
             self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
             self.start.disabled = True
             return
         self.start.disabled = False
-        self.curves.objects = pictures(self._data)
+        top, scales, *_ = self._body
+        model = self._models()[1]
+        self._runs.begin(Run(lambda run: (placed(model, data), kept(data, top, scales)), self._drawn), "guess")
+        if self._run:
+            self._run.forget()
+        if self._is_whole_example and self._runs.beside:
+            self.compute()
 
     @property
-    def _loose(self):
-        return [name for key in self.loose.value for name in LOOSE[key]]
+    def _is_whole_example(self):
+        return bool(self._example) and self._table is self._read and self._part == (self.part.start, self.part.end)
+
+    def _drawn(self, result):
+        if isinstance(result, Exception):
+            if not isinstance(result, Stopped):
+                raise result
+            return
+        first, self._kept = result
+        self.pictures.show(first)
+        if first is not None:
+            show_film(self.stage, first, self._body[3])
+        if self.cancel.disabled:
+            self.found.object = note(say("measure.ready")) + kept_words(self._kept)
+        self.constants.objects = constants(self._kept) or [words(note(say("measure.no_constants")))]
+
+    # ---- the fit ----
 
     def compute(self, event=None):
         """Both fits, beside the server."""
-        scene, data, law, loose = self._scene, self._data.between(*self._part), self.law.value, self._loose
-        of_rolling = tuple(name for name in loose if name in LOOSE["body"])
-
-        def work(run):
-            models = [model_of(name, scene.top, scene.scales, scene.shape, names)
-                      for name, names in (("rolling", of_rolling), (law, loose))]  # fmt: skip
-            return (*(fit(model, data) for model in models), kept(data, scene.top, scene.scales))
-
+        data, both = self._data.between(*self._part), self._models()
+        if self._is_whole_example:
+            asked_for = self._example, self.law.value, self._loose
+            work = lambda run: found_of_example(*asked_for)  # noqa: E731
+        else:
+            work = lambda run: found(data, both)  # noqa: E731
         self.start.disabled, self.cancel.disabled = True, False
-        self.found.object = f'<div role="status">{note(say("measure.waits"))}</div>'
+        self.found.object = f'<div role="status">{note(say("measure.waits"))}</div>' + kept_words(self._kept)
         self._run = Run(work, self._done)
         self._runs.begin(self._run, "fit")
 
@@ -208,12 +233,35 @@ class Measure:
             if not isinstance(result, (Stopped, TopError)):
                 raise result
             return
-        *fits, constants = result
-        self._fits = tuple(fits)
-        rolling, sliding = fits
-        better = min(fits, key=lambda each: each.aic)
-        unit = better.model.scales.angular_velocity
-        self.found.object = (found_words(rolling, sliding, constants) + numbers_table(better, unit)
-                             + models_table(rolling, sliding))  # fmt: skip
-        self.curves.objects = pictures(self._data, better.left, *self._part)
-        self.home.visible = True
+        self._found = result
+        self.found.object = (found_words(*result.fits, result.kept) + numbers_table(result.better)
+                             + models_table(*result.fits))  # fmt: skip
+        self.pictures.show(result.motion, result.better)
+        show_film(self.stage, result.motion, self._body[3])
+        self.take_home.disabled = False
+
+    # ---- what is taken home ----
+
+    def _downloads(self):
+        kinds = {"report": "top-on-film.html", "residuals": "residuals.csv", "program": "repeat_fit.py"}
+        for kind, name in kinds.items():
+            yield Download(self._runs, lambda: self._home, getattr(self, f"_{kind}"), label=say(f"measure.home.{kind}"),
+                           filename=name)  # fmt: skip
+
+    @property
+    def _home(self):
+        """What the files are made of."""
+        return self._data.between(*self._part), self._found.fits, self._loose, self._part, self.found.object
+
+    def _report(self, data, fits, loose, part, found):
+        return report(data, fits, found, program(data, fits, loose, *part)).encode()
+
+    def _residuals(self, data, fits, *others):
+        return residuals_table(data, min(fits, key=lambda each: each.aic)).encode()
+
+    def _program(self, data, fits, loose, part, found):
+        return program(data, fits, loose, *part).encode()
+
+
+def _head(name):
+    return words(f"<h2>{say(f'measure.{name}_head')}</h2>{note(say(f'measure.{name}_says'))}", margin=(16, 0, 4, 0))

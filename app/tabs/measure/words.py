@@ -6,75 +6,81 @@ import numpy as np
 
 from app.model.measured_fit import verdict
 from app.text import listed, say
+from app.widgets.cards import note
 
 SHOWN = {"tilt": 180 / np.pi}
 TABLE = """
-table { border-collapse: collapse; margin: 6px 0; font-size: inherit } p { margin: 4px 0 }
-td, th { padding: 3px 12px 3px 0; text-align: left; font-weight: normal; vertical-align: top }
-th { color: var(--faint, #5b6875) } td.n { text-align: right; font-variant-numeric: tabular-nums }
-h3 { font-size: 16px; margin: 8px 0 2px; font-weight: 600 }
+table { border-collapse: collapse; margin: 8px 0; font-size: inherit; width: 100%; font-variant-numeric: tabular-nums }
+p { margin: 4px 0 } td, th { padding: 5px 10px 5px 0; text-align: left; font-weight: normal; vertical-align: baseline }
+th { color: var(--faint, #5b6875); font-size: 12px } td.n { text-align: right } tr.best td { font-weight: 600 }
+td + td.n + td, td.faint { color: var(--faint, #5b6875) } tr + tr { border-top: 1px solid var(--rule, #d8dce0) }
+h3 { font-size: 18px; margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01em }
 """
 
 
 def _number(value, error):
     """(value, error) with two digits of the error."""
     places = int(np.clip(1 - np.floor(np.log10(error)), 0, 6)) if 0 < error < np.inf else 3
-    return f"{value:.{places}f}".replace("-", "−"), f"{error:.{places}f}"
+    return f"{value:.{places}f}".replace("-", "−"), f"{error:.{places}f}" if error < np.inf else "∞"
+
+
+def _error(value, below, above):
+    """One standard error to either side, in one where they are about the same."""
+    if max(below, above) < 1.15 * min(below, above):
+        return _number(value, max(below, above))
+    least = min(below, above)
+    return _number(value, least)[0], f"+{_number(value, above)[1]} −{_number(value, below)[1]}"
 
 
 def found_words(rolling, sliding, kept):
     """The sentence of what was found, and why."""
     found = verdict(rolling, sliding)
-    parts = [f"<h3>{say(f'measure.found.{found}.title')}</h3>", f"<p>{say(f'measure.found.{found}.why')}</p>"]
+    return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.why')}</p>"
+            + kept_words(kept))  # fmt: skip
+
+
+def kept_words(kept):
+    """What the constants of the motion did, from the data alone, and what that says."""
+    parts = []
     for name, constant in kept.items():
         (before, one), (after, other) = constant.before, constant.after
         key = "stayed" if constant.stayed else "went"
         says = say(f"measure.kept.{name}")
-        parts.append(
-            f"<p>{say(f'measure.kept.{key}', name=says, before=before, one=one, after=after, other=other)}</p>"
-        )
-    return "".join(parts)
+        parts.append(say(f"measure.kept.{key}", name=says, before=before, one=one, after=after, other=other))
+    if kept:
+        known = "".join("k" if kept[name].stayed else "w" for name in ("K_R", "K_J") if name in kept)
+        parts.append(say(f"measure.kept.means.{known}"))
+    return "".join(f"<p>{part}</p>" for part in parts)
 
 
-def numbers_table(fit, unit):
-    """The numbers of a Fit with their errors. unit: rad/s in (g/R)^1/2."""
-    sizes = SHOWN | dict.fromkeys(("spin", "across", "tilt_rate"), unit / (2 * np.pi))
+def numbers_table(fit):
+    """The numbers of a Fit with their errors."""
+    scales = fit.model.scales
+    turns = scales.angular_velocity / (2 * np.pi)  # rev/s in (g/R)^1/2
+    sizes = SHOWN | dict.fromkeys(("spin", "across", "tilt_rate"), turns) | {"radius": 1e3 * scales.R}
     rows = []
     for name in fit.model.free:
         size = sizes.get(name, 1.0)
-        value, error = _number(fit.model.values[name] * size, fit.errors[name] * size)
+        value, error = _error(fit.model.values[name] * size, *(side * size for side in fit.sides[name]))
         marks = [say("measure.with", name=other, correlation=r) for other, r in _partners(fit, name)]
         if name in fit.unknown:
-            marks.insert(0, say("measure.unknown" if _vague(fit, name) else "measure.rough"))
-        rows.append(
-            _row(
-                say(f"measure.numbers.{name}"),
-                value,
-                f"± {error}",
-                say(f"measure.number_units.{name}"),
-                ", ".join(marks),
-            )
-        )
+            marks.insert(0, say("measure.unknown"))
+        error = f"± {error}" if error[0] not in "+∞" else error
+        unit_of = say(f"measure.number_units.{name}")
+        rows.append(_row(say(f"measure.numbers.{name}"), value, error, unit_of, ", ".join(marks)))
     if fit.model.name == "rolling":
         for name, (value, error) in fit.constants.items():
             rows.append(_row(say(f"measure.constants.{name}"), *(f"{mark}{part}" for mark, part in
                              zip(("", "± "), _number(value, error), strict=True)), "", ""))  # fmt: skip
-    sentences = "".join(
-        f"<p>{_together(*pair)}</p>" for pair in fit.together if all(_vague(fit, name) for name in pair[:2])
-    )
+    sentences = "".join(f"<p>{_together(*pair)}</p>" for pair in fit.together if set(pair[:2]) & set(fit.unknown))
     head = f"<tr><th colspan=5>{say(f'measure.models.{fit.model.name}')}</th></tr>"
     return f"<table>{head}{''.join(rows)}</table>{sentences}"
 
 
-def _row(*cells):
-    return (
-        "<tr>" + "".join(f"<td{' class=n' if 0 < i < 3 else ''}>{cell}</td>" for i, cell in enumerate(cells)) + "</tr>"
-    )
-
-
-def _vague(fit, name):
-    """Whether a number is known to no better than half of itself."""
-    return fit.errors[name] > 0.5 * abs(fit.model.values[name])
+def _row(*cells, best=False):
+    marks = ["", " class=n", " class='n faint'", " class=faint", " class=faint", ""]
+    told = "".join(f"<td{marks[min(i, 5)]}>{cell}</td>" for i, cell in enumerate(cells))
+    return f"<tr{' class=best' if best else ''}>{told}</tr>"
 
 
 def _partners(fit, name):
@@ -91,15 +97,13 @@ def _together(one, other, r):
 def models_table(rolling, sliding):
     """Both models on the same data."""
     head = "".join(f"<th>{word}</th>" for word in listed("measure.heads"))
+    better = min(rolling, sliding, key=lambda fit: fit.aic)
     rows = []
     for fit in (sliding, rolling):
         seldom = f"{min(fit.runs.values()):.1f}".replace("-", "−")
-        rows.append(_row(say(f"measure.models.{fit.model.name}"), f"{fit.chi2:.0f}", f"{fit.freedom}", f"{fit.aic:.0f}",
-                         seldom, say(f"measure.{_state(fit)}")))  # fmt: skip
-        for name, (chi2, count) in fit.chi2_of.items():
-            rows.append(_row(f"&nbsp; {say(f'measure.quantities.{name}')}", f"{chi2:.0f}", f"{count}", "",
-                             f"{fit.runs[name]:.1f}".replace("-", "−"), ""))  # fmt: skip
-    return f"<table><tr>{head}</tr>{''.join(rows)}</table>"
+        cells = (f"{fit.chi2:,.0f}", f"{fit.freedom}", f"{fit.aic:,.0f}", seldom, say(f"measure.{_state(fit)}"))
+        rows.append(_row(say(f"measure.models.{fit.model.name}"), *cells, best=fit is better))
+    return f"<table><tr>{head}</tr>{''.join(rows)}</table>{note(say('measure.heads_mean'))}"
 
 
 def _state(fit):

@@ -1,16 +1,16 @@
 // What Python has Bokeh call, by its name: app/bundle.py. Each takes what it was given there, then what happened.
 import { keepFinger, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
-import { followMotion, pullPlane, readPlane, sayPull } from "./plane.js";
+import { followFilm, pullFilm } from "./measured.js";
+import { followMotion, pullPlane, sayPull } from "./plane.js";
 import { followPlanes } from "./planes.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
-import { pressSection, turnSection } from "./sections.js";
+import { pressSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
-import { turnTab } from "../widgets/tabs.js";
 
 const callbacks = {
-  followCurve, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullPlane, readPlane,
-  sayPull, seekAlong, seekOnCurve, turnSection, turnTab,
+  followCurve, followFilm, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullFilm,
+  pullPlane, sayPull, seekAlong, seekOnCurve,
 };
 
 export function offerCallbacks() {

@@ -15,6 +15,14 @@ export class Asking {
     this.answered = 0;
     this.sentAt = -Infinity;
     this.waiting = new Map();
+    this.held = false;
+  }
+
+  // While there is nobody who answers.
+  /** @param {boolean} held */
+  hold(held) {
+    this.held = held;
+    this.next();
   }
 
   /** @param {string} name @param {any} value */
@@ -32,7 +40,7 @@ export class Asking {
 
   next() {
     clearTimeout(this.later);
-    if (!this.waiting.size) return;
+    if (this.held || !this.waiting.size) return;
     const left = LATE - (performance.now() - this.sentAt);
     if (this.answered < this.count && left > 0) {
       this.later = setTimeout(() => this.next(), left);

@@ -79,7 +79,7 @@ class Lab {
     const each = (read) => Object.fromEntries(TABLES.map((name) => [name, read(name)]));
     for (const name of TABLES) {
       const bytes = model[`curves_${name}`];
-      if (this.bytes[name]?.bytes !== bytes) this.bytes[name] = { bytes, curves: new Curves(bytes) };
+      if (!this.bytes[name] || this.bytes[name].bytes !== bytes) this.bytes[name] = { bytes, curves: new Curves(bytes) };
     }
     const alone = table === "three" ? "ordinary" : table, curves = each((name) => this.bytes[name].curves);
     return {
@@ -129,6 +129,6 @@ export function renderLab({ model, el, view }) {
   }
   window.addEventListener("tippe:look", lab.look);
   lab.show();
-  view.tippe = { dispose: () => lab.leave() };
+  view.tippe = { dispose: () => lab.leave(), hold: (held) => lab.asking.hold(held) };
   model.on("remove", () => lab.leave());
 }

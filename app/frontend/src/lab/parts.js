@@ -1,22 +1,7 @@
 // Elements of the page and of a drawing, and numbers in words.
 import { fill as filled } from "../data.js";
 
-const DRAWING = "http://www.w3.org/2000/svg";
-
-function dress(element, attributes, children) {
-  for (const [name, value] of Object.entries(attributes)) {
-    if (name.startsWith("on")) element[name] = value;
-    else if (value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : String(value));
-  }
-  element.append(...children);
-  return element;
-}
-
-/** @param {string} name @param {Record<string, any>} attributes @param {any[]} children @returns {any} */
-export const part = (name, attributes = {}, ...children) => dress(document.createElement(name), attributes, children);
-
-/** @param {string} name @param {Record<string, any>} attributes @param {any[]} children @returns {any} */
-export const drawn = (name, attributes = {}, ...children) => dress(document.createElementNS(DRAWING, name), attributes, children);
+export { Choice, drawn, part } from "../widgets/parts.js";
 
 // A number as it is written in the page's language, with a true minus sign.
 /** @param {number} value @param {number} digits @param {string} decimal */
@@ -37,37 +22,3 @@ export function read(text) {
 export const say = (texts, text, values) =>
   filled(text, Object.fromEntries(Object.entries(values).map(([name, value]) =>
     [name, Array.isArray(value) ? written(value[0], value[1], texts.decimal) : value])));
-
-// One of several buttons is chosen; the arrow keys go from one to the next, as they do between radio buttons.
-export class Choice {
-  /**
-   * @param {object} of
-   * @param {"radio" | "tab"} of.role
-   * @param {string} of.label
-   * @param {[name: string, word: string, hint: string][]} of.options
-   * @param {(name: string) => void} of.choose
-   */
-  constructor({ role, label, options, choose }) {
-    this.mark = role === "tab" ? "aria-selected" : "aria-checked";
-    this.buttons = new Map(options.map(([name, word, hint]) =>
-      [name, part("button", { type: "button", role, title: hint || undefined, onclick: () => choose(name) }, word)]));
-    this.element = part("div", { role: role === "tab" ? "tablist" : "radiogroup", "aria-label": label }, ...this.buttons.values());
-    this.element.onkeydown = (event) => {
-      const by = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[event.key];
-      if (!by) return;
-      event.preventDefault();
-      event.stopPropagation();
-      const all = [...this.buttons.values()], next = all[(all.indexOf(event.target) + by + all.length) % all.length];
-      next.focus();
-      next.click();
-    };
-  }
-
-  /** @param {string} chosen */
-  show(chosen) {
-    for (const [name, button] of this.buttons) {
-      button.setAttribute(this.mark, String(name === chosen));
-      button.tabIndex = name === chosen ? 0 : -1;
-    }
-  }
-}

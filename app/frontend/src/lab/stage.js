@@ -33,10 +33,9 @@ export class Stage {
       drawn("path", { d: RING, fill: "none", stroke: "currentColor", "stroke-width": 3, "stroke-linecap": "round" }),
       drawn("path", { d: "M128 19l-16 9-1-13z", fill: "currentColor" })), this.turns);
     this.missing = part("p", { class: "missing", role: "status" });
-    this.toy = part("select", { "aria-label": texts.toy, onchange: () => ask("toy", this.toy.value) });
     this.element = part("section", { class: "stage", "aria-label": texts.stage },
       part("div", { class: "tops" }, ...this.places), this.ring,
-      part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element), this.toy),
+      part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element)),
       this.pill, this.missing);
     // The wheel scrolls the page; with Ctrl it is for the picture.
     this.element.addEventListener("wheel", (event) => {
@@ -53,7 +52,6 @@ export class Stage {
     const { state, texts, table } = scene, three = table === "three";
     this.scene = scene;
     this.choice.show(table);
-    this.showToys(state);
     const { profile, a, unit: seconds } = scene;
     this.tops.forEach((top, i) => {
       const shown = three === i > 0;
@@ -67,16 +65,6 @@ export class Stage {
     this.missing.textContent = why;
     this.missing.hidden = !why;
     this.old = state.old ? say(texts, texts.old, { what: state.old }) : "";
-  }
-
-  showToys({ toys, toy }) {
-    const names = JSON.stringify(toys);
-    if (names !== this.names) {
-      this.names = names;
-      const added = toys.some(([name]) => name === toy) ? toys : [[toy, toy], ...toys];
-      this.toy.replaceChildren(...added.map(([name, word]) => part("option", { value: name }, word)));
-    }
-    this.toy.value = toy;
   }
 
   caption(name) {

@@ -6,6 +6,7 @@ import { coalesce, float32, tidy } from "../data.js";
 import { Eye } from "./eye.js";
 import { renderFlat } from "../figures/flat.js";
 import { Handle } from "./handle.js";
+import { Measured } from "./measured.js";
 import { photo } from "./photo.js";
 import { colourOf, wordOf } from "../regimes.js";
 import { tryStage } from "./stage.js";
@@ -35,6 +36,7 @@ class Top {
       photo: (wide) => photo(stage, this.scene.labels, wide),
     });
     this.player = this.place.player;
+    this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model);
     this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
     this.bar = new Bar(root, picture, model, this.player, () => {
       model.camera = [];
@@ -55,6 +57,7 @@ class Top {
     model.on("frames", onFrames);
     model.on("profile", () => this.newProfile());
     for (const name of REDRAWN) model.on(name, () => stage.invalidate());
+    if (this.measured) model.on("measured", () => this.newMeasured());
     const onHighlight = ({ detail }) => {
       this.highlight = detail;
       this.scene.pointedTip.element.textContent = detail?.label ?? "";
@@ -69,6 +72,7 @@ class Top {
 
   begin() {
     this.newProfile();
+    if (this.measured) this.newMeasured();
     this.newFrames();
     this.place.begin();
     const forget = this.listen();
@@ -78,6 +82,7 @@ class Top {
       this.place.leave();
       if (window.__tippe.top3d === this.report) delete window.__tippe.top3d;
       this.scene.unfollow();
+      this.measured?.leave();
       this.stage.dispose();
     };
   }
@@ -96,6 +101,7 @@ class Top {
     scene.pose(frames, place, model, this.highlight);
     const { regime } = scene.moment;
     this.handle?.follow(scene.body, some && !playing);
+    this.measured?.follow(scene.body, this.player.t);
     this.say(some ? wordOf(regime, model.texts.regimes) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
   }
 
@@ -121,6 +127,11 @@ class Top {
       this.pose();
       this.eye.begin();
     } else if (!player.playing) this.eye.jumps = true;
+  }
+
+  newMeasured() {
+    this.measured?.read();
+    this.stage.invalidate();
   }
 
   // A person's own zoom is kept, in terms of the body's size.

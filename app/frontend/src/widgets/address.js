@@ -34,7 +34,9 @@ export function renderAddress({ model }) {
     } else if ((!writing || event.key === "Enter") && !event.repeat && !MUTE.includes(event.key)) down();
   };
   window.addEventListener("keydown", onKey, options);
-  model.on("search", () => history.replaceState(history.state, "", location.pathname + model.search + location.hash));
+  const write = () => history.replaceState(history.state, "", location.pathname + model.search + location.hash);
+  model.on("search", write);
+  if (model.search) write(); // what was set before this was here
   model.on("reloads", () => location.reload());
   model.page = location.origin + location.pathname;
   model.on("remove", () => listening.abort());

@@ -10,9 +10,6 @@ const WRITING = "input, textarea, select, button, a[href], summary, [contentedit
 const TYPING = "input:not([type=range], [type=checkbox]), textarea, [contenteditable=true]";
 const KEYS = { " ": { toggle: true }, ArrowLeft: { step: -1 }, ArrowRight: { step: 1 } };
 
-const buttons = (texts) =>
-  `<style>${guideStyle}</style><button class="head-button tour">${texts.tour}</button><button class="head-button keys" aria-label="${texts.keys}" title="${texts.keys_hint}">?</button>`;
-
 const listOf = (texts) => `<dialog class="list" aria-labelledby="title"><h2 id="title">${texts.keys}</h2>
   <table>${texts.list.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
   <button class="close">${texts.close}</button> <button class="again">${texts.again}</button></dialog>`;
@@ -25,7 +22,7 @@ function nameButtons(library) {
       for (const as of ["aria-label", "title"]) button?.setAttribute(as, ours);
     }
   };
-  const onOpen = ({ attr = "" }) => ["open", "sidebar_open"].includes(attr) && setTimeout(rename, RENAME_MS);
+  const onOpen = ({ attr = "" }) => attr === "open" && setTimeout(rename, RENAME_MS);
   const doc = Bokeh.documents[0];
   doc.on_change(onOpen);
   setTimeout(rename, RENAME_MS);
@@ -86,10 +83,9 @@ function listen(list, tour, signal) {
   return openList;
 }
 
-/** @param {Rendering<GuideModel>} rendering */
-export function renderGuide({ model, el }) {
+/** @param {Pick<Rendering<GuideModel>, "model">} rendering */
+export function renderGuide({ model }) {
   const { texts } = model, listening = new AbortController(), { signal } = listening;
-  el.innerHTML = buttons(texts);
   const layer = document.createElement("div"); // over the page, and not within any part of it
   const over = layer.attachShadow({ mode: "open" });
   over.innerHTML = `<style>${guideStyle}</style>${listOf(texts)}${tourFrame(texts)}`;
@@ -99,8 +95,11 @@ export function renderGuide({ model, el }) {
   /** @type {(root: ParentNode, selector: string) => any} */
   const part = (root, selector) => root.querySelector(selector);
   const list = part(over, ".list");
-  part(el, ".keys").onclick = listen(list, tour, signal);
-  part(el, ".tour").onclick = () => tour.begin(document.activeElement);
+  const openList = listen(list, tour, signal), ask = (/** @type {any} */ event) => {
+    if (event.detail === "tour") tour.begin(document.activeElement);
+    else openList(event);
+  };
+  window.addEventListener("tippe:guide", ask, { signal });
   part(over, ".close").onclick = () => list.close();
   part(over, ".again").onclick = () => {
     list.close();
@@ -108,7 +107,7 @@ export function renderGuide({ model, el }) {
   };
   list.onclick = (event) => event.target === list && list.close();
   const offer = () => {
-    for (const button of [part(el, ".tour"), part(over, ".again")]) button.hidden = !model.tour;
+    part(over, ".again").hidden = !model.tour;
     if (!model.tour && tour.isOn) tour.end();
   };
   model.on("tour", offer);

@@ -1,6 +1,5 @@
 // How the page looks: light or dark, and large for a projector. The page's own type and the widgets follow by variables
 // of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
-import { modelsOf } from "../borrowed.js";
 import { colours, onDark } from "../colours.js";
 import { coalesce } from "../data.js";
 import { words } from "../three/scene.js";
@@ -54,7 +53,7 @@ class Look {
     this.model = model;
     this.first = new WeakMap(); // part of a figure -> what its inks and sizes were
     this.name = "light";
-    this.doc = Bokeh.documents.find((doc) => modelsOf(doc).has(model.id)) ?? Bokeh.documents[0];
+    this.doc = Bokeh.documents.find((doc) => doc.get_model_by_id(model.id)) ?? Bokeh.documents[0];
     this.seen = 0;
   }
 
@@ -80,7 +79,7 @@ class Look {
   }
 
   dressAll() {
-    const all = [...modelsOf(this.doc).values()];
+    const all = [...this.doc.all_models];
     this.seen = all.length;
     for (const part of all) if (!part.type?.startsWith("panel.") && part.attributes) this.dress(part);
   }
@@ -95,7 +94,7 @@ class Look {
   // Whether a change of the page brought models to dress: a tab is made when it is first looked at. And the widgets' own
   // dark theme has inks for figures, which come later.
   isUndone(attr) {
-    return this.name !== "light" && (modelsOf(this.doc).size !== this.seen || /(_color|font_size)$/.test(attr));
+    return this.name !== "light" && (this.doc.all_models.size !== this.seen || /(_color|font_size)$/.test(attr));
   }
 }
 

@@ -1,66 +1,123 @@
-// A table that is chosen, dropped or pasted. It is read here, and of one that is too long rows are left out.
+// A table that is chosen, dropped anywhere on the page, or pasted. It is read here, and of one that is too long rows are
+// left out; a saved film is a text of its own, and short.
 import { colours } from "../colours.js";
+import { fill } from "../data.js";
 
 const FRAME = `<style>
-  .drop { font: 14px/1.4 system-ui, sans-serif; color: var(--ink, #22303c); border: 1px dashed; border-radius: 8px;
-    padding: 10px 12px; display: flex; flex-wrap: wrap; gap: 8px 12px; align-items: center }
-  .drop.over { background: ${colours.chosen}22 }
-  textarea { flex: 1 1 180px; min-width: 0; height: 34px; font: inherit; color: inherit; background: transparent;
-    border: 1px solid #8a96a3; border-radius: 6px; padding: 5px 8px; box-sizing: border-box; resize: vertical }
-  input { max-width: 100%; font: inherit; color: inherit }
-  :focus-visible { outline: 2px solid; outline-offset: 2px }</style>
-  <div class="drop"><input type="file" accept=".csv,.tsv,.txt,text/*"><span></span><textarea></textarea></div>`;
-const LARGEST = 5e7; // bytes of a file
+  .row { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; font: 14px/1.4 system-ui, sans-serif; color: var(--ink, #1b2430) }
+  label { display: inline-flex; align-items: center; min-height: 40px; padding: 0 20px; border-radius: 6px; font-weight: 600; cursor: pointer;
+    background: var(--ink, #1b2430); color: var(--card, #fff); white-space: nowrap }
+  label:focus-within { outline: 3px solid var(--focus, ${colours.chosen}); outline-offset: 2px }
+  input { position: absolute; opacity: 0; width: 1px; height: 1px }
+  textarea { flex: 1 1 150px; min-width: 0; height: 40px; font: inherit; color: inherit; background: transparent; resize: none;
+    border: 1px solid #8b949e; border-radius: 6px; padding: 9px 10px; box-sizing: border-box }
+  .says { flex: 1 0 100%; color: var(--faint, #55606c); font-size: 12px } .says:empty { display: none }
+  .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: ${colours.chosen}26; pointer-events: none;
+    border: 3px dashed var(--focus, ${colours.chosen}); box-sizing: border-box; font: 600 20px system-ui, sans-serif; color: var(--ink, #1b2430) }
+  .over b { background: var(--card, #fff); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }</style>
+  <div class="row"><label><input type="file" accept=".csv,.tsv,.txt,.json,text/*"></label><textarea rows="1"></textarea>
+    <div class="says" role="status"></div></div><div class="over" hidden><b></b></div>`;
 const HEAD = 12; // first lines, which are always kept: names stand there
 const SPARE = 1.05; // lines are not of one length
+const CHUNK = 1 << 22; // bytes that are read at a time
+const LOOK = 4096; // bytes by which it is seen what a file is
+const LONG = /(\d[.,]\d{7})\d+/g; // digits that no film has
+
+/** @param {number} length @param {number} most @returns {number} each how-manieth row is kept */
+const everyOf = (length, most) => (length <= most ? 1 : Math.ceil(length / most * SPARE));
 
 /** @param {string} text @param {number} most @returns {[string, number]} what is kept of it, and each how-manieth row */
 export function thinned(text, most) {
   if (text.length <= most) return [text, 1];
-  const each = Math.ceil(text.length / most * SPARE);
-  return [text.split(/\r\n|\r|\n/).filter((_, i) => i < HEAD || i % each === 0).join("\n"), each];
+  const short = text.replace(LONG, "$1"), each = everyOf(short.length, most);
+  return [short.split(/\r\n|\r|\n/).filter((_, i) => i < HEAD || i % each === 0).join("\n"), each];
 }
 
-/** @param {Uint8Array} bytes of a file that a spreadsheet or a telephone saved */
-export function decoded(bytes) {
-  const wide = bytes[0] === 0xff && bytes[1] === 0xfe;
-  const text = new TextDecoder(wide ? "utf-16le" : "utf-8").decode(bytes);
-  return text.includes("\ufffd") ? new TextDecoder("windows-1252").decode(bytes) : text;
+/** @param {Uint8Array} bytes the first of a file @returns {string} how its text is written */
+export function encodingOf(bytes) {
+  if (bytes[0] === 0xff && bytes[1] === 0xfe) return "utf-16le";
+  if (bytes[0] === 0xfe && bytes[1] === 0xff) return "utf-16be";
+  return new TextDecoder().decode(bytes.subarray(0, bytes.length - 4)).includes("\ufffd") ? "windows-1252" : "utf-8";
+}
+
+// A file as thinned() has it, read piece by piece, so that it may be larger than the memory. What is no text comes as its
+// first bytes, which tell that.
+/**
+ * @param {Blob} file @param {number} most
+ * @param {(share: number) => void} reached
+ * @returns {Promise<[string, number]>}
+ */
+export async function readFile(file, most, reached) {
+  const first = new Uint8Array(await file.slice(0, LOOK).arrayBuffer()), encoding = encodingOf(first);
+  const decoder = new TextDecoder(encoding), wide = encoding.startsWith("utf-16");
+  if (!wide && first.includes(0)) return [new TextDecoder("windows-1252").decode(first), 1];
+  if (file.size <= 2 * most) return thinned(decoder.decode(await file.arrayBuffer()), most);
+  const sample = decoder.decode(first), shorter = sample.replace(LONG, "$1").length / first.length;
+  const each = everyOf(file.size * shorter, most), kept = [], stream = new TextDecoder(encoding);
+  let line = 0, rest = "";
+  for (let at = 0; at < file.size; at += CHUNK) {
+    const bytes = await file.slice(at, at + CHUNK).arrayBuffer(), last = at + CHUNK >= file.size;
+    const lines = (rest + stream.decode(bytes, { stream: !last })).split(/\r\n|\r(?!$)|\n/);
+    rest = last ? "" : lines.pop() ?? "";
+    if (rest.length > most) return [sample, 1]; // no table has such a line
+    for (const each_line of lines) {
+      if (line < HEAD || line % each === 0) kept.push(each_line.replace(LONG, "$1"));
+      line += 1;
+    }
+    reached(Math.min(1, (at + CHUNK) / file.size));
+  }
+  const text = kept.join("\n"), again = text.length > most ? thinned(text, most) : [text, 1];
+  return [String(again[0]), each * Number(again[1])];
 }
 
 /** @param {Rendering<MeasuredFileModel>} rendering */
-export function renderMeasuredFile({ model, el }) {
+export function renderMeasuredFile({ model, el, view }) {
+  view.tippe?.dispose();
+  const { texts } = model, leaving = new AbortController(), { signal } = leaving;
   el.innerHTML = FRAME;
-  const zone = /** @type {HTMLDivElement} */ (el.querySelector(".drop"));
-  const input = /** @type {HTMLInputElement} */ (el.querySelector("input"));
-  const area = /** @type {HTMLTextAreaElement} */ (el.querySelector("textarea"));
-  const { choose, drop, paste } = model.texts;
-  input.setAttribute("aria-label", choose);
-  zone.querySelectorAll("span")[0].textContent = drop;
-  area.placeholder = paste;
-  area.setAttribute("aria-label", paste);
-  /** @param {string} text */
-  const send = (text) => (model.table = thinned(text, model.most));
+  /** @returns {any} */
+  const find = (selector) => el.querySelector(selector);
+  const input = find("input"), area = find("textarea"), says = find(".says"), over = find(".over");
+  find("label").prepend(texts.open);
+  find("b").textContent = texts.drop;
+  input.setAttribute("aria-label", texts.choose);
+  area.setAttribute("aria-label", texts.paste);
+  area.placeholder = texts.paste;
+  let count = model.table[2] ?? 0;
+  /** @param {[string, number]} table */
+  const send = ([text, each]) => {
+    count += 1;
+    model.table = [text, each, count]; // the same file again is a wish too
+  };
   /** @param {File | undefined} file */
   const read = async (file) => {
     if (!file) return;
-    if (file.size > LARGEST) model.refused = Math.ceil(file.size / 1e6);
-    else send(decoded(new Uint8Array(await file.arrayBuffer())));
+    try {
+      send(await readFile(file, model.most, (share) => (says.textContent = fill(texts.reading, { name: file.name, percent: Math.round(100 * share) }))));
+      says.textContent = "";
+    } catch {
+      says.textContent = fill(texts.unreadable, { name: file.name });
+    }
   };
-  input.onchange = () => read(input.files?.[0]);
-  area.onchange = () => area.value.trim() && send(area.value);
+  input.onchange = async () => {
+    await read(input.files?.[0]);
+    input.value = "";
+  };
+  area.onchange = () => area.value.trim() && send(thinned(area.value, model.most));
   area.onpaste = () => setTimeout(() => {
-    send(area.value);
+    send(thinned(area.value, model.most));
     area.value = "";
   });
-  zone.ondragover = (event) => {
+  const isSeen = () => el.isConnected && el.clientWidth > 0, brings = (event) => event.dataTransfer?.types.includes("Files");
+  const shows = (event, shown) => {
+    if (!isSeen() || !brings(event)) return false;
     event.preventDefault();
-    zone.classList.add("over");
+    over.hidden = !shown;
+    return true;
   };
-  zone.ondragleave = () => zone.classList.remove("over");
-  zone.ondrop = (event) => {
-    event.preventDefault();
-    zone.classList.remove("over");
-    read(event.dataTransfer?.files[0]);
-  };
+  window.addEventListener("dragover", (event) => shows(event, true), { signal });
+  window.addEventListener("dragleave", (event) => event.relatedTarget === null && shows(event, false), { signal });
+  window.addEventListener("drop", (event) => shows(event, false) && read(event.dataTransfer?.files[0]), { signal });
+  view.tippe = { dispose: () => leaving.abort() };
+  model.on("remove", () => leaving.abort());
 }

@@ -1,0 +1,46 @@
+// What stands in for a model that has not come yet, and the file that its numbers are read from.
+import { float32 } from "./data.js";
+
+// What a view asks of a model, until become() puts the session's own behind it.
+/** @param {LabModel} values */
+export function standIn(values) {
+  const listeners = [], changed = new Set(); // what a person did before
+  /** @type {LabModel | null} */
+  let own = null;
+  const on = (name, run) => (own ? own.on(name, run) : listeners.push([name, run]));
+  const model = new Proxy(/** @type {LabModel} */ ({}), {
+    get: (_, name) => (name === "on" ? on : (own ?? values)[name]),
+    set(_, name, value) {
+      (own ?? values)[name] = value;
+      if (!own) changed.add(name);
+      return true;
+    },
+  });
+  /** @param {LabModel} its */
+  const become = (its) => {
+    own = its;
+    for (const [name, run] of listeners) its.on(name, run);
+    for (const name of changed) its[name] = values[name];
+    for (const [name, run] of listeners) if (name in values && !changed.has(name) && !isSame(values[name], its[name])) run();
+  };
+  return { model, become };
+}
+
+function isSame(a, b) {
+  if (!(a instanceof ArrayBuffer)) return JSON.stringify(a) === JSON.stringify(b);
+  const [one, other] = [a, b].map(float32);
+  return one.length === other.length && one.every((value, i) => value === other[i]);
+}
+
+// The arrays of the file, row by row.
+/** @param {ArrayBuffer} bytes @returns {Record<string, ArrayBuffer>} */
+export function numbersIn(bytes) {
+  const all = new Uint8Array(bytes), end = all.indexOf(10), found = {};
+  let at = end + 1;
+  for (const [name, count, width, needed] of JSON.parse(new TextDecoder().decode(all.subarray(0, end)))) {
+    const columns = new Float32Array(bytes.slice(at, (at += 4 * count * needed))), rows = new Float32Array(count * width);
+    for (let j = 0; j < needed; j++) for (let i = 0; i < count; i++) rows[i * width + j] = columns[j * count + i];
+    found[name] = rows.buffer;
+  }
+  return found;
+}

@@ -1,0 +1,79 @@
+// Where a film saw the top's axis, as a dashed line through the middle of the ball: rows t, x, y, z, in the top's own time.
+import { float32 } from "../data.js";
+import { followLook } from "./scene.js";
+import { WideLine } from "./lines.js";
+/** @import { Stage } from "./stage.js" */
+/** @import { Labels } from "./labels.js" */
+/** @import { Body } from "./body.js" */
+
+const WIDTH = 4;
+const REACH = 1.7; // of the line from the middle, either way, in R
+const DASHES = 17, DASH = 0.6; // of the line, and what part of each is drawn
+const GAP = 4; // of the usual time between two rows: in a longer one nothing was measured
+
+export class Measured {
+  /** @param {Stage} stage @param {Labels} labels @param {TopModel} model */
+  constructor(stage, labels, model) {
+    this.model = model;
+    this.halo = new WideLine({ color: 0xffffff, linewidth: 5, transparent: true, opacity: 0.85, depthTest: false });
+    this.line = new WideLine({ color: 0x000000, linewidth: 2, transparent: true, depthTest: false });
+    this.halo.renderOrder = 5;
+    this.line.renderOrder = 6;
+    this.label = labels.add("", "measured");
+    stage.scene.add(this.halo, this.line);
+    this.rows = new Float32Array();
+    this.most = 0; // the longest time between two rows that is bridged
+    this.leave = followLook(({ sky, ink }) => {
+      this.halo.material.color.set(sky);
+      this.line.material.color.set(ink);
+      stage.invalidate();
+    });
+  }
+
+  read() {
+    this.rows = float32(this.model.measured);
+    const count = this.rows.length / WIDTH;
+    this.most = count > 1 ? GAP * (this.time(count - 1) - this.time(0)) / (count - 1) : 0;
+    this.label.element.textContent = this.model.measured_label ?? "";
+  }
+
+  time(i) {
+    return this.rows[i * WIDTH];
+  }
+
+  // The row before t, and what share of the way to the next; null where nothing was measured.
+  /** @param {number} t @returns {Spot | null} */
+  at(t) {
+    const count = this.rows.length / WIDTH;
+    let low = 0, high = count - 1;
+    if (count < 2 || t < this.time(0) - this.most / GAP || t > this.time(high) + this.most / GAP) return null;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.time(middle) <= t) low = middle;
+      else high = middle;
+    }
+    const long = this.time(high) - this.time(low);
+    return long > this.most ? null : [low, Math.min(Math.max((t - this.time(low)) / (long || 1), 0), 1)];
+  }
+
+  /** @param {Body} body @param {number} t */
+  follow(body, t) {
+    const spot = body.visible ? this.at(t) : null;
+    this.halo.visible = this.line.visible = this.label.visible = Boolean(spot);
+    if (!spot) return;
+    const [row, share] = spot, axis = [1, 2, 3].map((k) => {
+      const one = this.rows[row * WIDTH + k], other = this.rows[(row + 1) * WIDTH + k];
+      return one + share * (other - one);
+    });
+    const far = REACH / (Math.hypot(...axis) || 1), { x, y, z } = body.position, [a, b, c] = axis.map((part) => part * far);
+    const put = (part, to) => to(x + a * part, y + b * part, z + c * part);
+    this.halo.setPath(2, (i, to) => put(2 * i - 1, to));
+    this.line.setSegments(DASHES, (i, to) => {
+      put(2 * i / DASHES - 1, to);
+      put(2 * (i + DASH) / DASHES - 1, to);
+    });
+    const up = c < 0 ? -1 : 1;
+    this.label.at.set(x + up * a * 1.06, y + up * b * 1.06, z + up * c * 1.06);
+    this.label.shift = [0, -10];
+  }
+}

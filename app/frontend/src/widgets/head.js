@@ -1,0 +1,159 @@
+// The row at the head of the page: the top, the tabs, the level, undo, redo, Share, and the menu of all else.
+import { Choice, part } from "./parts.js";
+import { headStyle } from "./head_style.js";
+
+// One of several that may change: the buttons are made anew where their words do.
+class Several {
+  /** @param {"radio" | "tab"} role @param {string} label @param {(name: string) => void} choose */
+  constructor(role, label, choose) {
+    this.make = (options) => new Choice({ role, label, options, choose });
+    /** @type {any} */
+    this.choice = null;
+    this.element = part("div", { class: role === "tab" ? "tabs" : "switch" });
+    this.known = "";
+  }
+
+  /** @param {[name: string, word: string, ...rest: any[]][]} options @param {string} chosen */
+  show(options, chosen) {
+    const known = JSON.stringify(options.map(([name, word]) => [name, word]));
+    if (known !== this.known) {
+      this.known = known;
+      this.choice = this.make(options.map(([name, word]) => [name, word, ""]));
+      this.element.replaceChildren(this.choice.element);
+    }
+    this.choice.show(chosen);
+  }
+}
+
+class Head {
+  /** @param {Rendering<HeadModel>} rendering */
+  constructor({ model, el }) {
+    const { texts } = model;
+    this.model = model;
+    this.texts = texts;
+    this.count = model.state.answered ?? 0;
+    this.toy = part("select", { class: "toy", "aria-label": texts.toy, onchange: () => this.ask("toy", this.toy.value) });
+    this.tabs = new Several("tab", texts.tabs, (tab) => this.go(this.roomOf("tabs", tab)));
+    this.rooms = new Several("radio", texts.rooms, (room) => this.go(room));
+    this.levels = [0, 1].map(() => new Several("radio", texts.level, (level) => this.goLevel(level)));
+    this.steps = [0, 1].map(() => ["undo", "redo"].map((name) =>
+      part("button", { type: "button", class: "icon", "aria-label": texts[name], title: texts[name], onclick: () => this.ask(name) }, texts.signs[name])));
+    this.shares = [0, 1].map(() => part("button", { type: "button", onclick: () => this.ask("share") }, texts.share));
+    /** @type {any} */
+    this.languages = null;
+    /** @type {{ name: string, box: HTMLInputElement, element: HTMLElement }[]} */
+    this.switches = [];
+    this.more = part("button", { type: "button", class: "icon", "aria-label": texts.more, "aria-expanded": "false", onclick: () => this.open(this.menu.hidden) }, "⋯");
+    this.menu = this.makeMenu();
+    this.row = part("header", { class: "row" }, part("h1", {}, texts.title), this.toy, part("nav", { "aria-label": texts.tabs }, this.tabs.element),
+      part("span", { class: "grow" }), part("span", { class: "wide" }, this.levels[0].element, part("span", {}, ...this.steps[0]), this.shares[0]),
+      this.more, this.menu);
+    this.below = part("div", { class: "rooms" }, this.rooms.element);
+    el.replaceChildren(part("style", {}, headStyle), part("div", { class: "all" }, this.row, this.below));
+  }
+
+  makeMenu() {
+    const { texts } = this;
+    this.languages = new Several("radio", texts.language, (name) => this.ask("language", name));
+    this.switches = ["dark", "large"].map((name) => {
+      const box = part("input", { type: "checkbox", role: "switch", onchange: () => this.ask(name, box.checked) });
+      return { name, box, element: part("label", {}, box, texts[name]) };
+    });
+    const guide = (what) => part("button", { type: "button", onclick: () => {
+      this.open(false);
+      window.dispatchEvent(new CustomEvent("tippe:guide", { detail: what }));
+    } }, texts[what]);
+    this.tour = guide("tour");
+    return part("div", { class: "menu", role: "group", "aria-label": texts.more, hidden: true },
+      part("div", { class: "narrow" }, this.levels[1].element, part("span", {}, ...this.steps[1], this.shares[1])),
+      this.languages.element, ...this.switches.map(({ element }) => element), this.tour, guide("keys"));
+  }
+
+  /** @param {boolean} whether */
+  open(whether) {
+    this.menu.hidden = !whether;
+    this.more.setAttribute("aria-expanded", String(whether));
+  }
+
+  // A press elsewhere, or Escape, closes the menu.
+  /** @param {Event | KeyboardEvent} event */
+  leave = (event) => {
+    if (this.menu.hidden) return;
+    if (event instanceof KeyboardEvent) {
+      if (event.key !== "Escape") return;
+      this.more.focus();
+    } else if (event.composedPath().some((each) => each === this.menu || each === this.more)) return;
+    this.open(false);
+  };
+
+  ask(name, value = "") {
+    if (["share", "language"].includes(name)) this.open(false);
+    this.model.asked = [++this.count, name, value];
+  }
+
+  roomOf(kind, chosen) {
+    return this.model.state[kind].find(([name]) => name === chosen)[2];
+  }
+
+  // What is seen changes here, at once; Python hears of it, and makes what is not there yet.
+  turn(room) {
+    const { places } = this.model.state, [doc] = Bokeh.documents;
+    for (const [name, place] of Object.entries(places)) {
+      doc.get_model_by_name(place)?.setv({ visible: name === room }, { sync: false });
+    }
+  }
+
+  go(room) {
+    this.turn(room);
+    this.mark(room);
+    this.ask("room", room);
+  }
+
+  goLevel(level) {
+    this.turn(this.roomOf("levels", level));
+    for (const levels of this.levels) levels.choice.show(level);
+    this.ask("level", level);
+  }
+
+  // Which tab and room are chosen, until Python says so.
+  mark(room) {
+    const { tabs } = this.model.state, tab = tabs.find(([, , first]) => first === room);
+    if (tab) this.tabs.choice.show(tab[0]);
+    else if (this.rooms.choice) this.rooms.choice.show(room);
+  }
+
+  show() {
+    const { state } = this.model;
+    if (!state.tabs || state.answered < this.count) return; // a hand was quicker
+    this.tabs.show(state.tabs, state.tab);
+    for (const levels of this.levels) levels.show(state.levels, state.level);
+    this.below.hidden = !state.rooms.length;
+    if (state.rooms.length) this.rooms.show(state.rooms, state.room);
+    this.languages.show(state.languages, state.language);
+    for (const { name, box } of this.switches) box.checked = state[name];
+    for (const [undo, redo] of this.steps) [undo.disabled, redo.disabled] = [!state.undo, !state.redo];
+    this.showToys(state);
+    this.row.dataset.tab = state.tab;
+    const scheme = state.dark ? "dark" : "light";
+    for (const each of [this.row, this.below]) each.dataset.look = scheme;
+  }
+
+  /** @param {any} state */
+  showToys({ toy, toys }) {
+    const known = JSON.stringify(toys);
+    if (known !== this.known) {
+      this.known = known;
+      this.toy.replaceChildren(...toys.map(([name, word]) => part("option", { value: name }, word)));
+    }
+    this.toy.value = toy;
+  }
+}
+
+/** @param {Rendering<HeadModel>} rendering */
+export function renderHead({ model, el, view }) {
+  const head = new Head({ model, el, view }), listening = new AbortController(), { signal } = listening;
+  model.on("state", () => head.show());
+  head.show();
+  for (const type of ["pointerdown", "keydown"]) window.addEventListener(type, head.leave, { signal, capture: true });
+  model.on("remove", () => listening.abort());
+}

@@ -1,0 +1,66 @@
+// The fitted top beside what a film saw of it, and the film's clock: a button that plays it, and the time and tilt.
+import { Top } from "../lab/top.js";
+import { drawn, part, say } from "../lab/parts.js";
+import { colours } from "../colours.js";
+import { coalesce, float32 } from "../data.js";
+
+export const CLOCK = "film";
+const PACE = 1 / 8; // of the real top's own speed
+const STYLE = `<style>
+  .film { position: relative; height: 100%; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene, #f1efea) }
+  .top { position: absolute; inset: 0 }
+  .pill { position: absolute; left: 16px; bottom: 12px; padding: 4px 12px; border-radius: 16px; background: var(--pill, #fff);
+    color: var(--scene-ink, #1b2430); font: 600 14px/1.45 system-ui, sans-serif; font-variant-numeric: tabular-nums; pointer-events: none }
+  .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: 14px/1.4 system-ui, sans-serif; color: var(--scene-faint, #55606c) }
+  button { position: absolute; right: 16px; bottom: 12px; width: 44px; height: 44px; border: 0; border-radius: 50%; cursor: pointer;
+    display: grid; place-items: center; background: var(--scene-ink, #1b2430); color: var(--scene, #fff) }
+  button:focus-visible { outline: 3px solid var(--focus, ${colours.chosen}); outline-offset: 2px }
+  [hidden] { display: none !important }</style>`;
+const PLAY = "M4 2l12 7-12 7z", PAUSE = "M4 2h4v14H4zm7 0h4v14h-4z";
+
+/** @param {Rendering<MeasuredStageModel>} rendering */
+export function renderMeasuredStage({ model, el, view }) {
+  view.tippe?.dispose();
+  const { texts } = model;
+  el.innerHTML = STYLE;
+  const top = new Top({ texts, label: texts.label, away: 1.05, time: /** @type {any} */ ({ name: CLOCK, pace: PACE }) });
+  Object.assign(top.model, { measured: model.measured, measured_label: model.measured_label, playing: false, show_track: true });
+  const pill = part("div", { class: "pill", hidden: true }), shape = drawn("path", { d: PLAY, fill: "currentColor" });
+  const none = part("p", { class: "none" }, texts.none);
+  const play = part("button", { onclick: () => put({ playing: !top.model.playing }) },
+    drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" }, shape));
+  el.append(part("div", { class: "film" }, top.element, pill, none, play));
+
+  function put(changes) {
+    top.put(changes);
+    const { playing } = top.model;
+    shape.setAttribute("d", playing ? PAUSE : PLAY);
+    play.setAttribute("aria-label", playing ? texts.pause : texts.play);
+  }
+  let tilts = new Float32Array();
+  const hear = ({ detail: { t, index, playing } }) => {
+    if (playing !== top.model.playing) put({ playing });
+    const tilt = tilts[Math.min(index, tilts.length - 1)];
+    pill.textContent = tilt === undefined ? "" : say(texts, texts.pill, { t: [t, 2], tilt: [tilt, 0] });
+  };
+  const show = coalesce(() => {
+    const some = Boolean(float32(model.frames).length);
+    tilts = float32(model.tilts);
+    pill.hidden = play.hidden = !some;
+    none.hidden = some;
+    put({ profile: model.profile, a: model.a, measured_label: model.measured_label, measured: model.measured, frames: model.frames });
+    if (some && !top.begun) {
+      top.model.time = model.start;
+      top.begin();
+    }
+  });
+  for (const name of ["frames", "profile", "tilts", "measured", "a"]) model.on(name, show);
+  window.addEventListener(`tippe:clock:${CLOCK}`, hear);
+  show();
+  view.tippe = { dispose() {
+    show.cancel();
+    window.removeEventListener(`tippe:clock:${CLOCK}`, hear);
+    top.leave();
+  } };
+  model.on("remove", () => view.tippe?.dispose());
+}

@@ -1,0 +1,133 @@
+"""What a page has besides its views, and each view made with its own part of it."""
+
+from functools import partial
+
+import panel as pn
+
+from app.model.builder import Builder
+from app.model.lab import Lab
+from app.model.planes import Planes
+from app.model.playing import Playing
+from app.model.runs import Runs, connected_to, to_session
+from app.state.keep import explorer_of, kept
+from app.state.names import LEVELS, ROOMS
+from app.tabs.build.build import Build
+from app.tabs.build.rocking import RockingFields
+from app.tabs.families.compare import Compare
+from app.tabs.lab import room
+from app.tabs.lab.lab import lab_view
+from app.tabs.learn.learn import Learn
+from app.tabs.maps.maps import Maps
+from app.tabs.measure.measure import Measure
+from app.tabs.planes.three_planes import ThreePlanes
+from app.tabs.roll.roll import Roll
+from app.text import say
+from app.widgets.cards import card, grid
+from app.widgets.controls import Controls
+from app.widgets.failure import attempt
+from app.widgets.pacing import Pacer
+
+
+def alike(*rooms):
+    """The rooms of a tab that has the same at each level."""
+    return dict.fromkeys(LEVELS, rooms)
+
+
+TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"), "maps": alike("families", "maps"),
+        "measure": alike("measure")}  # fmt: skip
+"""{tab: {level: the names that its rooms have in an address}}, in the order of the head."""
+
+
+class House:
+    """The Explorer that solves, the Pacer that is asked and shows its scenes, the Builder of bodies, the Lab, how the
+    top is played, what is kept, and what runs beside.
+
+    look_at(name of a room) shows it: the page sets where that leads.
+    """
+
+    def __init__(self, texts, sentence, look_at):
+        self.explorer, wrong = explorer_of(texts)
+        self.pacer = Pacer(self.explorer)
+        self.builder = Builder(self.explorer.scene, self.pacer.ask)
+        self.pacer.shows(self.builder.follow, "hand")
+        self.playing, self._look_at = Playing(), look_at
+        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))), shortest=room.shortest)
+        post = to_session(pn.state.curdoc)
+        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
+        self.lab_of = Lab(self.runs)
+        pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
+        pn.state.onload(self.pacer.begin)
+
+    @property
+    def scene(self):
+        return self.explorer.scene
+
+    # ---- the rooms, each made when it is first looked at ----
+
+    def lab(self):
+        return lab_view(self.lab_of, self.keep, self.pacer.ask, lambda: self._look_at(room.USUAL))
+
+    def roll(self):
+        controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
+        self.keep.add(controls)
+        for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
+            self.pacer.shows(show, when)
+        return Roll(self.pacer, self.playing, controls).main
+
+    def build(self):
+        bench = Build(self.builder, self.pacer.soon)
+        self.pacer.shows(bench.show, "rest")
+        rocking = card(say("main.cards.measure"), *RockingFields(self.builder).view, height="max-content")
+        rocking.styles = rocking.styles | {"grid-column": "1 / -1"}
+        return grid(
+            card(say("main.cards.section"), *bench.section_view, height="max-content"),
+            card(say("main.cards.bench"), *bench.bench_view, height="max-content"),
+            rocking,
+        )
+
+    def planes(self):
+        planes = Planes(self.scene, self.runs)
+        self.keep.add(planes)
+        inputs = {name: getattr(planes, name) for name in ("plane", *Planes.INPUTS)}
+        view = ThreePlanes(inputs, self.pacer.ask_of(planes), self.pacer.ask, self.builder.choose, planes)
+        planes.param.watch(lambda event: view.show(event.new), "picture")
+        planes.param.watch(lambda event: view.look(event.new), "plane")
+        planes.param.watch(lambda event: view.wait(), "busy")
+        if planes.picture is not None:
+            view.show(planes.picture)
+        view.wait()
+        self.pacer.shows(planes.see, "hand")
+        self.pacer.shows(planes.follow, "rest")
+        return view.main
+
+    def families(self):
+        compare = Compare(self.scene, self.runs)
+        self.pacer.shows(compare.show, "hand")
+        compare.draw(compare.family.value)
+        compare.compute()
+        return grid(
+            card(say("main.cards.compare"), *compare.figures_view, height="max-content"),
+            card(say("main.cards.map"), *compare.map_view, height="max-content"),
+            narrowest=1000,
+        )
+
+    def learn(self):
+        learn = Learn(self.scene, self.runs)
+        self.pacer.shows(learn.show, "rest")
+        self.keep.add(learn)
+        learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
+        return learn.view
+
+    def maps(self):
+        return Maps(self.runs).view
+
+    def measure(self):
+        measure = Measure(self.scene, self.runs)
+        self.pacer.shows(measure.show, "hand")
+        return measure.view
+
+    @property
+    def makers(self):
+        """{name of a room in the address: its maker}."""
+        made = (self.lab, self.roll, self.planes, self.build, self.families, self.learn, self.maps, self.measure)
+        return dict(zip(ROOMS, made, strict=True))

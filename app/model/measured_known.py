@@ -1,0 +1,144 @@
+"""What a fit knows of its numbers: how far each can go until chi-square says no, whatever the others do.
+
+Where chi-square is a parabola, its curvature tells. Where its valley is curved, the valley is followed: a number is
+held beside the best, the others are fitted anew, and so on until chi-square has risen by 4: two standard errors (the
+profile of the likelihood; D. J. Venzon and S. H. Moolgavkar, Appl. Statist. 37, 87 (1988)).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from app.model.runs import look
+from tippe_core.types import Array
+
+RISE = 4.0  # of chi-square at two standard errors
+BENT = 0.1  # part of a number's variance along which chi-square is no parabola, from which its valley is followed
+ROUGHLY = 1.3  # times: how far it may be from one
+CLOSE, TRIES = 0.05, 9  # the rise is met to this part of two standard errors, within so many steps
+STEPS = 1.6, 3.0  # each so many times as far as the one before, until it has risen enough
+BETTER = 0.05  # by so much of chi-square another place is a better one
+LONGEST = 30.0  # times the error that the curvature tells: no valley is followed farther
+VAGUE = 0.5  # of itself: a number above 0 whose error is larger is not known
+
+
+class Problem(Protocol):
+    """Least squares of a model's free numbers."""
+
+    bounds: Array
+    sizes: Array
+
+    def residuals(self, x: Array) -> Array:
+        """In standard errors."""
+
+    def slopes(self, x: Array) -> Array:
+        """Of the residuals."""
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """covariance: (k, k), by the curvature at the best. below, above: (k,) one standard error to either side, inf where
+    chi-square never says no. followed: of which numbers the valley was followed. better: a place that it came by and
+    that is better than the best, else None."""
+
+    covariance: Array
+    below: Array
+    above: Array
+    followed: Array
+    better: Array | None = None
+
+    def tells(self, x: Array, bounds: Array) -> Array:
+        """Which numbers the data tell: within their bounds, to half of themselves where they are above 0."""
+        low, high = bounds
+        error = np.maximum(self.below, self.above)
+        most = np.where(low >= 0, VAGUE * np.abs(x), 0.1 * (high - low))
+        return (error <= most) & (x + 2 * self.above < high)
+
+
+def known(problem: Problem, x: Array) -> Known:
+    """Of the numbers that are best."""
+    J = problem.slopes(x)
+    norms = np.linalg.norm(J, axis=0)
+    norms[norms == 0] = 1e-300
+    # Numbers that move together to the last digits still have errors, very large ones.
+    _, sizes, turned = np.linalg.svd(J / norms, full_matrices=False)
+    axes = turned / np.maximum(sizes, 1e-9 * sizes[0])[:, None] / norms  # of the ellipsoid of one standard error
+    covariance = axes.T @ axes
+    errors = np.sqrt(np.diag(covariance))
+    bent = np.array([not _straight(problem.residuals, x, axis, problem.bounds) for axis in axes])
+    followed = (axes[bent] ** 2).sum(axis=0) > BENT * errors**2
+    below, above = errors.copy(), errors.copy()
+    least = float(np.sum(problem.residuals(x) ** 2))
+    for i in np.flatnonzero(followed):
+        for way, side in ((-1, below), (1, above)):
+            side[i], better = _far(problem, x, least, int(i), way, covariance[:, i] / errors[i])
+            if better is not None:
+                return Known(covariance, below, above, followed, better)
+    return Known(covariance, below, above, followed)
+
+
+def _straight(residuals: Callable[[Array], Array], x: Array, axis: Array, bounds: Array) -> bool:
+    """Whether chi-square rises by about 4 at two standard errors to either side, as the curvature says."""
+    least = float(np.sum(residuals(x) ** 2))
+    rises = []
+    for way in (-2, 2):
+        there = x + way * axis
+        if np.any((there < bounds[0]) | (there > bounds[1])):
+            return False
+        rises.append(float(np.sum(residuals(there) ** 2)) - least)
+    return RISE / ROUGHLY < min(rises) and max(rises) < RISE * ROUGHLY
+
+
+def _far(problem: Problem, x: Array, least: float, i: int, way: int, along: Array) -> tuple[float, Array | None]:
+    """(one standard error of number i to this side, a better place that was come by). along: how all numbers move when
+    this one moves by one of its errors."""
+    error, edge = abs(float(along[i])), float(problem.bounds[int(way > 0), i])
+    room = min(abs(edge - float(x[i])), LONGEST * error)
+    low, high = (0.0, 0.0), None  # (how far, the root of the rise there): the rise is met between them
+    far, y, at = min(2 * error, room), x, 0.0
+    for _ in range(TRIES):
+        look()
+        start = y + way * (far - at) / error * along
+        chi2, there = _valley(problem, start, i, float(x[i]) + way * far)
+        if chi2 < least - BETTER:
+            return error, there
+        root = float(np.sqrt(max(chi2 - least, 0.0)))
+        if abs(root - 2) < 2 * CLOSE:
+            return far / root, None
+        if root < 2:
+            if far >= room:
+                return np.inf, None
+            low, y, at = (far, root), there, far
+            far = min(far * float(np.clip(2 / max(root, 0.1), *STEPS)), room) if high is None else _between(low, high)
+        else:
+            high = far, root
+            far = _between(low, high)
+    return (far / 2 if high else float(np.inf)), None
+
+
+def _between(low: tuple[float, float], high: tuple[float, float]) -> float:
+    """Where the root of the rise is 2, by the straight line, and well within."""
+    share = (2 - low[1]) / (high[1] - low[1]) if np.isfinite(high[1]) else 0.5
+    return low[0] + (high[0] - low[0]) * float(np.clip(share, 0.1, 0.9))
+
+
+def _valley(problem: Problem, x: Array, i: int, value: float) -> tuple[float, Array]:
+    """(chi-square, numbers) where number i is held and the others are fitted."""
+    others = np.arange(len(x)) != i
+    inside = np.clip(x, problem.bounds[0] + 1e-6, problem.bounds[1] - 1e-6)
+    inside[i] = value
+    if not others.any():
+        return float(np.sum(problem.residuals(inside) ** 2)), inside
+
+    def whole(part: Array) -> Array:
+        full = inside.copy()
+        full[others] = part
+        return full
+
+    found = least_squares(lambda part: problem.residuals(whole(part)), inside[others],
+                          lambda part: problem.slopes(whole(part))[:, others], tuple(problem.bounds[:, others]),
+                          x_scale=problem.sizes[others], max_nfev=15)  # fmt: skip
+    return 2 * float(found.cost), whole(found.x)

@@ -1,0 +1,55 @@
+"""What is found of a film's data: both models fitted, the constants of the motion, and the better motion."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from app.model.measured_data import Data, settled
+from app.model.measured_examples import FILMED, FOLDER
+from app.model.measured_fit import Fit, fit
+from app.model.measured_kept import Kept, kept
+from app.model.measured_motion import Model, model_of
+from app.model.measured_shown import Shown, shown
+from app.model.measured_table import read
+from tippe_core import Scales, Shape, Top
+
+LOOSE_BODY = ("a", "I1", "I3")
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """rolling and sliding: of the same data. kept: what the constants of the motion did. motion: the better one's."""
+
+    rolling: Fit
+    sliding: Fit
+    kept: dict[str, Kept]
+    motion: Shown
+
+    @property
+    def fits(self) -> tuple[Fit, Fit]:
+        """Both."""
+        return self.rolling, self.sliding
+
+    @property
+    def better(self) -> Fit:
+        """The one of less AIC."""
+        return min(self.fits, key=lambda each: each.aic)
+
+
+def models(top: Top, scales: Scales, shape: Shape | None, law: str, loose: tuple[str, ...]) -> tuple[Model, Model]:
+    """Rolling, and sliding by this law, with these numbers free as well: rolling has neither losses nor a push."""
+    of_rolling = tuple(name for name in loose if name in LOOSE_BODY)
+    return model_of("rolling", top, scales, shape, of_rolling), model_of(law, top, scales, shape, loose)
+
+
+def found(data: Data, both: tuple[Model, Model]) -> Found:
+    """Takes seconds, and looks whether it is to end. Raises TopError."""
+    rolling, sliding = (fit(model, data) for model in both)
+    better = min((rolling, sliding), key=lambda each: each.aic)
+    return Found(rolling, sliding, kept(data, better.model.top, better.model.scales), shown(better.model, data))
+
+
+@lru_cache(maxsize=32)
+def found_of_example(name: str, law: str, loose: tuple[str, ...]) -> Found:
+    """Of a whole example, which every visitor may ask for."""
+    data = settled(read((FOLDER / f"made-{name}.csv").read_bytes()))
+    return found(data, models(Top.paper(), FILMED.scales, FILMED, law, loose))

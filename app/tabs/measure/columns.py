@@ -1,0 +1,87 @@
+"""What was understood of a table's columns, with a few of their values, to be corrected."""
+
+import html
+from dataclasses import replace
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+
+from app.model.measured_data import corrected
+from app.model.measured_table import UNITS
+from app.text import say
+from app.widgets.cards import field, flow, note, words
+from app.widgets.controls import typed_number
+
+SELECT = {"size": "small", "margin": 0}
+FIRST = 4  # values
+
+
+class Columns:
+    """view: a row a column. changed: told of a Table that a person corrected; wrong: told in a sentence what is not
+    possible."""
+
+    def __init__(self, changed, wrong):
+        self._changed, self._wrong, self._table = changed, wrong, None
+        self.rate = field("", say("measure.rate"))
+        self.rate.param.watch(lambda event: self._changed(self._table), "value")
+        asks = flow(words(say("measure.rate"), sizing_mode=None), self.rate)
+        self._of_rate = pn.Column(asks, sizing_mode="stretch_width", margin=0)
+        self.view = pn.Column(sizing_mode="stretch_width", margin=0)
+
+    @property
+    def frames_a_second(self):
+        """As it was typed; 0 where nothing was."""
+        try:
+            return typed_number(self.rate.value)
+        except ValueError:
+            return 0.0
+
+    def show(self, table):
+        """A new table."""
+        self._table = table
+        self.view.objects = [*(self._row(i, column) for i, column in enumerate(table.columns)), self._of_rate]
+        self.show_rate()
+
+    def show_rate(self):
+        """Frames a second are asked for where the time is counted in frames."""
+        self._of_rate.visible = any(column.unit == "frames" for column in self._table.columns)
+
+    def _row(self, i, column):
+        values = column.values[np.isfinite(column.values)][:FIRST]
+        shown = ", ".join(f"{value:.4g}" for value in values).replace("-", "−")
+        name = words(f"<b>{html.escape(column.name)}</b><br>{note(f'{shown} …')}", sizing_mode=None, width=170)
+        quantity = pmui.Select(label=say("measure.column.quantity", name=column.name), value=column.quantity,
+                               options={says: key for key, says in _quantities().items()}, width=150,
+                               **SELECT)  # fmt: skip
+        unit = pmui.Select(label=say("measure.column.unit"), value=column.unit, width=88,
+                           options=[*UNITS.get(column.quantity, {"": 1})], **SELECT)  # fmt: skip
+        error = field("" if column.error is None else f"{column.error:g}", say("measure.column.error"), width=56)
+        guessed = words(_guessed(column), sizing_mode=None)
+
+        def corrects(event):
+            now = corrected(self._table.columns[i], quantity.value, unit.value)
+            try:
+                now = replace(now, error=typed_number(error.value) if error.value.strip() else None)
+            except ValueError:
+                self._wrong(say("measure.wrong.error", name=column.name))
+                return
+            unit.param.update(options=[*UNITS.get(now.quantity, {"": 1})], value=now.unit)
+            guessed.object = _guessed(now)
+            columns = (*self._table.columns[:i], now, *self._table.columns[i + 1 :])
+            self._table = replace(self._table, columns=columns)
+            self.show_rate()
+            self._changed(self._table)
+
+        for entry in (quantity, unit, error):
+            entry.param.watch(corrects, "value")
+        return flow(name, quantity, unit, words("±", sizing_mode=None), error, guessed, margin=(4, 0))
+
+
+def _guessed(column):
+    return note(say("measure.guessed")) if column.guessed else ""
+
+
+def _quantities():
+    return {"": say("measure.unused"), "time": say("measure.quantities.time"),
+            **{name: say(f"measure.quantities.{name}") for name in UNITS if name != "time"}}  # fmt: skip

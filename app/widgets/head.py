@@ -1,0 +1,80 @@
+"""The one row at the head of the page: its name, the top, the tabs, the level, undo and redo, Share, and all else
+behind three dots. On a phone the tabs stand at the foot.
+
+A click on a tab is answered in the browser, which shows the place of its room; Python then has the view made.
+"""
+
+import panel as pn
+import param
+
+from app.borrowed import at_once
+from app.bundle import Bundled
+from app.state import asked
+from app.text import LANGUAGES, listed, say, spoken
+
+
+class Head(Bundled):
+    state = param.Dict(default={}, doc="All that it shows; HeadBar says what.")
+    asked = param.List(default=[], doc="[count, name, value] of what a person asks for; the browser writes it.")
+
+
+class HeadBar:
+    """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look.
+
+    does: {name: function of a value} for what else is asked: "toy", "share", "language".
+    """
+
+    SWITCHES = ("dark", "large")
+
+    def __init__(self, rooms, keep, look, does):
+        self._rooms, self._keep, self._look, self._answered = rooms, keep, look, 0
+        self._toys, self._toy, self._tour = [], "", False
+        steps = {"undo": lambda value: keep.undo(), "redo": lambda value: keep.redo()}
+        switches = {name: lambda value, name=name: setattr(look, name, bool(value)) for name in self.SWITCHES}
+        goes = {name: lambda value, name=name: self._go(name, value) for name in ("room", "level")}
+        self._does = steps | switches | goes | does
+        self.view = Head(margin=0, sizing_mode="stretch_width")
+        at_once(self.view, "asked")
+        self.view.param.watch(asked.heard(self._heard), "asked")
+        rooms.param.watch(self._say, ["room", "level"])
+        keep.param.watch(self._say, ["can_undo", "can_redo"])
+        look.param.watch(self._say, list(self.SWITCHES))
+        self._say()
+
+    def _heard(self, event):
+        count, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
+        if name not in self._does:
+            raise asked.Unasked(name)
+        self._answered = int(count)
+        with pn.io.hold():
+            try:
+                self._does[name](value)
+            finally:
+                self._say()  # that it was answered
+
+    def _go(self, name, value):
+        if value not in self._rooms.param[name].objects:
+            raise asked.Unasked(value)
+        setattr(self._rooms, name, value)
+
+    def tops(self, chosen, known):
+        """Which tops can be chosen, as [name, words], and which one is; "" where none of them."""
+        self._toy, self._toys = chosen, known
+        self._say()
+
+    def _say(self, *events):
+        rooms, keep = self._rooms, self._keep
+        names, here = listed("main.rooms"), rooms.tabs[rooms.tab][rooms.level]
+        self.view.state = {
+            "room": rooms.room, "tab": rooms.tab, "level": rooms.level,
+            "tabs": [[tab, say(f"main.tabs.{tab}"), rooms.first(tab)] for tab in rooms.tabs],
+            # what the other level of this tab shows
+            "levels": [[level, say(f"main.levels.{level}"),
+                        rooms.room if rooms.room in names_of else rooms.first(rooms.tab, level)]
+                       for level, names_of in rooms.tabs[rooms.tab].items()],
+            "rooms": [[room, names[room]] for room in here] if len(here) > 1 else [],
+            "places": {room: rooms.place(room) for room in rooms.param.room.objects},
+            "toy": self._toy, "toys": self._toys, "undo": keep.can_undo, "redo": keep.can_redo,
+            "language": spoken(), "languages": [list(each) for each in LANGUAGES.items()],
+            **{name: getattr(self._look, name) for name in self.SWITCHES}, "answered": self._answered,
+        }  # fmt: skip

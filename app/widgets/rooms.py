@@ -1,0 +1,128 @@
+"""The rooms of the page: a place for each view, of which one is seen. A click is answered in the browser, at once; a
+view is made when it is first looked at, and then stays. Until then its place says that it is being made, or that it
+could not be."""
+
+import logging
+
+import panel as pn
+import panel_material_ui as pmui
+import param
+
+from app.text import say
+from app.widgets.cards import BUTTON, alert, note, on_click, words
+
+AROUND = (24, 28)
+
+log = logging.getLogger("tippe")
+
+
+class Place:
+    """Where a view is to be. name: the place's own; make: a function that returns the view; soon: of a Pacer."""
+
+    def __init__(self, name, make, soon):
+        self._make, self._soon, self._view, self._asked = make, soon, None, False
+        again = pmui.Button(label=say("main.making.again"), **BUTTON)
+        on_click(again, lambda event: self.ask())
+        self._wrong = [words(alert(say("main.making.failed")), margin=AROUND), pn.Row(again, margin=(0, 28))]
+        self.column = pn.Column(
+            self._waiting(), name=f"place of {name}", sizing_mode="stretch_width", margin=0, visible=False
+        )
+
+    @staticmethod
+    def _waiting():
+        return words(f'<div role="status">{note(say("main.making.waits"))}</div>', margin=AROUND)
+
+    def ask(self):
+        """Has the view made, where it is neither there nor under way."""
+        if self._asked:
+            return
+        self._asked = True
+        if self.column.objects == self._wrong:
+            self.column.objects = [self._waiting()]
+        self._soon(self.fill)
+
+    def fill(self):
+        """Makes the view now. What fails leaves a sentence, and can be asked for again."""
+        self._asked = True
+        try:
+            self._view = self._view or self._make()
+            self.column.objects = [self._view]
+        except Exception:
+            log.exception("a bug: a tab could not be made")
+            self._asked = False
+            self.column.objects = self._wrong
+
+
+class Rooms(param.Parameterized):
+    """room: the name of the one that is looked at; level: how much the page shows.
+
+    makers: {name in the address: maker}; tabs: {name: {level: names of its rooms}}; opened: the name of the room that
+    is looked at first, at this level, and usual the one where there is no such; at_once: those that are then made with
+    the page. soon: of a Pacer.
+    """
+
+    room = param.Selector(doc="a name of makers")
+    level = param.Selector(doc="a name of levels; some tabs have other rooms at another one")
+
+    def __init__(self, makers, tabs, keep, soon, at_once, opened, usual, level):
+        super().__init__()
+        self.tabs, levels = tabs, list(next(iter(tabs.values())))
+        self.param.room.objects, self.param.level.objects = list(makers), levels
+        self.room = opened if opened in makers else usual
+        self.level = level if level in levels else levels[-1]
+        self._places = {name: Place(name, make, soon) for name, make in makers.items()}
+        self._last = {}  # (tab, level) -> the room of it that was looked at last
+        self.columns = [place.column for place in self._places.values()]
+        self._follow()
+        if self.room in at_once:
+            self._places[self.room].column.visible = True
+            self._places[self.room].fill()
+        else:
+            self._look()
+        self.param.watch(self._moved, ["room", "level"])
+        # they are said always, and left out where they go without saying
+        keep.add(self, lambda rooms: {"room": None, "level": None})
+
+    @property
+    def tab(self):
+        """The name of the tab that the room is of."""
+        return self.tab_of(self.room)
+
+    def tab_of(self, room):
+        """The name of the tab that a room is of."""
+        return next(tab for tab, rooms in self.tabs.items() if any(room in names for names in rooms.values()))
+
+    def first(self, tab, level=None):
+        """The room that a tab shows when it is gone to: of those it has at this level the one seen last."""
+        level = level or self.level
+        return self._last.get((tab, level), self.tabs[tab][level][0])
+
+    def place(self, room):
+        """The place of a room, by its name in the document."""
+        return self._places[room].column.name
+
+    def _moved(self, *events):
+        changed = {event.name for event in events}
+        if changed == {"level"} and self.room not in self.tabs[self.tab][self.level]:
+            self.room = self.first(self.tab)
+            return
+        if "room" in changed:
+            self._follow()
+            self._look()
+
+    def _follow(self):
+        """The level is one at which this room is."""
+        rooms = self.tabs[self.tab]
+        if self.room not in rooms[self.level]:
+            self.level = next(level for level, names in rooms.items() if self.room in names)
+        self._last[self.tab, self.level] = self.room
+
+    def _look(self):
+        for name, place in self._places.items():
+            place.column.visible = name == self.room
+        # What another computes might overtake the page itself: it is made when that is there.
+        ask = self._places[self.room].ask
+        if pn.state.loaded:
+            ask()
+        else:
+            pn.state.onload(ask)

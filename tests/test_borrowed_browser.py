@@ -1,0 +1,201 @@
+"""What is borrowed of the scripts of Bokeh, Panel and three.js, each tried in Chromium on a page of its library: it
+still does what is relied on, and is still needed. tests/test_borrowed.py has the Python ones."""
+
+import re
+from pathlib import Path
+
+import pytest
+from bokeh.embed import file_html
+from bokeh.models import HoverTool
+from bokeh.plotting import figure
+from bokeh.resources import INLINE
+
+APP = Path(__file__).parent.parent / "app"
+BUNDLED, BEFORE = APP / "frontend/src/borrowed.js", APP / "borrowed.js"
+THREE = APP / "frontend/node_modules/three/build"
+HERE = "http://borrowed.test"
+COUNTING = """
+  const theirs = CSSStyleDeclaration.prototype.getPropertyValue;
+  window.asked = 0;
+  CSSStyleDeclaration.prototype.getPropertyValue = function (name) {
+    if (name.startsWith("--bk-")) window.asked += 1;
+    return theirs.call(this, name);
+  };"""
+
+
+def numbers(path):
+    """The numbers of what a file borrows, in its comments."""
+    return [int(number) for number in re.findall(r"(?:// |/\*\* )(\d+)\. ", path.read_text(encoding="utf-8"))]
+
+
+def test_what_is_borrowed_is_numbered_and_each_has_its_test():
+    every = [*numbers(BEFORE), *numbers(BUNDLED)]
+    assert every == [*range(1, len(every) + 1)]
+    tests = [int(number) for number in re.findall(r'^    """(\d+)\.', Path(__file__).read_text("utf-8"), re.M)]
+    assert tests == every
+    for path in (BEFORE, BUNDLED):  # with an issue of the library's own, or that there is none
+        parts = re.split(r"(?:// |/\*\* )\d+\. ", path.read_text(encoding="utf-8"))[1:]
+        assert all(re.search(r"github\.com/[\w/.]+/\d+|No issue that we found", part) for part in parts)
+
+
+# ---- of Bokeh, on a page with one figure ----
+
+
+def drawn():
+    """A figure of 400 x 300 px about x from 0 to 10 and y from -1 to 1."""
+    fig = figure(width=400, height=300, x_range=(0, 10), y_range=(-1, 1), tools=[HoverTool()], toolbar_location=None)
+    fig.line([0, 10], [0, 0], line_width=20)
+    return fig
+
+
+@pytest.fixture
+def bare(chromium):
+    """A page with Bokeh's own scripts, a figure `fig`, and ours in `borrowed`."""
+    page = chromium.new_page(viewport={"width": 500, "height": 400})
+    page.add_init_script(COUNTING)
+    page.route(f"{HERE}/", lambda route: route.fulfill(body=file_html(drawn(), INLINE), content_type="text/html"))
+    page.route(f"{HERE}/borrowed.js", lambda route: route.fulfill(path=BUNDLED, content_type="text/javascript"))
+    page.goto(f"{HERE}/")
+    page.wait_for_function("() => Bokeh.documents[0]?.is_idle")
+    page.evaluate(
+        "async () => { window.borrowed = await import('/borrowed.js'); window.fig = Bokeh.documents[0].roots()[0] }"
+    )
+    yield page
+    page.close()
+
+
+def painted(page):
+    """How often Bokeh asks for a variable of CSS while a figure is painted once."""
+    return page.evaluate(
+        """async () => {
+          const { asked } = window;
+          fig.renderers[0].glyph.line_width = { value: 10 + Math.random() };
+          await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+          return window.asked - asked;
+        }"""
+    )
+
+
+def test_a_figure_is_painted_without_asking_the_style_sheets(bare):
+    """1. The part of app/borrowed.js that stands before Panel's."""
+    assert painted(bare) > 20  # else this may go
+    ours = BEFORE.read_text(encoding="utf-8").partition("// 2.")[0]
+    bare.evaluate(f"() => {{ {ours} }}")
+    assert painted(bare) == 0
+
+
+def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
+    """2. The bundle runs once, for all of Panel's components and for ours; by Panel's own way it ran once more."""
+    page = chromium.new_page()
+    page.goto(f"{server}?v=1&tab=roll")
+    page.wait_for_selector(".bar .play", timeout=60_000)
+    same = """async (way) => {
+      const links = [...document.querySelectorAll("link[rel=modulepreload]")].map((link) => link.href);
+      const href = links.find((address) => address.includes("tippe.js"));
+      return (await way(href)).default === (await import(href)).default;
+    }"""
+    assert page.evaluate(f"() => ({same})(window.importShim)")
+    assert not page.evaluate(f"() => ({same})(Object.getPrototypeOf(window.importShim))")  # else this may go
+    page.close()
+
+
+def test_a_place_of_a_figure_is_where_its_scales_say(bare):
+    """3. Each corner of the frame, by Bokeh's own events, which are promised."""
+    bare.evaluate("() => { window.scales = borrowed.scalesOf(fig); window.over = borrowed.eventsOf(fig) }")
+    left, top = bare.evaluate("() => { const { left, top } = over.getBoundingClientRect(); return [left, top] }")
+    bare.evaluate("() => fig.on_event('mousemove', ({ x, y }) => { window.told = [x, y] })")
+    for x, y in ((1, -0.9), (9, 0.9)):
+        across, down = bare.evaluate("([x, y]) => [scales.x.compute(x), scales.y.compute(y)]", [x, y])
+        bare.mouse.move(left + across, top + down)
+        bare.wait_for_function("() => window.told")
+        assert bare.evaluate("() => window.told") == pytest.approx([x, y], abs=0.02)
+        assert bare.evaluate("(px) => scales.x.invert(px)", across) == pytest.approx(x)
+        bare.evaluate("() => { window.told = null }")
+
+
+def test_what_hears_the_mouse_has_its_cursor(bare):
+    """4. It lies over the figure and has its events; the cursor that it is given stays until the mouse moves on."""
+    bare.evaluate("() => borrowed.eventsOf(fig).addEventListener('pointerdown', () => { window.heard = true })")
+    bare.mouse.click(200, 150)
+    assert bare.evaluate("() => window.heard")
+    bare.evaluate("() => fig.on_event('mousemove', () => borrowed.setCursor(fig, 'ns-resize'))")
+    bare.mouse.move(210, 160)
+    bare.wait_for_function("() => getComputedStyle(borrowed.eventsOf(fig)).cursor === 'ns-resize'")
+    assert bare.evaluate("() => borrowed.elementOf(fig).getBoundingClientRect().width") == 400
+
+
+def test_a_hand_that_rests_before_it_pulls_still_pulls(bare):
+    """5."""
+    bare.evaluate(
+        "() => { window.heard = []; for (const name of ['press', 'panstart'])"
+        " fig.on_event(name, () => window.heard.push(name)) }"
+    )
+
+    def rest_and_pull():
+        bare.evaluate("() => { window.heard.length = 0 }")
+        bare.mouse.move(200, 150)
+        bare.mouse.down()
+        now = bare.evaluate("() => performance.now()")
+        bare.wait_for_function("(now) => window.heard.length || performance.now() > now + 600", arg=now)  # Bokeh's: 300
+        bare.mouse.move(220, 180, steps=5)
+        bare.mouse.up()
+        return bare.evaluate("() => window.heard")
+
+    assert rest_and_pull() == ["press"]  # else this may go
+    bare.evaluate("() => borrowed.pressNever(fig)")
+    assert rest_and_pull() == ["panstart"]
+
+
+# ---- of three.js ----
+
+
+@pytest.fixture
+def space(chromium):
+    """A page with three.js and ours; drawn(like) is the grey of a lit pixel of a target, [red, ...], 0 to 255."""
+    if not THREE.is_dir():
+        pytest.skip("three.js is only where the bundle was built")
+    page = chromium.new_page()
+    page.route(f"{HERE}/", lambda route: route.fulfill(body="<!doctype html>", content_type="text/html"))
+    page.route(f"{HERE}/borrowed.js", lambda route: route.fulfill(path=BUNDLED, content_type="text/javascript"))
+    page.route(re.compile(rf"{HERE}/three/.*"), lambda route: route.fulfill(
+        path=THREE / route.request.url.rpartition("/")[2], content_type="text/javascript"))  # fmt: skip
+    page.goto(f"{HERE}/")
+    page.evaluate(
+        """async () => {
+          const THREE = await import("/three/three.module.js"), borrowed = await import("/borrowed.js");
+          const renderer = new THREE.WebGLRenderer({ antialias: false }), gl = renderer.getContext();
+          const scene = new THREE.Scene();
+          scene.background = null;
+          scene.add(new THREE.Mesh(new THREE.PlaneGeometry(4, 4), new THREE.MeshBasicMaterial({ color: 0x808080 })));
+          const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1);
+          window.pixel = (like) => {
+            const screen = { colorSpace: THREE.SRGBColorSpace, internalFormat: "RGBA8" };
+            const target = new THREE.WebGLRenderTarget(4, 4, screen);
+            if (like) borrowed.likeAScreen(target);
+            renderer.setRenderTarget(target);
+            renderer.render(scene, camera);
+            const bytes = new Uint8Array(4);
+            renderer.readRenderTargetPixels(target, 1, 1, 1, 1, bytes);
+            const buffer = borrowed.bufferOf(renderer, target);
+            gl.bindFramebuffer(gl.READ_FRAMEBUFFER, buffer);
+            const same = new Uint8Array(4);
+            gl.readPixels(1, 1, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, same);
+            gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
+            return { buffer: buffer instanceof WebGLFramebuffer, bytes: [...bytes], same: [...same] };
+          };
+        }"""
+    )
+    yield page
+    page.close()
+
+
+def test_a_target_has_the_colours_of_a_screen(space):
+    """6."""
+    assert space.evaluate("() => window.pixel(true).bytes")[0] == 128
+    assert space.evaluate("() => window.pixel(false).bytes")[0] < 80  # light, not what a screen takes; else this may go
+
+
+def test_webgl_finds_what_three_has_drawn(space):
+    """7."""
+    found = space.evaluate("() => window.pixel(true)")
+    assert found["buffer"] and found["same"] == found["bytes"] and found["same"][0] == 128

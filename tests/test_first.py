@@ -1,0 +1,119 @@
+"""What is seen before Bokeh and the session have come: little has to arrive for it, it moves, and is taken over."""
+
+import gzip
+import json
+import re
+import urllib.request
+from urllib.parse import urljoin
+
+import numpy as np
+import pytest
+from test_lab_browser import DRAWN, TIME, TOPS, come
+from visiting import PATIENCE
+
+from app import first
+
+MOST = 350_000  # bytes, compressed
+
+
+def arrays():
+    """What stands in the file, {name: rows}."""
+    line, _, bytes_ = gzip.decompress(first.FILE.read_bytes()).partition(b"\n")
+    numbers, found = np.frombuffer(bytes_, "<f4"), {}
+    for name, count, _, needed in json.loads(line):
+        found[name], numbers = numbers[: count * needed].reshape(needed, count).T, numbers[count * needed :]
+    assert not len(numbers)
+    return found
+
+
+def test_the_file_holds_what_a_session_sends():
+    view = first.arrival()
+    for name, rows in arrays().items():
+        width, needed, steps = first.NUMBERS[name]
+        sent = np.frombuffer(getattr(view, name), "<f4").reshape(-1, width)[:, :needed]
+        assert rows == pytest.approx(sent, abs=0.5 / steps + 1e-6), name
+
+
+def test_each_language_has_its_words_and_nothing_else():
+    words = json.loads(first.words())
+    english, german = words["en"], words["de"]
+    assert english["texts"]["spin_it"] != german["texts"]["spin_it"]
+    assert english["state"]["runs"]["ordinary"]["stages"] != german["state"]["runs"]["ordinary"]["stages"]
+    assert english["state"]["values"] == german["state"]["values"]
+
+
+@pytest.mark.served
+def test_what_must_arrive_before_the_first_frame_is_small(server):
+    """The page, the sheets in its head, the bundle with the needed part of three.js, and the run."""
+    url = server.rstrip("/")
+    page = urllib.request.urlopen(url).read()
+    head, text = page.partition(b"</head>")[0].decode(), page.decode()
+    files = [*re.findall(r'rel="stylesheet" href="([^"]+)"', head), re.search(r'fetch\("([^"]+)"\)', text)[1]]
+    files += [next(name for name in re.findall(r'rel="modulepreload" href="([^"]+)"', head) if "tippe" in name)]
+    assert len(files) > 3
+    assert not re.findall(r"<script[^>]* src=", text.partition('id="first"')[0])  # none holds it up
+    sizes = {name: len(gzip.compress(urllib.request.urlopen(urljoin(url, name)).read(), 9)) for name in files}
+    assert len(gzip.compress(page)) + sum(sizes.values()) <= MOST, sizes
+
+
+@pytest.mark.served
+def test_it_moves_without_bokeh_and_a_session(server, chromium):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    page.set_default_timeout(PATIENCE)
+    page.route("**/bokeh*.js*", lambda route: route.abort())
+    page.goto(f"{server}?")
+    page.wait_for_function(f"{DRAWN} && {TIME} > 2")
+    page.get_by_role("button", name="Pause").click()
+    page.get_by_role("slider", name="Time").press("Home")
+    page.get_by_text("Rubbing tips it up.").wait_for()
+    page.close()
+
+
+@pytest.fixture
+def waiting(server, chromium):
+    """The page while its session has not come, and what lets it come."""
+    context = chromium.new_context(viewport={"width": 1400, "height": 900})
+    page, held = context.new_page(), []
+    page.set_default_timeout(PATIENCE)
+    page.route("**/panel.min.js*", lambda route: held.append(route))
+    page.goto(f"{server}?", wait_until="commit")
+    page.wait_for_function(f"{DRAWN} && {TIME} > 2")
+
+    def go():
+        held[0].continue_()
+        page.locator("#first").wait_for(state="detached")
+
+    yield page, go
+    context.close()
+
+
+@pytest.mark.served
+def test_the_session_takes_over_the_same_picture_at_the_same_time(waiting):
+    page, go = waiting
+    page.get_by_role("button", name="Pause").click()
+    page.get_by_role("slider", name="Time").press("Home")
+    page.evaluate(f"window.before = {TOPS}[0]")
+    page.wait_for_function("before.quaternion[1] == 0 && before.quaternion[2] == 0")  # drawn, as it is let go
+    pose = page.evaluate("[before.t, ...before.quaternion, ...before.eye]")
+    go()
+    page.wait_for_function("Bokeh.documents[0].is_idle")
+    assert page.evaluate(f"before == {TOPS}[0]")
+    assert page.evaluate("[before.t, ...before.quaternion, ...before.eye]") == pytest.approx(pose, abs=2e-3)
+
+
+@pytest.mark.served
+def test_what_a_hand_moved_before_the_session_came_is_asked_for_then(waiting):
+    page, go = waiting
+    page.locator("#lab-spin").press("ArrowRight")
+    go()
+    page.wait_for_function("location.search.includes('turns=28.8')")
+    assert page.get_by_role("textbox", name="Spin, in turns a second").input_value() == "28.8"
+
+
+@pytest.mark.served
+def test_an_address_that_asks_for_something_else_does_without(server, chromium):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    come(page, f"{server}?tab=lab&table=ice")
+    page.locator(".lab[data-table=ice]").wait_for()
+    assert page.locator("#first").is_hidden()
+    page.close()
