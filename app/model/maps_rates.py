@@ -33,13 +33,13 @@ class Branch(NamedTuple):
 
 
 class Power(NamedTuple):
-    """time ~ quantity^power, with its error; nan where fewer than three runs turn over. count: how many do."""
+    """time ~ quantity^power, with its error; nan where fewer than three runs turn over. runs: how many do."""
 
     law: str
     quantity: str
     power: float
     error: float
-    count: int
+    runs: int
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -17,9 +17,9 @@ from app.model.maps_throw import throw_of
 from app.model.runs import MAPS, Run, Runs, Stopped
 from app.share.parts import Copy
 from app.state import asked as sent
+from app.tabs.maps.asking import Settings, spans
 from app.tabs.maps.export import KINDS, made, python
 from app.tabs.maps.picture import MapFigure, RunFigure
-from app.tabs.maps.settings import Settings, spans
 from app.tabs.maps.steady import Steady
 from app.tabs.maps.words import colours_say, of_disagreement, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
