@@ -9,14 +9,19 @@ const LEAST = 12; // px: no box is smaller
 const WAIT = 80; // ms between two places that are sent while a hand moves
 
 // hand -> whether it holds the bead, the corner where a box begins, and when a place was sent last.
-/** @type {WeakMap<object, { held: boolean, from: { x: number, y: number, sx: number, sy: number } | null, sent: number }>} */
+/** @typedef {{ x: number, y: number, sx: number, sy: number }} Corner */
+/** @typedef {{ held: boolean, from: Corner | null, sent: number }} Hand */
+/** @typedef {{ setv(values: object, options: object): void }} Settable */
+/** @type {WeakMap<object, Hand>} */
 const hands = new WeakMap();
 
-/** How far the bead is from a place, in px. */
+// How far the bead is from a place, in px.
+/** @param {Pick<Source<"x" | "y">, "data">} bead @param {number[]} place @param {Record<"x" | "y", Pick<PixelScale, "compute">>} scales */
 export function awayFromBead({ data }, [px, py], { x, y }) {
   return Math.hypot(x.compute(data.x[0]) - px, y.compute(data.y[0]) - py);
 }
 
+/** @param {{ fig: Figure, hand: Source, bead: Source<"x" | "y">, box: Settable }} given @param {Happened} event */
 export function pullBead({ fig, hand, bead, box }, { event_name: name, sx, sy, x, y }) {
   const own = hands.get(hand) ?? { held: false, from: null, sent: 0 }, clicked = name === "tap";
   hands.set(hand, own);
@@ -37,9 +42,11 @@ export function pullBead({ fig, hand, bead, box }, { event_name: name, sx, sy, x
   hand.data = { ...at, cell: [clicked] };
 }
 
-/** The box from where the hand began to where it is; at its end it is sent. */
+// The box from where the hand began to where it is; at its end it is sent.
+/** @param {Hand} own @param {Source} hand @param {Settable} box @param {string} name @param {Corner} to */
 function drawBox(own, hand, box, name, to) {
   const { from } = own, done = name === "panend";
+  if (!from) return;
   const [left, right] = [from.x, to.x].sort((a, b) => a - b), [bottom, top] = [from.y, to.y].sort((a, b) => a - b);
   box.setv({ left, right, bottom, top, visible: !done }, { sync: false });
   if (!done) return;
@@ -49,6 +56,7 @@ function drawBox(own, hand, box, name, to) {
 }
 
 // A finger near the bead moves it, and scrolls the page from everywhere else.
+/** @param {{ fig: Figure, bead: Source<"x" | "y"> }} given */
 export function keepFinger({ fig, bead }) {
   if (isFollowed(bead)) return;
   const events = eventsOf(fig);
