@@ -63,9 +63,7 @@ def tumbling(top: Top, theta: float) -> Array:
     s, c = np.sin(finite("theta", theta)), np.cos(theta)
     turns = top.I1 * c - top.I3 * (c - top.a)
     if not 0 < theta < np.pi or top.a * turns <= 0:
-        raise TopError(
-            "theta", theta, "a tilt in (0, pi) with a (I1 cos theta - I3 (cos theta - a)) > 0", code="no-steady"
-        )
+        raise TopError("theta", theta, "0 < theta < pi, a (I1 c - I3 (c - a)) > 0")
     w2 = s * np.sqrt(top.a / turns)
     return np.array([theta, 0.0, w2, w2 * (c - top.a) / s, 0.0, 0.0])
 
