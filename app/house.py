@@ -134,8 +134,8 @@ class House:
         return learn.view
 
     def maps(self):
-        maps = Maps(self.runs, throw=self._throw)
-        self.keep.add(maps.choice)
+        maps = Maps(self.runs, self.scene, self._throw)
+        self.keep.add(maps.choice, usual=lambda choice: maps.usual)
         maps.choice.param.watch(lambda *events: self.keep.at_rest(), [*maps.choice.INPUTS])
         self.pacer.shows(maps.show, "rest")
         return maps.view
