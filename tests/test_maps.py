@@ -11,11 +11,13 @@ from app.model import maps_kept
 from app.model.maps import ENDINGS, OWN, UNITS, Map
 from app.model.maps_lines import disagreements, lines
 from app.model.maps_solving import Level, run, solve
+from app.model.runs import Runs
 from app.model.scene import solve as solve_scene
 from app.state.keep import Keep, read
 from app.state.map_text import MapText
 from app.tabs.maps.export import made, python
 from app.tabs.maps.maps import Maps
+from app.tabs.maps.steady import Steady
 from app.text import speaking
 from tippe_core import PRESETS, Scales, Top, TopError, slide_many
 
@@ -225,6 +227,26 @@ def test_files_say_what_they_are_of(level):
 
 
 # ---- the tab ----
+
+
+@pytest.fixture(autouse=True)
+def nothing_below(request, monkeypatch):
+    """What stands below the map takes seconds for each place."""
+    if "below" not in request.node.name:
+        monkeypatch.setattr(Steady, "show", lambda *given: None)
+
+
+def test_what_stands_below_the_map():
+    """Leine and Glocker's toy: stands on its stem, and comes off it; the closed form of the steady motions as lines."""
+    below = Steady(Runs())
+    below.show(Map(seconds=2.0), (28.6, 5.7))
+    assert "1.4 s" in below.says.object or "1.37 s" in below.says.object
+    assert len(below.lines.data["xs"]) == 4 and np.isfinite(below.dots[0].data["y"]).sum() > 30
+    upright, runs = below.branches["upright"]
+    growth = np.interp(runs.data["x"], upright.data["x"], upright.data["growth"])
+    good = np.isfinite(runs.data["y"])
+    np.testing.assert_allclose(runs.data["y"][good], growth[good], rtol=0.05)
+    assert "<table>" in below.powers.object
 
 
 @pytest.fixture

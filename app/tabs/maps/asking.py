@@ -6,14 +6,12 @@ from functools import partial
 
 import panel_material_ui as pmui
 
-from app.model.dimensions import named
-from app.model.maps import COLOURS_BY, LAWS, OWN, QUANTITIES, SECONDS, Map
+from app.model.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
 from app.model.maps_choice import FIXED
 from app.tabs.maps.words import with_unit
 from app.text import listed, say
 from app.widgets.cards import beside, field, flow, words
 from app.widgets.controls import typed_number
-from tippe_core import PRESETS
 
 SIDES = ("across", "up")
 ENDS = ("from", "to")
@@ -24,11 +22,9 @@ class Settings:
     """changed: called after a hand has set something; gone: after it has typed another place of the bead."""
 
     def __init__(self, asked, colour, place, changed, gone):
-        self._changed, self._gone, self._silent, self.own = changed, gone, False, None
+        self._changed, self._gone, self._silent = changed, gone, False
         quantities = {says: name for name, says in listed("maps.quantities").items()}
-        bodies = {named(preset.name): preset.name for preset in PRESETS}
         options = {
-            "bodies": bodies,
             "across": quantities,
             "up": quantities,
             "colour": {listed("maps.colours")[name]: name for name in COLOURS_BY},
@@ -51,12 +47,12 @@ class Settings:
 
     @property
     def view(self):
-        """In the order of the drawing: what is across and up, the colour, the law, the top; then ranges and numbers."""
+        """In the order of the drawing: what is across and up, the colour, the law; then ranges and numbers."""
         entry = self.entries
         ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80),
                        *(beside(say(f"maps.{end}"), entry[f"{side}_{end}"]) for end in ENDS), margin=(4, 0))
                   for side in SIDES]  # fmt: skip
-        selects = [self.choices[name] for name in ("across", "up", "colour", "law", "bodies")]
+        selects = [self.choices[name] for name in ("across", "up", "colour", "law")]
         return [flow(*selects), *ranges, flow(*self.rows.values()),
                 flow(*(beside(say(f"maps.{name}"), entry[name]) for name in ("seconds", "cells")))]  # fmt: skip
 
@@ -76,13 +72,9 @@ class Settings:
 
     def show(self, asked, colour, place):
         """All of a Map, and the rest."""
-        self.own = asked.own
+        self._slides = {"body": asked.body, "own": asked.own}
         with self._quietly():
-            bodies = self.choices["bodies"]
-            known = {says: name for says, name in bodies.options.items() if name != OWN}
-            bodies.options = known | ({say("maps.own"): OWN} if asked.own else {})
-            for name, value in (("bodies", asked.body), ("across", asked.across), ("up", asked.up),
-                                ("colour", colour), ("law", asked.law)):  # fmt: skip
+            for name, value in (("across", asked.across), ("up", asked.up), ("colour", colour), ("law", asked.law)):
                 self.choices[name].value = value
             self._write({f"{side}_{end}": span[i] for side, span in zip(SIDES, spans(asked), strict=True)
                          for i, end in enumerate(ENDS)})  # fmt: skip
@@ -108,8 +100,7 @@ class Settings:
         chosen = {name: select.value for name, select in self.choices.items()}
         axes = (chosen["across"], chosen["up"])
         cells = value["cells"]
-        own = self.own if chosen["bodies"] == OWN else None
-        asked = Map(body=chosen["bodies"], own=own, across=axes[0], up=axes[1], law=chosen["law"],
+        asked = Map(**self._slides, across=axes[0], up=axes[1], law=chosen["law"],
                     across_range=(value["across_from"], value["across_to"]),
                     up_range=(value["up_from"], value["up_to"]), seconds=value["seconds"],
                     cells=int(cells) if cells.is_integer() else cells)  # fmt: skip

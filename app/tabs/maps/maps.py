@@ -7,8 +7,8 @@ from functools import partial
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.maps import OWN, QUANTITIES, of_page
-from app.model.maps_choice import MapChoice
+from app.model.maps import OWN, QUANTITIES, Map, of_page
+from app.model.maps_choice import AT, MapChoice
 from app.model.maps_kept import keep, recall
 from app.model.maps_lines import disagreements, lines
 from app.model.maps_solving import run as one_run
@@ -27,6 +27,7 @@ from app.widgets.cards import BUTTON, alert, flow, note, on_click, progress, wor
 from app.widgets.download import Download
 from tippe_core import TopError
 
+MAP = Map()
 PICTURE_EVERY = 0.3  # s
 SIDE = {"background": "var(--card, white)", "border-radius": "10px", "padding": "10px 14px", "box-sizing": "border-box"}
 ROW = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
@@ -35,14 +36,16 @@ WHY = 3  # kinds of disagreement
 
 class Maps:
     """The tab's content. runs: the page's Runs; scene: the page's, whose top slides, else the toy of the arrival.
-    throw(toy, spin, tilt, mu, look) lets the run of the bead go in the Lab; look: and goes there."""
+    throw(toy, spin, tilt, mu, look) lets the run of the bead go in the Lab; look: and goes there. usual: what a link
+    need not say of the choice."""
 
     def __init__(self, runs=None, scene=None, throw=None):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
         self.choice, self.level, self._found, self._seen = MapChoice(), None, [], None
+        self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
         if scene is not None:
             self._seen = of_page(scene)
-            self.choice.asked = replace(self.choice.asked, body=self._seen[0], own=self._seen[1])
+            self.choice.asked = self.usual["asked"] = replace(MAP, body=self._seen[0], own=self._seen[1])
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
         self.names, self.worst, self.key = words(), words(), words(margin=(6, 0))
