@@ -324,9 +324,10 @@ def test_the_map_is_in_the_address_and_undone():
 
 
 def test_the_pages_top_slides():
-    scene = solve_scene(Top.paper(), 7.0, 10.0, 0.5, 0.9)
-    tab = Maps(scene=scene)
-    assert tab.asked.body == OWN and tab.asked.thing.top == Top.paper()
+    assert Maps(scene=solve_scene(Top.paper(), 7.0, 10.0, 0.5, 0.9)).asked.body == "The paper's tippe top"
+    own = Top(0.1, 0.42, 0.41)
+    tab = Maps(scene=solve_scene(own, 7.0, 10.0, 0.5, 0.9, shape=None))
+    assert tab.asked.body == OWN and tab.asked.thing.top == own and tab.level.finest
     toy = next(preset for preset in PRESETS if preset.name == "Leine and Glocker's toy")
     tab.show(solve_scene(toy.top, 7.0, 10.0, 0.5, 0.5, shape=toy.shape))
     assert tab.asked.body == toy.name and tab.asked.own is None
