@@ -13,8 +13,8 @@ from app.text import listed, say
 from app.widgets.cards import beside, field, flow, words
 from app.widgets.controls import typed_number
 
-SIDES = ("across", "up")
-ENDS = ("from", "to")
+SIDES = "across", "up"
+LIMITS = ("from", "to")
 SELECT = {"size": "small", "width": 172, "margin": (8, 0, 0, 0)}
 
 
@@ -35,7 +35,7 @@ class Settings:
         called, spoken = listed("maps.quantities"), {"seconds": say("maps.seconds"), "cells": say("maps.cells")}
         spoken |= {name: called[name] for name in FIXED}
         for side in SIDES:
-            spoken |= {f"{side}_{end}": f"{say(f'maps.{side}')}, {say(f'maps.{end}')}" for end in ENDS}
+            spoken |= {f"{side}_{end}": f"{say(f'maps.{side}')}, {say(f'maps.{end}')}" for end in LIMITS}
             spoken[f"here_{side}"] = f"{say('maps.here')}, {say(f'maps.{side}')}"
         self.entries = {name: field("", says, width=66) for name, says in spoken.items()}
         self.rows = {name: beside(_called(name, asked.law), self.entries[name]) for name in FIXED}
@@ -50,7 +50,7 @@ class Settings:
         """In the order of the drawing: what is across and up, the colour, the law; then ranges and numbers."""
         entry = self.entries
         ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80),
-                       *(beside(say(f"maps.{end}"), entry[f"{side}_{end}"]) for end in ENDS), margin=(4, 0))
+                       *(beside(say(f"maps.{end}"), entry[f"{side}_{end}"]) for end in LIMITS), margin=(4, 0))
                   for side in SIDES]  # fmt: skip
         selects = [self.choices[name] for name in ("across", "up", "colour", "law")]
         return [flow(*selects), *ranges, flow(*self.rows.values()),
@@ -77,7 +77,7 @@ class Settings:
             for name, value in (("across", asked.across), ("up", asked.up), ("colour", colour), ("law", asked.law)):
                 self.choices[name].value = value
             self._write({f"{side}_{end}": span[i] for side, span in zip(SIDES, spans(asked), strict=True)
-                         for i, end in enumerate(ENDS)})  # fmt: skip
+                         for i, end in enumerate(LIMITS)})  # fmt: skip
             self._write({name: asked.start[name] for name in FIXED})
             self._write({"seconds": asked.seconds, "cells": asked.cells})
         self.show_place(place)
@@ -91,7 +91,7 @@ class Settings:
         """Other ranges."""
         with self._quietly():
             self._write({f"{side}_{end}": float(span[i]) for side, span in (("across", across), ("up", up))
-                         for i, end in enumerate(ENDS)})  # fmt: skip
+                         for i, end in enumerate(LIMITS)})  # fmt: skip
         self._changed()
 
     def asked(self):
