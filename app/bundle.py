@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import param
-from bokeh.models import CustomJS, CustomJSHover
+from bokeh.models import CustomJS
 from panel.custom import JSComponent
 
 from app.text import listed
@@ -21,18 +21,13 @@ def pack(values):
     return np.asarray(values, "<f4").tobytes()
 
 
-# Both run a function of frontend/src/figures/callbacks.js: `run` names it, and `given` is its first argument.
-CALL, HOVER = (Path(__file__).with_name(name).read_text(encoding="utf-8") for name in ("call.js", "hover.js"))
+# It runs a function of frontend/src/figures/callbacks.js: `run` names it, and `given` is its first argument.
+CALL = Path(__file__).with_name("call.js").read_text(encoding="utf-8")
 
 
 def call(run, **given):
     """A callback of a Bokeh model."""
     return CustomJS(args={"run": run, "given": given}, code=CALL, module=False)
-
-
-def on_hover(run, **given):
-    """What makes the texts beside the mouse."""
-    return CustomJSHover(args={"run": run, "given": given}, code=HOVER)
 
 
 class Bundled(JSComponent):

@@ -18,6 +18,7 @@ from bokeh.document import Document
 from panel.io.state import set_curdoc
 
 from app import page, text
+from app.model import lesson
 from app.model.explorer import Explorer
 from app.state.codecs import Body
 from app.state.keep import Keep
@@ -30,8 +31,13 @@ FILE = Path(__file__).parent / "data" / "links.json"
 
 
 def known():
-    """{link: what it opened}."""
-    return json.loads(FILE.read_text(encoding="utf-8"))
+    """{link: what it opened}; a step of the ten that there were opens what tells it now."""
+    found = json.loads(FILE.read_text(encoding="utf-8"))
+    for what in found.values():
+        step = what["settings"].get("step")
+        if step:
+            what["settings"]["step"] = lesson.BEFORE.get(step, step)
+    return found
 
 
 @contextmanager

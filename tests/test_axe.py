@@ -81,11 +81,11 @@ STEPS = {
     "a list": [lambda page: page.get_by_label("Presets").first.click(), awaited("[role=listbox]")],
     "Families": [escape, room("Families"), awaited("button:text-is('Compute the map')")],
     "Maps": [room("Maps"), awaited("h2:text-is('Where runs and formula disagree')")],
-    "Learn *": [room("Learn"), click("radio", "It stays upright"), click("button", "Predict, and run it"),
-                awaited("math")],
-    "Derivation": [click("button", "Derivation"), awaited(".line .sides b"),
+    "Learn *": [room("Learn"), click("radio", "It falls on its side"), click("button", "Watch what it does"),
+                awaited(".covered >> nth=0")],
+    "Derivation": [click("button", "The derivation"), awaited(".line .sides b"),
                    lambda page: page.locator(".line button").first.click()],
-    "Teachers": [click("button", "Teachers"), click("button", "Open the vote"), awaited("a[href*='?vote=']")],
+    "Teachers": [click("button", "For teachers"), click("button", "Open the vote"), awaited("a[href*='?vote=']")],
     "History": [click("button", "History"), awaited("ol >> nth=0")],
 }  # fmt: skip
 LIGHT, DARK, LARGE, DARK_LARGE = (False, False), (True, False), (False, True), (True, True)

@@ -88,6 +88,7 @@ def one(chromium, server):
     """A page for all tests here; nothing moves by itself in it."""
     context = chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
     visit = Visit(context.new_page(), server)
+    visit.first_bead = selected(visit)["theta"]
     visit.first = {name: selected(visit)[name] for name in ("K_J", "inner", "outer")}
     yield visit
     context.close()
@@ -118,13 +119,46 @@ def test_an_end_of_the_tieline_is_the_energy(visit):
     visit.drag(visit.pixel("plane", before["outer"], 7.0), visit.pixel("plane", 0.86, 6.2))
     after = until_selected(visit, outer=0.86, K_J=7.0)
     assert after["worst"] == 1
-    visit.page.wait_for_function("""() => [...Bokeh.documents[0]._all_models.values()]
-        .some((m) => m.type == "Label" && m.visible && m.text.includes("slip"))""")
+    visit.page.locator(".tippe-readout:visible", has_text="It would slip on the way").wait_for()
     visit.page.mouse.up()
     E = float(least_energy(after["outer"], TOP, 7.0, 10.0))
     until_field(visit, FIELDS["energy"], E)
     assert turning_points(TOP, Constants(7.0, 10.0, E))[0] == pytest.approx([after["inner"], after["outer"]], abs=1e-9)
     top_stands_on(visit, Constants(7.0, 10.0, E))
+
+
+def test_a_hand_that_rests_before_it_pulls_pulls_all_the_same(visit):
+    """Bokeh takes one that rests for 0.3 s for one that presses, and drops it."""
+    stop_at_the_start(visit)
+    outer = selected(visit)["outer"]
+    visit.drag(visit.pixel("plane", outer, 7.0), visit.pixel("plane", 0.86, 7.0), rest=700)
+    until_selected(visit, outer=0.86, K_J=7.0)
+    visit.page.mouse.up()
+
+
+# Whether the read-out is in the window, and covers neither the bead nor the tieline on display.
+CLEAR = """([ends, bead]) => {
+  const box = document.querySelector(".tippe-readout").getBoundingClientRect()
+  const inside = ([x, y]) => x > box.left && x < box.right && y > box.top && y < box.bottom
+  const on = Array.from({length: 21}, (_, i) => ends[0].map((x, k) => x + i / 20 * (ends[1][k] - x)))
+  const whole = box.left >= 0 && box.top >= 0 && box.right <= innerWidth && box.bottom <= innerHeight
+  return whole && ![...on, bead].some(inside)
+}"""
+
+
+def test_what_is_read_of_a_place_covers_neither_bead_nor_tieline(visit):
+    stop_at_the_start(visit)
+    place = selected(visit)
+    ends = [visit.pixel("plane", place[end], 7.0) for end in ("inner", "outer")]
+    for theta, K_J in ((0.5, 7.0), (0.39, 7.0), (0.76, 6.9), (0.6, 7.4), (1.2, 3.0), (3.0, 0.1), (0.05, 8.3)):
+        visit.page.mouse.move(*visit.pixel("plane", theta, K_J))
+        visit.page.locator(".tippe-readout:visible", has_text=f"{theta:.2f}").wait_for()
+        assert visit.page.evaluate(CLEAR, [ends, visit.pixel("plane", place["theta"], 7.0)])
+
+
+def test_the_bead_stands_at_the_motions_start_before_any_clock_moves(one):
+    """With reduced motion no clock does; Fig. 6 has it where the motion begins, not at theta = 0."""
+    assert one.first_bead == pytest.approx(float(one.first["inner"]), abs=1e-4)
 
 
 def test_the_tieline_itself_is_K_J(visit):

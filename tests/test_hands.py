@@ -84,7 +84,7 @@ def test_the_lever_arms_are_those_of_the_torques(explorer):
     t = scene.trajectory.t
     rate = np.gradient(scene.momentum[:, 2], t, edge_order=2)[1:-1]
     rate_3 = np.gradient(scene.trajectory.omega[:, 2] * scene.top.I3, t, edge_order=2)[1:-1]
-    found = levers(scene)
+    found = levers(scene.trajectory)
     step = (t[1] - t[0]) ** 2
     arm_3 = np.hypot(*found.foot.T)
     assert (found.push * found.G[:, 0])[1:-1] == pytest.approx(rate, abs=100 * step)

@@ -2,15 +2,14 @@
 
 import re
 
-import numpy as np
 import pytest
 from visiting import Visit
 
 from app.model import derivation, lesson, lesson_parts
 from app.model.explorer import Explorer
-from app.state.codecs import Body
+from app.state.keep import read
+from app.tabs.learn.teach import link
 from app.text import listed, say
-from tippe_core import PRESETS
 
 pytestmark = pytest.mark.served
 
@@ -35,16 +34,30 @@ def closed(visit):
     assert not visit.errors
 
 
-def explained(step, guess):
-    """What the page must say: the verdict, and the explanation with the numbers of the motion set up."""
-    explorer = Explorer()
-    explorer.param.update(**step.inputs(explorer.scene.top))
-    verdict, answer = lesson.judged(step, explorer.scene, guess)
-    return say(f"learn.verdict.{verdict}"), say(f"learn.{step.name}.{answer.told}", **answer.numbers)
+def told(step, language):
+    """What the page must say of a step of the paper's top: its explanation and what was learned, by its own run."""
+    scene = Explorer().scene
+    answer = step.answer(lesson.planned(step, scene))
+    words = [say(f"learn.{step.name}.{key}", language, **answer.numbers) for key in (answer.told, "learned")]
+    return [plain_text(spelled(part, language)) for part in words]
+
+
+def spelled(words, language):
+    point = say("lab_view.view.decimal", language)
+    return re.sub(r"(?<=\d)\.(?=\d)", point, words)
 
 
 def plain_text(words):
     return re.sub(r"\s+", "", re.sub(r"<[^>]+>", "", words))
+
+
+def watched(page, language="en"):
+    """Asks to see it, and moves the time to its end, as a hand does: the machine draws by software."""
+    page.get_by_role("button", name=say("learn.view.watch", language)).click()
+    bar = page.get_by_role("slider", name=say("learn.view.time", language), exact=True)
+    bar.focus()
+    bar.press("End")
+    page.locator(".told .big").wait_for()
 
 
 def go(page, section, language="en"):
@@ -82,48 +95,58 @@ def test_the_derivation_is_live(learner):
     page.wait_for_function("__tippe.tops('learn').some((top) => top.highlight == 'ω')")
 
 
-@pytest.mark.parametrize("step", lesson.STEPS, ids=lesson.NAMES)
-def test_each_step_as_a_student(learner, step):
-    page, place = learner.page, lesson.STEPS.index(step)
-    if place == 0:
-        go(page, "lesson")
-        learner.at = step
-    assert learner.at is step, "one before it failed"
-    page.get_by_role("heading", name=say(f"learn.{step.name}.title")).wait_for()
-    asks = step.asks(Explorer().scene)
-    run = page.get_by_role("button", name=say("learn.page.predict"))
-    if isinstance(asks, lesson_parts.Choice):
-        run.click()
-        page.get_by_text(say("learn.page.choose")).wait_for()
-        guess = asks.options[-1]
-        own = listed("learn.options").get(step.name, {})
-        page.get_by_text(own.get(guess) or say(f"learn.options.{guess}"), exact=True).click()
-    else:
-        slider = page.get_by_role("slider", name=say("learn.page.yours"))
-        slider.focus()
-        slider.press("Home")
-        for _ in range(3):
-            slider.press("PageUp")
-        guess = float(slider.input_value())
-    run.click()
-    verdict, words = explained(step, guess)
-    page.get_by_role("status").get_by_text(verdict).wait_for()
-    told = "".join(page.locator("p").all_inner_texts())
-    assert plain_text(words) in plain_text(told)
-    assert page.locator("math").count() >= len(step.tex)
-    if place < len(lesson.STEPS) - 1:
-        page.get_by_role("button", name=say("learn.page.next"), exact=True).click()
-        learner.at = lesson.STEPS[place + 1]
+@pytest.mark.parametrize(("language", "width"), [("en", 1400), ("de", 390)])
+def test_a_walk_through_the_lesson(browser, server, language, width):
+    """Each step shows its top before it asks, takes no answer by itself, and tells what its own run did once that was
+    seen; what was answered stands there when one comes back."""
+    visit = opened(browser, f"{server}?tab=learn&lang={language}", width, 900)
+    page = visit.page
+    crumbs = page.locator(".crumbs button")
+    for place, step in enumerate(lesson.LESSON):
+        page.get_by_role("heading", name=say(f"learn.{step.name}.question", language)).wait_for()
+        watch = page.get_by_role("button", name=say("learn.view.watch", language))
+        watch.wait_for()
+        assert watch.is_disabled() and page.locator(".option :checked").count() == 0
+        page.locator(".bar .covered").wait_for()
+        answer = step.answer(Explorer().scene)
+        words = listed(f"learn.{step.name}.options", language)
+        guess = next(key for key in step.asks.options if key != answer.truth) if place % 2 else answer.truth
+        page.get_by_role("radio", name=words[guess]).check(force=True)
+        assert page.locator(".told .big").count() == 0
+        watched(page, language)
+        verdict = say(f"learn.view.{'right' if guess == answer.truth else 'off'}", language)
+        assert page.locator(".told .big").inner_text() == verdict
+        found = plain_text(page.locator(".told").inner_text())
+        for part in told(step, language) if step.name != "yours" else []:
+            assert part in found
+        if width < 600:
+            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+            box = page.locator(".stage").bounding_box()
+            assert box["y"] >= -1 and box["y"] + box["height"] <= 900, "the top is in sight beside the question"
+        if step is not lesson.LESSON[-1]:
+            page.get_by_role("button", name=say("learn.view.next", language)).click()
+    crumbs.nth(1).click()
+    page.locator(".told .big").get_by_text(say("learn.view.off", language)).wait_for()
+    page.wait_for_function("location.search.includes('step=way')")
+    closed(visit)
 
 
-def test_nothing_locks(learner):
-    """A step left and come back to stands as it was left, with its prediction and verdict."""
-    page = learner.page
-    page.get_by_role("button", name=say("learn.page.back"), exact=True).click()
-    page.get_by_role("heading", name=say("learn.proof.title")).wait_for()
-    page.get_by_role("button", name=say("learn.page.again")).wait_for()
-    page.get_by_role("status").get_by_text(say("learn.verdict.right")).wait_for()
-    assert page.get_by_role("radio", name=say("learn.options.opposite")).is_checked()
+@pytest.mark.parametrize("name", [step.name for step in lesson.THEORY])
+def test_what_is_for_theorists(browser, server, name):
+    visit, step = opened(browser, f"{server}?tab=learn&step={name}"), lesson.OF_NAME[name]
+    page = visit.page
+    page.get_by_role("button", name=say(f"learn.{name}.title")).wait_for()
+    if isinstance(step.asks, lesson_parts.Choice):
+        page.get_by_role("radio").first.check(force=True)
+    else:  # a slider counts once a hand has moved it
+        slider = page.get_by_role("slider", name=say("learn.view.number_none"))
+        assert page.get_by_role("button", name=say("learn.view.watch")).is_disabled()
+        slider.press("PageUp")
+    watched(page)
+    found = plain_text(page.locator(".told").inner_text())
+    for part in told(step, "en"):
+        assert part in found
+    closed(visit)
 
 
 @pytest.fixture
@@ -157,20 +180,20 @@ def test_a_vote(learner, phones):
         send = visit.page.get_by_role("button", name=say("teach.student.send", language))
         send.click()
         visit.page.get_by_text(say("teach.student.waiting", language)).wait_for()
-        visit.page.get_by_text(say(f"learn.options.{option}", language), exact=True).click()
+        visit.page.get_by_text(say(f"learn.flips.options.{option}", language), exact=True).click()
         send.click()
         visit.page.get_by_text(say("teach.student.sent", language)).wait_for()
     page.get_by_text(say("teach.vote.count", votes=2, most=400)).wait_for()
-    assert tally(page) == [1, 0, 1]
+    assert tally(page) == [1, 1, 0, 0]
     again = students[0].page
     again.reload()
     again.get_by_text(say("teach.student.sent")).wait_for()
-    assert again.get_by_role("radio", name=say("learn.options.over")).is_checked()
-    again.get_by_text(say("learn.options.between"), exact=True).click()
+    assert again.get_by_role("radio", name=say("learn.flips.options.over")).is_checked()
+    again.get_by_text(say("learn.flips.options.upright"), exact=True).click()
     again.get_by_role("button", name=say("teach.student.send")).click()
     page.wait_for_function("""() => { const [votes] = [...Bokeh.documents[0]._all_models.values()]
-        .filter((m) => m.name == "votes"); return votes.renderers[0].data_source.data.votes[1] == 1 }""")
-    assert tally(page) == [0, 1, 1]
+        .filter((m) => m.name == "votes"); return votes.renderers[0].data_source.data.votes[1] == 2 }""")
+    assert tally(page) == [0, 2, 0, 0]
 
     # what he gives away does not hold his key; his own address does
     key = re.search(r"[?&]room=([\w.-]+)", page.evaluate("location.search"))[1]
@@ -181,9 +204,9 @@ def test_a_vote(learner, phones):
     page.keyboard.press("Escape")
     page.reload()
     page.get_by_text(say("teach.vote.count", votes=2, most=400)).wait_for()
-    assert tally(page) == [0, 1, 1] and link.get_attribute("href").split("?")[1] in students[0].page.url
+    assert tally(page) == [0, 2, 0, 0] and link.get_attribute("href").split("?")[1] in students[0].page.url
     page.get_by_role("button", name=say("teach.vote.answer")).click()
-    page.get_by_text(say("teach.vote.said", answer=say("learn.options.over"))).wait_for()
+    page.get_by_text(say("teach.vote.said", answer=say("learn.flips.options.over"))).wait_for()
     page.get_by_role("button", name=say("teach.vote.close")).click()
     page.get_by_text(say("teach.vote.shut")).wait_for()
     students[1].page.get_by_text(say("teach.student.closed", "de")).wait_for()
@@ -193,38 +216,7 @@ def test_a_vote(learner, phones):
         closed(visit)
 
 
-@pytest.mark.parametrize(("body", "language", "width"), [("Top S", "en", 1400), ("The paper's tippe top", "de", 390)])
-def test_step_1_tells_who_is_right_that_he_is_right(browser, server, body, language, width):
-    """Both turn over: in flight and landing the one, on its stem the other."""
-    shape = next(preset.shape for preset in PRESETS if preset.name == body)
-    address = f"{server}?tab=learn&step=free&lang={language}&body={Body.text(shape)}"
-    visit = opened(browser, address, width, 900)
-    page = visit.page
-    for guess, verdict, button in (("over", "right", "predict"), ("between", "off", "again")):
-        page.get_by_role("button", name=say(f"learn.page.{button}", language)).wait_for()
-        page.get_by_text(say(f"learn.options.{guess}", language), exact=True).click()
-        page.get_by_role("button", name=say(f"learn.page.{button}", language)).click()
-        page.get_by_role("status").get_by_text(say(f"learn.verdict.{verdict}", language)).wait_for()
-        page.get_by_text(f"{say('learn.options.over', language)}.", exact=True).wait_for()
-    on = say("learn.on.sphere", language) if shape.edge is None else ""
-    assert on in page.locator("p").filter(has_text="0.3").inner_text()
-    if width < 600:  # German words are longer
-        fits = "document.documentElement.scrollWidth <= innerWidth"
-        page.wait_for_function(fits)
-        go(page, "history", language)
-        page.get_by_role("heading", name=say("history.page.title", language)).wait_for()
-        page.wait_for_function(fits)
-    closed(visit)
-
-
-def test_the_links_of_the_teacher_set_up_their_motion():
-    from app.state.keep import explorer_of, read
-    from app.tabs.learn.teach import link
-
+def test_the_links_of_the_teacher_open_their_step():
     for step in lesson.STEPS:
         texts, wrong = read(link(step))
-        explorer, sentence = explorer_of(texts)
-        assert not wrong and not sentence and texts["step"] == step.name
-        expected = Explorer()
-        expected.param.update(**step.inputs(expected.scene.top))
-        assert np.array_equal(explorer.scene.trajectory.theta, expected.scene.trajectory.theta)
+        assert not wrong and texts == {"tab": "learn", "step": step.name}

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.served
 
 PAGES = 3
 # What stands on each tab but the first.
-TABS = ("planes.cards.stage", "build.bench.save", "family.map.start", "learn.page.predict")
+TABS = ("planes.cards.stage", "build.bench.save", "family.map.start", "learn.view.watch")
 PATIENCE = 300  # s
 
 

@@ -38,7 +38,7 @@ from app.state.keep import Keep
 from app.tabs.build.build import Build
 from app.tabs.build.section import Section
 from app.tabs.families.compare import Compare
-from app.tabs.learn.figures import SectionFigure
+from app.tabs.families.tops import Tops
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.lines import Derivation
 from app.tabs.planes.three_planes import ThreePlanes
@@ -134,7 +134,7 @@ def roll(scene):
 
 def learn(section):
     def make(scene):
-        view = Learn(scene, nothing)
+        view = Learn(scene)
 
         def show(scene):
             for view.section in ("lesson", section):  # what is not looked at is shown when it is
@@ -185,12 +185,13 @@ def compare(scene):
 
 
 VIEWS = {
-    **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide, SectionFigure)},
+    **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide)},
     "PlaneFigure": with_motion(PlaneFigure), "TimeFigures": with_motion(TimeFigures),
     "Top3D": in_three_dimensions(Top3D, show_top), "Surface3D": in_three_dimensions(Surface3D, show_surface),
     "Derivation": lambda scene: (lambda view: (view, view.show))(Derivation("a")),
     "Controls": controls, "Roll": roll, "Learn, the lesson": learn("lesson"), "Learn, the lines": learn("derivation"),
     "Build": bench, "Section": section, "Share": share, "Compare": compare,
+    "Tops": lambda scene: (lambda view: (view, view.show))(Tops(scene, nothing, nothing, nothing)),
 }  # fmt: skip
 
 

@@ -21,7 +21,7 @@ from panel.io.state import set_curdoc
 from wire import run as run_async
 from wire import until
 
-from app.model import lesson, lesson_sliding
+from app.model import lesson
 from app.model.ballots import Sqlite
 from app.model.classroom import Rooms
 from app.model.explorer import Explorer
@@ -30,7 +30,7 @@ from app.model.runs import TURN, WORK, Pool, Run, Runs, Stopped, look, to_sessio
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.teach import Vote
-from app.text import say, speaking, spoken
+from app.text import speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
 
 PATIENCE = 60  # s
@@ -310,36 +310,18 @@ def test_sessions_work_in_the_servers_own_thread():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["free", "proof", "flip"])
-def test_learn_waits_for_a_run_with_friction_beside_the_server(page, monkeypatch, name):
-    """The page is there while it is computed, and says so; what is asked for meanwhile ends it."""
-    go, moves = threading.Event(), []
-
-    def slowly(*arguments, progress, **named):
-        moves.append("begun")
-        while not go.is_set():
-            progress(0.0)
-        return slide(*arguments, progress=progress, **named)
-
-    monkeypatch.setattr(lesson_sliding, "slide", slowly)
-    lesson_sliding.slid.cache_clear()
-    explorer = Explorer()
-    learn = Learn(explorer.scene, explorer.param.update, page.runs)
-    learn.step = name
-    assert not moves, "a question needs no run"
-    learn.guesses[name] = {"free": "over", "proof": "agree", "flip": 3.0}[name]
-    explorer.param.update(**learn.now.inputs(explorer.scene.top))
-    learn.show(explorer.scene)
-    assert say("learn.page.wait") in learn.verdict.object and not learn.explanation.object
-    learn.show(explorer.scene)  # again: the one before ends, and is not told
+def test_the_lesson_begins_before_its_runs_are_there(page):
+    """Its first step ships; the others are computed beside the server, and anew for another top."""
+    scene = Explorer().scene
+    learn = Learn(scene, page.runs)
+    assert [step["name"] for step in learn.lesson.steps] == ["flips"] and {*learn.lesson.runs} == {"ordinary"}
     page.next()
-    assert say("learn.page.wait") in learn.verdict.object
-    go.set()
+    assert tuple(step["name"] for step in learn.lesson.steps) == lesson.NAMES
+    assert {name for step in lesson.STEPS for name in step.tops} <= {*learn.lesson.runs, *learn.lesson.others}
+    before = learn.lesson.others["yours"]
+    learn.show(Explorer(a=0.3, I1=0.374, I3=0.4).scene)
     page.next()
-    verdict, answer = lesson.judged(learn.now, explorer.scene, learn.guesses[name])
-    assert say(f"learn.verdict.{verdict}") in learn.verdict.object
-    assert say(f"learn.{name}.{answer.told}", **answer.numbers).split("\n")[0] in learn.explanation.object
-    lesson_sliding.slid.cache_clear()
+    assert learn.lesson.others["yours"]["curves"] != before["curves"]
 
 
 @pytest.mark.slow

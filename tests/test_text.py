@@ -190,9 +190,10 @@ NOT_SAID = {
     "codecs.py": {"not one of {}": "said to the log"},
     **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},
     "planes.py": {"no friction: {}": "the beginning of a key"},
-    "prints.py": {"tippe top": "never shown", "upper": "Matplotlib's"},
+    "prints.py": {"tippe top": "never shown"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
-       for name in ("server.py", "arrivals.py", "ballots.py", "messages.py", "settings.py", "sockets.py")},
+       for name in ("server.py", "arrivals.py", "ballots.py", "health.py", "logs.py", "messages.py", "settings.py",
+                    "sockets.py")},
     "look.js": {"dark large": "a key"},
 }  # fmt: skip
 

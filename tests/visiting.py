@@ -136,10 +136,11 @@ class Visit:
     def pixel(self, figure, x, y):
         return self.page.evaluate(PIXEL, [figure, float(x), float(y)])
 
-    def drag(self, start, end, moves=6):
-        """The mouse goes down at start, to end in some moves, and stays down."""
+    def drag(self, start, end, moves=6, rest=0):
+        """The mouse goes down at start, rests for so many ms, to end in some moves, and stays down."""
         self.page.mouse.move(*start)
         self.page.mouse.down()
+        self.page.wait_for_timeout(rest)
         for i in range(1, moves + 1):
             self.page.mouse.move(*(a + (b - a) * i / moves for a, b in zip(start, end, strict=True)))
 

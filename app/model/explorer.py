@@ -5,6 +5,7 @@ from types import MappingProxyType
 
 import param
 
+from app.model.region import PAPER, Upper
 from app.model.scene import Scene, solve
 from app.text import told
 from tippe_core import (
@@ -43,7 +44,9 @@ class Explorer(param.Parameterized):
     shape = param.ClassSelector(
         class_=Shape, default=TruncatedSphere.paper(), allow_None=False, doc="the body; a, I1, I3 are set with it"
     )
-    upper = param.Boolean(True, doc="show the upper hemisphere, like the paper, or all of (0, pi)")
+    upper: param.Selector[Upper] = param.Selector(
+        default=True, objects=[True, False, PAPER], doc="which part of the (K_J, theta) plane is shown: region.Upper"
+    )
     limit: param.Selector[str] = param.Selector(
         default="lift-off", objects=["lift-off", "slip"], doc="which limit Fig. 5 is drawn at"
     )

@@ -1,4 +1,4 @@
-"""What a step of the lesson is made of: what is asked, answered and drawn; how its motions start, and are told."""
+"""What a step of the lesson is made of: what is shown, asked, answered and drawn."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,22 +9,15 @@ import numpy as np
 from app.model.colours import COLOURS
 from app.model.scene import Scene
 from app.text import say
-from tippe_core import (
-    Tielines,
-    Top,
-    Trajectory,
-    pole_constants,
-)
+from tippe_core import Tielines, Top, pole_constants
 from tippe_core.types import Array, Number
 
 K_R = 10.0  # the paper's, for Figs. 5 and 6
 TILT = 0.1  # rad: nobody lets a top go exactly upright
-CURVE = 750  # points of a curve
 FEW = 24
 
 Numbers: TypeAlias = dict[str, Number]  # by their names in the words, some of which stand there as words
 Inputs: TypeAlias = dict[str, Number]  # of the Explorer
-Guessed: TypeAlias = Number  # an option or a number, as the step asks
 
 
 class Curve(NamedTuple):
@@ -57,36 +50,27 @@ class Picture:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """truth: what the computation says, an option or a number; numbers: for the words of the explanation.
+    """truth: what the computation says, an option or a number; numbers: for the words of the step.
 
-    motion: a Trajectory to show in 3-D in place of the scene's own, stem: whether it is of the body with its stem;
-    told: which of the step's explanations says it. doubt: why truth is not certain, or "": "early" the computation
-    came to where it cannot go on, "cut" the motion still changes at its end, "scatters" a start HAND beside it ends
-    elsewhere, "differs" a run ends otherwise than the formula says.
+    picture: a graph that tells it, where it has one; told: which of the step's explanations says it.
     """
 
     truth: str | float
     numbers: Numbers
-    picture: Picture
-    motion: Trajectory | None = None
-    told: str = "explain"
-    stem: bool = False
-    doubt: str = ""
+    picture: Picture | None = None
+    told: str = "told"
 
 
 @dataclass(frozen=True)
 class Choice:
-    """A prediction that is one of a few."""
+    """A prediction that is one of a few; or that one does not know yet, which is an answer too."""
 
     options: tuple[str, ...]
-
-    def verdict(self, guess: Guessed, truth: Guessed) -> str:
-        return "right" if guess == truth else "off"
 
 
 @dataclass(frozen=True)
 class Guess:
-    """A prediction on a slider. near: how far a good one may be off, a share of the truth and at least so much."""
+    """A prediction on a slider. share, least: how far a good one may be off, of the truth and at least."""
 
     low: float
     high: float
@@ -95,32 +79,32 @@ class Guess:
     share: float
     least: float
 
-    def verdict(self, guess: Guessed, truth: Guessed) -> str:
-        if np.isnan(truth):
-            return "never"
-        near = max(self.least, self.share * abs(truth))
-        return "right" if abs(guess - truth) <= near else "near" if abs(guess - truth) <= 3 * near else "off"
+    def near(self, truth: float) -> float:
+        """How far a good one may be off this truth."""
+        return max(self.least, self.share * abs(truth))
 
 
 @dataclass(frozen=True)
 class Step:
-    """A step: the prediction asked for, the Explorer's inputs for a top, and the answer of a scene.
+    """A step: what is watched before and after the prediction, and the answer, read from that.
 
-    tex: the paper's equations, and their numbers; sources: names in sources.toml. slides: whether the answer is read
-    from runs with friction, which may take long; its question then has the numbers of start() alone.
+    tops: names of lesson_runs.named, side by side; before, end: s, as far as they are watched before the prediction and
+    after it; later: which of the tops are seen only then. picture: what is drawn beside, a name of the view's, or "".
+    inputs: of the Explorer, for a step about one rolling motion; then the times are in its nutations. tex: equations of
+    the paper; sources: names in sources.toml.
     """
 
     name: str
-    asks: Callable[[Scene], Choice | Guess]
-    inputs: Callable[[Top], Inputs]
+    asks: Choice | Guess
     answer: Callable[[Scene], Answer]
-    tex: tuple[str, ...]
-    sources: tuple[str, ...]
-    slides: bool = False
-
-    def question(self, scene: Scene) -> Numbers:
-        """The numbers in the words of its question."""
-        return start(scene) if self.slides else self.answer(scene).numbers
+    tops: tuple[str, ...] = ()
+    before: float = 0.0
+    end: float = 0.0
+    picture: str = ""
+    later: tuple[str, ...] = ()
+    inputs: Callable[[Top], Inputs] | None = None
+    tex: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
 
 
 def at(K_J_share: float, energy: float, mu_s: float = 0.5) -> Callable[[Top], Inputs]:
@@ -133,33 +117,13 @@ def at(K_J_share: float, energy: float, mu_s: float = 0.5) -> Callable[[Top], In
     return inputs
 
 
-def choice(*options: str) -> Callable[[Scene], Choice]:
-    return lambda scene: Choice(options)
-
-
 def limit_words(E: float) -> str:
     """An energy that limits a motion: a number, or that there is none, or that it lies below the least."""
     return say(f"learn.limits.{'energy' if np.isfinite(E) else 'always' if np.isnan(E) else 'never'}", E=E)
 
 
-def revolutions(scene: Scene, spin: float) -> float:
-    """rev/s of the real top."""
-    return spin * scene.scales.angular_velocity / (2 * np.pi)
-
-
 def level(key: str, colour: str, x: Array, y: float, dash: str = "dashed") -> Curve:
     return Curve(key, colour, np.array([x[0], x[-1]]), np.array([y, y]), dash)
-
-
-def start(scene: Scene) -> Numbers:
-    """How the top is let go, near upright."""
-    return {"spin": revolutions(scene, scene.upright_spin), "tilt": np.degrees(TILT)}
-
-
-def curve(key: str, colour: str, motion: Trajectory, values: Array) -> Curve:
-    """Of a Trajectory over its time."""
-    every = slice(None, None, max(1, len(motion.t) // CURVE))
-    return Curve(key, colour, motion.t[every], values[every])
 
 
 def tied(found: Tielines, key: str, colour: str) -> Curve:

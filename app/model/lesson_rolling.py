@@ -1,82 +1,19 @@
-"""The lesson's answers about a top that rolls: the constants, where it turns, where it slips or leaves the table."""
+"""The answers for theorists, of one top that rolls: where it turns back, where it slips or leaves the table."""
 
 import numpy as np
 
 from app.model.colours import COLOURS, GREY
-from app.model.lesson_parts import FEW, Answer, Curve, Picture, Point, level, limit_words, revolutions, selected, tied
+from app.model.lesson_parts import FEW, Answer, Curve, Picture, Point, level, limit_words, selected, tied
 from app.model.scene import Scene
 from tippe_core import (
     Constants,
     allowed_shares,
     f,
     f1_squared,
-    f3_squared,
     normal_force,
-    omega3,
     pole_constants,
     tielines,
 )
-
-
-def jellett(scene: Scene) -> Answer:
-    """dL_z/dL_3 along the motion, by the straight line through its own L_3 and L_z."""
-    motion, top = scene.nutation, scene.top
-    L_3, L_z = motion.L_3, motion.L_z
-    spread = L_3 - L_3.mean()
-    steady = np.abs(spread).max() < 1e-7 * (1 + np.abs(L_3).max())
-    slope = top.a if steady else float(spread @ (L_z - L_z.mean()) / (spread @ spread))
-    numbers = {
-        "slope": slope, "a": top.a, "L_3_low": L_3.min(), "L_3_high": L_3.max(), "L_z_low": L_z.min(),
-        "L_z_high": L_z.max(), "K_J": scene.constants.K_J, "C_J": top.I1 * scene.constants.K_J,
-        "drift": np.ptp(motion.jellett) / top.I1,
-    }  # fmt: skip
-    picture = Picture("L_3", "L_z", (Curve("motion", COLOURS["jellett"], L_3, L_z),))
-    return Answer(slope, numbers, picture)
-
-
-def lifting(scene: Scene) -> float:
-    """What lifting G from upright to inverted costs, in percent of the spin's kinetic energy."""
-    return 100 * 2 * scene.top.a / (scene.top.I3 * scene.upright_spin**2 / 2)
-
-
-def energy(scene: Scene) -> Answer:
-    top, spin, motion = scene.top, scene.upright_spin, scene.nutation
-    share = lifting(scene)
-    ledger, half = motion.ledger, len(motion.t) // 2
-    numbers = {
-        "share": share, "lift": 2 * top.a, "spin": revolutions(scene, spin), "kinetic": top.I3 * spin**2 / 2,
-        "E": scene.constants.E, "drift": np.ptp(motion.energy), "kinetic_inner": ledger.kinetic[0],
-        "height_inner": ledger.height[0], "kinetic_outer": ledger.kinetic[half], "height_outer": ledger.height[half],
-    }  # fmt: skip
-    names = {"spin": "omega", "precession": "momentum", "nutation": "theta", "translation": "friction"}
-    curves = [Curve(name, COLOURS[colour], motion.t, getattr(ledger, name)) for name, colour in names.items()]
-    curves += [Curve("height", COLOURS["normal"], motion.t, ledger.height),
-               Curve("sum", COLOURS["energy"], motion.t, motion.energy)]  # fmt: skip
-    return Answer(share, numbers, Picture("t", "energy", tuple(curves)))
-
-
-def taken(scene: Scene) -> float:
-    """What Routh's constant would take of the spin's kinetic energy on the way from upright to inverted, in percent."""
-    return 100 * (1 - f3_squared(0.0, scene.top) / f3_squared(np.pi, scene.top))
-
-
-def routh(scene: Scene) -> Answer:
-    top, constants = scene.top, scene.constants
-    theta = np.linspace(0, np.pi, 181)
-    spin = omega3(theta, top, constants)
-    share = taken(scene)
-    motion = scene.trajectory
-    numbers = {
-        "share": share, "K_R": constants.K_R, "upright": spin[0], "inverted": spin[-1], "drift": np.ptp(scene.K_R),
-        "inner": motion.omega[:, 2].min(), "outer": motion.omega[:, 2].max(),
-        "needed": 100 * 2 * top.a / (top.I3 * spin[0] ** 2 / 2),
-    }  # fmt: skip
-    here = np.linspace(*scene.turning, 60)
-    curves = (
-        Curve("would", COLOURS["omega"], np.degrees(theta), spin, "dashed"),
-        Curve("motion", COLOURS["theta"], np.degrees(here), omega3(here, top, constants)),
-    )
-    return Answer(share, numbers, Picture("degrees", "omega_3", curves))
 
 
 def turning(scene: Scene) -> Answer:
@@ -138,7 +75,7 @@ def jump(scene: Scene) -> Answer:
         "E": E, "now": constants.E, "verge": np.degrees(verge), "inner": np.degrees(inner), "outer": np.degrees(outer),
         "least": scene.normal.min(), "most": scene.normal.max(),
     }  # fmt: skip
-    told = "never" if truth == "never" else "explain"
+    told = "never" if truth == "never" else "told"
     return Answer(truth, numbers, Picture("degrees", "F_z", tuple(curves)), told=told)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.model.frames import axes
-from app.model.scene import Scene
+from tippe_core import Trajectory
 from tippe_core.types import Array
 
 
@@ -21,9 +21,8 @@ class Levers:
     push: Array
 
 
-def levers(scene: Scene) -> Levers:
-    """From the poses of the scene's motion."""
-    motion = scene.trajectory
+def levers(motion: Trajectory) -> Levers:
+    """From the poses of a motion."""
     _, across, axis, _ = axes(motion.theta, motion.phi)
     up = np.array([0.0, 0.0, 1.0])
     contact = np.column_stack([motion.contact, np.zeros(len(motion.t))])

@@ -4,9 +4,8 @@ In units of R, M and g but for what a person sets: rev/s, degrees, s.
 """
 
 from dataclasses import dataclass, field
-from itertools import groupby
 from types import MappingProxyType
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -19,13 +18,10 @@ from tippe_core import (
     Shape,
     SmoothedCoulomb,
     State,
-    SteadyStates,
-    Stretch,
     Top,
     TopError,
     Trajectory,
     Viscous,
-    steady_states,
 )
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Indices, Rim
@@ -214,15 +210,6 @@ class Motion:
         return float(found[0]) if len(found) and self.trajectory.theta[0] < np.pi / 2 else np.nan
 
 
-class Well(NamedTuple):
-    """V_J at one C_J, from start to end in (R/g)^1/2: a while in which the ball alone was at the table."""
-
-    start: float
-    end: float
-    C_J: float
-    steady: SteadyStates
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Picture:
     """All that the views show. motions: {plane: Motion or None}; None: the sentence why is in messages at the plane.
@@ -255,21 +242,3 @@ class Picture:
         ux = vx - (state.omega2 * (c - a) - state.omega3 * s)
         uy = vy + state.theta_dot * (1 - a * c)
         return float(self.settings.scales.velocity * np.hypot(ux, uy))
-
-    def wells(self, plane: str) -> tuple[Well, ...]:
-        """(Well, ...) of the motion on a plane, one for each while of more than SHORT in which no stem touched: a
-        second contact changes C_J. Of none, that of the start."""
-        motion, shortest = self.motions[plane], SHORT / self.settings.scales.time
-        if motion is None:
-            return (Well(0.0, 0.0, self.outcome.C_J, self.outcome.steady),)
-        moved = motion.trajectory
-        found: list[Well] = []
-        spells = motion.ending.stretches if motion.ending else (Stretch(moved.t[0], moved.t[-1], "ball"),)
-        for free, group in groupby(spells, key=lambda spell: spell.on in ("ball", "air")):
-            group = list(group)
-            start, end = group[0].start, group[-1].end
-            inside = (moved.t >= start) & (moved.t <= end)
-            if free and inside.any() and (end - start > shortest or not found):
-                C_J = float(np.median(moved.jellett[inside]))
-                found.append(Well(start, end, C_J, steady_states(moved.top, C_J)))
-        return tuple(found) or (Well(-1.0, -1.0, self.outcome.C_J, self.outcome.steady),)

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -19,7 +20,12 @@ from tippe_core.types import Array, Scalars
 
 LEAST_TIELINES = 48
 MESH_COLUMNS = 48
-HOVER_COLUMNS = 96
+HOVER_COLUMNS = 128  # over all tilts: of 1.4 degrees each
+
+PAPER: Literal["paper"] = "paper"
+Upper: TypeAlias = bool | Literal["paper"]
+"""Which part of the plane is shown: True, K_J from 0 to P and all tilts; False, past both poles; PAPER, K_J from 0 to
+P and the tilts of the paper's own figure."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -28,9 +34,9 @@ class Plane:
 
     K_J (n,) ascending; lift and slip are tippe_core's tielines over it under the two limits (F_z >= 0 alone, and with
     F_h <= mu_s F_z as well). theta, height (n, m): Fig. 5's mesh of f1^2 theta_dot^2 on the tielines of `surface`, a
-    row from its own inner to its own outer turning point. hover_theta (k,), hover_K_J (j,): where hover_E and
-    hover_ratio (j, k) are given: on each tieline of the slip limit its own motion, beyond its ends the motion of
-    least energy that gets there.
+    row from its own inner to its own outer turning point; surface_range: of theta, as far as that goes.
+    hover_theta (k,), hover_K_J (j,): where hover_E and hover_ratio (j, k) are given: on each tieline of the slip limit
+    its own motion, beyond its ends the motion of least energy that gets there.
     """
 
     K_J: Array
@@ -41,6 +47,7 @@ class Plane:
     height: Array
     K_J_range: tuple[float, float]
     theta_range: tuple[float, float]
+    surface_range: tuple[float, float]
     limit: str
     pole: float
     pole_height: float
@@ -63,8 +70,8 @@ def height(theta: Array, top: Top, constants: Constants) -> Array:
     return np.maximum(value, 0)
 
 
-def K_J_range(top: Top, K_J: float, K_R: float, upper: bool) -> tuple[float, float]:
-    """From 0 to P for the upper hemisphere, like the paper; else past both poles; in any case as far as K_J."""
+def K_J_range(top: Top, K_J: float, K_R: float, upper: Upper) -> tuple[float, float]:
+    """From 0 to P, or past both poles; in any case as far as K_J."""
     poles = pole_constants(top, K_R)
     beyond = 0.25 * max(map(abs, poles))
     low, high = sorted((0.0, poles[0])) if upper else (min(poles) - beyond, max(poles) + beyond)
@@ -79,7 +86,7 @@ def K_J_range(top: Top, K_J: float, K_R: float, upper: bool) -> tuple[float, flo
 
 
 @lru_cache(maxsize=8)
-def plane(top: Top, K_R: float, mu_s: float, upper: bool, limit: str, low: float, high: float) -> Plane:
+def plane(top: Top, K_R: float, mu_s: float, upper: Upper, limit: str, low: float, high: float) -> Plane:
     """The Plane. The same arguments give the same object, so a view can tell by identity that nothing changed."""
     poles = pole_constants(top, K_R)
     step = 2.0 ** np.floor(np.log2((high - low) / LEAST_TIELINES))
@@ -93,7 +100,8 @@ def plane(top: Top, K_R: float, mu_s: float, upper: bool, limit: str, low: float
     rows = Constants(K_J[:, None], K_R, np.where(limited, surface.E, surface.E_steady)[:, None])
     heights = np.where(limited[:, None], height(theta, top, rows), np.nan)
 
-    theta_end = max(np.pi / 2, np.nanmax(lift.theta_outer, initial=0.0)) * 1.03 if upper else np.pi
+    surface_end = max(np.pi / 2, np.nanmax(lift.theta_outer, initial=0.0)) * 1.03 if upper else np.pi
+    theta_end = surface_end if upper == PAPER else np.pi
     hover_theta = theta_end * (np.arange(HOVER_COLUMNS) + 0.5) / HOVER_COLUMNS
     own = np.isin(K_J, even)
     hover_E, hover_ratio = everywhere(top, hover_theta, K_J[own], K_R, slip.E[own])
@@ -108,6 +116,7 @@ def plane(top: Top, K_R: float, mu_s: float, upper: bool, limit: str, low: float
         height=heights,
         K_J_range=(low, high),
         theta_range=(0.0, float(theta_end)),
+        surface_range=(0.0, float(surface_end)),
         limit=limit,
         pole=float(pole),
         pole_height=float(heights[at_pole].max(initial=0.0)) if at_pole.size else 0.0,

@@ -15,7 +15,7 @@ from app.model.bodies import body, fits, outline
 from app.model.frames import frame_times, in_space
 from app.model.marks import LARGEST, Marks, energy_marks
 from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP
-from app.model.region import MESH_COLUMNS, K_J_range, Plane, between, height, least_energy, plane
+from app.model.region import MESH_COLUMNS, K_J_range, Plane, Upper, between, height, least_energy, plane
 from app.text import say
 from tippe_core import (
     Constants,
@@ -146,7 +146,7 @@ def solve(
     K_R: float,
     mu_s: float,
     share: float,
-    upper: bool = True,
+    upper: Upper = True,
     limit: str = "lift-off",
     shape: Shape | None = None,
     *,

@@ -100,7 +100,7 @@ def _surface(scene):
               label=named["steady"])  # fmt: skip
     axes.plot(scene.curve[:, 0], [scene.constants.K_J] * len(scene.curve), scene.curve[:, 1], color=COLOURS["theta"],
               linewidth=2.5, zorder=4, label=named["motion"])  # fmt: skip
-    axes.set(xlim=plane.theta_range, ylim=plane.K_J_range, xlabel=r"$\theta$ (rad)", ylabel="$K_J$ $((g/R)^{1/2})$",
+    axes.set(xlim=plane.surface_range, ylim=plane.K_J_range, xlabel=r"$\theta$ (rad)", ylabel="$K_J$ $((g/R)^{1/2})$",
              zlabel=r"$f_1^2\,\dot\theta^2$ ($MgR$)")  # fmt: skip
     axes.set_zlim(bottom=0)
     axes.view_init(elev=28, azim=-62)

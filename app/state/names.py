@@ -8,8 +8,10 @@ from typing import Any
 from urllib.parse import quote
 
 from app.model.lab_run import TABLES, TOYS
+from app.model.lesson import BEFORE
 from app.model.lesson import NAMES as STEPS
 from app.model.planes_picture import LAWS, PLANES
+from app.model.region import PAPER
 from app.state.codecs import Body, Key, Number, Numbers, OneOf, Toy
 from app.text import LANGUAGES
 
@@ -58,7 +60,7 @@ ROWS = (
     Name("w3", "Explorer", "omega3", Number),
     Name("phi", "Explorer", "phi", Number),
     Name("psi", "Explorer", "psi", Number),
-    Name("half", "Explorer", "upper", _SWITCH),
+    Name("half", "Explorer", "upper", OneOf(yes=True, no=False, paper=PAPER)),
     Name("limit", "Explorer", "limit", OneOf(lift="lift-off", slip="slip")),
     # how it is played and looked at
     Name("t", "Clock", "at", Number, undoable=False),
@@ -100,7 +102,7 @@ ROWS = (
     Name("mu_smooth", "Planes", "mu", Number),
     Name("mu_stick", "Planes", "mu_s", Number),
     # the lessons
-    Name("step", "Learn", "step", _words(*STEPS), undoable=False),
+    Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False),
     Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False),
     Name(SECRET, "Learn", "room", Key, undoable=False),
 )

@@ -20,6 +20,7 @@ FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}
 HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
 )
+TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # of two figures, one above the other
 # A name, a note, and what is wrong, wherever they stand.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
@@ -123,6 +124,14 @@ def grid(*cards, narrowest=480):
             "padding": "12px",
         },
     )
+
+
+def flexible(*cards):
+    """Of (card, how it grows, shrinks and how wide it is at least), in rows."""
+    for each, flex in cards:
+        each.styles = each.styles | {"flex": flex, "min-width": "0"}
+    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
+    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)
 
 
 def field(value, label, **options):

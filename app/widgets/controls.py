@@ -10,6 +10,7 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled
 from app.model.regimes import NAMES
+from app.model.region import PAPER
 from app.state import asked
 from app.text import listed, say
 from app.widgets.cards import NOTES, PLAIN, alert, note
@@ -71,7 +72,7 @@ RANGES = {
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
-PICTURES = {"upper": {"upper": True, "all": False}, "limit": {"lift": "lift-off", "slip": "slip"}}
+PICTURES = {"upper": {"whole": True, "poles": False, "paper": PAPER}, "limit": {"lift": "lift-off", "slip": "slip"}}
 OF_A_MOTION = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3", *FACES["state"])
 
 

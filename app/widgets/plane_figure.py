@@ -1,25 +1,14 @@
 """Fig. 6 in Bokeh: the tielines in the (K_J, theta) plane, what friction costs there, and the motion in it."""
 
 import numpy as np
-from bokeh.models import (
-    ColumnDataSource,
-    HoverTool,
-    Label,
-    Range1d,
-    Span,
-)
+from bokeh.models import ColumnDataSource, Range1d, Span
 
-from app.bundle import call, on_hover
+from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.regimes import COLOUR, ROLLS
 from app.text import listed
+from app.widgets.controls import SPIN, SYMBOLS
 from app.widgets.plots import plain
-
-TOOLTIP = """
-<div style="font: 13px system-ui, sans-serif; color: #22303c; line-height: 1.5">
-<i>K</i><sub>J</sub> = @E{K_J} (<i>g</i>/<i>R</i>)<sup>½</sup><br><i>θ</i> = @E{theta}<br><i>E</i> = @E{E}<br>
-<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub> = @ratio{ratio}<br>@E{limit}</div>
-"""
 
 
 class PlaneFigure:
@@ -46,10 +35,12 @@ class PlaneFigure:
             )
         }
         self.pole = ColumnDataSource({"theta": [0.0], "K_J": [0.0]})
+        # what is read of any point of the plane: rows upwards, and where they lie
         self.field = ColumnDataSource({"E": [], "ratio": [], "x": [], "y": [], "w": [], "h": []})
         self.selected = ColumnDataSource(
             {
                 "K_J": [0.0],
+                "K_R": [0.0],
                 "inner": [0.0],
                 "outer": [0.0],
                 "steady": [0.0],
@@ -61,7 +52,6 @@ class PlaneFigure:
         self.hand = ColumnDataSource({"grip": [""], "theta": [0.0], "K_J": [0.0]})
         self._plane = None
         self._draw_limits()
-        self._draw_hover()
         self._draw_selected()
         self._listen(motion.source)
 
@@ -97,19 +87,6 @@ class PlaneFigure:
             text_color=INK,
         )
 
-    def _draw_hover(self):
-        """What is read of any point of the plane."""
-        fig = self.figure
-        everywhere = fig.image("E", x="x", y="y", dw="w", dh="h", source=self.field, global_alpha=0, level="overlay")
-        read = on_hover("readPlane", limits=self.limits, words=listed("roll.plane"))
-        self.hover = HoverTool(
-            renderers=[everywhere],
-            tooltips=TOOLTIP,
-            formatters={"@E": read, "@ratio": read},
-            point_policy="follow_mouse",
-        )
-        fig.add_tools(self.hover)
-
     def _draw_selected(self):
         """The motion, above all others, and why it does not roll."""
         fig = self.figure
@@ -123,28 +100,14 @@ class PlaneFigure:
         fig.scatter("inner", "K_J", size=9, fill_color="colour", line_color="white", line_width=1, **on_top)
         fig.scatter("outer", "K_J", size=9, fill_color="colour", line_color="white", line_width=1, **on_top)
         fig.scatter("theta", "K_J", size=13, fill_color="white", line_color=INK, line_width=2, **on_top)
-        self.sentence = Label(
-            x=0,
-            y=0,
-            text=" ",
-            visible=False,
-            level="overlay",
-            y_offset=16,
-            text_color=INK,
-            text_font_size="13px",
-            background_fill_color="white",
-            background_fill_alpha=0.92,
-            border_line_color=FAINT,
-            padding=6,
-        )
-        fig.add_layout(self.sentence)
 
     def _listen(self, motion):
         """To the browser's own clock, which moves the bead, and to hands."""
         fig, hand = self.figure, {"fig": self.figure, "hand": self.hand, "selected": self.selected}
         fig.js_on_change("inner_width", call("followMotion", motion=motion, **hand))
-        hand |= {"sentence": self.sentence, "words": listed("regimes.why")}
-        pull = call("pullPlane", motion=motion, limits=self.limits, hover=self.hover, **hand)
+        words = listed("roll.plane") | {"place": place_words()}
+        hand |= {"limits": self.limits, "field": self.field, "words": words, "pulled": listed("regimes.why_html")}
+        pull = call("pullPlane", motion=motion, **hand)
         for event in ("tap", "panstart", "pan", "panend", "mousemove"):
             fig.js_on_event(event, pull)
         self.selected.js_on_change("patching", call("sayPull", **hand))
@@ -155,6 +118,7 @@ class PlaneFigure:
         # A patch, because theta, where the bead is, belongs to the browser's clock.
         row = {
             "K_J": scene.constants.K_J,
+            "K_R": scene.constants.K_R,
             "inner": inner,
             "outer": outer,
             "steady": scene.marks.theta_steady,
@@ -197,3 +161,15 @@ class PlaneFigure:
         pad = 0.065 * (plane.K_J_range[1] - plane.K_J_range[0])
         self.figure.y_range.update(start=plane.K_J_range[0] - pad, end=plane.K_J_range[1] + 1.6 * pad)
         self.figure.x_range.update(start=-0.015 * plane.theta_range[1], end=plane.theta_range[1])
+
+
+def place_words():
+    """What is read of a place, as HTML; its numbers are put in by the browser."""
+    numbers = {
+        "K_J": f"{{K_J}} {SPIN}",
+        "angle": "{theta} rad = {degrees}°",
+        "energy": "{E} <i>MgR</i>",
+        "ratio": "{ratio}",
+    }
+    rows = [f"{SYMBOLS[name]} = {text}" for name, text in numbers.items()]
+    return "<br>".join([*rows, "<b>{verdict}</b>"])

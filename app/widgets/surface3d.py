@@ -46,7 +46,7 @@ def show_surface(surface, scene):
             verge=pack(np.column_stack([plane.surface.theta_verge, plane.K_J])),
             steady=pack(np.column_stack([plane.lift.theta_steady, plane.K_J])),
             P=pack([0, plane.pole, plane.pole_height]),
-            theta_max=plane.theta_range[1],
+            theta_max=plane.surface_range[1],
             limit=plane.limit,
         )
     surface.param.update(

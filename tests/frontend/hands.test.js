@@ -15,6 +15,12 @@ const shown = { K_J: 10, inner: 1, outer: 3, theta: 2 };
 const limits = { K_J: [0, 10, 20], slip_in: [0.5, 0.5, 0.5], slip_out: [1, 1, 4] };
 const at = (theta, K_J) => gripAt(shown, limits, [100 * theta, 10 * K_J], [theta, K_J], scales);
 
+test("on a short tieline there is room for bead, end and the line itself", () => {
+  const short = { K_J: 10, inner: 1, outer: 1.34, theta: 1 };
+  const taken = (theta) => gripAt(short, limits, [100 * theta, 100], [theta, 10], scales);
+  assert.deepEqual([1, 1.07, 1.15, 1.22, 1.3, 1.34, 1.45].map(taken), ["bead", "bead", "line", "line", "end", "end", "end"]);
+});
+
 test("a hand takes hold of the bead, an end, the tieline, another one, or a point beyond", () => {
   assert.deepEqual([[2, 10], [2.13, 10], [1, 10], [3.1, 10.5], [1.5, 10], [1.5, 11], [0.7, 15.5], [2, 19], [5, 19]].map(([x, y]) => at(x, y)),
     ["bead", "bead", "end", "end", "line", "line", "tieline", "tieline", "point"]);

@@ -2,6 +2,7 @@ import { offerCallbacks } from "./figures/callbacks.js";
 import { first } from "./first.js";
 import { renderFirst } from "./first.js";
 import { letter } from "./letter.js";
+import { renderLesson } from "./learn/lesson.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
 import { renderAddress } from "./widgets/address.js";
@@ -18,6 +19,7 @@ import { renderConnection } from "./widgets/notices.js";
 import { renderFailure } from "./widgets/notices.js";
 import { renderPainted } from "./widgets/painted.js";
 import { renderPhone } from "./widgets/phone.js";
+import { renderTopsMap } from "./widgets/tops_map.js";
 import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
@@ -34,6 +36,7 @@ export default {
   MeasuredStage: { render: renderMeasuredStage },
   Guide: { render: renderGuide },
   Head: { render: renderHead },
+  LessonView: { render: renderLesson },
   LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },
@@ -42,6 +45,7 @@ export default {
   Photo: { render: renderPhoto },
   Surface3D: { render: renderSurface3D },
   Top3D: { render: renderTop3D },
+  TopsMap: { render: renderTopsMap },
   first,
   letter,
 };

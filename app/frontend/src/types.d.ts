@@ -91,6 +91,13 @@ interface DialModel extends Model {
   wrong: boolean;
 }
 
+type KnownTop = { name: string; label: string; a: number; ratio: number; outline: [radius: number, height: number][] };
+interface TopsMapModel extends Model {
+  state: { tops: KnownTop[]; here: { a: number; ratio: number; outline: [radius: number, height: number][] | null }; chosen: string };
+  picked: [count: number, name: string] | [];
+  moved: [count: number, a: number, ratio: number] | [];
+}
+
 interface GuideModel extends Model {
   tour: boolean;
   said: string;
@@ -195,10 +202,36 @@ type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${
   asked: [count: number, name: string, value: any] | [];
 };
 
+// app/tabs/learn/lesson.py says what each holds.
+type LessonRun = Record<"frames" | "profile" | "curves" | "arms", Bytes> & { a: number; seconds: number };
+type LessonModel = Model & Record<"state", any> & {
+  steps: any[];
+  runs: Record<string, LessonRun>;
+  others: Record<string, LessonRun>;
+  asked: [count: number, name: string, value: string] | [];
+};
+
+// Bokeh's models, as far as they are used here. What is not synced stays in this browser.
+interface BokehModel {
+  setv(values: Record<string, any>, how: { sync: false }): void;
+  properties: Record<string, { change: { connect(run: () => void): void } }>;
+  change: { emit(): void };
+}
+interface Figure extends BokehModel {
+  name: string;
+  x_range: { start: number; end: number };
+  y_range: { start: number; end: number };
+}
+interface Source<Names extends string = string> extends BokehModel {
+  data: Record<Names, any>;
+  tags: any[];
+}
+// What a hand did on a figure: where, in its numbers and in px.
+type Happened = { event_name: string; x: number; y: number; sx: number; sy: number };
+
 declare const Bokeh: { documents: any[]; index: any };
 
 interface Window {
-  tippe: { time(clock?: string): number; photo(wide: number, clock?: string): HTMLCanvasElement | undefined };
   // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.
   __tippe: Record<string, any>;
   tippeCallbacks: Record<string, (given: any, what: any) => unknown>; // of figures/callbacks.js

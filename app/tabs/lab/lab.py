@@ -4,7 +4,6 @@ The picture, its controls and its words are one component of the browser; here i
 Lab then has becomes what the component draws.
 """
 
-import re
 from functools import partial
 
 import panel as pn
@@ -16,8 +15,9 @@ from app.model.lab import Lab
 from app.model.lab_rolling import rolling
 from app.model.lab_run import TOYS
 from app.state import asked
-from app.text import listed, say
+from app.text import listed
 from app.widgets.failure import after
+from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 
 INPUTS = ("spin", "tilt", "mu")
@@ -57,12 +57,6 @@ class LabView(Bundled):
     @classmethod
     def says(cls, language=None):
         return super().says(language) | listed("lab_view.view", language)
-
-
-def spelled(words):
-    """Words with their numbers as the page's language writes them, and no line's end before a unit."""
-    words = re.sub(r"(?<=\d)\.(?=\d)", say("lab_view.view.decimal"), words)
-    return re.sub(r"(?<=\d) (?=(mm|s|rev/s|U/s)\b)", "\N{NO-BREAK SPACE}", words)
 
 
 def lab_view(lab, keep, ask, go):

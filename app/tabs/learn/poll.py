@@ -16,25 +16,20 @@ from app.text import listed, say
 
 
 def option(step, key):
-    """The words of an option; some steps have their own for the same key."""
-    return listed("learn.options").get(step.name, {}).get(key) or say(f"learn.options.{key}")
-
-
-def unit(asks):
-    """Of a Guess, as it is written here."""
-    return listed("learn.units").get(asks.unit, asks.unit)
+    """The words of an option."""
+    return listed(f"learn.{step.name}.options").get(key) or say("learn.view.unsure_option")
 
 
 def prediction(step, asks, value=None):
     """The widget for what a step asks, a Choice or a Guess."""
-    label = say("learn.page.yours")
+    label = say("learn.view.yours")
     if isinstance(asks, lesson_parts.Choice):
         options = {option(step, key): key for key in asks.options}
         group = may_be_none(pmui.RadioBoxGroup(label=label, options=options, inline=False, margin=(4, 0)))
         group.value = value
         return group
     start = min(max(value, asks.low), asks.high) if value is not None else (asks.low + asks.high) / 2
-    return pmui.FloatSlider(label=f"{label}, {unit(asks)}" if asks.unit else label, start=asks.low, end=asks.high,
+    return pmui.FloatSlider(label=f"{label}, {asks.unit}", start=asks.low, end=asks.high,
                             step=asks.step, value=start, sizing_mode="stretch_width", margin=(4, 12),
                             size="small")  # fmt: skip
 
@@ -49,11 +44,11 @@ def asked_of(step, scene):
     """A question to a class about this step on the scene's top, as data; its words come with each page."""
     top = scene.top
     planned = lesson.planned(step, scene)
-    numbers = step.question(planned)
+    numbers = step.answer(planned).numbers
     named = {name for _, name, _, _ in string.Formatter().parse(listed(f"learn.{step.name}.question")) if name}
     given = {"shape": scene.inputs["shape"], "a": top.a, "I1": top.I1, "I3": top.I3, "mu_s": scene.mu_s}
     return {"step": step.name, "numbers": {name: float(numbers[name]) for name in named},
-            "asks": asdict(step.asks(planned)),
+            "asks": asdict(step.asks),
             "top": {EXPLORER[name].key: EXPLORER[name].codec.text(value) for name, value in given.items()}}  # fmt: skip
 
 

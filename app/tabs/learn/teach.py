@@ -15,22 +15,19 @@ from app.model.classroom import MOST_VOTES, Refused
 from app.model.colours import COLOURS
 from app.model.runs import Run
 from app.state import names
-from app.state.keep import EXPLORER
-from app.tabs.learn.poll import Counter, asked_of, option, page_address, question_of, refusal, truth_of, unit
+from app.tabs.learn.poll import Counter, asked_of, option, page_address, question_of, refusal, truth_of
 from app.text import listed, say, told
 from app.widgets.cards import PLAIN, alert, card, grid, note, on_click, px, words
 from app.widgets.plots import plain
-from tippe_core import Top, TopError
+from tippe_core import TopError
 
 BINS = 12
 QR_MODULE = 4
 
 
 def link(step):
-    """The query that opens a step with its motion set up, for the paper's top."""
-    inputs = step.inputs(Top.paper())
-    texts = {EXPLORER[name].key: EXPLORER[name].codec.text(value) for name, value in inputs.items()}
-    return names.link(tab="learn", step=step.name, **texts)
+    """The query that opens a step."""
+    return names.link(tab="learn", step=step.name)
 
 
 def bullets(items, ordered=False):
@@ -167,7 +164,7 @@ class Vote:
             counts = [votes.count(key) for key in asks.options]
         else:
             counts, edges = np.histogram(votes, bins=BINS, range=(asks.low, asks.high))
-            names = [f"{low:.4g} – {high:.4g} {unit(asks)}" for low, high in pairwise(edges)]
+            names = [f"{low:.4g} – {high:.4g} {asks.unit}" for low, high in pairwise(edges)]
         self.range.factors = names[::-1]
         self.bars.data = {"x": names, "votes": list(map(int, counts))}
         self.figure.x_range.end = max(4, max(counts) + 1)
@@ -179,7 +176,7 @@ class Vote:
     def _answer(self):
         room, step, asks = self._room, self._step, self._asks
         self._forget()
-        self.truth.object = note(say("learn.page.wait"))
+        self.truth.object = note(say("learn.view.wait"))
         self._finding = Run(lambda run: truth_of(step, room.top), lambda truth: self._reveal(step, asks, truth))
         self._runs.begin(self._finding, "vote")
 
@@ -192,7 +189,7 @@ class Vote:
         if isinstance(truth, str):
             said = option(step, truth)
         else:
-            said = say("learn.verdict.never") if np.isnan(truth) else f"{truth:.4g} {unit(asks)}"
+            said = say("learn.view.never") if np.isnan(truth) else f"{truth:.4g} {asks.unit}"
         self.truth.object = f"<b>{say('teach.vote.said', answer=said)}</b> ({say(f'learn.{step.name}.title')})"
 
     def _forget(self):

@@ -6,14 +6,14 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.borrowed import at_once
-from app.model.colours import COLOURS, FAINT
+from app.model.colours import COLOURS
 from app.model.hands import held, pulled
 from app.model.playing import together
 from app.state import asked
 from app.text import say
-from app.widgets.cards import PLAIN, card, grid, section, swatch, words
-from app.widgets.controls import SPIN, named
-from app.widgets.plane_figure import PlaneFigure
+from app.widgets.cards import PLAIN, TALL, card, grid, section, words
+from app.widgets.controls import named
+from app.widgets.plane_card import PlaneCard
 from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.surface3d import Surface3D, show_surface
@@ -22,25 +22,6 @@ from app.widgets.top3d import Top3D, show_top
 
 def plane_symbols():
     return f"({named('K_J')}, {named('angle')})"
-
-
-def plane_content(plane):
-    key = "".join(
-        (
-            swatch(FAINT, say("roll.key.tielines")),
-            swatch(COLOURS["friction"], say("roll.key.verge")),
-            swatch(COLOURS["normal"], f"{named('normal')} = 0"),
-            swatch("var(--ink, #22303c)", say("roll.key.steady"), "dashed"),
-            swatch(f"color-mix(in srgb, {COLOURS['friction']} 16%, transparent)", say("roll.key.lost")),
-            swatch(COLOURS["theta"], say("roll.key.motion")),
-        )
-    )
-    return (
-        words(f'<div class="key">{key}</div>'),
-        words(f"{named('K_J')} {SPIN}"),
-        pn.pane.Bokeh(plane.figure, sizing_mode="stretch_both", margin=0),
-        words(f'<div class="axis">{named("angle")} (rad)</div>'),
-    )
 
 
 def times_rows(times):
@@ -152,7 +133,8 @@ class Roll:
         self._pacer, self._scene = pacer, None
         self._grasp, self._held = None, {}
         self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
-        self._plane = PlaneFigure(self._motion)
+        self._card = PlaneCard(self._motion)
+        self._plane = self._card.plane
         self._kept, self._unit = words(""), words("")
         # What each round of pictures draws; it grows as the cards are made.
         self._planes = [self._motion.show, self._plane.show_plane, partial(show_top, self._top)]
@@ -167,8 +149,8 @@ class Roll:
         self._floor = card(say("roll.cards.floor", height=named("height"), plane=plane_symbols()))
         self._over_time = card(say("roll.cards.times"))
         self.main = grid(
-            card(say("roll.cards.top"), self._top),
-            card(say("roll.cards.plane", plane=plane_symbols()), *plane_content(self._plane)),
+            card(say("roll.cards.top"), self._top, height=TALL),
+            card(say("roll.cards.plane", plane=plane_symbols()), *self._card.content, height=TALL),
             self._floor,
             controls_card(controls),
             self._over_time,
@@ -178,6 +160,7 @@ class Roll:
         pacer.shows(self._show_hand, "hand")
         for shows in (self._planes, self._times, self._portraits):
             pacer.shows(partial(self._draw, shows), "pictures")
+        pacer.shows(self._card.show_path, "rest")
         pacer.shows(self._show_words, "rest")
         for make in (self._make_times, self._make_surface, *(partial(self._make_portraits, switch)
                                                              for switch in (self._tilt, self._table))):  # fmt: skip
@@ -233,7 +216,7 @@ class Roll:
 
     def _show_hand(self, scene):
         self._scene = scene
-        self._plane.show_selected(scene)
+        self._card.show_selected(scene)
 
     def _show_words(self, scene):
         self._kept.object, self._unit.object = kept_words(scene), unit_words(scene)

@@ -2,15 +2,15 @@
 import { keepFinger, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
 import { followFilm, pullFilm } from "./measured.js";
-import { followMotion, pullPlane, readPlane, sayPull } from "./plane.js";
+import { followMotion, pullPlane, sayPull } from "./plane.js";
 import { followPlanes } from "./planes.js";
 import { followCurve, seekOnCurve } from "./portraits.js";
-import { pressSection, turnSection } from "./sections.js";
+import { pressSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
 
 const callbacks = {
   followCurve, followFilm, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullFilm,
-  pullPlane, readPlane, sayPull, seekAlong, seekOnCurve, turnSection,
+  pullPlane, sayPull, seekAlong, seekOnCurve,
 };
 
 export function offerCallbacks() {

@@ -3,6 +3,7 @@
 import { clamp, nearestRow } from "./curves.js";
 
 export const REACH = 14; // px
+const LEAST = 5; // px
 
 // How far a point of the screen is from the tieline on display, in px.
 /** @param {Tieline} shown @param {number} px @param {number} py @param {{ x: PixelScale, y: PixelScale }} scales */
@@ -21,8 +22,11 @@ export function awayFromTieline({ inner, outer, K_J }, px, py, { x, y }) {
  */
 export function gripAt(shown, limits, [px, py], [theta, K_J], { x, y }) {
   const away = (tilt) => Math.hypot(x.compute(tilt) - px, y.compute(shown.K_J) - py);
-  if (away(shown.theta) < REACH) return "bead";
-  if (Math.min(away(shown.inner), away(shown.outer)) < REACH) return "end";
+  const inner = x.compute(shown.inner), outer = x.compute(shown.outer);
+  // on a short tieline bead and ends leave room for the line itself
+  const near = px > inner && px < outer ? clamp((outer - inner) / 4, LEAST, REACH) : REACH;
+  if (away(shown.theta) < near) return "bead";
+  if (Math.min(away(shown.inner), away(shown.outer)) < near) return "end";
   if (away(clamp(x.invert(px), shown.inner, shown.outer)) < REACH) return "line";
   const row = nearestRow(limits.K_J, K_J);
   return theta >= limits.slip_in[row] && theta <= limits.slip_out[row] ? "tieline" : "point";

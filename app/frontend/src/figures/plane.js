@@ -1,8 +1,11 @@
 // Fig. 6: the bead at the clock's time, and a hand, which `hand` takes to Python.
-import { eventsOf, leaveHover, scalesOf, setCursor } from "../borrowed.js";
+import { eventsOf, scalesOf, setCursor } from "../borrowed.js";
+import { fill } from "../data.js";
+import { timeOf } from "../motion/clock.js";
 import { ROLLS, wordOf } from "../regimes.js";
 import { clamp, nearestRow, spotOf, timeAtTilt, valueAt } from "./curves.js";
 import { awayFromTieline, gripAt, REACH } from "./grips.js";
+import { hideReadout, showReadout } from "./readout.js";
 import { followClock, isFollowed, seek } from "./seeking.js";
 
 const CURSORS = { bead: "grab", end: "ew-resize", line: "ns-resize" };
@@ -20,6 +23,7 @@ function handOf(hand) {
 /** @returns {any} */
 const rowOf = (source) => Object.fromEntries(Object.entries(source.data).map(([name, values]) => [name, values[0]]));
 
+/** @param {{ fig: Figure, hand: Source, motion: Source<"t" | "theta">, selected: Source<"theta"> }} given */
 export function followMotion({ fig, hand, motion, selected }) {
   if (isFollowed(motion)) return;
   let now = 0;
@@ -33,6 +37,8 @@ export function followMotion({ fig, hand, motion, selected }) {
     now = t;
     placeBead();
   });
+  now = timeOf();
+  placeBead(); // a clock that stands says nothing
   const events = eventsOf(fig);
   const onTieline = ({ clientX, clientY }) => {
     const { left, top } = events.getBoundingClientRect();
@@ -49,59 +55,93 @@ export function followMotion({ fig, hand, motion, selected }) {
     if (event.touches.length === 1 && onTieline(event.touches[0])) event.preventDefault();
   };
   events.addEventListener("touchstart", keep, { passive: false });
+  events.addEventListener("pointerleave", () => !handOf(hand).grip && hideReadout(hand));
+  window.addEventListener("scroll", () => hideReadout(hand), { capture: true, passive: true });
 }
 
+/** @param {Record<string, any> & { motion: Source }} given @param {Happened} event */
 export function pullPlane(given, event) {
-  const { fig, hand, selected, limits, hover } = given, { x, y, event_name: name } = event;
+  const { fig, hand, selected, limits } = given, { x, y, event_name: name } = event;
   const own = handOf(hand), row = rowOf(selected), scales = scalesOf(fig);
   const at = (point) => gripAt(row, limits.data, point, [x, y], scales);
   const over = () => at([scales.x.compute(x), scales.y.compute(y)]);
+  own.at = [x, y];
   if (name === "mousemove") {
-    if (!own.grip) setCursor(fig, CURSORS[over()] ?? "pointer");
-    return;
+    if (own.grip) return;
+    setCursor(fig, CURSORS[over()] ?? "pointer");
+    return sayPlace(given);
   }
   // a quick hand is elsewhere by the time it counts as dragging
   if (name === "panstart") own.grip = own.scrolls ? null : own.pressed ? at(own.pressed) : over();
   if (name === "tap") own.grip = over();
   const taken = own.grip, done = name === "tap" || name === "panend";
   if (done) own.grip = null;
-  if (name === "panstart") leaveHover(fig, hover);
-  hover.setv({ active: !own.grip }, { sync: false });
   if (taken === "bead" || (name === "tap" && taken === "line")) moveClock(given, row, x, !done);
   else if (taken && !(name === "tap" && taken === "end") && name !== "panend") {
     const { K_J } = limits.data;
     const on = taken === "end" ? row.K_J : taken === "tieline" && done ? K_J[nearestRow(K_J, y)] : y;
     hand.data = { grip: [taken], theta: [x], K_J: [on] };
   }
-  own.at = [x, y];
-  sayPull(given);
+  if (name === "tap") sayPlace(given);
+  else sayPull(given);
 }
 
 function moveClock({ motion }, { inner, outer }, theta, held) {
   const aim = clamp(theta, Math.min(inner, outer), Math.max(inner, outer));
-  seek(timeAtTilt(motion.data, aim, window.tippe.time()), held);
+  seek(timeAtTilt(motion.data, aim, timeOf()), held);
 }
 
-// Why not, where the hand is.
-export function sayPull({ fig, hand, selected, sentence, words }) {
-  const { at, grip } = handOf(hand), [worst] = selected.data.worst;
+// A place of the plane and the tieline on display, on the window.
+function onWindow(fig, [x, y], { inner, outer, K_J }) {
+  const { left, top } = eventsOf(fig).getBoundingClientRect(), scales = scalesOf(fig);
+  const across = (theta) => left + scales.x.compute(theta), down = (value) => top + scales.y.compute(value);
+  const line = { left: across(inner) - REACH, right: across(outer) + REACH, top: down(K_J) - REACH, bottom: down(K_J) + REACH };
+  /** @type {[number, number]} */
+  const at = [across(x), down(y)];
+  return { at, line };
+}
+
+function say(given, words) {
+  const { fig, hand, selected } = given, { at } = handOf(hand);
   if (!at) return;
-  const visible = Boolean(grip) && grip !== "bead" && worst !== ROLLS;
-  if (!visible && !sentence.visible) return;
-  const [x, y] = at, right = x > (fig.x_range.start + fig.x_range.end) / 2;
-  const align = right ? { text_align: "right", x_offset: -12 } : { text_align: "left", x_offset: 12 };
-  sentence.setv({ x, y, text: wordOf(worst, words) ?? " ", visible, ...align }, { sync: false });
+  const place = onWindow(fig, at, rowOf(selected));
+  showReadout(hand, words, place.at, [place.line]);
 }
 
-// What stands at a place, beside the mouse. format: which of it.
-export function readPlane({ limits, words }, { value, format, x, y }) {
-  const { K_J, slip_E, lift_E, slip_by, lift_by } = limits.data, row = nearestRow(K_J, y);
-  if (format === "K_J") return K_J[row].toFixed(3);
-  if (format === "theta") return `${x.toFixed(3)} rad = ${((x * 180) / Math.PI).toFixed(1)}°`;
-  if (format === "E") return `${value.toFixed(4)} MgR`;
-  if (format === "ratio") return Number.isFinite(value) ? value.toFixed(3) : words.no_contact;
+// Why not, where a hand pulls.
+/** @param {Record<string, any>} given */
+export function sayPull(given) {
+  const { hand, selected, pulled } = given, { at, grip } = handOf(hand), [worst] = selected.data.worst;
+  if (!at) return;
+  const words = grip && grip !== "bead" && worst !== ROLLS ? wordOf(worst, pulled) : undefined;
+  if (words) say(given, words);
+  else if (grip) hideReadout(hand);
+}
+
+// The number that a field, an image of rows from below, has at a place.
+/** @param {Record<"x" | "y" | "w" | "h", number[]>} frame @param {{ shape: number[] } & Column} values @param {[x: number, y: number]} place */
+export function valueIn({ x: [x], y: [y], w: [w], h: [h] }, values, [across, up]) {
+  const [rows, columns] = values.shape, inside = (share, all) => clamp(Math.floor(share * all), 0, all - 1);
+  return values[inside((up - y) / h, rows) * columns + inside((across - x) / w, columns)];
+}
+
+// What stands where a hand points.
+function sayPlace(given) {
+  const { fig, hand, limits, field, words } = given, own = handOf(hand), [x, y] = /** @type {[number, number]} */ (own.at);
+  const { x_range: { end }, y_range: high } = fig;
+  if (!(field.data.E.length && x >= 0 && x <= end && y >= high.start && y <= high.end)) return hideReadout(hand);
+  const [E, ratio] = ["E", "ratio"].map((name) => valueIn(field.data, field.data[name][0], [x, y]));
+  say(given, readPlane(limits.data, words, { x, y, E, ratio }));
+}
+
+/** @param {Record<string, any>} limits @param {Record<string, string>} words @param {Record<"x" | "y" | "E" | "ratio", number>} place */
+export function readPlane({ K_J, slip_E, lift_E, slip_by, lift_by }, words, { x, y, E, ratio }) {
+  const row = nearestRow(K_J, y);
   const limited = { slip: words.then_slip, "lift-off": words.then_lift, "no motion": words.steady_cannot, nothing: words.unlimited };
-  if (!(value > slip_E[row])) return limited[slip_by[row]];
   const why = { slip: words.not_slip, "lift-off": words.not_lift };
-  return why[value > lift_E[row] ? lift_by[row] : slip_by[row]] ?? words.not_at_all;
+  const verdict = E > slip_E[row] ? (why[E > lift_E[row] ? lift_by[row] : slip_by[row]] ?? words.not_at_all) : limited[slip_by[row]];
+  return fill(words.place, {
+    K_J: K_J[row].toFixed(3), theta: x.toFixed(3), degrees: ((x * 180) / Math.PI).toFixed(1), E: E.toFixed(4),
+    ratio: Number.isFinite(ratio) ? ratio.toFixed(3) : words.no_contact, verdict,
+  });
 }

@@ -1,7 +1,6 @@
-// Sections through a top: in the lesson one that turns with the clock, and that of the body which is built. Not synced.
+// Sections through a top: in the lesson one at an instant, and that of the body which is built. Not synced.
 import { eventsOf, scalesOf } from "../borrowed.js";
-import { clamp } from "./curves.js";
-import { followClock, isFollowed } from "./seeking.js";
+import { isFollowed } from "./seeking.js";
 
 const ALONG = 1.9; // of the axis 3, beyond O, in R
 
@@ -21,32 +20,8 @@ export function sectionAt({ axis, G, foot }, { across, along }) {
   return { x, y, lines, points: [[0, 1], G, [0, 0], tip] };
 }
 
-export function turnSection({ motion, body, lines, points, clock }) {
-  if (isFollowed(motion)) return;
-  let now = 0;
-  const draw = () => {
-    const { t, push } = motion.data, last = t.length - 1;
-    const i = Math.round(clamp((now - t[0]) / (t[last] - t[0]), 0, 1) * last);
-    const at = (name) => /** @type {Point} */ ([motion.data[`${name}_x`][i], motion.data[`${name}_y`][i]]);
-    const drawn = sectionAt({ axis: at("axis"), G: at("G"), foot: at("foot") }, body.data);
-    for (let k = 0; k < drawn.x.length; k++) [body.data.x[k], body.data.y[k]] = [drawn.x[k], drawn.y[k]];
-    body.change.emit();
-    drawn.lines.forEach((ends, k) => ["x0", "y0", "x1", "y1"].forEach((name, j) => (lines.data[name][k] = ends[j])));
-    lines.change.emit();
-    drawn.points.forEach(([x, y], k) => ([points.data.x[k], points.data.y[k]] = [x, y]));
-    points.data.name[4] = push[i] >= 0 ? "F⊙" : "F⊗";
-    [points.data.x[4], points.data.y[4]] = [0, -0.02];
-    points.change.emit();
-  };
-  motion.properties.data.change.connect(draw);
-  followClock((t) => {
-    now = t;
-    draw();
-  }, clock);
-  draw();
-}
-
 // Where a hand goes down: a quick one is elsewhere by the time it counts as dragging.
+/** @param {{ fig: Figure, pressed: Source<"x" | "z"> }} given */
 export function pressSection({ fig, pressed }) {
   if (isFollowed(pressed)) return;
   const press = ({ offsetX, offsetY }) => {

@@ -205,4 +205,5 @@ const controls = `
 }
 `;
 
+export const shared = tokens + basics;
 export const style = [tokens, basics, places, stage, strip, answer, controls].join("");

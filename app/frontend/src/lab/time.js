@@ -7,9 +7,10 @@ const LONGEST_STEP = 0.25; // s: a top's time goes on by at most so much of the 
 const NEARLY = 0.02; // s
 
 export class Time {
-  /** @param {() => void} changed t or playing is another */
-  constructor(changed) {
+  /** @param {() => void} changed t or playing is another @param {string} name of the tops' clock */
+  constructor(changed, name = CLOCK) {
     this.changed = changed;
+    this.name = name;
     this.t = 0; // s
     this.unit = 1; // s in one unit of the tops' own time
     this.end = 0; // s
@@ -21,11 +22,7 @@ export class Time {
     /** @type {any[]} */
     this.tops = [];
     this.listening = new AbortController();
-    window.addEventListener(`tippe:clock:${CLOCK}`, ({ detail }) => this.hear(detail), { signal: this.listening.signal });
-  }
-
-  get name() {
-    return CLOCK;
+    window.addEventListener(`tippe:clock:${name}`, ({ detail }) => this.hear(detail), { signal: this.listening.signal });
   }
 
   get speed() {
@@ -54,7 +51,7 @@ export class Time {
   seek(t, held = false) {
     this.t = Math.min(Math.max(t, 0), this.end);
     this.held = held;
-    window.dispatchEvent(new CustomEvent(`tippe:seek:${CLOCK}`, { detail: { t: this.t / this.unit, held } }));
+    window.dispatchEvent(new CustomEvent(`tippe:seek:${this.name}`, { detail: { t: this.t / this.unit, held } }));
     this.changed();
   }
 

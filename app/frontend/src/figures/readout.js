@@ -1,0 +1,71 @@
+// What stands at a place of a picture, in one box for all of them: beside the hand, in the window, and never over what it
+// is about.
+
+const GAP = 14, EDGE = 6; // px from the hand or from what is kept clear, and from the window's edge
+const STYLE = {
+  position: "fixed", zIndex: "1500", pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px",
+  borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 system-ui, sans-serif", color: "var(--ink, #22303c)",
+  background: "var(--card, #fff)", border: "1px solid var(--faint, #8a96a3)",
+};
+
+/** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
+
+/** @param {Box} a @param {Box} b */
+const shared = (a, b) =>
+  Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) * Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top));
+
+// Where a box of a size is to stand: of the places beside the hand, then over and under what is kept clear, the first that
+// covers none of it, else the one that covers least.
+/**
+ * @param {[x: number, y: number]} hand
+ * @param {{ wide: number, high: number }} size
+ * @param {{ wide: number, high: number }} page
+ * @param {Box[]} clear
+ */
+export function placeBeside([x, y], { wide, high }, page, clear) {
+  const inside = (value, size, most) => Math.max(EDGE, Math.min(value, most - size - EDGE));
+  const own = { left: x - GAP / 2, right: x + GAP / 2, top: y - GAP / 2, bottom: y + GAP / 2 }, kept = [own, ...clear];
+  const level = y - high / 2, middle = x - wide / 2;
+  const places = [[x + GAP, level], [x - GAP - wide, level], [middle, y - GAP - high], [middle, y + GAP],
+    ...kept.flatMap((box) => [[middle, box.top - GAP - high], [middle, box.bottom + GAP]])];
+  let found = { left: 0, top: 0 }, least = Infinity;
+  for (const [across, down] of places) {
+    const left = inside(across, wide, page.wide), top = inside(down, high, page.high);
+    const box = { left, top, right: left + wide, bottom: top + high };
+    const covered = kept.reduce((sum, each) => sum + shared(box, each), 0);
+    if (covered < least) [found, least] = [{ left, top }, covered];
+  }
+  return found;
+}
+
+/** @type {HTMLElement | undefined} */
+let box;
+/** @type {object | undefined} */
+let owner;
+
+function boxOf() {
+  if (!box?.isConnected) {
+    box = document.createElement("div");
+    box.className = "tippe-readout";
+    Object.assign(box.style, STYLE);
+    document.body.append(box);
+  }
+  return box;
+}
+
+// whose: what hides it again. The words are Python's, the place is on the window's canvas.
+/** @param {object} whose @param {string} words as HTML @param {[x: number, y: number]} hand @param {Box[]} clear */
+export function showReadout(whose, words, hand, clear) {
+  const shown = boxOf(), { style } = shown;
+  owner = whose;
+  if (shown.innerHTML !== words) shown.innerHTML = words;
+  style.display = "";
+  const { left, top } = placeBeside(hand, { wide: shown.offsetWidth, high: shown.offsetHeight },
+    { wide: innerWidth, high: innerHeight }, clear);
+  Object.assign(style, { left: `${left}px`, top: `${top}px` });
+}
+
+/** @param {object} whose */
+export function hideReadout(whose) {
+  if (box && owner === whose) box.style.display = "none";
+}

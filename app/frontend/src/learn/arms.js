@@ -1,0 +1,70 @@
+// The paper's Fig. 4 at a moment: the section through contact and axis, and the two arms of a push at the contact.
+import { drawn } from "../lab/parts.js";
+import { float32 } from "../data.js";
+import { sectionAt } from "../figures/sections.js";
+
+/** @typedef {[number, number]} Point */
+const ROW = 6; // numbers of a moment: the axis, G, and the foot on the axis, seen from the contact
+
+export class Arms {
+  /** @param {Record<string, string>} said */
+  constructor(said) {
+    this.rows = new Float32Array(0);
+    this.outline = { across: /** @type {number[]} */ ([]), along: /** @type {number[]} */ ([]) };
+    /** @type {(point: Point) => Point} */
+    this.put = (point) => point;
+    this.hull = drawn("path", { class: "hull" });
+    this.axis = drawn("path", { class: "axis thin" });
+    this.upwards = drawn("path", { class: "axis thin" });
+    this.own = drawn("path", { class: "arm-own" });
+    this.upright = drawn("path", { class: "arm-upright" });
+    this.push = drawn("g", {}, drawn("circle", { r: 8, class: "pushed" }), drawn("circle", { r: 2.5, class: "mass" }));
+    this.mass = drawn("circle", { r: 4, class: "mass" });
+    this.words = {
+      own: drawn("text", { class: "word halo own" }, said.own), upright: drawn("text", { class: "word halo upright" }, said.upright),
+      push: drawn("text", { class: "halo" }, said.push), axis: drawn("text", { class: "halo" }, said.axis), mass: drawn("text", { class: "halo" }, said.mass),
+    };
+  }
+
+  /** @param {LessonRun} run @param {number} width @param {number} height */
+  draw(run, width, height) {
+    const profile = float32(run.profile), radius = profile.filter((_, i) => i % 2 === 0), along = profile.filter((_, i) => i % 2);
+    this.rows = float32(run.arms);
+    this.outline = { across: [...radius, ...radius.map((r) => -r).reverse()], along: [...along, ...along.slice().reverse()] };
+    const scale = Math.min(width / 5.4, height / 2.9), x0 = width / 2, y0 = height - 22;
+    this.put = ([x, y]) => /** @type {Point} */ ([x0 + scale * x, y0 - scale * y]);
+    return [this.hull, drawn("path", { class: "table", d: `M8 ${y0}H${width - 8}` }), this.upwards, this.axis, this.own, this.upright, this.mass,
+      this.push, ...Object.values(this.words)];
+  }
+
+  /** @param {Point[]} points */
+  path = (...points) => points.map((point, i) => `${i ? "L" : "M"}${this.put(point).map((v) => v.toFixed(1)).join(" ")}`).join("");
+
+  /** @param {any} element @param {Point} point @param {number} dx @param {number} dy @param {string} anchor */
+  word(element, point, dx, dy, anchor) {
+    const [x, y] = this.put(point);
+    for (const [name, value] of Object.entries({ x: x + dx, y: y + dy, "text-anchor": anchor })) element.setAttribute(name, String(value));
+  }
+
+  /** @param {number} moment a row of the run's curves */
+  at(moment) {
+    const { rows, words, path } = this, i = ROW * Math.min(moment, rows.length / ROW - 1);
+    if (i < 0) return;
+    const point = (k) => /** @type {Point} */ ([rows[i + k], rows[i + k + 1]]), [axis, G, foot] = [point(0), point(2), point(4)];
+    const { x, y } = sectionAt({ axis, G, foot }, this.outline), tip = /** @type {Point} */ ([1.75 * axis[0], 1 + 1.75 * axis[1]]);
+    this.hull.setAttribute("d", `${path(...x.map((value, k) => /** @type {Point} */ ([value, y[k]])))}Z`);
+    this.axis.setAttribute("d", path([-1.2 * axis[0], 1 - 1.2 * axis[1]], tip));
+    this.upwards.setAttribute("d", path([G[0], 0], [G[0], 2.3]));
+    this.own.setAttribute("d", path([0, 0], foot));
+    this.upright.setAttribute("d", path([0, 0.02], [G[0], 0.02]));
+    for (const [shape, at] of /** @type {[any, Point][]} */ ([[this.mass, G], [this.push, [0, 0]]])) {
+      shape.setAttribute("transform", `translate(${this.put(at).map((v) => v.toFixed(1)).join(" ")})`);
+    }
+    const side = G[0] <= 0 ? 1 : -1, [near, far] = side > 0 ? ["start", "end"] : ["end", "start"];
+    this.word(words.push, [0, 0], 0, 20, "middle");
+    this.word(words.upright, [G[0], 0], -14 * side, -8, far);
+    this.word(words.own, [0.6 * foot[0], 0.6 * foot[1]], 12 * side, 4, near);
+    this.word(words.axis, tip, 8, 4, "start");
+    this.word(words.mass, G, -10 * side, 4, far);
+  }
+}

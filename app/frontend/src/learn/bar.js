@@ -1,0 +1,148 @@
+// Time, and the tilt as far as it has been seen: play, drag anywhere on it. What comes after the guess is covered.
+import { ticks, TILT } from "../lab/curves.js";
+import { drawn, part, say } from "../lab/parts.js";
+import { DASHES } from "./stage.js";
+
+const LEFT = 40, RIGHT = 14, TOP = 20, FOOT = 22, LETTER = 6.6; // px
+const ICONS = { play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z" };
+
+export class Bar {
+  /** @param {Record<string, any>} texts @param {import("../lab/time.js").Time} time */
+  constructor(texts, time) {
+    this.texts = texts;
+    this.time = time;
+    this.width = this.bottom = 0; // px; not known yet
+    this.play = part("button", { class: "round", type: "button", onclick: () => time.play(!time.playing) });
+    this.range = part("input", { type: "range", class: "at", min: 0, step: "any", "aria-label": texts.lesson.time,
+      oninput: () => time.seek(Number(this.range.value)) });
+    this.drawing = drawn("svg", { "aria-hidden": "true" });
+    this.head = part("span", { class: "head" });
+    this.line = part("span", { class: "now" });
+    this.plot = part("div", { class: "plot" }, this.drawing, this.range, this.line, this.head);
+    this.note = part("p", { class: "small" });
+    this.element = part("section", { class: "bar", "aria-label": texts.lesson.bar }, this.play, this.plot, this.note);
+    this.listen();
+    this.resizing = new ResizeObserver(() => this.draw());
+    this.resizing.observe(this.plot);
+  }
+
+  // The hand has the time from the moment that it goes down, also where it rests first.
+  listen() {
+    const { plot, time } = this;
+    const put = (event, held) => time.seek(this.timeAt(event.clientX - plot.getBoundingClientRect().left), held);
+    plot.addEventListener("pointerdown", (event) => {
+      if (event.button || !this.scene) return;
+      event.preventDefault();
+      plot.setPointerCapture(event.pointerId);
+      this.range.focus({ preventScroll: true });
+      put(event, true);
+    });
+    plot.addEventListener("pointermove", (event) => plot.hasPointerCapture(event.pointerId) && put(event, true));
+    for (const end of ["pointerup", "pointercancel"]) plot.addEventListener(end, () => time.held && time.seek(time.t));
+  }
+
+  get whole() {
+    return this.scene.step.end;
+  }
+
+  x = (t) => LEFT + ((this.width - RIGHT - LEFT) * t) / this.whole;
+  timeAt = (x) => ((x - LEFT) / (this.width - RIGHT - LEFT)) * this.whole;
+
+  show(scene) {
+    this.scene = scene;
+    this.element.classList.toggle("none", !scene.tops.length);
+    this.draw();
+  }
+
+  // Degrees from the least to the most that are drawn: all of them where it turns over, else what it does.
+  span() {
+    const { step, curves } = this.scene;
+    if (!step.speed) return [0, 180];
+    const [least, most] = curves[0].range(TILT);
+    return [Math.floor(least / 5) * 5, Math.ceil(most / 5) * 5];
+  }
+
+  draw() {
+    const { clientWidth: width, clientHeight: height } = this.plot, { scene, time } = this;
+    if (!width || !scene?.tops.length) return;
+    const { curves, tops, record } = scene, [low, high] = this.span();
+    Object.assign(this, { width, bottom: height - FOOT });
+    const y = (tilt) => this.bottom - ((this.bottom - TOP) * (tilt - low)) / (high - low);
+    const lines = tops.flatMap(({ hidden }, i) => hidden ? [] : [[curves[i].points(this.x, y, TILT), DASHES[i]]]);
+    const line = (kind) => lines.map(([points, dash]) => drawn("polyline", { class: kind, points, "stroke-dasharray": dash || undefined }));
+    this.played = drawn("rect", { x: 0, y: 0, width: 0, height });
+    this.seen = drawn("rect", { x: 0, y: 0, width: 0, height });
+    this.cover = record.asked ? [] : this.covered();
+    this.drawing.replaceChildren(
+      drawn("clipPath", { id: "lesson-played" }, this.played), drawn("clipPath", { id: "lesson-seen" }, this.seen),
+      ...this.axes(y, low === 0 && high === 180 ? [0, 90, 180] : ticks(low, high, 3)),
+      drawn("g", { "clip-path": "url(#lesson-seen)" }, ...line("rest")), drawn("g", { "clip-path": "url(#lesson-played)" }, ...line("past")), ...this.cover,
+      ...(this.marks = this.events()),
+    );
+    this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.range.max = String(time.end);
+    this.at(time.t);
+  }
+
+  covered() {
+    const { texts: { lesson } } = this, x = this.x(this.time.end), wide = this.width - RIGHT - x;
+    const word = this.scene.inClass ? lesson.rest_votes : lesson.rest;
+    return [drawn("rect", { class: "covered", x, y: TOP - 6, width: Math.max(wide, 0), height: this.bottom - TOP + 6 }),
+      drawn("text", { class: "word", x: x + wide / 2, y: (TOP + this.bottom) / 2, "text-anchor": "middle" }, wide > LETTER * word.length ? word : "")];
+  }
+
+  axes(y, marks) {
+    const found = [], { width, bottom, whole, texts } = this;
+    for (const tilt of marks) {
+      found.push(drawn("line", { class: tilt === marks[0] ? "axis" : "grid", x1: LEFT, x2: width - RIGHT, y1: y(tilt), y2: y(tilt) }),
+        drawn("text", { x: LEFT - 6, y: y(tilt) + 4, "text-anchor": "end" }, `${tilt}°`));
+    }
+    const times = ticks(0, whole, Math.min(6, width / 60)), step = times[1] - times[0] || 1, digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+    for (const t of times) {
+      found.push(drawn("text", { x: this.x(t), y: bottom + 16, "text-anchor": "middle" }, say(texts, t ? "{t}" : "{t} s", { t: [t, t ? digits : 0] })));
+    }
+    return found;
+  }
+
+  // What it did and when, told as it is seen.
+  events() {
+    const { scene: { step, tops }, texts } = this;
+    if (tops.length > 1) return [];
+    let free = LEFT;
+    return step.events.filter(([t]) => t <= step.end).flatMap(([t, , , short]) => {
+      const word = `${short} ${say(texts, "{t} s", { t: [t, 1] })}`, x = this.x(t), wide = LETTER * word.length;
+      const side = x - wide - 8 > free ? "end" : "start", from = side === "end" ? x - wide - 5 : x + 5;
+      if (from < free || from + wide > this.width) return [];
+      free = from + wide + 8;
+      const mark = drawn("g", {}, drawn("line", { class: "event", x1: x, x2: x, y1: 4, y2: this.bottom }),
+        drawn("text", { x: side === "start" ? x + 5 : x - 5, y: 12, "text-anchor": side }, word));
+      mark.dataset.t = String(t);
+      return [mark];
+    });
+  }
+
+  /** @param {number} t */
+  at(t) {
+    const { time, texts, scene } = this, icon = time.playing ? "pause" : "play";
+    if (!this.width || !scene?.tops.length) return;
+    const x = this.x(t), seen = Math.min(scene.record.seen, time.end);
+    this.played.setAttribute("width", String(Math.max(x, 0)));
+    this.seen.setAttribute("width", String(Math.max(this.x(seen), 0)));
+    for (const mark of this.marks) mark.style.display = Number(mark.dataset.t) <= seen + 1e-6 ? "" : "none";
+    for (const moved of [this.head, this.line]) moved.style.transform = `translateX(${x}px)`;
+    if (this.icon !== icon) {
+      this.icon = icon;
+      this.play.replaceChildren(drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" }, drawn("path", { d: ICONS[icon], fill: "currentColor" })));
+      this.play.setAttribute("aria-label", texts[icon]);
+    }
+    this.range.value = String(t);
+    const tilt = scene.curves[0].at(t, TILT), digits = scene.step.speed ? 3 : 2;
+    this.range.setAttribute("aria-valuetext", say(texts, texts.time_says, { t: [t, digits], tilt: [tilt, 0], headline: "" }));
+    const stopped = !scene.record.asked && !time.playing && t > time.end - 0.03 * this.whole;
+    this.note.textContent = stopped ? say(texts, texts.lesson.before, { t: [time.end, digits] }) : "";
+  }
+
+  leave() {
+    this.resizing.disconnect();
+  }
+}

@@ -1,0 +1,162 @@
+// The picture of a step: lines over two axes, as far as they have been seen, or the section with the two arms of a push.
+import { ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "../lab/curves.js";
+import { drawn, part, say } from "../lab/parts.js";
+import { float32 } from "../data.js";
+import { Arms } from "./arms.js";
+
+const LEFT = 46, RIGHT = 12, TOP = 10, FOOT = 22, APART = 15; // px
+
+// Words beside points of a drawing, pushed apart where they would lie over each other.
+/** @template {{ y: number }} T @param {T[]} words @param {number} least @param {number} most */
+export function apart(words, least, most) {
+  const sorted = [...words].sort((one, other) => one.y - other.y);
+  sorted.forEach((word, i) => (word.y = Math.max(word.y, i ? sorted[i - 1].y + APART : least)));
+  for (let i = sorted.length - 1, room = most; i >= 0; i--, room -= APART) sorted[i].y = Math.min(sorted[i].y, room);
+  return words;
+}
+
+/** @param {import("../lab/curves.js").Curves} curves @param {number} column @param {number} end */
+function columnOf(curves, column, end) {
+  const found = [];
+  for (let i = 0; i < curves.count && curves.value(i, TIME) <= end + 1e-6; i++) found.push([curves.value(i, TIME), curves.value(i, column)]);
+  return found;
+}
+
+export class Graph {
+  /** @param {Record<string, any>} texts */
+  constructor(texts) {
+    this.texts = texts;
+    this.width = this.height = 0; // px; not known yet
+    this.t = 0;
+    this.scale = { x: (value) => value, y: (value) => value, time: false, clip: /** @type {any} */ (null), bottom: 0, right: 0 };
+    /** @type {any[]} */
+    this.words = [];
+    this.arms = new Arms(texts.drawn.arms);
+    this.title = part("h3");
+    this.drawing = drawn("svg", { role: "img" });
+    this.plot = part("div", { class: "plot" }, this.drawing);
+    this.below = part("p", { class: "axis-name" });
+    this.element = part("section", { class: "picture" }, this.title, this.plot, this.below);
+    this.resizing = new ResizeObserver(() => this.draw());
+    this.resizing.observe(this.plot);
+  }
+
+  show(scene) {
+    this.scene = scene;
+    const { step, record, tops } = scene;
+    // what tells the answer is drawn once it has been asked for
+    this.kind = step.picture === "arms" && record.asked ? "graph" : step.picture;
+    if (["curves", "heads"].includes(step.picture)) this.kind = record.asked ? "graph" : "";
+    this.element.hidden = !this.kind || !tops.length;
+    this.draw();
+  }
+
+  draw() {
+    const { clientWidth: width, clientHeight: height } = this.plot, { scene, texts } = this;
+    if (!width || !scene || this.element.hidden) return;
+    Object.assign(this, { width, height });
+    const { step } = scene, said = texts.drawn[step.picture];
+    this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.title.innerHTML = this.kind === "graph" ? step.graph.y : said.title;
+    this.drawing.setAttribute("aria-label", this.title.textContent);
+    this.below.innerHTML = this.kind === "graph" ? step.graph.x : "";
+    if (this.kind === "arms") this.drawing.replaceChildren(...this.arms.draw(scene.tops[0].run, width, height));
+    else this.drawing.replaceChildren(...this.lines(this.kind === "graph" ? this.graph() : this[this.kind](said)));
+    this.at(this.t);
+  }
+
+  spin(said) {
+    const { scene: { step, curves: [curves] } } = this;
+    return { time: true, unit: "", lines: [
+      { word: said.above, kind: "turning", points: columnOf(curves, TURNING, step.end), dash: "7 4" },
+      { word: said.own, kind: "own", points: columnOf(curves, SPIN, step.end) }], marks: [], zero: true };
+  }
+
+  energy(said) {
+    const { scene: { step, curves: [curves] } } = this, whole = columnOf(curves, ENERGY, step.end), first = whole[0][1];
+    return { time: true, unit: "mm", zero: true, marks: [], lines: [
+      { word: said.heat, kind: "first", points: whole.map(([t]) => [t, first]), dash: "4 3", below: true },
+      { word: said.spin, kind: "energy", points: whole, fill: "spins", below: true },
+      { word: said.height, kind: "energy", points: columnOf(curves, HEIGHT, step.end), fill: "lifts", above: true }] };
+  }
+
+  graph() {
+    const { graph } = this.scene.step;
+    const lines = graph.curves.map(({ word, key, colour, dash, x, y }) => {
+      const [xs, ys] = [float32(x), float32(y)];
+      return { word: key === "zero" ? "" : word, colour, dash: { dashed: "7 4", dotted: "2 4" }[dash], points: Array.from(xs, (value, i) => [value, ys[i]]) };
+    });
+    return { time: graph.of === "t", unit: "", lines, marks: graph.points, zero: false };
+  }
+
+  // The frame, the lines, and their words at their ends.
+  lines({ time, unit, lines, marks, zero }) {
+    const { width, height, texts, scene: { step } } = this, bottom = height - FOOT, right = width - RIGHT;
+    const all = [...lines.flatMap(({ points }) => points), ...marks.map(([, x, y]) => [x, y])].filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y));
+    const span = (i) => [Math.min(...all.map((point) => point[i])), Math.max(...all.map((point) => point[i]))];
+    const [x0, x1] = time ? [0, step.end] : span(0), [low, high] = span(1), pad = 0.08 * (high - low || 1);
+    const [y0, y1] = [zero ? Math.min(low - (low < 0 ? pad : 0), 0) : low - pad, high + pad];
+    const x = (value) => LEFT + ((right - LEFT) * (value - x0)) / (x1 - x0 || 1), y = (value) => bottom - ((bottom - TOP) * (value - y0)) / (y1 - y0);
+    const found = [];
+    const marked = ticks(y0, y1, Math.max(2, height / 60)), places = digits(marked);
+    for (const value of marked) {
+      const text = say(texts, value === marked.at(-1) && unit ? `{value} ${unit}` : "{value}", { value: [value, places] });
+      found.push(drawn("line", { class: value ? "grid" : "axis", x1: LEFT, x2: right, y1: y(value), y2: y(value) }), drawn("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, text));
+    }
+    const across = ticks(x0, x1, width / 80), sides = digits(across);
+    for (const value of across) found.push(drawn("text", { x: x(value), y: bottom + 16, "text-anchor": "middle" }, say(texts, time && !value ? "{value} s" : "{value}", { value: [value, value ? sides : 0] })));
+    const clip = drawn("rect", { x: 0, y: 0, width, height });
+    const of = (points) => points.map((point, i) => (point.every(Number.isFinite) ? `${i && points[i - 1].every(Number.isFinite) ? "L" : "M"}${x(point[0]).toFixed(1)} ${y(point[1]).toFixed(1)}` : "")).join("");
+    const paths = lines.flatMap(({ points, kind, colour, dash, fill }) => [
+      ...(fill ? [drawn("path", { class: fill, d: `${of(points)}L${x(points.at(-1)[0])} ${y(0)}L${x(points[0][0])} ${y(0)}Z` })] : []),
+      drawn("path", { class: `line ${kind ?? ""}`, d: of(points), stroke: colour, "stroke-dasharray": dash })]);
+    found.push(drawn("clipPath", { id: "lesson-graph" }, clip), drawn("g", { "clip-path": "url(#lesson-graph)" }, ...paths));
+    this.covering = drawn("rect", { class: "covered", y: TOP - 8, height: bottom - TOP + 8, width: 0 });
+    this.now = drawn("line", { class: "now", y1: TOP - 8, y2: bottom });
+    if (time) found.push(this.covering, this.now);
+    for (const [, px, py] of marks) found.push(drawn("circle", { class: "mark", cx: x(px), cy: y(py), r: 5 }));
+    this.words = [...lines.map((line) => ({ ...line, at: time ? null : line.points.findLast((point) => point.every(Number.isFinite)) })), ...marks.map(([word, px, py]) => ({ word, at: [px, py], points: [] }))]
+      .filter(({ word }) => word).map((word) => ({ ...word, element: drawn("text", { class: `word halo ${word.kind ?? ""}`, fill: word.colour }, word.word) }));
+    this.scale = { x, y, time, clip, bottom, right };
+    return [...found, ...this.words.map(({ element }) => element)];
+  }
+
+  // Where the words stand: beside what has been seen last.
+  place(seen) {
+    const { x, y, bottom, right } = this.scale, middle = (LEFT + right) / 2;
+    const found = this.words.map((word) => {
+      const point = word.at ?? word.points.findLast(([t]) => t <= seen + 1e-6) ?? word.points[0], px = x(point[0]);
+      const py = y(point[1]);
+      return { word, px, y: py + (word.below ? 16 : word.above || px >= middle ? -8 : 4) };
+    });
+    for (const { word, px, y: py } of apart(found, TOP + 8, bottom - 6)) {
+      const after = px < middle;
+      word.element.setAttribute("x", String(after ? px + 8 : px - 8));
+      word.element.setAttribute("y", String(py));
+      word.element.setAttribute("text-anchor", after ? "start" : "end");
+    }
+  }
+
+  /** @param {number} t */
+  at(t) {
+    const { scene } = this;
+    this.t = t;
+    if (!this.width || !scene || this.element.hidden) return;
+    if (this.kind === "arms") return this.arms.at(scene.curves[0].row(t));
+    const { x, time, clip, right } = this.scale, seen = scene.record.seen, end = scene.step.end;
+    if (time) {
+      const to = x(Math.min(seen, end));
+      clip.setAttribute("width", String(to));
+      this.covering.setAttribute("x", String(to));
+      this.covering.setAttribute("width", String(Math.max(right - to, 0)));
+      for (const name of ["x1", "x2"]) this.now.setAttribute(name, String(x(Math.min(t, end))));
+    }
+    this.place(time ? seen : Infinity);
+  }
+
+  leave() {
+    this.resizing.disconnect();
+  }
+}
+
+const digits = (marks) => (marks.length > 1 ? Math.max(0, Math.ceil(-Math.log10(marks[1] - marks[0]) - 1e-9)) : 0);

@@ -1,0 +1,117 @@
+// The question of a step: what may be guessed, and, once the answer has been watched, what it was and why.
+import { part, say } from "../lab/parts.js";
+
+// How a guess stands to the truth.
+/** @param {any} asks @param {any} truth @param {any} guess */
+export function verdictOf(asks, truth, guess) {
+  if (asks.options) return guess === asks.unsure ? "unsure" : guess === truth ? "right" : "off";
+  if (truth === null) return "never";
+  const apart = Math.abs(guess - truth);
+  return apart <= asks.near ? "right" : apart <= 3 * asks.near ? "near" : "off";
+}
+
+const digitsOf = (step) => (step < 1 ? 1 : 0);
+
+export class Question {
+  /**
+   * @param {Record<string, any>} texts
+   * @param {{ guess(value: any): void, watch(): void, next(): void }} hand
+   */
+  constructor(texts, hand) {
+    this.texts = texts;
+    this.hand = hand;
+    this.hint = part("p", { class: "hint" });
+    this.place = part("div", { class: "answers" });
+    this.verdict = part("div", { class: "told", role: "status" });
+    this.watch = part("button", { class: "primary", type: "button", onclick: () => hand.watch() });
+    this.next = part("button", { class: "primary", type: "button", onclick: () => hand.next() }, `${texts.lesson.next} →`);
+    this.guess = part("span", { class: "small" }, texts.lesson.guess);
+    this.dock = part("div", { class: "dock" }, this.watch, this.next, this.guess);
+    this.element = part("section", { class: "side" }, this.hint, this.place, this.verdict, this.dock);
+  }
+
+  show(step, record, { playing, last }) {
+    const { texts: { lesson } } = this;
+    this.step = step;
+    this.record = record;
+    this.hint.innerHTML = step.refused || step.hint || "";
+    const shown = `${step.name} ${Boolean(record.done)} ${JSON.stringify(step.asks)}`;
+    if (shown !== this.shown) {
+      this.shown = shown;
+      this.place.replaceChildren(...(step.refused || record.done ? [] : step.asks.options ? this.options() : this.slider()));
+      this.verdict.replaceChildren(...(record.done ? this.told() : []));
+    }
+    this.hint.hidden = Boolean(record.done);
+    this.watch.hidden = Boolean(step.refused);
+    this.next.hidden = last || !(record.done || step.refused);
+    this.watch.textContent = record.done ? lesson.again : lesson.watch;
+    this.watch.classList.toggle("quiet", Boolean(record.done));
+    this.guess.hidden = Boolean(record.done || record.asked || step.refused);
+    this.plays(playing);
+  }
+
+  // While it is watched there is nothing to press.
+  plays(playing) {
+    const { record, texts: { lesson } } = this, watching = record.asked && !record.done;
+    this.watch.disabled = record.guess === undefined || (watching && playing);
+    if (watching) this.watch.textContent = playing ? lesson.watching : lesson.watch;
+  }
+
+  options() {
+    const { step, record, hand, texts } = this;
+    return [part("fieldset", {}, part("legend", {}, texts.lesson.answers), ...step.asks.options.map(([key, word]) => {
+      const input = part("input", { type: "radio", name: "lesson-guess", value: key, onchange: () => hand.guess(key) });
+      input.checked = record.guess === key;
+      return part("label", { class: "option" }, input, part("span", {}, word));
+    }))];
+  }
+
+  // No number counts before a hand has chosen it.
+  slider() {
+    const { step: { asks }, record, hand, texts } = this, { lesson } = texts, digits = digitsOf(asks.step);
+    const words = part("label", { for: "lesson-number" });
+    const input = part("input", { id: "lesson-number", type: "range", min: asks.low, max: asks.high, step: asks.step });
+    const put = (value) => {
+      const known = value !== undefined;
+      input.classList.toggle("unset", !known);
+      const values = { value: [value ?? 0, digits], unit: asks.unit };
+      words.textContent = known ? say(texts, lesson.number, values) : lesson.number_none;
+      input.setAttribute("aria-valuetext", known ? say(texts, lesson.number_says, values) : lesson.number_none);
+    };
+    input.value = String(record.guess ?? (asks.low + asks.high) / 2);
+    input.oninput = () => {
+      put(Number(input.value));
+      hand.guess(Number(input.value));
+    };
+    put(record.guess);
+    return [part("div", { class: "number" }, words, input)];
+  }
+
+  word(value) {
+    const { step: { asks }, texts } = this;
+    if (asks.options) return asks.options.find(([key]) => key === value)?.[1] ?? "";
+    return value === null ? texts.lesson.never : say(texts, texts.lesson.number_says, { value: [value, digitsOf(asks.step)], unit: asks.unit });
+  }
+
+  told() {
+    const { step, record, texts: { lesson } } = this, verdict = verdictOf(step.asks, step.truth, record.guess);
+    const row = (name, words) => part("p", {}, part("b", {}, `${name}: `), words);
+    const html = (words, kind) => Object.assign(part("p", { class: kind }), { innerHTML: words });
+    const found = [part("p", { class: "big" }, lesson[verdict]), row(lesson.truth, this.word(step.truth))];
+    if (verdict !== "right" && verdict !== "unsure") found.splice(1, 0, row(lesson.yours, this.word(record.guess)));
+    found.push(...step.told.map((words) => html(words, "")));
+    if (step.tex.length) found.push(part("div", { class: "equations" }, ...step.tex.map(typeset)));
+    const learned = html(step.learned, "");
+    learned.prepend(part("b", {}, `${lesson.learned}: `));
+    found.push(part("div", { class: "learned" }, learned));
+    if (step.sources.length) found.push(part("p", { class: "small" }, `${lesson.read}: `, ...step.sources.flatMap(([, short, full], i) => [i ? " · " : "", part("span", { title: full }, short)])));
+    return found;
+  }
+}
+
+function typeset(tex) {
+  const line = part("div", { class: "equation", tabindex: 0 });
+  if (window.katex) window.katex.render(`\\displaystyle ${tex}`, line, { output: "mathml", throwOnError: false });
+  else line.textContent = tex;
+  return line;
+}

@@ -1,0 +1,63 @@
+// The tops of a step, side by side, each with what it is below, and what the first does now.
+import { latest, TILT } from "../lab/curves.js";
+import { drawn, part, say } from "../lab/parts.js";
+import { Top } from "../lab/top.js";
+
+const MOST = 3;
+export const DASHES = ["", "7 4", "2 4"]; // of their curves
+
+export class Stage {
+  /** @param {Record<string, any>} texts @param {import("../lab/time.js").Time} time */
+  constructor(texts, time) {
+    this.texts = texts;
+    this.step = /** @type {any} */ ({});
+    /** @type {any[]} */
+    this.curves = [];
+    /** @type {string[]} */
+    this.names = [];
+    this.tops = Array.from({ length: MOST }, (_, i) => new Top({ texts, time, label: texts.stage, away: i ? 1.75 : 1.3 }));
+    this.captions = this.tops.map(() => part("p", { class: "caption" }));
+    this.covers = this.tops.map(() => part("p", { class: "cover" }, texts.lesson.later));
+    this.places = this.tops.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i], this.covers[i]));
+    this.pill = part("div", { class: "pill" });
+    this.wait = part("p", { class: "wait", role: "status" });
+    this.element = part("section", { class: "stage", "aria-label": texts.stage }, part("div", { class: "tops" }, ...this.places), this.pill, this.wait);
+    // The wheel scrolls the page; with Ctrl it is for the picture.
+    this.element.addEventListener("wheel", (event) => {
+      if (event.ctrlKey) event.composedPath()[0].focus?.({ preventScroll: true });
+      else event.stopPropagation();
+    }, { capture: true, passive: true });
+  }
+
+  /** @param {any[]} tops @param {any} step @param {any[]} curves */
+  show(tops, step, curves) {
+    const { lesson } = this.texts;
+    this.step = step;
+    this.curves = curves;
+    this.names = tops.map(({ name }) => name);
+    this.wait.textContent = tops.length ? "" : step.refused ? `${lesson.wrong} ${step.refused}` : lesson.wait;
+    this.tops.forEach((top, i) => {
+      const found = tops[i];
+      this.places[i].hidden = !found;
+      this.covers[i].hidden = !found?.hidden;
+      if (!found) return top.put({ frames: null });
+      const { run, word, hidden } = found;
+      top.put({ profile: run.profile, a: run.a, seconds: run.seconds, frames: hidden ? null : run.frames });
+      this.captions[i].hidden = tops.length < 2;
+      this.captions[i].replaceChildren(drawn("svg", { viewBox: "0 0 26 8", width: 26, height: 8, "aria-hidden": "true" },
+        drawn("path", { d: "M0 4h26", stroke: "currentColor", "stroke-width": 2.2, "stroke-dasharray": DASHES[i] || undefined })), ` ${word}`);
+      if (this.element.isConnected) top.begin();
+    });
+  }
+
+  /** @param {number} t */
+  at(t) {
+    const { step, names, texts } = this, word = names.length === 1 && latest(step.stages?.[names[0]] ?? [], t)?.[1];
+    this.pill.hidden = !word;
+    if (word) this.pill.textContent = say(texts, texts.lesson.pill, { word, tilt: [this.curves[0].at(t, TILT), 0] });
+  }
+
+  leave() {
+    for (const top of this.tops) top.leave();
+  }
+}

@@ -1,0 +1,77 @@
+// How the lesson looks: the question over all, the top large, and beside it what may be guessed and the step's picture.
+import { shared } from "../lab/style.js";
+
+const places = `
+.lesson { display: grid; gap: 10px 24px; padding: 10px 24px 8px; --side: 520px; --stage: clamp(300px, 100vh - 430px, 62cqw);
+  grid-template: "crumbs crumbs" auto "question question" auto "stage side" var(--stage) "bar picture" auto "more more" auto / minmax(0, 1fr) var(--side); align-content: start; }
+.lesson[data-picture=""] { grid-template-areas: "crumbs crumbs" "question question" "stage side" "bar side" "more more"; }
+.crumbs { grid-area: crumbs; list-style: none; display: flex; flex-wrap: wrap; gap: 0 16px; margin: 0; padding: 0; }
+.crumbs button { padding: 0; display: flex; align-items: center; gap: 8px; color: var(--ink-2); min-height: 36px; }
+.crumbs b { width: 24px; height: 24px; border-radius: 50%; display: grid; place-items: center; box-shadow: inset 0 0 0 1.5px var(--line-2); font-size: var(--t-s); }
+.crumbs .done b { background: var(--ink-2); color: var(--ground); box-shadow: none; }
+.crumbs [aria-current] { color: var(--accent); font-weight: 600; } .crumbs [aria-current] b { background: var(--accent); color: var(--ground); box-shadow: none; }
+.question { grid-area: question; font-size: 28px; line-height: 1.2; letter-spacing: -.02em; text-wrap: balance; }
+.stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
+.tops { position: absolute; inset: 0; display: flex; } .place { flex: 1 1 0; min-width: 0; position: relative; } .top { position: absolute; inset: 0; }
+.pill { position: absolute; left: 16px; bottom: 12px; background: var(--ground); border-radius: 16px; padding: 4px 12px; font-weight: 600; font-variant-numeric: tabular-nums; }
+.caption, .cover { position: absolute; left: 0; right: 0; text-align: center; color: var(--scene-ink, #1d2733); padding: 0 8px; pointer-events: none; }
+.caption { bottom: 14px; font-weight: 600; } .caption svg { display: inline-block; vertical-align: 2px; margin-right: 4px; } .cover { top: 45%; }
+[data-look=dark] :is(.caption, .cover) { color: var(--ink); }
+.wait { position: absolute; left: 16px; right: 16px; top: 45%; text-align: center; }
+.waits :is(.pill, .tops) { visibility: hidden; }
+.bar { grid-area: bar; display: grid; grid-template-columns: 48px minmax(0, 1fr); gap: 0 8px; align-items: center; align-content: start; min-width: 0; }
+.bar.none { visibility: hidden; }
+.bar .plot { position: relative; height: 108px; cursor: pointer; touch-action: pan-y; user-select: none; } .bar .small { grid-column: 1 / -1; min-height: 1.45em; }
+.plot svg { position: absolute; inset: 0; width: 100%; height: 100%; } .event { stroke: var(--line-2); stroke-dasharray: 2 3; }
+.bar .rest { stroke: var(--line-2); stroke-width: 1.5; } .bar .past { stroke: var(--ink); stroke-width: 2.2; }
+.covered { fill: color-mix(in srgb, var(--ink) 7%, var(--ground)); } svg .covered + .word { font-weight: 400; fill: var(--ink-2); }
+.bar .now { position: absolute; left: -1px; top: 10px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
+.bar .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
+.at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; } .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
+.side { grid-area: side; display: flex; flex-direction: column; gap: 10px; min-width: 0; overflow: auto; }
+.lesson:has(.told > *) { grid-template-rows: auto auto minmax(var(--stage), auto); } .lesson:has(.told > *) .stage { height: var(--stage); position: sticky; top: 8px; }
+.picture { grid-area: picture; min-width: 0; } .picture .plot { position: relative; height: 160px; } .picture h3 { font-size: var(--t-m); font-weight: 600; margin: 0 0 4px; }
+.axis-name { text-align: right; font-size: var(--t-s); color: var(--ink-2); } .axis-name:empty { display: none; }
+.more { grid-area: more; display: flex; flex-wrap: wrap; gap: 0 20px; } .more .link { font-weight: 400; color: var(--ink-2); }
+`;
+
+const asked = `
+fieldset { border: 0; margin: 0; padding: 0; display: grid; gap: 8px; min-width: 0; } legend { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+.option { display: flex; align-items: center; gap: 12px; min-height: 48px; padding: 6px 14px; border-radius: 6px; box-shadow: inset 0 0 0 1px var(--line-2); cursor: pointer; }
+.option:hover { background: color-mix(in srgb, var(--ink) 4%, transparent); }
+.option input { appearance: none; flex: none; width: 20px; height: 20px; margin: 0; border-radius: 50%; box-shadow: inset 0 0 0 1.5px var(--line-2); background: var(--ground); }
+.option input:checked { box-shadow: inset 0 0 0 2px var(--accent), inset 0 0 0 5px var(--ground); background: var(--accent); }
+.option:has(:checked) { box-shadow: inset 0 0 0 2px var(--accent); background: color-mix(in srgb, var(--accent) 12%, var(--ground)); color: var(--accent); font-weight: 600; }
+.option:has(:focus-visible) { outline: 3px solid var(--accent); outline-offset: 2px; } .option input:focus-visible { outline: 0; }
+.dock { display: flex; align-items: center; gap: 16px; } .primary:disabled { background: color-mix(in srgb, var(--ink) 12%, var(--ground)); color: var(--ink-2); cursor: default; }
+.primary.quiet { background: none; color: var(--ink); box-shadow: inset 0 0 0 1px var(--line-2); } .dock .quiet { order: 1; }
+.number { display: grid; gap: 8px; font-weight: 600; } .number input { width: 100%; height: 44px; margin: 0; accent-color: var(--accent); }
+.number .unset::-webkit-slider-thumb { opacity: .3; } .number .unset::-moz-range-thumb { opacity: .3; }
+.told { display: grid; gap: 8px; } .told:empty { display: none; } .learned { border-left: 4px solid var(--accent); padding-left: 12px; }
+.equation { overflow-x: auto; overflow-y: hidden; padding: 4px 0 6px; } .equations { display: grid; gap: 4px; } math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math; }
+.told .small span { cursor: help; }
+`;
+
+const drawings = `
+.line { fill: none; stroke-width: 2; stroke-linejoin: round; } .own { stroke: var(--q-spin); } .turning { stroke: var(--ink); } .energy { stroke: var(--q-energy); } .first { stroke: var(--line-2); }
+svg text.own { fill: var(--q-spin); stroke: none; } svg text { stroke: none; } svg .halo { paint-order: stroke; stroke: var(--ground); stroke-width: 4px; }
+.spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .picture .now { stroke: var(--accent); stroke-width: 2; } .mark { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
+.hull { fill: color-mix(in srgb, #d9b48a 45%, var(--ground)); stroke: var(--q-energy); } .table { stroke: var(--ink); stroke-width: 1.5; } .thin { stroke: var(--line-2); stroke-dasharray: 5 4; fill: none; }
+.arm-own, .arm-upright { stroke-width: 5; stroke-linecap: round; fill: none; } .arm-own { stroke: var(--q-spin); } .arm-upright { stroke: var(--accent); } svg text.upright { fill: var(--accent); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
+`;
+
+const small = `
+@container (min-width: 1500px) { .lesson { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 640px; font-size: var(--t-m); } .question { font-size: 38px; } .picture .plot { height: 220px; } }
+@container (max-width: 1180px) { .lesson { --side: 400px; gap: 10px 16px; padding: 8px 16px; } .question { font-size: 24px; } }
+@container (max-width: 700px) {
+  .lesson, .lesson[data-picture=""] { --touch: 44px; --stage: 236px; display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; }
+  .lesson > :not(.stage) { padding: 0 16px; } .crumbs { justify-content: flex-end; gap: 0 4px; padding: 4px 12px !important; } .crumbs span { display: none; } .crumbs button { min-height: 40px; min-width: 32px; justify-content: center; }
+  .stage { order: 1; height: var(--stage) !important; flex: none; border-radius: 0; position: sticky !important; top: 0 !important; z-index: 2; } .crumbs { order: 0; }
+  .bar { order: 2; position: relative; grid-template-columns: minmax(0, 1fr); } .bar .plot { height: 88px; } .bar .round { position: absolute; right: 12px; top: -60px; z-index: 3; }
+  .picture { order: 3; } .picture .plot { height: 132px; } .question { order: 4; font-size: 20px; } .side { order: 5; overflow: visible; } .more { order: 6; }
+  .dock { position: fixed; left: 0; right: 0; bottom: 0; z-index: 5; background: var(--ground); border-top: 1px solid var(--line); padding: 8px 16px; } .primary { min-height: 44px; }
+  .caption { bottom: 4px; font-size: var(--t-s); padding: 0 4px; } .bar .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
+}
+`;
+
+export const style = [shared, places, asked, drawings, small].join("");

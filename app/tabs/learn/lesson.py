@@ -1,0 +1,172 @@
+"""The lesson as the browser has it: its steps in words, and the runs that it plays.
+
+A page has all of it after a moment, so that it goes on where the network does not.
+"""
+
+from contextlib import suppress
+
+import numpy as np
+import param
+
+from app.borrowed import at_once
+from app.bundle import Bundled, pack
+from app.model import lesson
+from app.model.arrival import SPIN, TILT
+from app.model.frames import in_space
+from app.model.lab_run import TableMotion
+from app.model.lesson_parts import Choice
+from app.model.lesson_runs import named, own
+from app.model.lesson_six import UNSURE
+from app.model.levers import levers
+from app.model.regimes import OF_CORE
+from app.model.story import story
+from app.text import listed, say, told
+from app.widgets.spelling import spelled
+from app.widgets.top3d import pack_frames
+from tippe_core import TopError
+
+A_NUTATION = 96  # frames
+SLOW = 8.0  # s in which a nutation is watched, which takes some hundredths
+FIRST = "ordinary"
+
+
+class LessonView(Bundled):
+    """The lesson: the steps, the question, the top that answers it, and the picture of this step.
+
+    A run is {"frames", "profile", "a", "seconds"} as of a Top3D, "curves" as of a LabView, and "arms": float32 rows of
+    the points of levers.Levers, for each row of the curves.
+    """
+
+    SAYS = ("Stage", "Top3D")
+    REGIMES = "here"
+
+    steps = param.List(default=[], doc="Each step in words; a number of JavaScript's where it is drawn.")
+    runs = param.Dict(default={}, doc="{name: run}, of the lesson.")
+    others = param.Dict(default={}, doc="{name: run}, those of theory and of the page's own top.")
+    state = param.Dict(default={}, doc="step: which is looked at.")
+    asked = param.List(default=[], doc="[count, name, value] of what a person asks for, the browser writes it.")
+
+    @classmethod
+    def says(cls, language=None):
+        own = listed("learn.view", language) | {"sections": listed("learn.sections", language)}
+        drawn = listed("learn.pictures", language)
+        return super().says(language) | listed("lab_view.view", language) | {"lesson": own, "drawn": drawn}
+
+    def __init__(self, **params):
+        super().__init__(**params)
+        at_once(self, "asked")
+
+
+def cut(motion, end):
+    """A run as it is played, until s."""
+    n = int(np.searchsorted(motion.t * motion.start.scales.time, end)) + 2
+    rows = motion.curves[: int(np.searchsorted(motion.curves[:, 0], end)) + 2]
+    return played(motion.start, [part[:n] for part in motion.frames], rows, levers(motion.trajectory), motion.seconds)
+
+
+def played(start, frames, rows, arms=None, times=()):
+    found = {"frames": pack_frames(*frames), "curves": pack(rows), "profile": pack(start.profile), "a": start.top.a,
+             "seconds": start.scales.time, "arms": b""}  # fmt: skip
+    if arms is not None:
+        at = np.clip(np.searchsorted(times, rows[:, 0] - 1e-6), 0, len(times) - 1)
+        found["arms"] = pack(np.column_stack([arms.axis, arms.G, arms.foot])[at])
+    return found
+
+
+def nutations(plan, count):
+    """A rolling motion of the page's own top over some nutations, as a run."""
+    moved = plan.rolling(np.linspace(0.0, count * plan.rolling.period, int(count * A_NUTATION) + 1))
+    codes = [OF_CORE[regime] for regime in moved.regime]
+    frames = (moved.t, moved.quaternion, moved.contact, moved.com, *in_space(moved), codes)
+    rows = np.zeros((len(moved.t), 8))
+    rows[:, 0], rows[:, 1], rows[:, 7] = moved.t * plan.scales.time, np.degrees(moved.theta), codes
+    return {"frames": pack_frames(*frames), "curves": pack(rows), "profile": pack(plan.profile), "a": plan.top.a,
+            "seconds": plan.scales.time, "arms": b""}  # fmt: skip
+
+
+def runs_of(steps, scene):
+    """{name: run} of some steps, the page's own top and theory by this scene."""
+    ends, found = {}, {}
+    for step in steps:
+        for name in step.tops:
+            ends[name] = max(step.end, ends.get(name, 0.0))
+    for name, end in ends.items():
+        with suppress(TopError):  # its step says so
+            found[name] = cut(own(scene) if name == "yours" else named(name), end)
+    for step in steps:
+        if step.inputs:
+            with suppress(TopError):
+                found[step.name] = nutations(lesson.planned(step, scene), step.end)
+    return found
+
+
+def said(step, scene):
+    """A step in words and numbers, its answer too; where it cannot be for this top, the sentence why."""
+    head = {"name": step.name, "title": say(f"learn.{step.name}.title"), "theory": step in lesson.THEORY}
+    try:
+        plan = lesson.planned(step, scene)
+        return head | _said(step, plan, step.answer(plan))
+    except TopError as error:
+        return head | {"refused": told(error), "question": head["title"]}
+
+
+def _said(step, plan, answer):
+    numbers = answer.numbers | ({"spin": SPIN, "tilt": TILT} if step.name == "yours" else {})
+    long = plan.rolling.period * plan.scales.time if step.inputs else 1.0
+    motions = {name: _motion(name, plan) for name in step.tops}
+    words = {key: spelled(say(f"learn.{step.name}.{key}", **numbers)) for key in ("question", "hint", "learned")}
+    return words | {
+        "told": spelled(say(f"learn.{step.name}.{answer.told}", **numbers)).split("\n"),
+        "asks": asks(step, answer.truth), "truth": truth_of(answer.truth), "tops": [_top(name) for name in step.tops]
+        or [[step.name, say("learn.tops.plan")]], "later": list(step.later),
+        "before": step.before * long, "end": step.end * long, "speed": long / SLOW if step.inputs else 0.0,
+        "events": _events(motions.get(FIRST if FIRST in motions else next(iter(motions), None))),
+        "stages": {name: [[t, short] for t, *_, short in story(motion).stages] for name, motion in motions.items()
+                   if not step.later},
+        "picture": step.picture, "graph": _graph(answer.picture), "tex": list(step.tex), "refused": "",
+        "sources": [[name, *listed(f"sources.{name}").values()] for name in step.sources],
+    }  # fmt: skip
+
+
+def _motion(name, plan) -> TableMotion:
+    return own(plan) if name == "yours" else named(name)
+
+
+def _top(name):
+    return [name, say(f"learn.tops.{name}")]
+
+
+def _events(motion):
+    found = story(motion).events if motion else ()
+    stands = any(code == "stands" for _, code, *_ in found)
+    return [[t, code, spelled(word), spelled(short)] for t, code, word, short in found if code != "stem" or not stands]
+
+
+def truth_of(truth):
+    """As the browser has it: None where there is no such number."""
+    return truth if isinstance(truth, str) else None if np.isnan(truth) else float(truth)
+
+
+def asks(step, truth=None):
+    """What a step asks, for the browser: options with their words, or a slider. truth: not told where it is None."""
+    if isinstance(step.asks, Choice):
+        words = listed(f"learn.{step.name}.options")
+        options = [[key, words.get(key) or say("learn.view.unsure_option")] for key in step.asks.options]
+        if isinstance(truth, str) and truth not in step.asks.options:
+            options.insert(-1, [truth, words[truth]])
+        return {"options": options, "unsure": UNSURE}
+    guess = step.asks
+    found = {"low": guess.low, "high": guess.high, "step": guess.step, "unit": guess.unit}
+    return found if truth is None else found | {"near": guess.near(truth)}
+
+
+def _graph(picture):
+    """A lesson_parts.Picture, for the browser."""
+    if picture is None:
+        return None
+    return {
+        "x": say(f"learn.axes.{picture.x}"), "y": say(f"learn.axes.{picture.y}"), "of": picture.x,
+        "curves": [{"key": part.key, "word": say(f"learn.curves.{part.key}"), "colour": part.colour, "dash": part.dash,
+                    "x": pack(part.x), "y": pack(part.y)} for part in picture.curves],
+        "points": [[say(f"learn.points.{part.key}"), float(part.x), float(part.y)] for part in picture.points],
+    }  # fmt: skip

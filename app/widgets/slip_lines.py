@@ -1,0 +1,100 @@
+"""What slipping does in Fig. 6: the path of the motion that is let slip at its tieline's end, and K_R below it on the
+same theta axis. Rolling, a motion is its tieline; slipping, it keeps K_J nearly, and its K_R goes through zero."""
+
+import numpy as np
+from bokeh.models import ColumnDataSource, Label, Range1d, Span
+
+from app.model.colours import COLOURS, FAINT, INK
+from app.text import say
+from app.widgets.plots import plain
+
+HIGH = 96  # px
+LEFT = 44  # px, of both figures, so that one tilt stands under the other
+ROWS = {"K_J": COLOURS["jellett"], "K_R": COLOURS["omega"]}
+BESIDE = {"text_color": INK, "text_font_size": "12px", "visible": False}
+
+
+class SlipLines:
+    """plane: a PlaneFigure, over which they lie. below: K_R over theta. show() is for a hand at rest."""
+
+    def __init__(self, plane):
+        self._plane, self._shown = plane, None
+        above = plane.figure
+        self.below = plain(x_range=above.x_range, y_range=Range1d(-1, 1), name="routh")
+        self.below.update(sizing_mode="stretch_width", height=HIGH)
+        self.below.yaxis.ticker.desired_num_ticks = 3
+        self.below.ygrid.ticker = self.below.yaxis.ticker
+        for fig in (above, self.below):
+            fig.min_border_left = LEFT
+        above.xaxis.visible = False
+        self.below.add_layout(Span(location=0, dimension="width", line_color=FAINT))
+        names = ("theta", "low", "high", "K_J", "K_R")
+        # as far as its stem lets it go; beyond, as a whole sphere would; where it is at the end
+        self.own, self.beyond, self.end = (ColumnDataSource({name: [] for name in names}) for _ in range(3))
+        for fig, row in ((above, "K_J"), (self.below, "K_R")):
+            self._draw(fig, row)
+        on_top = {"source": plane.selected, "level": "overlay"}
+        self.below.segment(x0="inner", x1="outer", y0="K_R", y1="K_R", line_color="colour", line_width=5,
+                           line_cap="round", **on_top)  # fmt: skip
+        self.below.scatter("theta", "K_R", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
+        self.touch = Span(location=np.pi, dimension="height", line_color=FAINT, line_dash=[2, 3], visible=False)
+        above.add_layout(self.touch)
+        self.words = {"keeps": Label(x=0, y=0, y_offset=8, text_align="right", **BESIDE),
+                      "ends": Label(x=0, y=0, y_offset=-10, text_align="right", text_baseline="top", **BESIDE),
+                      "touches": Label(x=0, y=0, x_offset=6, **BESIDE),
+                      "goes": Label(x=0, y=0, y_offset=-2, text_align="right", text_baseline="top",
+                                    **BESIDE)}  # fmt: skip
+        for name, label in self.words.items():
+            (self.below if name == "goes" else above).add_layout(label)
+
+    def _draw(self, fig, row):
+        for source, alpha, dash in ((self.own, 0.25, "solid"), (self.beyond, 0.12, [5, 4])):
+            fig.harea(y=row, x1="low", x2="high", source=source, fill_color=ROWS[row], fill_alpha=alpha)
+            fig.line("theta", row, source=source, line_color=ROWS[row], line_width=3, line_dash=dash)
+        fig.scatter("theta", row, source=self.end, size=10, fill_color="white", line_color=ROWS[row], line_width=3)
+
+    def clear(self):
+        """The path of another motion is not this one's."""
+        if self._shown is not None:
+            self.show(None, None)
+
+    def show(self, path, scene):
+        """path: the Slipping of the Scene; None where there is none."""
+        if path is self._shown:
+            return
+        self._shown = path
+        for label in self.words.values():
+            label.visible = False
+        self.touch.visible = False
+        if path is None:
+            for source in (self.own, self.beyond, self.end):
+                source.data = {name: [] for name in source.data}
+            return
+        rows = {name: getattr(path, name) for name in self.own.data}
+        count = len(path.theta)
+        until = count if path.touches is None else path.touches + 1
+        for source, part in ((self.own, slice(0, until)), (self.beyond, slice(until - 1, count)),
+                             (self.end, slice(count - 1, count))):  # fmt: skip
+            source.data = {name: row[part] if part != slice(count - 1, count) or source is self.end else row[:0]
+                           for name, row in rows.items()}  # fmt: skip
+        low, high = min(0, path.K_R.min()), max(0, path.K_R.max())
+        pad = 0.12 * (high - low) or 1.0
+        self.below.y_range.update(start=low - pad, end=high + pad)
+        self._say(path, scene)
+
+    def _say(self, path, scene):
+        theta, K_J, K_R = float(path.theta[-1]), float(path.K_J[-1]), float(path.K_R[-1])
+        high = scene.plane.K_J_range
+        through = path.K_R[0] * K_R < 0
+        goes = say(f"roll.slips.{'through' if through else 'changes'}")
+        said = {"keeps": (theta, float(path.K_J.mean()), say("roll.slips.keeps")),
+                "goes": (theta, float(self.below.y_range.end), goes)}  # fmt: skip
+        if path.rolls:
+            said["ends"] = theta, K_J, say("roll.slips.ends", degrees=np.degrees(theta))
+        touch = scene.shape.touch_angle if scene.shape else None
+        if path.touches is not None:
+            self.touch.update(location=touch, visible=True)
+            text = say("roll.slips.touches", degrees=np.degrees(touch))
+            said["touches"] = touch, high[0] + 0.3 * (high[1] - high[0]), text
+        for name, (x, y, text) in said.items():
+            self.words[name].update(x=x, y=y, text=text, visible=True)

@@ -1,0 +1,39 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { readPlane, valueIn } from "../../app/frontend/src/figures/plane.js";
+import { placeBeside } from "../../app/frontend/src/figures/readout.js";
+
+const page = { wide: 390, high: 800 }, size = { wide: 180, high: 110 };
+
+const covers = ({ left, top }, box) =>
+  left < box.right && left + size.wide > box.left && top < box.bottom && top + size.high > box.top;
+
+test("the box is in the window and covers nothing that is to be seen, wherever the hand is", () => {
+  const line = { left: 60, right: 140, top: 300, bottom: 330 };
+  for (let x = 4; x < 390; x += 13) {
+    for (let y = 4; y < 800; y += 13) {
+      const place = placeBeside([x, y], size, page, [line]);
+      assert.ok(place.left >= 0 && place.left + size.wide <= page.wide && place.top >= 0 && place.top + size.high <= page.high);
+      assert.ok(!covers(place, line) && !covers(place, { left: x - 1, right: x + 1, top: y - 1, bottom: y + 1 }), `${x} ${y}`);
+    }
+  }
+});
+
+test("with room it stands to the right of the hand, at its height", () => {
+  assert.deepEqual(placeBeside([500, 400], size, { wide: 1400, high: 900 }, []), { left: 514, top: 345 });
+});
+
+test("a place has the number of its cell, and beyond the picture that of the next one", () => {
+  const frame = { x: [0], y: [-1], w: [4], h: [3] }, values = Object.assign(Float32Array.from({ length: 12 }, (_, i) => i), { shape: [3, 4] });
+  assert.equal(valueIn(frame, values, [0.5, -0.5]), 0);
+  assert.equal(valueIn(frame, values, [3.5, 1.9]), 11);
+  assert.equal(valueIn(frame, values, [2.5, 0.5]), 6);
+  assert.equal(valueIn(frame, values, [9, -7]), 3);
+});
+
+test("a place is said by the limit that it keeps or breaks", () => {
+  const limits = { K_J: [0, 1], slip_E: [2, 3], lift_E: [4, 5], slip_by: ["slip", "slip"], lift_by: ["lift-off", "lift-off"] };
+  const words = { place: "{K_J} {verdict} {ratio}", then_slip: "rolls", not_slip: "slips", not_lift: "lifts", no_contact: "none" };
+  const read = (E) => readPlane(limits, words, { x: 1, y: 0.9, E, ratio: Infinity });
+  assert.deepEqual([3, 4, 6].map(read), ["1.000 rolls none", "1.000 slips none", "1.000 lifts none"]);
+});
