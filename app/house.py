@@ -138,6 +138,7 @@ class House:
 
     def measure(self):
         measure = Measure(self.scene, self.runs)
+        self.keep.add(measure.filmed)
         self.pacer.shows(measure.show, "hand")
         return measure.view
 
