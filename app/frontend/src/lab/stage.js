@@ -19,7 +19,8 @@ export class Stage {
     this.texts = texts;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // under three tops, what each does
-    this.alone = new Top({ texts, time, label: texts.stage, away: 1.3, hand });
+    const words = { ...texts, handle: texts.axis, handle_hint: texts.axis_hint };
+    this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand });
     this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75 }));
     this.captions = TABLES.map(() => part("p", { class: "caption" }));
     this.places = [part("div", { class: "place" }, this.alone.element),

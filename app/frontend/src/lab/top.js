@@ -20,7 +20,7 @@ export class Top {
     this.listeners = listeners;
     this.element = part("div", { class: "top" });
     const values = {
-      texts: hand ? { ...texts, handle: texts.axis, handle_hint: texts.axis_hint } : texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null,
+      texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null,
       tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, camera: [-1.12, 0.26, away], ...SHOWS,
       get speed() { return time.pace; },
       set speed(_) {},
