@@ -12,8 +12,7 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.lab import Lab
-from app.model.lab_rolling import rolling
-from app.model.lab_run import TOYS
+from app.model.lab_run import shape_of
 from app.state import asked
 from app.text import listed
 from app.widgets.failure import after
@@ -59,19 +58,15 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def lab_view(lab, keep, ask, go):
-    """The tab. lab: a Lab; keep: a Keep; ask: of a Pacer; go: shows the paper's figures."""
+def lab_view(lab, keep, go):
+    """The tab. lab: a Lab; keep: a Keep; go: shows the paper's figures of its start."""
     keep.add(lab)
-
-    def research():
-        ask(**rolling(lab.toy, lab.spin, lab.tilt, lab.mu))
-        go()
 
     def rests():
         keep.at_rest()
         lab.rest()
 
-    tab = LabTab(lab, research, rests)
+    tab = LabTab(lab, go, rests)
     if all(getattr(lab, name) == lab.param[name].default for name in Lab.INPUTS):
         lab.show()  # it is kept, so that it is there with the page
     if pn.state.loaded:
@@ -152,7 +147,7 @@ class LabTab:
         messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
         return {
             "table": scene.table,
-            "toy": lab.toy,
+            "toy": lab.toy if isinstance(lab.toy, str) else "",
             "values": {name: getattr(lab, name) for name in INPUTS},
             "sliders": SLIDERS,
             "messages": messages,
@@ -160,11 +155,16 @@ class LabTab:
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
             "was": self._differ(scene, scene, lab),
             "wants": self._differ(lab, scene, lab),
-            "of": {name: [getattr(scene, name), self._named(scene, name)] for name in (*INPUTS, "toy")},
+            "of": {
+                **{name: [getattr(scene, name), self._named(scene, name)] for name in INPUTS},
+                "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
+                if isinstance(scene.toy, str)
+                else [repr(scene.toy), say("main.own")],
+            },
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": list(map(spelled, scene.said)),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
-            "R": 1e3 * TOYS[scene.toy].shape.R,
+            "R": 1e3 * shape_of(scene.toy).R,
             "answered": self._answered,
             "busy": lab.busy,
             "reached": lab.reached,
@@ -177,8 +177,6 @@ class LabTab:
     @staticmethod
     def _named(scene, name):
         """An input of the scene in words."""
-        if name == "toy":
-            return listed("build.presets")[scene.toy]["name"]
         said, digits = listed(f"lab_view.view.inputs.{name}"), SLIDERS[name][-1]
         gap = "" if said["unit"] in ("", "°") else " "
         number = f"{getattr(scene, name):.{digits}f}".replace("-", "\N{MINUS SIGN}")

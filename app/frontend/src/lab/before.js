@@ -54,6 +54,7 @@ export class Before {
     const value = (scene, name) => scene.state.of[name][1].replace(`${said(name)} `, "");
     const headline = what.map((name) => say(texts, texts.changed, { name: said(name), from: value(run, name), to: value(next, name) })).join("; ");
     return {
+      canGoBack: run.state.toy === run.state.of.toy?.[0], // a body without a name is not asked for
       what: what.map((name) => run.state.of[name][1]).join(", "), headline,
       why: say(texts, texts.changed_why, { now: this.end(next), before: this.end(run) }),
     };

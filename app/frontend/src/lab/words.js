@@ -34,7 +34,7 @@ export class Words {
     if (scene.table === "three") said = state.said;
     const { before } = scene;
     if (before) said = [before.headline, before.why];
-    this.back.hidden = !before || Boolean(state.old);
+    this.back.hidden = !before?.canGoBack || Boolean(state.old);
     if (scene.waits) said = [say(texts, texts.working, { what: state.wants }), say(texts, texts.working_why, { what: state.old })];
     else if (state.old) said = [say(texts, texts.still, { what: state.old }), texts.still_why];
     const key = said.join();
