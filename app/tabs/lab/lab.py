@@ -14,7 +14,7 @@ from app.bundle import Bundled, pack
 from app.model.lab import Lab
 from app.model.lab_run import shape_of
 from app.state import asked
-from app.text import listed
+from app.text import listed, say
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
