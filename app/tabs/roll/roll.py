@@ -105,14 +105,14 @@ class Switch:
         self._says.object = self._made[chosen].words(scene)
 
 
-def controls_card(controls):
-    """What sets the motion, the top, and what Figs. 5 and 6 show."""
+def controls_card(controls, roads):
+    """What sets the motion, the top, and what Figs. 5 and 6 show; roads: what leads on from there."""
     side = {"sizing_mode": "stretch_width", "margin": 0, "styles": {"flex": "1 1 220px", "min-width": "0"}}
     styles = {"display": "flex", "flex-flow": "row wrap", "gap": "0 12px"}
     made = card(
         say("roll.sections.motion"),
         pn.Column(
-            pn.Column(*controls.motion, **side),
+            pn.Column(*controls.motion, *roads, **side),
             pn.Column(
                 section(say("roll.sections.table")), *controls.views("mu_s"),
                 section(say("roll.sections.top")), *controls.views("a", "I1", "I3"),
@@ -127,9 +127,9 @@ def controls_card(controls):
 
 class Roll:
     """main: the pictures and the controls. pacer: a Pacer, which shows them scenes and is asked; playing: what the top
-    goes with; controls: a Controls."""
+    goes with; controls: a Controls; roads: buttons that lead on from what cannot roll."""
 
-    def __init__(self, pacer, playing, controls):
+    def __init__(self, pacer, playing, controls, roads=()):
         self._pacer, self._scene = pacer, None
         self._grasp, self._held = None, {}
         self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
@@ -152,7 +152,7 @@ class Roll:
             card(say("roll.cards.top"), self._top, height=TALL),
             card(say("roll.cards.plane", plane=plane_symbols()), *self._card.content, height=TALL),
             self._floor,
-            controls_card(controls),
+            controls_card(controls, roads),
             self._over_time,
             self._tilt.view,
             self._table.view,
