@@ -10,6 +10,7 @@ from app.model.lab import Lab
 from app.model.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
+from app.share.runs import Shown
 from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
 from app.state.start import OneStart
@@ -161,6 +162,11 @@ class House:
         self.keep.add(measure.filmed)
         self.pacer.shows(measure.show, "hand")
         return measure.view
+
+    def runs_shown(self, looked_at):
+        """The runs on the tables that this room shows, as runs.Shown."""
+        found = {room.FIRST: self.start.lab_runs, room.PLANES: self.start.planes_runs}.get(looked_at, list)()
+        return [Shown(table, motion.trajectory, setup) for table, motion, setup in found]
 
     @property
     def makers(self):

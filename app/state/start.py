@@ -80,6 +80,19 @@ class OneStart(param.Parameterized):
         self._lab.ask(toy=self._toy, table="ordinary")
         self._lab.rest()
 
+    def lab_runs(self):
+        """(table, its motion, what it began with) of the tables that the Lab shows."""
+        scene = self._lab.scene
+        return [(table, motion, motion.start) for table, motion in scene.motions.items() if motion] if scene else []
+
+    def planes_runs(self):
+        """As lab_runs(), of the planes that are looked at."""
+        picture = self._planes.picture if self._planes else None
+        if picture is None:
+            return []
+        return [(plane, motion, picture.settings) for plane, motion in picture.motions.items()
+                if motion and self.plane in (plane, "compare")]  # fmt: skip
+
     def _left(self, room):
         lab, scene = self._lab, self._explorer.scene
         if room == TOY:
