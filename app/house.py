@@ -10,7 +10,7 @@ from app.model.lab import Lab
 from app.model.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
-from app.share.runs import Shown
+from app.share.saved_runs import Shown
 from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
 from app.state.start import OneStart
@@ -78,8 +78,8 @@ class House:
         self.keep.add(controls)
         for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show, when)
-        slip = self._road("roll.let_slip", lambda: self._look_at(self.start.table("ordinary")), margin=(8, 16))
-        return Roll(self.pacer, self.playing, controls, [slip]).main
+        slip = lambda: self._look_at(self.start.table("ordinary"))  # noqa: E731
+        return Roll(self.pacer, self.playing, controls, slip).main
 
     def _road(self, says, goes, **layout):
         """A button that leads on."""
@@ -164,7 +164,7 @@ class House:
         return measure.view
 
     def runs_shown(self, looked_at):
-        """The runs on the tables that this room shows, as runs.Shown."""
+        """The runs on the tables that this room shows, as saved_runs.Shown."""
         found = {room.FIRST: self.start.lab_runs, room.PLANES: self.start.planes_runs}.get(looked_at, list)()
         return [Shown(table, motion.trajectory, setup) for table, motion, setup in found]
 

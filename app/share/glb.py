@@ -17,7 +17,7 @@ def animation_glb(scene, slower=16.0, said=None):
     """The trajectory as a glTF 2.0 binary (bytes): the body, its track and the table, in m, y up.
 
     slower: how many times longer than the real motion the animation takes; the asset's extras say so too. scene: or
-    what has as much of one as runs.Shown; said: its parameters.
+    what has as much of one as saved_runs.Shown; said: its parameters.
     The keyframes are the frames of the scene; the body's origin is O, a above G along the axis.
     """
     R, motion, said = scene.scales.R, scene.trajectory, said or parameters(scene)

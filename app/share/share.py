@@ -9,7 +9,7 @@ import segno
 
 from app.borrowed import at_once
 from app.model.runs import Runs
-from app.share import export, glb, programs, runs
+from app.share import export, glb, programs, saved_runs
 from app.share.letter import letter
 from app.share.parts import Address, Clock, Copy, Photo
 from app.share.prints import FIGURES, caption, draw
@@ -27,7 +27,7 @@ SIDE = 420  # px, of the code: it is read across a table
 class Share:
     """main: what was wrong with the link, and the dialog, above all views.
 
-    keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs; shown: gives the runs.Shown of
+    keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs; shown: gives the saved_runs.Shown of
     the tables that are looked at. show() is for each scene.
     """
 
@@ -130,7 +130,7 @@ class Share:
         self._groups = pmui.Accordion(
             *((say(f"share.dialog.{name}"), pn.Column(*rows, sizing_mode="stretch_width", margin=0))
               for name, rows in groups.items()),
-            active=[], sizing_mode="stretch_width", margin=(8, 0),
+            active=[], sizing_mode="stretch_width", margin=(8, 0), title_variant="subtitle2", elevation=0,
         )  # fmt: skip
         self._dialog.objects = [self._link, self._code, self._length, self._runs_group, self._groups]
 
@@ -164,15 +164,15 @@ class Share:
             return
         for name in self._tables.keys() - self._rows.keys():
             self._rows[name] = self._run_row(name)
-        self._run_python.text = "\n".join(map(runs.run_python, self._tables.values()))
+        self._run_python.text = "\n".join(map(saved_runs.run_python, self._tables.values()))
         self._runs_group.objects = [
             _heading("runs", margin=(8, 0, 4, 0)), *(self._rows[name] for name in self._tables), self._run_python
         ]  # fmt: skip
 
     def _run_row(self, name):
-        kinds = {"CSV": runs.run_csv, "NPZ": runs.run_npz, "PNG": lambda shown, link: runs.run_print(shown, "png"),
-                 "SVG": lambda shown, link: runs.run_print(shown, "svg"),
-                 "GLB": lambda shown, link: runs.run_glb(shown, self._slower)}  # fmt: skip
+        kinds = {"CSV": saved_runs.run_csv, "NPZ": saved_runs.run_npz, "PNG": lambda shown, link: saved_runs.run_print(shown, "png"),
+                 "SVG": lambda shown, link: saved_runs.run_print(shown, "svg"),
+                 "GLB": lambda shown, link: saved_runs.run_glb(shown, self._slower)}  # fmt: skip
         files = [
             Download(self._runs, lambda: (self._tables[name], self.link), make, label=kind, margin=0,
                      filename=f"tippe-top-{name}.{kind.lower()}")

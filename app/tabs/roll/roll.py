@@ -105,14 +105,14 @@ class Switch:
         self._says.object = self._made[chosen].words(scene)
 
 
-def controls_card(controls, roads):
-    """What sets the motion, the top, and what Figs. 5 and 6 show; roads: what leads on from there."""
+def controls_card(controls):
+    """What sets the motion, the top, and what Figs. 5 and 6 show."""
     side = {"sizing_mode": "stretch_width", "margin": 0, "styles": {"flex": "1 1 220px", "min-width": "0"}}
     styles = {"display": "flex", "flex-flow": "row wrap", "gap": "0 12px"}
     made = card(
         say("roll.sections.motion"),
         pn.Column(
-            pn.Column(*controls.motion, *roads, **side),
+            pn.Column(*controls.motion, **side),
             pn.Column(
                 section(say("roll.sections.table")), *controls.views("mu_s"),
                 section(say("roll.sections.top")), *controls.views("a", "I1", "I3"),
@@ -127,13 +127,13 @@ def controls_card(controls, roads):
 
 class Roll:
     """main: the pictures and the controls. pacer: a Pacer, which shows them scenes and is asked; playing: what the top
-    goes with; controls: a Controls; roads: buttons that lead on from what cannot roll."""
+    goes with; controls: a Controls; slip: shows this motion on a table where it slips."""
 
-    def __init__(self, pacer, playing, controls, roads=()):
+    def __init__(self, pacer, playing, controls, slip=lambda: None):
         self._pacer, self._scene = pacer, None
         self._grasp, self._held = None, {}
         self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
-        self._card = PlaneCard(self._motion)
+        self._card = PlaneCard(self._motion, pacer.ask, slip)
         self._plane = self._card.plane
         self._kept, self._unit = words(""), words("")
         # What each round of pictures draws; it grows as the cards are made.
@@ -152,7 +152,7 @@ class Roll:
             card(say("roll.cards.top"), self._top, height=TALL),
             card(say("roll.cards.plane", plane=plane_symbols()), *self._card.content, height=TALL),
             self._floor,
-            controls_card(controls, roads),
+            controls_card(controls),
             self._over_time,
             self._tilt.view,
             self._table.view,

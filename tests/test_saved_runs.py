@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from app.model.lab_run import motion_on, start_of
-from app.share.runs import Shown, run_csv, run_glb, run_npz, run_print, run_python
+from app.share.saved_runs import Shown, run_csv, run_glb, run_npz, run_print, run_python
 
 TOY = "The paper's tippe top"
 START = TOY, 12.0, 25.0, 0.3
