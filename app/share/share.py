@@ -27,8 +27,8 @@ SIDE = 420  # px, of the code: it is read across a table
 class Share:
     """main: what was wrong with the link, and the dialog, above all views.
 
-    keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs; shown: gives the saved_runs.Shown of
-    the tables that are looked at. show() is for each scene.
+    keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs; shown: gives the
+    saved_runs.Shown of the tables that are looked at. show() is for each scene.
     """
 
     def __init__(self, keep, playing, scene, runs=None, shown=list):
@@ -170,9 +170,10 @@ class Share:
         ]  # fmt: skip
 
     def _run_row(self, name):
-        kinds = {"CSV": saved_runs.run_csv, "NPZ": saved_runs.run_npz, "PNG": lambda shown, link: saved_runs.run_print(shown, "png"),
-                 "SVG": lambda shown, link: saved_runs.run_print(shown, "svg"),
-                 "GLB": lambda shown, link: saved_runs.run_glb(shown, self._slower)}  # fmt: skip
+        prints = {kind.upper(): lambda shown, link, kind=kind: saved_runs.run_print(shown, kind)
+                  for kind in ("png", "svg")}  # fmt: skip
+        animation = {"GLB": lambda shown, link: saved_runs.run_glb(shown, self._slower)}
+        kinds = {"CSV": saved_runs.run_csv, "NPZ": saved_runs.run_npz} | prints | animation
         files = [
             Download(self._runs, lambda: (self._tables[name], self.link), make, label=kind, margin=0,
                      filename=f"tippe-top-{name}.{kind.lower()}")
