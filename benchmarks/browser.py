@@ -324,7 +324,7 @@ if __name__ == "__main__":
 # drag  figure        2.49    2.41      1.59    1.56
 # drag  page          8.17    8.39      7.04    6.60
 #
-# The first top came later in the second column since the page had none in it: at the Lab and at Roll's address first.py
-# found no picture to write, and the top waited for the session. Now the arrival's own is there first; at Roll's it waits.
-# Three visits of the arrival each in turn under other work, load average 14 to 17, python -m app, least in times bare's:
+# The first top came later in the second column, since the page had none in it: first.py found no picture to write, and
+# the top waited for the session. Now the arrival's own picture is there first; at Roll's address the top still waits.
+# Three visits of the arrival each in turn under other work, load 14 to 17, python -m app, least in times bare's:
 # first top 2.18, hand 3.02, page 3.13, cpu 3.22
