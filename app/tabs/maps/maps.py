@@ -142,7 +142,10 @@ class Maps:
         self.python.text = python(asked)
         self.map.begin(asked)
         self._run = Run(partial(self._work, asked), partial(self._done, asked))
-        self.stop.disabled, self.bar.visible, self.bar.object = False, True, _bar(0)
+        known = recall(asked)
+        self.stop.disabled, self.bar.visible, self.bar.object = known is not None, known is None, _bar(0)
+        if known is not None:
+            self._show(known)
         self._runs.begin(self._run, "maps", MAPS)
         if self.level is None and (first := MAPS.before(self._runs)):
             self.said.object = note(say("maps.waits", count=first))
