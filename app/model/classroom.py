@@ -1,6 +1,7 @@
 """Votes of a class: rooms that all workers see, no names, bounded; a room is its teacher's, by a key of his own.
 
-A room is plain data: {"step", "numbers", "asks", "top", "owner", "used", "votes": {phone: [value, address, when]}}.
+A room is plain data: {"step", "asks", "top", "shown", "owner", "used", "phones": {phone: address},
+"votes": {phone: [value, address, when]}, "others": {step: votes}}: one question at a time, and the votes on others.
 """
 
 import hashlib
@@ -16,6 +17,7 @@ import secrets
 import threading
 import time
 from dataclasses import dataclass
+from functools import lru_cache
 
 from app.model.ballots import Away, store
 
@@ -24,6 +26,7 @@ MOST_VOTES, VOTES_OF_ADDRESS = 400, 250  # of a room
 LASTS = 6 * 3600.0  # s after its last use
 USED = 600.0  # s: no oftener is it written that a room is in use
 BETWEEN = 1.0  # s between two votes of one phone
+PHONES_EVERY = 2.0  # s: no oftener is a phone told that others have voted
 LETTERS = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ"  # none that is taken for another
 CODE_LENGTH = 6
 CODE = re.compile(rf"[{LETTERS}]{{{CODE_LENGTH}}}")
@@ -33,6 +36,8 @@ LOOK_EVERY = 0.5  # s
 PAUSE = 2.0  # s for which a store that did not answer is not asked again
 MOST_WAITING = 1000
 REGISTER = "rooms"  # the key of {code: [used, address]}: no code is so short
+
+EMPTY = {"votes": {}, "others": {}, "phones": {}, "shown": False}
 
 log = logging.getLogger("tippe")
 
@@ -45,16 +50,17 @@ class Refused(Exception):
 class Room:
     """One question to a class, which each page says in its own language, and the votes so far.
 
-    step: the name of a lesson.Step; numbers: for the words of its question; asks: the fields of a lesson.Choice or
-    Guess; top: the motion's, as a link has it.
+    step: the name of a lesson.Step; asks: the fields of a lesson.Choice or Guess; top: the page's own, as a link has
+    it; shown: whether its answer is; phones: how many have come.
     """
 
     code: str
     step: str
-    numbers: dict
     asks: dict
     top: dict
     votes: tuple
+    shown: bool
+    phones: int
 
     @classmethod
     def of(cls, code, text):
@@ -63,7 +69,7 @@ class Room:
             return None
         record = json.loads(text)
         votes = tuple(value for value, _, _ in record["votes"].values())
-        return cls(code, record["step"], record["numbers"], record["asks"], record["top"], votes)
+        return cls(code, record["step"], record["asks"], record["top"], votes, record["shown"], len(record["phones"]))
 
 
 def possible(asks, value):
@@ -119,7 +125,7 @@ class Rooms:
         for gone in old:
             self._store.change(gone, lambda text: None)
         [code], secret = found, secrets.token_urlsafe(16)
-        text = json.dumps({**question, "owner": mixed(secret), "used": now, "votes": {}})
+        text = json.dumps({**question, "owner": mixed(secret), "used": now} | EMPTY)
         self._store.change(code, lambda _: text)
         return Room.of(code, text), f"{code}.{secret}"
 
@@ -174,16 +180,66 @@ class Rooms:
         self._store.change(REGISTER, lambda text: json.dumps(
             {each: entry for each, entry in json.loads(text or "{}").items() if each != code}))  # fmt: skip
 
-    def ballot(self, code, phone):
-        """(Room, the vote of this phone or None); (None, None) where there is no room."""
+    def _owners(self, key, changed):
+        """The Room of a teacher's key after changed(record); Refused("over") as owned()."""
+        code, found = self.owned(key).code, []
+
+        def change(text):
+            record = self._living(text)
+            if record is None:
+                raise Refused("over")
+            found[:] = [json.dumps(record | changed(record) | {"used": self._clock()})]
+            return found[0]
+
+        self._store.change(code, change)
+        return Room.of(code, found[0])
+
+    def ask(self, key, **question):
+        """Has a teacher's room ask another question; the votes on the one before are kept, and come back with it."""
+
+        def changed(record):
+            if record["step"] == question["step"]:
+                return {}
+            others = record["others"] | {record["step"]: record["votes"]}
+            return question | {"votes": others.pop(question["step"], {}), "others": others, "shown": False}
+
+        return self._owners(key, changed)
+
+    def reveal(self, key):
+        """Shows the answer in a teacher's room: no vote is taken any more."""
+        return self._owners(key, lambda record: {"shown": True})
+
+    def reset(self, key):
+        """Forgets all votes and phones in a teacher's room, for the next class."""
+        return self._owners(key, lambda record: EMPTY)
+
+    def ballot(self, code, phone, address=""):
+        """(Room, the vote of this phone or None), and the phone has come; (None, None) where there is no room."""
         text, record = self._read(code)
         if record is None:
             return None, None
-        mine = record["votes"].get(mixed(code, phone))
+        name, place = mixed(code, phone), mixed(code, network(address))[:6]
+
+        def come(record):
+            seats = record["phones"]
+            alike = sum(each == place for each in seats.values())
+            return name in seats or len(seats) >= MOST_VOTES or alike >= self._votes_of_address
+
+        def change(text):
+            record = self._living(text)
+            if record is None or come(record):
+                return text
+            return json.dumps(record | {"phones": record["phones"] | {name: place}})
+
+        if not come(record):
+            self._store.change(code, change)
+            text = self._store.read([code]).get(code, text)
+        mine = record["votes"].get(name)
         return Room.of(code, text), mine[0] if mine else None
 
-    def vote(self, code, phone, address, value):
-        """Counts the vote of a phone (any text that it is known by) in place of its earlier one, or raises Refused."""
+    def vote(self, code, phone, address, value, step=None):
+        """Counts the vote of a phone (any text that it is known by) in place of its earlier one, or raises Refused.
+        step: the question that the phone had, of which the class may have gone on."""
         if not CODE.fullmatch(code):
             raise Refused("gone")
         phone, address, now = mixed(code, phone), mixed(code, network(address))[:6], self._clock()
@@ -193,6 +249,10 @@ class Rooms:
             record = self._living(text)
             if record is None:
                 raise Refused("gone")
+            if step not in (None, record["step"]):
+                raise Refused("moved")
+            if record["shown"]:
+                raise Refused("shown")
             if not possible(record["asks"], value):
                 raise Refused("wrong")
             votes = record["votes"]
@@ -242,8 +302,8 @@ class Desk:
             done(Away("full"))
 
     def watch(self, code, told, votes=True):
-        """Has told(Room) called now and whenever its votes change (not without votes), told(None) when it is closed,
-        told(Away) while nobody can say. Returns what ends this."""
+        """Has told(Room) called now and whenever it changes (without votes: of these not at each), told(None) when it
+        is closed, told(Away) while nobody can say. Returns what ends this."""
         watch = Watch(code, told, votes)
         self._watches.add(watch)
         self.ask(lambda rooms: None, lambda result: None)  # it may sleep
@@ -312,21 +372,38 @@ class Desk:
                 watch.tell(texts.get(watch.code))
 
 
+@lru_cache(64)
+def read(code, text):
+    """Room.of, once for all pages that look at it."""
+    return Room.of(code, text)
+
+
 class Watch:
     """One page that looks at a room."""
 
     def __init__(self, code, told, votes):
         self.code, self.votes, self._told, self._last = code, votes, told, ...
+        self._room, self._when = None, -math.inf
 
     def tell(self, text, away=None):
         """What is there now, if that is news to it."""
         if away is not None:
-            news, now = self.votes and not isinstance(self._last, Away), away
-        else:
-            news, now = text != self._last and (self.votes or text is None), text
-        self._last = now
-        if news:
-            self._told(away or Room.of(self.code, text))
+            if self.votes and not isinstance(self._last, Away):
+                self._last = away
+                self._told(away)
+            return
+        if text == self._last:
+            return
+        room = read(self.code, text)
+        if not self.votes and self._waits(room):
+            return
+        self._last, self._room, self._when = text, room, time.monotonic()
+        self._told(room)
+
+    def _waits(self, room):
+        """Whether it is news of votes alone, too soon after the last; it comes with a later look."""
+        before, early = self._room, time.monotonic() - self._when < PHONES_EVERY
+        return bool(early and room and before and (room.step, room.shown) == (before.step, before.shown))
 
 
 DESK = Desk()
