@@ -11,7 +11,7 @@ RUN python3 -m venv /opt/build \
     && /opt/build/bin/pip install --no-cache-dir --require-hashes -r locks/build.txt \
     && /opt/build/bin/pip wheel --no-deps --no-build-isolation --wheel-dir /opt/wheel . \
     && python3 -m venv /opt/venv \
-    && /opt/venv/bin/pip install --no-cache-dir --require-hashes -r locks/run.txt -r locks/redis.txt \
+    && /opt/venv/bin/pip install --no-cache-dir --require-hashes -r locks/run.txt -r locks/redis.txt -r locks/metrics.txt \
     && /opt/venv/bin/pip install --no-deps /opt/wheel/*.whl \
     && /opt/venv/bin/pip uninstall --yes pip \
     && cd /opt/venv/lib/python3*/site-packages \

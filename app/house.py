@@ -11,9 +11,11 @@ from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
 from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
+from app.state.start import OneStart
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
 from app.tabs.families.compare import Compare
+from app.tabs.families.tops import Tops
 from app.tabs.lab import room
 from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
@@ -22,7 +24,7 @@ from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
-from app.widgets.cards import card, grid
+from app.widgets.cards import card, flexible, grid
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt
 from app.widgets.pacing import Pacer
@@ -55,6 +57,7 @@ class House:
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
         self.lab_of = Lab(self.runs)
+        self.start = OneStart(self.lab_of, self.explorer, self.pacer.ask, self.builder)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
         pn.state.onload(self.pacer.begin)
 
@@ -65,7 +68,7 @@ class House:
     # ---- the rooms, each made when it is first looked at ----
 
     def lab(self):
-        return lab_view(self.lab_of, self.keep, self.pacer.ask, lambda: self._look_at(room.USUAL))
+        return lab_view(self.lab_of, self.keep, lambda: self._look_at(room.USUAL))
 
     def roll(self):
         controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
@@ -88,6 +91,7 @@ class House:
     def planes(self):
         planes = Planes(self.scene, self.runs)
         self.keep.add(planes)
+        self.start.have(planes)
         inputs = {name: getattr(planes, name) for name in ("plane", *Planes.INPUTS)}
         view = ThreePlanes(inputs, self.pacer.ask_of(planes), self.pacer.ask, self.builder.choose, planes)
         planes.param.watch(lambda event: view.show(event.new), "picture")
@@ -101,15 +105,29 @@ class House:
         return view.main
 
     def families(self):
-        compare = Compare(self.scene, self.runs)
-        self.pacer.shows(compare.show, "hand")
-        compare.draw(compare.family.value)
-        compare.compute()
-        return grid(
-            card(say("main.cards.compare"), *compare.figures_view, height="max-content"),
-            card(say("main.cards.map"), *compare.map_view, height="max-content"),
-            narrowest=1000,
+        tops, compare = (
+            Tops(self.scene, self.pacer.ask, self._use, self._change, self.runs),
+            Compare(self.scene, self.runs),
         )
+        self.pacer.shows(tops.show, "rest")
+        self.pacer.shows(compare.show, "hand")
+        compare.compute()
+        cards = (
+            (card(say("family.tops.title"), *tops.map_view, height="max-content"), "3 1 560px"),
+            (card("", *tops.beside_view, height="max-content"), "2 1 360px"),
+            (card(say("main.cards.map"), *compare.map_view, height="max-content"), "1 1 100%"),
+        )
+        return flexible(*cards)
+
+    def _use(self, name):
+        """A known top in the Lab, and everywhere."""
+        self.builder.choose(name)
+        self.lab_of.ask(toy=name)
+        self._look_at("lab")
+
+    def _change(self, name):
+        self.builder.choose(name)
+        self._look_at("build-a-top")
 
     def learn(self):
         learn = Learn(self.scene, self.runs)
@@ -123,6 +141,7 @@ class House:
 
     def measure(self):
         measure = Measure(self.scene, self.runs)
+        self.keep.add(measure.filmed)
         self.pacer.shows(measure.show, "hand")
         return measure.view
 

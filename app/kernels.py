@@ -16,6 +16,12 @@ from tippe_core.compiled import ahead, why_not
 
 NICE = 5  # how far the compiler stands back behind visitors; until it is done they are answered more slowly
 log = logging.getLogger("tippe")
+_compiling = threading.Event()
+
+
+def compiling() -> bool:
+    """Whether they are compiled just now."""
+    return _compiling.is_set()
 
 
 @cache
@@ -37,6 +43,7 @@ def compile_beside() -> None:
 def _compile(begun: threading.Event) -> None:
     start = time.monotonic()
     with ahead():
+        _compiling.set()
         begun.set()
         if sys.platform == "linux":  # elsewhere a thread has no priority of its own
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICE)
@@ -47,6 +54,8 @@ def _compile(begun: threading.Event) -> None:
         except Exception:
             log.exception("compiling ahead ended early; the rest is compiled when it is needed")
             return
+        finally:
+            _compiling.clear()
     log.info("kernels are compiled, after %.0f s%s", time.monotonic() - start, reason and f", but not kept: {reason}")
 
 

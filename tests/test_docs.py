@@ -13,6 +13,11 @@ import matplotlib.pyplot as plt
 import pytest
 from claims import ROWS
 
+import tippe_core
+from app.state.keep import explorer_of, read
+from app.state.names import NAMES
+from tippe_core import Top
+
 HERE = Path(__file__).parent
 DOCS, CORE = HERE.parent / "docs", HERE.parent / "tippe_core"
 PAGES = sorted(path.stem for path in DOCS.glob("*.md"))
@@ -102,3 +107,44 @@ def test_every_row_is_on_the_page_with_evidence():
             assert tests and f'"{key}"' in sources, key
             for file, name in tests:
                 assert f"def {name}(" in (HERE / file).read_text(encoding="utf-8")
+
+
+def test_the_reference_has_each_public_name_once():
+    named = re.findall(r":members: (.*?)\n   :imported", text("api"), re.S)
+    assert sorted(re.split(r",\s+", ", ".join(named))) == sorted(tippe_core.__all__)
+
+
+GALLERY = sorted((DOCS / "gallery").glob("*.py"))
+
+
+@pytest.mark.parametrize("path", GALLERY, ids=lambda path: path.stem)
+def test_a_script_of_the_gallery_draws_what_its_link_opens(path):
+    """Its numbers are those of the link, which says nothing that the explorer does not know."""
+    code, found = path.read_text(encoding="utf-8"), {}
+    title, words = ast.get_docstring(ast.parse(code)).split("\n\n")
+    place = f"## {title}\n\n{words}\n\n```{{eval-rst}}\n.. plot:: gallery/{path.name}\n```\n\n"
+    try:
+        exec(code, found)
+        assert any(axes.has_data() for axes in plt.gcf().axes)
+    finally:
+        plt.close("all")
+    assert f"{place}[Open it in the explorer](http://localhost:5006/app{found['LINK']})\n" in text("gallery")
+    texts, wrong = read(found["LINK"])
+    explorer, impossible = explorer_of(texts)
+    assert not wrong + impossible and texts.keys() <= NAMES.keys()
+    for key, codec in ((key, NAMES[key].codec) for key in texts):
+        codec.value(texts[key])
+    assert explorer.scene.top.a == pytest.approx(Top.paper().a, abs=3e-4)
+    for name, key in (("K_J", "KJ"), ("K_R", "KR"), ("E", "E")):
+        if key in texts:
+            assert float(texts[key]) == found[name] == pytest.approx(getattr(explorer.scene.constants, name))
+
+
+def test_the_gallery_has_ten():
+    assert len(GALLERY) == text("gallery").count(".. plot::") == 10
+
+
+def test_a_term_is_explained_once():
+    terms = [each.strip() for row in re.findall(r"(?m)^\| ([^|]+) \|", text("glossary"))
+             for each in re.split(r"[,;]", row)]  # fmt: skip
+    assert len(terms) == len({*terms}) > 50

@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -143,33 +144,61 @@ print("matplotlib" in sys.modules, "app.share.prints" in sys.modules)"""
     assert done.stdout.split()[-2:] == ["False", "True"], done.stderr[-2000:]
 
 
-@pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the proxy of compose.yaml, is not installed")
-def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_its_own(page, tmp_path):
+@contextmanager
+def replicas(folder):
+    """Two behind the proxy of compose.yaml, and its root."""
     port = free_port()
     common = {"proxy": 1, "secret": "s", "wait": False}
-    with served(tmp_path / "a", **common) as one, served(tmp_path / "b", **common) as two:
-        until(lambda: all(answers(each.root + "/liveness") for each in (one, two)), 60)
+    with served(folder / "a", **common) as one, served(folder / "b", **common) as two:
+        until(lambda: all(answers(each.root + "/readyz") for each in (one, two)), 60)
         servers = "\n".join(f"    server {name} {each.root[7:]}" for name, each in (("a", one), ("b", two)))
         text = (ROOT / "deploy/haproxy.cfg").read_text(encoding="utf-8").replace("bind :8080", f"bind 127.0.0.1:{port}")
-        config = tmp_path / "haproxy.cfg"
+        config = folder / "haproxy.cfg"
         config.write_text(re.sub(r"(?m)^    server-template.*$", servers, text))
         proxy = subprocess.Popen(["haproxy", "-f", config], stdout=subprocess.DEVNULL)
         try:
-            url = f"http://127.0.0.1:{port}/app"
-            until(lambda: answers(url))
-            Visit(page, url)
-            page.evaluate("window.mark = 1")
-            mine, other = (one, two) if '"sessions": 1' in get(one.root + "/liveness")[2] else (two, one)
-            other.process.kill()
-            assert page.evaluate("window.mark") == 1
-            set_K_J(page, "6.5")
-            with served(tmp_path / "c", port=int(other.root.rsplit(":", 1)[1]), **common):
-                mine.process.send_signal(signal.SIGKILL)
-                page.get_by_text(LOST).wait_for()
-                has_come_back(page, "6.5")
+            until(lambda: answers(f"http://127.0.0.1:{port}/app"))
+            yield one, two, f"http://127.0.0.1:{port}"
         finally:
             proxy.terminate()
             proxy.wait()
+
+
+def with_sessions(*servers):
+    """Of two, the one that has a session, and the other."""
+    return servers if '"sessions": 1' in get(servers[0].root + "/liveness")[2] else servers[::-1]
+
+
+haproxy = pytest.mark.skipif(not shutil.which("haproxy"), reason="haproxy, the proxy of compose.yaml, is not installed")
+
+
+@haproxy
+def test_behind_the_proxy_a_session_survives_another_replica_and_returns_from_its_own(page, tmp_path):
+    with replicas(tmp_path) as (one, two, root):
+        Visit(page, f"{root}/app")
+        page.evaluate("window.mark = 1")
+        mine, other = with_sessions(one, two)
+        other.process.kill()
+        assert page.evaluate("window.mark") == 1
+        set_K_J(page, "6.5")
+        again = {"port": int(other.root.rsplit(":", 1)[1]), "proxy": 1, "secret": "s", "wait": False}
+        with served(tmp_path / "c", **again):
+            mine.process.send_signal(signal.SIGKILL)
+            page.get_by_text(LOST).wait_for()
+            has_come_back(page, "6.5")
+
+
+@haproxy
+def test_behind_the_proxy_a_replica_that_stops_sends_its_pages_to_the_other(page, tmp_path):
+    with replicas(tmp_path) as (one, two, root):
+        Visit(page, f"{root}/app")
+        assert get(f"{root}/metrics")[0] == 403
+        set_K_J(page, "6.5")
+        mine, other = with_sessions(one, two)
+        mine.process.send_signal(signal.SIGTERM)
+        page.get_by_text(LOST).wait_for()
+        has_come_back(page, "6.5")
+        assert mine.process.wait(60) == 0 and '"sessions": 1' in get(other.root + "/liveness")[2]
 
 
 LISTENS_IN = """

@@ -14,7 +14,7 @@ from tippe_core import grip
 pytestmark = pytest.mark.served
 
 TOPS = "__tippe.tops('lab')"
-TIME = "Number(window.tippe.time('lab'))"
+TIME = "Number(window.__tippe.time('lab'))"
 # The tilt of the top that is looked at, in degrees, of its pose alone.
 TILT = f"""(() => {{
     const [x, y] = {TOPS}[0].quaternion

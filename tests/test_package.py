@@ -1,6 +1,7 @@
 """What is installed: bounds that are kept, a lock that is theirs, and a source archive that can be worked with."""
 
 import ast
+import os
 import re
 import shutil
 import subprocess
@@ -12,6 +13,7 @@ from pathlib import Path
 import pytest
 import yaml
 from packaging.requirements import Requirement
+from wire import Visitor, run, serving
 
 ROOT = Path(__file__).parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -45,7 +47,7 @@ def test_what_is_imported_at_run_time_is_declared():
     names = [each.name for node in nodes if isinstance(node, ast.Import) for each in node.names]
     names += [node.module for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
     others = {name.partition(".")[0] for name in names} - sys.stdlib_module_names - {"app", "tippe_core"}
-    assert {name.replace("_", "-") for name in others} == {*BOUNDS, "redis"}  # an extra
+    assert {name.replace("_", "-") for name in others} == {*BOUNDS, "redis", "prometheus-client"}  # extras
 
 
 @pytest.mark.parametrize("python", PYTHONS)
@@ -91,6 +93,53 @@ def unpacked(tmp_path_factory):
         archive.extractall(folder, filter="data")
     [path] = [path for path in folder.iterdir() if path.is_dir()]
     return path
+
+
+@pytest.fixture(scope="module")
+def archives(tmp_path_factory):
+    """The folder of the wheel and the source archive, made from a copy of what git has and of the bundle."""
+    if not (ROOT / ".git").exists() or not shutil.which("git"):
+        pytest.skip("copies what git has")
+    copy, made = tmp_path_factory.mktemp("copy"), tmp_path_factory.mktemp("made")
+    known = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for path in filter(None, known.split("\0")):
+        if (ROOT / path).is_file():
+            (copy / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / path, copy / path)
+    shutil.copytree(ROOT / "app/static", copy / "app/static")
+    subprocess.run([sys.executable, "-m", "hatchling", "build", "-d", made], cwd=copy, check=True, capture_output=True)
+    return made
+
+
+@pytest.mark.served
+def test_the_archives_are_as_an_index_wants_them(archives):
+    pytest.importorskip("twine", reason="twine is not installed: locks/test.txt has it")
+    done = subprocess.run([sys.executable, "-m", "twine", "check", "--strict", *archives.iterdir()],
+                          capture_output=True, text=True)  # fmt: skip
+    assert done.returncode == 0 and done.stdout.count("PASSED") == 2, done.stdout
+
+
+@pytest.mark.served
+@pytest.mark.slow
+def test_the_wheel_in_an_empty_environment_starts_from_any_directory_and_a_visitor_comes(archives, tmp_path):
+    """Without node, a compiler or the sources. Kernels run as Python: compiling them is another test's."""
+    [wheel] = archives.glob("*.whl")
+    folder = tmp_path / "venv" / ("Scripts" if os.name == "nt" else "bin")
+    subprocess.run([sys.executable, "-m", "venv", folder.parent], check=True)
+    for what in (["--require-hashes", "-r", ROOT / "locks/run.txt"], ["--no-deps", wheel]):
+        done = subprocess.run(
+            [folder / "python", "-m", "pip", "install", "--quiet", *what], capture_output=True, text=True
+        )
+        if re.search("No matching distribution|Max retries|timed out", done.stderr):
+            pytest.skip("the index of packages cannot be reached")
+        assert done.returncode == 0, done.stderr
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    alone = ["env", "-u", "PYTHONPATH", "NUMBA_DISABLE_JIT=1", f"PATH={folder}", folder / "tippe-top"]
+    with serving(alone, tmp_path / "log", elsewhere) as server:
+        assert run(Visitor.enter(server.url)).component("LabView")
+        assert "Traceback" not in server.log
+    assert [*elsewhere.iterdir()] == []
 
 
 @pytest.mark.served

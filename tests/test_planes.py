@@ -13,6 +13,8 @@ from app.model.explorer import Explorer
 from app.model.planes import PRESETS
 from app.model.planes_picture import LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES
 from app.model.planes_run import THROWN, for_reader, nudged, solve, touches
+from app.model.planes_tracks import BUCKETS, extremes, tracks
+from app.model.planes_wells import whiles
 from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS
 from app.model.runs import Runs
 from app.tabs.planes import plots
@@ -20,7 +22,7 @@ from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.planes.words import ball_words, fate, scatter_words
 from app.text import speaking
 from tippe_core import PRESETS as BODIES
-from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, roll, slide
+from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, grip, roll, slide
 
 HAND = next(iter(PRESETS))
 
@@ -88,7 +90,7 @@ def test_all_three_are_tippe_cores_from_one_start(explorer, planes):
     t = picture.motions["sliding"].t
     assert t[-1] * scales.time == pytest.approx(2)
     expected = {
-        "rough": roll(top, None, t, State(theta, 0, 0, spin)),
+        "rough": roll(top, None, t, grip(top, state)[0]),
         "smooth": glide(top, state, t),
         "sliding": slide(top, state, Coulomb(0.2, 0.3), t, landing="plastic"),
     }
@@ -282,8 +284,29 @@ def test_no_bead_is_above_the_energy_that_it_has(usual):
     times, _, stem = heights(picture)
     touching = np.abs(np.interp(t, times, stem)) < 1e-6
     assert np.all(which[touching & (t > 2.45) & (t < 3.1)] == -1) and set(which) == {-1, 0, 1}
-    C_J = [found.C_J for found in picture.wells("sliding")]
+    C_J = [found.C_J for found in whiles(picture, "sliding")]
     assert C_J == pytest.approx([2.37, 0.165], abs=0.005)  # of the issue
+
+
+def test_a_fast_swing_keeps_its_width():
+    """Of 9,000 values of a swing with 900 periods the curve has the least and the largest of each stretch, in order."""
+    t = np.linspace(0, 1, 9_000)
+    values = np.sin(2 * np.pi * 900 * t) * (1 + t)
+    track = extremes(t, values)
+    assert len(track.t) == 2 * BUCKETS and np.all(np.diff(track.t) >= 0)
+    assert {*track.value} >= {values.min(), values.max()} and {*track.value} <= {*values}
+    assert extremes(t[:800], values[:800]).value is not track.value and len(extremes(t[:800], values[:800]).t) == 800
+
+
+def test_tracks_are_in_the_units_of_the_page(usual):
+    picture, _ = ran(usual, seconds=1.0)
+    motion, scales = picture.motions["sliding"], picture.settings.scales
+    found = tracks(motion, scales)
+    assert found["theta"].value[0] == pytest.approx(picture.settings.tilt)
+    assert found["omega3"].value[0] == pytest.approx(picture.settings.spin)
+    assert found["theta"].t[-1] == pytest.approx(1.0, abs=1e-3)
+    metres = np.sqrt(scales.R * 9.81)  # R and (R/g)^1/2 in a second
+    assert found["slip"].value.max() == pytest.approx(100 * metres * motion.slip.max(), rel=2e-3)
 
 
 @cache
@@ -485,7 +508,7 @@ def test_a_run_of_which_no_while_is_on_the_ball_has_the_well_of_its_start_at_no_
     end = motion.ending
     on_stem = replace(end, stretches=(Stretch(0.0, motion.t[-1], "stem"),))
     moved = replace(picture, motions={"sliding": replace(motion, ending=on_stem)})
-    (well,) = moved.wells("sliding")
+    (well,) = whiles(moved, "sliding")
     assert well.end < 0 and well.C_J == picture.outcome.C_J
 
 

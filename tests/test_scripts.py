@@ -64,3 +64,40 @@ def test_no_javascript_stands_in_python(path):
 @pytest.mark.parametrize("kind", Bundled.__subclasses__(), ids=lambda kind: kind.__name__)
 def test_no_component_hides_what_all_have(kind):
     assert "shown" not in vars(kind) and isinstance(vars(kind).get("says", classmethod(len)), classmethod)
+
+
+# ---- what the scripts tell one another ----
+
+SAID = re.compile(r"""dispatchEvent\(new CustomEvent\(["'`](tippe:[a-z]+)""")
+HEARD = re.compile(r"""\baddEventListener\(["'`](tippe:[a-z]+)""")
+HOUSE = FRONTEND.parent.parent / "docs/house.md"
+
+
+def told(pattern):
+    """{event: the files in which it is sent, or heard}"""
+    found = {}
+    for path in (*FRONTEND.glob("src/**/*.js"), *FRONTEND.parent.glob("*.js"), *FRONTEND.parent.glob("*.html")):
+        inside = path.is_relative_to(FRONTEND)
+        name = path.relative_to(FRONTEND / "src" if inside else FRONTEND.parent.parent).as_posix()
+        for event in pattern.findall(path.read_text(encoding="utf-8")):
+            found.setdefault(event, set()).add(name)
+    return found
+
+
+def test_the_list_of_events_is_whole():
+    """In docs/house.md: every event of the window between parts in the browser, who sends it and who hears it."""
+    rows = re.findall(r"^\| `(tippe:[a-z]+)` \|([^|]*)\|([^|]*)\| (.*) \|$", HOUSE.read_text(encoding="utf-8"), re.M)
+    named = re.compile("`([^`]+)`")
+    assert {event: {*named.findall(sent)} for event, sent, _, _ in rows} == told(SAID)
+    assert {event: {*named.findall(heard)} for event, _, heard, _ in rows} == told(HEARD)
+    assert all(carries for *_, carries in rows)
+
+
+@pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.name)
+def test_no_script_asks_another_by_the_window(path):
+    """They import one another. On it are the reports for tests, and what Bokeh's callbacks call."""
+    text = path.read_text(encoding="utf-8")
+    assert {*re.findall(r"\bwindow\.(\w*tippe\w*)", text)} <= {"__tippe", "tippeCallbacks"}
+    assert not re.search(r"\bwindow\[|\bglobalThis\b", text)
+    if "__tippe" in text:  # which is put there, and never asked
+        assert not re.search(r"__tippe\.\w+\(", text)

@@ -192,7 +192,8 @@ NOT_SAID = {
     "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
-       for name in ("server.py", "arrivals.py", "ballots.py", "messages.py", "settings.py", "sockets.py")},
+       for name in ("server.py", "arrivals.py", "ballots.py", "health.py", "logs.py", "messages.py", "settings.py",
+                    "sockets.py")},
     "look.js": {"dark large": "a key"},
 }  # fmt: skip
 

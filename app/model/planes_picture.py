@@ -4,14 +4,14 @@ In units of R, M and g but for what a person sets: rev/s, degrees, s.
 """
 
 from dataclasses import dataclass, field
-from itertools import groupby
 from types import MappingProxyType
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
 from app.model.bodies import second_part
 from tippe_core import (
+    Contensou,
     Coulomb,
     Ending,
     Outcome,
@@ -19,20 +19,17 @@ from tippe_core import (
     Shape,
     SmoothedCoulomb,
     State,
-    SteadyStates,
-    Stretch,
     Top,
     TopError,
     Trajectory,
     Viscous,
-    steady_states,
 )
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Indices, Rim
 
 PLANES = ("rough", "smooth", "sliding")
-LAWS = ("coulomb", "viscous", "smoothed")
-SET = ("spin", "tilt", "slip", "law", "mu_k", "mu_s", "gamma", "mu", "eps", "landing", "stem", "seconds")
+LAWS = ("contact", "coulomb", "viscous", "smoothed")
+SET = ("spin", "tilt", "slip", "law", "mu_k", "mu_s", "gamma", "mu", "eps", "patch", "landing", "stem", "seconds")
 KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
 
 MOST_SECONDS = 60.0
@@ -122,6 +119,7 @@ class Settings(Setup):
     gamma: float
     mu: float
     eps: float
+    patch: float = 0.5  # mm
 
     @property
     def inputs(self) -> MappingProxyType[str, Any]:
@@ -133,6 +131,8 @@ class Settings(Setup):
     def friction(self) -> Friction:
         if self.law == "viscous":
             return Viscous(self.gamma)
+        if self.law == "contact":
+            return Contensou(self.mu, 1e-3 * self.patch / self.scales.R)
         return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu_k, self.mu_s)
 
     @property
@@ -214,15 +214,6 @@ class Motion:
         return float(found[0]) if len(found) and self.trajectory.theta[0] < np.pi / 2 else np.nan
 
 
-class Well(NamedTuple):
-    """V_J at one C_J, from start to end in (R/g)^1/2: a while in which the ball alone was at the table."""
-
-    start: float
-    end: float
-    C_J: float
-    steady: SteadyStates
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Picture:
     """All that the views show. motions: {plane: Motion or None}; None: the sentence why is in messages at the plane.
@@ -255,21 +246,3 @@ class Picture:
         ux = vx - (state.omega2 * (c - a) - state.omega3 * s)
         uy = vy + state.theta_dot * (1 - a * c)
         return float(self.settings.scales.velocity * np.hypot(ux, uy))
-
-    def wells(self, plane: str) -> tuple[Well, ...]:
-        """(Well, ...) of the motion on a plane, one for each while of more than SHORT in which no stem touched: a
-        second contact changes C_J. Of none, that of the start."""
-        motion, shortest = self.motions[plane], SHORT / self.settings.scales.time
-        if motion is None:
-            return (Well(0.0, 0.0, self.outcome.C_J, self.outcome.steady),)
-        moved = motion.trajectory
-        found: list[Well] = []
-        spells = motion.ending.stretches if motion.ending else (Stretch(moved.t[0], moved.t[-1], "ball"),)
-        for free, group in groupby(spells, key=lambda spell: spell.on in ("ball", "air")):
-            group = list(group)
-            start, end = group[0].start, group[-1].end
-            inside = (moved.t >= start) & (moved.t <= end)
-            if free and inside.any() and (end - start > shortest or not found):
-                C_J = float(np.median(moved.jellett[inside]))
-                found.append(Well(start, end, C_J, steady_states(moved.top, C_J)))
-        return tuple(found) or (Well(-1.0, -1.0, self.outcome.C_J, self.outcome.steady),)

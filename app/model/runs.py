@@ -40,12 +40,15 @@ class Pool:
         self.threads, self._executor = threads, ThreadPoolExecutor(threads, thread_name_prefix=name)
         self._waiting: dict[Hashable, list[Piece]] = {}  # visitor -> his pieces that wait
         self._working: Counter[Hashable] = Counter()  # how many are under way
+        self._since: dict[Piece, float] = {}  # of those that wait
+        self.turns, self.waited = 0, 0.0  # how many were begun, and s that these waited
         self._changing = threading.Lock()
 
     def add(self, visitor: Hashable, piece: Piece) -> None:
         """Has it called in a thread, when it is its turn."""
         with self._changing:
             self._waiting.setdefault(visitor, []).append(piece)
+            self._since[piece] = time.monotonic()
             self._fill()
 
     def remove(self, visitor: Hashable, piece: Piece) -> bool:
@@ -54,9 +57,14 @@ class Pool:
             waits = piece in self._waiting.get(visitor, ())
             if waits:
                 self._waiting[visitor].remove(piece)
+                del self._since[piece]
                 if not self._waiting[visitor]:
                     del self._waiting[visitor]
         return waits
+
+    def waiting(self) -> int:
+        """How many pieces wait for a thread."""
+        return len(self._since)
 
     def before(self, visitor: Hashable) -> int:
         """How many others wait for a thread before a visitor who waits; 0 where he does not."""
@@ -76,6 +84,7 @@ class Pool:
                 return
             piece, *later = self._waiting[visitor]
             self._put_last(visitor, later)
+            self.turns, self.waited = self.turns + 1, self.waited + time.monotonic() - self._since.pop(piece)
             self._working[visitor] += 1
             with suppress(RuntimeError):  # Python ends, and takes no more
                 self._executor.submit(self._do, visitor, piece).add_done_callback(_logged)

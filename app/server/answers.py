@@ -1,4 +1,4 @@
-"""What is answered over HTTP beside the page: where it is, whether the server lives, files; and the headers of all."""
+"""What is answered over HTTP beside the page: where it is, and files; with the headers of all."""
 
 import logging
 import os
@@ -108,16 +108,6 @@ class Root(Handler):
     head = get
 
 
-class Liveness(Handler):
-    """For the health checks of containers, and how full it is."""
-
-    def get(self):
-        self.set_header("Cache-Control", "no-store")
-        self.write({"live": True, "sessions": len(self.application.door.sessions)})
-
-    head = get
-
-
 def routes(application):
     """What is served beside the page, and nothing else: of all that Bokeh and Panel have, the files."""
     prefix = application.tippe.prefix
@@ -127,7 +117,6 @@ def routes(application):
     return [
         *((f"{prefix}{pattern}", *more) for pattern, *more in [("/?", Root), *files, (components, Component)]),
         ("/", Root),  # there, whatever the prefix
-        ("/liveness", Liveness),
         ("/favicon.ico", type("Icon", (Answer, IcoHandler), {}), {"app": application}),
         (".*", type("Nothing", (Answer, ErrorHandler), {}), {"status_code": 404}),
     ]

@@ -62,18 +62,18 @@ class Arrivals:
     """Takes what comes to listening sockets, and gives it to an HTTPServer. files: as of most_files()."""
 
     def __init__(self, http, sockets, files):
-        self._http, self._sockets, self._files = http, sockets, files
+        self.sockets, self._http, self._files = sockets, http, files
         self._last = None if files is None else files - min(OTHERS, files // 4)
         self._said, self._again, self._streams = -SAY_AGAIN, None, WeakSet()
 
     def start(self):
         """From now on they are taken."""
-        for each in self._sockets:
+        for each in self.sockets:
             IOLoop.current().add_handler(each, self._arrived, IOLoop.READ)
 
     def stop(self):
         """From now on nobody is taken; the sockets stay open."""
-        for each in self._sockets:
+        for each in self.sockets:
             IOLoop.current().remove_handler(each)
         if self._again is not None:
             IOLoop.current().remove_timeout(self._again)

@@ -3,7 +3,7 @@
 import asyncio
 import time
 import types
-from collections import OrderedDict, deque
+from collections import Counter, OrderedDict, deque
 from contextlib import contextmanager
 
 from tornado.ioloop import IOLoop
@@ -18,6 +18,7 @@ class Turns:
 
     def __init__(self, pause):
         self._pause, self._waiting, self._busy = pause, OrderedDict(), False  # address -> deque of futures
+        self.turns, self.waited = 0, 0.0  # how many there were, and s that these waited
 
     def waiting(self, address=None):
         """How many wait; from an address."""
@@ -25,12 +26,13 @@ class Turns:
 
     async def turn(self, address):
         """Returns when it is this one's turn; the next waits for done()."""
-        if not self._busy:
-            self._busy = True
-            return
-        mine = asyncio.get_running_loop().create_future()
-        self._waiting.setdefault(address, deque()).append(mine)
-        await mine
+        since = time.monotonic()
+        if self._busy:
+            mine = asyncio.get_running_loop().create_future()
+            self._waiting.setdefault(address, deque()).append(mine)
+            await mine
+        self._busy = True
+        self.turns, self.waited = self.turns + 1, self.waited + time.monotonic() - since
 
     def done(self, took):
         """Those inside are served before the next is made."""
@@ -54,13 +56,31 @@ class Door:
         self.settings, self._context = settings, context
         self.sockets = set()  # that were let in
         self.making, self.pages = Turns(pause=0.25), Turns(pause=4)
+        self.stopping, self.refused = False, Counter()  # why -> how often
 
     @property
     def sessions(self):
         return list(self._context.sessions)
 
+    @property
+    def full(self):
+        """Whether no page more is let in: those that have gone make room."""
+        return sum(bool(each.connection_count) for each in self.sessions) >= self.settings.sessions
+
+    @property
+    def served(self):
+        """Whether anybody was here so far."""
+        return self.making.turns > 0
+
+    @property
+    def idle(self):
+        """Whether nobody is here, or about to come in."""
+        return not (self.sessions or self.sockets or self.making.waiting() or self.pages.waiting())
+
     def refusal(self, address):
         """Why not, a key of [server] in main.toml; None where there is room."""
+        if self.stopping:
+            return "stopping"
         if len(self.sessions) + self.making.waiting() >= self.settings.sessions:
             for session in self.sessions:
                 if not session.connection_count:  # his page has gone: Bokeh need not keep it in case he comes back

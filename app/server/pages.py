@@ -53,12 +53,14 @@ class Page(Handler):
             return
         app, address = self.application, self.request.remote_ip
         if not app.tippe.lets(self.request.host):
+            app.door.refused["stranger"] += 1
             log.warning("refused a page at %.100r: TIPPE_ORIGINS", self.request.host)
             self.say(403, self.words("stranger"))
             return
         hurried = app.door.pages.waiting(address) >= app.tippe.sessions_per_address
         refusal = "hurried" if hurried else app.door.refusal(address)
         if refusal:
+            app.door.refused[refusal] += 1
             log.warning("refused %s a page: %s", address, text.say(f"main.server.{refusal}", text.DEFAULT))
             self.say(503, f"{self.words(refusal)} {self.words('again')}", again=10)
             return

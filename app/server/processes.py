@@ -2,35 +2,56 @@
 
 import ctypes
 import gc
+import logging
 import os
 from contextlib import suppress
 
-from tornado.process import fork_processes
+from app.server.board import memory
+
+log = logging.getLogger("tippe")
 
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
+REPLACE = 10  # the exit code of a worker that ends so that another begins
+MOST_LOST = 100  # workers, after which something is wrong with the server itself
+MEGABYTE = 2**20
 
 
-def workers(count):
+def workers(count, board):
     """So many processes; one that ends is replaced, and all end with this one, however it ends. Returns, in each of
     them, the end of a pipe whose other end this one holds."""
     held, ours = os.pipe()
+    places, lost = {}, 0  # process: its row of the board
     try:
-        fork_processes(count)
-    except SystemExit:  # by __main__, at SIGTERM
+        while lost <= MOST_LOST:
+            for place in {*range(count)} - {*places.values()}:
+                process = os.fork()
+                if not process:
+                    os.close(ours)
+                    board.mine = place
+                    return held
+                places[process] = place
+            process, status = os.wait()
+            place, code = places.pop(process, None), os.waitstatus_to_exitcode(status)
+            if place is not None and code not in (0, REPLACE):
+                lost += 1
+                log.warning("lost worker %d, process %d: %s", place, process,
+                            f"exit code {code}" if code >= 0 else f"signal {-code}")  # fmt: skip
+        raise SystemExit(1)
+    except SystemExit:  # by __main__ at SIGTERM, or as above
+        log.info("stopping the workers")
         os.close(ours)
         with suppress(ChildProcessError):
             while True:
                 os.wait()
         raise
-    os.close(ours)
-    return held
 
 
-def tidier(door):
+def tidier(door, replace):
     """A function that gives the memory of ended sessions back to the system: their models refer to each other. What
     lives is frozen: else Python looks through all of it now and then, which is a second for 100 sessions, and finds
-    nothing."""
+    nothing. replace: called where the process has grown over its bound all the same, and nobody is there."""
     known, gone = set(), 0
+    bound = door.settings.memory * MEGABYTE
 
     def tidy():
         nonlocal known, gone
@@ -45,5 +66,10 @@ def tidier(door):
                 LIBC.malloc_trim(0)
         if made or ended:
             gc.freeze()
+        if bound and door.served and door.idle and memory() > bound:
+            log.info(
+                "%d MB of memory, and nobody here: another worker takes the place of this one", memory() // MEGABYTE
+            )
+            replace()
 
     return tidy

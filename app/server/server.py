@@ -6,10 +6,8 @@ are counted and made one at a time, in turn among addresses (door); a message is
 slowly. docs/DEPLOY.md and SECURITY.md say what follows from that.
 """
 
-import asyncio
 import gc
 import logging
-import platform
 import secrets
 import signal
 import sys
@@ -36,9 +34,12 @@ from tornado.websocket import WebSocketClosedError
 
 from app import borrowed
 from app.kernels import compile_beside
+from app.server import health, logs
 from app.server.answers import log_request, routes
 from app.server.arrivals import Arrivals, most_files
+from app.server.board import Board, Watch
 from app.server.door import Door, budget
+from app.server.ending import Ending
 from app.server.pages import Page, Sheet
 from app.server.processes import tidier, workers
 from app.server.sockets import LARGEST_FRAGMENT, Socket, note
@@ -50,12 +51,11 @@ IDLE, IDLE_PROXY = 5, 75
 PING = 45  # s
 FRESH = 120  # s in which a page that was sent may open its session
 TIDY = 10  # s
-GRACE = 3  # s from SIGTERM to the end, whatever still runs
 
 
-def serve(settings, sockets, show, parent=None):
-    """Serves until SIGTERM, or until the other end of the pipe parent is closed. show: puts the page into the document
-    that is being served."""
+def serve(settings, sockets, show, board, parent=None):
+    """Serves until SIGTERM, or until the other end of the pipe parent is closed; returns the exit code. show: puts the
+    page into the document that is being served."""
     compile_beside()  # before anything is computed
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
@@ -72,27 +72,15 @@ def serve(settings, sockets, show, parent=None):
     borrowed.in_one_thread(loop.asyncio_loop, tornado.applications["/app"])
     server = BaseServer(loop, tornado, http)
 
-    def stop(*_):
-        log.info("stopping")
-        if hasattr(signal, "alarm"):
-            signal.alarm(GRACE)  # which ends what does not come to an end
-        loop.add_callback_from_signal(close)
-
-    async def close():
-        arrivals.stop()
-        for each in sockets:
-            each.close()
-        for each in list(tornado.door.sockets):
-            each.close(1001, "The server is stopping.")
-        await asyncio.sleep(0.2)
-        server.stop(wait=False)
-        loop.stop()
+    ending = Ending(settings, tornado.door, arrivals, server)
 
     for name in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(name, stop)
+        signal.signal(name, ending.begin)
     if parent is not None:
-        loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), stop()), IOLoop.READ)
-    PeriodicCallback(tidier(tornado.door), 1000 * TIDY).start()
+        loop.add_handler(parent, lambda *_: (loop.remove_handler(parent), ending.begin(signal.SIGTERM)), IOLoop.READ)
+    PeriodicCallback(tidier(tornado.door, ending.replace), 1000 * TIDY).start()
+    tornado.watch = Watch(board, tornado.door)
+    tornado.watch.start()
     pn.state.add_periodic_callback(lambda: None, 1, count=1)  # Panel's first timer keeps the session that it is made in
     server.start()
     arrivals.start()
@@ -101,6 +89,8 @@ def serve(settings, sockets, show, parent=None):
         address = f"http://localhost:{settings.port}{settings.prefix}/app"
         threading.Thread(target=webbrowser.open, args=[address], daemon=True).start()
     loop.start()
+    board.leave()
+    return ending.code
 
 
 def prepared(settings, show):
@@ -135,7 +125,9 @@ def prepared(settings, show):
     path = f"{settings.prefix}/app/ws"
     socket = (path, Socket, {"application_context": context, "bokeh_websocket_path": path})
     page = (f"{settings.prefix}/app/?", Page)
-    tornado.add_handlers(".*", [socket, page, *routes(tornado)])  # before Bokeh's own, all of them
+    tornado.add_handlers(
+        ".*", [socket, page, *health.routes(settings), *routes(tornado)]
+    )  # before Bokeh's own, all of them
     for each in template.document.session_destroyed_callbacks:
         each(template.document.session_context)
     template.destroy()
@@ -150,15 +142,7 @@ def unheard(loop, context):
 
 def main(settings, show):
     """Listens and serves; returns the exit code."""
-    sys.stdout.reconfigure(errors="backslashreplace")  # half a character, sent by somebody, is no reason not to log
-    logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True,
-                        format=f"%(asctime)s %(levelname)s {platform.node()} %(process)d %(message)s")  # fmt: skip
-    log.setLevel(settings.log.upper())
-    for name in ("bokeh", "panel"):  # their own handlers write to another stream, in another form
-        logging.getLogger(name).handlers.clear()
-        logging.getLogger(name).setLevel("CRITICAL")  # what they say of an error, note() says
-    if settings.log == "debug":
-        logging.getLogger("tornado.access").setLevel(logging.INFO)
+    logs.begin(settings)
     if not settings.secret:
         settings = replace(settings, secret=secrets.token_hex(32))
     try:
@@ -167,6 +151,6 @@ def main(settings, show):
         print(f"port {settings.port}, address {settings.address!r}: {error.strerror}. Choose others by --port and "
               "--address, or TIPPE_PORT and TIPPE_ADDRESS.", file=sys.stderr)  # fmt: skip
         return 1
-    parent = workers(settings.workers) if settings.workers > 1 else None
-    serve(settings, sockets, show, parent)
-    return 0
+    board = Board(settings.workers)
+    parent = workers(settings.workers, board) if settings.workers > 1 or settings.memory else None
+    return serve(settings, sockets, show, board, parent)

@@ -4,6 +4,7 @@ import argparse
 import os
 import re
 from dataclasses import dataclass, field, fields
+from importlib.util import find_spec
 
 from bokeh.server.util import check_allowlist
 
@@ -68,6 +69,18 @@ def votes(text):
     return text
 
 
+def measured(text):
+    """Whether there are metrics."""
+    if whole(0, 1)(text) and find_spec("prometheus_client") is None:
+        raise ValueError("0 as long as prometheus-client is not installed: pip install 'tippe-top-explorer[metrics]'")
+    return int(text)
+
+
+def bound(text):
+    """Of a worker's memory; needs that another can take its place."""
+    return whole(0, 1_000_000 if hasattr(os, "fork") else 0)(text)
+
+
 def _setting(default, says, take=str):
     return field(default=default, metadata={"says": says, "take": take})
 
@@ -94,6 +107,11 @@ class Settings:
     secret: str = _setting("", "what sessions are signed with; without it, new at each start")
     log: str = _setting("info", "how much is logged: debug, info, warning or error",
                         matching("debug|info|warning|error", "debug, info, warning or error"))  # fmt: skip
+    log_format: str = _setting("text", "text, or json: an object a line", matching("text|json", "text or json"))
+    log_addresses: int = _setting(1, "0: the log has - for each visitor's address", whole(0, 1))
+    metrics: int = _setting(0, "1: /metrics is there, for Prometheus", measured)
+    memory: int = _setting(0, "MB, over which a worker is replaced when nobody is there; 0: never", bound)
+    drain: int = _setting(5, "s at most in which open pages are sent elsewhere, one by one, at SIGTERM", whole(0, 3600))
 
     @classmethod
     def of(cls, environment, arguments=()):

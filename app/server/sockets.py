@@ -86,6 +86,7 @@ class Socket(Answer, WSHandler):
         )
         if lets:
             return True
+        self.application.door.refused["stranger"] += 1
         log.warning("refused a connection to %s by a page of %.100r: TIPPE_ORIGINS", self.request.host, origin)
         return False
 
@@ -108,12 +109,12 @@ class Socket(Answer, WSHandler):
             raise ProtocolError("That token is not of this server.")
         session_id, expiry = get_session_id(self.token), get_token_payload(self.token)["session_expiry"]
         session = next((each for each in app.door.sessions if each.id == session_id), None)
-        if session is not None:
+        if session is not None and not app.door.stopping:
             refusal = "crowded" if session.connection_count >= SOCKETS else None
         else:
             refusal = "ended" if time.time() > expiry else app.door.refusal(self.address)
         if refusal:
-            self._refuse(4000, text.say(f"main.server.{refusal}", text.DEFAULT))
+            self._refuse(4000, text.say(f"main.server.{refusal}", text.DEFAULT), refusal)
             return
         if self.ws_connection is None:  # gone again
             return
@@ -159,8 +160,9 @@ class Socket(Answer, WSHandler):
             with budget(self.connection.session).work():
                 super().on_close()
 
-    def _refuse(self, code, sentence):
+    def _refuse(self, code, sentence, why="connection"):
         self.refused = True
+        self.application.door.refused[why] += 1
         log.warning("refused %s: %.200s", self.address, sentence)
         self.close(code, sentence.encode()[:120].decode(errors="ignore"))
 
@@ -205,6 +207,7 @@ class Socket(Answer, WSHandler):
             reply = await act(message, self.connection)
         except Exception as error:
             sentence = note(error, self.address)
+            self.application.door.refused["message"] += 1
             if self.connection is None:
                 return
             reply = self.connection.error(message, sentence)

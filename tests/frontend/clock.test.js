@@ -5,7 +5,7 @@ import { motion, near } from "./helping.js";
 const window = (globalThis.window = new EventTarget());
 let still = false; // whether a person prefers less motion
 globalThis.matchMedia = () => ({ matches: still });
-const { Place } = await import("../../app/frontend/src/motion/clock.js");
+const { photoOf, Place, timeOf } = await import("../../app/frontend/src/motion/clock.js");
 
 function topOn(clock, { inView = true, wide = 1, rows = [0, 1, 2, 4], ...more } = {}) {
   const listeners = {}, model = {
@@ -38,7 +38,7 @@ test("tops of one clock play, stop and stand as one; others do not", () =>
     one.place.take(true); // a new motion, from its beginning, is the one top's own
     assert.deepEqual([one, two].map(({ player }) => player.t), [0, 2]);
     one.place.leave();
-    assert.equal(window.tippe.time("a"), 2);
+    assert.equal(timeOf("a"), 2);
     two.player.step(-1);
     assert.deepEqual([one, two].map(({ player }) => player.t), [0, 1]);
     alone.player.step(1);
@@ -64,9 +64,9 @@ test("the first in view that has a motion moves the time, at the model's speed",
     assert.deepEqual([leader, tops[0]].map(({ place }) => place.moves), [true, false]);
     assert.deepEqual(pass(180), [true, true]); // both begin anew
     near([leader.player.t, last.player.t], [0.5, 0.5]);
-    assert.equal(window.tippe.time("a"), leader.player.t);
-    assert.equal(window.tippe.photo(7, "a"), "a 7");
-    assert.equal(window.tippe.time("nobody's"), 0);
+    assert.equal(timeOf("a"), leader.player.t);
+    assert.equal(photoOf(7, "a"), "a 7");
+    assert.equal(timeOf("nobody's"), 0);
   }));
 
 test("what is shown is said once, by the one that moves the time; a seek is heard", () =>

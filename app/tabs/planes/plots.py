@@ -1,27 +1,25 @@
 """The pictures of the three planes: the motion over time, the well that the top is a bead in, the map of all tops."""
 
-from itertools import pairwise
-
 import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Range1d, Span
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.dimensions import named
+from app.model.groups import areas
 from app.model.planes_picture import PLANES
+from app.model.planes_tracks import QUANTITIES, ledger, tracks
+from app.model.planes_wells import wells
 from app.model.regimes import COLOUR, ENDS, FLIES, ROLLS, SLIPS, WOULD_LIFT
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say
 from app.widgets.plots import plain
 from tippe_core import PRESETS as BODIES
-from tippe_core import jellett_potential
 
 CLOCK = "planes"
 IN_RIBBON = (ROLLS, SLIPS, FLIES, WOULD_LIFT, ENDS)
 LEDGER = {"spin": COLOURS["omega"], "precession and nutation": COLOURS["momentum"], "motion of G": FAINT,
           "height": COLOURS["jellett"], "heat": COLOURS["friction"]}  # fmt: skip
-QUANTITIES = ("theta", "omega3", "normal", "slip")
-BUCKETS, LEDGER_POINTS, BEAD_POINTS, WELL_POINTS = 500, 500, 4000, 361
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
 MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
 NEAR = 0.035  # of the map's width: a click so near to a known top is meant for it
@@ -72,17 +70,10 @@ class Figures:
             if motion is None:
                 self.curves[plane].data = {name: [] for name in self.curves[plane].data}
                 continue
-            t, moved = motion.trajectory.t * scales.time, motion.trajectory
-            values = {
-                "theta": np.degrees(moved.theta),
-                "omega3": moved.omega[:, 2] * scales.angular_velocity / (2 * np.pi),
-                "normal": moved.force[:, 2],
-                "slip": 100 * scales.velocity * motion.slip,
+            found = tracks(motion, scales)
+            self.curves[plane].data = {f"t_{name}": track.t for name, track in found.items()} | {
+                name: track.value for name, track in found.items()
             }
-            data = {}
-            for name, column in values.items():
-                data[f"t_{name}"], data[name] = extremes(t, column)
-            self.curves[plane].data = data
             ribbons += [(plane, a * scales.time, b * scales.time, which) for a, b, which in motion.stretches]
         row = [PLANES.index(plane) for plane, *_ in ribbons]
         self.ribbons.data = {
@@ -115,27 +106,14 @@ class Figures:
         if motion is None:
             self.energies.data = {name: [] for name in ("t", *LEDGER)}
             return
-        every = np.unique(np.linspace(0, len(motion.trajectory.t) - 1, LEDGER_POINTS).astype(int))
-        ledger = {name: values[every] for name, values in motion.ledger.items()}
-        self.energies.data = {"t": motion.trajectory.t[every] * picture.settings.scales.time} | ledger
-        self.figures["ledger"].y_range.update(start=0, end=1.05 * float(sum(ledger.values()).max()) or 1.0)
-
-
-def extremes(t, values):
-    """t and values of the least and the largest of each of BUCKETS stretches: a fast swing keeps its width."""
-    if len(t) <= 2 * BUCKETS:
-        return t, values
-    buckets = pairwise(np.linspace(0, len(t), BUCKETS + 1).astype(int))
-    pairs = [sorted((a + values[a:b].argmin(), a + values[a:b].argmax())) for a, b in buckets]
-    rows = np.ravel(pairs)
-    return t[rows], values[rows]
+        t, parts = ledger(motion, picture.settings.scales)
+        self.energies.data = {"t": t} | parts
+        self.figures["ledger"].y_range.update(start=0, end=1.05 * float(sum(parts.values()).max()) or 1.0)
 
 
 class Well:
-    """V_J over theta, its steady states, and the top as a bead in it, with the energy that it has left above.
-
-    Each while in which no stem touches has a J and so a well of its own: the clock shows the present one.
-    """
+    """V_J over theta, its steady states, and the top as a bead in it, with the energy that it has left above: of the
+    wells that it has in turn the clock shows the present one."""
 
     def __init__(self):
         self.figure = fig = plain(x_range=Range1d(-5, 185), y_range=Range1d(0, 1), name="planes-well")
@@ -160,43 +138,28 @@ class Well:
         fig.add_layout(self.none)
 
     def show(self, picture, plane):
-        plane = plane if plane in PLANES else "sliding"
-        motion, top = picture.motions[plane], picture.settings.top
-        found, theta = picture.wells(plane), np.linspace(0, np.pi, WELL_POINTS)
-        curves = [jellett_potential(theta, top, well.C_J) for well in found]
-        path = self._path(picture, motion, found)
-        ranges = []
-        for k, V in enumerate(curves):
-            E = np.array(path["E"])[np.array(path["well"]) == k]
-            low, high = float(V.min()), max(float(np.min([V.max(), 4 * np.median(V)])), *E[:1], E.max(initial=-np.inf))
-            pad = 0.08 * (high - low) or 0.05
-            ranges.append((low - pad, high + pad))
-        alpha = [1.0] + [0.0] * (len(found) - 1)
-        self.wells.data = {"theta": [np.degrees(theta)] * len(found), "V": curves, "alpha": alpha,
-                           "low": [low for low, _ in ranges], "high": [high for _, high in ranges]}  # fmt: skip
-        which = np.repeat(np.arange(len(found)), [len(well.steady.theta) for well in found])
-        places, stable = (np.concatenate([part(well.steady) for well in found]) for part in
-                          (lambda steady: steady.theta, lambda steady: steady.stable.astype(float)))  # fmt: skip
-        V = [jellett_potential(well.steady.theta, top, well.C_J) for well in found]
-        self.steady.data = {"theta": np.degrees(places), "V": np.concatenate(V), "stable": stable, "well": which,
-                            "fill": stable * (which == 0), "alpha": (which == 0).astype(float)}  # fmt: skip
-        self.figure.y_range.update(start=ranges[0][0], end=ranges[0][1])
-        self.path.tags = [picture.settings.scales.time]
-        self.path.data = path
-        if motion is None:
+        found, bead = wells(picture, plane)
+        lows, highs = zip(*(padded(well.low, well.high) for well in found), strict=True)
+        self.wells.data = {"theta": [np.degrees(well.theta) for well in found], "V": [well.V for well in found],
+                           "alpha": [1.0] + [0.0] * (len(found) - 1), "low": lows, "high": highs}  # fmt: skip
+        which = np.repeat(np.arange(len(found)), [len(well.places) for well in found])
+        places, V, stable = (np.concatenate([getattr(well, part) for well in found])
+                             for part in ("places", "heights", "stable"))  # fmt: skip
+        self.steady.data = {"theta": np.degrees(places), "V": V, "stable": stable.astype(float), "well": which,
+                            "fill": stable * (which == 0.0), "alpha": (which == 0).astype(float)}  # fmt: skip
+        self.figure.y_range.update(start=lows[0], end=highs[0])
+        scale = picture.settings.scales.time
+        self.path.tags = [scale]
+        self.path.data = {"t": bead.t * scale, "theta": np.degrees(bead.theta), "V": bead.V, "E": bead.E,
+                          "well": bead.which}  # fmt: skip
+        if not len(bead.t):
             self.bead.data = {name: [] for name in self.bead.data}
 
-    def _path(self, picture, motion, found):
-        if motion is None:
-            return {name: [] for name in self.path.data}
-        moved, scales = motion.trajectory, picture.settings.scales
-        every = np.unique(np.linspace(0, len(moved.t) - 1, BEAD_POINTS).astype(int))
-        t, theta = moved.t[every], moved.theta[every]
-        V, which = np.zeros(len(t)), np.full(len(t), -1)
-        for k, well in enumerate(found):
-            inside = (t >= well.start) & (t <= well.end)
-            V[inside], which[inside] = jellett_potential(theta[inside], moved.top, well.C_J), k
-        return {"t": t * scales.time, "theta": np.degrees(theta), "V": V, "E": moved.energy[every], "well": which}
+
+def padded(low, high):
+    """With some room below and above."""
+    pad = 0.08 * (high - low) or 0.05
+    return low - pad, high + pad
 
 
 def beside(place, name, taken):
@@ -223,14 +186,11 @@ class Map:
         self._pick, self._pick_body = pick, pick_body
         self.figure = fig = plain(x_range=Range1d(*MAP_X), y_range=Range1d(*MAP_Y), name="planes-map")
         (left, right), (low, high) = MAP_X, MAP_Y
-        areas = [
-            ((0, 0, right, right), (low, 1, 1 - right, low), (FAINT, 0.3)),
-            ((0, right, right), (1, 1 + right, 1 - right), (COLOURS["friction"], 0.22)),
-            ((0, 0, right, right), (1, high, high, 1 + right), (COLOURS["jellett"], 0.25)),
-            ((left, left, 0, 0), (low, 1 - left, 1, low), (COLOURS["normal"], 0.2)),
-            ((left, left, 0, 0), (1 - left, high, high, 1), (FAINT, 0.15)),
-        ]
-        for x, y, (colour, alpha) in areas:
+        looks = {"never rises": (FAINT, 0.3), "can invert": (COLOURS["friction"], 0.22),
+                 "rises part of the way": (COLOURS["jellett"], 0.25), "can stand upright": (COLOURS["normal"], 0.2),
+                 "never stands upright": (FAINT, 0.15)}  # fmt: skip
+        for group, (x, y) in areas(left, right, low, high).items():
+            colour, alpha = looks[group]
             fig.patch(x, y, fill_color=colour, fill_alpha=alpha, line_color=None, level="underlay")
         places = {"never rises": (0.33, 0.55), "can invert": (0.6, 1.2), "rises part of the way": (0.36, 1.6),
                   "can stand upright": (-0.3, 1.15), "never stands upright": (-0.3, 1.66)}  # fmt: skip

@@ -1,8 +1,10 @@
 // What all figures share. Not synced, so playing sends nothing to the server.
 import { elementOf, pressNever } from "../borrowed.js";
+import { timeOf } from "../motion/clock.js";
 import { followClock, isFollowed } from "./seeking.js";
 
 // To the ear a canvas is a picture with a name.
+/** @param {{ fig: Figure, label: string }} given */
 export function nameFigure({ fig, label }) {
   const el = elementOf(fig);
   if (!el) return;
@@ -13,11 +15,12 @@ export function nameFigure({ fig, label }) {
 }
 
 // Lines at the clock's time.
+/** @param {{ spans: BokehModel[] }} given */
 export function moveLines({ spans }) {
   if (isFollowed(spans[0])) return;
   const move = (t) => {
     for (const span of spans) span.setv({ location: t }, { sync: false });
   };
   followClock(move);
-  move(window.tippe?.time() ?? 0);
+  move(timeOf());
 }

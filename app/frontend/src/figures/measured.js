@@ -1,5 +1,6 @@
 // The pictures of a film's data: the line at the film's time, and a hand that pulls the moment at which a motion begins.
 import { scalesOf, setCursor } from "../borrowed.js";
+import { timeOf } from "../motion/clock.js";
 import { followClock, isDown, isFollowed, seek } from "./seeking.js";
 
 const CLOCK = "film";
@@ -9,13 +10,14 @@ const REACH = 16; // px: a hand so near to the line of the start takes that, els
 /** @type {WeakMap<object, { first: number, curves: number[][] }>} */
 const pulls = new WeakMap();
 
+/** @param {{ spans: BokehModel[] }} given */
 export function followFilm({ spans }) {
   if (isFollowed(spans[0])) return;
   const move = (t) => {
     for (const span of spans) span.setv({ location: t }, { sync: false });
   };
   followClock(move, CLOCK);
-  move(window.tippe?.time(CLOCK) ?? 0);
+  move(timeOf(CLOCK));
 }
 
 /** @param {{ fig: any, hand: any, starts: any[], curves: any[] }} given @param {any} event */

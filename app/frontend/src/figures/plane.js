@@ -1,6 +1,7 @@
 // Fig. 6: the bead at the clock's time, and a hand, which `hand` takes to Python.
 import { eventsOf, scalesOf, setCursor } from "../borrowed.js";
 import { fill } from "../data.js";
+import { timeOf } from "../motion/clock.js";
 import { ROLLS, wordOf } from "../regimes.js";
 import { clamp, nearestRow, spotOf, timeAtTilt, valueAt } from "./curves.js";
 import { awayFromTieline, gripAt, REACH } from "./grips.js";
@@ -22,6 +23,7 @@ function handOf(hand) {
 /** @returns {any} */
 const rowOf = (source) => Object.fromEntries(Object.entries(source.data).map(([name, values]) => [name, values[0]]));
 
+/** @param {{ fig: Figure, hand: Source, motion: Source<"t" | "theta">, selected: Source<"theta"> }} given */
 export function followMotion({ fig, hand, motion, selected }) {
   if (isFollowed(motion)) return;
   let now = 0;
@@ -35,7 +37,7 @@ export function followMotion({ fig, hand, motion, selected }) {
     now = t;
     placeBead();
   });
-  now = window.tippe?.time() ?? 0;
+  now = timeOf();
   placeBead(); // a clock that stands says nothing
   const events = eventsOf(fig);
   const onTieline = ({ clientX, clientY }) => {
@@ -57,6 +59,7 @@ export function followMotion({ fig, hand, motion, selected }) {
   window.addEventListener("scroll", () => hideReadout(hand), { capture: true, passive: true });
 }
 
+/** @param {Record<string, any> & { motion: Source }} given @param {Happened} event */
 export function pullPlane(given, event) {
   const { fig, hand, selected, limits } = given, { x, y, event_name: name } = event;
   const own = handOf(hand), row = rowOf(selected), scales = scalesOf(fig);
@@ -85,7 +88,7 @@ export function pullPlane(given, event) {
 
 function moveClock({ motion }, { inner, outer }, theta, held) {
   const aim = clamp(theta, Math.min(inner, outer), Math.max(inner, outer));
-  seek(timeAtTilt(motion.data, aim, window.tippe.time()), held);
+  seek(timeAtTilt(motion.data, aim, timeOf()), held);
 }
 
 // A place of the plane and the tieline on display, on the window.
@@ -106,6 +109,7 @@ function say(given, words) {
 }
 
 // Why not, where a hand pulls.
+/** @param {Record<string, any>} given */
 export function sayPull(given) {
   const { hand, selected, pulled } = given, { at, grip } = handOf(hand), [worst] = selected.data.worst;
   if (!at) return;

@@ -1,11 +1,13 @@
 // One nutation, the track, the force: a bead at the clock's time on a curve, and a hand on it. Not synced.
 import { elementOf, scalesOf } from "../borrowed.js";
+import { timeOf } from "../motion/clock.js";
 import { spotInTurn, timeAtPoint, valueAt } from "./curves.js";
 import { followClock, isDown, isFollowed, seek } from "./seeking.js";
 
+/** @param {{ fig: Figure, curve: Source<"t" | "x" | "y">, bead: Source<"x" | "y"> }} given */
 export function followCurve({ curve, bead, fig }) {
   if (isFollowed(curve)) return;
-  let now = window.tippe?.time() ?? 0;
+  let now = timeOf();
   const place = () => {
     const { t, x, y } = curve.data;
     if (!(t[t.length - 1] > t[0])) return;
@@ -22,7 +24,8 @@ export function followCurve({ curve, bead, fig }) {
   place();
 }
 
+/** @param {{ fig: Figure, curve: Source<"t" | "x" | "y">, whole: boolean }} given @param {Happened} event */
 export function seekOnCurve({ curve, fig, whole }, event) {
-  const t = timeAtPoint(curve.data, [event.x, event.y], window.tippe.time(), whole, scalesOf(fig));
+  const t = timeAtPoint(curve.data, [event.x, event.y], timeOf(), whole, scalesOf(fig));
   seek(t, isDown(event));
 }

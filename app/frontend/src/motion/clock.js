@@ -1,5 +1,5 @@
 // A top's place on its clock. Tops of one clock play as one; a top that names none has the nameless one to itself, or is
-// the last on it. The rest of the page asks and tells by events, and by window.tippe: app/widgets/top3d.py says which.
+// the last on it. The rest of the page asks and tells by events, of which docs/house.md has the list.
 import { Player } from "./player.js";
 
 const TELL_MS = 80; // how often a scrub is told to Python
@@ -11,10 +11,11 @@ const on = (name) => clocks.get(name) ?? [];
 // Of the tops of one clock, the one that moves the time: the first in view with something to show.
 const leaderOf = (name) => on(name).find(({ inView, player }) => inView() && player.frames.count > 1) ?? on(name)[0];
 
-const api = {
-  time: (clock = "") => leaderOf(clock)?.player.t ?? 0,
-  photo: (wide, clock = "") => leaderOf(clock)?.photo(wide),
-};
+/** The time of a clock, 0 where nothing is on it. @param {string} clock */
+export const timeOf = (clock = "") => leaderOf(clock)?.player.t ?? 0;
+
+/** A picture of what leads a clock, so many pixels wide. @param {number} wide */
+export const photoOf = (wide, clock = "") => leaderOf(clock)?.photo(wide);
 
 export class Place {
   /**
@@ -57,9 +58,8 @@ export class Place {
     };
     window.addEventListener("tippe:command", onCommand, { signal });
     clocks.set(this.name, [...on(this.name), this]);
-    window.tippe = api;
     window.__tippe ??= {}; // for tests only
-    window.__tippe.tops = (clock) => on(clock).map((place) => place.report);
+    Object.assign(window.__tippe, { time: timeOf, tops: (clock) => on(clock).map((place) => place.report) });
   }
 
   get suffix() {

@@ -45,7 +45,8 @@ export function renderConnection({ model }) {
     if (goesOn("lost")) document.body.append(words);
     for (let wait = FIRST; ; wait = Math.min(2 * wait, LONGEST)) {
       await new Promise((resolve) => setTimeout(resolve, wait * (0.5 + Math.random())));
-      const answer = await fetch("./favicon.ico", { cache: "no-store" }).catch(() => null);
+      // A login that has run out answers by leading elsewhere: then a new load leads there.
+      const answer = await fetch("./readyz", { cache: "no-store", redirect: "manual" }).catch(() => null);
       if (answer && answer.status < 500) return goesOn("back") && location.reload();
     }
   }

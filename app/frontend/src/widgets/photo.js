@@ -1,6 +1,7 @@
 // The top as it is seen, with its caption below, as a file.
 import { colours } from "../colours.js";
 import { penOf } from "../data.js";
+import { photoOf } from "../motion/clock.js";
 import { addButton, save } from "./saving.js";
 
 const LINE = 1.5; // of a caption, in sizes of its type
@@ -25,7 +26,7 @@ function withCaption(picture, caption) {
 /** @param {Rendering<PhotoModel>} rendering */
 export function renderPhoto({ model, el }) {
   addButton(el, "PNG").onclick = () => {
-    const picture = window.tippe?.photo(model.wide);
+    const picture = photoOf(model.wide);
     if (picture) withCaption(picture, model.caption).toBlob((blob) => blob && save(blob, "tippe-top-3d.png"));
   };
 }

@@ -1,0 +1,104 @@
+"""What each worker says of itself, once a second, where all of them read it: any one can tell whether a page would be
+let in, whichever takes it, and how the whole server is."""
+
+import mmap
+import os
+import time
+from collections import deque
+from pathlib import Path
+
+import numpy as np
+from tornado.ioloop import IOLoop
+
+from app.kernels import compiling
+from app.model.runs import FILES, MAPS, WORK
+
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None
+
+STEP = 1.0  # s
+HEARD = 15.0  # s after which a worker that says nothing is taken to have ended
+REMEMBERED = 15  # steps, of which the longest delay is told
+REFUSALS = ("stranger", "full", "crowded", "hurried", "stopping", "ended", "connection", "message")
+POOLS = {"run": WORK, "file": FILES, "map": MAPS}
+QUEUES = ("page", "session", *POOLS)  # each has how many wait, how many had their turn, and how long these waited
+STATES = ("full", "stopping", "compiling")
+FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files",
+          *(f"refused {why}" for why in REFUSALS),
+          *(f"{queue} {each}" for queue in QUEUES for each in ("waiting", "turns", "waited")))  # fmt: skip
+
+
+def memory():
+    """Bytes that this process has; where the system does not say, the most that it had; 0 where nothing is known."""
+    try:
+        return int(Path("/proc/self/statm").read_text().split()[1]) * mmap.PAGESIZE
+    except OSError:
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss if resource else 0
+
+
+def files():
+    """How many this process has open; nan where the system does not say."""
+    return next((float(len(os.listdir(path))) for path in ("/proc/self/fd", "/dev/fd") if os.path.isdir(path)), np.nan)
+
+
+class Board:
+    """To be made before the workers are, which write on it each in its row, mine."""
+
+    def __init__(self, workers):
+        self._rows = np.frombuffer(mmap.mmap(-1, 8 * workers * len(FIELDS)), float).reshape(workers, -1)
+        self.mine = 0
+
+    def write(self, **values):
+        """All FIELDS but the time."""
+        values["at"] = time.monotonic()  # one clock for all processes
+        self._rows[self.mine] = [values[name] for name in FIELDS]
+
+    def leave(self):
+        """This worker is to be asked no more."""
+        self._rows[self.mine] = 0
+
+    def read(self):
+        """{worker: {field: number}} of those that live."""
+        heard = time.monotonic() - HEARD
+        return {worker: dict(zip(FIELDS, row.tolist(), strict=True)) for worker, row in enumerate(self._rows)
+                if row[0] > max(heard, 0)}  # fmt: skip
+
+
+class Watch:
+    """Looks at this worker's door, and writes what it sees on the board."""
+
+    def __init__(self, board, door):
+        self.board, self._door = board, door
+        self._delays = deque([0.0], REMEMBERED)
+
+    def start(self):
+        """From now on, until the process ends."""
+        self._due = time.monotonic()
+        self._step()
+
+    def _step(self):
+        self._delays.append(time.monotonic() - self._due)
+        self.look()
+        self._due = time.monotonic() + STEP
+        IOLoop.current().call_later(STEP, self._step)
+
+    def look(self):
+        """Writes how things are now."""
+        door = self._door
+        queues = {"page": door.pages, "session": door.making} | POOLS
+        self.board.write(
+            full=door.full, stopping=door.stopping, compiling=compiling(), sessions=len(door.sessions),
+            connections=len(door.sockets), delay=max(self._delays), memory=memory(),
+            files=files() if door.settings.metrics else np.nan,
+            **{f"refused {why}": door.refused[why] for why in REFUSALS},
+            **{f"{name} waiting": queue.waiting() for name, queue in queues.items()},
+            **{f"{name} turns": queue.turns for name, queue in queues.items()},
+            **{f"{name} waited": queue.waited for name, queue in queues.items()},
+        )  # fmt: skip
+
+    def now(self):
+        """Board.read, with this worker's row of this moment."""
+        self.look()
+        return self.board.read()

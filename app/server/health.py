@@ -1,0 +1,80 @@
+"""What those ask who look after a server: whether it lives, whether it takes new pages, and how it is."""
+
+from app.server.answers import Handler
+from app.server.board import QUEUES, REFUSALS, STATES
+
+
+class Liveness(Handler):
+    """Whether this worker answers, and how full it is. Who gets no answer here for long may start it again."""
+
+    def get(self):
+        self.set_header("Cache-Control", "no-store")
+        self.write({"live": True, "sessions": len(self.application.door.sessions)})
+
+    head = get
+
+
+class Readiness(Handler):
+    """Whether a new page is let in, whichever worker takes it: status 200, else 503 and why not."""
+
+    def get(self):
+        workers = self.application.watch.now()
+        why = [state for state in STATES if any(row[state] for row in workers.values())]
+        self.set_header("Cache-Control", "no-store")
+        self.set_status(503 if why else 200)
+        sessions = {str(worker): int(row["sessions"]) for worker, row in workers.items()}
+        self.write({"ready": not why, "why": why, "sessions": sessions})
+
+    head = get
+
+
+class Metrics(Handler):
+    """The board, as Prometheus reads it. Only with TIPPE_METRICS=1, whose package is installed then."""
+
+    def get(self):
+        from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
+
+        self.set_header("Cache-Control", "no-store")
+        self.set_header("Content-Type", CONTENT_TYPE_LATEST)
+        self.finish(generate_latest(self))
+
+    head = get
+
+    GAUGES = (  # name, field, what it says
+        ("tippe_sessions", "sessions", "Pages open, and those that are kept for a while after"),
+        ("tippe_connections", "connections", "Sockets of pages"),
+        ("tippe_event_loop_lag_seconds", "delay", "The longest that the event loop was late, of the last 15 s"),
+        ("tippe_full", "full", "1: no more pages are let in"),
+        ("tippe_stopping", "stopping", "1: it drains"),
+        ("tippe_compiling", "compiling", "1: kernels are compiled beside it"),
+        ("tippe_memory_bytes", "memory", "Resident memory"),
+        ("tippe_open_files", "files", "File descriptors"),
+    )
+
+    def collect(self):
+        """As a collector of prometheus_client does."""
+        from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
+
+        rows = {str(worker): row for worker, row in self.application.watch.now().items()}
+
+        def family(kind, name, says, field, other=(), values=("",)):
+            made = kind(name, says, labels=["worker", *other])
+            for worker, row in rows.items():
+                for value in values:
+                    made.add_metric([worker, value][: 1 + len(other)], row[field.format(value)])
+            return made
+
+        for name, field, says in self.GAUGES:
+            yield family(GaugeMetricFamily, name, says, field)
+        yield family(CounterMetricFamily, "tippe_refused", "What was refused, and why", "refused {}", ["why"], REFUSALS)
+        queue = (["queue"], QUEUES)
+        yield family(GaugeMetricFamily, "tippe_queue_length", "How many wait", "{} waiting", *queue)
+        yield family(CounterMetricFamily, "tippe_queue_turns", "How many had their turn", "{} turns", *queue)
+        yield family(CounterMetricFamily, "tippe_queue_wait_seconds", "How long these waited", "{} waited", *queue)
+
+
+def routes(settings):
+    """Where they are: with the prefix and without; metrics without alone, so that a prefix gives them to nobody."""
+    places = [(f"{prefix}/{name}", handler) for prefix in {"", settings.prefix}
+              for name, handler in (("liveness", Liveness), ("readyz", Readiness))]  # fmt: skip
+    return places + ([("/metrics", Metrics)] if settings.metrics else [])

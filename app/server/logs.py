@@ -1,0 +1,66 @@
+"""The log: a line for each thing, as text or as JSON, with the addresses of visitors or without."""
+
+import json
+import logging
+import platform
+import re
+import sys
+from ipaddress import ip_address
+
+# What may be an address, of IPv4 or IPv6.
+WORD = re.compile(r"(?<![\w.:])[0-9a-fA-F]*[.:][0-9a-fA-F.:]*[0-9a-fA-F:](?![\w])")
+
+
+def without_addresses(line):
+    """The line with - for each address in it."""
+
+    def replaced(found):
+        word = found[0]
+        address, _, port = word.rpartition(":")
+        for text, after in ((word, ""), (address, "" if port else ":")):
+            try:
+                ip_address(text)
+            except ValueError:
+                continue
+            return "-" + after
+        return word
+
+    return WORD.sub(replaced, line)
+
+
+class Line(logging.Formatter):
+    """Of text, or of JSON."""
+
+    def __init__(self, as_json, addresses):
+        super().__init__(f"%(asctime)s %(levelname)s {platform.node()} %(process)d %(message)s")
+        self._json, self._addresses = as_json, addresses
+
+    def format(self, record):
+        line = super().format(record)
+        message = record.getMessage()
+        if not self._addresses:
+            line, message = without_addresses(line), without_addresses(message)
+        if not self._json:
+            return line
+        when = self.formatTime(record, "%Y-%m-%dT%H:%M:%S%z")
+        said = {"time": when, "level": record.levelname, "host": platform.node(), "process": record.process,
+                "logger": record.name, "message": message}  # fmt: skip
+        if record.exc_info:
+            trace = self.formatException(record.exc_info)
+            said["trace"] = trace if self._addresses else without_addresses(trace)
+        return json.dumps(said, ensure_ascii=False)
+
+
+def begin(settings):
+    """From now on all is written so, to stdout."""
+    sys.stdout.reconfigure(errors="backslashreplace")  # half a character, sent by somebody, is no reason not to log
+    logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True)
+    [handler] = logging.getLogger().handlers
+    handler.setFormatter(Line(settings.log_format == "json", settings.log_addresses))
+    logging.getLogger("tippe").setLevel(settings.log.upper())
+    sys.excepthook = lambda *error: logging.getLogger("tippe").critical("the server cannot go on", exc_info=error)
+    for name in ("bokeh", "panel"):  # their own handlers write to another stream, in another form
+        logging.getLogger(name).handlers.clear()
+        logging.getLogger(name).setLevel("CRITICAL")  # what they say of an error, note() says
+    if settings.log == "debug":
+        logging.getLogger("tornado.access").setLevel(logging.INFO)
