@@ -75,7 +75,7 @@ class House:
         self.keep.add(controls)
         for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show, when)
-        return Roll(self.pacer, self.playing, controls).main
+        return Roll(self.pacer, self.playing, controls, partial(self._look_at, "three-planes")).main
 
     def build(self):
         bench = Build(self.builder, self.pacer.soon)
