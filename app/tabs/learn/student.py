@@ -9,6 +9,7 @@ from app.model.ballots import Away
 from app.model.classroom import MARK, Refused
 from app.model.runs import Run, Runs, Stopped, connected_to, to_session
 from app.state import asked
+from app.state.names import link
 from app.tabs.learn.lesson import LessonView, runs_of, said
 from app.tabs.learn.poll import Counter, refusal, scene_of
 from app.text import say
@@ -100,7 +101,7 @@ class Ballot:
             "voted": len(room.votes), "phones": max(room.phones, len(room.votes)), "mine": self._mine,
         }  # fmt: skip
         self.lesson.state = {"role": "phone", "step": self.lesson.state.get("step", ""), "room": shown,
-                             "said": sentence, "again": again}  # fmt: skip
+                             "said": sentence, "again": again, "alone": link(tab="learn")}  # fmt: skip
 
     def _heard(self, event):
         """A wish of the browser."""

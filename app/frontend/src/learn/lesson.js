@@ -55,10 +55,12 @@ class Lesson {
   };
 
   listen() {
-    /** @type {[any, any][]} */
-    this.listened = [["tippe:look", this.look], ["keydown", this.onKey], ["tippe:lost", this.onLost], ["tippe:back", this.onLost]];
-    for (const [name, run] of this.listened) window.addEventListener(name, run);
-    document.addEventListener("fullscreenchange", this.onScreen);
+    const listening = (this.listening = new AbortController()), { signal } = listening;
+    window.addEventListener("tippe:look", this.look, { signal });
+    window.addEventListener("tippe:lost", this.onLost, { signal });
+    window.addEventListener("tippe:back", this.onLost, { signal });
+    window.addEventListener("keydown", this.onKey, { signal });
+    document.addEventListener("fullscreenchange", this.onScreen, { signal });
   }
 
   ask(name, value) {
@@ -309,8 +311,7 @@ class Lesson {
   leave() {
     this.show.cancel();
     for (const gone of [this.time, this.stage, this.bar, this.graph]) gone.leave();
-    for (const [name, run] of this.listened) window.removeEventListener(name, run);
-    document.removeEventListener("fullscreenchange", this.onScreen);
+    this.listening?.abort();
   }
 }
 

@@ -11,17 +11,19 @@ export class PhoneSide {
     this.count = part("p", { role: "status" });
     this.said = part("p", { role: "alert" });
     this.again = part("button", { type: "button", class: "primary", onclick: () => ask("again", "") }, room.again);
+    this.alone = part("a", { target: "_blank" }, room.alone);
     this.foot = part("footer", { class: "phone-foot" }, this.count, this.said, this.again, part("p", { class: "small" }, room.follows, " ",
-      part("a", { href: "?tab=learn", target: "_blank" }, room.alone)));
+      this.alone));
   }
 
   /** @param {any} state @param {Record<string, any>} texts */
-  put({ room, said, again }, texts) {
+  put({ room, said, again, alone }, texts) {
     const words = texts.lesson.room, open = Boolean(room?.code);
     const mine = open && room.mine !== null && room.mine !== undefined;
     this.which.textContent = open ? say(texts, words.which, { code: room.code, i: room.place }) : "";
     this.said.textContent = said;
     this.again.hidden = !again;
+    this.alone.href = alone;
     this.count.replaceChildren(...(open ? [part("b", {}, `${room.voted} ${say(texts, words.voted, { phones: room.phones })}.`), " ",
       room.shown ? words.shown : mine ? `${words.sent} ${words.change}` : words.vote] : []));
     this.head.parentElement?.classList.toggle("empty", !open);

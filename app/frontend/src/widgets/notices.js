@@ -30,8 +30,8 @@ export function renderFailure({ model }) {
 }
 
 // Who goes on without a server says so, and is then not told over, nor loaded anew.
-/** @param {"lost" | "back"} what */
-const goesOn = (what) => window.dispatchEvent(new CustomEvent(`tippe:${what}`, { cancelable: true }));
+const tellLost = () => window.dispatchEvent(new CustomEvent("tippe:lost", { cancelable: true }));
+const tellBack = () => window.dispatchEvent(new CustomEvent("tippe:back", { cancelable: true }));
 
 // Once a server answers again, the page is loaded anew: its address holds what was set.
 /** @param {Pick<Rendering<ConnectionModel>, "model">} rendering */
@@ -42,12 +42,12 @@ export function renderConnection({ model }) {
   async function recover() {
     if (recovering) return;
     recovering = true;
-    if (goesOn("lost")) document.body.append(words);
+    if (tellLost()) document.body.append(words);
     for (let wait = FIRST; ; wait = Math.min(2 * wait, LONGEST)) {
       await new Promise((resolve) => setTimeout(resolve, wait * (0.5 + Math.random())));
       // A login that has run out answers by leading elsewhere: then a new load leads there.
       const answer = await fetch("./readyz", { cache: "no-store", redirect: "manual" }).catch(() => null);
-      if (answer && answer.status < 500) return goesOn("back") && location.reload();
+      if (answer && answer.status < 500) return tellBack() && location.reload();
     }
   }
   Bokeh.documents[0].on_event("connection_lost", recover);
