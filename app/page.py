@@ -22,6 +22,7 @@ from app.widgets.guide import Guide
 from app.widgets.head import HeadBar
 from app.widgets.look import Look
 from app.widgets.rooms import Rooms
+from app.widgets.symbols import Symbols
 from app.widgets.theme import HEADLESS, STYLE, THEME
 
 SPEAKS = WeakKeyDictionary()  # document -> its language
@@ -62,7 +63,8 @@ def page():
     rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
     guide.tour = rooms.room == room.USUAL
     pn.state.curdoc.template_variables.update(first.variables())
-    around = [look, guide, pacer.painted, Connection(words=say("main.lost"), width=0, height=0, margin=0), failed]
+    unseen = {"width": 0, "height": 0, "margin": 0}
+    around = [look, guide, pacer.painted, Connection(words=say("main.lost"), **unseen), Symbols(**unseen), failed]
     return pmui.Page(template=first.PAGE, title=say("main.title"), theme_config={"light": THEME, "dark": THEME},
                      main=[head.view, *share.main, *around, *rooms.columns], stylesheets=[*STYLE, *HEADLESS],
                      **BARE)  # fmt: skip
