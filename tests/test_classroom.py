@@ -13,8 +13,9 @@ from visiting import free_port
 from wire import redis_serving, until
 
 from app.model import ballots, classroom
+from app.model import desk as desks
 from app.model.ballots import Away, Sqlite, store, usual
-from app.model.classroom import BETWEEN, LASTS, MOST_VOTES, ROOMS_OF_ADDRESS, USED, Desk, Refused, Room, Rooms
+from app.model.classroom import BETWEEN, LASTS, MOST_VOTES, ROOMS_OF_ADDRESS, USED, Refused, Room, Rooms
 
 CHOICE = {"step": "flips", "asks": {"options": ["over", "between"]}, "top": {"a": ".07"}}
 GUESS = CHOICE | {"asks": {"low": 0.0, "high": 10.0, "step": 0.1, "unit": "%"}}
@@ -124,8 +125,8 @@ def test_phones_that_only_look_are_bounded(place, clock):
 def test_a_phone_hears_of_a_question_at_once_and_of_votes_now_and_then(monkeypatch):
     """A hall of phones is not told of each vote."""
     heard, now = [], [100.0]
-    monkeypatch.setattr(classroom.time, "monotonic", lambda: now[0])
-    watch = classroom.Watch("ABCDEF", heard.append, votes=False)
+    monkeypatch.setattr(desks.time, "monotonic", lambda: now[0])
+    watch = desks.Watch("ABCDEF", heard.append, votes=False)
 
     def text(step, votes, shown=False):
         record = {"step": step, "asks": {}, "top": {}, "shown": shown, "phones": {}}
@@ -375,9 +376,9 @@ def slow():
 @pytest.fixture
 def desk(slow, monkeypatch):
     monkeypatch.setattr(classroom, "store", lambda where, lasts: slow)
-    monkeypatch.setattr(classroom, "LOOK_EVERY", 0.02)
-    monkeypatch.setattr(classroom, "PAUSE", 0.1)
-    return Desk("")
+    monkeypatch.setattr(desks, "LOOK_EVERY", 0.02)
+    monkeypatch.setattr(desks, "PAUSE", 0.1)
+    return desks.Desk("")
 
 
 def asked(desk, work):

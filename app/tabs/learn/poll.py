@@ -6,7 +6,8 @@ import panel as pn
 
 from app.model import lesson
 from app.model.ballots import Away
-from app.model.classroom import DESK, Refused
+from app.model.classroom import Refused
+from app.model.desk import DESK
 from app.model.runs import to_session
 from app.state.keep import EXPLORER, explorer_of
 from app.text import say
