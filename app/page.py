@@ -49,7 +49,7 @@ def page():
     house = House(texts, sentence, lambda name: setattr(rooms, "room", name))
     pacer, keep = house.pacer, house.keep
     look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()
-    share = Share(keep, house.playing, house.scene, house.runs)
+    share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room))
     for owner in (look, tongue):
         keep.add(owner)
     for show, when in ((share.show, "hand"), (guide.show, "rest")):

@@ -150,6 +150,7 @@ CHANGES = {
                     "timezone_offset": NUMBER, "webdriver": FLAG, "webgl": FLAG},
     "Location": {name: TEXT for name in ("href", "hostname", "pathname", "protocol", "port", "search", "hash")},
     # Panel Material UI's
+    "Accordion": {"active": many(COUNT)},
     "Button": {},
     "Checkbox": {"value": FLAG},
     "Dialog": {"open": FLAG},
