@@ -375,7 +375,7 @@ def slow():
 
 @pytest.fixture
 def desk(slow, monkeypatch):
-    monkeypatch.setattr(classroom, "store", lambda where, lasts: slow)
+    monkeypatch.setattr(desks, "store", lambda where, lasts: slow)
     monkeypatch.setattr(desks, "LOOK_EVERY", 0.02)
     monkeypatch.setattr(desks, "PAUSE", 0.1)
     return desks.Desk("")
