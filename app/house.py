@@ -155,7 +155,16 @@ class House:
         return learn.view
 
     def maps(self):
-        return Maps(self.runs).view
+        maps = Maps(self.runs, self.scene, self._throw)
+        self.keep.add(maps.choice, usual=lambda choice: maps.usual)
+        maps.choice.param.watch(lambda *events: self.keep.at_rest(), [*maps.choice.INPUTS])
+        self.pacer.shows(maps.show, "rest")
+        return maps.view
+
+    def _throw(self, toy, spin, tilt, mu, look):
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu)
+        if look:
+            self._look_at("lab")
 
     def measure(self):
         measure = Measure(self.scene, self.runs)

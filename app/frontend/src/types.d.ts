@@ -33,7 +33,13 @@ interface Rendering<M extends Model> {
 
 type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
 
+// A run that was, to be seen beside the present one.
+type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
+
 interface TopModel extends Model, Record<Shown, boolean> {
+  before?: Before | null;
+  degrees?: boolean; // what the handle says
+  letGo?(): void; // the hand on the axis
   frames: Bytes;
   profile: Bytes;
   mu_s: number;
@@ -199,10 +205,11 @@ type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${
 // app/tabs/learn/lesson.py says what each holds.
 type LessonRun = Record<"frames" | "profile" | "curves" | "arms", Bytes> & { a: number; seconds: number };
 type LessonModel = Model & Record<"state", any> & {
+  worksheet: string;
   steps: any[];
   runs: Record<string, LessonRun>;
   others: Record<string, LessonRun>;
-  asked: [count: number, name: string, value: string] | [];
+  asked: [count: number, name: string, value: string | number] | [];
 };
 
 // Bokeh's models, as far as they are used here. What is not synced stays in this browser.
