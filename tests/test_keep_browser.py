@@ -90,7 +90,7 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
 
 
 def test_undo_is_one_step_a_gesture(go, server):
-    roll = f"{server}?tab=roll"
+    roll = f"{server}?v=1&tab=roll"  # as the page itself writes it
     visit = go(roll)
     before = visit.column("theta", 0, "theta")
     box = thumb(visit).bounding_box()

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from visiting import Visit, go_to, is_seen
+from visiting import Visit, go_to
 from wire import serving, until
 
 pytestmark = pytest.mark.served
@@ -131,7 +131,7 @@ def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromiu
         go_to(page, "Families")
         page.get_by_text("This tab is being made").locator("visible=true").wait_for()  # with the server at a standstill
         assert not page.locator("[data-figure=plane]").first.is_visible()
-        assert is_seen(page, "Families")
+        assert page.get_by_role("tab", name="Maps").get_attribute("aria-selected") == "true"
         go.touch()
         page.get_by_role("button", name="Compute the map").wait_for()
         page.locator("svg[aria-label*='Top S']").first.wait_for()

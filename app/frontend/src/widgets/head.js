@@ -135,9 +135,14 @@ class Head {
     for (const [undo, redo] of this.steps) [undo.disabled, redo.disabled] = [!state.undo, !state.redo];
     this.showToys(state);
     this.row.dataset.tab = state.tab;
-    const scheme = state.dark ? "dark" : "light";
-    for (const each of [this.row, this.below]) each.dataset.look = scheme;
+    this.look();
   }
+
+  // Light or dark, as the page is now.
+  look = () => {
+    const dark = document.documentElement.dataset.look?.startsWith("dark");
+    for (const each of [this.row, this.below]) each.dataset.look = dark ? "dark" : "light";
+  };
 
   /** @param {any} state */
   showToys({ toy, toys }) {
@@ -156,5 +161,6 @@ export function renderHead({ model, el, view }) {
   model.on("state", () => head.show());
   head.show();
   for (const type of ["pointerdown", "keydown"]) window.addEventListener(type, head.leave, { signal, capture: true });
+  window.addEventListener("tippe:look", head.look, { signal });
   model.on("remove", () => listening.abort());
 }
