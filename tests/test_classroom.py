@@ -431,7 +431,8 @@ def test_a_store_that_hangs_or_goes_keeps_no_page_waiting_and_is_asked_again(des
 
 
 def test_a_teacher_who_looks_keeps_his_room(desk, slow, monkeypatch):
-    monkeypatch.setattr(classroom, "USED", 0.0)
+    for module in (classroom, desks):
+        monkeypatch.setattr(module, "USED", 0.0)
     room, _ = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
     first = slow.texts[room.code]
     desk.watch(room.code, lambda news: None, votes=False)
