@@ -149,7 +149,8 @@ export class Strip {
       const at = i < n ? i : 2 * n - 1 - i;
       return [(i < n ? 1 : -1) * scene.profile[2 * at], -scene.profile[2 * at + 1]];
     });
-    const from = [0, ...run.events.map(([t]) => t)], R = 12;
+    const from = [0, ...run.events.map(([t]) => t)], reach = Math.max(...scene.profile.map(Math.abs));
+    const R = Math.min(12, 24 / reach); // px; a body with a long stem is drawn smaller
     return from.flatMap((start, i) => {
       const until = from[i + 1] ?? scene.end;
       if (this.x(until) - this.x(start) < NEED) return [];
