@@ -3,9 +3,11 @@
 import asyncio
 import json
 import logging
+import re
 import signal
 import sys
 import threading
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -232,6 +234,18 @@ def test_a_server_writes_json_and_no_addresses_where_that_is_asked_for(tmp_path)
         lines = [json.loads(line) for line in server.log.splitlines()]
         assert {"time", "level", "process", "message"} <= lines[0].keys()
         assert "404 GET /app/nowhere (-)" in [line["message"] for line in lines] and "127.0.0.1" not in server.log
+
+
+def test_the_unit_of_systemd_sets_what_there_is_and_waits_long_enough():
+    unit = (Path(__file__).parent.parent / "deploy/tippe.service").read_text(encoding="utf-8")
+    [command] = re.findall(r"(?m)^ExecStart=\S+ -m app (.*)$", unit)
+    variables = dict(
+        each.split("=", 1) for line in re.findall(r"(?m)^Environment=(.*)$", unit) for each in line.split()
+    )
+    known = {name: value for name, value in variables.items() if name.startswith("TIPPE_")}
+    settings = Settings.of(known, command.split())
+    assert (settings.prefix, settings.proxy, settings.workers, settings.memory) == ("/tops", 1, 2, 800)
+    assert int(re.findall(r"TimeoutStopSec=(\d+)", unit)[0]) >= settings.drain + ending.GRACE
 
 
 def test_metrics_need_their_package(monkeypatch):
