@@ -14,6 +14,7 @@ from app.state.names import LEVELS, ROOMS
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
 from app.tabs.families.compare import Compare
+from app.tabs.families.tops import Tops
 from app.tabs.lab import room
 from app.tabs.lab.lab import lab_view
 from app.tabs.learn.learn import Learn
@@ -22,7 +23,7 @@ from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
-from app.widgets.cards import card, grid
+from app.widgets.cards import card, flexible, grid
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt
 from app.widgets.pacing import Pacer
@@ -101,15 +102,29 @@ class House:
         return view.main
 
     def families(self):
-        compare = Compare(self.scene, self.runs)
-        self.pacer.shows(compare.show, "hand")
-        compare.draw(compare.family.value)
-        compare.compute()
-        return grid(
-            card(say("main.cards.compare"), *compare.figures_view, height="max-content"),
-            card(say("main.cards.map"), *compare.map_view, height="max-content"),
-            narrowest=1000,
+        tops, compare = (
+            Tops(self.scene, self.pacer.ask, self._use, self._change, self.runs),
+            Compare(self.scene, self.runs),
         )
+        self.pacer.shows(tops.show, "rest")
+        self.pacer.shows(compare.show, "hand")
+        compare.compute()
+        cards = (
+            (card(say("family.tops.title"), *tops.map_view, height="max-content"), "3 1 560px"),
+            (card("", *tops.beside_view, height="max-content"), "2 1 360px"),
+            (card(say("main.cards.map"), *compare.map_view, height="max-content"), "1 1 100%"),
+        )
+        return flexible(*cards)
+
+    def _use(self, name):
+        """A known top in the Lab, and everywhere."""
+        self.builder.choose(name)
+        self.lab_of.ask(toy=name)
+        self._look_at("lab")
+
+    def _change(self, name):
+        self.builder.choose(name)
+        self._look_at("build-a-top")
 
     def learn(self):
         learn = Learn(self.scene, self.runs)
@@ -123,6 +138,7 @@ class House:
 
     def measure(self):
         measure = Measure(self.scene, self.runs)
+        self.keep.add(measure.filmed)
         self.pacer.shows(measure.show, "hand")
         return measure.view
 

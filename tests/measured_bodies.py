@@ -5,11 +5,12 @@ from types import MappingProxyType
 import numpy as np
 import rigid_body as rb
 import sliding_body as sb
+from scipy.optimize import least_squares
 
 from app.model.measured_data import Data, Series
 from app.model.measured_fit import fit
-from app.model.measured_motion import model_of
-from tippe_core import Scales, Top
+from app.model.measured_motion import BOUNDS, left_over, model_of
+from tippe_core import Scales, Top, TopError
 
 FRAMES, RATE = 72, 60
 OFTEN = 6  # instants a frame at which the load is looked at
@@ -93,3 +94,26 @@ def off_truth(found, truth):
             off = found.model.values[name] - truth[name]
             rows.append((name, off / found.sides[name][int(off < 0)]))
     return rows
+
+
+def other_value(found, data, name, truth):
+    """A value half as large, or half as large again, or at the end of what is possible, with which the others, fitted
+    anew from what was found and from the truth, leave less than 4 more of chi-square; None where there is none."""
+    names, value = [each for each in found.model.free if each != name], found.model.values[name]
+    least, (low, high) = found.chi2, BOUNDS[name]
+    limits = np.array([BOUNDS[each] for each in names]).T
+    for there in (0.5 * value, 1.5 * value, low, high):
+        held = found.model.with_values({name: float(np.clip(there, low, high))})
+
+        def rest(x, held=held):
+            try:
+                return left_over(held.with_values(dict(zip(names, map(float, x), strict=True))), data).row
+            except TopError:
+                return np.full(len(found.left.row), 1e4)
+
+        for start in (found.model.values, {**found.model.values, **truth}):
+            x = np.clip([start[each] for each in names], limits[0] + 1e-6, limits[1] - 1e-6)
+            best = least_squares(rest, x, bounds=limits, x_scale=np.maximum(np.abs(x), 0.05), diff_step=1e-4)
+            if 2 * best.cost < least + 4:
+                return float(held.values[name])
+    return None

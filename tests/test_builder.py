@@ -1,9 +1,7 @@
 """The builder without a browser: a body changes in one event, and the explorer's numbers are the body's."""
 
 import json
-import re
 from dataclasses import replace
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -13,7 +11,7 @@ from limits import limit
 from app.model.builder import Rocking
 from app.model.dimensions import FAMILIES, changed, handles, pulled, sentence, value_of
 from app.model.explorer import Explorer
-from app.model.family import neighbours, pegs, presets, region, share_map
+from app.model.family import region, share_map
 from app.tabs.build.build import KNOBS, Build
 from app.tabs.families.compare import Compare
 from tippe_core import (
@@ -446,18 +444,6 @@ def test_a_map_grows_row_by_row_and_has_holes_where_no_top_is():
     assert np.array_equal(np.isnan(share), [[False, False, True], [True, True, True]])
 
 
-def test_neighbours_are_tops():
-    assert [top.a for _, top in neighbours(Top.paper(), "a")] == pytest.approx([0.035, 0.0525, 0.07, 0.0875, 0.105])
-    assert len(neighbours(Top.paper(), "I3")) == 5
-    for name, top in neighbours(Top.paper(), "I3"):
-        assert float(name.split("=")[1]) == pytest.approx(top.I3 / top.I1, rel=5e-3)
-    assert len(neighbours(Top(0.1, 0.3, 0.5), "I3")) == 3  # I3 <= 2 I1
-
-
-def test_the_family_of_ordinary_tops_reaches_what_the_paper_wished_for():
-    assert min(top.a for _, top, _ in pegs()) < -10 and max(top.a for _, top, _ in pegs()) < 0
-
-
 def test_fig_5_of_a_region_is_the_papers():
     """The paper's P at its height 18.6, here in units of K_R^2; the tielines start and end at height 0."""
     found = region("", Top.paper(), 10.0, 0.5, count=2000)
@@ -466,36 +452,6 @@ def test_fig_5_of_a_region_is_the_papers():
     assert np.abs(found.height[:, [0, -1]]).max() < 1e-9
     assert found.theta[:, [0, -1]] == pytest.approx(np.column_stack([found.lift.theta_inner, found.lift.theta_outer]))
     assert np.all(np.diff(found.theta, axis=1) > 0)
-
-
-def paths(drawing, **attributes):
-    """The points (n, 2) of each line of an SVG that has these attributes."""
-    found = [path for path in drawing.iter("path")
-             if all(path.get(name.replace("_", "-")) == value for name, value in attributes.items())]  # fmt: skip
-    return [np.array(re.findall(r"(-?[\d.]+) (-?[\d.]+)", path.get("d")), float) for path in found]
-
-
-def test_compare_draws_both_figures_on_common_axes(explorer):
-    compare = Compare(explorer.scene)
-    for family, tops in (("pegs", pegs()), ("presets", presets()), ("a", None)):
-        compare.family.value = family
-        drawings = list(ElementTree.fromstring(compare.rows.object).iter("svg"))
-        fives, sixes = drawings[::2], drawings[1::2]
-        assert len(fives) == len(sixes) == len(tops or neighbours(explorer.scene.top, "a"))
-        rules = [paths(six, stroke="var(--rule, #e7ebef)") for six in sixes]
-        assert all(np.array_equal(np.array(rule), np.array(rules[0])) for rule in rules)
-        frames = [paths(five, stroke_width="1")[0] for five in fives]
-        assert all(np.array_equal(frame, frames[0]) for frame in frames)
-        for (name, top, K_R), six in zip(tops or (), sixes if tops else (), strict=True):
-            # px to theta and to K_J/K_J(P), by the rules at 0 and at 0.5 or 1 rad, and at 0 and 1
-            upright, beside, *_, zero, _, one = rules[0]
-            step = float([text.text for text in six.iter("text")][2])  # the second number below
-            [steady] = paths(six, stroke_dasharray="6 4")
-            found = region(name, top, K_R, explorer.mu_s).lift.theta_steady
-            theta = step * (steady[:, 0] - upright[0, 0]) / (beside[0, 0] - upright[0, 0])
-            assert theta == pytest.approx(found, abs=0.02)
-            assert (zero[0, 1] - steady[:, 1]) / (zero[0, 1] - one[0, 1]) == pytest.approx(
-                (np.arange(48) + 0.5) / 48, abs=0.005)  # fmt: skip
 
 
 def test_the_map_of_the_other_kind_starts_from_a_top_of_that_kind():

@@ -263,6 +263,7 @@ compiled.made.clear()
 
 from app.model import family, lesson
 from app.model.explorer import Explorer
+from app.model.known_tops import known_tops
 from app.model.planes import LAWS, Planes
 explorer = Explorer()
 for step in lesson.STEPS:
@@ -272,8 +273,8 @@ for law in LAWS:
     planes.param.update(law=law, seconds=0.5)
     planes.param.update(by="constants")
     planes.param.update(by="spin")
-for name, top, K_R in family.presets() + family.pegs():
-    family.region(name, top, K_R, 0.5, 4)
+for top in known_tops():
+    top.shown(0.5)
 next(family.share_map(0.4, 10.0, 0.5, [0.1, -0.2], [1.0, 1.1]))
 print(*compiled.made, sep="\\n")
 """

@@ -38,6 +38,7 @@ from app.state.keep import Keep
 from app.tabs.build.build import Build
 from app.tabs.build.section import Section
 from app.tabs.families.compare import Compare
+from app.tabs.families.tops import Tops
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.lines import Derivation
 from app.tabs.planes.three_planes import ThreePlanes
@@ -190,6 +191,7 @@ VIEWS = {
     "Derivation": lambda scene: (lambda view: (view, view.show))(Derivation("a")),
     "Controls": controls, "Roll": roll, "Learn, the lesson": learn("lesson"), "Learn, the lines": learn("derivation"),
     "Build": bench, "Section": section, "Share": share, "Compare": compare,
+    "Tops": lambda scene: (lambda view: (view, view.show))(Tops(scene, nothing, nothing, nothing)),
 }  # fmt: skip
 
 

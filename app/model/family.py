@@ -1,19 +1,16 @@
-"""Many tops at once: Figs. 5 and 6 of several side by side, and how much of Fig. 5's region friction leaves them."""
+"""Figs. 5 and 6 of one top among others, and how much of Fig. 5's region friction leaves to many."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from app.model.builder import thrown
-from app.model.dimensions import named
 from tippe_core import (
     PRESETS,
     Constants,
     OrdinaryTop,
     Tielines,
     Top,
-    TopError,
     allowed_shares,
     f,
     f1_squared,
@@ -23,7 +20,6 @@ from tippe_core import (
 from tippe_core.types import Array
 
 TIELINES, POINTS = 48, 40
-PEGS = (0.0, 0.0036, 0.0072, 0.0108, 0.0162)  # m, the last one the preset's own
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,36 +71,7 @@ def share_map(I1: float, K_R: float, mu_s: float, a: Array, ratio: Array) -> Ite
         yield (row + 1) * len(a), Map(a, ratio, share.copy())
 
 
-def presets() -> list[tuple[str, Top, float]]:
-    """[(name, Top, K_R)]: every preset, thrown as a new body is; of two with one shape the first."""
-    first = {preset.shape: preset for preset in reversed(PRESETS)}
-    return [(named(preset.name), preset.top, thrown(preset.shape, preset.top)[1])
-            for preset in PRESETS if first[preset.shape] is preset]  # fmt: skip
-
-
-def pegs() -> list[tuple[str, Top, float]]:
-    """[(name, Top, K_R)]: ordinary tops, the disc on pegs of several lengths, a/R to about -10, all with one spin."""
-    disc = ordinary()
-    bodies = [replace(disc, h=h) for h in PEGS]
-    return [(f"a = {body.top.a:.3g}".replace("-", "−"), body.top, thrown(body)[1]) for body in bodies]
-
-
 def ordinary() -> OrdinaryTop:
     """The preset that is an ordinary top with a/R near -10."""
     shapes = (preset.shape for preset in PRESETS)
     return next(shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < -5)
-
-
-def neighbours(top: Top, which: str) -> list[tuple[str, Top]]:
-    """[(name, Top)]: up to five tops with "a", or with "I3" at this I1, from half of this top's to one and a half."""
-    tops = []
-    for factor in (0.5, 0.75, 1.0, 1.25, 1.5):
-        try:
-            if which == "a":
-                named = f"a = {factor * top.a:.3g}", Top(factor * top.a, top.I1, top.I3)
-            else:
-                named = f"I₃/I₁ = {factor * top.I3 / top.I1:.3g}", Top(top.a, top.I1, factor * top.I3)
-        except TopError:
-            continue  # half the family may not exist, such as I3 > 2 I1
-        tops.append((named[0].replace("-", "−"), named[1]))
-    return tops

@@ -20,6 +20,7 @@ STEP = 1e-4  # of a number, or of its typical size, for central differences
 SIZES = {"tilt": 0.1, "tilt_rate": 0.3, "across": 0.3, "spin": 3.0, "rolling_resistance": 1e-3, "air_drag": 1e-3}
 STARTS = 6  # of the grid, the best are followed
 FOLLOWED = 10  # if that is in vain, of those scattered widely so many
+ROUNDS = 3  # around the best, where that fits nothing
 AGREEING, SAME = 3, 1e-3  # so many starts end at one chi-square, to this part of it, where it is surely the least
 ALSO = RISE  # by less of chi-square other numbers are as good: two standard errors
 MOST_BETTER = 3  # times that a valley may lead to a better place
@@ -130,13 +131,15 @@ def fit(model: Model, data: Data) -> Fit:
             if _settled(ends, problem):
                 break
     best, x = _least(ends, problem)
-    if not problem.good(best) and _alike(ends) < AGREEING:
+    for _ in range(ROUNDS):
+        if problem.good(best) or _alike(ends) >= AGREEING:
+            break
         # Nothing fits, so that there may be a better place: whether those around the best lead back to it.
         for y in problem.best_of(around(x, problem.sizes), FOLLOWED):
             ends.append(problem.followed(y, 60))
-            best, x = _least(ends, problem)
             if _alike(ends) >= AGREEING:
                 break
+        best, x = _least(ends, problem)
     sure = problem.good(best) or _alike(ends) >= AGREEING
     return _judged(model, data, problem, x, sure, [x for chi2, x in ends if chi2 < best + ALSO])
 

@@ -17,6 +17,7 @@ from tippe_core.types import Array
 
 RISE = 4.0  # of chi-square at two standard errors
 BENT = 0.1  # part of a number's variance along which chi-square is no parabola, from which its valley is followed
+MOVES_WITH = 0.3  # correlation
 ROUGHLY = 1.3  # times: how far it may be from one
 CLOSE, TRIES = 0.05, 9  # the rise is met to this part of two standard errors, within so many steps
 STEPS = 1.6, 3.0  # each so many times as far as the one before, until it has risen enough
@@ -70,13 +71,19 @@ def known(problem: Problem, x: Array) -> Known:
     errors = np.sqrt(np.diag(covariance))
     bent = np.array([not _straight(problem.residuals, x, axis, problem.bounds) for axis in axes])
     followed = (axes[bent] ** 2).sum(axis=0) > BENT * errors**2
+    # what moves with one of these has a curved valley too
+    followed |= np.any(np.abs(covariance[followed] / np.outer(errors[followed], errors)) > MOVES_WITH, axis=0)
     below, above = errors.copy(), errors.copy()
     least = float(np.sum(problem.residuals(x) ** 2))
-    for i in np.flatnonzero(followed):
+    ends: list[Array] = []  # of the valley of the number that is known worst: others begin there too
+    for i in sorted(np.flatnonzero(followed), key=lambda i: -errors[i] / max(abs(x[i]), 1e-12)):
+        here = []
         for way, side in ((-1, below), (1, above)):
-            side[i], better = _far(problem, x, least, int(i), way, covariance[:, i] / errors[i])
+            side[i], end, better = _far(problem, x, least, int(i), way, covariance[:, i] / errors[i], ends)
             if better is not None:
                 return Known(covariance, below, above, followed, better)
+            here.append(end)
+        ends = ends or here
     return Known(covariance, below, above, followed)
 
 
@@ -92,31 +99,35 @@ def _straight(residuals: Callable[[Array], Array], x: Array, axis: Array, bounds
     return RISE / ROUGHLY < min(rises) and max(rises) < RISE * ROUGHLY
 
 
-def _far(problem: Problem, x: Array, least: float, i: int, way: int, along: Array) -> tuple[float, Array | None]:
-    """(one standard error of number i to this side, a better place that was come by). along: how all numbers move when
-    this one moves by one of its errors."""
+def _far(
+    problem: Problem, x: Array, least: float, i: int, way: int, along: Array, ends: list[Array]
+) -> tuple[float, Array, Array | None]:
+    """(one standard error of number i to this side, the farthest place where chi-square had not risen by 4, a better
+    place that was come by). along: how all numbers move when this one moves by one of its errors. ends: places from
+    which the valley is looked for as well."""
     error, edge = abs(float(along[i])), float(problem.bounds[int(way > 0), i])
     room = min(abs(edge - float(x[i])), LONGEST * error)
     low, high = (0.0, 0.0), None  # (how far, the root of the rise there): the rise is met between them
     far, y, at = min(2 * error, room), x, 0.0
     for _ in range(TRIES):
         look()
-        start = y + way * (far - at) / error * along
-        chi2, there = _valley(problem, start, i, float(x[i]) + way * far)
+        begun = [y + way * (far - at) / error * along, *ends]
+        found = [_valley(problem, start, i, float(x[i]) + way * far) for start in begun]
+        chi2, there = min(found, key=lambda each: each[0])
         if chi2 < least - BETTER:
-            return error, there
+            return error, y, there
         root = float(np.sqrt(max(chi2 - least, 0.0)))
         if abs(root - 2) < 2 * CLOSE:
-            return far / root, None
+            return far / root, there, None
         if root < 2:
             if far >= room:
-                return np.inf, None
+                return np.inf, there, None
             low, y, at = (far, root), there, far
             far = min(far * float(np.clip(2 / max(root, 0.1), *STEPS)), room) if high is None else _between(low, high)
         else:
             high = far, root
             far = _between(low, high)
-    return (far / 2 if high else float(np.inf)), None
+    return (far / 2 if high else float(np.inf)), y, None
 
 
 def _between(low: tuple[float, float], high: tuple[float, float]) -> float:

@@ -1,8 +1,7 @@
 """What is taken home of a fit: the residuals as a table, and the Python that repeats it."""
 
-import numpy as np
-
 from app.model.measured_data import Data
+from app.model.measured_film import table_of
 from app.model.measured_fit import Fit
 
 PROGRAM = '''"""Repeats a fit of the tippe top explorer; run it in the explorer's folder."""
@@ -32,19 +31,6 @@ def residuals_table(data: Data, fit: Fit) -> str:
     for name, series in data.series.items():
         parts = zip(series.t, series.values, fit.left.values[name], fit.left.residuals[name], strict=True)
         rows += [f"{t:.6g},{name},{seen:.8g},{fitted:.8g},{rest:.5g}" for t, seen, fitted, rest in parts]
-    return "\n".join(rows) + "\n"
-
-
-def table_of(data: Data) -> str:
-    """The data as a table that measured_table.read takes: one row a time, an empty cell where nothing was measured."""
-    units = {"tilt": "rad", "azimuth": "rad", "spin": "rad/s", "precession": "rad/s"}
-    heads = [f"{name} ({units.get(name, 'm')}) ± {series.error:.6g}" for name, series in data.series.items()]
-    rows = ["\t".join(["time (s)", *(head.replace("_", " ") for head in heads)])]
-    times = data.t
-    columns = {name: dict(zip(series.t, series.values, strict=True)) for name, series in data.series.items()}
-    for t in times:
-        cells = [columns[name].get(t) for name in columns]
-        rows.append("\t".join([f"{t:.8g}", *("" if x is None else f"{np.round(x, 10):.8g}" for x in cells)]))
     return "\n".join(rows) + "\n"
 
 

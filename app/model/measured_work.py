@@ -12,7 +12,8 @@ from app.model.measured_shown import Shown, shown
 from app.model.measured_table import read
 from tippe_core import Scales, Shape, Top
 
-LOOSE_BODY = ("a", "I1", "I3")
+LOOSE = {"body": ("a", "I1", "I3"), "push": ("tilt_rate", "across"), "losses": ("rolling_resistance", "air_drag")}
+"""What can be fitted besides the start and the law."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +38,7 @@ class Found:
 
 def models(top: Top, scales: Scales, shape: Shape | None, law: str, loose: tuple[str, ...]) -> tuple[Model, Model]:
     """Rolling, and sliding by this law, with these numbers free as well: rolling has neither losses nor a push."""
-    of_rolling = tuple(name for name in loose if name in LOOSE_BODY)
+    of_rolling = tuple(name for name in loose if name in LOOSE["body"])
     return model_of("rolling", top, scales, shape, of_rolling), model_of(law, top, scales, shape, loose)
 
 

@@ -179,6 +179,7 @@ CHANGES = {
     "Phone": {"mark": text(32)},
     "Surface3D": POINT,
     "Top3D": PICTURE,
+    "TopsMap": {"state": PLAIN, "picked": row(COUNT, SHORT), "moved": row(COUNT, number(-1, 1), number(0.1, 10))},
     "TopFile": {},
 }  # fmt: skip
 # A theme dresses all parts of a figure, in the browser; the server has the same theme.

@@ -9,6 +9,7 @@ import re
 import zlib
 from dataclasses import fields
 
+from app.model import measured_film
 from app.model.classroom import KEY
 from app.state import asked
 from app.text import say
@@ -143,4 +144,20 @@ class Key:
     def value(text):
         if not KEY.fullmatch(text):
             raise ValueError(say("teach.vote.key"))
+        return text
+
+
+class Film:
+    """A film's data with what is fitted to them, packed; or nothing."""
+
+    text = staticmethod(str)
+
+    @staticmethod
+    def value(text):
+        """The letters themselves, where a film is in them; else a ValueError."""
+        try:
+            if text:
+                measured_film.unpacked(text)
+        except ValueError:
+            raise ValueError(say("share.link.film")) from None
         return text

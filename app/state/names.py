@@ -12,7 +12,7 @@ from app.model.lesson import BEFORE
 from app.model.lesson import NAMES as STEPS
 from app.model.planes_picture import LAWS, PLANES
 from app.model.region import PAPER
-from app.state.codecs import Body, Key, Number, Numbers, OneOf, Toy
+from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf, Toy
 from app.text import LANGUAGES
 
 ROOMS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
@@ -101,6 +101,8 @@ ROWS = (
     Name("eps", "Planes", "eps", Number),
     Name("mu_smooth", "Planes", "mu", Number),
     Name("mu_stick", "Planes", "mu_s", Number),
+    # a film's data
+    Name("film", "Filmed", "film", Film, undoable=False),
     # the lessons
     Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False),
     Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False),

@@ -126,6 +126,14 @@ def grid(*cards, narrowest=480):
     )
 
 
+def flexible(*cards):
+    """Of (card, how it grows, shrinks and how wide it is at least), in rows."""
+    for each, flex in cards:
+        each.styles = each.styles | {"flex": flex, "min-width": "0"}
+    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
+    return pn.Column(*(each for each, _ in cards), sizing_mode="stretch_width", margin=0, styles=styles)
+
+
 def field(value, label, **options):
     """label: for the ear; beside it stands the same to be seen."""
     options = {"width": 84, "margin": 0} | options

@@ -2,6 +2,24 @@
 import js from "@eslint/js";
 import globals from "globals";
 
+// What leaves its file says what it takes: @param or @type, which tsc checks.
+const typed = {
+  create(context) {
+    const look = (node, made) => {
+      const said = context.sourceCode.getCommentsBefore(node).some(({ value }) => /@(param|type)\b/.test(value));
+      const inside = made.params.every(({ loc }) => context.sourceCode.lines[loc.start.line - 1].includes("/** @type"));
+      if (made.params.length && !said && !inside) context.report({ node, message: "An exported function says the types of what it takes." });
+    };
+    return {
+      ExportNamedDeclaration(node) {
+        const { declaration } = node;
+        if (declaration?.type === "FunctionDeclaration") look(node, declaration);
+        for (const { init } of declaration?.declarations ?? []) if (init?.type === "ArrowFunctionExpression") look(node, init);
+      },
+    };
+  },
+};
+
 export default [
   { ignores: ["app/static"] }, // the bundle
   js.configs.recommended,
@@ -33,5 +51,6 @@ export default [
       globals: Object.fromEntries(["run", "given", "cb_obj", "value", "format", "special_vars", "bundles"].map((name) => [name, "readonly"])),
     },
   },
+  { files: ["app/frontend/src/**/*.js"], plugins: { ours: { rules: { typed } } }, rules: { "ours/typed": "error" } },
   { files: ["tests/frontend/*.js"], languageOptions: { globals: globals.node } },
 ];

@@ -6,24 +6,25 @@
 /** @returns {any} */
 const viewOf = (fig) => Bokeh.index.find_one(fig);
 
-/** The element of a figure, none while it is not drawn. @returns {HTMLElement | undefined} */
+/** The element of a figure, none while it is not drawn. @param {Figure} fig @returns {HTMLElement | undefined} */
 export const elementOf = (fig) => viewOf(fig)?.el;
 
 // 3. Between values and px on the canvas of a figure. https://github.com/bokeh/bokeh/issues/3747
-/** @returns {{ x: PixelScale, y: PixelScale }} */
+/** @param {Figure} fig @returns {{ x: PixelScale, y: PixelScale }} */
 export function scalesOf(fig) {
   const { x_scale: x, y_scale: y } = viewOf(fig).frame;
   return { x, y };
 }
 
-/** 4. What the mouse and fingers act on, in px of which the scales are. No issue that we found. @returns {HTMLElement} */
+/** 4. What the mouse and fingers act on, in px of which the scales are. No issue that we found. @param {Figure} fig @returns {HTMLElement} */
 export const eventsOf = (fig) => viewOf(fig).canvas_view.events_el;
 
-/** @param {string} cursor in words of CSS */
+/** @param {Figure} fig @param {string} cursor in words of CSS */
 export const setCursor = (fig, cursor) => (eventsOf(fig).style.cursor = cursor);
 
 // 5. Bokeh takes a hand that rests for 300 ms before it pulls for one that presses, and pulls nothing. No figure here is
 // pressed, so that none is in all time. No issue that we found.
+/** @param {Figure} fig */
 export function pressNever(fig) {
   viewOf(fig).canvas_view.ui_event_bus.ui_gestures.constructor.press_threshold = 2 ** 31 - 1;
 }

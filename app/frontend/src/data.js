@@ -46,6 +46,7 @@ export function coalesce(run) {
 export const penOf = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
 
 // In three digits.
+/** @param {number} number */
 export function tidy(number) {
   return String(Number(number.toPrecision(3)));
 }

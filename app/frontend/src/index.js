@@ -19,6 +19,7 @@ import { renderConnection } from "./widgets/notices.js";
 import { renderFailure } from "./widgets/notices.js";
 import { renderPainted } from "./widgets/painted.js";
 import { renderPhone } from "./widgets/phone.js";
+import { renderTopsMap } from "./widgets/tops_map.js";
 import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
@@ -44,6 +45,7 @@ export default {
   Photo: { render: renderPhoto },
   Surface3D: { render: renderSurface3D },
   Top3D: { render: renderTop3D },
+  TopsMap: { render: renderTopsMap },
   first,
   letter,
 };

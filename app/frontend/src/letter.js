@@ -6,11 +6,12 @@ import { renderTop3D } from "./three/top3d.js";
 const pictures = { Surface3D: renderSurface3D, Top3D: renderTop3D };
 
 // What Panel gives a component: its values, which tell who asked when they are set.
+/** @param {Record<string, any>} values */
 export function modelOf(values) {
   const asked = {};
   return new Proxy(values, {
-    get: (_, name) => (name === "on" ? (event, run) => (asked[event] ??= []).push(run) : values[name]),
-    set: (_, name, value) => {
+    get: (_, /** @type {string} */ name) => (name === "on" ? (event, run) => (asked[event] ??= []).push(run) : values[name]),
+    set: (_, /** @type {string} */ name, value) => {
       const news = values[name] !== value;
       values[name] = value;
       if (news) asked[name]?.forEach((run) => run());

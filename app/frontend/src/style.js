@@ -62,6 +62,7 @@ export const style = `
 `;
 
 // The frame both components share: a sheet, and a box for the picture.
+/** @param {HTMLElement} el */
 export function frameIn(el) {
   const sheet = document.createElement("style");
   sheet.textContent = style;

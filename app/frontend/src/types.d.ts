@@ -85,6 +85,13 @@ interface DialModel extends Model {
   wrong: boolean;
 }
 
+type KnownTop = { name: string; label: string; a: number; ratio: number; outline: [radius: number, height: number][] };
+interface TopsMapModel extends Model {
+  state: { tops: KnownTop[]; here: { a: number; ratio: number; outline: [radius: number, height: number][] | null }; chosen: string };
+  picked: [count: number, name: string] | [];
+  moved: [count: number, a: number, ratio: number] | [];
+}
+
 interface GuideModel extends Model {
   tour: boolean;
   said: string;
@@ -197,6 +204,24 @@ type LessonModel = Model & Record<"state", any> & {
   others: Record<string, LessonRun>;
   asked: [count: number, name: string, value: string] | [];
 };
+
+// Bokeh's models, as far as they are used here. What is not synced stays in this browser.
+interface BokehModel {
+  setv(values: Record<string, any>, how: { sync: false }): void;
+  properties: Record<string, { change: { connect(run: () => void): void } }>;
+  change: { emit(): void };
+}
+interface Figure extends BokehModel {
+  name: string;
+  x_range: { start: number; end: number };
+  y_range: { start: number; end: number };
+}
+interface Source<Names extends string = string> extends BokehModel {
+  data: Record<Names, any>;
+  tags: any[];
+}
+// What a hand did on a figure: where, in its numbers and in px.
+type Happened = { event_name: string; x: number; y: number; sx: number; sy: number };
 
 declare const Bokeh: { documents: any[]; index: any };
 

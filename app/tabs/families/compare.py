@@ -1,4 +1,4 @@
-"""Tops of a family side by side: Figs. 5 and 6 of each on common axes, and a map of the share that friction leaves."""
+"""A family of tops compared: a map of the share of their motions that friction leaves."""
 
 import time
 from functools import partial
@@ -10,12 +10,11 @@ from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMappe
 from bokeh.palettes import Viridis256
 
 from app.model.builder import thrown
-from app.model.colours import COLOURS, FAINT, INK
-from app.model.family import neighbours, ordinary, pegs, presets, region, share_map
+from app.model.colours import FAINT, INK
+from app.model.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
-from app.tabs.families.drawings import LINE, side_by_side
 from app.text import listed, say, told
-from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, swatch, words
+from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, words
 from app.widgets.controls import typed_number
 from app.widgets.plots import plain
 from tippe_core import TopError, TruncatedSphere
@@ -26,7 +25,7 @@ SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.
 
 
 class Compare:
-    """The tab's content; draw() and compute() fill it. scene: the first; show() is for others, and what is asked for
+    """compute() fills it. scene: the first; show() is for others, and what is asked for
     from then on is about these. runs: the page's Runs."""
 
     # what a map is made with: name, symbol
@@ -34,10 +33,6 @@ class Compare:
 
     def __init__(self, scene, runs=None):
         self._scene, self._runs, self._run = scene, runs or Runs(), None  # of the map
-        self.rows = words(margin=(6, 0))
-        self.key = words()
-        self.family = self._buttons("families")
-        self.family.param.watch(lambda event: self.draw(event.new), "value")
         self.kind = self._buttons("kinds")
         self.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
         self.kind.param.watch(lambda event: self._prefill(), "value")
@@ -71,11 +66,6 @@ class Compare:
                                      margin=0, sx=PLAIN)  # fmt: skip
 
     @property
-    def figures_view(self):
-        """Figs. 5 and 6 of several tops."""
-        return [self.family, self.key, self.rows]
-
-    @property
     def map_view(self):
         """The map of the share, and what starts and stops it."""
         with_these = [beside(symbol, self.entries[name]) for name, symbol in self.FIELDS]
@@ -93,31 +83,6 @@ class Compare:
 
     def show(self, scene):
         self._scene = scene
-
-    def draw(self, which):
-        """The small figures: of the "presets" or of "pegs", all with one spin, or of this top's neighbours, at this
-        K_R. They are drawn beside the server."""
-        top, K_R, mu_s = (self._scene.top, *(self._scene.inputs[name] for name in ("K_R", "mu_s")))
-
-        def drawn(run):
-            tops = {"presets": presets, "pegs": pegs}.get(
-                which, lambda: [(name, each, K_R) for name, each in neighbours(top, which)]
-            )()
-            shown = []
-            for name, each, spin in tops:
-                run.look()
-                shown.append(region(name, each, spin, mu_s))
-            return side_by_side(shown)
-
-        self.key.object = key_words(mu_s)
-        self.rows.object = f'<div role="status">{note(say("family.waits"))}</div>'
-        self._runs.begin(Run(drawn, self._drawn), "families")
-
-    def _drawn(self, result):
-        failed = isinstance(result, Exception)
-        self.rows.object = alert(say("family.failed")) if failed else result
-        if failed and not isinstance(result, Stopped):
-            raise result
 
     def _prefill(self):
         """The explorer's own numbers where its top is of this kind, else those of a preset that is."""
@@ -190,14 +155,6 @@ class Compare:
         if isinstance(result, Exception) and not stopped:
             self.said.object = alert(say("family.map.failed"))
             raise result
-
-
-def key_words(mu_s):
-    lines = "".join((
-        swatch(LINE, say("family.key.tielines")), swatch(LINE, say("family.key.steady"), "dashed"),
-        swatch(COLOURS["normal"], say("family.key.lift")),
-        swatch(COLOURS["friction"], say("family.key.verge", mu_s=mu_s))))  # fmt: skip
-    return f'<div class="key">{say("family.key.figures")}</div><div class="key">{lines}</div>'
 
 
 def _progress(percent):

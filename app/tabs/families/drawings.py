@@ -1,4 +1,4 @@
-"""Figs. 5 and 6 of one top, small, as SVG: text that a thread can write, where a Bokeh figure would be fifty models."""
+"""Figs. 5 and 6 of one top as SVG: text that a thread can write, where a Bokeh figure would be fifty models."""
 
 import html
 
@@ -7,9 +7,20 @@ import numpy as np
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import say
 
-WIDTH = 158  # px: two of them beside each other on a phone
+WIDTH = 360  # px: a phone's; wider where there is room, and its type with it
 LINE, PALE, RULE = f"var(--ink, {INK})", f"var(--faint, {FAINT})", "var(--rule, #e7ebef)"
-SHEET = "#dcebf6"
+SHEET = "color-mix(in srgb, #9a7434 26%, var(--card, #fff))"
+
+
+def letters(letter, below=""):
+    """A symbol, in SVG: what stands below it goes back up to the line."""
+    down = f'<tspan dy="3" font-size="9">{below}</tspan><tspan dy="-3">&#8203;</tspan>' if below else ""
+    return f'<tspan font-style="italic">{letter}</tspan>{down}'
+
+
+K_J, F_Z, THETA = letters("K", "J"), letters("F", "z"), letters("θ")
+HALO = f'paint-order="stroke" stroke="var(--card, white)" stroke-width="4" fill="{LINE}"'
+ROOM = 1.1  # rad, that a name needs
 DASHED = 'stroke-dasharray="6 4"'
 # Fig. 5 as a drawing: K_J runs so far back and up, of the width and the height of the picture
 BACK, UP, HIGH = 0.28, 0.45, 0.5
@@ -21,12 +32,11 @@ class Drawing:
     margins: px around them, left, right, top, bottom.
     """
 
-    def __init__(self, label, title, height, x, y, margins=(0, 0, 24, 0)):
+    def __init__(self, label, height, x, y, margins=(0, 0, 24, 0)):
         self._x, self._y, self.height = x, y, height
         self._left, right, self._top, bottom = margins
         self._wide, self._high = WIDTH - self._left - right, height - self._top - bottom
-        self._parts = [f'<text x="{self._left + 2}" y="14">{html.escape(title)}</text>']
-        self._label = html.escape(f"{label}: {title}")
+        self._parts, self._label = [], html.escape(label)
 
     def px(self, x, y):
         """Of numbers or arrays."""
@@ -51,8 +61,10 @@ class Drawing:
 
     @property
     def svg(self):
-        style = f'style="font: 12px system-ui, sans-serif; fill: {LINE}; overflow: hidden"'
-        return (f'<svg role="img" aria-label="{self._label}" width="{WIDTH}" height="{self.height}" {style}>'
+        style = (
+            f'style="font: 12px system-ui, sans-serif; fill: {LINE}; overflow: hidden; width: 100%; max-width: 500px"'
+        )
+        return (f'<svg role="img" aria-label="{self._label}" viewBox="0 0 {WIDTH} {self.height}" {style}>'
                 f'{"".join(self._parts)}</svg>')  # fmt: skip
 
 
@@ -63,14 +75,14 @@ def pen(colour, width=1.5, more=""):
 def waterfall(shown, end, most):
     """Fig. 5 of a family.Region as a drawing: a sheet of f1^2 theta_dot^2 stands on every tieline, K_J to the back.
 
-    end: where the theta axis ends; most: the height, in K_R^2, that all figures have room for.
+    end: where the theta axis ends; most: the height, in K_R^2, that there is room for.
     """
 
     def place(theta, part, height=0.0):
         return theta + BACK * end * part, UP * part + HIGH * height / most
 
-    drawing = Drawing(say("roll.figures.waterfall"), shown.name, 190, (-0.06 * end, (1 + BACK) * end * 1.03),
-                      (-0.14, UP + HIGH + 0.04))  # fmt: skip
+    drawing = Drawing(say("roll.figures.waterfall"), 230, (-0.06 * end, (1 + BACK) * end * 1.03),
+                      (-0.14, UP + HIGH + 0.04), (0, 0, 8, 0))  # fmt: skip
     corners = np.array([(0, 0), (end, 0), (end, 1), (0, 1)]).T
     drawing.path(*place(*corners), pen(PALE, 1), closed=True)
     for theta, label in ((0, "0"), (np.pi / 2, "π/2"), (np.pi, "π")):
@@ -80,24 +92,27 @@ def waterfall(shown, end, most):
     # closed along the tieline, from the back to the front
     for row in np.flatnonzero(np.isfinite(shown.height).all(axis=1))[::-1]:
         drawing.path(*place(shown.theta[row], shown.part[row], shown.height[row]),
-                     f'fill="{SHEET}" fill-opacity="0.85" stroke="{INK}" stroke-opacity="0.7" stroke-width="0.7"',
+                     f'fill="{SHEET}" fill-opacity="0.85" stroke="{LINE}" stroke-opacity="0.7" stroke-width="0.7"',
                      closed=True)  # fmt: skip
     drawing.path(*place(shown.lift.theta_steady, shown.part), pen(LINE, 1.5, DASHED))
     lifts = np.where(np.isfinite(shown.lift.E), shown.lift.theta_outer, np.nan)
     drawing.path(*place(lifts, shown.part), pen(COLOURS["normal"]))
+    drawing.text(*place(0, 0.5), K_J, 'text-anchor="end" font-size="14"', shift=(-8, 0))
+    drawing.text(*place(end, 0), THETA, 'font-size="14"', shift=(4, 14))
     return drawing.svg
 
 
-def plane(shown, end):
-    """Fig. 6 of one top, a family.Region, with K_J in units of its own K_J(P); end: as in waterfall."""
-    title = f"Kⱼ(P) = {shown.pole:.3g}".replace("-", "−")
-    drawing = Drawing(say("roll.figures.plane"), title, 200, (0, end), (0, 1.02), (26, 8, 24, 20))
-    for theta in np.arange(0, end, 1.0 if end > 2 else 0.5):
-        drawing.path([theta, theta], [0, 1.02], pen(RULE, 1))
+def plane(shown, mu_s):
+    """Fig. 6 of one top, a family.Region: K_J over all tilts, each curve with its words beside it."""
+    end, pole = np.pi, shown.pole
+    drawing = Drawing(say("roll.figures.plane"), 262, (0, end), (0, 1.06), (34, 8, 10, 34))
+    drawing.text(0, 1.06, K_J, 'font-size="14" text-anchor="end"', shift=(-12, 8))
+    for theta in (0, 1, 2, 3):
         drawing.text(theta, 0, f"{theta:g}", 'text-anchor="middle"', shift=(0, 15))
-    for part in (0, 0.5, 1):
-        drawing.path([0, end], [part, part], pen(RULE, 1))
-        drawing.text(0, part, f"{part:g}", 'text-anchor="end"', shift=(-4, 4))
+    drawing.text(end, 0, f"{THETA} (rad)", 'text-anchor="end"', shift=(0, 30))
+    for value in _round_steps(pole):
+        drawing.path([0, end], [value / pole] * 2, pen(RULE, 1))
+        drawing.text(0, value / pole, f"{value:g}".replace("-", "−"), 'text-anchor="end"', shift=(-5, 4))
     steady, lift, slip, part = shown.lift.theta_steady, shown.lift, shown.slip, shown.part
     # where even the steady precession breaks a limit, the tieline is a point there
     left, right, first, last = (np.where(np.isnan(theta), steady, theta) for theta in (
@@ -108,17 +123,44 @@ def plane(shown, end):
         drawing.path(*around, f'fill="{COLOURS["friction"]}" fill-opacity="0.16"', closed=True)
     gap = np.full(len(part), np.nan)
     drawing.path(np.c_[first, last, gap].ravel(), np.repeat(part, 3), pen(LINE, 1, 'stroke-opacity="0.55"'))
-    drawing.path(np.where(np.isfinite(lift.E), right, np.nan), part, pen(COLOURS["normal"], 2))
+    lifts = np.where(np.isfinite(lift.E), right, np.nan)
+    drawing.path(lifts, part, pen(COLOURS["normal"], 2))
     drawing.path(slip.theta_verge, part, pen(COLOURS["friction"], 2))
     drawing.path(steady, part, pen(LINE, 1.5, DASHED))
+    beyond = np.fmax(np.fmax(right, last), steady)
+    for words, curve, at in ((say("family.key.lift", F_z=F_Z), lifts, 0.4),
+                             (say("family.key.verge", mu_s=mu_s), slip.theta_verge, 0.2)):  # fmt: skip
+        _name(drawing, words, curve, beyond, part, at)
+    _name(drawing, say("family.key.steady"), steady, np.fmin(np.fmin(left, first), steady), part, 0.1, side=-1)
     return drawing.svg
 
 
-def side_by_side(shown):
-    """The Regions side by side, on common axes: Fig. 5 above, Fig. 6 below."""
-    reach = max((np.nanmax(one.lift.theta_outer, initial=0.0) for one in shown), default=0.0)
+def _round_steps(most):
+    """0, and two to five round numbers up to most."""
+    size = 10 ** np.floor(np.log10(abs(most)))
+    step = next(step for step in (0.2, 0.5, 1.0, 2.0) if abs(most) / (step * size) <= 5) * size
+    return np.sign(most) * step * np.arange(int(abs(most) / step + 1e-9) + 1)
+
+
+def _name(drawing, words, curve, beyond, part, at, side=1):
+    """A curve's name at this height, beyond all curves, to their right or, side -1, to their left; where there is no
+    room, on the other side. A line leads to its curve."""
+    row = int(np.argmin(np.abs(part - at)))
+    if not np.isfinite(curve[row] + beyond[row]):
+        return
+    if (beyond[row] > np.pi - ROOM) if side > 0 else (beyond[row] < ROOM):
+        beyond, side = curve, -side
+    start, end = beyond[row], beyond[row] + side * 0.12
+    drawing.path([curve[row], end], [part[row]] * 2, pen(PALE, 1))
+    anchor = "start" if side > 0 else "end"
+    drawing.text(end if beyond is not curve else start, part[row], words, f'text-anchor="{anchor}" {HALO}',
+                 shift=(4 * side, 4))  # fmt: skip
+
+
+def pair(shown, mu_s):
+    """Figs. 6 and 5 of one Region, one above the other."""
+    reach = np.nanmax(shown.lift.theta_outer, initial=0.0)
+    most = np.nanmax(shown.height, initial=0.0) or 1.0
     end = min(np.pi, max(np.pi / 2, 1.03 * reach))
-    most = max((np.nanmax(one.height, initial=0.0) for one in shown), default=0.0) or 1.0
-    pairs = (f"<div style='display: grid; width: {WIDTH}px'>{waterfall(one, end, most)}{plane(one, end)}</div>"
-             for one in shown)  # fmt: skip
-    return f"<div style='display: flex; flex-flow: row wrap; gap: 8px'>{''.join(pairs)}</div>"
+    return (f'<h3>{say("family.tops.rolls")}</h3>{plane(shown, mu_s)}'
+            f'<h3>{say("family.tops.surface")}</h3>{waterfall(shown, end, most)}')  # fmt: skip

@@ -2,16 +2,18 @@
 
 import panel as pn
 import panel_material_ui as pmui
+import param
 
 from app.borrowed import at_once
-from app.model.bodies import body
+from app.model.bodies import body, outline
 from app.model.measured_data import settled
 from app.model.measured_examples import EXAMPLES, FILMED, FOLDER
+from app.model.measured_film import Film, opened, packed, unpacked, written
 from app.model.measured_kept import kept
 from app.model.measured_report import program, residuals_table
 from app.model.measured_shown import placed
 from app.model.measured_table import MeasuredError, read
-from app.model.measured_work import LOOSE_BODY, found, found_of_example, models
+from app.model.measured_work import LOOSE, found, found_of_example, models
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.measure.columns import Columns
@@ -26,21 +28,27 @@ from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from app.widgets.download import Download
 from tippe_core import Top, TopError
 
-LOOSE = {"body": LOOSE_BODY, "push": ("tilt_rate", "across"), "losses": ("rolling_resistance", "air_drag")}
 SIDES = {"display": "flex", "flex-flow": "row wrap", "gap": "12px 24px", "padding": "12px 24px 16px",
          "align-items": "start"}  # fmt: skip
 FIRST = EXAMPLES[0]
+LAWS = ("contensou", "smoothed", "viscous")
+
+
+class Filmed(param.Parameterized):
+    """What a link keeps of the tab, where a person wants it to."""
+
+    film = param.String(default="", doc="the data and their settings, packed; empty: not in the link")
 
 
 class Measure:
-    """view: the tab. scene: the first, whose top is the one that was filmed; show() is for others. runs: the page's
-    Runs."""
+    """filmed: what a link keeps of it. view: the tab. scene: the first, whose top is the one that was filmed; show() is
+    for others. runs: the page's Runs."""
 
     def __init__(self, scene, runs=None):
         self._scene, self._runs, self._run = scene, runs or Runs(), None
         self._table, self._data, self._part, self._example = None, None, (0.0, 0.0), ""
-        self._read = None
-        self._found, self._kept, self._thinned = None, {}, 1
+        self._read, self._of_file, self._silent, self.filmed = None, None, False, Filmed()
+        self._found, self._kept, self._taken, self._thinned = None, {}, "", 1
         self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
         at_once(self.file, "table")
         self.file.param.watch(asked.heard(self._brought), "table")
@@ -50,7 +58,11 @@ class Measure:
         self.constants = pn.Column(sizing_mode="stretch_width", margin=0)
         self._make_controls()
         self.found = words(note(say("measure.nothing_yet")), style=TABLE)
-        self.home = pn.Column(flow(*self._downloads()), sizing_mode="stretch_width", margin=0, visible=False)
+        self.in_link = pmui.Checkbox(label=say("measure.in_link"), value=False, margin=(4, 0))
+        self.in_link.param.watch(lambda event: self._put_in_link(), "value")
+        self.of_link = words()
+        self.home = pn.Column(flow(*self._downloads()), self.in_link, self.of_link, sizing_mode="stretch_width",
+                              margin=0, visible=False)  # fmt: skip
 
     def _make_controls(self):
         self.part = pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01, format="0.000",
@@ -78,6 +90,9 @@ class Measure:
         examples = [pmui.Button(label=says, **BUTTON) for says in listed("measure.examples").values()]
         for button, name in zip(examples, EXAMPLES, strict=True):
             on_click(button, lambda event, name=name: self.take_example(name))
+        if self.filmed.film:
+            self.in_link.value = True
+            self.take(unpacked(self.filmed.film))
         if self._table is None:
             self.take_example(FIRST)
         left = [self.pictures.view, self.part, _head("columns"), self.said, self.columns.view,
@@ -102,13 +117,17 @@ class Measure:
         """(top, scales, shape, outline) of what was filmed: an example's own, else the page's."""
         if self._example:
             return Top.paper(), FILMED.scales, FILMED, body(FILMED)
+        film = self._of_file
+        if film:
+            return film.top, film.scales, film.shape, body(film.shape) if film.shape else outline(film.top)
         scene = self._scene
         return scene.top, scene.scales, scene.shape, scene.profile
 
     def _say_top(self):
         top, scales, *_ = self._body
         numbers = {"a": top.a, "I1": top.I1, "I3": top.I3, "R": 1e3 * scales.R}
-        self.about.object = note(say("measure.of_example" if self._example else "measure.of_this_top", **numbers))
+        whose = "example" if self._example else "film" if self._of_file else "this_top"
+        self.about.object = note(say(f"measure.of_{whose}", **numbers))
 
     @property
     def _loose(self):
@@ -117,6 +136,12 @@ class Measure:
     def _models(self):
         """Rolling and sliding, as they are to be fitted."""
         return models(*self._body[:3], self.law.value, self._loose)
+
+    def _choose(self, law, loose):
+        """What is to be fitted, before its data are there."""
+        self._silent = True
+        self.law.value, self.loose.value = law, list(loose)
+        self._silent = False
 
     # ---- what comes in ----
 
@@ -128,36 +153,47 @@ class Measure:
         self.take(text, int(each))
 
     def take_example(self, name):
-        """One of EXAMPLES."""
+        """One of EXAMPLES, with all as it is at first."""
+        self._choose(LAWS[0], ())
         self.take((FOLDER / f"made-{name}.csv").read_bytes(), example=name)
 
     def take(self, text, each=1, example=""):
         """A table, bytes or text. One that cannot be read leaves what was there."""
         try:
-            table = read(text)
+            film, table = opened(text), read(text)
         except MeasuredError as error:
             self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
             return
-        self._thinned, self._example, self._read = each, example, table
+        self._thinned, self._example, self._read, self._of_file = each, example, table, film
         self._say_top()
         self.columns.show(table)
-        self._corrected(table)
+        if film is None:
+            self.filmed.film = ""
+            self._corrected(table)
+            return
+        self._choose(film.law, film.loose)
+        if self._corrected(table, film.part) and self._runs.beside:
+            self.compute()
 
-    def _corrected(self, table):
-        """The data of the table as it is understood now; of one that makes none, what was there stays."""
+    def _corrected(self, table, part=None):
+        """Whether there is something to fit: the data of the table as it is understood now. Where it makes none, what
+        was there stays."""
         self._table = table
         try:
             data = settled(table, self.columns.frames_a_second)
         except MeasuredError as error:
             self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
             self.start.disabled = True
-            return
+            return False
         self._data = data
         thinned = note(say("measure.thinned", each=self._thinned)) if self._thinned > 1 else ""
         self.said.object = note(notes_words(table.notes)) + thinned
         first, last = float(data.t[0]), float(data.t[-1])
-        self.part.param.update(start=first, end=last, value=(first, last), step=(last - first) / 400 or 0.01)
+        start, end = part or (first, last)
+        self.part.param.update(start=first, end=last, value=(max(start, first), min(end, last)),
+                               step=(last - first) / 400 or 0.01)  # fmt: skip
         self._begin()
+        return not self.start.disabled
 
     def _begin(self):
         source = listed("measure.examples")[self._example] if self._example else say("measure.own")
@@ -174,7 +210,7 @@ class Measure:
 
     def _draw(self):
         """What was fitted before is no longer of this: a motion that begins with the first values, and the dots."""
-        if self._data is None:
+        if self._data is None or self._silent:
             return
         self._found, self._part = None, tuple(map(float, self.part.value))
         self.home.visible, self.take_home.disabled = False, True
@@ -190,6 +226,7 @@ class Measure:
         self._runs.begin(Run(lambda run: (placed(model, data), kept(data, top, scales)), self._drawn), "guess")
         if self._run:
             self._run.forget()
+            self.cancel.disabled = True
         if self._is_whole_example and self._runs.beside:
             self.compute()
 
@@ -233,16 +270,35 @@ class Measure:
             if not isinstance(result, (Stopped, TopError)):
                 raise result
             return
-        self._found = result
+        self._found, self._taken = result, self._film()
         self.found.object = (found_words(*result.fits, result.kept) + numbers_table(result.better)
                              + models_table(*result.fits))  # fmt: skip
         self.pictures.show(result.motion, result.better)
         show_film(self.stage, result.motion, self._body[3])
         self.take_home.disabled = False
+        self._put_in_link()
 
     # ---- what is taken home ----
 
+    def _film(self):
+        """The text of the film as it is fitted now."""
+        top, scales, shape, _ = self._body
+        film = Film(self.law.value, tuple(self.loose.value), self._part, top, scales, shape)
+        return written(film, self._data)
+
+    def _put_in_link(self):
+        """Where a person wants it, and it is short enough."""
+        wanted = self.in_link.value
+        if wanted and self._found is None:  # not fitted yet: what the link had stays
+            return
+        self.filmed.film = packed(self._taken) if wanted else ""
+        too_long = wanted and not self.filmed.film
+        says = say("measure.too_long_for_link") if too_long else say("measure.is_in_link") if wanted else ""
+        self.of_link.object = note(says)
+
     def _downloads(self):
+        yield Download(self._runs, lambda: (self._taken,), str.encode, label=say("measure.home.film"),
+                       filename="top-on-film.csv")  # fmt: skip
         kinds = {"report": "top-on-film.html", "residuals": "residuals.csv", "program": "repeat_fit.py"}
         for kind, name in kinds.items():
             yield Download(self._runs, lambda: self._home, getattr(self, f"_{kind}"), label=say(f"measure.home.{kind}"),

@@ -4,6 +4,7 @@ import { timeOf } from "../motion/clock.js";
 import { followClock, isFollowed } from "./seeking.js";
 
 // To the ear a canvas is a picture with a name.
+/** @param {{ fig: Figure, label: string }} given */
 export function nameFigure({ fig, label }) {
   const el = elementOf(fig);
   if (!el) return;
@@ -14,6 +15,7 @@ export function nameFigure({ fig, label }) {
 }
 
 // Lines at the clock's time.
+/** @param {{ spans: BokehModel[] }} given */
 export function moveLines({ spans }) {
   if (isFollowed(spans[0])) return;
   const move = (t) => {

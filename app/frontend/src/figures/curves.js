@@ -1,5 +1,6 @@
 // Curves as Python sent them, columns of numbers, and a clock or a hand on them. Nothing here knows of a page.
 
+/** @param {number} value @param {number} least @param {number} most */
 export const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
 // A row and the share of the way to the next one, at a share of all rows, which are evenly spaced in time.

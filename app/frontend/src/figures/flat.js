@@ -94,7 +94,7 @@ class Flat {
   }
 
   paint(on, width, height, scale) {
-    const pen = penOf(on), { look, player, pose, model } = this;
+    const pen = penOf(on), { player, pose, model } = this, look = /** @type {Record<string, any>} */ (this.look);
     pen.setTransform(scale, 0, 0, scale, 0, 0);
     pen.fillStyle = hex(look.sky);
     pen.fillRect(0, 0, width, height);

@@ -10,11 +10,13 @@ const WAIT = 80; // ms between two places that are sent while a hand moves
 /** @type {WeakMap<object, { held: boolean, sent: number }>} */
 const hands = new WeakMap();
 
-/** How far the bead is from a place, in px. */
+// How far the bead is from a place, in px.
+/** @param {Pick<Source<"x" | "y">, "data">} bead @param {number[]} place @param {Record<"x" | "y", Pick<PixelScale, "compute">>} scales */
 export function awayFromBead({ data }, [px, py], { x, y }) {
   return Math.hypot(x.compute(data.x[0]) - px, y.compute(data.y[0]) - py);
 }
 
+/** @param {{ fig: Figure, hand: Source, bead: Source<"x" | "y"> }} given @param {Happened} event */
 export function pullBead({ fig, hand, bead }, { event_name: name, sx, sy, x, y }) {
   const own = hands.get(hand) ?? { held: false, sent: 0 }, clicked = name === "tap";
   hands.set(hand, own);
@@ -31,6 +33,7 @@ export function pullBead({ fig, hand, bead }, { event_name: name, sx, sy, x, y }
 }
 
 // A finger near the bead moves it, and scrolls the page from everywhere else.
+/** @param {{ fig: Figure, bead: Source<"x" | "y"> }} given */
 export function keepFinger({ fig, bead }) {
   if (isFollowed(bead)) return;
   const events = eventsOf(fig);

@@ -10,6 +10,7 @@ const REACH = 16; // px: a hand so near to the line of the start takes that, els
 /** @type {WeakMap<object, { first: number, curves: number[][] }>} */
 const pulls = new WeakMap();
 
+/** @param {{ spans: BokehModel[] }} given */
 export function followFilm({ spans }) {
   if (isFollowed(spans[0])) return;
   const move = (t) => {

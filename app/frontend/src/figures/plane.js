@@ -23,6 +23,7 @@ function handOf(hand) {
 /** @returns {any} */
 const rowOf = (source) => Object.fromEntries(Object.entries(source.data).map(([name, values]) => [name, values[0]]));
 
+/** @param {{ fig: Figure, hand: Source, motion: Source<"t" | "theta">, selected: Source<"theta"> }} given */
 export function followMotion({ fig, hand, motion, selected }) {
   if (isFollowed(motion)) return;
   let now = 0;
@@ -58,6 +59,7 @@ export function followMotion({ fig, hand, motion, selected }) {
   window.addEventListener("scroll", () => hideReadout(hand), { capture: true, passive: true });
 }
 
+/** @param {Record<string, any> & { motion: Source }} given @param {Happened} event */
 export function pullPlane(given, event) {
   const { fig, hand, selected, limits } = given, { x, y, event_name: name } = event;
   const own = handOf(hand), row = rowOf(selected), scales = scalesOf(fig);
@@ -107,6 +109,7 @@ function say(given, words) {
 }
 
 // Why not, where a hand pulls.
+/** @param {Record<string, any>} given */
 export function sayPull(given) {
   const { hand, selected, pulled } = given, { at, grip } = handOf(hand), [worst] = selected.data.worst;
   if (!at) return;

@@ -23,6 +23,7 @@ function showWell({ wells, steady, none, range }, which) {
   if (which >= 0) quietly(range, { start: low[which], end: high[which] });
 }
 
+/** @param {Record<"path" | "bead" | "wells" | "steady", Source> & Record<"none" | "range", BokehModel> & { spans: BokehModel[], clock: string }} given */
 export function followPlanes(given) {
   const { spans, path, bead, none, clock } = given;
   if (isFollowed(path)) return;

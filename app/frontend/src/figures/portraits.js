@@ -4,6 +4,7 @@ import { timeOf } from "../motion/clock.js";
 import { spotInTurn, timeAtPoint, valueAt } from "./curves.js";
 import { followClock, isDown, isFollowed, seek } from "./seeking.js";
 
+/** @param {{ fig: Figure, curve: Source<"t" | "x" | "y">, bead: Source<"x" | "y"> }} given */
 export function followCurve({ curve, bead, fig }) {
   if (isFollowed(curve)) return;
   let now = timeOf();
@@ -23,6 +24,7 @@ export function followCurve({ curve, bead, fig }) {
   place();
 }
 
+/** @param {{ fig: Figure, curve: Source<"t" | "x" | "y">, whole: boolean }} given @param {Happened} event */
 export function seekOnCurve({ curve, fig, whole }, event) {
   const t = timeAtPoint(curve.data, [event.x, event.y], timeOf(), whole, scalesOf(fig));
   seek(t, isDown(event));

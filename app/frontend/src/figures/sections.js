@@ -21,6 +21,7 @@ export function sectionAt({ axis, G, foot }, { across, along }) {
 }
 
 // Where a hand goes down: a quick one is elsewhere by the time it counts as dragging.
+/** @param {{ fig: Figure, pressed: Source<"x" | "z"> }} given */
 export function pressSection({ fig, pressed }) {
   if (isFollowed(pressed)) return;
   const press = ({ offsetX, offsetY }) => {

@@ -5,9 +5,11 @@ export function seek(t, held, clock = "") {
   window.dispatchEvent(new CustomEvent(`tippe:seek${clock && `:${clock}`}`, { detail: { t, held } }));
 }
 
+/** @param {Pick<Happened, "event_name">} event */
 export const isDown = ({ event_name: name }) => name === "panstart" || name === "pan";
 
 // By the place along the time of a figure. path: has the unit of that time.
+/** @param {{ clock?: string, path?: Source }} given @param {Happened} event */
 export function seekAlong({ clock, path }, event) {
   seek(event.x / (path?.tags[0] ?? 1), isDown(event), clock);
 }

@@ -11,7 +11,7 @@ const on = (name) => clocks.get(name) ?? [];
 // Of the tops of one clock, the one that moves the time: the first in view with something to show.
 const leaderOf = (name) => on(name).find(({ inView, player }) => inView() && player.frames.count > 1) ?? on(name)[0];
 
-/** The time of a clock, 0 where nothing is on it. */
+/** The time of a clock, 0 where nothing is on it. @param {string} clock */
 export const timeOf = (clock = "") => leaderOf(clock)?.player.t ?? 0;
 
 /** A picture of what leads a clock, so many pixels wide. @param {number} wide */

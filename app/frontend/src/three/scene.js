@@ -22,6 +22,7 @@ export const words = {
 const now = () => scenes[document.documentElement.dataset.look?.startsWith("dark") ? "dark" : "light"];
 
 // dress(scene) runs now and with each new look, until what it returns is called.
+/** @param {(look: typeof scenes.light) => void} dress */
 export function followLook(dress) {
   const again = () => dress(now());
   window.addEventListener("tippe:look", again);

@@ -32,9 +32,10 @@ export function makeTable() {
   return table;
 }
 
+/** @param {any} table of makeTable @param {Record<"sky" | "table" | "grid" | "strong", number>} look */
 export function dressTable(table, look) {
   const { color } = table.geometry.attributes, colour = new THREE.Color();
-  for (let i = 0; i < color.count; i++) color.setXYZ(i, ...colour.set(i ? look.sky : look.table).toArray());
+  for (let i = 0; i < color.count; i++) colour.set(i ? look.sky : look.table).toArray(color.array, 3 * i);
   color.needsUpdate = true;
   table.children.forEach((grid, strong) => grid.material.color.set(strong ? look.strong : look.grid));
 }

@@ -13,6 +13,7 @@ const STOPS = [
 const PLACED_MS = 200; // the page goes on being laid out
 const GAP = 14; // px
 
+/** @param {Record<string, string>} texts */
 export const tourFrame = (texts) => `<div class="ring" hidden></div>
   <div class="stop" role="dialog" aria-labelledby="name" aria-describedby="what" hidden><h2 id="name" tabindex="-1"></h2><p id="what"></p>
     <div><span class="count"></span><button class="skip">${texts.skip}</button><button class="back">${texts.back}</button><button class="next"></button></div></div>`;

@@ -1,0 +1,64 @@
+// A table is thinned in the browser, and a large one read piece by piece; a ghost shows where a film saw the axis.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { encodingOf, readFile, thinned } from "../../app/frontend/src/widgets/measured_file.js";
+
+const MOST = 10_000;
+const table = (rows, end = "\n") => ["# a film", "t (s)\ttilt (°)", ...Array.from({ length: rows }, (_, i) => `${(i / 240).toFixed(4)}\t${i}`)].join(end);
+
+test("a short table is left as it is", () => assert.deepEqual(thinned(table(20), MOST), [table(20), 1]));
+
+test("of a long one each so-manieth row is left, and its names", () => {
+  const [text, each] = thinned(table(5000), MOST), lines = text.split("\n");
+  assert.ok(each > 1 && text.length <= MOST);
+  assert.equal(lines[1], "t (s)\ttilt (°)");
+  const last = lines.slice(20).map((line) => Number(line.split("\t")[1]));
+  last.slice(1).forEach((row, i) => assert.equal(row - last[i], each));
+});
+
+test("digits that no film has go first", () => {
+  const long = Array.from({ length: 400 }, (_, i) => `${i}.123456789012345,2.5E-3`).join("\n");
+  const [text, each] = thinned(long, MOST);
+  assert.equal(each, 1);
+  assert.equal(text.split("\n")[399], "399.1234567,2.5E-3");
+});
+
+test("how a file is written is seen from its beginning", () => {
+  assert.equal(encodingOf(new TextEncoder().encode("t\ttilt (°)\n0\t1\n")), "utf-8");
+  assert.equal(encodingOf(new Uint8Array([0xff, 0xfe, 0x74, 0])), "utf-16le");
+  assert.equal(encodingOf(new Uint8Array([0x74, 0xb0, 0x74, 0x74, 0x74, 0x74])), "windows-1252");
+});
+
+// A file that is larger than what is read of it at once, without having it whole in memory here either.
+function large(size, end) {
+  const row = (i) => `${(i / 1000).toFixed(6).padStart(12, "0")}\t${String(i).padStart(9, "0")}${end}`, long = row(0).length;
+  const head = `t (s)\tµ count${end}`, bytes = new TextEncoder().encode(head).length;
+  return {
+    size: bytes + size * long,
+    slice(from, to) {
+      const first = Math.max(Math.floor((from - bytes) / long), 0), last = Math.min(Math.ceil((to - bytes) / long), size);
+      const rows = Array.from({ length: Math.max(last - first, 0) }, (_, i) => row(first + i)).join("");
+      const all = new TextEncoder().encode((from < bytes ? head : "") + rows), at = from < bytes ? 0 : bytes + first * long;
+      return new Blob([all.slice(from - at, to - at)]);
+    },
+  };
+}
+
+for (const end of ["\n", "\r\n"]) {
+  test(`a large file is read piece by piece (${JSON.stringify(end)})`, async () => {
+    const shares = [];
+    const [text, each] = await readFile(/** @type {any} */ (large(250_000, end)), MOST, (share) => shares.push(share));
+    const rows = text.split("\n").filter(Boolean), counts = rows.slice(20).map((row) => Number(row.split("\t")[1]));
+    assert.ok(shares.length > 1 && shares.at(-1) === 1);
+    assert.ok(text.length <= MOST && counts.length > 100);
+    assert.equal(rows[0], "t (s)\tµ count");
+    counts.slice(1).forEach((count, i) => assert.equal(count - counts[i], each));
+  });
+}
+
+test("what is no text comes as its beginning, for which there is a sentence", async () => {
+  const film = new Blob([new Uint8Array(5_000_000).fill(0).map((_, i) => i % 251)]);
+  const [text, each] = await readFile(film, MOST, () => {});
+  assert.ok(text.includes("\0") && text.length < MOST);
+  assert.equal(each, 1);
+});

@@ -1,0 +1,78 @@
+"""A film's data as a file and as a link: it opens again as it was, and what a stranger wrote there is refused."""
+
+import base64
+import json
+import zlib
+
+import numpy as np
+import pytest
+
+from app.model import measured_film
+from app.model.explorer import Explorer
+from app.model.measured_data import settled
+from app.model.measured_examples import EXAMPLES, FOLDER
+from app.model.measured_film import Film, opened, packed, unpacked, written
+from app.model.measured_table import MeasuredError, read
+from app.tabs.measure.measure import Measure
+from tippe_core import Scales, Top, TruncatedSphere
+
+FILM = Film("viscous", ("losses", "body"), (0.1, 0.7), Top(0.1, 0.4, 0.41), Scales(0.02, 0.03), TruncatedSphere.paper())
+
+
+@pytest.fixture(params=EXAMPLES)
+def data(request):
+    return settled(read((FOLDER / f"made-{request.param}.csv").read_bytes()))
+
+
+def test_a_saved_film_opens_as_it_was(data):
+    """Its numbers to a part of their errors that no fit sees."""
+    text = written(FILM, data)
+    again, table = opened(text), settled(read(text))
+    assert (again.law, again.loose, again.part) == (FILM.law, FILM.loose, FILM.part)
+    assert (again.top, again.scales, again.shape) == (FILM.top, FILM.scales, FILM.shape)
+    for name, series in data.series.items():
+        assert table.series[name].error == pytest.approx(series.error, rel=1e-3)
+        np.testing.assert_allclose(table.series[name].values, series.values, rtol=0, atol=series.error / 20)
+        np.testing.assert_allclose(table.series[name].t, series.t, rtol=0, atol=1e-5)
+    assert opened(text.encode()).top == FILM.top
+    assert unpacked(packed(text)) == text
+
+
+def test_a_table_alone_says_nothing_of_a_fit():
+    assert opened("t\ttilt\n0\t1\n") is None
+
+
+@pytest.mark.parametrize("change", [
+    {"law": "rolling"}, {"law": 3}, {"loose": ["weight"]}, {"loose": None}, {"part": [0]}, {"part": ["a", 1]},
+    {"top": [0.1, 0.4, 0.9, 0.02, 0.03, 9.8]}, {"top": [0.1, 0.4, 0.41, -1, 0.03, 9.8]}, {"body": {"kind": "bomb"}},
+    {"top": [float("nan")] * 6}])  # fmt: skip
+def test_what_a_film_cannot_be_is_refused_by_its_line(change):
+    text = written(FILM, settled(read((FOLDER / "made-rolls.csv").read_bytes())))
+    head, _, table = text.partition("\n")
+    said = json.loads(head.removeprefix(measured_film.MARK)) | change
+    with pytest.raises(MeasuredError) as error:
+        opened(f"# mine\n{measured_film.MARK} {json.dumps(said)}\n{table}")
+    assert (error.value.code, error.value.numbers) == ("film", {"line": 2})
+
+
+def test_a_link_holds_no_more_than_a_table():
+    bomb = base64.urlsafe_b64encode(zlib.compress(b"0" * 10_000_000)).decode()
+    for letters in (bomb, packed("a film")[:-3], "!", "AAAA", "x" * 50):
+        with pytest.raises(ValueError, match="film"):
+            unpacked(letters)
+    noise = "\n".join(map(str, np.random.default_rng(1).normal(size=4000)))
+    assert packed(noise) == ""
+
+
+def test_the_tab_opens_what_its_link_says():
+    """With the law, what is free, the part and the top of the film, whatever the page's top is."""
+    one = Measure(Explorer().scene)
+    one.take(written(FILM, settled(read((FOLDER / "made-rolls.csv").read_bytes()))))
+    assert (one.law.value, one.loose.value, one.part.value) == ("viscous", ["losses", "body"], (0.1, 0.7))
+    assert one._body[0] == FILM.top and "saved film" in one.about.object
+    other = Measure(Explorer().scene)
+    other.filmed.film = packed(one._film())
+    assert other.view is not None
+    assert other._body[:3] == one._body[:3] and other.part.value == one.part.value
+    other.take((FOLDER / "made-slips.csv").read_bytes())  # another table: of the page's top again
+    assert other._body[0] == Explorer().scene.top

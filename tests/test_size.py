@@ -1,0 +1,38 @@
+"""A file that is read in one sitting, a function that is seen at one look: at most 350 and 60 lines, as CONTRIBUTING.md
+says. ESLint counts the functions of the scripts."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+LINES, OF_A_FUNCTION = 350, 60
+FILES = [path for folder in ("app", "tippe_core") for kind in ("*.py", "*.js") for path in (ROOT / folder).rglob(kind)
+         if not {"node_modules", "static"} & {*path.parts}]  # fmt: skip
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_a_file_is_short_and_so_are_its_functions(path):
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n") <= LINES
+    if path.suffix == ".js":
+        assert "eslint-disable" not in text and "@ts-nocheck" not in text
+        return
+    functions = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
+    assert {node.name: size for node in functions if (size := node.end_lineno - node.lineno + 1) > OF_A_FUNCTION} == {}
+
+
+def test_eslint_counts_the_same_in_every_script():
+    config = (ROOT / "tests/frontend/eslint.config.js").read_text(encoding="utf-8")
+    assert f'"max-lines": ["error", {LINES}]' in config
+    assert f'"max-lines-per-function": ["error", {OF_A_FUNCTION}]' in config
+    assert re.findall(r'"max-lines[\w-]*": (?!\["error")', config) == []
+    assert 'files: ["**/*.js"]' in config and re.findall(r"ignores: (\[.*?\])", config) == ['["app/static"]']
+
+
+def test_tsc_checks_every_script():
+    config = (ROOT / "tests/frontend/tsconfig.json").read_text(encoding="utf-8")
+    assert '"checkJs": true' in config and '"strict": true' in config
+    assert '"include": ["../../app/frontend/src"]' in config and "exclude" not in config
