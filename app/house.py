@@ -11,6 +11,7 @@ from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
 from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
+from app.state.start import OneStart
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
 from app.tabs.families.compare import Compare
@@ -56,6 +57,7 @@ class House:
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
         self.lab_of = Lab(self.runs)
+        self.start = OneStart(self.lab_of, self.explorer, self.pacer.ask, self.builder)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
         pn.state.onload(self.pacer.begin)
 
@@ -66,14 +68,14 @@ class House:
     # ---- the rooms, each made when it is first looked at ----
 
     def lab(self):
-        return lab_view(self.lab_of, self.keep, self.pacer.ask, lambda: self._look_at(room.USUAL))
+        return lab_view(self.lab_of, self.keep, lambda: self._look_at(room.USUAL))
 
     def roll(self):
         controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
         self.keep.add(controls)
         for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show, when)
-        return Roll(self.pacer, self.playing, controls).main
+        return Roll(self.pacer, self.playing, controls, partial(self._look_at, "three-planes")).main
 
     def build(self):
         bench = Build(self.builder, self.pacer.soon)
@@ -89,6 +91,7 @@ class House:
     def planes(self):
         planes = Planes(self.scene, self.runs)
         self.keep.add(planes)
+        self.start.have(planes)
         inputs = {name: getattr(planes, name) for name in ("plane", *Planes.INPUTS)}
         view = ThreePlanes(inputs, self.pacer.ask_of(planes), self.pacer.ask, self.builder.choose, planes)
         planes.param.watch(lambda event: view.show(event.new), "picture")

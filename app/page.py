@@ -54,7 +54,8 @@ def page():
         pacer.shows(show, when)
     rooms = Rooms(house.makers, TABS, keep, pacer.soon, room.AT_ONCE, room.opened(texts, search), room.USUAL,
                   room.level(texts, search))  # fmt: skip
-    choices = Choices(rooms, house.lab_of, house.builder, tongue, share)
+    rooms.param.watch(lambda event: house.start.moved(event.old, event.new), "room")
+    choices = Choices(rooms, house, tongue, share)
     head = HeadBar(rooms, keep, look, choices.does)
     choices.shown_in(head)
     rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")

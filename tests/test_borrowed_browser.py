@@ -38,6 +38,15 @@ def test_what_is_borrowed_is_numbered_and_each_has_its_test():
         assert all(re.search(r"github\.com/[\w/.]+/\d+|No issue that we found", part) for part in parts)
 
 
+def test_docs_list_all_that_is_borrowed():
+    """Of Python too, in the order of the files."""
+    python = [int(number) for number in re.findall(r"(?m)^    \"\"\"(\d+)\.", (APP / "borrowed.py").read_text("utf-8"))]
+    python = sorted({*python, 4})  # which mend() has, with two others
+    part = (APP.parent / "docs/house.md").read_text(encoding="utf-8").partition("## Borrowed keys")[2]
+    listed = [int(number) for number in re.findall(r"^\| (?:`[\w./]+` )?(\d+) \|", part, re.M)]
+    assert listed == [*python, *numbers(BEFORE), *numbers(BUNDLED)]
+
+
 # ---- of Bokeh, on a page with one figure ----
 
 

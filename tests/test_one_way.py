@@ -6,6 +6,7 @@ which stations three gestures go, and they go through those, each once.
 
 import re
 from functools import cache, partial, wraps
+from itertools import chain
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -46,6 +47,7 @@ from app.tabs.roll.roll import Roll
 from app.widgets.controls import FACES, Control, Controls
 from app.widgets.guide import Guide
 from app.widgets.pacing import Pacer
+from app.widgets.plane_card import PlaneCard
 from app.widgets.plane_figure import PlaneFigure
 from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
@@ -313,8 +315,10 @@ STATIONS = (
     (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneFigure, "show_selected"),
     (Motion, "show"), (PlaneFigure, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
     (Planes, "see"), (Planes, "follow"), (Planes, "_ask"), (Planes, "_publish"), (ThreePlanes, "show"),
+    (TimeFigures, "show"), (PlaneCard, "show_path"),
 )  # fmt: skip
 FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app.tabs.roll.roll, "show_top"),
+             (app.tabs.roll.roll, "show_surface"),
              (app.model.planes, "solve"))  # fmt: skip
 
 
@@ -326,8 +330,9 @@ def station(owner, name):
 
 @pytest.fixture
 def walk(monkeypatch):
-    """(House, its stations as they are passed); the browser has painted all that came, and the hand rests."""
-    passed, timers = [], []
+    """walk(query) makes the page of an address, as it is served, and returns (what it made, by class; its stations as
+    they are passed; rest()); after rest() the browser has painted all that came, and the hand rests."""
+    made, passed, timers = {}, [], []
 
     def note(function, name):
         @wraps(function)
@@ -337,25 +342,38 @@ def walk(monkeypatch):
 
         return noted
 
+    def kept(make):
+        @wraps(make)
+        def making(view, *inputs, **named):
+            made[type(view)] = view
+            make(view, *inputs, **named)
+
+        return making
+
     for owner, name in (*STATIONS, *FUNCTIONS):
         monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
+    for kind in (House, Roll, Controls, ThreePlanes):
+        monkeypatch.setattr(kind, "__init__", kept(kind.__init__))
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
+    monkeypatch.setattr("app.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
     with set_curdoc(Document()):
-        house = House({}, "", nothing)
-        house.runs = Runs()
-        controls = Controls(house.scene, house.pacer.ask, house.pacer.soon)
-        for show, when in ((Share(house.keep, house.playing, house.scene).show, "hand"), (controls.follow, "hand"),
-                           (Guide().show, "rest"), (controls.show, "rest")):  # fmt: skip
-            house.pacer.shows(show, when)
 
         def rest():
-            house.pacer._requested -= 1  # it is long ago
-            for _ in range(20):
-                house.pacer.painted.painted = house.pacer.painted.sent
+            pacer = made[House].pacer
+            pacer._requested -= 1  # it is long ago
+            for _ in range(30):
+                pacer.painted.painted = pacer.painted.sent
                 if timers:
                     timers.pop(0)()
 
-        yield house, controls, passed, rest
+        def walked(query):
+            pn.state.location.search = query
+            page()
+            rest()
+            passed.clear()
+            return made, passed, rest
+
+        yield walked
 
 
 def told(title):
@@ -366,35 +384,39 @@ def told(title):
 
 
 def test_the_walk_of_a_slider(walk):
-    house, controls, passed, rest = walk
-    view = Roll(house.pacer, house.playing, controls)
+    made, passed, rest = walk("?v=1&tab=roll")
+    made[Controls]._controls["K_J"].view.asked = [1, 6.5, False]
     rest()
-    passed.clear()
-    controls._controls["K_J"].view.asked = [1, 6.5, False]
-    rest()
-    assert view._scene.constants.K_J == 6.5
+    assert made[Roll]._scene.constants.K_J == 6.5
     assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
 
 
+def followers(pacer):
+    """The names of all that a Pacer shows scenes to; of what the rooms bundle, its parts."""
+    for show in chain.from_iterable(pacer._shows.values()):
+        bundled = show.args[0] if isinstance(show, partial) and show.func.__qualname__ == "Roll._draw" else [show]
+        yield from (getattr(part, "func", part).__qualname__ for part in bundled)
+
+
+def test_every_one_that_scenes_are_shown_to_is_a_station(walk):
+    made, _, _ = walk("?v=1&tab=roll")
+    stations = {getattr(owner, name).__qualname__ for owner, name in (*STATIONS, *FUNCTIONS)}
+    turned = {"Roll._show_hand", "Switch.show"}  # the first calls PlaneFigure's, the other only turns a picture
+    assert {*followers(made[House].pacer)} - stations == turned
+
+
 def test_the_walk_of_a_tieline_that_is_pulled(walk):
-    house, controls, passed, rest = walk
-    view = Roll(house.pacer, house.playing, controls)
+    made, passed, rest = walk("?v=1&tab=roll")
+    made[Roll]._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.5]}
     rest()
-    passed.clear()
-    view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.5]}
-    rest()
-    assert view._scene.constants.K_J == 6.5
+    assert made[Roll]._scene.constants.K_J == 6.5
     assert passed == told("A tieline that is pulled") and len({*passed}) == len(passed)
 
 
 @pytest.mark.slow
 def test_the_walk_of_a_run_with_friction(walk):
-    house, _, passed, rest = walk
-    made = []
-    house.pacer.soon(lambda: made.append(house.planes()))
-    rest()
-    [dial] = [dial for dial in made[0].select(lambda part: getattr(part, "input", "") == "tilt")]
-    passed.clear()
+    made, passed, rest = walk("?v=1&tab=three-planes")
+    [dial] = [dial for dial in made[ThreePlanes].main.select(lambda part: getattr(part, "input", "") == "tilt")]
     dial.asked = [1, 15.0, False]
     rest()
     assert passed == told("A run with friction") and len({*passed}) == len(passed)

@@ -22,7 +22,7 @@ from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.planes.words import ball_words, fate, scatter_words
 from app.text import speaking
 from tippe_core import PRESETS as BODIES
-from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, roll, slide
+from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, grip, roll, slide
 
 HAND = next(iter(PRESETS))
 
@@ -90,7 +90,7 @@ def test_all_three_are_tippe_cores_from_one_start(explorer, planes):
     t = picture.motions["sliding"].t
     assert t[-1] * scales.time == pytest.approx(2)
     expected = {
-        "rough": roll(top, None, t, State(theta, 0, 0, spin)),
+        "rough": roll(top, None, t, grip(top, state)[0]),
         "smooth": glide(top, state, t),
         "sliding": slide(top, state, Coulomb(0.2, 0.3), t, landing="plastic"),
     }

@@ -30,6 +30,7 @@ def page(server, chromium):
     page = visit.page
     page.set_default_timeout(PATIENCE)
     go_to(page, "Three planes")
+    choose(page, "spin, tilt and slip")
     page.wait_for_function(f"{TOPS}.some(top => top.count > 0 && top.pictures > 2)")
     yield page
     page.close()
@@ -58,6 +59,10 @@ def choose(page, name):
     page.get_by_role("button", name=name, exact=True).click()
 
 
+def put_on(page, table):
+    page.get_by_role("radio", name=table, exact=True).click()
+
+
 def test_the_first_look_says_that_only_sliding_turns_it_over(page, first):
     page.get_by_text(re.compile(r"^rough: never turns over: rolling keeps the sign")).wait_for()
     page.get_by_text(re.compile(r"^smooth: never turns over")).wait_for()
@@ -71,7 +76,7 @@ def test_the_first_look_says_that_only_sliding_turns_it_over(page, first):
 
 
 def test_three_tops_side_by_side_go_by_one_clock(page, first):
-    choose(page, "compare all three")
+    put_on(page, "All three")
     page.wait_for_function(f"{TOPS}.length == 3 && {TOPS}.every(top => top.count > 0)")
     page.locator("button.play:visible").first.click()
     page.wait_for_function(f"{TOPS}.every(top => !top.playing)")
@@ -93,14 +98,14 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
     assert page.evaluate("__tippe.top3d.playing")  # the top of the tab Roll has a clock of its own
     table = page.locator("table").first.inner_text()
     assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
-    choose(page, "rough")
-    page.get_by_text(re.compile("Friction in force: rough plane")).wait_for()
-    choose(page, "sliding")
+    put_on(page, "Ice: no friction")
+    page.get_by_text(re.compile("Friction in force: smooth plane")).wait_for()
+    put_on(page, "Ordinary: it slips")
 
 
 def test_there_is_no_well_while_the_stem_touches(page, first):
     """And the bead is gone with it; before that both are there."""
-    choose(page, "sliding")
+    put_on(page, "Ordinary: it slips")
     hidden = f"t => {MODELS}.some((m) => m.type == 'Label' && m.visible) == (t > 2.6)"
     for t, beads in ((4.0, 0), (1.0, 1)):
         page.evaluate("t => window.dispatchEvent(new CustomEvent('tippe:seek:planes', {detail: {t}}))",

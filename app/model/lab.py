@@ -15,11 +15,11 @@ import param
 from app.model.arrival import ARRIVAL, MU, SPIN, TABLE, TILT, TOY
 from app.model.lab_ends import Ends, Key, ends_of, known_ends
 from app.model.lab_keeps import Row, keeps
-from app.model.lab_run import TABLES, TOYS, TableMotion, TooLong, motion_on, start_of
+from app.model.lab_run import TABLES, TOYS, TableMotion, TooLong, Toy, motion_on, start_of
 from app.model.runs import Result, Run, Runs, Stopped
 from app.model.story import Event, Stage, Story, story
 from app.text import say, told
-from tippe_core import TopError
+from tippe_core import Shape, TopError
 from tippe_core.types import Array
 
 LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5)})
@@ -27,7 +27,7 @@ LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": 
 CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
 SHOWN = 30  # characters of what is no number, in a sentence
 PATIENCE = 0.5  # s: a run that a newer one replaces may still finish within this
-Inputs: TypeAlias = tuple[str, str, float, float, float]  # table, toy, spin, tilt, mu
+Inputs: TypeAlias = tuple[str, Toy, float, float, float]  # table, toy, spin, tilt, mu
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,7 +41,7 @@ class LabScene:
     """
 
     table: str
-    toy: str
+    toy: Toy
     spin: float
     tilt: float
     mu: float
@@ -73,7 +73,7 @@ class LabScene:
         return self.stories.get(table) or Story((), (Stage(0.0, short, self.refused[table], short),), short)
 
 
-def scene_of(table: str, toy: str, spin: float, tilt: float, mu: float) -> LabScene:
+def scene_of(table: str, toy: Toy, spin: float, tilt: float, mu: float) -> LabScene:
     """The LabScene of a start, in the page's language. Raises TopError, whose name is an input, where none of the
     tables can have it because of that input's value."""
     watched = tuple(TABLES) if table == "three" else (table,)
@@ -109,6 +109,8 @@ def _sentence(error: TopError) -> str:
 
 def fault(name: str, value: object) -> str:
     """Why an input cannot have a value, in a sentence; "" where it can."""
+    if name == "toy" and isinstance(value, Shape):
+        return ""
     if name in CHOICES:
         return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])
     least, most = LIMITS[name]
@@ -127,9 +129,7 @@ class Lab(param.Parameterized):
     table: param.Selector[str] = param.Selector(
         default=TABLE, objects=list(CHOICES["table"]), doc="on what it stands; all three beside each other"
     )
-    toy: param.Selector[str] = param.Selector(
-        default=TOY, objects=list(CHOICES["toy"]), doc="a name in tippe_core.PRESETS"
-    )
+    toy = param.Parameter(TOY, doc="a name in tippe_core.PRESETS, or a Shape")
     spin = param.Number(SPIN, doc="about its axis at the start, rev/s")
     tilt = param.Number(TILT, doc="at the start, degrees")
     mu = param.Number(MU, doc="friction of the ordinary table")

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.model import arrival
-from app.model.lab_run import start_of
+from app.model.lab_run import Toy, start_of
 from app.text import say
 from tippe_core import Many, slide_many
 from tippe_core.types import Array
@@ -18,7 +18,7 @@ TIMES = np.arange(1.0, 6.01, 0.5)  # s: whether it stands is looked at then, for
 STANDS, LEANS = np.radians(170), np.radians(20)
 CLOSE = 2  # cells: where the end changes as soon again, ends are mixed
 MOST = 64  # that are kept
-Key = tuple[str, float, float]  # toy, tilt, mu
+Key = tuple[Toy, float, float]  # toy, tilt, mu
 
 
 class Segment(NamedTuple):

@@ -1,10 +1,10 @@
 """From the Lab to the paper: the motion that the rough table gives to a start of the Lab, as an Explorer's inputs."""
 
-from app.model.lab_run import start_of
+from app.model.lab_run import Toy, start_of
 from tippe_core import grip
 
 
-def rolling(toy: str, spin: float, tilt: float, mu: float) -> dict[str, object]:
+def rolling(toy: Toy, spin: float, tilt: float, mu: float) -> dict[str, object]:
     """{input of an Explorer: value} of a toy that is let go by a hand, with this spin (rev/s) and tilt (degrees), and
     gripped."""
     start = start_of(toy, spin, tilt, mu)

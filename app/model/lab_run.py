@@ -7,7 +7,7 @@ friction at all.
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from types import MappingProxyType
-from typing import ClassVar
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from app.model.bodies import body
 from app.model.planes_picture import Motion, Setup
 from app.model.planes_run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
-from tippe_core import PRESETS, Contensou, Preset, State, TopError, Trajectory, glide, grip, roll
+from tippe_core import PRESETS, Contensou, Preset, Shape, State, TopError, Trajectory, glide, grip, roll
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array
 
@@ -28,6 +28,10 @@ PATCH = 0.5e-3  # m, the radius of the patch of contact
 SECONDS = 6.0
 MOST_LOOKS = 20_000  # of slide() at its page: some seconds; a toy that flips needs a hundred
 STEP = 2  # a row of the curves for so many frames: 200 rows in a second of a fast top
+
+
+Toy: TypeAlias = str | Shape
+"""The name of one of TOYS, or a body of somebody's own."""
 
 
 class TooLong(Exception):
@@ -53,7 +57,7 @@ class Start(Setup):
 
     most_turn: ClassVar[float] = 0.5  # 2000 frames of a fast one
 
-    toy: str
+    toy: Toy
     spin: float
     tilt: float
     mu: float
@@ -106,15 +110,20 @@ class TableMotion(Motion):
         return float(self.seconds[slips[-1] + 1]) if slips[-1] + 1 < len(self.seconds) else np.nan
 
 
-def start_of(toy: str, spin: float, tilt: float, mu: float) -> Start:
-    """The Start of a toy, by its name in tippe_core.PRESETS."""
-    preset = TOYS[toy]
-    return Start(toy=toy, top=preset.top, scales=preset.shape.scales, shape=preset.shape, profile=body(preset.shape),
+def shape_of(toy: Toy) -> Shape:
+    """The body of a toy."""
+    return TOYS[toy].shape if isinstance(toy, str) else toy
+
+
+def start_of(toy: Toy, spin: float, tilt: float, mu: float) -> Start:
+    """The Start of a toy."""
+    shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
+    return Start(toy=toy, top=top, scales=shape.scales, shape=shape, profile=body(shape),
                  landing="plastic", stem=True, seconds=SECONDS, spin=spin, tilt=tilt, mu=mu)  # fmt: skip
 
 
 @lru_cache(12)
-def motion_on(table: str, toy: str, spin: float, tilt: float, mu: float) -> TableMotion:
+def motion_on(table: str, toy: Toy, spin: float, tilt: float, mu: float) -> TableMotion:
     """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
     units of the controls."""
     start = start_of(toy, spin, tilt, mu)

@@ -75,8 +75,9 @@ class Planes(param.Parameterized):
     mu_k = param.Number(0.3, doc="coefficient of sliding friction (Coulomb)")
     mu_s = param.Number(0.4, doc="coefficient of static friction (Coulomb)")
     gamma = param.Number(0.3, doc="viscous friction, in (gR)^-1/2")
-    mu = param.Number(0.3, doc="coefficient of smoothed friction")
+    mu = param.Number(0.3, doc="coefficient of the friction of a real contact, and of smoothed friction")
     eps = param.Number(0.1, doc="slip at which smoothed friction is 0.7 of its full size, in (gR)^1/2")
+    patch = param.Number(0.5, doc="radius of the patch of a real contact, mm")
     landing: param.Selector[str] = param.Selector(
         default="plastic", objects=["stop", "plastic"], doc="what follows where it lifts off"
     )

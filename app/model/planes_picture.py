@@ -11,6 +11,7 @@ import numpy as np
 
 from app.model.bodies import second_part
 from tippe_core import (
+    Contensou,
     Coulomb,
     Ending,
     Outcome,
@@ -27,8 +28,8 @@ from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Indices, Rim
 
 PLANES = ("rough", "smooth", "sliding")
-LAWS = ("coulomb", "viscous", "smoothed")
-SET = ("spin", "tilt", "slip", "law", "mu_k", "mu_s", "gamma", "mu", "eps", "landing", "stem", "seconds")
+LAWS = ("contact", "coulomb", "viscous", "smoothed")
+SET = ("spin", "tilt", "slip", "law", "mu_k", "mu_s", "gamma", "mu", "eps", "patch", "landing", "stem", "seconds")
 KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
 
 MOST_SECONDS = 60.0
@@ -118,6 +119,7 @@ class Settings(Setup):
     gamma: float
     mu: float
     eps: float
+    patch: float = 0.5  # mm
 
     @property
     def inputs(self) -> MappingProxyType[str, Any]:
@@ -129,6 +131,8 @@ class Settings(Setup):
     def friction(self) -> Friction:
         if self.law == "viscous":
             return Viscous(self.gamma)
+        if self.law == "contact":
+            return Contensou(self.mu, 1e-3 * self.patch / self.scales.R)
         return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu_k, self.mu_s)
 
     @property

@@ -33,6 +33,7 @@ from tippe_core import (
     beside,
     ending,
     glide,
+    grip,
     growth,
     lowest,
     outcome,
@@ -54,7 +55,7 @@ def solve(settings: Settings, progress: Progress | None = None) -> Picture:
     top, state, times = settings.top, settings.state, settings.times
     check_room(settings, state)
     runs = {
-        "rough": lambda: clear(lambda: roll(top, None, times, replace(state, vx=None, vy=None)), settings, state),
+        "rough": lambda: clear(lambda: roll(top, None, times, grip(top, state)[0]), settings, state),
         "smooth": lambda: clear(lambda: glide(top, state, times), settings, state),
         "sliding": lambda: slid(settings, state, times, progress),
     }

@@ -99,6 +99,7 @@ ROWS = (
     Name("mu_k", "Planes", "mu_k", Number),
     Name("gamma", "Planes", "gamma", Number),
     Name("eps", "Planes", "eps", Number),
+    Name("patch", "Planes", "patch", Number),
     Name("mu_smooth", "Planes", "mu", Number),
     Name("mu_stick", "Planes", "mu_s", Number),
     # a film's data

@@ -1,31 +1,38 @@
-"""What is chosen in the page's head beside a tab: the top, the language, and Share."""
+"""What is chosen in the page's head beside a tab: the top, the table, the language, and Share."""
 
 from app.model.lab_run import TOYS
 from app.state import asked
+from app.state.start import PLANE, PLANES, ROLLING, TABLE, TOY
 from app.text import LANGUAGES, listed, say
 
-FIRST = "lab"
 OWN = ""  # a body that is none of those with a name
 
 
 class Choices:
-    """does: what a HeadBar asks for. shown_in(head) tells a HeadBar which tops there are, now and whenever it changes.
+    """does: what a HeadBar asks for. shown_in(head) tells a HeadBar which tops and tables there are, now and whenever
+    that changes.
 
-    rooms: the page's Rooms; lab: its Lab; builder: its Builder; tongue: has lang; share: has open() and reload().
+    rooms: the page's Rooms; house: its House; tongue: has lang; share: has open() and reload().
     """
 
-    def __init__(self, rooms, lab, builder, tongue, share):
-        self._rooms, self._lab, self._builder, self._tongue, self._share = rooms, lab, builder, tongue, share
-        self.does = {"toy": self._toy, "language": self._language, "share": lambda value: share.open()}
+    def __init__(self, rooms, house, tongue, share):
+        self._rooms, self._house, self._tongue, self._share = rooms, house, tongue, share
+        self.does = {"toy": self._toy, "table": self._table, "language": self._language,
+                     "share": lambda value: share.open()}  # fmt: skip
 
     def _toy(self, name):
         if name not in TOYS:
             raise asked.Unasked(name)
-        if self._rooms.room == FIRST:
-            self._lab.ask(toy=name)
-            self._lab.rest()
+        if self._rooms.room == TOY:
+            self._house.lab_of.ask(toy=name)
+            self._house.lab_of.rest()
         else:
-            self._builder.choose(name)
+            self._house.builder.choose(name)
+
+    def _table(self, name):
+        if name not in PLANE:
+            raise asked.Unasked(name)
+        self._rooms.room = self._house.start.table(name)
 
     def _language(self, name):
         if name not in LANGUAGES:
@@ -35,14 +42,25 @@ class Choices:
 
     def shown_in(self, head):
         """From now on."""
+        lab, builder, start = self._house.lab_of, self._house.builder, self._house.start
 
-        def show(*events):
+        def tops(*events):
             names = listed("build.presets")
-            toy = self._lab.toy if self._rooms.room == FIRST else self._builder.draft.name
+            toy = lab.toy if self._rooms.room == TOY else builder.draft.name
             known = [[name, names[name]["name"]] for name in TOYS]
-            head.tops(toy or OWN, known if toy else [[OWN, say("main.own")], *known])
+            own = toy not in TOYS
+            head.tops(OWN if own else toy, [[OWN, say("main.own")], *known] if own else known)
 
-        self._rooms.param.watch(show, "room")
-        self._lab.param.watch(show, "toy")
-        self._builder.param.watch(show, "draft")
-        show()
+        def tables(*events):
+            room = self._rooms.room
+            known = [[name, word, ROLLING if name == "rough" else PLANES]
+                     for name, word in listed("main.tables").items()]  # fmt: skip
+            head.tables("rough" if room == ROLLING else TABLE[start.plane], known if room in (ROLLING, PLANES) else [])
+
+        self._rooms.param.watch(tops, "room")
+        self._rooms.param.watch(tables, "room")
+        lab.param.watch(tops, "toy")
+        builder.param.watch(tops, "draft")
+        start.param.watch(tables, "plane")
+        tops()
+        tables()

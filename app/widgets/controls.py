@@ -39,6 +39,7 @@ SYMBOLS = {
     "mu_k": "<i>μ</i><sub>k</sub>",
     "mu": "<i>μ</i>",
     "eps": "<i>ε</i>",
+    "patch": "<i>ρ</i>",
     "gamma": "<i>γ</i>",
     "normal": "<i>F</i><sub>z</sub>",
     "ratio": "<i>F</i><sub>h</sub>/<i>F</i><sub>z</sub>",
@@ -67,6 +68,7 @@ RANGES = {
     "mu_k": (0.01, 1, 0.005),
     "mu": (0.01, 1, 0.005),
     "eps": (0.01, 1, 0.005),
+    "patch": (0.05, 2, 0.05),
     "gamma": (0, 2, 0.01),
 }
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.

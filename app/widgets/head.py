@@ -21,14 +21,14 @@ class Head(Bundled):
 class HeadBar:
     """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look.
 
-    does: {name: function of a value} for what else is asked: "toy", "share", "language".
+    does: {name: function of a value} for what else is asked: "toy", "table", "share", "language".
     """
 
     SWITCHES = ("dark", "large")
 
     def __init__(self, rooms, keep, look, does):
         self._rooms, self._keep, self._look, self._answered = rooms, keep, look, 0
-        self._toys, self._toy, self._tour = [], "", False
+        self._toy, self._toys, self._table, self._tables = "", [], "", []
         steps = {"undo": lambda value: keep.undo(), "redo": lambda value: keep.redo()}
         switches = {name: lambda value, name=name: setattr(look, name, bool(value)) for name in self.SWITCHES}
         goes = {name: lambda value, name=name: self._go(name, value) for name in ("room", "level")}
@@ -62,9 +62,14 @@ class HeadBar:
         self._toy, self._toys = chosen, known
         self._say()
 
+    def tables(self, chosen, known):
+        """Which tables can be chosen here, as [name, words, room], and which one is; none where they lead nowhere."""
+        self._table, self._tables = chosen, known
+        self._say()
+
     def _say(self, *events):
         rooms, keep = self._rooms, self._keep
-        names, here = listed("main.rooms"), rooms.tabs[rooms.tab][rooms.level]
+        names, here = listed("main.rooms"), () if self._tables else rooms.tabs[rooms.tab][rooms.level]
         self.view.state = {
             "room": rooms.room, "tab": rooms.tab, "level": rooms.level,
             "tabs": [[tab, say(f"main.tabs.{tab}"), rooms.first(tab)] for tab in rooms.tabs],
@@ -72,7 +77,10 @@ class HeadBar:
             "levels": [[level, say(f"main.levels.{level}"),
                         rooms.room if rooms.room in names_of else rooms.first(rooms.tab, level)]
                        for level, names_of in rooms.tabs[rooms.tab].items()],
-            "rooms": [[room, names[room]] for room in here] if len(here) > 1 else [],
+            # what is chosen below the row: a table, or another room of the tab
+            "below": "table" if self._tables else "room",
+            "rooms": self._tables or ([[room, names.get(room, ""), room] for room in here] if len(here) > 1 else []),
+            "chosen": self._table if self._tables else rooms.room,
             "places": {room: rooms.place(room) for room in rooms.param.room.objects},
             "toy": self._toy, "toys": self._toys, "undo": keep.can_undo, "redo": keep.can_redo,
             "language": spoken(), "languages": [list(each) for each in LANGUAGES.items()],

@@ -1,31 +1,53 @@
 """Fig. 6 with all that stands around it: what its lines are, K_R below, and roads out of it."""
 
 import panel as pn
+import panel_material_ui as pmui
 
 from app.model.colours import COLOURS, FAINT
+from app.model.explorer import Explorer
+from app.model.regimes import WOULD_SLIP
 from app.model.slipping import slipping
 from app.text import say
-from app.widgets.cards import swatch, words
+from app.widgets.cards import BUTTON, on_click, swatch, words
 from app.widgets.controls import SPIN, SYMBOLS, named
 from app.widgets.plane_figure import PlaneFigure
+from app.widgets.plane_inset import PlaneInset
 from app.widgets.slip_lines import HIGH, SlipLines
+from tippe_core import Top, TruncatedSphere
+
+# As high without a button, so that nothing moves when one comes.
+ROADS = {"display": "flex", "gap": "8px", "align-items": "center", "min-height": "36px"}
 
 
 class PlaneCard:
-    """content: what goes into a card. motion: a Motion. show_selected() is for each scene of a hand, plane.show_plane
-    of the pictures, show_path() for a hand at rest."""
+    """content: what goes into a card. motion: a Motion; ask: takes inputs of the Explorer; slip: shows this motion on a
+    table where it slips. show_selected() is for each scene of a hand, plane.show_plane of the pictures, show_path() for
+    a hand at rest."""
 
-    def __init__(self, motion):
+    def __init__(self, motion, ask, slip):
         self.plane = PlaneFigure(motion)
-        self.slips = SlipLines(self.plane)
+        self.slips, self.near = SlipLines(self.plane), PlaneInset(self.plane)
         self._trajectory = None
+        self.slip, self.paper = (
+            pmui.Button(label=say(f"roll.roads.{name}"), visible=False, **BUTTON) for name in ("slip", "paper")
+        )
+        on_click(self.slip, lambda event: slip())
+        on_click(self.paper, lambda event: ask(**papers()))
 
     @property
     def content(self):
+        figure = pn.pane.Bokeh(self.plane.figure, sizing_mode="stretch_both", margin=0)
         return (
             words(f'<div class="key">{key()}</div>'),
-            words(f"{named('K_J')} {SPIN}"),
-            pn.pane.Bokeh(self.plane.figure, sizing_mode="stretch_both", margin=0),
+            pn.Column(
+                words(f"{named('K_J')} {SPIN}", sizing_mode=None),
+                self.slip,
+                self.paper,
+                margin=0,
+                styles=ROADS,
+                sizing_mode="stretch_width",
+            ),
+            pn.Column(figure, self.near.view, sizing_mode="stretch_both", margin=0, styles={"position": "relative"}),
             words(named("K_R")),
             pn.pane.Bokeh(self.slips.below, sizing_mode="stretch_width", height=HIGH, margin=0),
             words(f'<div class="axis">{named("angle")} (rad)</div>'),
@@ -39,6 +61,17 @@ class PlaneCard:
     def show_path(self, scene):
         self._trajectory = scene.rolling
         self.slips.show(slipping(scene), scene)
+        self.near.show(scene)
+        self.slip.visible = bool(scene.regime.max() == WOULD_SLIP)
+        self.paper.visible = self.near.view.visible and scene.top != Top.paper()
+
+
+def papers():
+    """Inputs of the Explorer: the paper's top, as it is there at first."""
+    shape, top = TruncatedSphere.paper(), Top.paper()
+    names = (*Explorer.GIVEN["share"], "given", "mu_s")
+    first = {name: Explorer.param[name].default for name in names}
+    return first | {"shape": shape, "a": top.a, "I1": top.I1, "I3": top.I3}
 
 
 def key():

@@ -95,6 +95,6 @@ class SlipLines:
         if path.touches is not None:
             self.touch.update(location=touch, visible=True)
             text = say("roll.slips.touches", degrees=np.degrees(touch))
-            said["touches"] = touch, high[0] + 0.3 * (high[1] - high[0]), text
+            said["touches"] = touch, high[0] + 0.62 * (high[1] - high[0]), text
         for name, (x, y, text) in said.items():
             self.words[name].update(x=x, y=y, text=text, visible=True)

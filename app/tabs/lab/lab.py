@@ -12,8 +12,7 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.lab import Lab
-from app.model.lab_rolling import rolling
-from app.model.lab_run import TOYS
+from app.model.lab_run import shape_of
 from app.state import asked
 from app.text import listed
 from app.widgets.failure import after
@@ -58,19 +57,15 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def lab_view(lab, keep, ask, go):
-    """The tab. lab: a Lab; keep: a Keep; ask: of a Pacer; go: shows the paper's figures."""
+def lab_view(lab, keep, go):
+    """The tab. lab: a Lab; keep: a Keep; go: shows the paper's figures of its start."""
     keep.add(lab)
-
-    def research():
-        ask(**rolling(lab.toy, lab.spin, lab.tilt, lab.mu))
-        go()
 
     def rests():
         keep.at_rest()
         lab.rest()
 
-    tab = LabTab(lab, research, rests)
+    tab = LabTab(lab, go, rests)
     if all(getattr(lab, name) == lab.param[name].default for name in Lab.INPUTS):
         lab.show()  # it is kept, so that it is there with the page
     if pn.state.loaded:
@@ -137,7 +132,7 @@ class LabTab:
         messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
         return {
             "table": scene.table,
-            "toy": lab.toy,
+            "toy": lab.toy if isinstance(lab.toy, str) else "",
             "values": {name: getattr(lab, name) for name in INPUTS},
             "sliders": SLIDERS,
             "messages": messages,
@@ -147,7 +142,7 @@ class LabTab:
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": list(map(spelled, scene.said)),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
-            "R": 1e3 * TOYS[scene.toy].shape.R,
+            "R": 1e3 * shape_of(scene.toy).R,
             "answered": self._answered,
             "busy": lab.busy,
         }

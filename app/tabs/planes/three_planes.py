@@ -16,9 +16,9 @@ from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_c
 from app.widgets.controls import Control, Wish
 from app.widgets.top3d import Top3D, pack_frames
 
-NUMBERS = {"coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
-NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps")
-SWITCHES = {"plane": {"margin": (4, 0)}, "by": {}, "law": {}, "landing": {}}
+NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
+NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps", "patch")
+SWITCHES = ("by", "law", "landing")
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
@@ -56,7 +56,7 @@ class ThreePlanes:
         self._map = Map(self.pick, choose)
         follow_clock(self._figures, self._well)
         self._controls = {name: Control(name, inputs[name], self._set) for name in NUMBERS_SET}
-        self._switches = {name: self._switch(name, inputs[name], **layout) for name, layout in SWITCHES.items()}
+        self._switches = {name: self._switch(name, inputs[name]) for name in SWITCHES}
         box = pmui.Checkbox(value=inputs["stem"], label=say("planes.stem.can"), description="", size="small",
                             margin=(0, 14, 0, 6))  # fmt: skip
         self._switches["stem"] = Wish(box, "stem", ask)
@@ -85,10 +85,10 @@ class ThreePlanes:
 
     # ---- the parts ----
 
-    def _switch(self, name, value, **layout):
+    def _switch(self, name, value):
         options = {says: value for value, says in listed(f"planes.{name}").items()}
         buttons = pmui.RadioButtonGroup(value=value, label="", size="small", sx=PLAIN, options=options,
-                                        **({"margin": (2, 14, 6, 16)} | layout))  # fmt: skip
+                                        margin=(2, 14, 6, 16))  # fmt: skip
         return Wish(buttons, name, self._ask)
 
     def _build(self):
@@ -128,7 +128,7 @@ class ThreePlanes:
             stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
         )  # fmt: skip
         self._stage = card(
-            say("planes.cards.stage"), presets, self._switches["plane"].view, self._force, self._row, self._verdict,
+            say("planes.cards.stage"), presets, self._force, self._row, self._verdict,
             self._table, height="max-content",
         )  # fmt: skip
         return self._stage
@@ -136,10 +136,8 @@ class ThreePlanes:
     def _start_card(self):
         views = {name: control.view for name, control in self._controls.items()}
         self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
-        self._numbers = {
-            law: pn.Column(*(views[name] for name in names), sizing_mode="stretch_width", margin=0)
-            for law, names in NUMBERS.items()
-        }
+        self._numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0)
+                         for names in NUMBERS.values() for name in names}  # fmt: skip
         self._bar = words(margin=(10, 8))
         self._show_progress(0)
         stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
@@ -214,8 +212,8 @@ class ThreePlanes:
         settings, messages = picture.settings, picture.messages
         with pn.io.hold():
             self._starts.visible = inputs["by"] == "spin"
-            for law, numbers in self._numbers.items():
-                numbers.visible = inputs["law"] == law
+            for name, number in self._numbers.items():
+                number.visible = name in NUMBERS[inputs["law"]]
             if not self._work.busy:
                 for name, control in self._controls.items():
                     control.show(inputs[name], inputs[name], self._note(name, picture), messages.get(name))
@@ -247,7 +245,6 @@ class ThreePlanes:
     def look(self, plane):
         """At this plane, or at all that are to "compare"."""
         picture, self._plane = self._picture, plane
-        self._switches["plane"].show(plane)
         if picture is None:
             return
         compare = plane == "compare"

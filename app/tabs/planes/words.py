@@ -53,6 +53,8 @@ def in_force(picture, plane):
     if kind == "viscous":
         return say("planes.force.viscous" if law.gamma else "planes.force.none", gamma=law.gamma,
                    si=law.gamma / velocity)  # fmt: skip
+    if kind == "contact":
+        return say("planes.force.contact", mu=law.mu, patch=picture.settings.patch)
     return say("planes.force.smoothed", mu=law.mu, speed=100 * law.eps * velocity)
 
 
@@ -88,7 +90,15 @@ def fate(picture, plane):
                     part=part(picture.settings))  # fmt: skip
     elif plane == "rough" and any(which == WOULD_LIFT for *_, which in motion.stretches):
         lifts = say("planes.fate.pulls")
-    return say(f"planes.fate.{plane}", between=between, lifts=lifts)
+    return say(f"planes.fate.{plane}", between=between, lifts=lifts) + (_gripped(picture) if plane == "rough" else "")
+
+
+def _gripped(picture):
+    """What the rough plane takes where the start does not roll."""
+    before, after = (float(motion.trajectory.energy[0]) for motion in (
+        picture.motions["sliding"], picture.motions["rough"]))  # fmt: skip
+    taken = before - after
+    return say("planes.fate.gripped", taken=taken) if taken > ROUNDING * before else ""
 
 
 def became(picture, motion):

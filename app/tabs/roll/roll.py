@@ -127,13 +127,13 @@ def controls_card(controls):
 
 class Roll:
     """main: the pictures and the controls. pacer: a Pacer, which shows them scenes and is asked; playing: what the top
-    goes with; controls: a Controls."""
+    goes with; controls: a Controls; slip: shows this motion on a table where it slips."""
 
-    def __init__(self, pacer, playing, controls):
+    def __init__(self, pacer, playing, controls, slip=lambda: None):
         self._pacer, self._scene = pacer, None
         self._grasp, self._held = None, {}
         self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
-        self._card = PlaneCard(self._motion)
+        self._card = PlaneCard(self._motion, pacer.ask, slip)
         self._plane = self._card.plane
         self._kept, self._unit = words(""), words("")
         # What each round of pictures draws; it grows as the cards are made.

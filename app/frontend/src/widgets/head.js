@@ -34,7 +34,7 @@ class Head {
     this.count = model.state.answered ?? 0;
     this.toy = part("select", { class: "toy", "aria-label": texts.toy, onchange: () => this.ask("toy", this.toy.value) });
     this.tabs = new Several("tab", texts.tabs, (tab) => this.go(this.roomOf("tabs", tab)));
-    this.rooms = new Several("radio", texts.rooms, (room) => this.go(room));
+    this.rooms = new Several("radio", texts.rooms, (name) => this.goBelow(name));
     this.levels = [0, 1].map(() => new Several("radio", texts.level, (level) => this.goLevel(level)));
     this.steps = [0, 1].map(() => ["undo", "redo"].map((name) =>
       part("button", { type: "button", class: "icon", "aria-label": texts[name], title: texts[name], onclick: () => this.ask(name) }, texts.signs[name])));
@@ -104,9 +104,17 @@ class Head {
   }
 
   go(room) {
+    const { tabs } = this.model.state;
     this.turn(room);
-    this.mark(room);
+    this.tabs.choice.show(tabs.find(([, , first]) => first === room)[0]);
     this.ask("room", room);
+  }
+
+  // Another room of the tab, or another table.
+  goBelow(name) {
+    this.turn(this.roomOf("rooms", name));
+    this.rooms.choice.show(name);
+    this.ask(this.model.state.below, name);
   }
 
   goLevel(level) {
@@ -115,20 +123,13 @@ class Head {
     this.ask("level", level);
   }
 
-  // Which tab and room are chosen, until Python says so.
-  mark(room) {
-    const { tabs } = this.model.state, tab = tabs.find(([, , first]) => first === room);
-    if (tab) this.tabs.choice.show(tab[0]);
-    else if (this.rooms.choice) this.rooms.choice.show(room);
-  }
-
   show() {
     const { state } = this.model;
     if (!state.tabs || state.answered < this.count) return; // a hand was quicker
     this.tabs.show(state.tabs, state.tab);
     for (const levels of this.levels) levels.show(state.levels, state.level);
     this.below.hidden = !state.rooms.length;
-    if (state.rooms.length) this.rooms.show(state.rooms, state.room);
+    if (state.rooms.length) this.rooms.show(state.rooms, state.chosen);
     this.languages.show(state.languages, state.language);
     for (const { name, box } of this.switches) box.checked = state[name];
     for (const [undo, redo] of this.steps) [undo.disabled, redo.disabled] = [!state.undo, !state.redo];

@@ -1,0 +1,51 @@
+"""The motion of Fig. 6 seen from near, where its tieline is too short to be seen: a toy that the rough table gripped
+nods by a few degrees, which is some pixels of all tilts."""
+
+import numpy as np
+import panel as pn
+from bokeh.models import Range1d
+
+from app.model.colours import COLOURS, FAINT, INK
+from app.text import say
+from app.widgets.cards import words
+from app.widgets.plots import plain
+
+SHORT = 0.06  # of the theta axis: a shorter tieline is shown from near as well
+ROUND = 0.7  # of the tieline's length, that is seen beyond either end
+LOOK = {"position": "absolute", "right": "10px", "bottom": "10px", "width": "200px", "z-index": "2",
+        "background": "var(--card, white)", "border": f"1px solid {FAINT}", "border-radius": "6px",
+        "padding": "4px 6px"}  # fmt: skip
+
+
+class PlaneInset:
+    """plane: a PlaneFigure, whose sources it draws again. view: what is laid over it."""
+
+    def __init__(self, plane):
+        self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane-near")
+        fig.update(sizing_mode="stretch_width", height=110)
+        fig.xaxis.ticker.desired_num_ticks, fig.yaxis.ticker.desired_num_ticks = 4, 3
+        fig.segment(x0="slip_in", x1="slip_out", y0="K_J", y1="K_J", source=plane.limits, line_color=INK,
+                    line_alpha=0.55)  # fmt: skip
+        fig.line("lift_verge", "K_J", source=plane.limits, line_color=COLOURS["normal"], line_width=2)
+        fig.line("verge", "K_J", source=plane.limits, line_color=COLOURS["friction"], line_width=2)
+        fig.line("steady", "K_J", source=plane.limits, line_color=INK, line_width=1.5, line_dash=[6, 4])
+        on_top = {"source": plane.selected, "level": "overlay"}
+        fig.segment(x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5, line_cap="round",
+                    **on_top)  # fmt: skip
+        fig.scatter("theta", "K_J", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
+        self._says = words()
+        self.view = pn.Column(self._says, pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=110, margin=0),
+                              visible=False, margin=0, styles=LOOK)  # fmt: skip
+
+    def show(self, scene):
+        (inner, outer), plane = scene.turning, scene.plane
+        length = outer - inner
+        short = length < SHORT * plane.theta_range[1]
+        if short:
+            around = max(ROUND * length, 1e-3)
+            self.figure.x_range.update(start=inner - around, end=outer + around)
+            high = 0.06 * (plane.K_J_range[1] - plane.K_J_range[0])
+            K_J = float(scene.constants.K_J)
+            self.figure.y_range.update(start=K_J - high, end=K_J + high)
+            self._says.object = say("roll.near.says", inner=np.degrees(inner), outer=np.degrees(outer))
+        self.view.visible = bool(short)
