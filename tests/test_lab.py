@@ -127,7 +127,7 @@ def test_the_rough_table_grips_and_tells_what_that_takes():
     rough, ordinary = (motion_on(table, *ARRIVAL[1:]) for table in ("rough", "ordinary"))
     assert ordinary.curves[0, 3] == pytest.approx(205, abs=0.5) and rough.curves[0, 3] == pytest.approx(203, abs=0.5)
     assert rough.curves[0, 4] == pytest.approx(ordinary.curves[0, 3] - rough.curves[0, 3], rel=1e-4)
-    assert "did it lose energy: 1.8 of 205 mm" in story(rough).stages[0].why
+    assert "gripped it: 1.8 of 205 mm" in story(rough).stages[0].why
     assert rough.trajectory.jellett[0] == pytest.approx(ordinary.trajectory.jellett[0], rel=1e-7)
     assert story(rough).caption == "Nods between 1° and 6°"
     assert story(motion_on("ice", *ARRIVAL[1:])).caption == "Nods by a tenth of a degree"
