@@ -36,12 +36,17 @@ class Bundled(JSComponent):
     texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")
     SAYS = ()  # the tables of its words, beside the one of its own name
     REGIMES = ""  # and a table in regimes.toml, which it calls `regimes`
-    shown = None  # what was last put into it; for those who would put it there again
+    _last = None
 
     _bundle = BUNDLE
 
     def __init__(self, **params):
         super().__init__(**({"texts": self.says()} | params))
+
+    def is_new(self, what):
+        """Whether this is not what was put into it last; from now on it is."""
+        new, self._last = self._last is not what, what
+        return new
 
     @classmethod
     def says(cls, language=None):

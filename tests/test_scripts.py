@@ -63,7 +63,7 @@ def test_no_javascript_stands_in_python(path):
 
 @pytest.mark.parametrize("kind", Bundled.__subclasses__(), ids=lambda kind: kind.__name__)
 def test_no_component_hides_what_all_have(kind):
-    assert "shown" not in vars(kind) and isinstance(vars(kind).get("says", classmethod(len)), classmethod)
+    assert "is_new" not in vars(kind) and isinstance(vars(kind).get("says", classmethod(len)), classmethod)
 
 
 # ---- what the scripts tell one another ----

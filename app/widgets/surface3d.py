@@ -36,8 +36,7 @@ class Surface3D(Bundled):
 
 def show_surface(surface, scene):
     plane, motion = scene.plane, scene.constants
-    if surface.shown is not plane:
-        surface.shown = plane
+    if surface.is_new(plane):
         surface.param.update(
             K_J=pack(plane.K_J),
             theta=pack(plane.theta),

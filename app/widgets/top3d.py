@@ -79,10 +79,9 @@ class Top3D(Bundled):
 
 def show_top(top, scene):
     motion = scene.trajectory
-    if top.shown is motion:
+    if not top.is_new(motion):
         top.mu_s = scene.mu_s
         return
-    top.shown = motion
     top.param.update(
         mu_s=scene.mu_s,
         profile=pack(scene.profile),

@@ -270,9 +270,9 @@ class ThreePlanes:
 
     def _show_top(self, top, picture, plane):
         motion = picture.motions[plane]
-        if top.shown is picture.settings:
+        settings = picture.settings
+        if not top.is_new(settings):
             return
-        settings = top.shown = picture.settings
         top.param.update(
             profile=pack(settings.profile),
             seconds=settings.scales.time,
