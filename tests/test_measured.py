@@ -11,6 +11,8 @@ from app.model.explorer import Explorer
 from app.model.measured_examples import EXAMPLES, FOLDER, example
 from app.model.measured_table import read
 from app.tabs.measure.measure import Measure
+from app.tabs.measure.recipe import recipe
+from app.text import LANGUAGES, speaking
 
 ROOT = Path(__file__).parent.parent
 
@@ -62,23 +64,71 @@ def test_the_program_taken_home_repeats_the_fit(tab):
 @pytest.mark.slow
 def test_the_report_is_whole(tab):
     report = tab._report(*tab._home).decode()
-    assert report.count("<svg") == 2
+    assert report.count("<svg") == 3
     assert "This top slipped." in report
     assert "http" not in report
     assert len(tab._residuals(*tab._home).splitlines()) == 1 + 2 * 216
 
 
 @pytest.mark.served
-def test_an_example_is_fitted_in_the_page(server, chromium):
-    page = chromium.new_page(viewport={"width": 390, "height": 800})
+def test_the_recipe_is_one_page(chromium):
+    """As a browser prints it on A4, in each language."""
+    for language in LANGUAGES:
+        with speaking(language):
+            text = recipe()
+        page = chromium.new_page()
+        page.set_content(text)
+        printed = page.pdf(prefer_css_page_size=True)
+        page.close()
+        assert len(re.findall(rb"/Type\s*/Page[^s]", printed)) == 1
+
+
+def opened(server, chromium, query="?tab=measure", width=1400):
+    """(the page, what went wrong in it)."""
+    page, errors = chromium.new_page(viewport={"width": width, "height": 1000}), []
     page.set_default_timeout(180_000)
-    errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.add_init_script("localStorage.setItem('tippe:tour', '1')")
-    page.goto(f"{server}?tab=measure")
+    page.goto(f"{server}{query}")
+    return page, errors
+
+
+DROP = """text => { const brought = new DataTransfer();
+  brought.items.add(new File([text], "mine.txt", { type: "text/plain" }));
+  for (const type of ["dragover", "drop"])
+    window.dispatchEvent(new DragEvent(type, { dataTransfer: brought, bubbles: true, cancelable: true })); }"""
+
+
+@pytest.mark.served
+def test_an_example_is_fitted_in_the_page(server, chromium):
+    page, errors = opened(server, chromium, width=390)
     page.get_by_role("button", name="Example: it rolls").click()
-    page.get_by_role("button", name="Fit", exact=True).click()
     page.get_by_text("This top rolled.").wait_for()
     assert page.evaluate("document.documentElement.scrollWidth") == 390
+    page.close()
+    assert not errors
+
+
+@pytest.mark.served
+def test_a_table_is_dropped_and_a_hand_pulls_its_start(server, chromium):
+    """Wherever on the page; a later one that is none says so, and leaves it; then the dashed line is pulled."""
+    page, errors = opened(server, chromium)
+    page.get_by_text("Example: it slips").first.wait_for()
+    page.evaluate(DROP, example("rolls").replace("# Nobody", "# Somebody"))
+    page.get_by_text("your own data").wait_for()
+    page.evaluate(DROP, "a letter\nto nobody\n")
+    page.get_by_role("alert").filter(has_text="No line holds numbers").wait_for()
+    assert page.get_by_text("your own data").count() == 1
+    picture = page.get_by_role("img", name="Tilt: what was measured and fitted, over time")
+    picture.wait_for()
+    box = picture.bounding_box()
+    # the range of time has 2 % more at both ends, between a margin of 52 px and one of 8
+    x, y = box["x"] + 52 + (box["width"] - 60) * 0.02 / 1.04, box["y"] + 80
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 60, y, steps=5)
+    page.mouse.move(x + 240, y, steps=10)
+    page.mouse.up()
+    page.get_by_text(re.compile(r"s: 0\.[12]\d\d \.\. 0\.742")).wait_for()
     page.close()
     assert not errors

@@ -148,7 +148,7 @@ def constants(kept):
         fig.line(t, values, line_color=colour, line_width=1.5)
         mean, _ = constant.mean
         fig.add_layout(Span(location=mean, dimension="width", line_color=INK, line_dash=[6, 4]))
-        middle, half = mean, max(3 * float(np.abs(values - mean).max() + errors.max()) / 2, 0.05 * abs(mean))
+        middle, half = mean, max(1.2 * float(np.abs(values - mean).max() + errors.max()), 0.1 * abs(mean))
         fig.y_range = Range1d(middle - half, middle + half)
         fig.yaxis.ticker.desired_num_ticks = 4
         head = f"<b>{say(f'measure.kept.{name}')}</b> <span class='key'>{say('measure.kept.band')}</span>"

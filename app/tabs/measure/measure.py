@@ -28,8 +28,13 @@ from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from app.widgets.download import Download
 from tippe_core import Top, TopError
 
-SIDES = {"display": "flex", "flex-flow": "row wrap", "gap": "12px 24px", "padding": "12px 24px 16px",
-         "align-items": "start"}  # fmt: skip
+PLACES = """
+:host { display: grid; gap: 12px 24px; padding: 12px 24px 16px; align-items: start; box-sizing: border-box;
+  grid-template: "over found" auto "table found" 1fr / minmax(0, 1fr) minmax(300px, 28.6%) }
+.over { grid-area: over } .table { grid-area: table } .found { grid-area: found; min-width: 0 }
+@media (max-width: 800px) { :host { padding: 12px 16px 16px;
+  grid-template: "over" auto "found" auto "table" auto / minmax(0, 1fr) } }
+"""
 FIRST = EXAMPLES[0]
 LAWS = ("contensou", "smoothed", "viscous")
 
@@ -95,14 +100,16 @@ class Measure:
             self.take(unpacked(self.filmed.film))
         if self._table is None:
             self.take_example(FIRST)
-        left = [self.pictures.view, self.part, _head("columns"), self.said, self.columns.view,
-                _head("constants"), self.constants]  # fmt: skip
-        right = [self.stage, self.found, self.about, flow(self.law), self.loose, flow(self.start, self.cancel),
-                 self.file, flow(self.take_home, self.recipe), self.home, flow(*examples),
-                 words(note(say("measure.private")))]  # fmt: skip
-        sides = [pn.Column(*parts, margin=0, styles={"flex": flex, "min-width": "0"})
-                 for parts, flex in ((left, "6 1 560px"), (right, "1 1 340px"))]  # fmt: skip
-        return pn.Column(*sides, sizing_mode="stretch_width", margin=0, styles=SIDES)
+        parts = {
+            "over": [self.pictures.view, self.part],
+            "found": [self.stage, self.found, self.about, flow(self.law), self.loose, flow(self.start, self.cancel),
+                      self.file, self.said, flow(self.take_home, self.recipe), self.home, flow(*examples),
+                      words(note(say("measure.private")))],
+            "table": [_head("columns"), self.columns.view, _head("constants"), self.constants],
+        }  # fmt: skip
+        sides = [pn.Column(*part, css_classes=[place], sizing_mode="stretch_width", margin=0)
+                 for place, part in parts.items()]  # fmt: skip
+        return pn.Column(*sides, sizing_mode="stretch_width", margin=0, stylesheets=[PLACES])
 
     def show(self, scene):
         """From now on a film is of the top of this scene; what was fitted stays as it is."""
@@ -240,12 +247,14 @@ class Measure:
                 raise result
             return
         first, self._kept = result
-        self.pictures.show(first)
-        if first is not None:
-            show_film(self.stage, first, self._body[3])
-        if self.cancel.disabled:
-            self.found.object = note(say("measure.ready")) + kept_words(self._kept)
-        self.constants.objects = constants(self._kept) or [words(note(say("measure.no_constants")))]
+        if self._found is None:  # else the fit was quicker
+            self.pictures.show(first)
+            if first is not None:
+                show_film(self.stage, first, self._body[3])
+            if self.cancel.disabled:
+                self.found.object = note(say("measure.ready")) + kept_words(self._kept)
+        missing = [] if "K_J" in self._kept else [words(note(say("measure.no_constants")))]
+        self.constants.objects = [*constants(self._kept), *missing]
 
     # ---- the fit ----
 
@@ -307,15 +316,16 @@ class Measure:
     @property
     def _home(self):
         """What the files are made of."""
-        return self._data.between(*self._part), self._found.fits, self._loose, self._part, self.found.object
+        found = self._found
+        return self._data.between(*self._part), found.fits, self._loose, self._part, self.found.object, found.kept
 
-    def _report(self, data, fits, loose, part, found):
-        return report(data, fits, found, program(data, fits, loose, *part)).encode()
+    def _report(self, data, fits, loose, part, found, kept):
+        return report(data, fits, found, program(data, fits, loose, *part), kept).encode()
 
     def _residuals(self, data, fits, *others):
         return residuals_table(data, min(fits, key=lambda each: each.aic)).encode()
 
-    def _program(self, data, fits, loose, part, found):
+    def _program(self, data, fits, loose, part, *others):
         return program(data, fits, loose, *part).encode()
 
 

@@ -16,10 +16,11 @@ pre { font-size: 11px; white-space: pre-wrap; overflow-wrap: anywhere } svg { ma
 @media print { svg, table { break-inside: avoid } }"""
 
 
-def report(data, fits, found, program):
-    """The text of the file. found: what the page says of the fit, HTML."""
+def report(data, fits, found, program, kept):
+    """The text of the file. found: what the page says of the fit, HTML. kept: the constants from the data."""
     better = min(fits, key=lambda each: each.aic)
     curves = "".join(_picture(name, data, better) for name in data.series)
+    curves += "".join(_constant(name, constant) for name, constant in kept.items())
     return (f'<!doctype html><html lang="{spoken()}"><meta charset="utf-8"><title>{say("measure.report.title")}</title>'
             f"<style>{STYLE}</style><h1>{say('measure.report.title')}</h1>{found}{curves}"
             f"<h2>{say('measure.report.program')}</h2><pre>{html.escape(program)}</pre></html>")  # fmt: skip
@@ -49,3 +50,18 @@ def _picture(name, data, fit):
             f'aria-label="{title}"><polyline points="{line}" fill="none" stroke-width="2" '
             f'stroke="{ON_LIGHT["omega"]}"/>'
             f"{dots}{marks}{ends}</svg>")  # fmt: skip
+
+
+def _constant(name, constant):
+    """A band of one standard error about a constant of the motion, over time."""
+    values, errors, t = constant.values, constant.errors, constant.t
+    low, high = (values - errors).min(), (values + errors).max()
+    x = 50 + (WIDTH - 60) * (t - t[0]) / (np.ptp(t) or 1)
+    edges = [(HEIGHT - 20) * (high - each) / (high - low or 1) + 10 for each in (values - errors, values + errors)]
+    around = [*zip(x, edges[0], strict=True), *zip(x[::-1], edges[1][::-1], strict=True)]
+    band = " ".join(f"{a:.1f},{b:.1f}" for a, b in around)
+    marks = "".join(f'<text x="46" y="{y}" text-anchor="end">{value:.3g}</text>'
+                    for y, value in ((HEIGHT - 8, low), (16, high)))  # fmt: skip
+    title = say(f"measure.kept.{name}")
+    return (f'<h3>{title}</h3><svg viewBox="0 0 {WIDTH} {HEIGHT}" font-size="12" role="img">'
+            f'<polygon points="{band}" fill="#1b2430" fill-opacity="0.35"/>{marks}</svg>')  # fmt: skip

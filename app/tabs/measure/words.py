@@ -12,7 +12,8 @@ SHOWN = {"tilt": 180 / np.pi}
 TABLE = """
 table { border-collapse: collapse; margin: 8px 0; font-size: inherit; width: 100%; font-variant-numeric: tabular-nums }
 p { margin: 4px 0 } td, th { padding: 5px 10px 5px 0; text-align: left; font-weight: normal; vertical-align: baseline }
-th { color: var(--faint, #5b6875); font-size: 12px } td.n { text-align: right } tr.best td { font-weight: 600 }
+th { color: var(--faint, #5b6875); font-size: 12px } td.n { text-align: right; white-space: nowrap }
+tr.best td { font-weight: 600 }
 td + td.n + td, td.faint { color: var(--faint, #5b6875) } tr + tr { border-top: 1px solid var(--rule, #d8dce0) }
 h3 { font-size: 18px; margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01em }
 """
