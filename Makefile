@@ -55,10 +55,11 @@ lock:
 		--output-file locks/lowest.txt pyproject.toml
 
 # What takes long by nature, kept in the repository: what the slow oracles find, docs/validation.md, and the mutants,
-# many hours, which go on where they were stopped.
+# many hours, which go on where they were stopped; and the basins of the paper's top, hours too.
 proof: .venv/test kernels
 	$(BIN)/pytest -q --remake -m "not served"
 	$(BIN)/python tests/validation.py
+	$(BIN)/python tests/basins.py
 	$(BIN)/python tests/mutants.py --check
 
 # Writes docs/validation.md from the results of the tests, with the whole accuracy map: some ten minutes.

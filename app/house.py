@@ -3,12 +3,14 @@
 from functools import partial
 
 import panel as pn
+import panel_material_ui as pmui
 
 from app.model.builder import Builder
 from app.model.lab import Lab
 from app.model.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
+from app.share.saved_runs import Shown
 from app.state.keep import explorer_of, kept
 from app.state.names import LEVELS, ROOMS
 from app.state.start import OneStart
@@ -24,10 +26,11 @@ from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
-from app.widgets.cards import card, flexible, grid
+from app.widgets.cards import BUTTON, card, flexible, grid, on_click
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt
 from app.widgets.pacing import Pacer
+from app.widgets.top3d import Top3D, show_top
 
 
 def alike(*rooms):
@@ -75,18 +78,33 @@ class House:
         self.keep.add(controls)
         for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show, when)
-        return Roll(self.pacer, self.playing, controls, partial(self._look_at, "three-planes")).main
+        slip = lambda: self._look_at(self.start.table("ordinary"))  # noqa: E731
+        return Roll(self.pacer, self.playing, controls, slip).main
+
+    def _road(self, says, goes, **layout):
+        """A button that leads on."""
+        button = pmui.Button(label=say(says), **BUTTON | layout)
+        on_click(button, lambda event: goes())
+        return button
 
     def build(self):
         bench = Build(self.builder, self.pacer.soon)
         self.pacer.shows(bench.show, "rest")
         rocking = card(say("main.cards.measure"), *RockingFields(self.builder).view, height="max-content")
         rocking.styles = rocking.styles | {"grid-column": "1 / -1"}
+        top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
+        self.pacer.shows(partial(show_top, top), "rest")
+        spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
         return grid(
             card(say("main.cards.section"), *bench.section_view, height="max-content"),
+            card(say("main.cards.built"), top, spin, height="max-content"),
             card(say("main.cards.bench"), *bench.bench_view, height="max-content"),
             rocking,
         )
+
+    def _spin(self):
+        self.start.spin()
+        self._look_at(room.FIRST)
 
     def planes(self):
         planes = Planes(self.scene, self.runs)
@@ -137,13 +155,27 @@ class House:
         return learn.view
 
     def maps(self):
-        return Maps(self.runs).view
+        maps = Maps(self.runs, self.scene, self._throw)
+        self.keep.add(maps.choice, usual=lambda choice: maps.usual)
+        maps.choice.param.watch(lambda *events: self.keep.at_rest(), [*maps.choice.INPUTS])
+        self.pacer.shows(maps.show, "rest")
+        return maps.view
+
+    def _throw(self, toy, spin, tilt, mu, look):
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu)
+        if look:
+            self._look_at("lab")
 
     def measure(self):
         measure = Measure(self.scene, self.runs)
         self.keep.add(measure.filmed)
         self.pacer.shows(measure.show, "hand")
         return measure.view
+
+    def runs_shown(self, looked_at):
+        """The runs on the tables that this room shows, as saved_runs.Shown."""
+        found = {room.FIRST: self.start.lab_runs, room.PLANES: self.start.planes_runs}.get(looked_at, list)()
+        return [Shown(table, motion.trajectory, setup) for table, motion, setup in found]
 
     @property
     def makers(self):

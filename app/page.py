@@ -22,6 +22,7 @@ from app.widgets.guide import Guide
 from app.widgets.head import HeadBar
 from app.widgets.look import Look
 from app.widgets.rooms import Rooms
+from app.widgets.symbols import Symbols
 from app.widgets.theme import HEADLESS, STYLE, THEME
 
 SPEAKS = WeakKeyDictionary()  # document -> its language
@@ -47,7 +48,7 @@ def page():
     house = House(texts, sentence, lambda name: setattr(rooms, "room", name))
     pacer, keep = house.pacer, house.keep
     look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()
-    share = Share(keep, house.playing, house.scene, house.runs)
+    share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room))
     for owner in (look, tongue):
         keep.add(owner)
     for show, when in ((share.show, "hand"), (guide.show, "rest")):
@@ -61,7 +62,8 @@ def page():
     rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
     guide.tour = rooms.room == room.USUAL
     pn.state.curdoc.template_variables.update(first.variables())
-    around = [look, guide, pacer.painted, Connection(words=say("main.lost"), width=0, height=0, margin=0), failed]
+    unseen = {"width": 0, "height": 0, "margin": 0}
+    around = [look, guide, pacer.painted, Connection(words=say("main.lost"), **unseen), Symbols(**unseen), failed]
     return pmui.Page(template=first.PAGE, title=say("main.title"), theme_config={"light": THEME, "dark": THEME},
                      main=[head.view, *share.main, *around, *rooms.columns], stylesheets=[*STYLE, *HEADLESS],
                      **BARE)  # fmt: skip

@@ -133,6 +133,7 @@ def test_png_saves_the_top_as_it_is_drawn(flat):
     visit = flat()
     stop(visit)
     visit.page.get_by_role("button", name="Share").click()
+    visit.page.get_by_role("button", name="Figures for print").click()
     with visit.page.expect_download() as waiting:
         visit.page.get_by_role("button", name="PNG").last.click()
     picture = np.array(Image.open(io.BytesIO(open(waiting.value.path(), "rb").read())).convert("RGB"))

@@ -142,6 +142,8 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     visit = go(server + "?v=1&KJ=6.5&mu=.4")
     scene = solve(Top.paper(), 6.5, 10.0, 0.4, 0.9)
     visit.page.get_by_role("button", name="Share").click()
+    for group in ("Figures for print", "Numbers, with", "To look at without"):
+        visit.page.get_by_role("button", name=group).click()
 
     def button(says, label):
         """The one to the right of these words."""

@@ -148,6 +148,86 @@ def test_what_cannot_be_is_said_beside_it_and_the_motion_stays(page):
     page.get_by_role("alert").filter(has_text="half").wait_for(state="hidden")
 
 
+def test_what_is_typed_is_not_written_over_while_answers_come(page):
+    tilt = entry(page, "Tilt, in degrees")
+    tilt.fill("7,2")
+    page.locator("#lab-spin").evaluate("""(slider) => {
+        slider.value = 29
+        slider.dispatchEvent(new Event("input"))
+    }""")
+    page.wait_for_function("location.search.includes('turns=29')")
+    assert tilt.input_value() == "7,2"
+    tilt.press("Escape")
+    tilt.fill("5,73")
+    tilt.press("Enter")
+    page.wait_for_function("!location.search.includes('lean')")
+
+
+def test_the_run_before_stays_pale_until_it_is_dismissed(page):
+    put(page, "Spin, in turns a second", 22)
+    page.get_by_text("Spin: 29.0 rev/s → 22.0 rev/s").wait_for()
+    page.get_by_text("Before: Spin 29.0 rev/s").wait_for()
+    assert page.locator(".strip .then").count() == 1
+    assert page.locator(".answer .then").count() == 1
+    page.get_by_role("button", name="Go back to before").click()
+    page.wait_for_function("location.search.includes('turns=29')")
+    assert page.locator(".strip .then").count() == 0
+    put(page, "Spin, in turns a second", 30)
+    page.get_by_role("button", name="Forget the run before").click()
+    page.get_by_text("Before: Spin").wait_for(state="hidden")
+    assert page.locator(".strip .then").count() == 0
+
+
+def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
+    pause(page)
+    page.get_by_role("slider", name="Time").press("Home")
+    handle = page.get_by_role("slider", name="Tilt of the axis at the start")
+    page.wait_for_function(f"{TOPS}[0].quaternion[1] == 0 && {TOPS}[0].quaternion[2] == 0")
+    box = handle.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.wait_for_timeout(500)  # the rest itself
+    page.mouse.move(x - 60, y + 40, steps=3)
+    page.wait_for_function("location.search.includes('lean=')")
+    pulled = float(parse_qs(urlsplit(page.url).query)["lean"][0])
+    assert pulled > 10
+    assert float(entry(page, "Tilt, in degrees").input_value()) == pytest.approx(pulled, abs=0.06)
+    page.mouse.up()
+    page.get_by_role("button", name="Pause").wait_for()
+    pause(page)
+    page.get_by_role("slider", name="Time").press("Home")
+    handle.press("ArrowRight")
+    page.wait_for_function(f"!location.search.includes('lean={pulled:g}')")
+    put(page, "Tilt, in degrees", 5.73)
+
+
+def test_spin_it_is_the_stronger_the_longer_it_is_held(page):
+    box = page.get_by_role("button", name="Spin it").bounding_box()
+    page.mouse.move(box["x"] + 20, box["y"] + 20)
+    page.mouse.down()
+    page.get_by_role("button", name="50 rev/s").wait_for()
+    page.mouse.up()
+    page.wait_for_function("location.search.includes('turns=50')")
+    page.get_by_role("button", name="Pause").wait_for()
+    put(page, "Spin, in turns a second", 30)
+    page.wait_for_function("location.search.includes('turns=30')")
+
+
+def test_numbers_are_in_a_fold_and_where_the_pointer_is(page):
+    pause(page)
+    page.get_by_role("slider", name="Time").press("Home")
+    page.locator("summary", has_text="Numbers").click()
+    page.get_by_role("row", name="tilt 5.7°").wait_for()
+    page.locator("summary", has_text="Numbers").click()
+    page.get_by_role("button", name="Large, over the whole window").click()
+    page.get_by_role("dialog").get_by_role("heading", name="Where does the height come from?").wait_for()
+    page.get_by_role("dialog").get_by_role("tabpanel").hover()
+    page.locator(".readout", has_text="turned into heat").wait_for()
+    page.keyboard.press("Escape")
+    page.get_by_role("dialog").wait_for(state="detached")
+
+
 def test_a_slider_asks_at_every_move_and_the_newest_is_shown(page):
     before = line(page)
     slider = page.locator("#lab-spin")

@@ -125,7 +125,7 @@ async def ask_of_a_broken_server(here, monkeypatch):
 
     table = page.visitor.find("Download")[16]
     assert page.now(table, "filename") == "tippe-top-motion.csv"
-    await fails(page, monkeypatch, "app.share.export._columns", lambda: page.set(table, "clicks", 1))
+    await fails(page, monkeypatch, "app.share.export.columns", lambda: page.set(table, "clicks", 1))
     await page.set(table, "clicks", 2)
     await page.until(lambda: page.now(table, "file", [0])[0] == 1)
     before = page.now(table, "file")[1]

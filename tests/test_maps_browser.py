@@ -72,6 +72,29 @@ def test_a_disagreement_can_be_gone_to(page):
     assert page.get_by_text("Where runs and formula disagree").is_visible()
 
 
+RANGE = """() => {
+  const map = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "maps" && m.renderers)
+  return [map.x_range.start, map.x_range.end, map.y_range.start, map.y_range.end]
+}"""
+
+
+def test_a_box_looks_closer_and_undo_goes_back(page):
+    before = page.evaluate(RANGE)
+    page.get_by_label("The run at, Across", exact=True).fill("45")
+    page.get_by_label("The run at, Across", exact=True).press("Enter")
+    wait(page, lambda: abs(page.evaluate(BEAD)[0] - 45) < 1e-9)
+    page.mouse.move(*page.evaluate(PIXEL, ["maps", 15.0, 10.0]))
+    page.mouse.down()
+    for x, y in ((18.0, 14.0), (21.0, 20.0), (25.0, 30.0)):
+        page.mouse.move(*page.evaluate(PIXEL, ["maps", x, y]))
+    page.mouse.up()
+    wait(page, lambda: page.evaluate(RANGE) != before)
+    left, right, bottom, top = page.evaluate(RANGE)
+    assert abs(left - 15) < 0.5 and abs(right - 25) < 0.5 and abs(bottom - 10) < 0.5 and abs(top - 30) < 0.5
+    page.get_by_role("button", name="The whole range").click()
+    wait(page, lambda: page.evaluate(RANGE) == before)
+
+
 def test_it_fits_a_phone(page):
     page.set_viewport_size({"width": 390, "height": 844})
     page.wait_for_function("() => document.documentElement.scrollWidth <= 390")

@@ -29,6 +29,7 @@ SAME = (
     "browser.Dial.entry",
     "controls.notes.energy",
     "lab.keeps.millimetres",
+    "lab_view.view.number.*.1",
     "measure.heads.*",
     "measure.units.*",
     "measure.number_units.radius",
@@ -185,7 +186,8 @@ NOT_SAID = {
     "asked.py": {"": "said to the log"},
     "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
     **{name: {"": "files of data and programs, which are the same in every language"}
-       for name in ("export.py", "measured_examples.py", "measured_report.py", "glb.py", "programs.py")},
+       for name in ("export.py", "measured_examples.py", "measured_report.py", "glb.py", "programs.py",
+                    "saved_runs.py")},
     "measured_table.py": {"": "what tables call their columns"},
     "codecs.py": {"not one of {}": "said to the log"},
     **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},

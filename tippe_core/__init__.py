@@ -11,9 +11,11 @@ from .bodies.shapes import Ball, BareSphere, Lathe, LoadedSphere, OrdinaryTop, S
 from .bodies.solids import Solid, ball, cylinder, frustum, zone
 from .endings import SUNK, Ending, Stretch, ending, lowest, sunk
 from .errors import NoMotionError, TopError
+from .linear import spinning_modes, tumbling_modes
 from .motion.friction import Contensou, Coulomb, SmoothedCoulomb, Viscous
 from .motion.grip import grip
 from .motion.many import Many, States, slide_many
+from .motion.preparing import strongest_friction
 from .motion.rolling import Rolling, roll
 from .motion.sliding import beside, growth, sensitivity, slide
 from .motion.smooth import Gliding, glide
@@ -101,11 +103,14 @@ __all__ = [
     "sensitivity",
     "slide",
     "slide_many",
+    "spinning_modes",
     "steady_precessions",
     "steady_states",
+    "strongest_friction",
     "sunk",
     "thresholds",
     "tielines",
+    "tumbling_modes",
     "turning_points",
     "zone",
 ]

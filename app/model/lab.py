@@ -15,7 +15,7 @@ import param
 from app.model.arrival import ARRIVAL, MU, SPIN, TABLE, TILT, TOY
 from app.model.lab_ends import Ends, Key, ends_of, known_ends
 from app.model.lab_keeps import Row, keeps
-from app.model.lab_run import TABLES, TOYS, TableMotion, TooLong, Toy, motion_on, start_of
+from app.model.lab_run import SECONDS, TABLES, TOYS, TableMotion, TooLong, Toy, motion_on, shape_of, start_of
 from app.model.runs import Result, Run, Runs, Stopped
 from app.model.story import Event, Stage, Story, story
 from app.text import say, told
@@ -167,6 +167,21 @@ class Lab(param.Parameterized):
         if all(getattr(self, name) == value for name, value in good.items()):
             self._tell()
         self.param.update(**good)
+
+    @property
+    def reached(self) -> float:
+        """How much of the run that is computed is done, 0 to 1."""
+        if self._run is None:
+            return 0.0
+        return min(1.0, self._run.reached * shape_of(self.toy).scales.time / SECONDS)
+
+    def stop(self) -> None:
+        """Ends the run that is computed; what it was of goes back to what is shown."""
+        if self._run is None:
+            return
+        self._run.stop()
+        names = self.INPUTS
+        self.param.update(**dict(zip(names, self._good, strict=True)))
 
     def rest(self) -> None:
         """To be called when no hand moves: where the runs of all spins end is looked up, or computed beside."""

@@ -4,15 +4,18 @@ In the units of a person: rev/s, degrees, s, mm; a/R and I1/I3 have none. A map'
 """
 
 from dataclasses import dataclass
+from functools import cache
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tippe_core import PRESETS, Contensou, Coulomb, Preset, Scales, SmoothedCoulomb, State, Top, TopError, Viscous
+from app.model.scene import Scene
+from tippe_core import PRESETS, Contensou, Coulomb, Scales, SmoothedCoulomb, State, Top, TopError, Viscous
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Rim
 
+OWN = ""  # the name of a body that is none of tippe_core.PRESETS
 LAWS = ("coulomb", "viscous", "smoothed", "contensou")
 COLOURS_BY = ("end", "time_90", "theta_end", "F_z_least", "flew", "heat", "hops", "growth")
 ENDINGS = ("upright", "leaning", "rolling", "moving", "inverted", "stem", "refused")
@@ -49,13 +52,38 @@ UNITS = {"theta_end": "°", "time_90": "s", "time_stem": "s", "hops": "", "flew"
          "energy_error": "MgR", "C_J_drift": "", "growth": ""}  # fmt: skip
 
 
+class Body(NamedTuple):
+    """What slides: its Top, its R, M and g, and the edge of its stem."""
+
+    top: Top
+    scales: Scales
+    edge: Rim | None
+
+
+@cache
+def of_preset(name: str) -> Body:
+    """The Body of tippe_core.PRESETS with this name."""
+    preset = next(preset for preset in PRESETS if preset.name == name)
+    return Body(preset.top, preset.shape.scales, preset.shape.edge)
+
+
+def of_page(scene: Scene) -> tuple[str, Body | None]:
+    """(body, own) of a Map of the page's top: its preset's name, or OWN and what it is."""
+    for preset in PRESETS:
+        if preset.shape == scene.shape and preset.top == scene.top:
+            return preset.name, None
+    return OWN, Body(scene.top, scene.scales, scene.shape.edge if scene.shape else None)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Map:
-    """All that a map depends on. values: those of QUANTITIES, of which across and up are not looked at; stem is how far
-    the end of the stem reaches above O, and with it the edge moves, but not the mass. nudged: whether each cell is run
-    twice, the second time NUDGE further tilted. Raises TopError for what cannot be."""
+    """All that a map depends on. body: the name of a preset, or OWN, and then own is what slides. values: those of
+    QUANTITIES, of which across and up are not looked at; stem is how far the end of the stem reaches above O, and with
+    it the edge moves, but not the mass. nudged: whether each cell is run twice, the second time NUDGE further tilted.
+    Raises TopError for what cannot be."""
 
     body: str = "Leine and Glocker's toy"
+    own: Body | None = None
     across: str = "spin"
     up: str = "tilt"
     across_range: tuple[float, float] = (5.0, 50.0)
@@ -68,6 +96,8 @@ class Map:
     rtol: float = 1e-6
 
     def __post_init__(self) -> None:
+        if self.law not in LAWS:
+            raise TopError("law", self.law, ", ".join(LAWS))
         if self.across == self.up:
             raise TopError("up", self.up, f"!= {self.across}")
         for name, (low, high) in zip((self.across, self.up), (self.across_range, self.up_range), strict=True):
@@ -86,20 +116,21 @@ class Map:
     def _check_possible(self, name: str) -> None:
         if name not in QUANTITIES:
             raise TopError("axis", name, ", ".join(QUANTITIES))
-        if name in ("stem", "rounding") and self.preset.shape.edge is None:
+        if name in ("stem", "rounding") and self.thing.edge is None:
             raise TopError(name, self.body, "r > 0", code="half-a-stem")
         if name == "second" and not SECONDS[self.law]:
             raise TopError("law", self.law, ", ".join(law for law, second in SECONDS.items() if second))
 
     @property
-    def preset(self) -> Preset:
-        """The body of tippe_core.PRESETS."""
-        return next(preset for preset in PRESETS if preset.name == self.body)
+    def thing(self) -> Body:
+        """What slides."""
+        return self.own or of_preset(self.body)
 
     @property
     def start(self) -> dict[str, float]:
         """{name: value} of all QUANTITIES, where nothing is on an axis."""
-        top, edge, R = self.preset.top, self.preset.shape.edge, 1e3 * self.preset.shape.R
+        top, scales, edge = self.thing
+        R = 1e3 * scales.R
         second = {"contensou": 0.5, "smoothed": 0.1, "coulomb": 0.3, "viscous": 0.0}[self.law]
         stem = (edge[1] + edge[2]) * R if edge else 0.0
         own = {"spin": 28.6, "tilt": 5.7, "mu": 0.3, "second": second, "slip": 1.0, "a": top.a,
@@ -135,9 +166,8 @@ class Cell(NamedTuple):
     @classmethod
     def of(cls, asked: Map, x: dict[str, float]) -> "Cell":
         """Of the values of QUANTITIES; TopError where there is none."""
-        own = asked.preset.top
+        own, mine, _ = asked.thing
         top = own if not {"a", "ratio"} & {asked.across, asked.up} else Top(x["a"], x["ratio"] * own.I3, own.I3)
-        mine = asked.preset.shape.scales
         scales = Scales(x["R"] / 1e3, mine.M, mine.g)
         theta, spin = float(np.radians(x["tilt"])), 2 * np.pi * x["spin"] / scales.angular_velocity
         state = State(theta, 0.0, 0.0, spin, vx=-(1 - x["slip"]) * spin * np.sin(theta), vy=0.0)
@@ -146,10 +176,10 @@ class Cell(NamedTuple):
 
 def _edge(asked: Map, x: dict[str, float]) -> Rim | None:
     """The stem's, in R of the body as it is, whose lengths grow with R unless they are on an axis."""
-    edge = asked.preset.shape.edge
+    edge = asked.thing.edge
     if edge is None or not {"stem", "rounding"} & {asked.across, asked.up}:
         return edge
-    own = 1e-3 / asked.preset.shape.R
+    own = 1e-3 / asked.thing.scales.R
     return edge[0], (x["stem"] - x["rounding"]) * own, x["rounding"] * own
 
 

@@ -1,18 +1,27 @@
-"""Maps that were made, for all visitors: the newest in memory, and as files beside the kernels that made them."""
+"""Maps that were made, for all visitors: the newest in memory, and as files beside the kernels that made them. Those
+that are seen first ship with the page, in app/data.
+
+    python -m app.model.maps_kept
+
+computes those anew, after a change of the physics; a test compares some of its cells with fresh runs.
+"""
 
 import hashlib
 import threading
 from collections import OrderedDict
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
 
 from app.model.maps import UNITS, Map
-from app.model.maps_solving import Level
+from app.model.maps_solving import Level, solve
 from tippe_core import kept
 
+DATA = Path(__file__).parent.parent / "data"
+SHIPPED = {Map(): DATA / "map.npz", Map(body="The paper's tippe top"): DATA / "map-paper.npz"}
 IN_MEMORY, AS_FILES = 64, 400  # of 48 x 48 cells each takes some 150 kB
 _memory: OrderedDict[Map, Level] = OrderedDict()
 _changing = threading.Lock()
@@ -25,12 +34,13 @@ def recall(asked: Map) -> Level | None:
         if level is not None:
             _memory.move_to_end(asked)
             return level
-    path = _path(asked)
+    path = SHIPPED.get(asked) or _path(asked)
     if path is None or not path.exists():
         return None
     with suppress(OSError, ValueError, KeyError, BadZipFile), np.load(path) as file:
         x, y = asked.centres(asked.cells)
-        level = Level(asked=asked, x=x, y=y, end=file["end"], columns={name: file[name] for name in UNITS})
+        columns = {name: file[name].astype(float) for name in UNITS}
+        level = Level(asked=asked, x=x, y=y, end=file["end"], columns=columns)
         _remember(level)
         return level
     return None
@@ -44,12 +54,17 @@ def keep(level: Level) -> None:
         return
     with suppress(OSError):
         path.parent.mkdir(exist_ok=True)
-        new = path.with_suffix(f".{threading.get_ident()}.new")
-        with new.open("wb") as file:
-            np.savez_compressed(file, allow_pickle=False, end=level.end, **level.columns)
-        new.replace(path)
+        _write(level, path)
         for old in sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime)[:-AS_FILES]:
             old.unlink(missing_ok=True)
+
+
+def _write(level: Level, path: Path, kind: Any = float) -> None:
+    new = path.with_suffix(f".{threading.get_ident()}.new")
+    with new.open("wb") as file:
+        columns = {name: values.astype(kind) for name, values in level.columns.items()}
+        np.savez_compressed(file, allow_pickle=False, end=level.end, **columns)
+    new.replace(path)
 
 
 def _remember(level: Level) -> None:
@@ -66,3 +81,12 @@ def _path(asked: Map) -> Path | None:
     except ImportError:  # no numba: nothing is kept
         return None
     return folder and folder / "maps" / f"{hashlib.sha256(repr(asked).encode()).hexdigest()[:32]}.npz"
+
+
+def main() -> None:
+    for asked, path in SHIPPED.items():
+        _write(next(level for level in solve(asked) if level.finest), path, np.float32)
+
+
+if __name__ == "__main__":
+    main()

@@ -150,6 +150,7 @@ CHANGES = {
                     "timezone_offset": NUMBER, "webdriver": FLAG, "webgl": FLAG},
     "Location": {name: TEXT for name in ("href", "hostname", "pathname", "protocol", "port", "search", "hash")},
     # Panel Material UI's
+    "Accordion": {"active": many(COUNT)},
     "Button": {},
     "Checkbox": {"value": FLAG},
     "Dialog": {"open": FLAG},
@@ -179,6 +180,7 @@ CHANGES = {
     "Phone": {"mark": text(32)},
     "Surface3D": POINT,
     "Top3D": PICTURE,
+    "Symbols": {},
     "TopsMap": {"state": PLAIN, "picked": row(COUNT, SHORT), "moved": row(COUNT, number(-1, 1), number(0.1, 10))},
     "TopFile": {},
 }  # fmt: skip

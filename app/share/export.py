@@ -99,16 +99,17 @@ def motion_csv(scene, link=""):
     """The motion as CSV (bytes), a row a frame, numbers to the last digit; lines that begin with # say the units."""
     table = motion_table(scene)
     lines = header(scene, link) + [_unit_line(name, scene.scales) for name in table]
-    return _csv(lines, dict(_columns(table)))
+    return csv(lines, dict(columns(table)))
 
 
 def tielines_csv(scene, link=""):
     """Fig. 6's tielines as CSV (bytes), like motion_csv."""
     table = tieline_table(scene)
-    return _csv(header(scene, link) + [f"{name}: {TIELINES[name]}" for name in table], table)
+    return csv(header(scene, link) + [f"{name}: {TIELINES[name]}" for name in table], table)
 
 
-def _columns(table):
+def columns(table):
+    """(name, (n,) array) of each column of a table."""
     for name, values in table.items():
         if values.ndim == 1:
             yield name, values
@@ -118,10 +119,15 @@ def _columns(table):
             yield f"{name}_{axis}", column
 
 
-def _csv(lines, columns):
+def csv(lines, columns):
+    """Lines that begin with #, and columns below their names, as bytes."""
     text = "".join(f"# {line}\n" for line in lines) + ",".join(columns) + "\n"
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    return (text + "".join(",".join(map(repr, row)) + "\n" for row in rows)).encode()
+    return (text + "".join(",".join(map(_word, row)) + "\n" for row in rows)).encode()
+
+
+def _word(value):
+    return value if isinstance(value, str) else repr(value)
 
 
 def arrays_npz(scene, link=""):

@@ -13,13 +13,14 @@ FLOAT, UNSIGNED, ARRAY, ELEMENTS = 5126, 5125, 34962, 34963
 PAINT = ((0.72, 0.45, 0.20), (0.95, 0.90, 0.80))  # wood, in two tones, so that a turn shows
 
 
-def animation_glb(scene, slower=16.0):
+def animation_glb(scene, slower=16.0, said=None):
     """The trajectory as a glTF 2.0 binary (bytes): the body, its track and the table, in m, y up.
 
-    slower: how many times longer than the real motion the animation takes; the asset's extras say so too.
-    The keyframes are the frames of the scene; the body's origin is O, which stands R above the contact.
+    slower: how many times longer than the real motion the animation takes; the asset's extras say so too. scene: or
+    what has as much of one as saved_runs.Shown; said: its parameters.
+    The keyframes are the frames of the scene; the body's origin is O, a above G along the axis.
     """
-    R, motion = scene.scales.R, scene.trajectory
+    R, motion, said = scene.scales.R, scene.trajectory, said or parameters(scene)
     file = _Gltf()
     points, normals, colours, corners = _revolved(scene.profile * R)
     body = file.mesh("the top", points, normals, colours, corners)
@@ -34,7 +35,9 @@ def animation_glb(scene, slower=16.0):
         np.full((4, 3), 0.8),
         np.array([0, 1, 2, 0, 2, 3]),
     )
-    centre = np.column_stack([motion.contact * R, np.full(len(motion.t), R)])
+    x, y, z, w = motion.quaternion.T
+    axis = np.column_stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+    centre = (motion.com + motion.top.a * axis) * R
     seconds = file.accessor((motion.t - motion.t[0]) * scene.scales.time * slower, bounds=True)
     channels = [("translation", file.accessor(centre)), ("rotation", file.accessor(_unbroken(motion.quaternion)))]
     # physics has z up, glTF y
@@ -45,7 +48,7 @@ def animation_glb(scene, slower=16.0):
             "generator": "Tippe top explorer",
             "extras": {
                 "slower than the real top by": slower,
-                "parameters": {name: f"{value!r} {unit}" for name, (value, unit) in parameters(scene).items()},
+                "parameters": {name: f"{value!r} {unit}" for name, (value, unit) in said.items()},
             },
         },
         "scene": 0,

@@ -5,7 +5,6 @@ import param
 from app.bundle import Bundled
 
 # A phone at arm's length reads modules of this size, px.
-MODULE = 4
 
 
 class Address(Bundled):

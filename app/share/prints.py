@@ -44,6 +44,25 @@ def draw(scene, name, kind):
     return file.getvalue()
 
 
+def curves(seconds, rows, words, kind):
+    """Rows of (what is on the axis, values) over the seconds, two lines of words below, as the bytes of a file."""
+    import matplotlib
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context(FONT):
+        figure, file = Figure(figsize=(WIDTH, 5.0), layout="constrained"), io.BytesIO()
+        figure.get_layout_engine().set(rect=(0, 0.12, 1, 0.88))
+        for axes, (named, values) in zip(np.ravel(figure.subplots(len(rows), sharex=True)), rows, strict=True):
+            axes.plot(seconds, values, color=INK, linewidth=0.9)
+            axes.set_ylabel(named)
+        axes.set_xlabel("$t$ (s)")
+        for line, text in enumerate(words):
+            figure.text(0.5, 0.084 - 0.04 * line, text, ha="center", va="center", fontsize=7.5, color=INK)
+        metadata = {"Title": say("main.title")} | ({"Date": None} if kind == "svg" else {})
+        figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
+    return file.getvalue()
+
+
 def _page(scene, height, title):
     """A figure of that height in inches, its title above and its caption below."""
     from matplotlib.figure import Figure

@@ -9,9 +9,9 @@ import segno
 
 from app.borrowed import at_once
 from app.model.runs import Runs
-from app.share import export, glb, programs
+from app.share import export, glb, programs, saved_runs
 from app.share.letter import letter
-from app.share.parts import MODULE, Address, Clock, Copy, Photo
+from app.share.parts import Address, Clock, Copy, Photo
 from app.share.prints import FIGURES, caption, draw
 from app.state.keep import shared
 from app.text import listed, say
@@ -21,16 +21,19 @@ from app.widgets.failure import after
 
 # Nothing may move for so long before the address of the page is changed and a step is made, s.
 REST = 0.25
+SIDE = 420  # px, of the code: it is read across a table
 
 
 class Share:
     """main: what was wrong with the link, and the dialog, above all views.
 
-    keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs. show() is for each scene.
+    keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs; shown: gives the
+    saved_runs.Shown of the tables that are looked at. show() is for each scene.
     """
 
-    def __init__(self, keep, playing, scene, runs=None):
+    def __init__(self, keep, playing, scene, runs=None, shown=list):
         self.keep, self._playing, self._scene, self._runs = keep, playing, scene, runs or Runs()
+        self._shown, self._tables, self._rows = shown, {}, {}
         self.keep.add(Clock(playing))
         self.keep.add(playing)
         self.address = Address(search=self.keep.query, width=0, height=0, margin=0)
@@ -97,15 +100,16 @@ class Share:
         self._link.text = link
         try:
             code = segno.make(link, error="m", micro=False)
-            side, squares = code.symbol_size(scale=MODULE)[0], code.symbol_size(border=0)[0]
-            picture = code.svg_inline(scale=MODULE, dark="#22303c", light="white", title=say("share.dialog.code"))
-            self._code.object = f'<div style="width: min({side}px, 100%)">{picture}</div>'
+            squares = code.symbol_size(border=0)[0]
+            picture = code.svg_inline(omitsize=True, dark="black", light="white", title=say("share.dialog.code"))
+            self._code.object = f'<div style="width: min({SIDE}px, 100%); margin: 8px auto">{picture}</div>'
             self._length.object = say("share.dialog.length", letters=len(link), squares=squares)
         except segno.DataOverflowError:
             self._code.object = ""
             self._length.object = say("share.dialog.too_long", letters=len(link))
         self._photo.caption = list(plain_caption(self._scene))
         self._show_python()
+        self._show_tables()
         self._dialog.open = True
 
     def _make(self):
@@ -114,48 +118,68 @@ class Share:
         self._code, self._length = words(""), words("", margin=(4, 0))
         self._photo = Photo(margin=0)
         self._python = Copy(label="Python", rows=13, **text)
+        self._run_python = Copy(label="Python", rows=4, **text)
         shown = listed("share.python")
         codes = {shown[name]: name for name in programs.PYTHON}
         self._which = pmui.RadioButtonGroup(options=codes, value=next(iter(programs.PYTHON)), label="",
                                             size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
         self._which.param.watch(lambda event: self._show_python(), "value")
-        figures = [
-            _row(say(f"prints.figures.{name}"), *(
+        self._runs_group = pn.Column(sizing_mode="stretch_width", margin=0, visible=False)
+        groups = {"figures": self._figures(), "numbers": self._numbers(), "without": self._without(),
+                  "python": [self._which, self._python]}  # fmt: skip
+        self._groups = pmui.Accordion(
+            *((say(f"share.dialog.{name}"), pn.Column(*rows, sizing_mode="stretch_width", margin=0))
+              for name, rows in groups.items()),
+            active=[], sizing_mode="stretch_width", margin=(8, 0), title_variant="subtitle2", elevation=0,
+        )  # fmt: skip
+        self._dialog.objects = [self._link, self._code, self._length, self._runs_group, self._groups]
+
+    def _figures(self):
+        return [
+            *(_row(say(f"prints.figures.{name}"), *(
                 self._download(kind.upper(), f"tippe-top-{name}.{kind}", _print(name, kind)) for kind in ("png", "svg")
-            ))
-            for name in FIGURES
-        ]  # fmt: skip
-        self._dialog.objects = [
-            _heading("link"),
-            self._link,
-            self._code,
-            self._length,
-            _heading("figures", margin=(14, 0, 4, 0)),
-            *figures,
+            )) for name in FIGURES),
             _row(say("share.dialog.photo"), self._photo),
-            _heading("numbers", margin=(14, 0, 4, 0)),
-            _row(
-                say("share.dialog.motion"),
-                self._download("CSV", "tippe-top-motion.csv", export.motion_csv),
-            ),
-            _row(
-                say("share.dialog.tielines"),
-                self._download("CSV", "tippe-top-tielines.csv", export.tielines_csv),
-            ),
+        ]  # fmt: skip
+
+    def _numbers(self):
+        return [
+            _row(say("share.dialog.motion"), self._download("CSV", "tippe-top-motion.csv", export.motion_csv)),
+            _row(say("share.dialog.tielines"), self._download("CSV", "tippe-top-tielines.csv", export.tielines_csv)),
             _row(say("share.dialog.arrays"), self._download("NPZ", "tippe-top.npz", export.arrays_npz)),
-            _heading("without", margin=(14, 0, 4, 0)),
-            _row(
-                say("share.dialog.letter"),
-                self._download("HTML", "tippe-top.html", self._letter),
-            ),
-            _row(
-                say("share.dialog.animation"),
-                self._download("GLB", "tippe-top.glb", lambda scene, link: glb.animation_glb(scene, self._slower)),
-            ),
-            _heading("python", margin=(14, 0, 4, 0)),
-            self._which,
-            self._python,
         ]
+
+    def _without(self):
+        return [
+            _row(say("share.dialog.letter"), self._download("HTML", "tippe-top.html", self._letter)),
+            _row(say("share.dialog.animation"), self._download(
+                "GLB", "tippe-top.glb", lambda scene, link: glb.animation_glb(scene, self._slower))),
+        ]  # fmt: skip
+
+    def _show_tables(self):
+        """What there is of the runs on the tables that are looked at."""
+        self._tables = {shown.name: shown for shown in self._shown()}
+        self._runs_group.visible = bool(self._tables)
+        if not self._tables:
+            return
+        for name in self._tables.keys() - self._rows.keys():
+            self._rows[name] = self._run_row(name)
+        self._run_python.text = "\n".join(map(saved_runs.run_python, self._tables.values()))
+        self._runs_group.objects = [
+            _heading("runs", margin=(8, 0, 4, 0)), *(self._rows[name] for name in self._tables), self._run_python
+        ]  # fmt: skip
+
+    def _run_row(self, name):
+        prints = {kind.upper(): lambda shown, link, kind=kind: saved_runs.run_print(shown, kind)
+                  for kind in ("png", "svg")}  # fmt: skip
+        animation = {"GLB": lambda shown, link: saved_runs.run_glb(shown, self._slower)}
+        kinds = {"CSV": saved_runs.run_csv, "NPZ": saved_runs.run_npz} | prints | animation
+        files = [
+            Download(self._runs, lambda: (self._tables[name], self.link), make, label=kind, margin=0,
+                     filename=f"tippe-top-{name}.{kind.lower()}")
+            for kind, make in kinds.items()
+        ]  # fmt: skip
+        return _row(say(f"share.tables.{name}"), *files)
 
     @property
     def _slower(self):

@@ -10,9 +10,11 @@ from urllib.parse import quote
 from app.model.lab_run import TABLES, TOYS
 from app.model.lesson import BEFORE
 from app.model.lesson import NAMES as STEPS
+from app.model.maps import COLOURS_BY
 from app.model.planes_picture import LAWS, PLANES
 from app.model.region import PAPER
 from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf, Toy
+from app.state.map_text import MapText
 from app.text import LANGUAGES
 
 ROOMS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
@@ -102,6 +104,10 @@ ROWS = (
     Name("patch", "Planes", "patch", Number),
     Name("mu_smooth", "Planes", "mu", Number),
     Name("mu_stick", "Planes", "mu_s", Number),
+    # the maps
+    Name("map", "MapChoice", "asked", MapText),
+    Name("mapby", "MapChoice", "colour", _words(*COLOURS_BY)),
+    Name("mapat", "MapChoice", "place", Numbers(2)),
     # a film's data
     Name("film", "Filmed", "film", Film, undoable=False),
     # the lessons

@@ -60,7 +60,9 @@ class OneStart(param.Parameterized):
             self._set_planes()
 
     def have(self, planes):
-        """The Planes are there now."""
+        """The Planes are there now; gone to by a switch of the page they have the friction of a real contact."""
+        if self._waits:
+            planes.law = LAW
         self._planes, self.plane = planes, planes.plane
         planes.param.watch(lambda event: setattr(self, "plane", event.new), "plane")
         self._set_planes()
@@ -72,6 +74,24 @@ class OneStart(param.Parameterized):
             self._waits = self._waits[0], PLANE[name]
             self._set_planes()
         return ROLLING if name == "rough" else PLANES
+
+    def spin(self):
+        """The body on the bench into the Lab, to be let go on the ordinary table."""
+        self._lab.ask(toy=self._toy, table="ordinary")
+        self._lab.rest()
+
+    def lab_runs(self):
+        """(table, its motion, what it began with) of the tables that the Lab shows."""
+        scene = self._lab.scene
+        return [(table, motion, motion.start) for table, motion in scene.motions.items() if motion] if scene else []
+
+    def planes_runs(self):
+        """As lab_runs(), of the planes that are looked at."""
+        picture = self._planes.picture if self._planes else None
+        if picture is None:
+            return []
+        return [(plane, motion, picture.settings) for plane, motion in picture.motions.items()
+                if motion and self.plane in (plane, "compare")]  # fmt: skip
 
     def _left(self, room):
         lab, scene = self._lab, self._explorer.scene

@@ -22,7 +22,7 @@ class PlaneInset:
 
     def __init__(self, plane):
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane-near")
-        fig.update(sizing_mode="stretch_width", height=110)
+        fig.update(sizing_mode="stretch_width", height=88)
         fig.xaxis.ticker.desired_num_ticks, fig.yaxis.ticker.desired_num_ticks = 4, 3
         fig.segment(x0="slip_in", x1="slip_out", y0="K_J", y1="K_J", source=plane.limits, line_color=INK,
                     line_alpha=0.55)  # fmt: skip
@@ -34,14 +34,18 @@ class PlaneInset:
                     **on_top)  # fmt: skip
         fig.scatter("theta", "K_J", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
         self._says = words()
-        self.view = pn.Column(self._says, pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=110, margin=0),
+        self.view = pn.Column(self._says, pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=88, margin=0),
                               visible=False, margin=0, styles=LOOK)  # fmt: skip
 
     def show(self, scene):
         (inner, outer), plane = scene.turning, scene.plane
         length = outer - inner
         short = length < SHORT * plane.theta_range[1]
-        if short:
+        if not short:
+            self.figure.x_range.update(start=0, end=1)
+            self.figure.y_range.update(start=0, end=1)
+            self._says.object = ""
+        else:
             around = max(ROUND * length, 1e-3)
             self.figure.x_range.update(start=inner - around, end=outer + around)
             high = 0.06 * (plane.K_J_range[1] - plane.K_J_range[0])

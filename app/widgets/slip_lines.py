@@ -64,11 +64,12 @@ class SlipLines:
             return
         self._shown = path
         for label in self.words.values():
-            label.visible = False
-        self.touch.visible = False
+            label.update(x=0, y=0, text=" ", visible=False)
+        self.touch.update(location=np.pi, visible=False)
         if path is None:
             for source in (self.own, self.beyond, self.end):
                 source.data = {name: [] for name in source.data}
+            self.below.y_range.update(start=-1, end=1)
             return
         rows = {name: getattr(path, name) for name in self.own.data}
         count = len(path.theta)
@@ -95,6 +96,6 @@ class SlipLines:
         if path.touches is not None:
             self.touch.update(location=touch, visible=True)
             text = say("roll.slips.touches", degrees=np.degrees(touch))
-            said["touches"] = touch, high[0] + 0.62 * (high[1] - high[0]), text
+            said["touches"] = touch, high[0] + 0.55 * (high[1] - high[0]), text
         for name, (x, y, text) in said.items():
             self.words[name].update(x=x, y=y, text=text, visible=True)

@@ -1,7 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { trackOf } from "../../app/frontend/src/lab/answer.js";
-import { Asking } from "../../app/frontend/src/lab/controls.js";
+import { Asking } from "../../app/frontend/src/lab/asking.js";
+import { Before } from "../../app/frontend/src/lab/before.js";
+import { strengthOf } from "../../app/frontend/src/lab/launch.js";
 import { Curves, latest, placed, tempo, ticks, TILT } from "../../app/frontend/src/lab/curves.js";
 import { read, say, written } from "../../app/frontend/src/lab/parts.js";
 import { near } from "./helping.js";
@@ -86,4 +88,39 @@ test("the track is the contact of each frame, in seconds and R", () => {
   rows.set([2, 0, 0, 0, 1, 0.5, -0.25], 0);
   rows.set([4, 0, 0, 0, 1, 0.75, 1], 20);
   assert.deepEqual(trackOf(rows, 0.5), [[1, 0.5, -0.25], [2, 0.75, 1]]);
+});
+
+const BEFORE = { inputs: { spin: { name: "Spin" }, mu: { name: "Friction" } }, toy: "Top", decimal: ".",
+  changed: "{name}: {from} → {to}", changed_why: "Now: {now}. Before: {before}." };
+const scene = (spin, mu, events, table = "ordinary") => ({ table, runs: {}, run: { events, stages: [[0, "", "", "Nods"]], why: "" },
+  state: { of: { spin: [spin, `Spin ${spin}.0 rev/s`], mu: [mu, `Friction ${mu}`] }, runs: {} } });
+
+test("the run before is that before the gesture, until it is dismissed, gone back to, or the table is another", () => {
+  const before = new Before(BEFORE), stands = [[1, "over", "turns over", ""], [1.5, "stands", "stands on its stem", ""]];
+  const slow = scene(20, 0.3, []), middle = scene(24, 0.3, []), fast = scene(28, 0.3, stands);
+  assert.equal(before.follow(null, slow), null);
+  before.touch("spin", slow, 0);
+  assert.equal(before.follow(slow, middle).what, "Spin 20.0 rev/s");
+  before.touch("spin", middle, 500); // the same hand
+  const found = before.follow(middle, fast);
+  assert.equal(found.headline, "Spin: 20.0 rev/s → 28.0 rev/s");
+  assert.equal(found.why, "Now: stands on its stem (1.5 s). Before: Nods.");
+  const asked = [];
+  before.goBack((...wish) => asked.push(wish), fast);
+  assert.deepEqual(asked, [["spin", 20]]);
+  assert.equal(before.follow(fast, slow), null); // which is no change of a hand's
+  before.follow(slow, fast);
+  before.touch("mu", fast, 9000);
+  assert.equal(before.follow(fast, scene(28, 0.1, stands)).what, "Friction 0.3");
+  assert.equal(before.follow(scene(28, 0.1, stands), fast), null); // as it was
+  before.touch("spin", fast, 20000);
+  before.follow(fast, slow);
+  before.forget();
+  assert.equal(before.follow(slow, slow), null);
+  before.follow(slow, fast);
+  assert.equal(before.follow(fast, scene(20, 0.3, [], "rough")), null);
+});
+
+test("a press has no strength of its own, a hold the more the longer, to the greatest", () => {
+  assert.deepEqual([0, 299, 300, 1300, 2300, 9000].map(strengthOf), [null, null, 0, 0.5, 1, 1]);
 });

@@ -46,13 +46,18 @@ def checked_edge(edge: ArrayLike | None) -> Rim | None:
     return edge
 
 
-def check_balance(top: Top, friction: Friction) -> None:
-    """F_z must be positive for every direction of u: mu |a| r_z s < I1 + a^2 s^2 (Painleve)."""
-    name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), ("", 0.0))
+def strongest_friction(top: Top) -> float:
+    """The mu of sliding from which on no normal force balances the friction on the ball, for some tilt and direction of
+    slip (Painleve's paradox): the least (I1 + a^2 s^2)/(|a| (1 - a c) s)."""
     s, c = np.sin(theta := np.linspace(0, np.pi, 721)), np.cos(theta)
-    arm = abs(top.a * (1 - top.a * c)) * s
     with np.errstate(divide="ignore"):
-        most = np.min((top.I1 + (top.a * s) ** 2) / arm)
+        return float(np.min((top.I1 + (top.a * s) ** 2) / (abs(top.a * (1 - top.a * c)) * s)))
+
+
+def check_balance(top: Top, friction: Friction) -> None:
+    """A TopError for a friction that is too strong."""
+    name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), ("", 0.0))
+    most = strongest_friction(top)
     if mu >= most:
         raise TopError(name, mu, f"{name} < {most:.6g}",
                        "More friction than that no normal force balances (Painleve's paradox).",

@@ -19,6 +19,7 @@ import { renderConnection } from "./widgets/notices.js";
 import { renderFailure } from "./widgets/notices.js";
 import { renderPainted } from "./widgets/painted.js";
 import { renderPhone } from "./widgets/phone.js";
+import { renderSymbols } from "./widgets/symbols.js";
 import { renderTopsMap } from "./widgets/tops_map.js";
 import { renderPhoto } from "./widgets/photo.js";
 
@@ -45,6 +46,7 @@ export default {
   Photo: { render: renderPhoto },
   Surface3D: { render: renderSurface3D },
   Top3D: { render: renderTop3D },
+  Symbols: { render: renderSymbols },
   TopsMap: { render: renderTopsMap },
   first,
   letter,

@@ -33,7 +33,13 @@ interface Rendering<M extends Model> {
 
 type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
 
+// A run that was, to be seen beside the present one.
+type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
+
 interface TopModel extends Model, Record<Shown, boolean> {
+  before?: Before | null;
+  degrees?: boolean; // what the handle says
+  letGo?(): void; // the hand on the axis
   frames: Bytes;
   profile: Bytes;
   mu_s: number;

@@ -14,7 +14,7 @@ from app.bundle import Bundled, pack
 from app.model.lab import Lab
 from app.model.lab_run import shape_of
 from app.state import asked
-from app.text import listed
+from app.text import listed, say
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
@@ -22,6 +22,7 @@ from app.widgets.top3d import pack_frames
 INPUTS = ("spin", "tilt", "mu")
 SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2)}
 """{input: (least, most, step, digits) of its slider}; more can be typed."""
+LOOKS = 0.3  # s between two looks at how far a run is
 RESTS = 0.4  # s after its last wish a hand is taken to rest
 
 
@@ -91,7 +92,8 @@ class LabTab:
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
         self.view.param.watch(asked.heard(self._heard), "asked")
-        lab.param.watch(lambda event: self.show(), ["scene", "ends", "busy"])
+        lab.param.watch(lambda event: self.show(), ["scene", "ends"])
+        lab.param.watch(self._waits, "busy")
         self.show()
 
     def _heard(self, event):
@@ -100,6 +102,8 @@ class LabTab:
         self._answered = int(count)
         if name == "research":
             self._research()
+        elif name == "stop":
+            self._lab.stop()
         elif name in Lab.INPUTS:
             if name in INPUTS:
                 self._tried[name] = value
@@ -108,6 +112,17 @@ class LabTab:
             raise asked.Unasked(name)
         after(RESTS, partial(self._rest, self._answered))
         self.show()
+
+    def _waits(self, event):
+        """Tells how far a run is, as long as one is computed."""
+        self.show()
+        if event.new:
+            after(LOOKS, self._look)
+
+    def _look(self):
+        if self._lab.busy:
+            self.show()
+            after(LOOKS, self._look)
 
     def _rest(self, answered):
         if answered == self._answered:
@@ -138,14 +153,26 @@ class LabTab:
             "messages": messages,
             "refused": {name: self._tried.get(name) for name in messages},
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
-            "was": ", ".join(self._named(scene, name) for name in INPUTS if getattr(scene, name) != getattr(lab, name)),
+            "was": self._differ(scene, scene, lab),
+            "wants": self._differ(lab, scene, lab),
+            "of": {
+                **{name: [getattr(scene, name), self._named(scene, name)] for name in INPUTS},
+                "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
+                if isinstance(scene.toy, str)
+                else [repr(scene.toy), say("main.own")],
+            },
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": list(map(spelled, scene.said)),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
             "R": 1e3 * shape_of(scene.toy).R,
             "answered": self._answered,
             "busy": lab.busy,
+            "reached": lab.reached,
         }
+
+    def _differ(self, said, one, other):
+        """What differs in two that have these inputs, in words, as one of them has it."""
+        return ", ".join(self._named(said, name) for name in INPUTS if getattr(one, name) != getattr(other, name))
 
     @staticmethod
     def _named(scene, name):

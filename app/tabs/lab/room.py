@@ -11,7 +11,8 @@ from app.state.names import LEVEL, LEVELS, TAB
 
 FIRST, USUAL = AT_ONCE = "lab", "roll"
 """And these are there with the page."""
-VIEWS = dict(zip(LEVELS, ((FIRST,), (USUAL, "three-planes")), strict=True))
+PLANES = "three-planes"
+VIEWS = dict(zip(LEVELS, ((FIRST,), (USUAL, PLANES)), strict=True))
 
 
 def opened(texts, query=""):

@@ -10,7 +10,8 @@ import numpy as np
 from app.model.maps import QUANTITIES, UNITS, Map
 from app.model.maps_lines import lines
 from app.tabs.maps.picture import END_COLOURS, span
-from app.text import listed, say
+from app.tabs.maps.words import title, with_unit
+from app.text import listed
 
 DPI = 300
 KINDS = ("csv", "npz", "png", "svg")
@@ -87,47 +88,37 @@ def _drawn(level, colour, kind):
     return file.getvalue()
 
 
-def title(asked: Map, colour):
-    """What is drawn over what."""
-    named = listed("maps.quantities")
-    return say("maps.title", colour=listed("maps.colours")[colour], seconds=asked.seconds, across=named[asked.across],
-               up=named[asked.up])  # fmt: skip
-
-
-def with_unit(name):
-    """The name of an axis."""
-    unit = QUANTITIES[name].unit
-    return listed("maps.quantities")[name] + (f", {unit}" if unit else "")
-
-
 def python(asked: Map):
     """A program whose `many` has what the map shows, row by row of up."""
     values = {name: repr(float(value)) for name, value in asked.start.items()} | {asked.across: "x", asked.up: "y"}
     given = ", ".join(f"{name}={value}" for name, value in values.items())
     tops = {"a", "ratio"} & {asked.across, asked.up}
-    top = "SimpleNamespace(a=v.a, I1=v.ratio * body.top.I3, I3=body.top.I3)" if tops else "body.top"
-    edge = "body.shape.edge"
+    top = "SimpleNamespace(a=v.a, I1=v.ratio * body.I3, I3=body.I3)" if tops else "body"
+    edge = "edge"
     if {"stem", "rounding"} & {asked.across, asked.up}:
-        edge = ("np.stack(np.broadcast_arrays(body.shape.edge[0], (v.stem - v.rounding) / 1e3 / body.shape.R, "
-                "v.rounding / 1e3 / body.shape.R), axis=-1)")  # fmt: skip
+        edge = ("np.stack(np.broadcast_arrays(edge[0], (v.stem - v.rounding) / 1e3 / scales.R, "
+                "v.rounding / 1e3 / scales.R), axis=-1)")  # fmt: skip
     nudge = ", nudge=1e-6" if asked.nudged else ""
+    needs, body = "PRESETS", f"preset = next(preset for preset in PRESETS if preset.name == {asked.body!r})\n"
+    body += "body, scales, edge = preset.top, preset.shape.scales, preset.shape.edge"
+    if asked.own:
+        needs, body = "Scales, Top", f"body, scales, edge = {asked.own.top}, {asked.own.scales}, {asked.own.edge}"
     return f"""\
 from types import SimpleNamespace
 
 import numpy as np
-from tippe_core import PRESETS, slide_many
+from tippe_core import {needs}, slide_many
 
-body = next(preset for preset in PRESETS if preset.name == {asked.body!r})
+{body}
 part = (np.arange({asked.cells}) + 0.5) / {asked.cells}
 x = {asked.across_range[0]!r} + {asked.across_range[1] - asked.across_range[0]!r} * part  # {with_unit(asked.across)}
 y = ({asked.up_range[0]!r} + {asked.up_range[1] - asked.up_range[0]!r} * part)[:, None]  # {with_unit(asked.up)}
 v = SimpleNamespace({given})
-time = (v.R / 1e3 / body.shape.scales.g) ** 0.5
+time = (v.R / 1e3 / scales.g) ** 0.5
 theta, spin = np.radians(v.tilt), 2 * np.pi * v.spin * time
 start = SimpleNamespace(theta=theta, theta_dot=0.0, omega2=0.0, omega3=spin,
                         vx=-(1 - v.slip) * spin * np.sin(theta), vy=0.0)
-top = {top}
-edge = {edge}
+top, edge = {top}, {edge}
 friction = {LAWS[asked.law]}
 many = slide_many(top, start, friction, {asked.seconds!r} / time + 0 * (x + y), edge, rtol={asked.rtol!r}{nudge})
 print(many.end)

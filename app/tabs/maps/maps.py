@@ -1,217 +1,163 @@
-"""The tab Maps: a map of runs, what one of them does, and what is set."""
+"""The tab Maps: a map of runs, what one of them does, the same over the spin alone, and what is set."""
 
 import time
-from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.dimensions import named
-from app.model.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
+from app.model.maps import OWN, QUANTITIES, Map, of_page
+from app.model.maps_choice import AT, MapChoice
 from app.model.maps_kept import keep, recall
-from app.model.maps_lines import disagreement, lines
+from app.model.maps_lines import disagreements, lines
 from app.model.maps_solving import run as one_run
 from app.model.maps_solving import solve
+from app.model.maps_throw import throw_of
 from app.model.runs import MAPS, Run, Runs, Stopped
 from app.share.parts import Copy
 from app.state import asked as sent
-from app.tabs.maps.export import KINDS, made, python, title, with_unit
+from app.tabs.maps.asking import Settings, spans
+from app.tabs.maps.export import KINDS, made, python
 from app.tabs.maps.picture import MapFigure, RunFigure
-from app.tabs.maps.words import colours_say, of_disagreement, of_run, of_worst
+from app.tabs.maps.steady import Steady
+from app.tabs.maps.words import colours_say, of_disagreement, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
-from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, progress, words
-from app.widgets.controls import typed_number
+from app.widgets.cards import BUTTON, alert, flow, note, on_click, progress, words
 from app.widgets.download import Download
-from tippe_core import PRESETS, TopError
+from tippe_core import TopError
 
+MAP = Map()
 PICTURE_EVERY = 0.3  # s
-FIXED = ("spin", "tilt", "slip", "mu", "second")  # to be typed where they are on no axis
 SIDE = {"background": "var(--card, white)", "border-radius": "10px", "padding": "10px 14px", "box-sizing": "border-box"}
+ROW = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
+WHY = 3  # kinds of disagreement
 
 
 class Maps:
-    """The tab's content. runs: the page's Runs."""
+    """The tab's content. runs: the page's Runs; scene: the page's, whose top slides, else the toy of the arrival.
+    throw(toy, spin, tilt, mu, look) lets the run of the bead go in the Lab; look: and goes there. usual: what a link
+    need not say of the choice."""
 
-    def __init__(self, runs=None):
-        self._runs, self._run, self._silent = runs or Runs(), None, False
-        self.asked, self.level, self._found = Map(), None, None
-        start = self.asked.start
-        self.place = (start["spin"], start["tilt"])
-        self._make_choices()
-        self._make_entries(start)
+    def __init__(self, runs=None, scene=None, throw=None):
+        self._runs, self._throw, self._run = runs or Runs(), throw, None
+        self.choice, self.level, self._found, self._seen = MapChoice(), None, [], None
+        self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
+        if scene is not None:
+            self._seen = of_page(scene)
+            self.choice.asked = self.usual["asked"] = replace(MAP, body=self._seen[0], own=self._seen[1])
+        self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
         self.names, self.worst, self.key = words(), words(), words(margin=(6, 0))
-        self.run_says, self.why = words(margin=(6, 0)), words()
+        self.run_says, self.whys = words(margin=(6, 0)), [words() for _ in range(WHY)]
         self.map, self.curve = MapFigure(self._by_hand), RunFigure()
-        self.stop = pmui.Button(label=say("maps.stop"), disabled=True, **BUTTON)
-        self.show_one = pmui.Button(label=say("maps.show_one"), visible=False, **BUTTON)
+        self.steady = Steady(self._runs)
+        self.stop, self.whole, self.thrown = (
+            pmui.Button(label=say(f"maps.{name}"), disabled=name == "stop", **BUTTON)
+            for name in ("stop", "whole", "throw")
+        )
+        self.thrown.visible = False
+        self.shows = [pmui.Button(label=say("maps.show_one"), visible=False, **BUTTON) for _ in range(WHY)]
         on_click(self.stop, lambda event: self._run and self._run.stop())
-        on_click(self.show_one, lambda event: self.go(*self._found.one, cell=True))
+        on_click(self.whole, lambda event: self.settings.look_at(*self._usual_spans()))
+        on_click(self.thrown, lambda event: self._to_lab(look=True))
+        for i, button in enumerate(self.shows):
+            on_click(button, lambda event, i=i: self.go(*self._found[i].one, cell=True))
         self.python = Copy(label=say("maps.python"), button=listed("share.copy"), rows=6, sizing_mode="stretch_width")
         self.files = [
-            Download(self._runs, lambda: (self.level, self.colour.value), partial(_file, kind), label=kind.upper(),
+            Download(self._runs, lambda: (self.level, self.choice.colour), partial(_file, kind), label=kind.upper(),
                      filename=f"tippe-top-map.{kind}", margin=0)
             for kind in KINDS
         ]  # fmt: skip
-        self.map.begin(self.asked)
+        self.choice.param.watch(lambda *events: self.draw(), ["asked", "colour"])
+        self.choice.param.watch(lambda *events: self._show_place(), "place")
+        self.asked = None
         self.draw()
-
-    def _make_choices(self):
-        quantities = {says: name for name, says in listed("maps.quantities").items()}
-        bodies = {named(preset.name): preset.name for preset in PRESETS}
-        tables = {
-            "bodies": (bodies, self.asked.body),
-            "across": (quantities, self.asked.across),
-            "up": (quantities, self.asked.up),
-            "colour": ({listed("maps.colours")[name]: name for name in COLOURS_BY}, "end"),
-            "law": ({listed("maps.laws")[name]: name for name in LAWS}, self.asked.law),
-        }
-        self.choices = {name: pmui.Select(label=say(f"maps.{name}"), options=options, value=value, size="small",
-                                          width=172, margin=(8, 0, 0, 0))
-                        for name, (options, value) in tables.items()}  # fmt: skip
-        self.colour = self.choices["colour"]
-        for name, select in self.choices.items():
-            select.param.watch(partial(self._chosen, name), "value")
-
-    def _make_entries(self, start):
-        called = listed("maps.quantities")
-        shown = {"across_from": 5, "across_to": 50, "up_from": 1, "up_to": 40, "seconds": 6, "cells": 48}
-        shown |= {name: start[name] for name in FIXED} | {"here_across": self.place[0], "here_up": self.place[1]}
-        spoken = {"seconds": say("maps.seconds"), "cells": say("maps.cells")} | {name: called[name] for name in FIXED}
-        for side in ("across", "up"):
-            spoken |= {f"{side}_{end}": f"{say(f'maps.{side}')}, {say(f'maps.{end}')}" for end in ("from", "to")}
-            spoken[f"here_{side}"] = f"{say('maps.here')}, {say(f'maps.{side}')}"
-        self.entries = {name: field(f"{value:.4g}", spoken[name], width=66) for name, value in shown.items()}
-        for name, entry in self.entries.items():
-            entry.param.watch(partial(self._typed, name), "value")
-        self.rows = {name: beside(_called(name, self.asked.law), self.entries[name]) for name in FIXED}
-        self._show_rows()
-
-    def _show_rows(self):
-        taken, law = (self.choices["across"].value, self.choices["up"].value), self.choices["law"].value
-        for name, row in self.rows.items():
-            row.visible = name not in taken and (name != "second" or bool(SECONDS[law]))
-            row[0].object = _called(name, law)
 
     @property
     def view(self):
         """The two sides, one above the other where there is little room."""
-        entry = self.entries
-        ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80),
-                       beside(say("maps.from"), entry[f"{side}_from"]), beside(say("maps.to"), entry[f"{side}_to"]),
-                       margin=(4, 0))
-                  for side in ("across", "up")]  # fmt: skip
-        place = flow(words(say("maps.here"), sizing_mode=None), entry["here_across"], entry["here_up"], margin=(4, 0))
         left = [self.head, self.names, _figure(self.map.figure),
-                flow(self.stop, self.bar, margin=(4, 0)), self.said, words(note(say("maps.hint"))), place, self.worst,
+                flow(self.stop, self.whole, self.bar, margin=(4, 0)), self.said, words(note(say("maps.hint"))),
+                self.worst, *self.steady.view,
                 words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)), flow(*self.files), self.python]  # fmt: skip
+        whys = [part for pair in zip(self.whys, self.shows, strict=True) for part in pair]
         right = [self.run_says, _figure(self.curve.figure),
-                 words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.key, self.why, self.show_one,
-                 flow(*self.choices.values()), *ranges, flow(*self.rows.values()),
-                 flow(*(beside(say(f"maps.{name}"), entry[name]) for name in ("seconds", "cells")))]  # fmt: skip
+                 words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown,
+                 self.key, *whys, *self.settings.view]  # fmt: skip
         sides = [pn.Column(*parts, margin=0, styles=SIDE | {"flex": flex, "min-width": "0"})
-                 for parts, flex in ((left, "3 1 480px"), (right, "2 1 330px"))]  # fmt: skip
-        styles = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
-        return pn.Column(*sides, sizing_mode="stretch_width", margin=0, styles=styles)
+                 for parts, flex in ((left, "3 1 480px"), (right, "1 1 340px"))]  # fmt: skip
+        return pn.Column(*sides, sizing_mode="stretch_width", margin=0, styles=ROW)
+
+    def show(self, scene):
+        """The page has another top, perhaps: then that slides."""
+        body = of_page(scene)
+        if self._seen not in (None, body):
+            self.choice.asked = replace(self.choice.asked, body=body[0], own=body[1])
+        self._seen = body
 
     # ---- what a person sets ----
 
-    @contextmanager
-    def _quietly(self):
-        self._silent = True
+    def _set(self):
+        """By the settings."""
         try:
-            yield
-        finally:
-            self._silent = False
+            asked = self.settings.asked()
+        except ValueError as error:
+            self.said.object = alert(told(error) if isinstance(error, TopError) else str(error))
+            return
+        colour = self.settings.choices["colour"].value
+        if (asked, colour) == (self.choice.asked, self.choice.colour):
+            self.said.object = ""
+        self.choice.param.update(asked=asked, colour=colour)
 
-    def _chosen(self, name, event):
-        if self._silent:
-            return
-        with self._quietly():
-            if name in ("across", "up"):
-                quantity = QUANTITIES[event.new]
-                self._write({f"{name}_from": quantity.low, f"{name}_to": quantity.high})
-            if name == "law":
-                start = Map(law=event.new).start
-                self._write({"second": start["second"]})
-        self._show_rows()
-        self.draw()
-
-    def _typed(self, name, event):
-        if self._silent:
-            return
-        if not name.startswith("here"):
-            self.draw()
-            return
+    def _typed_place(self):
         try:
-            self.go(*(self._number(f"here_{side}") for side in ("across", "up")))
+            self.go(*self.settings.place())
         except ValueError as error:
             self.said.object = alert(str(error))
 
-    def _write(self, values):
-        for name, value in values.items():
-            self.entries[name].value = f"{value:.4g}"
-
-    def _number(self, name):
-        text = self.entries[name].value
-        try:
-            return typed_number(text)
-        except ValueError:
-            raise ValueError(say("maps.not_a_number", name=name, text=text)) from None
-
-    def _map(self):
-        """What is set, as a Map; raises ValueError, TopError."""
-        value = {name: self._number(name) for name in self.entries if not name.startswith("here")}
-        chosen = {name: select.value for name, select in self.choices.items()}
-        axes = (chosen["across"], chosen["up"])
-        fixed = tuple((name, value[name]) for name in FIXED if name not in axes)
-        return Map(body=chosen["bodies"], across=axes[0], up=axes[1], law=chosen["law"], values=fixed,
-                   across_range=(value["across_from"], value["across_to"]),
-                   up_range=(value["up_from"], value["up_to"]), seconds=value["seconds"],
-                   cells=int(value["cells"]) if value["cells"].is_integer() else value["cells"],
-                   nudged=chosen["colour"] == "growth")  # fmt: skip
+    def _usual_spans(self):
+        return [
+            (QUANTITIES[name].low, QUANTITIES[name].high) for name in (self.choice.asked.across, self.choice.asked.up)
+        ]
 
     # ---- the map ----
 
     def draw(self):
-        """Draws what is set; where that cannot be, a sentence says why, and the last map stays."""
-        try:
-            asked = self._map()
-        except ValueError as error:
-            self.said.object = alert(told(error) if isinstance(error, TopError) else str(error))
-            return
+        """What the choice says; whatever was being drawn stops."""
+        colour = self.choice.colour
+        asked = replace(self.choice.asked, nudged=colour == "growth")
+        if asked.body == OWN and asked.own is None:  # of a link, whose other words say what the page's top is
+            asked = replace(asked, body=(self._seen or (asked.body, None))[0], own=(self._seen or (None, None))[1])
+        self.settings.show(self.choice.asked, colour, self.choice.place)
         self.said.object = ""
-        self.head.object = f"<h2>{title(asked, self.colour.value)}</h2>" + note(
+        self.head.object = f"<h2>{title(asked, colour)}</h2>" + note(
             say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)
         )
         if asked == self.asked and self.level is not None:
             self._show(self.level)
             return
-        if (asked.across, asked.up, asked.across_range, asked.up_range) != self._axes(self.asked) or self.level is None:
-            self._place_within(asked)
-        self.asked, self.level = asked, None
+        before, self.asked, self.level = self.asked, asked, None
         self.names.object = note(f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}")
         self.python.text = python(asked)
         self.map.begin(asked)
         self._run = Run(partial(self._work, asked), partial(self._done, asked))
         self.stop.disabled, self.bar.visible, self.bar.object = False, True, _bar(0)
         self._runs.begin(self._run, "maps", MAPS)
-        if before := MAPS.before(self._runs):
-            self.said.object = note(say("maps.waits", count=before))
-        self.go(*self.place)
+        if self.level is None and (first := MAPS.before(self._runs)):
+            self.said.object = note(say("maps.waits", count=first))
+        place = self._within(asked, before)
+        if place == self.choice.place:
+            self._show_place()
+        else:
+            self.choice.place = place
 
-    @staticmethod
-    def _axes(asked):
-        return asked.across, asked.up, asked.across_range, asked.up_range
-
-    def _place_within(self, asked):
+    def _within(self, asked, before):
         """The bead on the map: where it was, if that is on it, else in the middle."""
-        spans = (asked.across_range, asked.up_range)
-        same = (asked.across, asked.up) == (self.asked.across, self.asked.up)
-        inside = same and all(low <= x <= high for x, (low, high) in zip(self.place, spans, strict=True))
-        if not inside:
-            self.place = tuple((low + high) / 2 for low, high in spans)
+        place = self.choice.place
+        same = before is None or (asked.across, asked.up) == (before.across, before.up)
+        inside = same and all(low <= x <= high for x, (low, high) in zip(place, spans(asked), strict=True))
+        return place if inside else [(low + high) / 2 for low, high in spans(asked)]
 
     def _work(self, asked, run):
         level = recall(asked)
@@ -224,7 +170,7 @@ class Maps:
                     self._runs.post(partial(self._show_part, run, level.copy(), run.reached))
             keep(level)
         lines(asked)
-        return level, disagreement(level)
+        return level, disagreements(level)
 
     def _show_part(self, run, level, share):
         if run is self._run and not run.stopped:
@@ -235,8 +181,8 @@ class Maps:
 
     def _show(self, level):
         self.level = level
-        self.map.show(level, self.colour.value)
-        self.key.object = colours_say(level, self.colour.value)
+        self.map.show(level, self.choice.colour)
+        self.key.object = colours_say(level, self.choice.colour)
 
     def _done(self, asked, result):
         self.stop.disabled, self.bar.visible = True, False
@@ -251,32 +197,49 @@ class Maps:
             self._show(level)
             self.said.object = ""
             self.worst.object = note(of_worst(level))
-            self.why.object = of_disagreement(self._found, asked)
-            self.show_one.visible = self._found is not None
+            for i, (why, button) in enumerate(zip(self.whys, self.shows, strict=True)):
+                found = self._found[i] if i < len(self._found) else None
+                why.object = of_disagreement(found, asked, first=i == 0)
+                button.visible = found is not None
 
     # ---- one run ----
 
     def _by_hand(self, data):
-        """A place that the browser sends; what no page sends is passed over."""
+        """A place, or the corners of a box, that the browser sends; what no page sends is passed over."""
         try:
-            across, up = (sent.number(data[name][0]) for name in ("x", "y"))
+            xs, ys = ([sent.number(x) for x in data[name][:2]] for name in ("x", "y"))
             cell = bool(data["cell"][0])
+            if not xs or len(xs) != len(ys):
+                return
         except (sent.Unasked, KeyError, IndexError, TypeError):
             return
-        self.go(across, up, cell)
+        if len(xs) == 2:
+            self.settings.look_at(sorted(xs), sorted(ys))
+        else:
+            self.go(xs[0], ys[0], cell)
 
     def go(self, across, up, cell=False):
-        """Shows the run of a place; cell: of the middle of the cell that it is in."""
+        """To the run of a place; cell: of the middle of the cell that it is in."""
         if cell and self.level is not None:
             i, j = self.level.cell(across, up)
             across, up = float(self.level.x[j]), float(self.level.y[i])
-        self.place, asked = (across, up), self.asked
+        self.choice.place = [across, up]
+
+    def _show_place(self):
+        asked, (across, up) = self.asked, self.choice.place
         self.map.bead.data = {"x": [across], "y": [up]}
-        with self._quietly():
-            self._write({"here_across": across, "here_up": up})
+        self.settings.show_place((across, up))
         self._runs.begin(
             Run(lambda run: one_run(asked, across, up, run.look), partial(self._ran, asked, across, up)), "maps-run"
         )
+        self.steady.show(asked, (across, up))
+        self._to_lab(look=False)
+
+    def _to_lab(self, look):
+        start = throw_of(self.asked, *self.choice.place) if self._throw else None
+        self.thrown.visible = start is not None
+        if start is not None:
+            self._throw(*start, look)
 
     def _ran(self, asked, across, up, result):
         if isinstance(result, TopError):
@@ -300,9 +263,3 @@ def _figure(figure):
 
 def _bar(percent):
     return progress(percent, say("maps.progress"))
-
-
-def _called(name, law):
-    if name == "second":
-        return listed("maps.seconds_of")[law]
-    return with_unit(name)

@@ -1,7 +1,7 @@
 """A Level of a map -> Bokeh: one picture of cells, a hatch on those that are mixed, closed-form lines, the bead."""
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Label, Range1d
+from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Range1d
 from bokeh.palettes import Viridis256
 
 from app.bundle import call
@@ -16,8 +16,9 @@ END_COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2",
                "inverted": "#a88a55", "stem": "#80632f", "refused": "#9aa3ac"}  # fmt: skip
 ON_END = {"inverted": "#ffffff", "stem": "#ffffff"}  # words on these; else dark
 DARK = "#1b2430"
+DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
+          "window_high": "dotdash"}  # fmt: skip
 LEAST_AREA = 0.06  # of the map: an end with less has its word in the key alone
-DASHES = {"stands": "dashed", "leaves": "dotted", "window_low": "dashdot", "window_high": "dotdash"}
 
 
 class MapFigure:
@@ -47,7 +48,10 @@ class MapFigure:
                                     text_font_size="12px", text_font_style="bold"))  # fmt: skip
             fig.add_layout(self.words[-1])
         self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [False]})
-        mine = {"fig": fig, "hand": self.hand, "bead": self.bead}
+        box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color="#1558c0", fill_alpha=0.15,
+                            line_color="#1558c0", line_width=2)  # fmt: skip
+        fig.add_layout(box)
+        mine = {"fig": fig, "hand": self.hand, "bead": self.bead, "box": box}
         for event in ("tap", "panstart", "pan", "panend"):
             fig.js_on_event(event, call("pullBead", **mine))
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label")))

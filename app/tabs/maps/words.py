@@ -11,7 +11,7 @@ from app.widgets.cards import note, px, swatch
 
 PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid #8a96a3; {}"
 HATCHED = "background: repeating-linear-gradient(135deg, #dccaa2 0 3px, #1b2430 3px 4px)"
-LINE = {"dashed": "dashed", "dotted": "dotted", "dashdot": "dashed", "dotdash": "dotted"}
+LINE = {"solid": "solid", "dashed": "dashed", "dotted": "dotted", "dashdot": "dashed", "dotdash": "dotted"}
 
 
 def _patch(style, text):
@@ -58,11 +58,24 @@ def of_worst(level):
     return say("maps.worst", energy=level.worst("energy_error"), drift=kept) + " " + say("maps.unsettled")
 
 
-def of_disagreement(found, asked):
-    """Where the closed form allows what no run does, and why."""
-    says = say("maps.agree")
-    if found is not None:
-        unit = QUANTITIES[asked.across].unit
-        says = say("maps.in_words", count=found.count, all=found.allowed, low=found.low, high=found.high, unit=unit)
-        says += say(f"maps.why.{found.why}")
-    return f"<h2>{say('maps.disagree')}</h2>{says}" if found else note(says)
+def of_disagreement(found, asked, first):
+    """Where runs do otherwise than the closed form says, and why; first: of the kinds that there may be."""
+    if found is None:
+        return note(say("maps.agree")) if first else ""
+    unit = QUANTITIES[asked.across].unit
+    says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=found.low, high=found.high,
+               unit=unit) + say(f"maps.why.{found.why}")  # fmt: skip
+    return (f"<h2>{say('maps.disagree')}</h2>" if first else "") + says
+
+
+def title(asked, colour):
+    """What is drawn over what."""
+    named = listed("maps.quantities")
+    return say("maps.title", colour=listed("maps.colours")[colour], seconds=asked.seconds, across=named[asked.across],
+               up=named[asked.up])  # fmt: skip
+
+
+def with_unit(name):
+    """The name of an axis."""
+    unit = QUANTITIES[name].unit
+    return listed("maps.quantities")[name] + (f", {unit}" if unit else "")

@@ -1,13 +1,18 @@
-// A map: a hand near the bead takes hold of it, a click goes to the cell; `hand` takes both to Python.
+// A map: a hand near the bead takes hold of it, from anywhere else it draws a box, a click goes to the cell; `hand` takes
+// all of it to Python, of a box two opposite corners.
 import { eventsOf, scalesOf } from "../borrowed.js";
 import { clamp } from "./curves.js";
 import { isFollowed } from "./seeking.js";
 
 const REACH = 40; // px
+const LEAST = 12; // px: no box is smaller
 const WAIT = 80; // ms between two places that are sent while a hand moves
 
-// hand -> whether it holds the bead, and when a place was sent last.
-/** @type {WeakMap<object, { held: boolean, sent: number }>} */
+// hand -> whether it holds the bead, the corner where a box begins, and when a place was sent last.
+/** @typedef {{ x: number, y: number, sx: number, sy: number }} Corner */
+/** @typedef {{ held: boolean, from: Corner | null, sent: number }} Hand */
+/** @typedef {{ setv(values: object, options: object): void }} Settable */
+/** @type {WeakMap<object, Hand>} */
 const hands = new WeakMap();
 
 // How far the bead is from a place, in px.
@@ -16,20 +21,38 @@ export function awayFromBead({ data }, [px, py], { x, y }) {
   return Math.hypot(x.compute(data.x[0]) - px, y.compute(data.y[0]) - py);
 }
 
-/** @param {{ fig: Figure, hand: Source, bead: Source<"x" | "y"> }} given @param {Happened} event */
-export function pullBead({ fig, hand, bead }, { event_name: name, sx, sy, x, y }) {
-  const own = hands.get(hand) ?? { held: false, sent: 0 }, clicked = name === "tap";
+/** @param {{ fig: Figure, hand: Source, bead: Source<"x" | "y">, box: Settable }} given @param {Happened} event */
+export function pullBead({ fig, hand, bead, box }, { event_name: name, sx, sy, x, y }) {
+  const own = hands.get(hand) ?? { held: false, from: null, sent: 0 }, clicked = name === "tap";
   hands.set(hand, own);
-  if (name === "panstart") own.held = awayFromBead(bead, [sx, sy], scalesOf(fig)) < REACH;
-  if (!clicked && !own.held) return;
   const { x_range: across, y_range: up } = fig;
-  const place = { x: [clamp(x, across.start, across.end)], y: [clamp(y, up.start, up.end)] };
-  bead.setv({ data: place }, { sync: false });
+  const place = { x: clamp(x, across.start, across.end), y: clamp(y, up.start, up.end) };
+  if (name === "panstart") {
+    own.held = awayFromBead(bead, [sx, sy], scalesOf(fig)) < REACH;
+    own.from = own.held ? null : { ...place, sx, sy };
+  }
+  if (!clicked && own.from) return drawBox(own, hand, box, name, { ...place, sx, sy });
+  if (!clicked && !own.held) return;
+  const at = { x: [place.x], y: [place.y] };
+  bead.setv({ data: at }, { sync: false });
   const done = clicked || name === "panend", now = performance.now();
   if (done) own.held = false;
   if (!done && now - own.sent < WAIT) return;
   own.sent = now;
-  hand.data = { ...place, cell: [clicked] };
+  hand.data = { ...at, cell: [clicked] };
+}
+
+// The box from where the hand began to where it is; at its end it is sent.
+/** @param {Hand} own @param {Source} hand @param {Settable} box @param {string} name @param {Corner} to */
+function drawBox(own, hand, box, name, to) {
+  const { from } = own, done = name === "panend";
+  if (!from) return;
+  const [left, right] = [from.x, to.x].sort((a, b) => a - b), [bottom, top] = [from.y, to.y].sort((a, b) => a - b);
+  box.setv({ left, right, bottom, top, visible: !done }, { sync: false });
+  if (!done) return;
+  own.from = null;
+  if (Math.min(Math.abs(to.sx - from.sx), Math.abs(to.sy - from.sy)) < LEAST) return;
+  hand.data = { x: [left, right], y: [bottom, top], cell: [false, false] };
 }
 
 // A finger near the bead moves it, and scrolls the page from everywhere else.

@@ -1,9 +1,11 @@
 // One picture at a time that answers a question of the run: where the height comes from, which way it turns, where it
 // touches the table.
 import { ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "./curves.js";
+import { lineOf } from "./numbers.js";
 import { Choice, drawn, part, say } from "./parts.js";
 
 const NAMES = ["energy", "spin", "path"];
+const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }; // of numbers.js
 const LEFT = 46, RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
 const ROOM = 30; // px that words in a picture need
 const MOST_POINTS = 2400;
@@ -18,6 +20,8 @@ export class Answer {
     /** @type {((t: number) => void)[]} */
     this.moves = []; // of a picture that moves otherwise than by its line
     this.name = "energy";
+    /** @type {import("./curves.js").Curves | null} */
+    this.before = null;
     this.title = part("h2");
     this.note = part("p", { class: "small" });
     this.choice = new Choice({
@@ -26,11 +30,42 @@ export class Answer {
     });
     this.choice.element.className = "mini";
     this.drawing = drawn("svg", { role: "img" });
-    this.plot = part("div", { class: "plot", role: "tabpanel" }, this.drawing);
+    this.readout = part("p", { class: "readout", hidden: true, "aria-hidden": "true" });
+    this.plot = part("div", { class: "plot", role: "tabpanel" }, this.drawing, this.readout);
+    this.larger = part("button", { type: "button", class: "icon", "aria-label": texts.larger, title: texts.larger, onclick: () => this.enlarge() }, "⤢");
+    this.dialog = part("dialog", { class: "large", "aria-label": texts.larger, onclose: () => this.shrink() });
     this.element = part("section", { class: "answer" },
-      part("div", { class: "titled" }, this.title, this.choice.element), this.note, this.plot);
+      part("div", { class: "titled" }, this.title, this.choice.element, this.larger), this.note, this.plot);
+    this.plot.onpointermove = (event) => this.point(event);
+    this.plot.onpointerleave = () => (this.readout.hidden = true);
     this.resizing = new ResizeObserver(() => this.draw());
     this.resizing.observe(this.plot);
+  }
+
+  // Over the whole window, and back with the same button or with Escape.
+  enlarge() {
+    if (this.dialog.open) return this.dialog.close();
+    this.element.after(this.dialog);
+    this.dialog.append(...this.element.children);
+    this.dialog.showModal();
+  }
+
+  shrink() {
+    this.element.append(...this.dialog.children);
+    this.dialog.remove();
+    this.larger.focus();
+  }
+
+  // The numbers where the pointer is, beside it.
+  /** @param {PointerEvent} event */
+  point({ clientX, clientY }) {
+    const { readout, curves, name, texts } = this, box = this.plot.getBoundingClientRect(), x = clientX - box.left;
+    const t = ((x - LEFT) / (this.right - LEFT)) * (this.time.end || 1);
+    readout.hidden = !READ[name] || !curves?.count || t < 0 || t > this.time.end;
+    if (readout.hidden) return;
+    readout.textContent = lineOf(texts, curves, READ[name], t);
+    readout.style.left = `${Math.max(0, Math.min(x + 14, this.width - readout.offsetWidth))}px`;
+    readout.style.top = `${Math.max(0, clientY - box.top - 40)}px`;
   }
 
   look(name) {
@@ -41,6 +76,8 @@ export class Answer {
   show(scene) {
     this.scene = scene;
     this.curves = scene.curves[scene.table === "three" ? "ordinary" : scene.table];
+    const { before } = scene, then = before?.curves[before.table];
+    this.before = then?.count ? then : null;
     this.draw();
   }
 
@@ -57,7 +94,8 @@ export class Answer {
     this.plot.setAttribute("aria-label", said.question);
     this.drawing.setAttribute("aria-label", said.note);
     if (!width || !scene) return;
-    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), said.note);
+    this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), said.note,
+      ...(this.before && name !== "path" ? [texts.note_then] : []));
     Object.assign(this, { width, height, bottom: height - FOOT });
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
     this.moves = [];
@@ -81,9 +119,25 @@ export class Answer {
     return { y, found };
   }
 
+  // The run before, of one quantity, and as high as that has to be.
+  /** @param {(value: number) => number} y @param {number} column */
+  then(y, column) {
+    const curves = this.before;
+    if (!curves) return [];
+    const t = 0.3 * Math.min(curves.end, this.time.end);
+    return [drawn("polyline", { class: "then", points: curves.points((at) => Math.min(this.x(at), this.right), y, column) }),
+      drawn("text", { class: "halo", x: this.x(t) + 4, y: y(curves.at(t, column)) - 5 }, this.texts.then)];
+  }
+
+  /** @param {number[]} columns @returns {[least: number, most: number]} */
+  range(...columns) {
+    const [[least, most], then] = [this.curves.range(...columns), this.before?.range(...columns) ?? [Infinity, -Infinity]];
+    return [Math.min(least, then[0]), Math.max(most, then[1])];
+  }
+
   energy() {
     const { curves, texts } = this, said = texts.answers.energy, start = curves.value(0, ENERGY);
-    const { y, found } = this.axes(0, 1.03 * curves.range(ENERGY)[1], "mm");
+    const { y, found } = this.axes(0, 1.03 * this.range(ENERGY)[1], "mm");
     const line = (column) => curves.points(this.x, y, column), floor = `${this.x(curves.end)},${this.bottom} ${LEFT},${this.bottom}`;
     const heights = curves.range(HEIGHT), t = (share) => share * curves.end, at = (share, column) => y(curves.at(t(share), column));
     const words = [], put = (share, height, text, more) => words.push(
@@ -98,14 +152,14 @@ export class Answer {
     return [
       ...found,
       drawn("polygon", { class: "spins", points: `${line(ENERGY)} ${floor}` }), drawn("polygon", { class: "lifts", points: `${line(HEIGHT)} ${floor}` }),
-      drawn("polyline", { class: "energy", points: line(ENERGY) }),
+      drawn("polyline", { class: "energy", points: line(ENERGY) }), ...this.then(y, ENERGY),
       drawn("line", { class: "first", x1: LEFT, x2: this.right, y1: y(start), y2: y(start) }), this.now, ...words,
     ];
   }
 
   spin() {
     const { curves, texts } = this, said = texts.answers.spin;
-    const [least, most] = curves.range(SPIN, TURNING), room = 0.06 * (most - least || 1);
+    const [least, most] = this.range(SPIN, TURNING), room = 0.06 * (most - least || 1);
     const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? 2 * room : 0), Math.max(most, 0) + room, said.unit, 60);
     let widest = 0, apart = 0; // where the two lines stand clearest of each other
     for (let share = 0.2; share < 0.7; share += 0.05) {
@@ -121,7 +175,7 @@ export class Answer {
       put(widest, SPIN, curves.at(widest * curves.end, TURNING) > curves.at(widest * curves.end, SPIN) ? 1 : -1, said.own);
     }
     return [
-      ...found, drawn("polyline", { class: "turning", points: curves.points(this.x, y, TURNING) }),
+      ...found, ...this.then(y, SPIN), drawn("polyline", { class: "turning", points: curves.points(this.x, y, TURNING) }),
       drawn("polyline", { class: "own", points: curves.points(this.x, y, SPIN) }), this.now, ...words,
     ];
   }

@@ -1,63 +1,10 @@
 // The start, as a hand gives it: spin, tilt, friction, each a slider and a number to type; and "Spin it".
+import { Launch } from "./launch.js";
 import { part, read, say, written } from "./parts.js";
 
 export const INPUTS = ["spin", "tilt", "mu"];
-const LATE = 2000; // ms: an answer that has not come by then is not waited for
 const THUMB = 10; // px from the end of a slider's track to the middle of its thumb there
 const WIDTH = 340, WIDE = 5.6, APART = 16; // px: of the strip of ends at least, of a letter under it, between words
-
-// What a hand asks for, one wish at a time under way; of those that wait only the newest for each input.
-export class Asking {
-  /** @param {(count: number, name: string, value: any) => void} send */
-  constructor(send) {
-    this.send = send;
-    this.count = 0;
-    this.answered = 0;
-    this.sentAt = -Infinity;
-    this.waiting = new Map();
-    this.held = false;
-  }
-
-  // While there is nobody who answers.
-  /** @param {boolean} held */
-  hold(held) {
-    this.held = held;
-    this.next();
-  }
-
-  /** @param {string} name @param {any} value */
-  ask(name, value) {
-    this.waiting.delete(name);
-    this.waiting.set(name, value);
-    this.next();
-  }
-
-  /** @param {number} answered the last count that came back */
-  hear(answered) {
-    this.answered = Math.max(answered, this.answered);
-    this.next();
-  }
-
-  next() {
-    clearTimeout(this.later);
-    if (this.held || !this.waiting.size) return;
-    const left = LATE - (performance.now() - this.sentAt);
-    if (this.answered < this.count && left > 0) {
-      this.later = setTimeout(() => this.next(), left);
-      return;
-    }
-    const [[name, value]] = this.waiting;
-    this.waiting.delete(name);
-    this.count += 1;
-    this.sentAt = performance.now();
-    this.send(this.count, name, value);
-  }
-
-  // Whether a hand is ahead of what is shown.
-  get isAhead() {
-    return this.waiting.size > 0 || this.answered < this.count;
-  }
-}
 
 class Control {
   /** @param {string} name @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask */
@@ -68,7 +15,7 @@ class Control {
     this.said = said;
     this.ask = ask;
     this.limits = { low: 0, high: 1, digits: 0 };
-    this.share = 0; // of the track, where the value is
+    this.share = this.value = 0; // of the track, where the value is; what was shown last of a hold
     const id = `lab-${name}`;
     this.slider = part("input", { type: "range", id, "aria-label": said.name, oninput: () => {
       this.put(Number(this.slider.value));
@@ -76,7 +23,7 @@ class Control {
     } });
     this.number = part("input", {
       class: "num", inputmode: "decimal", "aria-label": said.typed, "aria-describedby": `${id}-wrong`,
-      onchange: () => this.type(),
+      oninput: () => (this.isTyping = true), onblur: () => (this.isTyping = false), onchange: () => this.type(),
     });
     this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
     this.below = part("div", { class: "below" });
@@ -85,6 +32,7 @@ class Control {
   }
 
   type() {
+    this.isTyping = false;
     const value = read(this.number.value);
     this.ask(this.name, Number.isFinite(value) ? value : this.number.value);
     if (!Number.isFinite(value)) return;
@@ -96,9 +44,15 @@ class Control {
   put(value) {
     const { low, high, digits } = this.limits, share = (value - low) / (high - low);
     this.slider.style.setProperty("--p", `${(100 * Math.min(Math.max(share, 0), 1)).toFixed(2)}%`);
-    this.number.value = written(value, digits, this.texts.decimal);
+    this.write(written(value, digits, this.texts.decimal));
     this.share = share;
     this.point();
+  }
+
+  // Never over what a person is typing.
+  /** @param {string} text */
+  write(text) {
+    if (!this.isTyping) this.number.value = text;
   }
 
   // The mark of the present value; one typed beyond the track has no place on it.
@@ -121,7 +75,7 @@ class Control {
       this.slider.value = String(kept);
       this.put(kept);
       this.slider.setAttribute("aria-valuetext", `${written(kept, this.limits.digits, this.texts.decimal)} ${this.said.unit}`);
-      if (message && refused !== undefined) this.number.value = typeof refused === "number" ? written(refused, Number.isInteger(refused) ? 0 : this.limits.digits, this.texts.decimal) : String(refused);
+      if (message && refused !== undefined) this.write(typeof refused === "number" ? written(refused, Number.isInteger(refused) ? 0 : this.limits.digits, this.texts.decimal) : String(refused));
     }
     this.number.setAttribute("aria-invalid", String(Boolean(message)));
     this.element.classList.toggle("bad", Boolean(message));
@@ -129,6 +83,27 @@ class Control {
     const back = say(this.texts, this.texts.back, { value: `${written(kept, this.limits.digits, this.texts.decimal)}${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}` });
     if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), part("span", {}, message, " ",
       part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, kept) }, back)));
+  }
+
+  // A share of the track, in steps of its digits; returns the value there.
+  /** @param {number} share */
+  putShare(share) {
+    const { low, high, digits } = this.limits;
+    this.value = Number((low + share * (high - low)).toFixed(digits));
+    this.slider.value = String(this.value);
+    this.put(this.value);
+    return this.value;
+  }
+
+  // On the strip below the track: where the run before was.
+  /** @param {number | undefined} value */
+  showWas(value) {
+    const { low, high } = this.limits, bar = this.below.firstChild;
+    this.was?.remove();
+    if (value === undefined || !bar || value < low || value > high) return;
+    this.was = part("i", { class: "was", title: say(this.texts, this.texts.was, { value: [value, this.limits.digits] }),
+      style: `left: ${this.along((value - low) / (high - low))}` });
+    bar.append(this.was);
   }
 
   // Under the track: how it ends for each spin.
@@ -179,11 +154,15 @@ export class Controls {
   constructor(texts, ask, spin) {
     this.texts = texts;
     this.parts = INPUTS.map((name) => new Control(name, texts, ask));
-    this.button = part("button", { class: "primary", type: "button", onclick: spin });
+    const [turns] = this.parts;
+    this.launch = new Launch(texts, {
+      spin, launch: () => ask("spin", turns.value), stop: () => ask("stop", ""),
+      strength: (share) => say(texts, texts.strength, { spin: [turns.putShare(share), 0] }),
+    });
     this.picks = part("div", { class: "picks", role: "group", "aria-label": texts.hand }, ...this.parts.map(({ said, name }) =>
       part("button", { type: "button", onclick: () => this.pick(name) }, said.name, part("b"))));
     this.element = part("section", { class: "controls", "aria-label": texts.hand },
-      part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks, this.button), ...this.parts.map(({ element }) => element));
+      part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks, this.launch.element), ...this.parts.map(({ element }) => element));
     this.pick("spin");
   }
 
@@ -196,9 +175,9 @@ export class Controls {
   }
 
   /** @param {any} scene @param {boolean} ahead */
-  show({ state, table }, ahead) {
-    const { texts } = this;
-    this.button.textContent = table === "three" ? texts.spin_all : texts.spin_it;
+  show(scene, ahead) {
+    const { state, table, before } = scene, { texts } = this;
+    this.launch.show(scene);
     for (const [i, control] of this.parts.entries()) {
       // ice has no friction to set, and on the rough table nothing slips
       const idle = control.name === "mu" && (table === "rough" || table === "ice");
@@ -210,6 +189,8 @@ export class Controls {
     }
     if (table === "rough" || table === "ice") this.parts[0].below.replaceChildren();
     else this.parts[0].showEnds(state.ends);
+    const was = before?.state.of.spin[0];
+    this.parts[0].showWas(was === state.of?.spin[0] ? undefined : was);
     if (table === "rough" || table === "ice") this.parts[0].ends = undefined;
   }
 }

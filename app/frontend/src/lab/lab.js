@@ -1,8 +1,11 @@
 // The Lab: one top, one start, and the table that is chosen, or all three. Python solves and says what happened; here it
 // is drawn, played, and asked for.
 import { Answer, trackOf } from "./answer.js";
-import { Asking, Controls } from "./controls.js";
+import { Asking } from "./asking.js";
+import { Before } from "./before.js";
+import { Controls } from "./controls.js";
 import { Curves } from "./curves.js";
+import { Numbers } from "./numbers.js";
 import { part } from "./parts.js";
 import { Stage, TABLES } from "./stage.js";
 import { Strip } from "./strip.js";
@@ -25,12 +28,15 @@ class Lab {
     this.time = new Time(coalesce(() => this.at()));
     this.asking = new Asking((...asked) => (model.asked = asked));
     const ask = (name, value) => this.ask(name, value);
-    this.stage = new Stage(texts, this.time, ask);
+    this.before = new Before(texts);
+    this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand() });
     this.strip = new Strip(texts, this.time);
-    this.words = new Words(texts, ask);
+    this.words = new Words(texts, ask, () => this.goBack());
     this.answer = new Answer(texts, this.time);
     this.keeps = new Keeps(texts);
+    this.numbers = new Numbers(texts);
     this.controls = new Controls(texts, ask, () => this.spin());
+    this.controls.element.append(this.numbers.element);
     this.element = part("div", { class: "lab" }, this.stage.element, this.strip.element, this.words.element,
       this.answer.element, this.keeps.element, this.controls.element);
     this.frame = part("div", { class: "frame" }, this.element);
@@ -53,6 +59,7 @@ class Lab {
       this.anew = value; // the same start on another table, from its beginning
       this.stage.choice.show(value);
     }
+    this.before.touch(name, this.scene);
     this.asking.ask(name, value);
     this.patience ||= setTimeout(() => this.show(), PATIENCE);
   }
@@ -65,7 +72,32 @@ class Lab {
       this.patience = this.since = 0;
     } else this.since ||= performance.now();
     if (waits) this.patience ||= setTimeout(() => this.show(), PATIENCE);
-    return state.old || (waits && performance.now() - this.since >= PATIENCE - 1 ? state.was : "");
+    this.waits = !state.old && waits && performance.now() - this.since >= PATIENCE - 1 && Boolean(state.was);
+    return state.old || (this.waits ? state.was : "");
+  }
+
+  // The run before: dismissed, or gone back to.
+  forget() {
+    this.before.forget();
+    this.showNow();
+  }
+
+  goBack() {
+    this.before.goBack((name, value) => this.ask(name, value), this.scene);
+  }
+
+  // On the axis: the motion begins anew at that tilt, and is let go with the hand.
+  hand() {
+    return {
+      pull: (degrees) => {
+        if (this.time.playing || this.time.t) {
+          this.time.play(false);
+          this.time.seek(0);
+        }
+        this.ask("tilt", Number(degrees.toFixed(1)));
+      },
+      letGo: () => this.spin(),
+    };
   }
 
   spin() {
@@ -84,20 +116,23 @@ class Lab {
     const alone = table === "three" ? "ordinary" : table, curves = each((name) => this.bytes[name].curves);
     return {
       state, texts: model.texts, table, curves, runs: state.runs, run: state.runs[alone], unit: model.seconds, a: model.a,
-      frames: each((name) => model[`frames_${name}`]), profile: model.profile && float32(model.profile),
-      end: Math.max(...Object.values(curves).map(({ end }) => end)),
+      frames: each((name) => model[`frames_${name}`]), profile: float32(model.profile),
+      end: Math.max(...Object.values(curves).map(({ end }) => end)), waits: this.waits,
       track: (name) => trackOf(float32(model[`frames_${name}`]), model.seconds),
     };
   }
 
   showNow() {
     if (!this.model.state.runs) return; // Python has not got there
-    const scene = (this.scene = this.read()), { time, model } = this;
+    const scene = this.read(), { time, model } = this;
+    scene.before = this.before.follow(this.scene, scene);
+    this.scene = scene;
     this.asking.hear(model.state.answered);
     Object.assign(time, { unit: model.seconds, end: scene.end, events: scene.run?.events ?? [], tops: this.stage.tops });
     this.element.dataset.table = scene.table;
-    this.stage.show({ ...scene, profile: model.profile });
-    for (const shown of [this.strip, this.words, this.answer, this.keeps]) shown.show({ ...scene, profile: scene.profile ?? [] });
+    scene.bytes = model.profile;
+    this.stage.show(scene);
+    for (const shown of [this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.show(scene);
     this.controls.show(scene, this.asking.isAhead);
     this.element.classList.toggle("old", Boolean(scene.state.old));
     if (this.anew === scene.table) {
@@ -109,7 +144,7 @@ class Lab {
 
   at() {
     if (!this.scene) return;
-    for (const shown of [this.stage, this.strip, this.words, this.answer]) shown.at(this.time.t);
+    for (const shown of [this.stage, this.strip, this.words, this.answer, this.numbers]) shown.at(this.time.t);
   }
 
   leave() {

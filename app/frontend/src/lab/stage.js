@@ -1,5 +1,6 @@
 // The large picture: one top or three on their tables, and on it the switch of the table, the top's name, what it does
 // now, and how fast it turns.
+import { thenAt } from "./before.js";
 import { latest, TILT, TURNING } from "./curves.js";
 import { Choice, drawn, part, say } from "./parts.js";
 import { Top } from "./top.js";
@@ -12,12 +13,14 @@ export class Stage {
    * @param {Record<string, any>} texts
    * @param {import("./time.js").Time} time
    * @param {(name: string, value: any) => void} ask
+   * @param {{ forget: () => void, hand: { pull(degrees: number): void, letGo(): void } }} of forget: dismisses the run before
    */
-  constructor(texts, time, ask) {
+  constructor(texts, time, ask, { forget, hand }) {
     this.texts = texts;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // under three tops, what each does
-    this.alone = new Top({ texts, time, label: texts.stage, away: 1.3 });
+    const words = { ...texts, handle: texts.axis, handle_hint: texts.axis_hint };
+    this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand });
     this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75 }));
     this.captions = TABLES.map(() => part("p", { class: "caption" }));
     this.places = [part("div", { class: "place" }, this.alone.element),
@@ -32,11 +35,14 @@ export class Stage {
     this.ring = part("div", { class: "ring" }, drawn("svg", { viewBox: "0 0 130 34", "aria-hidden": "true" },
       drawn("path", { d: RING, fill: "none", stroke: "currentColor", "stroke-width": 3, "stroke-linecap": "round" }),
       drawn("path", { d: "M128 19l-16 9-1-13z", fill: "currentColor" })), this.turns);
+    this.then = part("span");
+    this.chip = part("div", { class: "chip", hidden: true }, this.then,
+      part("button", { type: "button", "aria-label": texts.forget, title: texts.forget, onclick: forget }, "×"));
     this.missing = part("p", { class: "missing", role: "status" });
     this.element = part("section", { class: "stage", "aria-label": texts.stage },
       part("div", { class: "tops" }, ...this.places), this.ring,
       part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element)),
-      this.pill, this.missing);
+      this.pill, this.chip, this.missing);
     // The wheel scrolls the page; with Ctrl it is for the picture.
     this.element.addEventListener("wheel", (event) => {
       if (event.ctrlKey) event.composedPath()[0].focus?.({ preventScroll: true });
@@ -52,11 +58,13 @@ export class Stage {
     const { state, texts, table } = scene, three = table === "three";
     this.scene = scene;
     this.choice.show(table);
-    const { profile, a, unit: seconds } = scene;
+    const { bytes: profile, a, unit: seconds, before } = scene;
     this.tops.forEach((top, i) => {
       const shown = three === i > 0;
       this.places[i].hidden = !shown;
       if (!shown) return top.put({ frames: null }); // with nothing to move it costs nothing
+      const was = !i && before ? { frames: before.frames[before.table], profile: before.bytes, a: before.a, seconds: before.unit } : null;
+      if (was?.frames !== top.model.before?.frames) top.put({ before: was });
       top.put({ profile, a, seconds, frames: scene.frames[three ? TABLES[i - 1] : table] });
       if (this.element.isConnected) top.begin();
     });
@@ -73,8 +81,17 @@ export class Stage {
     return [part("b", {}, texts.tables[name]), ` ${texts.hints[name]}`, part("br"), this.lines[name]];
   }
 
+  // The run before, in words.
+  /** @param {number} t */
+  beforeAt(t) {
+    const { scene: { before }, texts, chip, then } = this, shown = Boolean(before?.curves[before.table].count);
+    chip.hidden = !shown;
+    if (shown) then.textContent = say(texts, texts.before, { what: before.what, tilt: [thenAt(before, t, TILT), 0] });
+  }
+
   /** @param {number} t */
   at(t) {
+    this.beforeAt(t);
     const { scene, texts } = this, three = scene.table === "three";
     const curves = scene.curves[three ? "ordinary" : scene.table], run = scene.runs[three ? "ordinary" : scene.table];
     this.pill.hidden = three || !curves.count;

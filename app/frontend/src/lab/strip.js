@@ -94,12 +94,21 @@ export class Strip {
     });
     this.clip = drawn("rect", { x: 0, y: 0, width: 0, height });
     this.drawing.replaceChildren(
-      drawn("clipPath", { id: "played" }, this.clip), ...this.axes(), ...this.events(), ...this.shapes(),
-      ...lines.map((line) => line("rest")), drawn("g", { "clip-path": "url(#played)" }, ...lines.map((line) => line("past"))),
+      drawn("clipPath", { id: "played" }, this.clip), drawn("clipPath", { id: "all" }, drawn("rect", { x: 0, y: 0, width: this.right + 1, height })), ...this.axes(), ...this.events(), ...this.shapes(),
+      ...this.then(), ...lines.map((line) => line("rest")), drawn("g", { "clip-path": "url(#played)" }, ...lines.map((line) => line("past"))),
       ...this.names(),
     );
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.at(this.time.t);
+  }
+
+  // The run before.
+  then() {
+    const { scene: { before }, texts } = this, curves = before?.curves[before.table];
+    if (!curves?.count) return [];
+    const t = 0.62 * Math.min(curves.end, this.time.end), y = this.y(curves.at(t, TILT));
+    return [drawn("polyline", { class: "then", "clip-path": "url(#all)", points: curves.points(this.x, this.y, TILT) }),
+      drawn("text", { class: "halo", x: this.x(t), y: y > (this.top + this.bottom) / 2 ? y - 7 : y + 16 }, texts.then)];
   }
 
   axes() {

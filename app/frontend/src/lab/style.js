@@ -55,19 +55,19 @@ polyline, .rest, .past { fill: none; stroke-linejoin: round; }
 // Where each part stands: the top and what answers it side by side, the bar that moves the time right under the top.
 const places = `
 .lab { display: grid; gap: 12px var(--gap); padding: 12px var(--gap) 8px; align-content: start;
-  --stage: clamp(390px, 100vh - 384px, 62cqw);
+  --stage: clamp(390px, 100vh - 322px, 62cqw);
   grid-template: "stage answer" calc(var(--stage) - 150px) "stage controls" 138px "strip controls" var(--bar) "say controls" auto / minmax(0, 1fr) var(--side); }
 .stage { grid-area: stage; position: relative; background: var(--floor); border-radius: 6px; overflow: hidden; min-width: 0; }
 .strip { grid-area: strip; min-width: 0; } .say { grid-area: say; min-width: 0; } .answer { grid-area: answer; min-width: 0; }
 .controls { grid-area: controls; min-width: 0; } .keeps { grid-area: answer; min-width: 0; display: none; overflow-x: auto; }
-.lab[data-table=three] { --stage: clamp(300px, 100vh - 520px, 40cqw);
+.lab[data-table=three] { --stage: clamp(300px, 100vh - 458px, 40cqw);
   grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say answer" auto "controls answer" auto / var(--side) minmax(0, 1fr); }
 .lab[data-table=three] .answer { display: none; } .lab[data-table=three] .keeps { display: block; }
 .lab[data-table=three] .ctl:not(:nth-child(2)) { display: none; }
 .lab[data-table=three] .outline { display: none; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
-    --stage: clamp(390px, 100vh - 430px, 62cqw); }
+    --stage: clamp(390px, 100vh - 368px, 62cqw); }
 }
 @container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; } }
 @container (max-width: 900px) { .lab { --side: 300px; } }
@@ -89,6 +89,8 @@ const stage = `
 .switch, .on > select { background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
 .switch { display: inline-flex; } .switch > b { align-self: center; padding: 0 4px 0 10px; }
 .on > select { padding: 0 8px; min-height: calc(var(--touch) + 2px); min-width: 0; max-width: 46%; text-overflow: ellipsis; font-weight: 600; }
+.chip { position: absolute; left: 16px; top: 64px; display: flex; align-items: center; background: var(--ground); border-radius: 16px; padding-left: 12px; font-variant-numeric: tabular-nums; }
+.chip button { padding: 0; width: var(--touch); font-size: var(--t-l); border-radius: 16px; }
 .pill { position: absolute; left: 16px; bottom: 12px; background: var(--ground); border-radius: 16px; padding: 4px 12px; font-weight: 600; font-variant-numeric: tabular-nums; }
 .ring { position: absolute; left: 50%; top: max(58px, 9%); margin-left: -65px; display: flex; align-items: center; gap: 8px; color: var(--q-spin); font-weight: 600; white-space: nowrap;
   font-variant-numeric: tabular-nums; pointer-events: none; }
@@ -115,6 +117,7 @@ const strip = `
 .event { stroke: var(--line-2); stroke-dasharray: 2 3; }
 .strip .rest { stroke: var(--line-2); stroke-width: 1.5; } .strip .past { stroke: var(--ink); stroke-width: 2.2; }
 .lab[data-table=three] .strip .ice { stroke-dasharray: 2 3; } .lab.old .strip :is(.rest, .past, .shape) { opacity: .38; }
+.then { stroke: var(--line-2); stroke-width: 2; stroke-dasharray: 6 5; fill: none; } .lab.old .then { opacity: .38; }
 path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 .strip .now { position: absolute; left: -1px; top: 14px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
 .strip .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
@@ -143,6 +146,11 @@ const answer = `
 .first { stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
 .own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); stroke: none; } .turning { stroke: var(--ink); stroke-width: 2; }
 .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
+.readout { position: absolute; background: var(--ground); border: 1px solid var(--line-2); border-radius: 6px; padding: 2px 8px; font-size: var(--t-s); white-space: nowrap; pointer-events: none; font-variant-numeric: tabular-nums; z-index: 1; }
+.titled h2 { flex: 1; } .icon { padding: 0; width: var(--touch); }
+.large { border: 0; padding: 24px; width: calc(100vw - 48px); height: calc(100vh - 48px); max-width: none; max-height: none; background: var(--ground); color: var(--ink); border-radius: 8px; }
+.large[open] { display: flex; flex-direction: column; } .large .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; } .large .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
+.large::backdrop { background: #0008; } .large .halo { stroke: none; }
 .dot { fill: var(--ground); stroke: var(--accent); stroke-width: 5; }
 .lab.old .answer :is(polyline, polygon, .rest, .past) { opacity: .38; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
@@ -174,6 +182,11 @@ const controls = `
 .end.refused { background: var(--line); }
 .end.mixed { background: repeating-linear-gradient(45deg, var(--end-3) 0 3px, var(--end-1) 3px 6px); }
 .ends .mark { position: absolute; top: -6px; height: 20px; width: 2px; margin-left: -1px; background: var(--accent); }
+.ends .was { position: absolute; top: -4px; height: 18px; border-left: 2px dashed var(--ink); margin-left: -1px; }
+.launch { min-width: 116px; text-align: right; } .launch .primary { touch-action: none; user-select: none; -webkit-user-select: none; } .wait { display: flex; align-items: center; gap: 12px; } .wait .small { min-width: 4ch; font-variant-numeric: tabular-nums; } .wait .outline { min-height: 40px; }
+.wait progress { width: 110px; height: 6px; accent-color: var(--ink); }
+.numbers { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } .numbers summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } .numbers summary::after { content: "+"; } .numbers[open] summary::after { content: "−"; }
+.numbers th { font-weight: 400; color: var(--ink-2); } .numbers td { text-align: right; padding-right: 0; } .numbers :is(th, td) { padding-block: 2px; }
 .words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }
 .words b { position: absolute; transform: translateX(-50%); color: var(--ink); font-weight: 400; }
 @container (max-width: 700px) {
@@ -183,6 +196,7 @@ const controls = `
   .picks b { display: block; font-size: var(--t-m); color: var(--ink); font-variant-numeric: tabular-nums; white-space: nowrap; }
   .picks [aria-pressed=true], .picks [aria-pressed=true] b { color: var(--accent); font-weight: 600; }
   .picks [aria-pressed=true] { box-shadow: inset 0 -3px 0 var(--accent); }
+  .numbers { display: none; } .chip { top: 108px; left: 8px; } .chip button { height: 44px; }
   .primary { min-height: 44px; } .controls .ctl:not(.picked) { display: none; }
   .ctl label { display: none; } .ctl > span { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
   .ctl.bad > span { position: static; width: auto; height: auto; clip-path: none; grid-column: 1 / -1; }

@@ -3,7 +3,7 @@ import { renderTop3D } from "../three/top3d.js";
 import { part } from "./parts.js";
 
 // The Lab says by itself what these say.
-const OURS = ".tippe :is(.bar, .verdict, .scales, .time) { display: none } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 }";
+const OURS = ".tippe :is(.bar, .verdict, .scales, .time) { display: none } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 } .labels .handle { border-color: var(--accent) }";
 
 const SHOWS = {
   show_track: false, show_com_path: false, show_force: false, show_cone: false, show_omega: false, show_momentum: false, follow: true,
@@ -13,16 +13,18 @@ export class Top {
   /**
    * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time
    * @param {number} of.away how far the eye is, in terms of where the whole top just fits
+   * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what a hand on the axis does
    */
-  constructor({ texts, label, time, away }) {
+  constructor({ texts, label, time, away, hand }) {
     const listeners = new Map();
     this.listeners = listeners;
     this.element = part("div", { class: "top" });
     const values = {
-      texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, tiltable: false,
-      tilted: [], playing: true, camera: [-1.12, 0.26, away], ...SHOWS,
+      texts, label, clock: time.name, frames: null, profile: null, mu_s: 0, seconds: 1, time: 0, a: null, before: null,
+      tiltable: Boolean(hand), degrees: true, letGo: () => hand?.letGo(), playing: true, camera: [-1.12, 0.26, away], ...SHOWS,
       get speed() { return time.pace; },
       set speed(_) {},
+      set tilted([theta]) { hand?.pull((180 / Math.PI) * theta); },
       on: (name, run) => listeners.set(name, [...(listeners.get(name) ?? []), run]),
     };
     this.model = /** @type {any} */ (values);

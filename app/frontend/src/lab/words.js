@@ -6,17 +6,18 @@ import { TABLES } from "./stage.js";
 const NEXT = { ordinary: "rough", rough: "research", ice: "three", three: "research" };
 
 export class Words {
-  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask */
-  constructor(texts, ask) {
+  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} back to the run before */
+  constructor(texts, ask, back) {
     this.texts = texts;
     this.headline = part("p", { class: "big" });
-    this.why = part("p");
+    this.why = part("span");
+    this.back = part("button", { class: "link", type: "button", hidden: true, onclick: back }, texts.go_back);
     this.next = part("button", { class: "outline", type: "button", onclick: () => {
       const to = NEXT[this.scene.table];
       ask(to === "research" ? "research" : "table", to);
     } });
     // Spoken once a stage, not at each picture of it.
-    this.element = part("section", { class: "say" }, part("div", { role: "status" }, this.headline, this.why), this.next);
+    this.element = part("section", { class: "say" }, part("div", { role: "status" }, this.headline, part("p", {}, this.why, " ", this.back)), this.next);
   }
 
   show(scene) {
@@ -31,7 +32,11 @@ export class Words {
     const { scene, texts } = this, { state } = scene;
     let said = latest(scene.run?.stages ?? [], t)?.slice(1, 3) ?? ["", scene.run?.why ?? ""];
     if (scene.table === "three") said = state.said;
-    if (state.old) said = [say(texts, texts.still, { what: state.old }), texts.still_why];
+    const { before } = scene;
+    if (before) said = [before.headline, before.why];
+    this.back.hidden = !before?.canGoBack || Boolean(state.old);
+    if (scene.waits) said = [say(texts, texts.working, { what: state.wants }), say(texts, texts.working_why, { what: state.old })];
+    else if (state.old) said = [say(texts, texts.still, { what: state.old }), texts.still_why];
     const key = said.join();
     if (key === this.said) return;
     this.said = key;

@@ -4,6 +4,8 @@ import * as THREE from "three";
 
 const FOLLOW_MS = 160; // it follows the top's drift, not each of its small turns
 const FIRST_VIEW = [-1.12, 0.3, 1];
+const MIDDLE = 1.25; // R above the table, what is looked at of a body that reaches USUAL
+const USUAL = 2, FARTHEST = 22; // R
 
 export class Eye {
   /**
@@ -56,18 +58,29 @@ export class Eye {
   // As Python has it, else from the side.
   begin() {
     const { seen, camera, controls, model, stands } = this;
-    seen.set(stands.x, stands.y, 1.25);
+    seen.set(stands.x, stands.y, 0);
     const [azimuth, height, times] = model.camera.length ? model.camera : FIRST_VIEW, far = this.distance() * times;
     camera.position.set(
       seen.x + far * Math.cos(height) * Math.cos(azimuth),
       seen.y + far * Math.cos(height) * Math.sin(azimuth),
       seen.z + far * Math.sin(height),
     );
-    controls.target.copy(seen);
     controls.minDistance = 1.6;
-    controls.maxDistance = 22;
+    this.fitBody();
     controls.maxPolarAngle = Math.PI / 2 - 0.02; // never from below the table
     controls.update();
+  }
+
+  // What is looked at is higher in a larger body, and may be farther away.
+  fitBody() {
+    const { seen, camera, controls } = this, size = Math.max(1, this.reach() / USUAL), up = MIDDLE * size - seen.z;
+    seen.z += up;
+    camera.position.z += up;
+    camera.far = 7 * FARTHEST * size;
+    camera.updateProjectionMatrix();
+    controls.maxDistance = FARTHEST * size;
+    controls.target.copy(seen);
+    camera.lookAt(seen);
   }
 
   // A person has turned or zoomed: as seen from what the camera looks at.

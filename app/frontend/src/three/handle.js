@@ -29,7 +29,7 @@ export class Handle {
     element.setAttribute("role", "slider");
     element.setAttribute("aria-label", model.texts.handle);
     element.setAttribute("aria-valuemin", "0");
-    element.setAttribute("aria-valuemax", "3.14");
+    element.setAttribute("aria-valuemax", this.said(Math.PI));
     element.title = model.texts.handle_hint;
     element.addEventListener("pointerdown", (event) => {
       event.preventDefault();
@@ -39,7 +39,7 @@ export class Handle {
       this.held = true;
     });
     element.addEventListener("pointermove", (event) => this.held && this.ask(this.under(event)));
-    for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) element.addEventListener(end, () => (this.held = false));
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) element.addEventListener(end, () => this.letGo());
     element.addEventListener("keydown", (event) => {
       const step = { ArrowUp: -KEY_STEP, ArrowLeft: -KEY_STEP, ArrowDown: KEY_STEP, ArrowRight: KEY_STEP }[event.key];
       if (!step) return;
@@ -49,6 +49,18 @@ export class Handle {
       this.ask(this.theta + step);
       this.asked = true;
     });
+  }
+
+  // The tilt as it is spoken.
+  /** @param {number} theta */
+  said(theta) {
+    return this.model.degrees ? ((180 / Math.PI) * theta).toFixed(0) : theta.toFixed(3);
+  }
+
+  letGo() {
+    if (!this.held) return;
+    this.held = false;
+    this.model.letGo?.();
   }
 
   // What is under the hand now: the upright plane of the axis, and the instant.
@@ -95,6 +107,6 @@ export class Handle {
     this.theta = Math.acos(Math.min(Math.max(this.axis.z, -1), 1));
     this.reach = (body.top ?? 1) + BEYOND;
     this.label.at.copy(this.axis).multiplyScalar(this.reach).add(this.from);
-    this.label.element.setAttribute("aria-valuenow", this.theta.toFixed(3));
+    this.label.element.setAttribute("aria-valuenow", this.said(this.theta));
   }
 }

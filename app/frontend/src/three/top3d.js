@@ -5,6 +5,7 @@ import { colours } from "../colours.js";
 import { coalesce, float32, tidy } from "../data.js";
 import { Eye } from "./eye.js";
 import { renderFlat } from "../figures/flat.js";
+import { Ghost } from "./ghost.js";
 import { Handle } from "./handle.js";
 import { Measured } from "./measured.js";
 import { photo } from "./photo.js";
@@ -37,6 +38,7 @@ class Top {
     });
     this.player = this.place.player;
     this.measured = model.measured === undefined ? null : new Measured(stage, this.scene.labels, model);
+    this.ghost = model.before === undefined ? null : new Ghost(stage);
     this.handle = model.tiltable ? new Handle(stage, this.scene.labels, model, this.player) : null;
     this.bar = new Bar(root, picture, model, this.player, () => {
       model.camera = [];
@@ -58,6 +60,7 @@ class Top {
     model.on("profile", () => this.newProfile());
     for (const name of REDRAWN) model.on(name, () => stage.invalidate());
     if (this.measured) model.on("measured", () => this.newMeasured());
+    model.on("before", () => this.ghost?.show(model.before ?? null));
     const onHighlight = ({ detail }) => {
       this.highlight = detail;
       this.scene.pointedTip.element.textContent = detail?.label ?? "";
@@ -101,6 +104,7 @@ class Top {
     scene.pose(frames, place, model, this.highlight);
     const { regime } = scene.moment;
     this.handle?.follow(scene.body, some && !playing);
+    this.ghost?.follow(this.player.t, model.seconds);
     this.measured?.follow(scene.body, this.player.t);
     this.say(some ? wordOf(regime, model.texts.regimes) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);
   }
@@ -136,9 +140,13 @@ class Top {
 
   // A person's own zoom is kept, in terms of the body's size.
   newProfile() {
-    const { scene: { body }, eye } = this, was = body.reach ?? 2;
+    const { scene, eye } = this, { body } = scene, was = body.reach ?? 2;
     body.setProfile(float32(this.model.profile));
-    if (body.reach) eye.zoom(body.reach / was);
+    if (body.reach) {
+      eye.zoom(body.reach / was);
+      eye.fitBody();
+      scene.fitTo(body.reach);
+    }
     this.stage.invalidate();
   }
 }

@@ -15,6 +15,8 @@ import { blobMaterial, dressTable, makeTable, TABLE } from "./table.js";
 /** @import { Frames } from "../motion/frames.js" */
 
 const SHADE = 4.5; // half the side of the square that can be in shadow
+const USUAL = 2; // R: what a body of this reach has room in, a larger one needs more of
+const NEAR = 9, FAR = TABLE - 2; // R: from where to where the table fades, round a usual one
 const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
 const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
 
@@ -58,12 +60,13 @@ export class TopScene {
     this.moment = emptyPose(); // what Python says of the player's time
     this.stands = new THREE.Vector3(); // the sphere's centre
     this.scales = {};
+    this.size = this.squares = 1;
 
     // The table, the light, and the shadow that stands where the top is
     renderer.shadowMap.enabled = true;
     renderer.shadowMap.type = THREE.PCFShadowMap;
     this.background = scene.background = new THREE.Color();
-    this.fog = scene.fog = new THREE.Fog(0, 9, TABLE - 2);
+    this.fog = scene.fog = new THREE.Fog(0, NEAR, FAR);
     this.table = makeTable();
     this.shade = makeShade();
     this.sun = makeSun();
@@ -107,6 +110,19 @@ export class TopScene {
     this.stage.invalidate();
   }
 
+  // Table, fade, light and shadow for a body that reaches so far, in R.
+  /** @param {number} reach */
+  fitTo(reach) {
+    const { sun, fog } = this, size = (this.size = Math.max(1, reach / USUAL)), { camera } = sun.shadow;
+    Object.assign(fog, { near: NEAR * size, far: FAR * size });
+    this.squares = Math.ceil(size - 1e-9); // of so many R, where one would be too small to be seen
+    this.table.scale.set(this.squares, this.squares, 1);
+    this.shade.scale.setScalar(size);
+    this.underneath.scale.setScalar(Math.min(size, 2));
+    Object.assign(camera, { left: -3.2 * size, right: 3.2 * size, top: 3.2 * size, bottom: -3.2 * size, near: 4 * size, far: 16 * size });
+    camera.updateProjectionMatrix();
+  }
+
   // A new motion: its paths, and how long its arrows are.
   /** @param {Frames} frames */
   setFrames(frames) {
@@ -148,11 +164,12 @@ export class TopScene {
     // off the table, or on its stem, the sphere's centre is where G and the axis say
     if (a !== null) body.position.set(0, 0, a).applyQuaternion(moment.quaternion).add(moment.com);
     this.underneath.position.set(stands.x, stands.y, ABOVE_TABLE / 2);
-    this.shade.position.set(stands.x + 1.2, stands.y + 1.3, ABOVE_TABLE / 3);
+    const { size, squares } = this, lattice = 5 * squares; // the grid repeats each 5 squares
+    this.shade.position.set(stands.x + 1.2 * size, stands.y + 1.3 * size, ABOVE_TABLE / 3);
     this.centre.position.copy(moment.com);
     this.sun.target.position.copy(stands);
-    this.sun.position.set(stands.x - 3.2, stands.y - 3.4, 8.2);
-    this.table.position.set(Math.round(stands.x / 5) * 5, Math.round(stands.y / 5) * 5, 0); // the grid repeats each 5 R
+    this.sun.position.set(stands.x - 3.2 * size, stands.y - 3.4 * size, 8.2 * size);
+    this.table.position.set(Math.round(stands.x / lattice) * lattice, Math.round(stands.y / lattice) * lattice, 0);
     this.arrows.force.colour = moment.regime === ROLLS ? colours.normal : colourOf(moment.regime);
   }
 

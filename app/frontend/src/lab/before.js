@@ -1,0 +1,81 @@
+// "What did I change?": the run before stays beside the present one until it is dismissed, or the table is another.
+import { say, written } from "./parts.js";
+
+const GESTURE = 1500; // ms: what the same hand asks for sooner is one change
+const TELLING = ["stands", "inverted", "upright", "leans", "topples", "over", "rolls", "lies"]; // what became of it, the first that did
+
+export class Before {
+  /** @param {Record<string, any>} texts */
+  constructor(texts) {
+    this.texts = texts;
+    this.run = this.last = /** @type {any} */ (null);
+    this.isBack = false; // what comes next is the run that was gone back to
+    this.name = "";
+    this.touched = -Infinity;
+  }
+
+  // A hand asks for something while a scene is shown.
+  /** @param {string} name @param {any} shown @param {number} now in ms */
+  touch(name, shown, now = performance.now()) {
+    if (name !== this.name || now - this.touched > GESTURE) this.last = shown;
+    this.name = name;
+    this.touched = now;
+    this.isBack = false;
+  }
+
+  forget() {
+    this.run = this.last = null;
+    this.name = "";
+  }
+
+  // The next scene's run before, or null.
+  /** @param {any} shown what was there until now @param {any} next */
+  follow(shown, next) {
+    const isSame = shown?.table === next.table;
+    if (!isSame) this.forget();
+    if (!isSame || next.table === "three" || !next.state.of) return null;
+    if (changes(shown, next).length) this.run = this.isBack ? null : { ...(this.last ?? shown), before: null };
+    const what = this.run ? changes(this.run, next) : [];
+    if (this.run && !what.length) this.run = null; // it is as it was
+    return this.run && { ...this.run, ...this.words(what, this.run, next) };
+  }
+
+  // Dismisses it to have it again, by ask().
+  /** @param {(name: string, value: any) => void} ask @param {any} shown */
+  goBack(ask, shown) {
+    const { run } = this;
+    this.forget();
+    for (const name of run ? changes(run, shown) : []) ask(name, run.state.of[name][0]);
+    this.isBack = true;
+  }
+
+  words(what, run, next) {
+    const { texts } = this, said = (name) => texts.inputs[name]?.name ?? texts.toy;
+    const value = (scene, name) => scene.state.of[name][1].replace(`${said(name)} `, "");
+    const headline = what.map((name) => say(texts, texts.changed, { name: said(name), from: value(run, name), to: value(next, name) })).join("; ");
+    return {
+      canGoBack: run.state.toy === run.state.of.toy?.[0], // a body without a name is not asked for
+      what: what.map((name) => run.state.of[name][1]).join(", "), headline,
+      why: say(texts, texts.changed_why, { now: this.end(next), before: this.end(run) }),
+    };
+  }
+
+  // What became of a run, in few words.
+  end({ run, state: { runs }, table }) {
+    const { events, stages, why } = run ?? runs[table] ?? { events: [], stages: [], why: "" };
+    const code = TELLING.find((each) => events.some(([, name]) => name === each));
+    if (!code) return why || (stages[0]?.[3] ?? "");
+    const [t, , word] = events.find(([, name]) => name === code), { texts } = this;
+    return `${word} (${written(t, 1, texts.decimal)} s)`;
+  }
+}
+
+// The inputs in which two scenes differ.
+function changes(one, other) {
+  const [a, b] = [one.state.of, other.state.of];
+  return a && b ? Object.keys(b).filter((name) => a[name]?.[0] !== b[name][0]) : [];
+}
+
+/** @param {any} before @param {number} t @param {number} column */
+export const thenAt = (before, t, column) => before.curves[before.table].at(t, column);
+

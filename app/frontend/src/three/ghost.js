@@ -1,0 +1,43 @@
+// The run before, pale, at the same moment: it has no shadow, and hides nothing.
+import { float32 } from "../data.js";
+import { emptyPose, Frames } from "../motion/frames.js";
+import { Body } from "./body.js";
+/** @import { Stage } from "./stage.js" */
+
+const PALE = 0.28;
+
+export class Ghost {
+  /** @param {Stage} stage */
+  constructor(stage) {
+    this.stage = stage;
+    this.body = new Body();
+    Object.assign(this.body.material, { transparent: true, opacity: PALE, depthWrite: false });
+    Object.assign(this.body, { castShadow: false, visible: false, renderOrder: 3 });
+    this.frames = new Frames();
+    this.moment = emptyPose();
+    this.seconds = 1;
+    stage.scene.add(this.body);
+  }
+
+  /** @param {Before | null} before */
+  show(before) {
+    this.frames = new Frames(before?.frames);
+    this.body.visible = this.frames.count > 0;
+    if (before) {
+      this.seconds = before.seconds;
+      this.a = before.a;
+      this.body.setProfile(float32(before.profile));
+    }
+    this.stage.invalidate();
+  }
+
+  // At a time of the top, in its units, of which one takes so many seconds; before its start and after its end as there.
+  /** @param {number} t @param {number} seconds */
+  follow(t, seconds) {
+    if (!this.body.visible) return;
+    const { moment, body, frames } = this;
+    frames.read(frames.place((t * seconds) / this.seconds), moment);
+    body.quaternion.copy(moment.quaternion);
+    body.position.set(0, 0, this.a).applyQuaternion(moment.quaternion).add(moment.com);
+  }
+}

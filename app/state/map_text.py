@@ -1,0 +1,41 @@
+"""A map of runs in the address."""
+
+from app.model.maps import QUANTITIES, Map
+from app.model.maps_choice import FIXED
+from app.state.codecs import Number
+from tippe_core import PRESETS, TopError
+
+
+class MapText:
+    """A Map in an address: across_from_to_up_from_to_law_body_seconds_cells, then name_value of what is fixed."""
+
+    @staticmethod
+    def text(asked):
+        """Of any Map; the page's own top is in other words of the address, and here 0."""
+        numbers = (asked.seconds, float(asked.cells))
+        names = [preset.name for preset in PRESETS]
+        body = names.index(asked.body) + 1 if asked.body in names else 0
+        parts = [asked.across, *map(Number.text, asked.across_range),
+                 asked.up, *map(Number.text, asked.up_range), asked.law, str(body),
+                 *map(Number.text, numbers)]  # fmt: skip
+        for name, value in asked.values:
+            parts += [name, Number.text(value)]
+        return "_".join(parts)
+
+    @staticmethod
+    def value(text):
+        """Of what text() wrote; else a ValueError, which may be the TopError of what no map can be."""
+        parts = text.split("_")
+        if not 10 <= len(parts) <= 10 + 2 * len(QUANTITIES) or len(parts) % 2:
+            raise TopError("map", text, "across_from_to_up_from_to_law_body_seconds_cells")
+        across, left, right, up, bottom, top, law, body, seconds, cells, *fixed = parts
+        number = Number.value
+        which = int(number(body))
+        own = {} if not 1 <= which <= len(PRESETS) else {"body": PRESETS[which - 1].name}
+        values = tuple((name, number(value)) for name, value in zip(fixed[::2], fixed[1::2], strict=True))
+        for name, _ in values:
+            if name not in FIXED:
+                raise TopError("map", name, ", ".join(FIXED))
+        return Map(across=across, up=up, across_range=(number(left), number(right)), law=law,
+                   up_range=(number(bottom), number(top)), seconds=number(seconds), cells=int(number(cells)),
+                   values=values, **own)  # fmt: skip

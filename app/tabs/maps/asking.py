@@ -1,0 +1,157 @@
+"""What can be set of a map: selects, and entries that are typed into; together they are a Map."""
+
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import partial
+
+import panel_material_ui as pmui
+
+from app.model.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
+from app.model.maps_choice import FIXED
+from app.tabs.maps.words import with_unit
+from app.text import listed, say
+from app.widgets.cards import beside, field, flow, words
+from app.widgets.controls import typed_number
+
+SIDES = "across", "up"
+LIMITS = ("from", "to")
+SELECT = {"size": "small", "width": 172, "margin": (8, 0, 0, 0)}
+
+
+class Settings:
+    """changed: called after a hand has set something; gone: after it has typed another place of the bead."""
+
+    def __init__(self, asked, colour, place, changed, gone):
+        self._changed, self._gone, self._silent = changed, gone, False
+        quantities = {says: name for name, says in listed("maps.quantities").items()}
+        options = {
+            "across": quantities,
+            "up": quantities,
+            "colour": {listed("maps.colours")[name]: name for name in COLOURS_BY},
+            "law": {listed("maps.laws")[name]: name for name in LAWS},
+        }
+        self.choices = {name: pmui.Select(label=say(f"maps.{name}"), options=each, value=next(iter(each.values())),
+                                          **SELECT) for name, each in options.items()}  # fmt: skip
+        called, spoken = listed("maps.quantities"), {"seconds": say("maps.seconds"), "cells": say("maps.cells")}
+        spoken |= {name: called[name] for name in FIXED}
+        for side in SIDES:
+            spoken |= {f"{side}_{end}": f"{say(f'maps.{side}')}, {say(f'maps.{end}')}" for end in LIMITS}
+            spoken[f"here_{side}"] = f"{say('maps.here')}, {say(f'maps.{side}')}"
+        self.entries = {name: field("", says, width=66) for name, says in spoken.items()}
+        self.rows = {name: beside(_called(name, asked.law), self.entries[name]) for name in FIXED}
+        self.show(asked, colour, place)
+        for name, select in self.choices.items():
+            select.param.watch(partial(self._chosen, name), "value")
+        for name, entry in self.entries.items():
+            entry.param.watch(partial(self._typed, name), "value")
+
+    @property
+    def view(self):
+        """In the order of the drawing: what is across and up, the colour, the law; then ranges and numbers."""
+        entry = self.entries
+        ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80),
+                       *(beside(say(f"maps.{end}"), entry[f"{side}_{end}"]) for end in LIMITS), margin=(4, 0))
+                  for side in SIDES]  # fmt: skip
+        selects = [self.choices[name] for name in ("across", "up", "colour", "law")]
+        return [flow(*selects), *ranges, flow(*self.rows.values()),
+                flow(*(beside(say(f"maps.{name}"), entry[name]) for name in ("seconds", "cells")))]  # fmt: skip
+
+    @property
+    def place_view(self):
+        """Where the bead is."""
+        return flow(words(say("maps.here"), sizing_mode=None), *(self.entries[f"here_{side}"] for side in SIDES),
+                    margin=(4, 0))  # fmt: skip
+
+    @contextmanager
+    def _quietly(self):
+        before, self._silent = self._silent, True
+        try:
+            yield
+        finally:
+            self._silent = before
+
+    def show(self, asked, colour, place):
+        """All of a Map, and the rest."""
+        self._slides = {"body": asked.body, "own": asked.own}
+        with self._quietly():
+            for name, value in (("across", asked.across), ("up", asked.up), ("colour", colour), ("law", asked.law)):
+                self.choices[name].value = value
+            self._write({f"{side}_{end}": span[i] for side, span in zip(SIDES, spans(asked), strict=True)
+                         for i, end in enumerate(LIMITS)})  # fmt: skip
+            self._write({name: asked.start[name] for name in FIXED})
+            self._write({"seconds": asked.seconds, "cells": asked.cells})
+        self.show_place(place)
+        self._show_rows()
+
+    def show_place(self, place):
+        with self._quietly():
+            self._write({f"here_{side}": x for side, x in zip(SIDES, place, strict=True)})
+
+    def look_at(self, across, up):
+        """Other ranges."""
+        with self._quietly():
+            self._write({f"{side}_{end}": float(span[i]) for side, span in (("across", across), ("up", up))
+                         for i, end in enumerate(LIMITS)})  # fmt: skip
+        self._changed()
+
+    def asked(self):
+        """What is set, as a Map; raises ValueError, TopError."""
+        value = {name: self._number(name) for name in self.entries if not name.startswith("here")}
+        chosen = {name: select.value for name, select in self.choices.items()}
+        axes = (chosen["across"], chosen["up"])
+        cells = value["cells"]
+        asked = Map(**self._slides, across=axes[0], up=axes[1], law=chosen["law"],
+                    across_range=(value["across_from"], value["across_to"]),
+                    up_range=(value["up_from"], value["up_to"]), seconds=value["seconds"],
+                    cells=int(cells) if cells.is_integer() else cells)  # fmt: skip
+        usual = asked.start
+        fixed = tuple((name, value[name]) for name in FIXED if name not in axes and value[name] != usual[name])
+        return replace(asked, values=fixed)
+
+    def place(self):
+        """Where the bead is typed to be; raises ValueError."""
+        return [self._number(f"here_{side}") for side in SIDES]
+
+    # ---- a hand ----
+
+    def _chosen(self, name, event):
+        if self._silent:
+            return
+        with self._quietly():
+            if name in SIDES:
+                quantity = QUANTITIES[event.new]
+                self._write({f"{name}_from": quantity.low, f"{name}_to": quantity.high})
+            if name == "law":
+                self._write({"second": Map(law=event.new).start["second"]})
+        self._show_rows()
+        self._changed()
+
+    def _typed(self, name, event):
+        if not self._silent:
+            (self._gone if name.startswith("here") else self._changed)()
+
+    def _show_rows(self):
+        taken, law = (self.choices["across"].value, self.choices["up"].value), self.choices["law"].value
+        for name, row in self.rows.items():
+            row.visible = name not in taken and (name != "second" or bool(SECONDS[law]))
+            row[0].object = _called(name, law)
+
+    def _write(self, values):
+        for name, value in values.items():
+            self.entries[name].value = f"{value:.5g}"
+
+    def _number(self, name):
+        text = self.entries[name].value
+        try:
+            return typed_number(text)
+        except ValueError:
+            raise ValueError(say("maps.not_a_number", name=name, text=text)) from None
+
+
+def spans(asked):
+    """The ranges of a Map, across and up."""
+    return asked.across_range, asked.up_range
+
+
+def _called(name, law):
+    return listed("maps.seconds_of")[law] if name == "second" else with_unit(name)

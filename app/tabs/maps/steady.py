@@ -1,0 +1,174 @@
+"""Below the map, all at the bead: the end tilt over the spin with the steady motions, growth and turning of small
+motions, and how the time of turning over scales."""
+
+from functools import partial
+
+import numpy as np
+import panel as pn
+from bokeh.models import ColumnDataSource, Range1d
+
+from app.bundle import call
+from app.model.colours import INK
+from app.model.maps import QUANTITIES
+from app.model.maps_rates import rates
+from app.model.maps_steady import at_place, bifurcation
+from app.model.runs import MAPS, Run, Stopped
+from app.tabs.maps.picture import DARK
+from app.text import listed, say, told
+from app.widgets.cards import alert, note, words
+from app.widgets.plots import plain
+from tippe_core import TopError
+
+COLOURS = {"upright": "#1558c0", "tumbling": "#80632f", "inverted": "#9b2d20"}
+DASHES = {True: "solid", False: "dashed"}
+SHADES = ("#80632f", "#fefefe")  # of the dots after the first and the second time
+
+
+class Steady:
+    """view: its parts. show() computes what belongs to a place of a map, beside; the newest counts."""
+
+    def __init__(self, runs):
+        self._runs, self._key = runs, None
+        self.title, self.says, self.powers, self.rates_title = words(), words(), words(), words()
+        self.bends = fig = _figure("maps-bends", 230, (0, 184))
+        fig.yaxis.ticker = [0, 45, 90, 135, 180]
+        self.lines = ColumnDataSource({"xs": [], "ys": [], "dash": []})
+        self.dots = [ColumnDataSource({"x": [], "y": []}) for _ in SHADES]
+        self.sweeps = [ColumnDataSource({"x": [], "y": []}) for _ in ("up", "down")]
+        self.life = ColumnDataSource({"x": [], "y": []})
+        self.here = ColumnDataSource({"x": [0.0, 0.0], "y": [0.0, 184.0]})
+        fig.line("x", "y", source=self.life, line_color="#c77d2b", line_width=1.5)
+        fig.multi_line("xs", "ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
+        for source, shade in zip(self.dots, SHADES, strict=True):
+            fig.scatter("x", "y", source=source, size=6, fill_color=shade, line_color=DARK, line_width=0.8)
+        for source, marker in zip(self.sweeps, ("triangle", "inverted_triangle"), strict=True):
+            fig.scatter("x", "y", source=source, marker=marker, size=7, fill_color=None, line_color="#1558c0")
+        fig.line("x", "y", source=self.here, line_color="#1558c0", line_width=1.5)
+        self.grow, self.turn = _figure("maps-growth", 170, None), _figure("maps-turning", 170, None)
+        self.branches = {}
+        for name, colour in COLOURS.items():
+            line, runs = ColumnDataSource({"x": [], "growth": [], "turning": []}), ColumnDataSource({"x": [], "y": []})
+            self.grow.line("x", "growth", source=line, line_color=colour, line_width=2)
+            self.turn.line("x", "turning", source=line, line_color=colour, line_width=2)
+            self.grow.scatter("x", "y", source=runs, size=6, fill_color=colour, line_color=DARK)
+            self.branches[name] = line, runs
+
+    @property
+    def view(self):
+        pair = pn.Row(*(_pane(fig, flex="1 1 240px") for fig in (self.grow, self.turn)), margin=0,
+                      styles={"display": "flex", "flex-flow": "row wrap"}, sizing_mode="stretch_width")  # fmt: skip
+        key = note(" &emsp; ".join(f'<span style="color: {colour}">■</span> {listed("maps.branches")[name]}'
+                                   for name, colour in COLOURS.items()))  # fmt: skip
+        return [self.title, _pane(self.bends), words(note(say("maps.steady.key"))), self.says, self.rates_title,
+                words(key), pair, self.powers]  # fmt: skip
+
+    def show(self, asked, place):
+        """Of the bead at a place of a Map."""
+        x = at_place(asked, place)
+        self.here.data = {"x": [x["spin"]] * 2, "y": [0.0, 184.0]}
+        moved = {name: value for name, value in x.items() if name != "spin"}
+        key = (asked.body, asked.own, asked.law, asked.seconds, asked.across, asked.up, asked.across_range,
+               asked.up_range, *moved.values(), round(x["spin"], 1))  # fmt: skip
+        if key == self._key:
+            return
+        self._key = key
+        self.title.object = f"<h2>{say('maps.steady.title', tilt=x['tilt'])}</h2>"
+        work = Run(lambda run: (bifurcation(asked, place, run.look), rates(asked, place, run.look)),
+                   partial(self._done, key, x))  # fmt: skip
+        self._runs.begin(work, "maps-steady", MAPS)
+
+    def _done(self, key, x, result):
+        if isinstance(result, Stopped) or key != self._key:
+            return
+        if isinstance(result, TopError):
+            self.says.object = alert(told(result))
+            return
+        if isinstance(result, Exception):
+            raise result
+        found, small = result
+        with pn.io.hold():
+            self._draw(found)
+            self._draw_rates(small)
+            self.says.object = of_life(found)
+            self.powers.object = of_powers(small.powers, x)
+
+    def _draw(self, found):
+        self.bends.x_range.update(start=float(found.spin[0]), end=float(found.spin[-1]))
+        self.lines.data = {"xs": [line.spin for line in found.lines], "ys": [line.theta for line in found.lines],
+                           "dash": [DASHES[line.stable] for line in found.lines]}  # fmt: skip
+        for source, theta in zip(self.dots, found.theta, strict=True):
+            source.data = {"x": found.spin, "y": theta}
+        for source, theta in zip(self.sweeps, (found.up, found.down), strict=True):
+            source.data = {"x": found.swept, "y": theta}
+        inside = found.life.spin >= found.spin[0]
+        self.life.data = {"x": np.where(inside, found.life.spin, np.nan), "y": found.life.theta}
+
+    def _draw_rates(self, small):
+        self.rates_title.object = f"<h2>{say('maps.steady.rates')}</h2>"
+        for branch in small.branches:
+            line, runs = self.branches[branch.name]
+            line.data = {"x": branch.spin, "growth": branch.growth, "turning": branch.turning / (2 * np.pi)}
+            runs.data = {"x": branch.run_spin, "y": branch.run_growth}
+            for fig in (self.grow, self.turn):
+                fig.x_range.update(start=float(branch.spin[0]), end=float(branch.spin[-1]))
+        for fig, rows in ((self.grow, [(b.growth, b.run_growth) for b in small.branches]),
+                          (self.turn, [(b.turning / (2 * np.pi),) for b in small.branches])):  # fmt: skip
+            seen = np.concatenate([np.zeros(1), *(np.ravel(row) for rows_ in rows for row in rows_)])
+            seen = seen[np.isfinite(seen)]
+            room = 0.06 * (np.ptp(seen) or 1.0)
+            fig.y_range.update(start=float(seen.min() - room), end=float(seen.max() + room))
+
+
+def of_life(found):
+    """What becomes of the bead's run in the long, and whether going up and down differ."""
+    life, said = found.life, []
+    if np.isfinite(life.stands):
+        said.append(say("maps.steady.stands", time=life.stands))
+        said.append(say("maps.steady.leaves", time=life.leaves) if np.isfinite(life.leaves)
+                    else say("maps.steady.stays", time=life.seconds))  # fmt: skip
+    said.append(say("maps.steady.end", time=life.seconds, tilt=life.end))
+    both = np.isfinite(found.up) & np.isfinite(found.down)
+    differ = np.abs(found.up - found.down)[both]
+    if differ.size and differ.max() > 5:
+        at = found.swept[both][differ > 5]
+        said.append(say("maps.steady.hysteresis", low=at.min(), high=at.max()))
+    else:
+        said.append(say("maps.steady.no_hysteresis"))
+    return " ".join(said)
+
+
+def of_powers(powers, x):
+    """A table: how the time to pass 90 degrees goes with each quantity, by each law."""
+    quantities, seconds = ("spin", "mu", "second"), listed("maps.quantities")
+    by = {(power.law, power.quantity): power for power in powers}
+    rows = []
+    for law in dict.fromkeys(power.law for power in powers):
+        cells = []
+        for quantity in quantities:
+            power = by.get((law, quantity))
+            cells.append("" if power is None else say("maps.steady.power", power=power.power, error=power.error)
+                         if np.isfinite(power.power) else say("maps.steady.no_power"))  # fmt: skip
+        rows.append(f"<tr><th scope='row'>{listed('maps.laws')[law]}</th>"
+                    + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")  # fmt: skip
+    if not rows:
+        return ""
+    head = "".join(f"<th scope='col'>{seconds[name]}</th>" for name in quantities)
+    return (f"<h2>{say('maps.steady.powers')}</h2>" + note(say("maps.steady.powers_say"))
+            + f"<table><tr><th></th>{head}</tr>{''.join(rows)}</table>")  # fmt: skip
+
+
+def _figure(name, height, span):
+    fig = plain(x_range=Range1d(0, 1), y_range=Range1d(*(span or (0, 1))))
+    fig.name = name
+    fig.update(sizing_mode="stretch_width", height=height, min_border_left=44)
+    label = say(f"maps.labels.{name.removeprefix('maps-')}")
+    fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
+    fig.xaxis.axis_label = f"{listed('maps.quantities')['spin']}, {QUANTITIES['spin'].unit}"
+    fig.xaxis.axis_label_text_font_size = "12px"
+    fig.xaxis.axis_label_text_color = INK
+    return fig
+
+
+def _pane(figure, flex=None):
+    styles = {"flex": flex, "min-width": "0"} if flex else {}
+    return pn.pane.Bokeh(figure, sizing_mode="stretch_width", height=figure.height, margin=0, styles=styles)

@@ -1,0 +1,12 @@
+"""What each symbol means, under the hand wherever it stands: its sketch, and the words of controls.toml."""
+
+from app.bundle import Bundled
+from app.text import listed
+
+
+class Symbols(Bundled):
+    """It has no place of its own on the page. The sketches are in the browser: frontend/src/widgets/sketches.js."""
+
+    @classmethod
+    def says(cls, language=None):
+        return listed("controls.hints", language)

@@ -1,0 +1,100 @@
+"""Growth and turning of small motions: against central differences of another formulation, runs, and thresholds."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+import sliding_body
+
+from tippe_core import (
+    Contensou,
+    Coulomb,
+    SmoothedCoulomb,
+    State,
+    Top,
+    TopError,
+    Viscous,
+    roll,
+    slide,
+    spinning_modes,
+    steady_states,
+    thresholds,
+    tumbling_modes,
+)
+from tippe_core.linear import tumbling
+
+PAPER, S, TOY = Top.paper(), Top(a=0.3, I1=131 / 350, I3=0.4), Top(a=0.2, I1=16 / 27, I3=14 / 27)
+LAWS = (Viscous(0.3), SmoothedCoulomb(0.3, 0.5), Contensou(0.3, 1 / 30))
+
+
+@pytest.mark.parametrize("top", [PAPER, S, TOY, Top(-1.0, 2.0, 2.6)])
+@pytest.mark.parametrize("inverted", [False, True])
+def test_eigenvalues_of_another_formulation(top, inverted):
+    """Six real unknowns by central differences; three complex ones and their conjugates here."""
+    for gamma, spin in ((0.3, 5.0), (1.5, 9.0), (0.05, -4.0)):
+        found = spinning_modes(top, Viscous(gamma), spin, inverted)
+        both = np.concatenate([found, found.conj()])
+        law = partial(np.multiply, gamma)
+        other = sliding_body.linearised(top, law, -1 if inverted else 1, spin)
+        for one in other:
+            assert np.abs(both - one).min() < 1e-7
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_growth_changes_its_sign_at_the_thresholds(law):
+    for top in (PAPER, S, TOY):
+        limits = thresholds(top)
+        for change, inverted in ((limits.upright, False), (limits.inverted, True)):
+            below, above = (spinning_modes(top, law, part * change.spin, inverted)[0].real for part in (0.999, 1.001))
+            assert (below < 0) == (change.stable == "below") and (above < 0) == (change.stable == "above")
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize(("top", "spin"), [(PAPER, 9.0), (S, 5.0), (TOY, 7.04)])
+def test_a_run_grows_as_its_fastest_mode(law, top, spin):
+    """From 1e-7 rad on, once the other modes have died away; at the spin that pivoting has left by then."""
+    growth, others = spinning_modes(top, law, spin)[:2].real
+    t0 = min(8 / (growth - others), 8 / growth)
+    times = np.linspace(0, t0 + 1 / growth, 400)
+    moved = slide(top, State(1e-7, 0, 0, spin), law, times, rtol=1e-11)
+    late = times > t0
+    found = np.polyfit(times[late], np.log(moved.theta[late]), 1)[0]
+    assert found == pytest.approx(spinning_modes(top, law, moved.omega[late, 2].mean())[0].real, rel=0.01)
+
+
+@pytest.mark.parametrize("law", [*LAWS, Coulomb(0.3)])
+def test_tumbling_is_steady_and_stable_where_the_potential_is_least(law):
+    for theta in (1.0, 1.5, 1.9, 2.4):
+        y = tumbling(S, theta)
+        moved = slide(S, State(theta, 0, y[2], y[3], vx=0, vy=0), law, np.linspace(0, 5, 9), rtol=1e-11)
+        if not isinstance(law, Contensou):  # whose pivoting slows it
+            np.testing.assert_allclose(moved.theta, theta, atol=1e-8)
+        modes = tumbling_modes(S, law, theta)
+        assert np.abs(modes).min() < 1e-9
+        c = np.cos(theta)
+        C_J = S.I1 * np.sin(theta) * y[2] + S.I3 * (c - S.a) * y[3]
+        steady = steady_states(S, C_J)
+        stable = bool(steady.stable[np.argmin(np.abs(steady.theta - theta))])
+        assert np.abs(steady.theta - theta).min() < 1e-9
+        if not isinstance(law, Coulomb):
+            assert (modes.real.max() < 1e-9) == stable
+
+
+def test_rolling_about_a_precession_turns_as_the_nutation_does():
+    """By friction that holds: a pair of imaginary numbers, the frequency of a small nutation."""
+    theta = 1.5
+    y = tumbling(S, theta)
+    modes = tumbling_modes(S, Coulomb(0.3), theta)
+    state = State(theta + 1e-4, 0, y[2], y[3])
+    times = np.linspace(0, 40, 20001)
+    moved = roll(S, None, times, state).theta
+    crossings = np.flatnonzero(np.diff(np.sign(moved - moved.mean())) > 0)
+    period = np.diff(times[crossings]).mean()
+    assert np.abs(modes.real).max() < 1e-9 and modes.imag.max() == pytest.approx(2 * np.pi / period, rel=1e-3)
+
+
+def test_what_has_no_steady_tumbling():
+    with pytest.raises(TopError):
+        tumbling_modes(PAPER, Viscous(0.3), 0.0)
+    with pytest.raises(TopError):
+        tumbling_modes(Top(0.3, 0.2, 0.4), Viscous(0.3), 0.5)

@@ -1,0 +1,75 @@
+"""What is saved of a run on each table is that run, and the Python that goes with it computes it again."""
+
+import io
+import json
+import struct
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from app.model.lab_run import motion_on, start_of
+from app.share.saved_runs import Shown, run_csv, run_glb, run_npz, run_print, run_python
+
+TOY = "The paper's tippe top"
+START = TOY, 12.0, 25.0, 0.3
+TABLES = {"ordinary": "sliding", "rough": "rough", "ice": "smooth"}
+
+
+@pytest.fixture(scope="module", params=TABLES)
+def shown(request):
+    return Shown(request.param, motion_on(request.param, *START).trajectory, start_of(*START))
+
+
+def test_the_table_has_it_in_SI(shown):
+    moved, scales = shown.trajectory, shown.setup.scales
+    text = run_csv(shown, "https://example.org/?v=1")
+    table = pd.read_csv(io.BytesIO(text), comment="#")
+    assert np.array_equal(table["theta"], moved.theta) and list(table["regime"]) == list(moved.regime)
+    assert np.array_equal(table["t"], moved.t * scales.time)
+    weight = scales.M * scales.g
+    assert np.allclose(table["force_z"], weight * moved.force[:, 2], rtol=1e-12)
+    assert np.allclose(table["com_z"], 0.016 * moved.com[:, 2], rtol=1e-12)
+    head = text.decode().split("t,theta")[0]
+    assert f"# table = {TABLES[shown.table]}" in head and "# https://example.org/?v=1" in head
+
+
+def test_the_arrays_are_the_tables(shown):
+    table = pd.read_csv(io.BytesIO(run_csv(shown)), comment="#")
+    with np.load(io.BytesIO(run_npz(shown))) as arrays:
+        assert np.array_equal(arrays["slip"][:, 1], table["slip_y"])
+        assert json.loads(str(arrays["header"]))["parameters"]["M"] == [0.0115, "kg"]
+
+
+def test_the_python_computes_it_again(shown, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    code = run_python(shown)
+    found: dict = {}
+    exec(code, found)
+    moved, n = shown.trajectory, len(shown.trajectory.t)
+    assert np.allclose(found["motion"].theta[:n], moved.theta, atol=1e-9)
+    assert (tmp_path / "run.png").stat().st_size > 1000
+
+
+def test_the_animation_stands_on_its_ball_where_the_ball_is(shown):
+    """O is R above the table while the ball touches it."""
+    document = run_glb(shown, 4.0)
+    length = struct.unpack("<I", document[12:16])[0]
+    said = json.loads(document[20 : 20 + length])
+    assert said["asset"]["extras"]["parameters"]["table"].strip(" '") == TABLES[shown.table]
+    channel = next(each for each in said["animations"][0]["channels"] if each["target"]["path"] == "translation")
+    place = said["accessors"][said["animations"][0]["samplers"][channel["sampler"]]["output"]]
+    view = said["bufferViews"][place["bufferView"]]
+    start = 28 + length + view.get("byteOffset", 0)
+    centre = np.frombuffer(document, "<f4", 3 * place["count"], start).reshape(-1, 3)
+    ball = shown.trajectory.regime != "air"
+    ball &= shown.trajectory.t < next((t for t, on in shown.trajectory.supports if on != "ball"), np.inf)
+    assert np.allclose(centre[ball, 2], 0.016, atol=1e-8) and ball.sum() > 50
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind, begins", [("png", b"\x89PNG"), ("svg", b"<?xml")])
+def test_the_picture_is_one(shown, kind, begins):
+    picture = run_print(shown, kind)
+    assert picture.startswith(begins) and len(picture) > 10_000

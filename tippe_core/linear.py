@@ -1,0 +1,105 @@
+"""How fast small motions about steady spinning grow, and how fast they turn: the linear picture of the sliding top.
+
+About a pole, c = +1 upright or -1 inverted, with the top spinning about its own axis with omega. In complex numbers
+for horizontal vectors in space, xi of the axis, v of G's velocity, u of the contact's slip, F = -k u with F_z = 1,
+L = I1 e x e' + I3 omega e and the moment of the forces about G give
+
+    I1 c xi'' = i I3 omega xi' + (a c - 1) F - a xi ,     v' = F ,     u = v + i omega xi + (a - c) xi'
+
+so solutions go as exp(lambda t) with three complex lambda (divided by c = 1/c). Real part: growth; imaginary part:
+turning, seen from above. k is the law's at small slip: gamma, mu/eps, (3 pi/8) mu/(radius |omega_n|); Coulomb's law is
+not linear there, and holds: u = 0, rolling.
+
+About tumbling, a steady precession that neither slips nor needs friction, w2^2 [I1 c - I3 (c - a)] = a s^2 and
+w3 s = w2 (c - a): of the sliding equations (theta, w1, w2, w3, v) their derivative, by steps into the complex plane,
+which lose no digits. The spin is taken to stay as it is, which pivoting changes slowly.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import TopError, finite
+from .motion.friction import Coulomb, Friction
+from .paper.top import Top
+from .types import Array
+
+Modes = NDArray[np.complex128]
+STEP = 1e-30  # into the complex plane: rounding knows no difference that small
+
+
+def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = False) -> Modes:
+    """lambda, the largest growth first, in (g/R)^1/2: of a top that spins about its own axis, which stands upright or
+    inverted. spin in (g/R)^1/2. Three of them; two where friction holds (Coulomb)."""
+    a, I1, I3, c, w = top.a, top.I1, top.I3, -1.0 if inverted else 1.0, finite("spin", spin)
+    if isinstance(friction, Coulomb):
+        # F = v' = -(i omega xi' + (a - c) xi''), and c (a c - 1) = a - c
+        inertia, gyro = I1 + (a - c) ** 2, 1j * w * (c * I3 - (a - c))
+        return _sorted(np.array([[0, 1], [-c * a / inertia, gyro / inertia]]))
+    k = float(friction.k(0.0, c * w))
+    F = -k * np.array([1j * w, a - c, 1.0])  # of xi, xi', v
+    bends = ((a - c) * F + np.array([-c * a, 1j * c * I3 * w, 0])) / I1
+    return _sorted(np.array([[0, 1, 0], bends, F]))
+
+
+def tumbling_modes(top: Top, friction: Friction, theta: float) -> Modes:
+    """lambda, the largest growth first, in (g/R)^1/2: of a steady precession at the tilt theta (rad) that neither slips
+    nor needs friction. One is 0, for a precession beside it is steady too. Four where friction holds (Coulomb).
+    Raises TopError where there is none at that tilt."""
+    y = tumbling(top, theta)
+    holds = isinstance(friction, Coulomb)
+    k = 0.0 if holds else float(friction.k(0.0, y[2] * np.sin(theta) + y[3] * np.cos(theta)))
+    columns = []
+    for i in range(4 if holds else 6):
+        moved = y.astype(complex)
+        moved[i] += 1j * STEP
+        columns.append((_rolling if holds else _sliding)(moved, top, k).imag / STEP)
+    return _sorted(np.array(columns).T[: len(columns)])
+
+
+def tumbling(top: Top, theta: float) -> Array:
+    """(theta, w1, w2, w3, vx, vy) of the steady precession at the tilt theta that needs no friction."""
+    s, c = np.sin(finite("theta", theta)), np.cos(theta)
+    turns = top.I1 * c - top.I3 * (c - top.a)
+    if not 0 < theta < np.pi or top.a * turns <= 0:
+        raise TopError("theta", theta, "0 < theta < pi, a (I1 c - I3 (c - a)) > 0")
+    w2 = s * np.sqrt(top.a / turns)
+    return np.array([theta, 0.0, w2, w2 * (c - top.a) / s, 0.0, 0.0])
+
+
+def _sliding(y: Modes, top: Top, k: float) -> Modes:
+    """The sliding equations, with F_h = -k F_z u."""
+    theta, w1, w2, w3, vx, vy = y
+    a, s, c = top.a, np.sin(theta), np.cos(theta)
+    phi_dot = w2 / s
+    ux, uy = vx - (w2 * (c - a) - w3 * s), vy + w1 * (1 - a * c)  # c (c - a) + s^2
+    # w1' = F_z arm/I1 + free, and F_z = 1 + a (s w1' + c w1^2)
+    arm = -a * s - k * uy * (1 - a * c)
+    free = -top.I3 * w2 * w3 / top.I1 + phi_dot * c * w2
+    F_z = (1 + a * (s * free + c * w1 * w1)) / (1 - a * s * arm / top.I1)
+    Fx, Fy = -k * F_z * ux, -k * F_z * uy
+    return np.array([
+        w1, F_z * arm / top.I1 + free, (-Fx * (c - a) + top.I3 * w1 * w3) / top.I1 - phi_dot * c * w1,
+        Fx * s / top.I3, Fx + phi_dot * vy, Fy - phi_dot * vx])  # fmt: skip
+
+
+def _rolling(y: Modes, top: Top, k: float) -> Modes:
+    """The same with u = 0: v and v' follow from the spins, and F from v'."""
+    theta, w1, w2, w3 = y[:4]
+    a, s, c, I1, I3 = top.a, np.sin(theta), np.cos(theta), top.I1, top.I3
+    phi_dot, arm = w2 / s, 1 - a * c  # c (c - a) + s^2
+    vx, vy = w2 * (c - a) - w3 * s, -w1 * arm
+    # unknown: w1', w2', w3', Fx, Fy, F_z
+    A = np.array([
+        [I1, 0, 0, 0, -arm, a * s], [0, I1, 0, c - a, 0, 0], [0, 0, I3, -s, 0, 0],
+        [0, c - a, -s, -1, 0, 0], [-arm, 0, 0, 0, -1, 0], [-a * s, 0, 0, 0, 0, 1]])  # fmt: skip
+    right = np.array([
+        I1 * phi_dot * c * w2 - I3 * w2 * w3, I3 * w1 * w3 - I1 * phi_dot * c * w1, 0,
+        w2 * s * w1 + w3 * c * w1 + phi_dot * vy, a * s * w1 * w1 - phi_dot * vx, 1 + a * c * w1 * w1])  # fmt: skip
+    return np.concatenate([[w1], np.linalg.solve(A, right)[:3]])
+
+
+def _sorted(matrix: NDArray[Any]) -> Modes:
+    found = np.linalg.eigvals(matrix)
+    return np.asarray(found[np.argsort(-found.real, kind="stable")], complex)
