@@ -34,6 +34,11 @@ def ready(server, prefix=""):
     return status, said["why"], sum(said["sessions"].values())
 
 
+def compiled(server):
+    """Waits until its kernels are: until then it is not ready."""
+    until(lambda: "compiling" not in ready(server)[1], 600)
+
+
 def test_a_full_server_lives_but_is_not_ready_with_the_prefix_and_without(tmp_path):
     async def visit():
         visitor = await Visitor.enter(server.url)
@@ -42,6 +47,7 @@ def test_a_full_server_lives_but_is_not_ready_with_the_prefix_and_without(tmp_pa
         visitor.leave()
 
     with served(tmp_path / "log", prefix="/tops", sessions=1, linger=3600) as server:
+        compiled(server)
         assert ready(server) == ready(server, "/tops") == (200, [], 0)
         run(visit())
         until(lambda: ready(server)[0] == 200)  # its session is kept, but makes room
@@ -150,6 +156,7 @@ def test_at_sigterm_no_page_is_let_in_and_those_that_are_open_are_told(tmp_path)
         await asyncio.gather(*map(until_told, inside))
 
     with served(tmp_path / "log", drain=60) as server:
+        compiled(server)
         run(drained())
         assert server.process.wait(60) == 0
         assert "4 open pages" in server.log and "Traceback" not in server.log
