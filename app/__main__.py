@@ -17,7 +17,7 @@ def run():
     except ValueError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
-    from app.model.classroom import DESK
+    from app.model.desk import DESK
     from app.page import show
     from app.server.server import main
 

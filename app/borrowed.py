@@ -149,16 +149,8 @@ def address_of(component):
     return component._render_esm(True, server=True)
 
 
-def may_be_none(group):
-    """8. A pmui.RadioBoxGroup of which nothing is chosen: else it takes the first by itself, when made and again,
-    unseen, when drawn. No issue that we found."""
-    group._allows_none = True
-    group.value = None
-    return group
-
-
 class WholeFile(pmui.FileInput):
-    """9. Takes a file in one piece, and counts those that were refused because they are too large: the base class has
+    """8. Takes a file in one piece, and counts those that were refused because they are too large: the base class has
     no word for them, and puts together as many pieces as are sent, of any size.
     https://github.com/panel-extensions/panel-material-ui/issues/282, https://github.com/holoviz/panel/issues/541"""
 

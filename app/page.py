@@ -44,7 +44,8 @@ def page():
     texts, sentence = read(search)  # what it says is in that language
     failed = failure()
     if VOTE in texts:  # a student's link
-        return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), failed], stylesheets=STYLE, **BARE)
+        return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), failed],
+                         stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
     house = House(texts, sentence, lambda name: setattr(rooms, "room", name))
     pacer, keep = house.pacer, house.keep
     look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()

@@ -204,17 +204,8 @@ def test_a_bundle_is_where_panel_says():
     assert path == "./static/extensions/panel-material-ui/panel-material-ui.bundle.js" and version
 
 
-def test_of_a_choice_nothing_is_chosen_until_somebody_does():
-    """8. When made, and when drawn."""
-    with set_curdoc(Document()):
-        group = borrowed.may_be_none(pmui.RadioBoxGroup(options={"A": "a", "B": "b"}))
-        assert group.get_root().data.value is None and group.value is None
-        group.value = "b"
-        assert pmui.RadioBoxGroup(options=["a"]).value == "a"  # else this may go
-
-
 def test_a_file_comes_whole_and_a_large_one_is_counted(monkeypatch):
-    """9."""
+    """8."""
 
     class Small(borrowed.WholeFile):
         LARGEST = 4

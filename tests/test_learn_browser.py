@@ -1,15 +1,19 @@
 """Learn in Chromium, as a student and a teacher would use it."""
 
 import re
+from contextlib import ExitStack
+from html import unescape
 
 import pytest
 from visiting import Visit
+from wire import served
 
 from app.model import derivation, lesson, lesson_parts
 from app.model.explorer import Explorer
 from app.state.keep import read
 from app.tabs.learn.teach import link
-from app.text import listed, say
+from app.tabs.learn.worksheet import worksheet
+from app.text import listed, say, speaking
 
 pytestmark = pytest.mark.served
 
@@ -60,22 +64,9 @@ def watched(page, language="en"):
     page.locator(".told .big").wait_for()
 
 
-def go(page, section, language="en"):
-    """To one of Learn's sections."""
-    page.get_by_role("button", name=say(f"learn.sections.{section}", language), exact=True).click()
-
-
-@pytest.fixture(scope="module")
-def learner(browser, server):
-    """One visit for the tests down to the vote, in their order: a person goes through all of Learn."""
+def test_the_derivation_is_live(browser, server):
     visit = opened(browser, server + "?tab=learn&learn=derivation")
-    visit.at = None
-    yield visit
-    closed(visit)
-
-
-def test_the_derivation_is_live(learner):
-    page = learner.page
+    page = visit.page
     sides = page.locator(".line .sides").first
     sides.locator("b").first.wait_for()
     # the numbers go with the clock; at the turning point itself that of F_x would be the root of a rounding
@@ -93,6 +84,7 @@ def test_the_derivation_is_live(learner):
     page.locator(".line").nth(4).locator("[data-symbol=omega]").first.hover()
     page.locator(".tip").get_by_text(listed("derivation.symbols.omega")).wait_for()
     page.wait_for_function("__tippe.tops('learn').some((top) => top.highlight == 'ω')")
+    closed(visit)
 
 
 @pytest.mark.parametrize(("language", "width"), [("en", 1400), ("de", 390)])
@@ -158,62 +150,101 @@ def phones(chromium):
         context.close()
 
 
-def tally(page):
-    return list(
-        page.evaluate("""() => [...Bokeh.documents[0]._all_models.values()]
-        .find((m) => m.name == "votes").renderers[0].data_source.data.votes""")
-    )
+def presented(page):
+    """From the lesson to the big screen, by its key."""
+    page.locator(".crumbs button").nth(1).wait_for()
+    page.locator("body").click(position={"x": 2, "y": 2})
+    page.keyboard.press("p")
+    page.locator(".lesson.present .board").wait_for()
 
 
-def test_a_vote(learner, phones):
-    """A teacher opens it, two students predict, the histogram shows them, and closing it forgets them. Who loads the
-    page anew, or goes to another tab of his browser, is still the same; the teacher's address opens the vote again."""
-    page = learner.page
-    go(page, "teach")
-    page.get_by_role("button", name=say("teach.vote.open")).click()
-    link = page.locator("a[href*='?vote=']")
-    link.wait_for()
-    languages = ("en", "de")  # each is asked in the language of their own page
-    students = [opened(phone, f"{link.get_attribute('href')}&lang={each}", 390, 844)
+def ends(page):
+    """The run that is shown is moved to its end, as by a hand."""
+    bar = page.get_by_role("slider", name=say("learn.view.time"), exact=True)
+    bar.focus()
+    bar.press("End")
+
+
+def test_a_class_with_two_phones(browser, phones, server):
+    """They follow the big screen from question to question; how they voted is seen when it is revealed, and not before;
+    another class begins with no votes. Each phone speaks its own language."""
+    visit = opened(browser, f"{server}?tab=learn", 1920, 1080)
+    page, languages = visit.page, ("en", "de")
+    presented(page)
+    page.locator(".link-said").get_by_text("?vote=").wait_for()
+    assert page.locator(".qr svg").bounding_box()["height"] > 300  # it is read across a room
+    assert page.locator(".warning").inner_text() == say("teach.room.local")
+    address = f"http://{page.locator('.link-said').inner_text()}"
+    students = [opened(phone, f"{address}&lang={each}", 390, 844)
                 for phone, each in zip(phones, languages, strict=True)]  # fmt: skip
-    for visit, option, language in zip(students, ("over", "upright"), languages, strict=True):
-        send = visit.page.get_by_role("button", name=say("teach.student.send", language))
-        send.click()
-        visit.page.get_by_text(say("teach.student.waiting", language)).wait_for()
-        visit.page.get_by_text(say(f"learn.flips.options.{option}", language), exact=True).click()
-        send.click()
-        visit.page.get_by_text(say("teach.student.sent", language)).wait_for()
-    page.get_by_text(say("teach.vote.count", votes=2, most=400)).wait_for()
-    assert tally(page) == [1, 1, 0, 0]
-    again = students[0].page
-    again.reload()
-    again.get_by_text(say("teach.student.sent")).wait_for()
-    assert again.get_by_role("radio", name=say("learn.flips.options.over")).is_checked()
-    again.get_by_text(say("learn.flips.options.upright"), exact=True).click()
-    again.get_by_role("button", name=say("teach.student.send")).click()
-    page.wait_for_function("""() => { const [votes] = [...Bokeh.documents[0]._all_models.values()]
-        .filter((m) => m.name == "votes"); return votes.renderers[0].data_source.data.votes[1] == 2 }""")
-    assert tally(page) == [0, 2, 0, 0]
+    for visiting, option, language in zip(students, ("over", "falls"), languages, strict=True):
+        words = listed("learn.flips.options", language)[option]
+        visiting.page.get_by_role("radio", name=words).check(force=True)
+        visiting.page.get_by_text(say("teach.room.sent", language)).wait_for()
+        assert visiting.page.locator(".told > *").count() == 0
+    page.locator(".count b", has_text="2").wait_for()
+    assert page.locator(".votes").count() == 0 and page.locator(".letters li").count() == 4
+    page.keyboard.press("r")
+    ends(page)
+    page.locator(".letters .true").get_by_text(say("learn.flips.options.over")).wait_for()
+    for place, count in enumerate("1010"):
+        page.locator(".letters li").nth(place).locator("em", has_text=re.compile(f"^{count}$")).wait_for()
+    for visiting, language in zip(students, languages, strict=True):
+        visiting.page.get_by_text(say("teach.room.shown", language)).wait_for()
 
-    # what he gives away does not hold his key; his own address does
-    key = re.search(r"[?&]room=([\w.-]+)", page.evaluate("location.search"))[1]
-    page.get_by_role("button", name="Share", exact=True).click()
-    page.get_by_role("dialog").locator("textarea").first.wait_for()
-    given = page.get_by_role("dialog").locator("textarea").evaluate_all("all => all.map((each) => each.value)")
-    assert any("learn=teach" in each for each in given) and not any(key in each for each in given)
+    # on, and the phones with it; one that is loaded anew is still the same
+    page.keyboard.press("ArrowRight")
+    for visiting, language in zip(students, languages, strict=True):
+        visiting.page.get_by_role("heading", name=say("learn.way.question", language)).wait_for()
+    students[0].page.get_by_role("radio", name=listed("learn.way.options")["other"]).check(force=True)
+    students[0].page.get_by_text(say("teach.room.sent")).wait_for()
+    students[0].page.reload()
+    students[0].page.get_by_text(say("teach.room.sent")).wait_for()
+    page.keyboard.press("0")
+    page.locator(".count b", has_text=re.compile("^0$")).wait_for()
+    for visiting, language in zip(students, languages, strict=True):
+        visiting.page.get_by_role("heading", name=say("learn.flips.question", language)).wait_for()
+        visiting.page.get_by_text(say("teach.room.vote", language)).wait_for()
+        assert visiting.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     page.keyboard.press("Escape")
-    page.reload()
-    page.get_by_text(say("teach.vote.count", votes=2, most=400)).wait_for()
-    assert tally(page) == [0, 2, 0, 0] and link.get_attribute("href").split("?")[1] in students[0].page.url
-    page.get_by_role("button", name=say("teach.vote.answer")).click()
-    page.get_by_text(say("teach.vote.said", answer=say("learn.flips.options.over"))).wait_for()
-    page.get_by_role("button", name=say("teach.vote.close")).click()
-    page.get_by_text(say("teach.vote.shut")).wait_for()
-    students[1].page.get_by_text(say("teach.student.closed", "de")).wait_for()
-    students[0].page.get_by_role("button", name=say("teach.student.send")).click()
-    students[0].page.get_by_text(say("teach.student.gone")).wait_for()
-    for visit in students:
-        closed(visit)
+    page.locator(".lesson.present").wait_for(state="detached")
+    for each in (*students, visit):
+        closed(each)
+
+
+def test_a_lesson_goes_on_where_the_network_does_not(browser, tmp_path):
+    """All of it is with the page; that the votes wait is said, and the page is not loaded anew under the teacher."""
+    with ExitStack() as network, served(tmp_path / "log", votes=tmp_path / "votes"):
+        own = network.enter_context(served(tmp_path / "own", votes=tmp_path / "votes"))
+        page = opened(browser, f"{own.url}?tab=learn", 1400, 900).page
+        presented(page)
+        page.locator(".link-said").get_by_text("?vote=").wait_for()
+        network.close()
+        page.locator(".warning").get_by_text(say("teach.room.lost")).wait_for()
+        for step in lesson.SIX:
+            page.get_by_role("heading", name=say(f"learn.{step.name}.question")).wait_for()
+            page.keyboard.press("r")
+            ends(page)
+            page.locator(".board .told > *").first.wait_for()
+            truth = step.answer(Explorer().scene).truth
+            page.locator(".letters .true").get_by_text(listed(f"learn.{step.name}.options")[truth]).wait_for()
+            page.keyboard.press("ArrowRight")
+        page.close()
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_the_worksheet_is_one_page(chromium, language):
+    """Of A4, as it is printed."""
+    with speaking(language):
+        sheet = worksheet()
+    context = chromium.new_context()
+    page = context.new_page()
+    page.set_content(sheet)
+    printed = page.pdf(prefer_css_page_size=True)
+    context.close()
+    assert len(re.findall(rb"/Type\s*/Page\b", printed)) == 1
+    for step in lesson.SIX:
+        assert say(f"worksheet.asked.{step.name}", language) in unescape(sheet)
 
 
 def test_the_links_of_the_teacher_open_their_step():

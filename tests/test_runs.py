@@ -17,19 +17,15 @@ from bokeh.document import Document
 from bokeh.server.tornado import BokehTornado
 from house import planes_of
 from panel.io.application import build_single_handler_application
-from panel.io.state import set_curdoc
 from wire import run as run_async
 from wire import until
 
 from app.model import lesson
-from app.model.ballots import Sqlite
-from app.model.classroom import Rooms
 from app.model.explorer import Explorer
 from app.model.family import share_map
 from app.model.runs import TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn
-from app.tabs.learn.teach import Vote
 from app.text import speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
 
@@ -354,21 +350,3 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
         assert not compare.cancel.disabled
         page.next()
     assert "Cancelled" in compare.said.object and not compare.start.disabled
-
-
-@pytest.mark.slow
-def test_the_answer_of_a_vote_asked_for_twice_is_told_once(page, busy, monkeypatch, tmp_path):
-    monkeypatch.setattr("app.tabs.learn.teach.page_address", lambda: "http://localhost/app")
-    told, scene, rooms = [], Explorer().scene, Rooms(Sqlite(tmp_path / "votes"))
-    with set_curdoc(Document()):
-        vote = Vote(lambda: scene, page.runs, SimpleNamespace(room=""))
-        monkeypatch.setattr(vote, "_reveal", lambda step, asks, truth: told.append(truth))
-        monkeypatch.setattr(vote._counter, "ask", lambda work, done: done(work(rooms)))
-        vote.open.clicks += 1
-        vote.answer.clicks += 1
-        vote.answer.clicks += 1
-        busy.end()
-        for _ in range(2):
-            page.next()
-        vote.close.clicks += 1
-    assert len(told) == 1 and not isinstance(told[0], Exception)

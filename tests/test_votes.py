@@ -18,16 +18,24 @@ from app.text import say
 
 pytestmark = pytest.mark.served
 
-KEY = re.compile(r"tab=learn&learn=teach&room=([\w.-]+)")
-CODE = re.compile(r"\?vote=(\w+)")
+KEY = re.compile(r"room=([\w.-]+)")
 
 
-def plain(words):
-    return words.split("{")[0]
+def plain(value):
+    """A value of a message as Python has it."""
+    if isinstance(value, dict) and value.get("type") == "map":
+        return {key: plain(each) for key, each in value.get("entries", [])}
+    return [plain(each) for each in value] if isinstance(value, list) else value
 
 
-def votes_counted(count):
-    return say("teach.vote.count", votes=count, most=400)
+def state(page):
+    """What the lesson on a page has; {} where there is none yet."""
+    found = page.visitor.find("LessonView", "state")
+    return plain(page.visitor.models[found[0]][1]["state"]) if found else {}
+
+
+def room(page):
+    return state(page).get("room") or {}
 
 
 async def opened(url, language="en"):
@@ -36,27 +44,38 @@ async def opened(url, language="en"):
     return page
 
 
+async def wishes(page, name, value=""):
+    """As if somebody at the screen or with a phone had asked for it."""
+    page.asked = getattr(page, "asked", 0) + 1
+    await page.set(page.visitor.find("LessonView")[0], "asked", [page.asked, name, value])
+
+
 async def hears(page, words):
-    await page.until(lambda: words in page.visitor.says)
+    await page.until(lambda: words in (state(page).get("said"), room(page).get("said")))
 
 
-async def shows(page, label):
-    """Waits for a button."""
-    await page.until(lambda: any(attributes.get("label") == label for _, attributes in page.visitor.models.values()))
+async def counted(page, count):
+    await page.until(lambda: room(page).get("voted") == count)
 
 
 async def teacher(url, key=""):
-    """At the teacher's page; by the link of a room, if there is one."""
-    page = await opened(f"{url}?tab=learn&learn=teach" + (f"&room={key}" if key else ""))
-    await shows(page, say("teach.vote.open"))
+    """At the big screen; by the key of a room, if there is one."""
+    page = await opened(f"{url}?tab=learn" + (f"&room={key}" if key else ""))
+    await page.until(lambda: page.visitor.find("LessonView", "state"))
     return page
+
+
+def key_of(page):
+    """The key of the room in the address of a teacher's page."""
+    found = [KEY.search(str(each.get("search", ""))) for _, each in page.visitor.models.values()]
+    return next((each[1] for each in found if each), "")
 
 
 async def opens(page):
     """(the room's code, the teacher's key)."""
-    await page.visitor.click(say("teach.vote.open"))
-    await page.until(lambda: KEY.search(page.visitor.says))
-    return CODE.search(page.visitor.says)[1], KEY.search(page.visitor.says)[1]
+    await wishes(page, "present")
+    await page.until(lambda: room(page).get("code") and key_of(page))
+    return room(page)["code"], key_of(page)
 
 
 async def student(url, code, phone, language="en"):
@@ -68,22 +87,17 @@ async def student(url, code, phone, language="en"):
     return page
 
 
-async def chooses(page, answer, language="en"):
-    await page.until(lambda: page.visitor.find("RadioBoxGroup", "options"))
-    await page.set(page.visitor.find("RadioBoxGroup", "options")[0], "value", say(f"learn.options.{answer}", language))
+async def comes(page, step="flips"):
+    await page.until(lambda: state(page).get("step") == step and room(page).get("asked") == step)
 
 
 async def votes(page, answer, language="en"):
     """Until it is counted; a phone votes once a second."""
-    await chooses(page, answer, language)
-    said = [say(f"teach.{key}", language) for key in ("student.sent", "student.fast", "vote.wait")]
-    while True:
-        await page.visitor.click(say("teach.student.send", language))
-        await hears(page, said[2])
-        await page.until(lambda: said[2] not in page.visitor.says)
-        if said[0] in page.visitor.says:
-            return
-        assert said[1] in page.visitor.says
+    await page.until(lambda: room(page).get("code"))
+    while room(page).get("mine") != answer:
+        await wishes(page, "vote", answer)
+        await page.until(lambda: room(page).get("mine") == answer or state(page).get("said"))
+        assert state(page).get("said") in ("", say("teach.student.fast", language))
 
 
 def sessions(server):
@@ -103,16 +117,16 @@ def test_students_at_another_worker_are_counted_and_the_room_outlives_all_worker
             assert len(students) < 16
         for each in students:
             await votes(each, "over")
-        await hears(page, votes_counted(len(students)))
+        await counted(page, len(students))
 
         before = workers_of(server.process.pid)
         for worker in before:
             os.kill(int(worker), signal.SIGKILL)
         await asyncio.to_thread(until, lambda: server.log.count("serving") == 4, 60)
         page = await teacher(server.url, key)
-        await hears(page, votes_counted(len(students)))
+        await counted(page, len(students))
         await votes(await student(server.url, code, "f"), "upright")
-        await hears(page, votes_counted(len(students) + 1))
+        await counted(page, len(students) + 1)
 
     with served(tmp_path / "log", workers=2, votes="") as server:
         run(lesson(server), 240)
@@ -122,37 +136,62 @@ def test_students_at_another_worker_are_counted_and_the_room_outlives_all_worker
 
 @pytest.mark.parametrize("kind", ["a file", "a Redis"])
 def test_two_servers_are_one_class(kind, tmp_path, request):
+    """Phones at one, the teacher at the other: they follow from question to question, see no answer before it is shown,
+    and no vote but their own; the class goes on by the teacher's address, and is over when it is closed."""
     place = request.getfixturevalue("redis") if kind == "a Redis" else tmp_path / "votes"
 
     async def lesson(one, other, end_of_one):
         page = await teacher(one.url)
         code, key = await opens(page)
         first = await student(other.url, code, "1", "de")
-        await hears(first, plain(say("learn.free.question", "de", spin=34.7, tilt=5.7)[:20]))
+        await comes(first)
         await votes(first, "over", "de")
-        await hears(page, votes_counted(1))
+        await counted(page, 1)
+        assert room(page)["counts"] == [] and "counts" not in room(first)
 
         # the teacher's connection is cut, and his server gone: his link opens the room at another
         page.visitor.leave()
         end_of_one()
         page = await teacher(other.url, key)
-        await hears(page, votes_counted(1))
+        await counted(page, 1)
         second = await student(other.url, code, "2")
+        await comes(second)
         await votes(second, "upright")
-        await hears(page, votes_counted(2))
-        await page.visitor.click(say("teach.vote.answer"))
-        await hears(page, say("teach.vote.said", answer=say("learn.options.over")))
+        await counted(page, 2)
+        await wishes(page, "reveal")
+        await page.until(lambda: dict(room(page)["counts"]) == {"over": 1, "upright": 1, "falls": 0, "unsure": 0})
+        for phone in (first, second):
+            await phone.until(lambda phone=phone: room(phone).get("shown"))
+        await wishes(second, "vote", "falls")
+        await hears(second, say("teach.student.shown"))
+
+        # on to another question, and back to the first, which has its votes still
+        await wishes(page, "step", "way")
+        for phone in (first, second):
+            await comes(phone, "way")
+            assert room(phone)["mine"] is None
+        await votes(second, "other")
+        await counted(page, 1)
+        await wishes(page, "step", "flips")
+        await comes(first)
+        await counted(page, 2)
+        assert room(first)["mine"] == "over"
+
+        # another class comes in
+        await wishes(page, "reset")
+        await counted(page, 0)
+        await first.until(lambda: room(first).get("mine") is None)
 
         # whoever has another key has another room
         stranger = await teacher(other.url, f"{code}.{'x' * 22}")
         await hears(stranger, say("teach.vote.over"))
 
+        await wishes(page, "section", "teach")
+        closes = say("teach.vote.close")
+        await page.until(lambda: any(each.get("label") == closes for _, each in page.visitor.models.values()))
         await page.visitor.click(say("teach.vote.close"))
-        await hears(page, say("teach.vote.shut"))
         await hears(first, say("teach.student.closed", "de"))
         await hears(second, say("teach.student.closed"))
-        await second.visitor.click(say("teach.student.send"))
-        await hears(second, say("teach.student.gone"))
         late = await student(other.url, code, "3")
         await hears(late, say("teach.student.gone"))
         again = await teacher(other.url, key)
@@ -167,31 +206,32 @@ def test_two_servers_are_one_class(kind, tmp_path, request):
 def test_a_phone_votes_once_however_often_it_loads_the_page_and_an_address_is_bounded(tmp_path):
     async def lesson(server):
         page = await teacher(server.url)
-        for hidden in ("close", "answer", "again"):
-            await page.visitor.click(say(f"teach.vote.{hidden}"))
+        for name in ("reveal", "reset"):  # there is no class yet
+            await wishes(page, name)
         code, _ = await opens(page)
         nowhere = await student(server.url, "rooms", "1")
         await hears(nowhere, say("teach.student.gone"))
-        await nowhere.visitor.click(say("teach.student.send"))
+        await wishes(nowhere, "vote", "over")
         phone = await student(server.url, code, "1")
         await votes(phone, "over")
-        for answer in ("upright", "over", "between"):
+        for answer in ("upright", "over", "falls"):
+            before = room(phone)["mine"]
             await phone.leave()
             phone = await student(server.url, code, "1")
-            await hears(phone, say("teach.student.sent"))  # it is told that it has voted, and may vote otherwise
+            await phone.until(lambda before=before, phone=phone: room(phone).get("mine") == before)
             await votes(phone, answer)
-        await votes(await student(server.url, code, "2"), "between")
-        await hears(page, votes_counted(2))
+        await votes(await student(server.url, code, "2"), "falls")
+        await counted(page, 2)
         third = await student(server.url, code, "3")
-        await third.until(lambda: third.visitor.find("RadioBoxGroup", "options"))
-        await third.visitor.click(say("teach.student.send"))
-        await hears(third, say("teach.student.waiting"))
-        await chooses(third, "over")
-        await third.visitor.click(say("teach.student.send"))
+        await comes(third)
+        for strange in ("<script>", 3.0):
+            await wishes(third, "vote", strange)
+            await hears(third, say("teach.student.wrong"))
+        await wishes(third, "vote", "over")
         await hears(third, say("teach.student.crowded"))
         assert "a bug" not in server.log
         kept = Sqlite(tmp_path / "votes")
-        assert Room.of(code, kept.read([code])[code]).votes == ("between", "between")
+        assert Room.of(code, kept.read([code])[code]).votes == ("falls", "falls")
 
     with served(tmp_path / "log", votes=tmp_path / "votes", votes_per_address=2) as server:
         run(lesson(server), 120)
@@ -202,29 +242,25 @@ def test_a_redis_that_goes_is_a_sentence_for_all_and_after_it_has_come_back_all_
 
     async def lesson(server):
         page = await teacher(server.url)
-        await page.visitor.click(say("teach.vote.open"))
+        await wishes(page, "present")
         await hears(page, say("teach.vote.away"))
         first = await student(server.url, "ABCDEF", "1", "de")
         await hears(first, say("teach.student.away", "de"))
         with redis_serving(port):
-            while True:  # the server asks one that was away no oftener than every few seconds
-                await page.visitor.click(say("teach.vote.open"))
-                await hears(page, say("teach.vote.wait"))
-                await page.until(lambda: say("teach.vote.wait") not in page.visitor.says)
-                if KEY.search(page.visitor.says):
-                    break
-            code, key = CODE.search(page.visitor.says)[1], KEY.search(page.visitor.says)[1]
-            await first.visitor.click(say("teach.vote.again", "de"))
+            while not room(page).get("code"):  # one that was away is asked no oftener than every few seconds
+                await wishes(page, "present")
+                await asyncio.sleep(0.3)
+            code = room(page)["code"]
+            await wishes(first, "again")
             await hears(first, say("teach.student.gone", "de"))
             second = await student(server.url, code, "2")
-            await second.until(lambda: second.visitor.find("RadioBoxGroup", "options"))
+            await comes(second)
+            await page.until(lambda: key_of(page))
         await hears(page, say("teach.vote.away"))
-        await chooses(second, "over")
-        await second.visitor.click(say("teach.student.send"))
+        await wishes(second, "vote", "over")
         await hears(second, say("teach.student.away"))
-        other = await teacher(server.url, key)
+        other = await teacher(server.url, key_of(page))
         await hears(other, say("teach.vote.away"))
-        await shows(other, say("teach.vote.again"))
 
     with served(tmp_path / "log", votes=f"redis://127.0.0.1:{port}/0") as server:
         run(lesson(server), 120)

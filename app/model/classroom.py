@@ -1,6 +1,7 @@
 """Votes of a class: rooms that all workers see, no names, bounded; a room is its teacher's, by a key of his own.
 
-A room is plain data: {"step", "numbers", "asks", "top", "owner", "used", "votes": {phone: [value, address, when]}}.
+A room is plain data: {"step", "asks", "top", "shown", "owner", "used", "phones": {phone: address},
+"votes": {phone: [value, address, when]}, "others": {step: votes}}: one question at a time, and the votes on others.
 """
 
 import hashlib
@@ -8,16 +9,10 @@ import hmac
 import ipaddress
 import json
 import logging
-import math
-import os
-import queue
 import re
 import secrets
-import threading
 import time
 from dataclasses import dataclass
-
-from app.model.ballots import Away, store
 
 MOST_ROOMS, ROOMS_OF_ADDRESS = 1000, 40
 MOST_VOTES, VOTES_OF_ADDRESS = 400, 250  # of a room
@@ -29,10 +24,9 @@ CODE_LENGTH = 6
 CODE = re.compile(rf"[{LETTERS}]{{{CODE_LENGTH}}}")
 KEY = re.compile(rf"{CODE.pattern}\.[\w-]{{22}}", re.ASCII)  # the room's code, and its owner's secret
 MARK = re.compile(r"[0-9a-f]{32}", re.ASCII)  # what a phone is known by
-LOOK_EVERY = 0.5  # s
-PAUSE = 2.0  # s for which a store that did not answer is not asked again
-MOST_WAITING = 1000
 REGISTER = "rooms"  # the key of {code: [used, address]}: no code is so short
+
+EMPTY = {"votes": {}, "others": {}, "phones": {}, "shown": False}
 
 log = logging.getLogger("tippe")
 
@@ -45,16 +39,17 @@ class Refused(Exception):
 class Room:
     """One question to a class, which each page says in its own language, and the votes so far.
 
-    step: the name of a lesson.Step; numbers: for the words of its question; asks: the fields of a lesson.Choice or
-    Guess; top: the motion's, as a link has it.
+    step: the name of a lesson.Step; asks: the fields of a lesson.Choice or Guess; top: the page's own, as a link has
+    it; shown: whether its answer is; phones: how many have come.
     """
 
     code: str
     step: str
-    numbers: dict
     asks: dict
     top: dict
     votes: tuple
+    shown: bool
+    phones: int
 
     @classmethod
     def of(cls, code, text):
@@ -63,7 +58,7 @@ class Room:
             return None
         record = json.loads(text)
         votes = tuple(value for value, _, _ in record["votes"].values())
-        return cls(code, record["step"], record["numbers"], record["asks"], record["top"], votes)
+        return cls(code, record["step"], record["asks"], record["top"], votes, record["shown"], len(record["phones"]))
 
 
 def possible(asks, value):
@@ -119,7 +114,7 @@ class Rooms:
         for gone in old:
             self._store.change(gone, lambda text: None)
         [code], secret = found, secrets.token_urlsafe(16)
-        text = json.dumps({**question, "owner": mixed(secret), "used": now, "votes": {}})
+        text = json.dumps({**question, "owner": mixed(secret), "used": now} | EMPTY)
         self._store.change(code, lambda _: text)
         return Room.of(code, text), f"{code}.{secret}"
 
@@ -174,16 +169,66 @@ class Rooms:
         self._store.change(REGISTER, lambda text: json.dumps(
             {each: entry for each, entry in json.loads(text or "{}").items() if each != code}))  # fmt: skip
 
-    def ballot(self, code, phone):
-        """(Room, the vote of this phone or None); (None, None) where there is no room."""
+    def _owners(self, key, changed):
+        """The Room of a teacher's key after changed(record); Refused("over") as owned()."""
+        code, found = self.owned(key).code, []
+
+        def change(text):
+            record = self._living(text)
+            if record is None:
+                raise Refused("over")
+            found[:] = [json.dumps(record | changed(record) | {"used": self._clock()})]
+            return found[0]
+
+        self._store.change(code, change)
+        return Room.of(code, found[0])
+
+    def ask(self, key, **question):
+        """Has a teacher's room ask another question; the votes on the one before are kept, and come back with it."""
+
+        def changed(record):
+            if record["step"] == question["step"]:
+                return {}
+            others = record["others"] | {record["step"]: record["votes"]}
+            return question | {"votes": others.pop(question["step"], {}), "others": others, "shown": False}
+
+        return self._owners(key, changed)
+
+    def reveal(self, key):
+        """Shows the answer in a teacher's room: no vote is taken any more."""
+        return self._owners(key, lambda record: {"shown": True})
+
+    def reset(self, key):
+        """Forgets all votes and phones in a teacher's room, for the next class."""
+        return self._owners(key, lambda record: EMPTY)
+
+    def ballot(self, code, phone, address=""):
+        """(Room, the vote of this phone or None), and the phone has come; (None, None) where there is no room."""
         text, record = self._read(code)
         if record is None:
             return None, None
-        mine = record["votes"].get(mixed(code, phone))
+        name, place = mixed(code, phone), mixed(code, network(address))[:6]
+
+        def come(record):
+            seats = record["phones"]
+            alike = sum(each == place for each in seats.values())
+            return name in seats or len(seats) >= MOST_VOTES or alike >= self._votes_of_address
+
+        def change(text):
+            record = self._living(text)
+            if record is None or come(record):
+                return text
+            return json.dumps(record | {"phones": record["phones"] | {name: place}})
+
+        if not come(record):
+            self._store.change(code, change)
+            text = self._store.read([code]).get(code, text)
+        mine = record["votes"].get(name)
         return Room.of(code, text), mine[0] if mine else None
 
-    def vote(self, code, phone, address, value):
-        """Counts the vote of a phone (any text that it is known by) in place of its earlier one, or raises Refused."""
+    def vote(self, code, phone, address, value, step=None):
+        """Counts the vote of a phone (any text that it is known by) in place of its earlier one, or raises Refused.
+        step: the question that the phone had, of which the class may have gone on."""
         if not CODE.fullmatch(code):
             raise Refused("gone")
         phone, address, now = mixed(code, phone), mixed(code, network(address))[:6], self._clock()
@@ -193,6 +238,10 @@ class Rooms:
             record = self._living(text)
             if record is None:
                 raise Refused("gone")
+            if step not in (None, record["step"]):
+                raise Refused("moved")
+            if record["shown"]:
+                raise Refused("shown")
             if not possible(record["asks"], value):
                 raise Refused("wrong")
             votes = record["votes"]
@@ -213,121 +262,3 @@ class Rooms:
     def look(self, codes):
         """{code: text} of those that are there; Room.of reads a text, where it is another than before."""
         return self._store.read(codes)
-
-
-class Desk:
-    """The one thread of this process that talks to the store: pages ask, and are told in that thread.
-
-    Who does not answer keeps no page waiting; and what 250 pages look at is read once.
-    """
-
-    def __init__(self, where=None, votes_of_address=VOTES_OF_ADDRESS):
-        self._where, self._votes_of_address = where, votes_of_address
-        self._asked, self._watches, self._used = queue.Queue(MOST_WAITING), set(), {}
-        self._thread, self._lock, self._rooms, self._away = None, threading.Lock(), None, (-math.inf, None)
-
-    def keep(self, where, votes_of_address):
-        """To be called first, if at all: where votes are kept, as TIPPE_VOTES says it."""
-        self._where, self._votes_of_address = where, votes_of_address
-
-    def ask(self, work, done):
-        """Has done(result of work(Rooms)) called; or of the exception: Refused, Away, or else a bug."""
-        with self._lock:
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._serve, name="votes", daemon=True)
-                self._thread.start()
-        try:
-            self._asked.put_nowait((work, done))
-        except queue.Full:
-            done(Away("full"))
-
-    def watch(self, code, told, votes=True):
-        """Has told(Room) called now and whenever its votes change (not without votes), told(None) when it is closed,
-        told(Away) while nobody can say. Returns what ends this."""
-        watch = Watch(code, told, votes)
-        self._watches.add(watch)
-        self.ask(lambda rooms: None, lambda result: None)  # it may sleep
-        return lambda: self._watches.discard(watch)
-
-    def _serve(self):
-        due = 0.0
-        while True:
-            try:
-                left = max(0.0, due - time.monotonic()) if self._watches else None
-                self._answer(*self._asked.get(timeout=left))
-            except queue.Empty:
-                pass
-            if time.monotonic() >= due and self._watches:
-                self._answer(self._look, self._tell)
-                due = time.monotonic() + LOOK_EVERY
-
-    def _answer(self, work, done):
-        when, error = self._away
-        if time.monotonic() - when < PAUSE:
-            result = error
-        else:
-            try:
-                result = work(self._opened())
-            except Away as away:
-                if error is None:
-                    log.error("votes are away: %.300s", " ".join(str(away).split()))
-                result, self._away = away, (time.monotonic(), away)
-            except Exception as error:
-                result = error
-            else:
-                self._away = (-math.inf, None)
-        try:
-            done(result)
-        except Exception:
-            log.exception("a page could not be told of its votes")
-
-    def _opened(self):
-        if self._rooms is None:
-            try:
-                where = os.environ.get("TIPPE_VOTES", "") if self._where is None else self._where
-                self._rooms = Rooms(store(where, LASTS + 2 * USED), self._votes_of_address)
-            except ValueError as error:
-                raise Away(f"TIPPE_VOTES is {where!r}; allowed is {error}.") from None
-        return self._rooms
-
-    def _look(self, rooms):
-        watches = tuple(self._watches)
-        now, used = time.monotonic(), {watch.code for watch in watches if watch.votes}  # by those who own them
-        self._used = {code: self._used.get(code, now) for code in used}
-        for code, since in self._used.items():
-            if now - since > USED:
-                rooms.use(code)
-                self._used[code] = now
-        return watches, rooms.look({watch.code for watch in watches})
-
-    def _tell(self, result):
-        if isinstance(result, Away):
-            for watch in tuple(self._watches):
-                watch.tell(result, result)
-        elif isinstance(result, Exception):
-            raise result
-        else:
-            watches, texts = result
-            for watch in watches:
-                watch.tell(texts.get(watch.code))
-
-
-class Watch:
-    """One page that looks at a room."""
-
-    def __init__(self, code, told, votes):
-        self.code, self.votes, self._told, self._last = code, votes, told, ...
-
-    def tell(self, text, away=None):
-        """What is there now, if that is news to it."""
-        if away is not None:
-            news, now = self.votes and not isinstance(self._last, Away), away
-        else:
-            news, now = text != self._last and (self.votes or text is None), text
-        self._last = now
-        if news:
-            self._told(away or Room.of(self.code, text))
-
-
-DESK = Desk()
-"""That of this process."""

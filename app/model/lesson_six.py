@@ -127,7 +127,7 @@ def asked(*options: str) -> Choice:
 DOT = 0.6235  # s: its painted dot faces who looks
 THREE = ("ordinary", "rough", "ice")
 SIX = (
-    Step("flips", asked("over", "upright", "falls"), flips, ("ordinary",), 0.25, 6.0, sources=("perry", "bohr")),
+    Step("flips", asked("over", "upright", "falls"), flips, ("ordinary",), 0.25, 5.9, sources=("perry", "bohr")),
     Step("way", asked("same", "other", "stopped"), way, ("ordinary",), DOT, 2.3737, "spin", sources=("gray",)),
     Step("height", asked("push", "spin", "free"), height, ("ordinary",), DOT, 1.6, "energy", sources=("pliskin",)),
     Step("tables", asked("both", "rough", "ice", "neither"), tables, THREE, 0.25, 2.4, sources=("gallop",)),
@@ -139,5 +139,5 @@ SIX = (
          tex=(r"\omega_3(\pi)=-\frac{I_1}{I_3}\frac{K_J}{1+a}\quad(30)\qquad "
               r"\omega_3(\pi)=\frac{K_R}{f_3(\pi)}\quad(31)",), sources=("gray", "routh")),
 )  # fmt: skip
-YOURS = Step("yours", asked("over", "not"), yours, ("yours",), 0.25, 6.0)
+YOURS = Step("yours", asked("over", "not"), yours, ("yours",), 0.25, 5.9)
 BY_NAME = {step.name: step for step in (*SIX, YOURS)}

@@ -172,7 +172,7 @@ CHANGES = {
     "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT)},
     "MeasuredStage": {},
     "Guide": {},
-    "LessonView": {"asked": row(COUNT, SHORT, SHORT)},
+    "LessonView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
     "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
     "LabView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
     "Look": {"dark": FLAG, "large": FLAG},

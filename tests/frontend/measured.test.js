@@ -1,10 +1,24 @@
 // A table is thinned in the browser, and a large one read piece by piece; a ghost shows where a film saw the axis.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { rowAt } from "../../app/frontend/src/three/measured.js";
 import { encodingOf, readFile, thinned } from "../../app/frontend/src/widgets/measured_file.js";
 
 const MOST = 10_000;
 const table = (rows, end = "\n") => ["# a film", "t (s)\ttilt (°)", ...Array.from({ length: rows }, (_, i) => `${(i / 240).toFixed(4)}\t${i}`)].join(end);
+
+test("a measured axis is shown between the frames that saw it, and nowhere else", () => {
+  const rows = new Float32Array([0, 1, 2, 9, 10].flatMap((t) => [t, 0, 0, 1]));
+  assert.deepEqual(rowAt(rows, 1.25), [1, 0.25]);
+  assert.deepEqual(rowAt(rows, 0), [0, 0]);
+  assert.deepEqual(rowAt(rows, 10.5), [3, 1]); // half a frame after the last
+  assert.equal(rowAt(rows, 13), null);
+  assert.equal(rowAt(rows, -3), null);
+  assert.deepEqual(rowAt(rows, 5), [2, 3 / 7]);
+  const gap = new Float32Array([0, 1, 2, 3, 4, 5, 16, 17, 18].flatMap((t) => [t, 0, 0, 1]));
+  assert.equal(rowAt(gap, 10), null); // nothing was measured there
+  assert.equal(rowAt(rows.subarray(0, 4), 0), null);
+});
 
 test("a short table is left as it is", () => assert.deepEqual(thinned(table(20), MOST), [table(20), 1]));
 

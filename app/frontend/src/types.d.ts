@@ -205,10 +205,11 @@ type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${
 // app/tabs/learn/lesson.py says what each holds.
 type LessonRun = Record<"frames" | "profile" | "curves" | "arms", Bytes> & { a: number; seconds: number };
 type LessonModel = Model & Record<"state", any> & {
+  worksheet: string;
   steps: any[];
   runs: Record<string, LessonRun>;
   others: Record<string, LessonRun>;
-  asked: [count: number, name: string, value: string] | [];
+  asked: [count: number, name: string, value: string | number] | [];
 };
 
 // Bokeh's models, as far as they are used here. What is not synced stays in this browser.

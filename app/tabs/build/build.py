@@ -20,6 +20,7 @@ from app.widgets.controls import Dial, asked_of, number, typed_number, wording
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, Turned
 
 KNOBS = 32  # made at a time
+SAYS = "calc(55px * var(--type, 1))"  # three lines of where a preset comes from
 OWN = ""  # a select has no way to show that nothing is chosen
 
 
@@ -123,7 +124,8 @@ class Build:
         self.builder, self._soon = builder, soon
         self._knobs, self._shown, self._silent = {}, None, False
         self.section = Section(builder.set)
-        self.derived, self.source, self.file_words = words(), words(), words()
+        self.derived, self.file_words = words(), words()
+        self.source = words(styles={"min-height": SAYS})  # so that nothing below it moves when a hand changes the body
         self.presets = self._choice("presets", builder.choose)
         self.families = self._choice("family", builder.choose_family)
         self.dimensions = pn.Column(sizing_mode="stretch_width", margin=0)

@@ -11,12 +11,15 @@ from app.state import asked
 from app.state.names import SECTIONS
 from app.tabs.learn.lesson import FIRST, LessonView, cut, runs_of, said
 from app.tabs.learn.lines import Derivation
+from app.tabs.learn.present import Teacher
 from app.tabs.learn.teach import history_view, teach_view
+from app.tabs.learn.worksheet import worksheet
 from app.text import say
 from app.widgets.cards import PLAIN, card, grid, words
 from app.widgets.top3d import Top3D, show_top
 
 CLOCK, SPEED = "learn", 1 / 16
+WISHES = ("present", "reveal", "reset")  # of who stands at the big screen
 
 
 class Learn(param.Parameterized):
@@ -33,7 +36,7 @@ class Learn(param.Parameterized):
     def __init__(self, scene, runs=None):
         super().__init__()
         self._scene, self._runs, self._of = scene, runs or Runs(), {}
-        self.lesson = LessonView(sizing_mode="stretch_width", margin=0)
+        self.lesson = LessonView(sizing_mode="stretch_width", margin=0, worksheet=worksheet())
         self.lesson.param.watch(asked.heard(self._heard), "asked")
         self.top = Top3D(clock=CLOCK, height=360, sizing_mode="stretch_width")
         self.derivation = Derivation(CLOCK)
@@ -41,8 +44,10 @@ class Learn(param.Parameterized):
             self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
             size="small", sx=PLAIN, margin=(10, 12, 0, 12), styles={"max-width": "calc(100% - 24px)"},
         )  # fmt: skip
-        self.param.watch(lambda event: self._tell(), "step")
+        self.teacher = Teacher(self, lambda: self._scene, lambda room: self._tell(room=room))
+        self.param.watch(lambda event: self._on_step(), "step")
         self.param.watch(lambda event: self._look(), "section")
+        self.param.watch(lambda event: self.teacher.come_back(), "room")
         self.view = self._build()
         self._begin()
         self._tell()
@@ -104,6 +109,8 @@ class Learn(param.Parameterized):
             self.step = value
         elif name == "section" and value in SECTIONS:
             self.section = value
+        elif name in WISHES:
+            getattr(self.teacher, name)()
         else:
             raise asked.Unasked(name)
 
@@ -112,7 +119,7 @@ class Learn(param.Parameterized):
     def _look(self):
         """Shows the section; the teacher's page and the history are made when first looked at."""
         section = self.section
-        makers = {"teach": lambda: teach_view(lambda: self._scene, self._runs, self), "history": history_view}
+        makers = {"teach": lambda: teach_view(self._present, self.teacher.close), "history": history_view}
         if section in makers and section not in self._made:
             self._made[section] = makers[section]()
         self.sections.visible = section != "lesson"
@@ -121,8 +128,17 @@ class Learn(param.Parameterized):
         self.others.objects = [self._made[section]] if section in makers else []
         self.show(self._scene)
 
-    def _tell(self):
-        self.lesson.state = self.lesson.state | {"step": self.step}
+    def _present(self):
+        """From the teacher's page to the big screen."""
+        self.section = "lesson"
+        self._tell(presents=self.lesson.state.get("presents", 0) + 1)
+
+    def _on_step(self):
+        self._tell()
+        self.teacher.follow()
+
+    def _tell(self, **more):
+        self.lesson.state = self.lesson.state | {"step": self.step} | more
 
     def show(self, scene):
         """The page's own top is another: what is of it is found again."""

@@ -43,12 +43,14 @@ class LessonView(Bundled):
     steps = param.List(default=[], doc="Each step in words; a number of JavaScript's where it is drawn.")
     runs = param.Dict(default={}, doc="{name: run}, of the lesson.")
     others = param.Dict(default={}, doc="{name: run}, those of theory and of the page's own top.")
-    state = param.Dict(default={}, doc="step: which is looked at.")
+    worksheet = param.String(default="", doc="A page to print, in HTML.")
+    state = param.Dict(default={}, doc='step: which is looked at; role: "phone" in a class; room: of a class.')
     asked = param.List(default=[], doc="[count, name, value] of what a person asks for, the browser writes it.")
 
     @classmethod
     def says(cls, language=None):
         own = listed("learn.view", language) | {"sections": listed("learn.sections", language)}
+        own |= {"room": listed("teach.room", language)}
         drawn = listed("learn.pictures", language)
         return super().says(language) | listed("lab_view.view", language) | {"lesson": own, "drawn": drawn}
 
@@ -84,28 +86,32 @@ def nutations(plan, count):
             "seconds": plan.scales.time, "arms": b""}  # fmt: skip
 
 
-def runs_of(steps, scene):
-    """{name: run} of some steps, the page's own top and theory by this scene."""
+def runs_of(steps, scene, hidden=False):
+    """{name: run} of some steps, the page's own top and theory by this scene; hidden: as far as before the answer."""
     ends, found = {}, {}
     for step in steps:
         for name in step.tops:
-            ends[name] = max(step.end, ends.get(name, 0.0))
+            ends[name] = max(step.before if hidden else step.end, ends.get(name, 0.0))
     for name, end in ends.items():
         with suppress(TopError):  # its step says so
             found[name] = cut(own(scene) if name == "yours" else named(name), end)
     for step in steps:
         if step.inputs:
             with suppress(TopError):
-                found[step.name] = nutations(lesson.planned(step, scene), step.end)
+                found[step.name] = nutations(lesson.planned(step, scene), step.before if hidden else step.end)
     return found
 
 
-def said(step, scene):
-    """A step in words and numbers, its answer too; where it cannot be for this top, the sentence why."""
+TELLS = {"told": [], "learned": "", "truth": None, "graph": None, "events": [], "tex": []}
+
+
+def said(step, scene, hidden=False):
+    """A step in words and numbers, its answer too unless that is hidden; where it cannot be for this top, the sentence
+    why."""
     head = {"name": step.name, "title": say(f"learn.{step.name}.title"), "theory": step in lesson.THEORY}
     try:
         plan = lesson.planned(step, scene)
-        return head | _said(step, plan, step.answer(plan))
+        return head | _said(step, plan, step.answer(plan)) | (TELLS if hidden else {})
     except TopError as error:
         return head | {"refused": told(error), "question": head["title"]}
 

@@ -1,15 +1,18 @@
-"""What a student's link opens: one question of a class's vote, one prediction."""
+"""What a student's link opens: the question on the big screen, one prediction, and the answer once it is shown."""
 
 import panel as pn
-import panel_material_ui as pmui
 import param
 
 from app.bundle import Bundled
+from app.model import lesson
 from app.model.ballots import Away
 from app.model.classroom import MARK, Refused
-from app.tabs.learn.poll import Counter, prediction, question_of, refusal
+from app.model.runs import Run, Runs, Stopped, connected_to, to_session
+from app.state import asked
+from app.state.names import link
+from app.tabs.learn.lesson import LessonView, runs_of, said
+from app.tabs.learn.poll import Counter, refusal, scene_of
 from app.text import say
-from app.widgets.cards import PLAIN, note, on_click, px, words
 from app.widgets.connection import Connection
 
 
@@ -20,33 +23,23 @@ class Phone(Bundled):
 
 
 class Ballot:
-    """What a student's link opens: one question, one prediction."""
+    """A phone in a class: it follows the teacher from question to question."""
 
-    def __init__(self, code):
-        self._code, self._counter = code, Counter()
+    def __init__(self, code, runs=None):
+        self._code, self._counter, self._runs = code, Counter(), runs or Runs()
+        self._room, self._mine, self._mark, self._made = None, None, "", ()
         self.phone = Phone(width=0, height=0, margin=0)
-        self.question, self.said, self.widget = words(""), words(""), None
-        self.place = pn.Column(sizing_mode="stretch_width", margin=0)
-        self.send, self.again = (
-            pmui.Button(label=say(f"teach.{name}"), variant="contained", sx=PLAIN, visible=False)
-            for name in ("student.send", "vote.again")
-        )
-        on_click(self.send, lambda event: self.widget and self._vote())
-        on_click(self.again, lambda event: self._come())
+        self.lesson = LessonView(sizing_mode="stretch_width", margin=0, state={"role": "phone", "said": ""})
         # what is held and sent together before the page says that it is there is lost
-        self._mark = ""
         self.phone.param.watch(self._known, "mark")
-        self._ask_for("", note(say("teach.vote.wait")))
+        self.lesson.param.watch(asked.heard(self._heard), "asked")
+        self._tell(say("teach.vote.wait"))
 
     @property
     def view(self):
         lost = Connection(words=say("main.lost"), width=0, height=0, margin=0)
-        return pn.Column(self.question, self.place, self.send, self.said, self.again, self.phone, lost,
-                         sizing_mode="stretch_width", max_width=640, margin=16, css_classes=["learn"])  # fmt: skip
-
-    def _ask_for(self, asked, said):
-        self.question.object = f"<h2>{say('teach.student.title')}</h2><div style='font-size: {px(16)}'>{asked}</div>"
-        self.said.object = said
+        return pn.Column(self.lesson, self.phone, lost, sizing_mode="stretch_width", max_width=640, margin=0,
+                         css_classes=["learn"])  # fmt: skip
 
     def _known(self, event):
         """By what the phone says first: a page that says something else later would vote as another."""
@@ -54,49 +47,86 @@ class Ballot:
             self._mark = event.new
             pn.state.onload(self._come)
 
-    def _come(self):
+    def _come(self, again=True):
         """Asks for the room, and for what this phone has voted there."""
-        code, mark = self._code, self._mark
-
-        def done(result):
-            self.again.visible = isinstance(result, Away)
-            room, voted = (None, None) if isinstance(result, Exception) else result
-            step, asks = question_of(room)
-            if step is None:
-                self._ask_for("", refusal("student", result if self.again.visible else Refused("gone")))
-                return
-            self.widget = prediction(step, asks, voted)
-            self.place.objects, self.send.visible = [self.widget], True
-            self._ask_for(say(f"learn.{step.name}.question", **room.numbers), "")
-            if voted is not None:
-                self._status("sent")
-            self._counter.watch(code, self._closed, votes=False)
-
-        self._counter.ask(lambda rooms: rooms.ballot(code, mark), done)
-
-    def _closed(self, room):
-        if room is None:
-            self._status("closed")
-
-    def _status(self, key):
-        self.said.object = f"<div role='status'>{say(f'teach.student.{key}')}</div>"
-
-    def _vote(self):
-        value = self.widget.value
-        if value is None:
-            self._status("waiting")
-            return
         code, mark, address = self._code, self._mark, self._counter.address
 
         def done(result):
-            if isinstance(result, Exception):
-                self.said.object = refusal("student", result)
-            else:
-                self._status("sent")
+            room, voted = (None, None) if isinstance(result, Exception) else result
+            if scene_of(room) is None:
+                away = isinstance(result, Away)
+                self._tell(refusal("student", result if away else Refused("gone")), again=away)
+                return
+            self._mine = voted
+            self._take(room)
+            if again:
+                self._counter.watch(code, self._news, votes=False)
 
-        self.said.object = note(say("teach.vote.wait"))
-        self._counter.ask(lambda rooms: rooms.vote(code, mark, address, value), done)
+        self._counter.ask(lambda rooms: rooms.ballot(code, mark, address), done)
+
+    def _news(self, room):
+        if room is None:
+            self._room = None
+            self._tell(say("teach.student.closed"))
+        elif self._room is None or room.step != self._room.step or (room.phones == 0 and self._room.phones):
+            self._room = room
+            self._come(again=False)  # what this phone has said of that one; a new class: it comes anew
+        else:
+            self._take(room)
+
+    def _take(self, room):
+        self._room = room
+        self._tell("")
+        if self._made != (room.step, room.shown):
+            self._made = room.step, room.shown
+            step, scene, shown = lesson.OF_NAME[room.step], scene_of(room), room.shown
+
+            def work(run):
+                return said(step, scene, hidden=not shown), runs_of([step], scene, hidden=not shown)
+
+            self._runs.begin(Run(work, self._found), "lesson")
+
+    def _found(self, found):
+        if isinstance(found, Stopped):
+            return
+        if isinstance(found, Exception):
+            raise found
+        words, runs = found
+        self.lesson.param.update(steps=[words], runs=runs, state=self.lesson.state | {"step": words["name"]})
+
+    def _tell(self, sentence, again=False):
+        room = self._room
+        shown = {} if room is None else {
+            "code": room.code, "place": lesson.NAMES.index(room.step) + 1, "asked": room.step, "shown": room.shown,
+            "voted": len(room.votes), "phones": max(room.phones, len(room.votes)), "mine": self._mine,
+        }  # fmt: skip
+        self.lesson.state = {"role": "phone", "step": self.lesson.state.get("step", ""), "room": shown,
+                             "said": sentence, "again": again, "alone": link(tab="learn")}  # fmt: skip
+
+    def _heard(self, event):
+        """A wish of the browser."""
+        _, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
+        if name == "vote" and self._room is not None:
+            self._vote(value)
+        elif name == "again":
+            self._come()
+
+    def _vote(self, value):
+        code, mark, address, step = self._code, self._mark, self._counter.address, self._room.step
+
+        def done(result):
+            if isinstance(result, Exception):
+                self._tell(refusal("student", result))
+            else:
+                self._mine = value
+                self._tell("")
+
+        self._counter.ask(lambda rooms: rooms.vote(code, mark, address, value, step), done)
 
 
 def student_page(code):
-    return Ballot(code).view
+    """The page behind a student's link."""
+    document = pn.state.curdoc
+    runs = Runs(to_session(document), connected_to(document))
+    document.on_session_destroyed(lambda context: runs.leave())
+    return Ballot(code, runs).view

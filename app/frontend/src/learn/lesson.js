@@ -6,6 +6,8 @@ import { Time } from "../lab/time.js";
 import { coalesce } from "../data.js";
 import { Bar } from "./bar.js";
 import { Graph } from "./graph.js";
+import { PhoneSide } from "./phone_side.js";
+import { Presenter, wishOf, writes } from "./present.js";
 import { Question } from "./question.js";
 import { Stage } from "./stage.js";
 import { style } from "./style.js";
@@ -33,9 +35,12 @@ class Lesson {
       guess: (value) => this.guess(value), watch: () => this.watch(), next: () => this.go(1),
     });
     this.graph = new Graph(texts);
+    this.presenting = this.lost = this.back = false;
+    this.presenter = new Presenter(texts, (wish) => this.does(wish));
+    this.phone = new PhoneSide(texts, (name, value) => this.ask(name, value), () => this.replay());
     this.more = part("nav", { class: "more", "aria-label": texts.lesson.more });
-    this.element = part("div", { class: "lesson" }, this.crumbs, this.heading, this.stage.element, this.bar.element, this.question.element,
-      this.graph.element, this.more);
+    this.element = part("div", { class: "lesson" }, this.crumbs, this.heading, this.stage.element, this.bar.element,
+      part("div", { class: "right" }, this.question.element, this.graph.element), this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.more);
     this.frame = part("div", { class: "frame" }, this.element);
     el.replaceChildren(part("style", {}, style), this.frame);
     this.look();
@@ -48,6 +53,15 @@ class Lesson {
     this.frame.toggleAttribute("data-large", look.endsWith("large"));
     this.draw();
   };
+
+  listen() {
+    const listening = (this.listening = new AbortController()), { signal } = listening;
+    window.addEventListener("tippe:look", this.look, { signal });
+    window.addEventListener("tippe:lost", this.onLost, { signal });
+    window.addEventListener("tippe:back", this.onLost, { signal });
+    window.addEventListener("keydown", this.onKey, { signal });
+    document.addEventListener("fullscreenchange", this.onScreen, { signal });
+  }
 
   ask(name, value) {
     this.count += 1;
@@ -77,7 +91,83 @@ class Lesson {
 
   guess(value) {
     this.record.guess = value;
+    if (this.role === "phone") this.ask("vote", value);
     this.showQuestion();
+  }
+
+  get role() {
+    return this.model.state.role ?? "";
+  }
+
+  get room() {
+    return this.model.state.room ?? {};
+  }
+
+  // ---- in front of a class ----
+
+  onKey = (event) => {
+    if (this.role === "phone" || !this.frame.getClientRects().length || writes(event)) return;
+    const wish = wishOf(event, this.presenting);
+    if (!wish) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.does(wish);
+  };
+
+  does(wish) {
+    if (!this.step) return;
+    const { time } = this;
+    if (wish === "present") this.present(true);
+    else if (wish === "leave") this.present(false);
+    else if (wish === "on" || wish === "back") this.go(wish === "on" ? 1 : -1);
+    else if (wish === "play") time.play(!time.playing);
+    else if (wish === "reveal") this.reveal();
+    else {
+      this.kept = {};
+      this.entered = undefined;
+      this.ask("reset", "");
+      this.open(this.steps[0].name);
+    }
+  }
+
+  // A class in a hall sees the question alone; what fills the window is the frame itself, or all of the screen.
+  present(presenting) {
+    if (this.presenting === presenting) return;
+    this.presenting = presenting;
+    this.frame.classList.toggle("presenting", presenting);
+    this.element.classList.toggle("present", presenting);
+    if (presenting) {
+      document.documentElement.requestFullscreen?.().catch(() => {});
+      if (!this.room.code) this.ask("present", "");
+    } else if (document.fullscreenElement) document.exitFullscreen();
+    this.shown = undefined;
+    this.showNow();
+  }
+
+  onScreen = () => {
+    if (this.presenting && !document.fullscreenElement && this.wasFull) this.present(false);
+    this.wasFull = Boolean(document.fullscreenElement);
+  };
+
+  reveal() {
+    const { record } = this;
+    if (record.asked || !this.step.asks) return;
+    record.guess ??= this.step.asks.unsure ?? NaN;
+    this.ask("reveal", "");
+    this.watch();
+  }
+
+  // What is here goes on without the server; the page is loaded anew when the person at the screen wants it.
+  onLost = (event) => {
+    if (!this.presenting) return;
+    event.preventDefault();
+    [this.lost, this.back] = [event.type === "tippe:lost", event.type === "tippe:back"];
+    this.showQuestion();
+  };
+
+  replay() {
+    this.time.again();
+    this.time.play(true);
   }
 
   // The whole of it, from the beginning where it was watched before.
@@ -99,11 +189,30 @@ class Lesson {
 
   showNow() {
     const { model } = this, asked = model.state.step;
+    if (this.role === "phone") this.phone.put(model.state, this.texts);
     if (!model.steps.length || !asked) return;
+    if (model.state.presents && model.state.presents !== this.presents) {
+      this.presents = model.state.presents;
+      setTimeout(() => this.present(true));
+    }
     if (asked !== this.told) this.name = this.told = asked; // Python's, a link's
     this.step = model.steps.find(({ name }) => name === this.name) ?? model.steps[0];
+    if (this.role === "phone") this.follow();
     if (this.step.name !== this.entered) this.enter();
     this.showStep();
+  }
+
+  // A phone shows the answer when the big screen does.
+  follow() {
+    const { room, step } = this, mine = room.asked === step.name ? room.mine : undefined;
+    this.element.dataset.role = "phone";
+    if (this.asked !== step.name) delete this.kept[step.name];
+    this.asked = step.name;
+    if (mine !== undefined && mine !== null) this.record.guess = mine;
+    if (room.asked === step.name && room.shown && step.told.length && !this.record.asked) {
+      this.record.guess ??= step.asks.unsure ?? NaN;
+      this.watch();
+    }
   }
 
   // A step is begun: its beginning is played by itself, unless nothing is to move.
@@ -129,18 +238,18 @@ class Lesson {
     this.heading.innerHTML = step.question;
     this.showCrumbs();
     this.showQuestion();
-    const shown = [step.name, record.asked, ...tops.map(({ run }) => run)];
+    const shown = [step.name, record.asked, this.presenting, ...tops.map(({ run }) => run)];
     if (this.shown?.length === shown.length && shown.every((one, i) => one === this.shown[i])) return;
     this.shown = shown;
     if (tops.length) Object.assign(time, { unit: tops[0].run.seconds, tops: this.stage.tops });
-    const curves = tops.map(({ run }) => this.curvesOf(run));
+    const curves = tops.map(({ run }) => this.curvesOf(run)), { t } = time; // a top that is drawn first begins at 0
     this.stage.show(tops, step, curves);
-    this.scene = { step, tops, curves, record };
+    this.scene = { step, tops, curves, record, inClass: this.presenting };
     this.bar.show(this.scene);
     this.graph.show(this.scene);
     this.element.dataset.picture = this.graph.element.hidden ? "" : step.picture;
     if (!tops.length) return;
-    time.seek(time.t);
+    time.seek(t);
     if (this.beginning) {
       this.beginning = false;
       time.play(true);
@@ -149,7 +258,9 @@ class Lesson {
   }
 
   showQuestion() {
-    this.question.show(this.step, this.record, { playing: this.time.playing, last: this.steps.at(-1) === this.step });
+    const { steps, step, record, lost, back } = this;
+    this.question.show(step, record, { playing: this.time.playing, last: steps.at(-1) === step });
+    if (this.presenting) this.presenter.put(step, record, this.room, { steps, lost, back });
   }
 
   showCrumbs() {
@@ -162,11 +273,17 @@ class Lesson {
     const other = this.model.steps.find(({ theory }) => theory !== step.theory);
     this.more.replaceChildren(
       ...(other ? [this.link(step.theory ? lesson.home : lesson.sections.theory, () => this.open(other.name))] : []),
-      ...SECTIONS.map((name) => this.link(lesson.sections[name], () => this.ask("section", name))));
+      ...SECTIONS.map((name) => this.link(lesson.sections[name], () => this.ask("section", name))),
+      this.link(lesson.worksheet, () => this.paper()), this.link(lesson.room.present, () => this.present(true)));
   }
 
   link(word, onclick) {
     return part("button", { type: "button", class: "link", onclick }, word);
+  }
+
+  // A page to print, in a window of its own; it needs no server.
+  paper() {
+    window.open(URL.createObjectURL(new Blob([this.model.worksheet], { type: "text/html" })), "_blank");
   }
 
   draw() {
@@ -194,7 +311,7 @@ class Lesson {
   leave() {
     this.show.cancel();
     for (const gone of [this.time, this.stage, this.bar, this.graph]) gone.leave();
-    window.removeEventListener("tippe:look", this.look);
+    this.listening?.abort();
   }
 }
 
@@ -203,7 +320,7 @@ export function renderLesson({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const lesson = new Lesson({ model, el, view });
   for (const name of ["steps", "runs", "others", "state"]) model.on(name, lesson.show);
-  window.addEventListener("tippe:look", lesson.look);
+  lesson.listen();
   lesson.show();
   view.tippe = { dispose: () => lesson.leave() };
   model.on("remove", () => lesson.leave());

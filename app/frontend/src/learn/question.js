@@ -35,7 +35,7 @@ export class Question {
     this.step = step;
     this.record = record;
     this.hint.innerHTML = step.refused || step.hint || "";
-    const shown = `${step.name} ${Boolean(record.done)} ${JSON.stringify(step.asks)}`;
+    const shown = `${step.name} ${Boolean(record.asked)} ${Boolean(record.done)} ${JSON.stringify(step.asks)}`;
     if (shown !== this.shown) {
       this.shown = shown;
       this.place.replaceChildren(...(step.refused || record.done ? [] : step.asks.options ? this.options() : this.slider()));
@@ -62,6 +62,7 @@ export class Question {
     return [part("fieldset", {}, part("legend", {}, texts.lesson.answers), ...step.asks.options.map(([key, word]) => {
       const input = part("input", { type: "radio", name: "lesson-guess", value: key, onchange: () => hand.guess(key) });
       input.checked = record.guess === key;
+      input.disabled = Boolean(record.asked);
       return part("label", { class: "option" }, input, part("span", {}, word));
     }))];
   }

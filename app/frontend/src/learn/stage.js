@@ -15,7 +15,8 @@ export class Stage {
     this.curves = [];
     /** @type {string[]} */
     this.names = [];
-    this.tops = Array.from({ length: MOST }, (_, i) => new Top({ texts, time, label: texts.stage, away: i ? 1.75 : 1.3 }));
+    // one that stands alone is near, of several each is a little further off
+    this.tops = Array.from({ length: 1 + MOST }, (_, i) => new Top({ texts, time, label: texts.stage, away: i ? 1.75 : 1.3 }));
     this.captions = this.tops.map(() => part("p", { class: "caption" }));
     this.covers = this.tops.map(() => part("p", { class: "cover" }, texts.lesson.later));
     this.places = this.tops.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i], this.covers[i]));
@@ -37,7 +38,7 @@ export class Stage {
     this.names = tops.map(({ name }) => name);
     this.wait.textContent = tops.length ? "" : step.refused ? `${lesson.wrong} ${step.refused}` : lesson.wait;
     this.tops.forEach((top, i) => {
-      const found = tops[i];
+      const found = tops.length > 1 ? tops[i - 1] : tops[i];
       this.places[i].hidden = !found;
       this.covers[i].hidden = !found?.hidden;
       if (!found) return top.put({ frames: null });
@@ -45,7 +46,7 @@ export class Stage {
       top.put({ profile: run.profile, a: run.a, seconds: run.seconds, frames: hidden ? null : run.frames });
       this.captions[i].hidden = tops.length < 2;
       this.captions[i].replaceChildren(drawn("svg", { viewBox: "0 0 26 8", width: 26, height: 8, "aria-hidden": "true" },
-        drawn("path", { d: "M0 4h26", stroke: "currentColor", "stroke-width": 2.2, "stroke-dasharray": DASHES[i] || undefined })), ` ${word}`);
+        drawn("path", { d: "M0 4h26", stroke: "currentColor", "stroke-width": 2.2, "stroke-dasharray": DASHES[i - 1] || undefined })), ` ${word}`);
       if (this.element.isConnected) top.begin();
     });
   }

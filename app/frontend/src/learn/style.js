@@ -3,8 +3,8 @@ import { shared } from "../lab/style.js";
 
 const places = `
 .lesson { display: grid; gap: 10px 24px; padding: 10px 24px 8px; --side: 520px; --stage: clamp(300px, 100vh - 430px, 62cqw);
-  grid-template: "crumbs crumbs" auto "question question" auto "stage side" var(--stage) "bar picture" auto "more more" auto / minmax(0, 1fr) var(--side); align-content: start; }
-.lesson[data-picture=""] { grid-template-areas: "crumbs crumbs" "question question" "stage side" "bar side" "more more"; }
+  grid-template: "crumbs crumbs" auto "question question" auto "stage right" var(--stage) "bar right" auto "more more" auto / minmax(0, 1fr) var(--side); align-content: start; }
+.right { grid-area: right; display: flex; flex-direction: column; gap: 12px; min-width: 0; }
 .crumbs { grid-area: crumbs; list-style: none; display: flex; flex-wrap: wrap; gap: 0 16px; margin: 0; padding: 0; }
 .crumbs button { padding: 0; display: flex; align-items: center; gap: 8px; color: var(--ink-2); min-height: 36px; }
 .crumbs b { width: 24px; height: 24px; border-radius: 50%; display: grid; place-items: center; box-shadow: inset 0 0 0 1.5px var(--line-2); font-size: var(--t-s); }
@@ -28,9 +28,8 @@ const places = `
 .bar .now { position: absolute; left: -1px; top: 10px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
 .bar .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
 .at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; } .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
-.side { grid-area: side; display: flex; flex-direction: column; gap: 10px; min-width: 0; overflow: auto; }
-.lesson:has(.told > *) { grid-template-rows: auto auto minmax(var(--stage), auto); } .lesson:has(.told > *) .stage { height: var(--stage); position: sticky; top: 8px; }
-.picture { grid-area: picture; min-width: 0; } .picture .plot { position: relative; height: 160px; } .picture h3 { font-size: var(--t-m); font-weight: 600; margin: 0 0 4px; }
+.side { display: flex; flex-direction: column; gap: 10px; min-width: 0; }
+.picture { min-width: 0; flex: 1; display: flex; flex-direction: column; max-height: 330px; } .picture .plot { position: relative; flex: 1; min-height: 170px; } .picture h3 { font-size: var(--t-m); font-weight: 600; margin: 0 0 4px; }
 .axis-name { text-align: right; font-size: var(--t-s); color: var(--ink-2); } .axis-name:empty { display: none; }
 .more { grid-area: more; display: flex; flex-wrap: wrap; gap: 0 20px; } .more .link { font-weight: 400; color: var(--ink-2); }
 `;
@@ -60,18 +59,38 @@ svg text.own { fill: var(--q-spin); stroke: none; } svg text { stroke: none; } s
 .arm-own, .arm-upright { stroke-width: 5; stroke-linecap: round; fill: none; } .arm-own { stroke: var(--q-spin); } .arm-upright { stroke: var(--accent); } svg text.upright { fill: var(--accent); } .mass { fill: var(--ink); } .pushed { fill: var(--ground); stroke: var(--ink); stroke-width: 2; }
 `;
 
+const present = `
+.frame.presenting { position: fixed; inset: 0; z-index: 1400; overflow: auto; }
+.board, .foot, .phone-head, .phone-foot { display: none; }
+.lesson.present { --t-m: 24px; --t-s: 18px; --t-l: 30px; --touch: 48px; font-size: var(--t-m); min-height: 100vh; padding: 24px 40px 12px; gap: 16px 40px; --side: 30vw;
+  grid-template: "question question" auto "stage board" minmax(0, 1fr) "bar board" auto "foot foot" auto / minmax(0, 1fr) var(--side); }
+.present > :is(.crumbs, .right, .more) { display: none; } .present .question { font-size: clamp(32px, 3.1vw, 64px); } .present .stage { height: auto; position: relative; min-height: 320px; }
+.present .board { grid-area: board; display: flex; flex-direction: column; gap: 12px; min-height: 0; min-width: 0; } .present .foot { grid-area: foot; display: flex; justify-content: space-between; align-items: center; gap: 16px; flex-wrap: wrap; font-size: var(--t-s); color: var(--ink-2); }
+.letters { list-style: none; margin: 0; padding: 0; display: grid; gap: 10px; } .letters li { display: flex; gap: 16px; } .letters b { width: 1.2em; } .letters span { flex: 1; } .letters .true { color: var(--accent); font-weight: 600; }
+.votes { display: flex; align-items: center; gap: 8px; } .votes i { height: 12px; background: var(--ink-2); max-width: 80%; border-radius: 3px; } .letters .true i { background: var(--accent); } .letters em { font-style: normal; font-weight: 600; }
+.qr { flex: 1; min-height: 200px; display: grid; place-items: center; } .qr svg { width: min(100%, 46vh); height: auto; background: #fff; } .link-said { text-align: center; overflow-wrap: anywhere; font-weight: 600; } .link-said:empty, .warning:empty { display: none; }
+.warning { border-left: 4px solid var(--ink); padding-left: 12px; } .counted { margin-top: auto; display: flex; align-items: center; justify-content: space-between; gap: 16px; } .count b { font-size: 2em; } .present .primary { min-height: 64px; padding: 0 36px; }
+.present .told { overflow: auto; } .present .bar .plot { height: 150px; } .keys { display: flex; gap: 4px; flex-wrap: wrap; } .keys button { min-height: 36px; padding: 0 8px; } kbd { font: inherit; border: 1px solid var(--line-2); border-radius: 4px; padding: 0 6px; margin-right: 6px; }
+.dots i { display: inline-block; width: 12px; height: 12px; border-radius: 6px; margin-right: 8px; box-shadow: inset 0 0 0 1.5px var(--line-2); } .dots .here { width: 32px; background: var(--accent); box-shadow: none; }
+.lesson[data-role=phone] { display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; --stage: 280px; } .lesson[data-role=phone] > :is(.crumbs, .more, .bar) { display: none; } .lesson[data-role=phone] :is(.dock, .picture) { display: none; } .lesson[data-role=phone] .right { display: contents; }
+.lesson[data-role=phone] .stage { order: 1; height: var(--stage); flex: none; } .lesson[data-role=phone] :is(.phone-head, .phone-foot) { display: flex; align-items: center; gap: 12px; padding: 8px 16px; }
+.lesson[data-role=phone] .phone-head { order: 0; } .lesson[data-role=phone] .question { order: 2; font-size: 20px; padding: 0 16px; } .lesson[data-role=phone] .side { order: 3; padding: 0 16px; }
+.lesson[data-role=phone] .phone-foot { order: 4; flex-direction: column; align-items: stretch; } .phone-foot a { color: var(--accent); } .phone-head .round { margin-left: auto; width: 44px; height: 44px; font-size: 20px; }
+.lesson.empty > :is(.stage, .side, .question) { display: none !important; }
+`;
+
 const small = `
-@container (min-width: 1500px) { .lesson { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 640px; font-size: var(--t-m); } .question { font-size: 38px; } .picture .plot { height: 220px; } }
+@container (min-width: 1500px) { .lesson { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 640px; font-size: var(--t-m); } .question { font-size: 38px; } .picture { max-height: 420px; } }
 @container (max-width: 1180px) { .lesson { --side: 400px; gap: 10px 16px; padding: 8px 16px; } .question { font-size: 24px; } }
 @container (max-width: 700px) {
-  .lesson, .lesson[data-picture=""] { --touch: 44px; --stage: 236px; display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; }
-  .lesson > :not(.stage) { padding: 0 16px; } .crumbs { justify-content: flex-end; gap: 0 4px; padding: 4px 12px !important; } .crumbs span { display: none; } .crumbs button { min-height: 40px; min-width: 32px; justify-content: center; }
+  .lesson { --touch: 44px; --stage: 236px; display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; }
+  .right { display: contents; } .lesson > :not(.stage), .side, .picture { padding: 0 16px; } .crumbs { justify-content: flex-end; gap: 0 4px; padding: 4px 12px !important; } .crumbs span { display: none; } .crumbs button { min-height: 40px; min-width: 32px; justify-content: center; }
   .stage { order: 1; height: var(--stage) !important; flex: none; border-radius: 0; position: sticky !important; top: 0 !important; z-index: 2; } .crumbs { order: 0; }
   .bar { order: 2; position: relative; grid-template-columns: minmax(0, 1fr); } .bar .plot { height: 88px; } .bar .round { position: absolute; right: 12px; top: -60px; z-index: 3; }
-  .picture { order: 3; } .picture .plot { height: 132px; } .question { order: 4; font-size: 20px; } .side { order: 5; overflow: visible; } .more { order: 6; }
+  .picture { order: 3; flex: none; } .picture .plot { flex: none; height: 132px; min-height: 0; } .question { order: 4; font-size: 20px; } .side { order: 5; } .more { order: 6; }
   .dock { position: fixed; left: 0; right: 0; bottom: 0; z-index: 5; background: var(--ground); border-top: 1px solid var(--line); padding: 8px 16px; } .primary { min-height: 44px; }
   .caption { bottom: 4px; font-size: var(--t-s); padding: 0 4px; } .bar .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
 }
 `;
 
-export const style = [shared, places, asked, drawings, small].join("");
+export const style = [shared, places, asked, drawings, present, small].join("");

@@ -11,6 +11,23 @@ const REACH = 1.7; // of the line from the middle, either way, in R
 const DASHES = 17, DASH = 0.6; // of the line, and what part of each is drawn
 const GAP = 4; // of the usual time between two rows: in a longer one nothing was measured
 
+/** @param {Float32Array} rows @param {number} t @returns {Spot | null} the row before t, and what share of the way to the
+ * next; null where nothing was measured */
+export function rowAt(rows, t) {
+  const count = rows.length / WIDTH, time = (i) => rows[i * WIDTH];
+  if (count < 2) return null;
+  const usual = (time(count - 1) - time(0)) / (count - 1);
+  let low = 0, high = count - 1;
+  if (t < time(0) - usual || t > time(high) + usual) return null;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (time(middle) <= t) low = middle;
+    else high = middle;
+  }
+  const long = time(high) - time(low);
+  return long > GAP * usual ? null : [low, Math.min(Math.max((t - time(low)) / (long || 1), 0), 1)];
+}
+
 export class Measured {
   /** @param {Stage} stage @param {Labels} labels @param {TopModel} model */
   constructor(stage, labels, model) {
@@ -22,7 +39,6 @@ export class Measured {
     this.label = labels.add("", "measured");
     stage.scene.add(this.halo, this.line);
     this.rows = new Float32Array();
-    this.most = 0; // the longest time between two rows that is bridged
     this.leave = followLook(({ sky, ink }) => {
       this.halo.material.color.set(sky);
       this.line.material.color.set(ink);
@@ -32,33 +48,12 @@ export class Measured {
 
   read() {
     this.rows = float32(this.model.measured);
-    const count = this.rows.length / WIDTH;
-    this.most = count > 1 ? GAP * (this.time(count - 1) - this.time(0)) / (count - 1) : 0;
     this.label.element.textContent = this.model.measured_label ?? "";
-  }
-
-  time(i) {
-    return this.rows[i * WIDTH];
-  }
-
-  // The row before t, and what share of the way to the next; null where nothing was measured.
-  /** @param {number} t @returns {Spot | null} */
-  at(t) {
-    const count = this.rows.length / WIDTH;
-    let low = 0, high = count - 1;
-    if (count < 2 || t < this.time(0) - this.most / GAP || t > this.time(high) + this.most / GAP) return null;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (this.time(middle) <= t) low = middle;
-      else high = middle;
-    }
-    const long = this.time(high) - this.time(low);
-    return long > this.most ? null : [low, Math.min(Math.max((t - this.time(low)) / (long || 1), 0), 1)];
   }
 
   /** @param {Body} body @param {number} t */
   follow(body, t) {
-    const spot = body.visible ? this.at(t) : null;
+    const spot = body.visible ? rowAt(this.rows, t) : null;
     this.halo.visible = this.line.visible = this.label.visible = Boolean(spot);
     if (!spot) return;
     const [row, share] = spot, axis = [1, 2, 3].map((k) => {

@@ -29,19 +29,25 @@ export function renderFailure({ model }) {
   model.on("remove", () => words.remove());
 }
 
+// Who goes on without a server says so, and is then not told over, nor loaded anew.
+const tellLost = () => window.dispatchEvent(new CustomEvent("tippe:lost", { cancelable: true }));
+const tellBack = () => window.dispatchEvent(new CustomEvent("tippe:back", { cancelable: true }));
+
 // Once a server answers again, the page is loaded anew: its address holds what was set.
 /** @param {Pick<Rendering<ConnectionModel>, "model">} rendering */
 export function renderConnection({ model }) {
   const words = notice({ inset: "8px 8px auto", zIndex: 9999, padding: "10px 16px", background: colours.ink, textAlign: "center" });
+  let recovering = false;
   words.textContent = model.words;
   async function recover() {
-    if (words.isConnected) return;
-    document.body.append(words);
+    if (recovering) return;
+    recovering = true;
+    if (tellLost()) document.body.append(words);
     for (let wait = FIRST; ; wait = Math.min(2 * wait, LONGEST)) {
       await new Promise((resolve) => setTimeout(resolve, wait * (0.5 + Math.random())));
       // A login that has run out answers by leading elsewhere: then a new load leads there.
       const answer = await fetch("./readyz", { cache: "no-store", redirect: "manual" }).catch(() => null);
-      if (answer && answer.status < 500) return location.reload();
+      if (answer && answer.status < 500) return tellBack() && location.reload();
     }
   }
   Bokeh.documents[0].on_event("connection_lost", recover);

@@ -38,6 +38,10 @@ export function beside(box, { wide, high }, page) {
   return { left: inside(left, page.wide - wide), top: inside(top, page.high - high) };
 }
 
+// What the ring goes around: of a slider all of its control, so that the ring cuts no label.
+/** @param {HTMLElement} target @returns {Element} */
+const framed = (target) => (target.matches("input") && target.getRootNode() instanceof ShadowRoot ? /** @type {ShadowRoot} */ (target.getRootNode()).host : target);
+
 export class Tour {
   /** @param {Record<string, any>} texts @param {ShadowRoot} over the page @param {AbortSignal} signal */
   constructor(texts, over, signal) {
@@ -97,7 +101,7 @@ export class Tour {
     const { stop, ring } = this;
     if (stop.hidden) return;
     if (!this.target?.isConnected) this.target = find(STOPS[this.at]);
-    const seen = this.target?.getBoundingClientRect(), box = seen && seen.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop;
+    const seen = this.target && framed(this.target).getBoundingClientRect(), box = seen && seen.right > 0 && seen, { offsetWidth: wide, offsetHeight: high } = stop;
     ring.hidden = !box;
     if (!box) return Object.assign(stop.style, { left: `${(innerWidth - wide) / 2}px`, top: `${innerHeight - high - GAP}px` });
     Object.assign(ring.style, { left: `${box.left - 6}px`, top: `${box.top - 6}px`, width: `${box.width + 12}px`, height: `${box.height + 12}px` });

@@ -1,0 +1,31 @@
+// A phone in a class: which question it is, that its vote is sent, how many have voted, and the way to a lesson alone.
+import { part, say } from "../lab/parts.js";
+
+export class PhoneSide {
+  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} replay */
+  constructor(texts, ask, replay) {
+    const { room } = texts.lesson;
+    this.which = part("span", { class: "small" });
+    this.head = part("header", { class: "phone-head" }, part("b", {}, room.title), this.which,
+      part("button", { type: "button", class: "round", "aria-label": texts.again_hint, onclick: replay }, "↺"));
+    this.count = part("p", { role: "status" });
+    this.said = part("p", { role: "alert" });
+    this.again = part("button", { type: "button", class: "primary", onclick: () => ask("again", "") }, room.again);
+    this.alone = part("a", { target: "_blank" }, room.alone);
+    this.foot = part("footer", { class: "phone-foot" }, this.count, this.said, this.again, part("p", { class: "small" }, room.follows, " ",
+      this.alone));
+  }
+
+  /** @param {any} state @param {Record<string, any>} texts */
+  put({ room, said, again, alone }, texts) {
+    const words = texts.lesson.room, open = Boolean(room?.code);
+    const mine = open && room.mine !== null && room.mine !== undefined;
+    this.which.textContent = open ? say(texts, words.which, { code: room.code, i: room.place }) : "";
+    this.said.textContent = said;
+    this.again.hidden = !again;
+    this.alone.href = alone;
+    this.count.replaceChildren(...(open ? [part("b", {}, `${room.voted} ${say(texts, words.voted, { phones: room.phones })}.`), " ",
+      room.shown ? words.shown : mine ? `${words.sent} ${words.change}` : words.vote] : []));
+    this.head.parentElement?.classList.toggle("empty", !open);
+  }
+}

@@ -1,0 +1,59 @@
+// The big screen in front of a class: the question and its top fill it, phones vote, and nobody sees how before the answer.
+import { part, say } from "../lab/parts.js";
+
+const LETTERS = "ABCDEFGH";
+const KEYS = [["←", "back"], ["→", "on"], ["Space", "play"], ["R", "reveal"], ["0", "reset"], ["Esc", "leave"]];
+
+// What a key asks for; "" for none.
+/** @param {KeyboardEvent} event @param {boolean} presenting */
+export function wishOf(event, presenting) {
+  const { key, ctrlKey, metaKey, altKey } = event;
+  if (ctrlKey || metaKey || altKey) return "";
+  if (!presenting) return key.toLowerCase() === "p" ? "present" : "";
+  const known = { ArrowLeft: "back", ArrowRight: "on", " ": "play", r: "reveal", R: "reveal", 0: "reset", Escape: "leave", p: "leave", P: "leave" };
+  return known[key] ?? "";
+}
+
+// Whether a person is writing, so that a letter is a letter.
+/** @param {KeyboardEvent} event */
+export const writes = (event) => /** @type {Element[]} */ (event.composedPath()).some((node) =>
+  node.matches?.("input:not([type=radio]):not([type=range]), textarea, select, [contenteditable]"));
+
+export class Presenter {
+  /** @param {Record<string, any>} texts @param {(wish: string) => void} wish */
+  constructor(texts, wish) {
+    this.texts = texts;
+    const { room } = texts.lesson;
+    this.options = part("ol", { class: "letters" });
+    this.code = part("div", { class: "qr" });
+    this.link = part("p", { class: "link-said" });
+    this.warning = part("p", { class: "warning", role: "alert" });
+    this.count = part("p", { class: "count", role: "status" });
+    this.show = part("button", { type: "button", class: "primary", onclick: () => wish("reveal") }, room.reveal);
+    this.next = part("button", { type: "button", class: "primary", onclick: () => wish("on") }, `${texts.lesson.next} →`);
+    this.told = part("div", { class: "told" });
+    this.board = part("section", { class: "board" }, this.options, this.told, this.code, this.link, this.warning,
+      part("div", { class: "counted" }, this.count, this.show, this.next));
+    this.dots = part("span", { class: "dots" });
+    this.foot = part("footer", { class: "foot" }, this.dots, part("span", {}, room.hidden),
+      part("span", { class: "keys" }, ...KEYS.map(([key, name]) => part("button", { type: "button", onclick: () => wish(name) }, part("kbd", {}, key), room.keys[name]))));
+  }
+
+  /** @param {any} step @param {any} record @param {any} room @param {{ steps: any[], lost: boolean, back: boolean }} around */
+  put(step, record, room, { steps, lost, back }) {
+    const { texts } = this, said = texts.lesson.room, open = Boolean(room.code), here = room.step === step.name;
+    const votes = Object.fromEntries(here ? room.counts : []), most = Math.max(1, ...Object.values(votes)), done = record.done;
+    const options = step.asks?.options ?? (done && here ? room.counts.map(([range]) => [range, range]) : []);
+    this.options.replaceChildren(...options.map(([key, word], i) => part("li", { class: done && key === step.truth ? "true" : "" },
+      part("b", {}, LETTERS[i] ?? ""), part("span", {}, word, ...(done && here && room.shown ? [part("span", { class: "votes" }, part("i", { style: `width:${(100 * (votes[key] ?? 0)) / most}%` }), part("em", {}, String(votes[key] ?? 0)))] : [])))));
+    this.told.replaceChildren(...(done ? [...step.told, `<b>${texts.lesson.learned}:</b> ${step.learned}`].map((words) => Object.assign(part("p"), { innerHTML: words })) : []));
+    if (room.picture !== this.picture) this.code.innerHTML = this.picture = room.picture ?? "";
+    this.code.hidden = !open || done;
+    this.link.textContent = open && !done ? room.address.replace(/^https?:\/\//, "") : "";
+    this.warning.textContent = back ? said.back : lost ? said.lost : room.said || (room.local && !done ? said.local : "");
+    this.count.replaceChildren(...(open ? [part("b", {}, String(room.voted)), ` ${say(texts, said.voted, { phones: room.phones })}`] : []));
+    this.show.hidden = Boolean(record.asked) || !step.asks;
+    this.next.hidden = !done || steps.at(-1) === step;
+    this.dots.replaceChildren(...steps.map((each) => part("i", { class: each === step ? "here" : "" })), ` ${say(texts, said.place, { i: steps.indexOf(step) + 1, n: steps.length })}`);
+  }
+}

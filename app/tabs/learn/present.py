@@ -1,0 +1,159 @@
+"""The teacher's side of a class: a room that asks the step which is on the big screen, and what this may show of it."""
+
+import ipaddress
+from itertools import pairwise
+
+import numpy as np
+import panel as pn
+import segno
+
+from app.model import lesson
+from app.model.ballots import Away
+from app.model.classroom import Refused
+from app.model.lesson_parts import Choice
+from app.state.names import VOTE, link
+from app.tabs.learn.poll import Counter, asked_of, page_address, refusal
+
+BINS = 12
+
+
+def counts(step, votes):
+    """[what, how many]: of options by their keys, of numbers by the range."""
+    if isinstance(step.asks, Choice):
+        return [[key, votes.count(key)] for key in step.asks.options]
+    found, edges = np.histogram(votes, bins=BINS, range=(step.asks.low, step.asks.high))
+    return [
+        [f"{low:.4g} \N{EN DASH} {high:.4g}", int(n)] for (low, high), n in zip(pairwise(edges), found, strict=True)
+    ]
+
+
+def is_local(host):
+    """Whether an address is of this machine alone, so that no phone gets there."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return host == "localhost" or host.endswith(".localhost")
+
+
+class Teacher:
+    """kept: whose `room` is the key of the room, or "", and whose `step` is on the screen; now: the present scene;
+    show: takes what the screen has of the room, a dict, {} where none is open.
+
+    What is wished is asked of the room one thing after the other, and the step that is on the screen by then.
+    """
+
+    def __init__(self, kept, now, show):
+        self._kept, self._now, self._show = kept, now, show
+        self._counter, self._room, self._wish, self._busy, self._said = Counter(), None, None, False, ""
+        self.come_back()
+
+    def come_back(self):
+        """To the room of the key that is kept, where that came with the address."""
+        key = self._kept.room
+        if key and self._room is None and not self._busy:
+            self._do(lambda rooms: rooms.owned(key))
+
+    def present(self):
+        """Opens a room, unless one is."""
+        if self._room is None and not self._busy and not self._kept.room:
+            question, address = self._question(), self._counter.address
+
+            def work(rooms):
+                room, self._kept_key = rooms.open(address, **question)
+                return room
+
+            self._do(work)
+
+    def reveal(self):
+        self._wishes(lambda rooms: rooms.reveal(self._kept.room))
+
+    def reset(self):
+        self._wishes(lambda rooms: rooms.reset(self._kept.room))
+
+    def close(self):
+        """Ends the class: its votes are forgotten."""
+        key = self._kept.room
+        if key:
+            self._forget("")
+            self._counter.ask(lambda rooms: rooms.close(key), lambda result: None)
+
+    def follow(self):
+        """The step on the screen may be another."""
+        if self._room is not None and self._room.step != self._kept.step:
+            self._wishes(None)
+
+    def _question(self):
+        return asked_of(lesson.OF_NAME[self._kept.step], self._now())
+
+    def _wishes(self, work):
+        if self._room is None:
+            return
+        self._wish = work or self._wish
+        if not self._busy:
+            self._next()
+
+    def _next(self):
+        """The step first, then what was wished of it."""
+        if self._room is not None and self._room.step != self._kept.step:
+            question = self._question()
+            self._do(lambda rooms: rooms.ask(self._kept.room, **question))
+        elif self._wish:
+            work, self._wish = self._wish, None
+            self._do(work)
+
+    def _do(self, work):
+        self._busy = True
+        self._counter.ask(work, self._done)
+
+    def _done(self, result):
+        self._busy = False
+        if isinstance(result, Refused):
+            self._forget(refusal("vote", result))
+        elif isinstance(result, Away):
+            self._tell(refusal("vote", result))
+        else:
+            self._take(result)
+            self._next()
+
+    _kept_key = ""
+
+    def _take(self, room):
+        first, new = self._room is None, self._kept_key
+        self._room = room
+        if self._kept_key:
+            self._kept.room, self._kept_key = self._kept_key, ""
+        if first and not new and room.step in lesson.OF_NAME:
+            self._kept.step = room.step  # the class goes on where it was
+        if first:
+            self._counter.watch(room.code, self._news)
+        self._tell("")
+
+    def _news(self, room):
+        if room is None:
+            self._forget(refusal("vote", Refused("over")))
+        elif isinstance(room, Away):
+            self._tell(refusal("vote", room))
+        else:
+            self._room = room
+            self._tell("")
+
+    def _tell(self, sentence):
+        room = self._room
+        if room is None:
+            self._show({"said": sentence} if sentence else {})
+            return
+        address = page_address() + link(**{VOTE: room.code})
+        # nobody sees how the others voted before the answer is shown
+        found = counts(lesson.OF_NAME[room.step], list(room.votes)) if room.shown else []
+        self._show({
+            "code": room.code, "address": address, "step": room.step, "shown": room.shown, "counts": found,
+            "voted": len(room.votes), "phones": max(room.phones, len(room.votes)), "said": sentence,
+            "local": is_local(pn.state.location.hostname),
+            "picture": segno.make(address, error="m", micro=False).svg_inline(light="white", omitsize=True, border=2),
+        })  # fmt: skip
+
+    def _forget(self, sentence):
+        """No room is open here any more, and why."""
+        self._counter.leave()
+        self._room, self._wish, self._kept.room = None, None, ""
+        self._tell(sentence)

@@ -1,0 +1,31 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { apart } from "../../app/frontend/src/learn/graph.js";
+import { wishOf } from "../../app/frontend/src/learn/present.js";
+import { verdictOf } from "../../app/frontend/src/learn/question.js";
+
+test("a guess is right or not, and not to know yet is neither", () => {
+  const asks = { options: [["over", ""], ["falls", ""], ["unsure", ""]], unsure: "unsure" };
+  assert.deepEqual(["over", "falls", "unsure"].map((guess) => verdictOf(asks, "over", guess)), ["right", "off", "unsure"]);
+});
+
+test("a number is right within what a good guess may be off, near within thrice that, and never where there is none", () => {
+  const asks = { low: 0, high: 180, step: 0.5, near: 3 };
+  assert.deepEqual([60, 63, 57, 69, 70].map((guess) => verdictOf(asks, 60, guess)), ["right", "right", "right", "near", "off"]);
+  assert.equal(verdictOf(asks, null, 60), "never");
+});
+
+test("words that would lie over each other are pushed apart, and stay within the picture", () => {
+  const words = [{ y: 50, of: "b" }, { y: 45, of: "a" }, { y: 200, of: "c" }];
+  apart(words, 10, 100);
+  const [b, a, c] = words.map(({ y }) => y);
+  assert.ok(b - a >= 15 && c <= 100 && c - b >= 15);
+});
+
+test("keys are for the class only while it is presented to, and never with Ctrl", () => {
+  const press = (key, presenting, more = {}) => wishOf({ key, ctrlKey: false, metaKey: false, altKey: false, ...more }, presenting);
+  assert.deepEqual(["p", "P", "r", "ArrowRight"].map((key) => press(key, false)), ["present", "present", "", ""]);
+  assert.deepEqual(["ArrowLeft", "ArrowRight", " ", "r", "0", "Escape", "p", "x"].map((key) => press(key, true)),
+    ["back", "on", "play", "reveal", "reset", "leave", "leave", ""]);
+  assert.equal(press("r", true, { ctrlKey: true }), "");
+});
