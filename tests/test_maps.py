@@ -339,7 +339,7 @@ def test_the_run_of_the_bead_goes_to_the_lab():
     tab.go(30.0, 8.0)
     assert thrown[-1] == ("Leine and Glocker's toy", 30.0, 8.0, 0.3, False)
     tab.settings.choices["law"].value = "viscous"
-    assert not tab.thrown.visible
+    assert not tab.thrown_row.visible
 
 
 def test_the_map_that_ships_is_what_is_computed():

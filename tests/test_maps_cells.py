@@ -17,7 +17,7 @@ BODIES = [preset.name for preset in PRESETS if preset.shape.edge is not None and
 SPANS = {"spin": (4, 40), "tilt": (2, 60), "mu": (0.05, 0.5), "second": (0.1, 1.0), "slip": (0.0, 1.5),
          "a": (0.05, 0.35), "ratio": (0.85, 1.3), "R": (8, 30), "stem": (14, 25), "rounding": (1, 6)}  # fmt: skip
 FIXED = "spin", "tilt", "mu", "second", "slip"
-NEAR, NEAR_YIELDING = 100.0, 10.0  # a nudge that grows more is a border's
+NEAR = 100.0  # a nudge that grows more is a border's
 FEW, ALL, ALL_YIELDING = 30, 200, 60
 
 
@@ -110,17 +110,17 @@ def of_body(top, state, friction, t_end, edge):
 def test_random_cells_are_those_of_a_body_on_contacts_that_yield(request):
     """Its contacts give way by 1e-7 of its size, its dry friction is soft below 1e-4: to 0.01 rad and 1 % of time."""
     rng, left_out, done = np.random.default_rng(30), 0, 0
-    count = ALL_YIELDING if request.config.getoption("--remake") else FEW // 3
+    count = ALL_YIELDING if request.config.getoption("--remake") else FEW // 5
     while done < count:
         place, column, end, asked = random_cell(rng, ("coulomb", "viscous", "smoothed"))
-        if end == "refused":
-            continue
+        if end == "refused" or asked.at(*place).friction.law.mu_s > asked.at(*place).friction.law.mu:
+            continue  # the body knows one number of dry friction
         done += 1
-        if not column["growth"] < NEAR_YIELDING:
+        if not column["growth"] < NEAR:
             left_out += 1
             continue
         cell = asked.at(*place)
         theta, time_90 = of_body(cell.top, cell.state, cell.friction, cell.t_end, cell.edge)
         assert np.radians(column["theta_end"]) == pytest.approx(theta, abs=0.01), asked
         assert column["time_90"] / cell.scales.time == pytest.approx(time_90, rel=0.01, nan_ok=True), asked
-    assert left_out <= count / 4
+    assert left_out <= max(count / 10, 1)

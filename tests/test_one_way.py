@@ -4,6 +4,8 @@ Every view is made alone, without Explorer, page or another view, and shows stor
 which stations three gestures go, and they go through those, each once.
 """
 
+import ast
+import importlib
 import re
 from functools import cache, partial, wraps
 from itertools import chain
@@ -305,6 +307,24 @@ def test_what_a_view_asks_is_all_that_it_does(alone):
     line, tilt = pacer.asked
     assert line == {"K_J": 6.0, "given": "share"} and tilt["theta"] == 0.6 and tilt["given"] == "state"
     assert view._scene is pacer.scene and view._plane.selected.data["K_J"][0] == 7.0
+
+
+# ---- no view computes ----
+
+APP = DOCS.parent / "app"
+SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room).rglob("*.py")]
+
+
+@pytest.mark.parametrize("path", SHOWING, ids=lambda path: str(path.relative_to(APP)))
+def test_no_view_takes_a_function_of_the_core(path):
+    """What it shows is computed in the model: of the core it may know a record, a body, an error or a list of them."""
+    taken = {}
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "tippe_core":
+            module = importlib.import_module(node.module)
+            taken |= {alias.name: getattr(module, alias.name) for alias in node.names}
+        assert not (isinstance(node, ast.Import) and any(alias.name.startswith("tippe_core") for alias in node.names))
+    assert [name for name, what in taken.items() if callable(what) and not isinstance(what, type)] == []
 
 
 # ---- three walks ----

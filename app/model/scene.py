@@ -102,6 +102,11 @@ class Scene:
         """One nutation from t = 0, closed: the Trajectory at SAMPLES_A_NUTATION + 1 equally spaced times."""
         return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION + 1))
 
+    @property
+    def well(self) -> int:
+        """Which of the top's wells it moves in, from the upright one on, as Rolling counts them."""
+        return int(np.abs(turning_points(self.top, self.constants) - self.turning).sum(axis=1).argmin())
+
     @cached_property
     def levels(self) -> list[tuple[Array, Array]]:
         """Motions of the same K_J and K_R at other energies, and one at LEVELS[i] of the marks: [(theta, theta_dot)],

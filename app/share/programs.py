@@ -2,8 +2,6 @@
 
 import numpy as np
 
-from tippe_core import turning_points
-
 
 def python_of_plane(scene):
     """Ten lines of Python whose `lift` and `slip` are Fig. 6's tielines."""
@@ -64,8 +62,7 @@ def _given(scene):
     if scene.rolling.start is state:
         names = ("theta", "theta_dot", "omega2", "omega3", "phi", "psi")
         return f"None, t, start=State({', '.join(f'{name}={float(getattr(state, name))!r}' for name in names)})"
-    wells = turning_points(scene.top, constants)
-    return f"{constants!r}, t, well={int(np.abs(wells - scene.turning).sum(axis=1).argmin())}"
+    return f"{constants!r}, t, well={scene.well}"
 
 
 def python_of_portrait(name):

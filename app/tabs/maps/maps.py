@@ -56,12 +56,15 @@ class Maps:
             pmui.Button(label=say(f"maps.{name}"), disabled=name == "stop", **BUTTON)
             for name in ("stop", "whole", "throw")
         )
-        self.thrown.visible = False
-        self.shows = [pmui.Button(label=say("maps.show_one"), visible=False, **BUTTON) for _ in range(WHY)]
+        shows = [pmui.Button(label=say("maps.show_one"), **BUTTON) for _ in range(WHY)]
+        # rows come and go, not their buttons: a button that changes before its script has come breaks
+        self.thrown_row, *self.show_rows = rows = [flow(button) for button in (self.thrown, *shows)]
+        for row in rows:
+            row.visible = False
         on_click(self.stop, lambda event: self._run and self._run.stop())
         on_click(self.whole, lambda event: self.settings.look_at(*self._usual_spans()))
         on_click(self.thrown, lambda event: self._to_lab(look=True))
-        for i, button in enumerate(self.shows):
+        for i, button in enumerate(shows):
             on_click(button, lambda event, i=i: self.go(*self._found[i].one, cell=True))
         self.python = Copy(label=say("maps.python"), button=listed("share.copy"), rows=6, sizing_mode="stretch_width")
         self.files = [
@@ -81,9 +84,9 @@ class Maps:
                 flow(self.stop, self.whole, self.bar, margin=(4, 0)), self.said, words(note(say("maps.hint"))),
                 self.worst, *self.steady.view,
                 words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)), flow(*self.files), self.python]  # fmt: skip
-        whys = [part for pair in zip(self.whys, self.shows, strict=True) for part in pair]
+        whys = [part for pair in zip(self.whys, self.show_rows, strict=True) for part in pair]
         right = [self.run_says, _figure(self.curve.figure),
-                 words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown,
+                 words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown_row,
                  self.key, *whys, *self.settings.view]  # fmt: skip
         sides = [pn.Column(*parts, margin=0, styles=SIDE | {"flex": flex, "min-width": "0"})
                  for parts, flex in ((left, "3 1 480px"), (right, "1 1 340px"))]  # fmt: skip
@@ -142,7 +145,10 @@ class Maps:
         self.python.text = python(asked)
         self.map.begin(asked)
         self._run = Run(partial(self._work, asked), partial(self._done, asked))
-        self.stop.disabled, self.bar.visible, self.bar.object = False, True, _bar(0)
+        known = recall(asked)
+        self.stop.disabled, self.bar.visible, self.bar.object = known is not None, known is None, _bar(0)
+        if known is not None:
+            self._show(known)
         self._runs.begin(self._run, "maps", MAPS)
         if self.level is None and (first := MAPS.before(self._runs)):
             self.said.object = note(say("maps.waits", count=first))
@@ -197,10 +203,10 @@ class Maps:
             self._show(level)
             self.said.object = ""
             self.worst.object = note(of_worst(level))
-            for i, (why, button) in enumerate(zip(self.whys, self.shows, strict=True)):
+            for i, (why, row) in enumerate(zip(self.whys, self.show_rows, strict=True)):
                 found = self._found[i] if i < len(self._found) else None
                 why.object = of_disagreement(found, asked, first=i == 0)
-                button.visible = found is not None
+                row.visible = found is not None
 
     # ---- one run ----
 
@@ -237,7 +243,7 @@ class Maps:
 
     def _to_lab(self, look):
         start = throw_of(self.asked, *self.choice.place) if self._throw else None
-        self.thrown.visible = start is not None
+        self.thrown_row.visible = start is not None
         if start is not None:
             self._throw(*start, look)
 
