@@ -198,7 +198,7 @@ def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
     """Any page is too much for a bound of 1 MB; before the first one came nobody is replaced."""
 
     async def visit():
-        visitor = await Visitor.enter(server.url)
+        visitor = await Visitor.enter(f"{server.url}?tab=roll")
         answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
         assert answered == "OK" and server.log.count("takes the place") == before
         visitor.leave()
