@@ -82,11 +82,12 @@ browser: .venv/test
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium; } \
 	|| $(BIN)/playwright install chromium
 
-# HAProxy for its test, which skips where there is none.
+# Proxies for the tests of the files in deploy/, which skip where there are none.
 proxy:
-	@command -v haproxy >/dev/null \
-	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq haproxy; } \
-	|| echo "haproxy is not installed: the test of deploy/haproxy.cfg will skip"
+	@for each in haproxy nginx apache2; do \
+	command -v $$each >/dev/null \
+	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq $$each; } \
+	|| echo "$$each is not installed: its test will skip"; done
 
 # Redis for the tests of votes, half of which skip where there is none.
 redis:

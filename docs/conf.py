@@ -20,6 +20,7 @@ myst_heading_anchors = 2
 suppress_warnings = ["myst.xref_missing"]  # a page that is also read in the repository links beyond docs
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
+autodoc_default_options = {"members": True}
 plot_include_source = True
 plot_html_show_source_link = plot_html_show_formats = False
 plot_formats = ["svg"]

@@ -54,7 +54,7 @@ def closed(connection):
 @pytest.mark.slow
 def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
     async def crowded(server):
-        inside = await Visitor.enter(server.url)
+        inside = await Visitor.enter(f"{server.url}?tab=roll")
         connections = await asyncio.to_thread(crowd, server.url, 3 * FEW)
         await asyncio.to_thread(until, lambda: "no more connections for now" in server.log)
         answered, _ = await inside.answer(await inside.set(inside.find("Dial")[0], "asked", [1, 6.5, False]))

@@ -104,7 +104,7 @@ def test_after_the_server_was_lost_the_page_is_as_it_was(page, tmp_path):
 
 def test_a_visitor_who_stops_reading_holds_up_nobody(steady):
     async def stall(url):
-        deaf, other = await Visitor.enter(url), await Visitor.enter(url)
+        deaf, other = [await Visitor.enter(f"{url}?tab=roll") for _ in range(2)]
         for i in range(200):  # and never reads what comes back
             await deaf.set(deaf.find("Dial")[0], "asked", [i, 6 + i / 1000, False])
         answered, _ = await other.answer(await other.set(other.find("Dial")[0], "asked", [1, 6.5, False]))
@@ -215,7 +215,7 @@ def test_the_server_calls_nobody(tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
 
     async def visit(url):
-        visitor = await Visitor.enter(url)
+        visitor = await Visitor.enter(f"{url}?tab=roll")
         answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
         visitor.leave()
         return answered

@@ -183,9 +183,9 @@ def test_beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_say
     visit.page.mouse.click(*visit.pixel("plane", 1.1, 7.5))
     assert until_selected(visit, K_J=7.5, outer=1.1)["worst"] == 2
     visit.page.mouse.move(*visit.pixel("plane", 1.3, 6.0))
-    visit.page.get_by_text("Not by rolling: it would lift off on the way").wait_for()
+    visit.page.get_by_text("It cannot roll here: it would lift off on the way").wait_for()
     visit.page.mouse.move(*visit.pixel("plane", 0.96, 6.0))
-    visit.page.get_by_text("Not by rolling: it would slip on the way").wait_for()
+    visit.page.get_by_text("It cannot roll here: it would slip on the way").wait_for()
 
 
 def test_the_bead_moves_the_clock_and_nothing_else(visit):

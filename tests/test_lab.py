@@ -127,7 +127,7 @@ def test_the_rough_table_grips_and_tells_what_that_takes():
     rough, ordinary = (motion_on(table, *ARRIVAL[1:]) for table in ("rough", "ordinary"))
     assert ordinary.curves[0, 3] == pytest.approx(205, abs=0.5) and rough.curves[0, 3] == pytest.approx(203, abs=0.5)
     assert rough.curves[0, 4] == pytest.approx(ordinary.curves[0, 3] - rough.curves[0, 3], rel=1e-4)
-    assert "did it lose energy: 1.8 of 205 mm" in story(rough).stages[0].why
+    assert "gripped it: 1.8 of 205 mm" in story(rough).stages[0].why
     assert rough.trajectory.jellett[0] == pytest.approx(ordinary.trajectory.jellett[0], rel=1e-7)
     assert story(rough).caption == "Nods between 1° and 6°"
     assert story(motion_on("ice", *ARRIVAL[1:])).caption == "Nods by a tenth of a degree"
@@ -286,16 +286,16 @@ def test_before_somebody_looks_nothing_is_computed(monkeypatch):
 
 
 @pytest.mark.parametrize(("name", "value", "says"), [
-    ("tilt", 185, "Tilt goes from 0° (stem up) to 180° (stem down); 185° is beyond."),
-    ("tilt", float("nan"), "nan is no number. Type one from 0 to 180."),
-    ("spin", " ", "Nothing is no number. Type one from −100 to 100."),
-    ("spin", "fast", "fast is no number. Type one from −100 to 100."),
-    ("spin", 1e9, "Spin goes from −100 to 100 turns a second; 1e+09 is beyond. "
-                  "Less than nothing is the other way round."),
-    ("mu", 0, "Friction goes from 0.01 (nearly ice) to 1.5 (rubber); 0 is beyond."),
-    ("mu", None, "None is no number. Type one from 0.01 to 1.5."),
-    ("toy", "a yo-yo", "a yo-yo is not one of the choices here. Take one of the list."),
-    ("table", [], "[] is not one of the choices here. Take one of the list."),
+    ("tilt", 185, "Tilt goes from 0° (stem up) to 180° (stem down); 185° is out of range."),
+    ("tilt", float("nan"), "nan is not a number. Type a number from 0 to 180."),
+    ("spin", " ", "Nothing is not a number. Type a number from −100 to 100."),
+    ("spin", "fast", "fast is not a number. Type a number from −100 to 100."),
+    ("spin", 1e9, "Spin goes from −100 to 100 turns a second; 1e+09 is out of range. "
+                  "A negative number spins it the other way."),
+    ("mu", 0, "Friction goes from 0.01 (nearly ice) to 1.5 (rubber); 0 is out of range."),
+    ("mu", None, "None is not a number. Type a number from 0.01 to 1.5."),
+    ("toy", "a yo-yo", "a yo-yo is not one of the choices here. Choose one from the list."),
+    ("table", [], "[] is not one of the choices here. Choose one from the list."),
 ])  # fmt: skip
 def test_what_cannot_be_is_told_and_all_else_stays(lab, name, value, says):
     before, motions = lab.inputs, lab.scene.motions

@@ -143,7 +143,7 @@ def test_what_cannot_be_is_said_beside_it_and_the_motion_stays(page):
     page.get_by_text("Old picture").first.wait_for(state="hidden")
     assert entry(page, "Tilt, in degrees").input_value() == "5.7"
     put(page, "Tilt, in degrees", "half")
-    page.get_by_role("alert").filter(has_text="half is no number").wait_for()
+    page.get_by_role("alert").filter(has_text="half is not a number").wait_for()
     put(page, "Tilt, in degrees", "5,73")
     page.get_by_role("alert").filter(has_text="half").wait_for(state="hidden")
 

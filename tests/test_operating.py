@@ -3,9 +3,11 @@
 import asyncio
 import json
 import logging
+import re
 import signal
 import sys
 import threading
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -32,6 +34,11 @@ def ready(server, prefix=""):
     return status, said["why"], sum(said["sessions"].values())
 
 
+def compiled(server):
+    """Waits until its kernels are: until then it is not ready."""
+    until(lambda: "compiling" not in ready(server)[1], 600)
+
+
 def test_a_full_server_lives_but_is_not_ready_with_the_prefix_and_without(tmp_path):
     async def visit():
         visitor = await Visitor.enter(server.url)
@@ -40,6 +47,7 @@ def test_a_full_server_lives_but_is_not_ready_with_the_prefix_and_without(tmp_pa
         visitor.leave()
 
     with served(tmp_path / "log", prefix="/tops", sessions=1, linger=3600) as server:
+        compiled(server)
         assert ready(server) == ready(server, "/tops") == (200, [], 0)
         run(visit())
         until(lambda: ready(server)[0] == 200)  # its session is kept, but makes room
@@ -148,6 +156,7 @@ def test_at_sigterm_no_page_is_let_in_and_those_that_are_open_are_told(tmp_path)
         await asyncio.gather(*map(until_told, inside))
 
     with served(tmp_path / "log", drain=60) as server:
+        compiled(server)
         run(drained())
         assert server.process.wait(60) == 0
         assert "4 open pages" in server.log and "Traceback" not in server.log
@@ -189,7 +198,7 @@ def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
     """Any page is too much for a bound of 1 MB; before the first one came nobody is replaced."""
 
     async def visit():
-        visitor = await Visitor.enter(server.url)
+        visitor = await Visitor.enter(f"{server.url}?tab=roll")
         answered, _ = await visitor.answer(await visitor.set(visitor.find("Dial")[0], "asked", [1, 6.5, False]))
         assert answered == "OK" and server.log.count("takes the place") == before
         visitor.leave()
@@ -232,6 +241,18 @@ def test_a_server_writes_json_and_no_addresses_where_that_is_asked_for(tmp_path)
         lines = [json.loads(line) for line in server.log.splitlines()]
         assert {"time", "level", "process", "message"} <= lines[0].keys()
         assert "404 GET /app/nowhere (-)" in [line["message"] for line in lines] and "127.0.0.1" not in server.log
+
+
+def test_the_unit_of_systemd_sets_what_there_is_and_waits_long_enough():
+    unit = (Path(__file__).parent.parent / "deploy/tippe.service").read_text(encoding="utf-8")
+    [command] = re.findall(r"(?m)^ExecStart=\S+ -m app (.*)$", unit)
+    variables = dict(
+        each.split("=", 1) for line in re.findall(r"(?m)^Environment=(.*)$", unit) for each in line.split()
+    )
+    known = {name: value for name, value in variables.items() if name.startswith("TIPPE_")}
+    settings = Settings.of(known, command.split())
+    assert (settings.prefix, settings.proxy, settings.workers, settings.memory) == ("/tops", 1, 2, 800)
+    assert int(re.findall(r"TimeoutStopSec=(\d+)", unit)[0]) >= settings.drain + ending.GRACE
 
 
 def test_metrics_need_their_package(monkeypatch):

@@ -137,6 +137,7 @@ def test_the_wheel_in_an_empty_environment_starts_from_any_directory_and_a_visit
     elsewhere.mkdir()
     alone = ["env", "-u", "PYTHONPATH", "NUMBA_DISABLE_JIT=1", f"PATH={folder}", folder / "tippe-top"]
     with serving(alone, tmp_path / "log", elsewhere) as server:
+        assert server.process.poll() is None, server.log
         assert run(Visitor.enter(server.url)).component("LabView")
         assert "Traceback" not in server.log
     assert [*elsewhere.iterdir()] == []

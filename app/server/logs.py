@@ -55,6 +55,7 @@ def begin(settings):
     """From now on all is written so, to stdout."""
     sys.stdout.reconfigure(errors="backslashreplace")  # half a character, sent by somebody, is no reason not to log
     logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True)
+    logging.captureWarnings(True)
     [handler] = logging.getLogger().handlers
     handler.setFormatter(Line(settings.log_format == "json", settings.log_addresses))
     logging.getLogger("tippe").setLevel(settings.log.upper())
