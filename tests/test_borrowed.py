@@ -90,7 +90,7 @@ def test_no_other_module_borrows(path):
 def test_the_test_finds_what_is_borrowed():
     assert foreign(Path(borrowed.__file__)) >= {"_executor", "_freeze_count", "_pop_freeze", "_dispatch_msgs",
         "_WRITE_BLOCK", "_wrap_document_callback", "_priority_changes", "_busy__ignore", "_render_esm",
-        "_allows_none", "_send_msg"}  # fmt: skip
+        "_send_msg"}  # fmt: skip
 
 
 # --- of a server

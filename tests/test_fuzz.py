@@ -16,6 +16,7 @@ import pytest
 import visitors
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
+from visiting import of_roll
 from wire import Closed, Visitor, megabytes, run, served
 
 import app.page  # noqa: F401  (all components)
@@ -104,7 +105,7 @@ def content(draw, visitor):
 
 async def fuzz(url, messages, seed=1):
     """Sends so many; returns all the sentences that came back."""
-    draw, said, visitor = random.Random(seed), set(), await Visitor.enter(url)
+    draw, said, visitor = random.Random(seed), set(), await Visitor.enter(of_roll(url))
     for _ in range(messages):
         kind, body = content(draw, visitor)
         try:
@@ -124,7 +125,7 @@ async def fuzz(url, messages, seed=1):
 
 async def among(url, messages):
     """The fuzzer beside a visitor who moves one slider; returns what the fuzzer was told."""
-    innocent = await Visitor.enter(url)
+    innocent = await Visitor.enter(of_roll(url))
     slider = innocent.find("Dial")[0]
     said = await fuzz(url, messages)
     answered, _ = await innocent.answer(await innocent.set(slider, "asked", [1, 6.5, False]))
@@ -170,7 +171,7 @@ def test_pieces_that_are_no_message(piece, attacked):
 
 def test_a_message_of_100_MB_is_not_read(attacked):
     async def send(url):
-        visitor, innocent = await Visitor.enter(url, pull=False), await Visitor.enter(url)
+        visitor, innocent = await Visitor.enter(url, pull=False), await Visitor.enter(of_roll(url))
         before = megabytes(attacked.process.pid)
         with suppress(WebSocketClosedError, StreamClosedError):
             await visitor.socket.write_message(b"x" * 100_000_000, binary=True)

@@ -10,7 +10,7 @@ import pytest
 import visitors
 from bokeh.core.serialization import Serialized
 from bokeh.model import DataModel
-from visiting import Visit, go_to
+from visiting import Visit, go_to, of_roll
 from wire import Visitor, event, megabytes, run, served
 
 from app.model.builder import LARGEST_FILE
@@ -45,7 +45,7 @@ def chunk(**more):
 
 async def opened(url):
     """A Visitor with the builder's tab open, who reads what he asks for only."""
-    visitor = await Visitor.enter(url)
+    visitor = await Visitor.enter(of_roll(url))
     await visitor.ready()
     await visitor.set(visitor.find("Head")[0], "asked", [1, "room", "build-a-top"])
     while visitor.component("TopFile") is None:
@@ -72,7 +72,7 @@ def test_a_message_that_names_a_gigabyte_reserves_none_and_the_next_good_file_is
         yield {"kind": "ModelChanged", "model": {"id": dial}, "attr": "asked", "new": many}
 
     async def throw():
-        visitor, innocent = await opened(server.url), await Visitor.enter(server.url)
+        visitor, innocent = await opened(server.url), await Visitor.enter(of_roll(server.url))
         before = most_megabytes(server.process.pid)
         for bomb in bombs(visitor):
             kind, content = await said(visitor, bomb)
