@@ -25,8 +25,8 @@ class Preset:
 PRESETS = (
     Preset(
         "The paper's tippe top", TruncatedSphere.paper(),
-        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7: a = 0.070, I1 = 0.399, I3 = 0.408 "
-        "(Top.paper()), in the body whose lengths are given there.", Top.paper()),
+        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7: a = 0.070, I1 = 0.399, I3 = 0.408, "
+        "in the body whose lengths are given there.", Top.paper()),
     Preset(
         "Top S", BareSphere(R=0.02, M=0.02, a=0.3, I1=131 / 350, I3=2 / 5),
         "Simulations of the tippe top by Rauch-Wojciechowski and Rutstam (N. Rutstam, arXiv:1306.2470), with "
