@@ -61,7 +61,7 @@ def watched(page, language="en"):
     bar = page.get_by_role("slider", name=say("learn.view.time", language), exact=True)
     bar.focus()
     bar.press("End")
-    page.locator(".told .big").wait_for()
+    page.locator(".side .told .big").wait_for()
 
 
 def test_the_derivation_is_live(browser, server):
@@ -104,11 +104,11 @@ def test_a_walk_through_the_lesson(browser, server, language, width):
         words = listed(f"learn.{step.name}.options", language)
         guess = next(key for key in step.asks.options if key != answer.truth) if place % 2 else answer.truth
         page.get_by_role("radio", name=words[guess]).check(force=True)
-        assert page.locator(".told .big").count() == 0
+        assert page.locator(".side .told .big").count() == 0
         watched(page, language)
         verdict = say(f"learn.view.{'right' if guess == answer.truth else 'off'}", language)
-        assert page.locator(".told .big").inner_text() == verdict
-        found = plain_text(page.locator(".told").inner_text())
+        assert page.locator(".side .told .big").inner_text() == verdict
+        found = plain_text(page.locator(".side .told").inner_text())
         for part in told(step, language) if step.name != "yours" else []:
             assert part in found
         if width < 600:
@@ -118,7 +118,7 @@ def test_a_walk_through_the_lesson(browser, server, language, width):
         if step is not lesson.LESSON[-1]:
             page.get_by_role("button", name=say("learn.view.next", language)).click()
     crumbs.nth(1).click()
-    page.locator(".told .big").get_by_text(say("learn.view.off", language)).wait_for()
+    page.locator(".side .told .big").get_by_text(say("learn.view.off", language)).wait_for()
     page.wait_for_function("location.search.includes('step=way')")
     closed(visit)
 
@@ -135,7 +135,7 @@ def test_what_is_for_theorists(browser, server, name):
         assert page.get_by_role("button", name=say("learn.view.watch")).is_disabled()
         slider.press("PageUp")
     watched(page)
-    found = plain_text(page.locator(".told").inner_text())
+    found = plain_text(page.locator(".side .told").inner_text())
     for part in told(step, "en"):
         assert part in found
     closed(visit)

@@ -25,12 +25,12 @@ class Preset:
 PRESETS = (
     Preset(
         "The paper's tippe top", TruncatedSphere.paper(),
-        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7: a = 0.070, I1 = 0.399, I3 = 0.408 "
-        "(Top.paper()), in the body whose lengths are given there.", Top.paper()),
+        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7: a = 0.070, I1 = 0.399, I3 = 0.408, "
+        "in the body whose lengths are given there.", Top.paper()),
     Preset(
         "Top S", BareSphere(R=0.02, M=0.02, a=0.3, I1=131 / 350, I3=2 / 5),
         "Simulations of the tippe top by Rauch-Wojciechowski and Rutstam (N. Rutstam, arXiv:1306.2470), with "
-        "g = 9.82 m/s^2. A sphere whose inside is not told; the bracket of (26) is 0."),
+        "g = 9.82 m/s². A sphere whose inside is not told; the bracket of (26) is 0."),
     Preset(
         "Loaded sphere", LoadedSphere(R=0.02, b=0.008, d=0.010, density=1190.0, core_density=7850.0),
         "The form of the paper's Fig. 2; dimensions our own: an acrylic ball 40 mm across with a steel ball of 16 mm."),

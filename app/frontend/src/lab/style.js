@@ -10,7 +10,7 @@ const tokens = `
   --end-0: #f6f1e6; --end-1: #e8dcc2; --end-2: #cdb88f; --end-3: #80632f; --shape: #55606c;
   container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
   -webkit-font-smoothing: antialiased; }
-.frame[data-look=dark] { --ground: #11161b; --floor: #191f25; --ink: #eef2f5; --ink-2: #a9b4bf; --line: #2d363f; --line-2: #75818d;
+.frame[data-look=dark] { --ground: #0e1318; --floor: #191f25; --ink: #eef2f5; --ink-2: #a9b4bf; --line: #2d363f; --line-2: #75818d;
   --accent: #86b6ff; --q-spin: ${onDark.omega}; --q-energy: ${onDark.energy}; --q-energy-wash: ${onDark.energy_wash};
   --end-0: #262219; --end-1: #4a402c; --end-2: #7a6a47; --end-3: #c9ad74; --shape: #a9b4bf; color-scheme: dark; }
 .frame[data-large] { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --bar: 176px; }
@@ -73,7 +73,7 @@ const places = `
 @container (max-width: 900px) { .lab { --side: 300px; } }
 @container (max-width: 700px) {
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
-  .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: 0; z-index: 2; }
+  .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; }
   .strip, .say, .answer, .keeps { padding: 8px 16px 0; }
   .controls { position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }

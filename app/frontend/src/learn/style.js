@@ -2,7 +2,8 @@
 import { shared } from "../lab/style.js";
 
 const places = `
-.lesson { display: grid; gap: 10px 24px; padding: 10px 24px 8px; --side: 520px; --stage: clamp(300px, 100vh - 430px, 62cqw);
+.frame { --head: calc(48px * var(--type, 1)); scroll-margin-top: var(--head); }
+.lesson { display: grid; gap: 10px 24px; padding: 10px 24px 8px; --side: 520px; --stage: clamp(300px, 100vh - 380px, 62cqw);
   grid-template: "crumbs crumbs" auto "question question" auto "stage right" var(--stage) "bar right" auto "more more" auto / minmax(0, 1fr) var(--side); align-content: start; }
 .right { grid-area: right; display: flex; flex-direction: column; gap: 12px; min-width: 0; }
 .crumbs { grid-area: crumbs; list-style: none; display: flex; flex-wrap: wrap; gap: 0 16px; margin: 0; padding: 0; }
@@ -74,7 +75,7 @@ const present = `
 .dots i { display: inline-block; width: 12px; height: 12px; border-radius: 6px; margin-right: 8px; box-shadow: inset 0 0 0 1.5px var(--line-2); } .dots .here { width: 32px; background: var(--accent); box-shadow: none; }
 .lesson[data-role=phone] { display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; --stage: 280px; } .lesson[data-role=phone] > :is(.crumbs, .more, .bar) { display: none; } .lesson[data-role=phone] :is(.dock, .picture) { display: none; } .lesson[data-role=phone] .right { display: contents; }
 .lesson[data-role=phone] .stage { order: 1; height: var(--stage); flex: none; } .lesson[data-role=phone] :is(.phone-head, .phone-foot) { display: flex; align-items: center; gap: 12px; padding: 8px 16px; }
-.lesson[data-role=phone] .phone-head { order: 0; } .lesson[data-role=phone] .question { order: 2; font-size: 20px; padding: 0 16px; } .lesson[data-role=phone] .side { order: 3; padding: 0 16px; }
+.lesson[data-role=phone] .phone-head { order: 0; } .lesson[data-role=phone] .question { order: 2; font-size: 20px; padding: 0 16px; } .lesson[data-role=phone] .side { display: flex; order: 3; padding: 0 16px; } .lesson[data-role=phone] .side > * { padding: 0; }
 .lesson[data-role=phone] .phone-foot { order: 4; flex-direction: column; align-items: stretch; } .phone-foot a { color: var(--accent); } .phone-head .round { margin-left: auto; width: 44px; height: 44px; font-size: 20px; }
 .lesson.empty > :is(.stage, .side, .question) { display: none !important; }
 `;
@@ -83,12 +84,13 @@ const small = `
 @container (min-width: 1500px) { .lesson { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 640px; font-size: var(--t-m); } .question { font-size: 38px; } .picture { max-height: 420px; } }
 @container (max-width: 1180px) { .lesson { --side: 400px; gap: 10px 16px; padding: 8px 16px; } .question { font-size: 24px; } }
 @container (max-width: 700px) {
-  .lesson { --touch: 44px; --stage: 236px; display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; }
-  .right { display: contents; } .lesson > :not(.stage), .side, .picture { padding: 0 16px; } .crumbs { justify-content: flex-end; gap: 0 4px; padding: 4px 12px !important; } .crumbs span { display: none; } .crumbs button { min-height: 40px; min-width: 32px; justify-content: center; }
-  .stage { order: 1; height: var(--stage) !important; flex: none; border-radius: 0; position: sticky !important; top: 0 !important; z-index: 2; } .crumbs { order: 0; }
+  .lesson { --touch: 44px; --stage: 236px; display: flex; flex-direction: column; gap: 8px; padding: 0 0 8px; }
+  .right, .side { display: contents; } .lesson > :not(.stage), .side > *, .picture { padding: 0 16px; } .crumbs { justify-content: flex-end; gap: 0 4px; padding: 4px 12px !important; } .crumbs span { display: none; } .crumbs button { min-height: 40px; min-width: 32px; justify-content: center; }
+  .stage { order: 1; height: var(--stage) !important; flex: none; border-radius: 0; position: sticky !important; top: var(--head) !important; z-index: 2; } .crumbs { order: 0; }
   .bar { order: 2; position: relative; grid-template-columns: minmax(0, 1fr); } .bar .plot { height: 88px; } .bar .round { position: absolute; right: 12px; top: -60px; z-index: 3; }
-  .picture { order: 3; flex: none; } .picture .plot { flex: none; height: 132px; min-height: 0; } .question { order: 4; font-size: 20px; } .side { order: 5; } .more { order: 6; }
-  .dock { position: fixed; left: 0; right: 0; bottom: 0; z-index: 5; background: var(--ground); border-top: 1px solid var(--line); padding: 8px 16px; } .primary { min-height: 44px; }
+  .picture { order: 6; flex: none; } .picture .plot { flex: none; height: 132px; min-height: 0; } .question { order: 3; font-size: 20px; } .side > * { order: 4; } .side > .dock { order: 8; } .more { order: 7; }
+  .side :is(input, button) { scroll-margin: calc(var(--head) + var(--stage) + 16px) 0 84px; }
+  .side > .dock { position: sticky; bottom: 0; z-index: 5; background: var(--ground); border-top: 1px solid var(--line); padding: 8px 16px; } .primary { min-height: 44px; }
   .caption { bottom: 4px; font-size: var(--t-s); padding: 0 4px; } .bar .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
 }
 `;

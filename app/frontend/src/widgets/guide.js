@@ -36,7 +36,7 @@ function speak(model, signal) {
   // A live region is only heard where it was before its words came.
   live.setAttribute("role", "status");
   live.setAttribute("aria-label", texts.now);
-  live.style.cssText = "position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap";
+  live.style.cssText = "position: absolute; top: 0; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap";
   (find("[role=main], main") ?? document.body).append(live);
   let later, playing;
   const say = (words) => {
