@@ -134,7 +134,7 @@ def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromiu
         assert page.get_by_role("tab", name="Maps").get_attribute("aria-selected") == "true"
         go.touch()
         page.get_by_role("button", name="Compute the map").wait_for()
-        page.locator("svg[aria-label*='Top S']").first.wait_for()
+        page.locator("svg[aria-label^='Figure 6: ']").first.wait_for()
         until(lambda: "WORKS" in server.log)
         assert "ENDED" not in server.log
         page.goto("about:blank")
