@@ -31,13 +31,21 @@ FILE = Path(__file__).parent / "data" / "links.json"
 
 
 def known():
-    """{link: what it opened}; a step of the ten that there were opens what tells it now."""
-    found = json.loads(FILE.read_text(encoding="utf-8"))
+    """{link: what it opened}; a step of the ten that there were opens what tells it now, by the name it has now."""
+    found = kept_links()
     for what in found.values():
         step = what["settings"].get("step")
-        if step:
-            what["settings"]["step"] = lesson.BEFORE.get(step, step)
+        if step in lesson.BEFORE:
+            what["settings"]["step"] = now = lesson.BEFORE[step]
+            what["address"] = what["address"].replace(f"step={step}", f"step={now}")
+        if "law" in what["settings"]:
+            what["settings"].setdefault("patch", 0.5)  # mm; there was none of a real contact when the first were kept
     return found
+
+
+def kept_links():
+    """{link: what it opened}, as it was written."""
+    return json.loads(FILE.read_text(encoding="utf-8"))
 
 
 @contextmanager
@@ -77,7 +85,7 @@ def opened(link):
             "turns": [float(theta) for theta in scene.turning],
             "wrong": sorted(scene.messages),
             "address": "" if keep.query == ROLL else keep.query,
-            "said": keep.sentence.replace("lab, ", ""),  # of the tabs there are
+            "said": keep.sentence.replace("lab, ", "").replace("a class, as", "a vote, as"),  # by their names then
         }  # fmt: skip
 
 
@@ -87,7 +95,7 @@ def plain(codec, value):
 
 
 def main(links):
-    found = known() if FILE.exists() else {}
+    found = kept_links()
     found |= {link: opened(link) for link in links if link not in found}
     lines = (f"{json.dumps(link)}: {json.dumps(what, ensure_ascii=False)}" for link, what in found.items())
     FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")

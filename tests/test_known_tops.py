@@ -53,6 +53,19 @@ def test_a_click_shows_a_top_large_and_changes_nothing_else(view):
     assert view.map.state["chosen"] == "Loaded sphere"
 
 
+def test_a_known_top_that_the_page_comes_to_is_looked_at_and_else_what_was_clicked_stays(view):
+    scene = Explorer().scene
+    top_s = Explorer(a=0.3, I1=PRESET_OF["Top S"].top.I1, I3=PRESET_OF["Top S"].top.I3).scene
+    view.show(top_s)
+    assert view.map.state["chosen"] == "Top S" and "Top S" in view.head.object
+    view.map.picked = [1, "Loaded sphere"]
+    for shown in (top_s, Explorer(a=0.2, I3=0.399 / 1.1).scene):
+        view.show(shown)
+        assert view.map.state["chosen"] == "Loaded sphere"
+    view.show(scene)
+    assert view.map.state["chosen"] == known_of(scene).name
+
+
 def test_the_ring_is_the_pages_top_and_asks_for_another(view):
     here = view.map.state["here"]
     assert here["a"] == 0.07 and here["ratio"] == pytest.approx(0.399 / 0.408) and here["outline"] is None

@@ -252,7 +252,7 @@ def test_true_stick_holds_it_and_the_page_says_when_and_that_it_rises_no_more(us
     since = moved.t[moved.regime == "roll"][0] * picture.settings.scales.time
     assert 0.03 < since < 0.07 and moved.theta[moved.regime == "roll"].max() < np.radians(5.2)
     told = float(re.search(r"True stick has held it since ([\d.]+) s", said)[1])
-    assert told == pytest.approx(since, abs=0.008) and "never rises beyond" in said
+    assert told == pytest.approx(since, abs=0.008) and "never rises further" in said
 
 
 def test_of_a_rolling_top_all_of_its_nutation_is_told(usual):

@@ -31,6 +31,8 @@ def page(server, chromium):
     page.set_default_timeout(PATIENCE)
     go_to(page, "Three planes")
     choose(page, "spin, tilt and slip")
+    page.get_by_text(re.compile("Friction in force: friction of a real contact")).wait_for()
+    choose(page, "smoothed")
     page.wait_for_function(f"{TOPS}.some(top => top.count > 0 && top.pictures > 2)")
     yield page
     page.close()

@@ -62,8 +62,9 @@ class Tops:
         return [self.head, flow(self.use, self.change), self.figures]
 
     def show(self, scene):
-        self._scene = scene
-        self._put()
+        """A known top that the page has come to is looked at; of another the one that was."""
+        before, known, self._scene = known_of(self._scene), known_of(scene), scene
+        self._look(known) if known and known is not before else self._put()
 
     def _picked(self, event):
         _, name = asked.parts(event.new, asked.number, asked.text)
