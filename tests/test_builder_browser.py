@@ -53,11 +53,11 @@ def bench(server, chromium):
 
 def choose(visit, preset):
     """Picks a preset and waits until its numbers stand there."""
-    visit.page.get_by_role("combobox").nth(0).click()
-    visit.page.get_by_role("option", name=preset.name, exact=True).click()
+    visit.page.get_by_role("combobox", name="Presets").click()
+    visit.page.get_by_role("listbox").get_by_role("option", name=preset.name, exact=True).click()
     shape = preset.shape
     for text in (f"= {shape.top.a:.4f}".replace("-", "−"), f"= {shape.top.I1:.4f}", f"{1e3 * shape.mass:.4g} g"):
-        visit.page.get_by_text(text).first.wait_for()
+        visit.page.get_by_text(text).locator("visible=true").first.wait_for()
     visit.page.get_by_text(preset.source[:50]).wait_for()
     visit.page.wait_for_function(f"z => Math.abs(({SECTION})('z') - z) < 0.1", arg=1e3 * shape.profile(96)[:, 1].max())
 
@@ -103,7 +103,7 @@ def test_a_dragged_handle_changes_number_section_and_the_top_in_3d(bench):
     top = load_top(download(bench, "Save this top"))
     assert top.l == pytest.approx(0.012, abs=5e-4)
     assert bench.page.evaluate(SECTION, "z") == pytest.approx(1e3 * (top.c + top.l), abs=1e-9)
-    bench.page.get_by_text(f"= {top.top.a:.4f}").first.wait_for()
+    bench.page.get_by_text(f"= {top.top.a:.4f}").locator("visible=true").first.wait_for()
     # the field beside the slider, and the body in 3-D
     fields = [field.input_value() for field in bench.page.locator("input[type=text]").all()]
     assert f"{1e3 * top.l:.6g}" in fields
@@ -114,7 +114,7 @@ def test_a_changed_top_is_no_preset_and_the_preset_can_be_chosen_again(bench):
     choose(bench, PRESETS[1])
     choose(bench, PRESETS[0])
     drag(bench, (0, 27.4), (0, 20.2), rest=500)
-    bench.page.get_by_role("combobox").nth(0).filter(has_text="none of these").wait_for()
+    bench.page.get_by_role("combobox", name="Presets").filter(has_text="none of these").wait_for()
     choose(bench, PRESETS[0])
     assert download(bench, "Save this top").decode() == save_top(TruncatedSphere.paper())
 
@@ -132,7 +132,8 @@ def test_a_top_is_saved_and_loaded_back_and_a_bad_file_changes_nothing(bench):
     bench.page.get_by_text("JSON").wait_for()
     assert download(bench, "Save this top").decode() == save_top(TruncatedSphere.paper())
     load(bench, text)
-    bench.page.get_by_text(f"= {PRESETS[4].shape.top.a:.4f}".replace("-", "−")).first.wait_for()
+    number = f"= {PRESETS[4].shape.top.a:.4f}".replace("-", "−")
+    bench.page.get_by_text(number).locator("visible=true").first.wait_for()
     assert download(bench, "Save this top").decode() == text
 
 

@@ -107,7 +107,7 @@ def test_a_tab_that_cannot_be_made_says_so_costs_nothing_and_can_be_opened_again
     with broken(IN_MAKER + IN_HOOKS + IN_PANEL, tmp_path) as server:
         visit = Visit(page, server.url)
         before = page.evaluate(URLS)
-        alert = page.get_by_role("alert").filter(has_text="could not be made")
+        alert = page.get_by_role("alert").filter(has_text="could not be loaded")
         for _ in FAILURES:
             go_to(page, "Families")
             alert.wait_for()
@@ -129,7 +129,7 @@ def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromiu
     with broken(SLOW.replace("GO", repr(str(go))), tmp_path) as server:
         Visit(page, server.url)
         go_to(page, "Families")
-        page.get_by_text("This tab is being made").locator("visible=true").wait_for()  # with the server at a standstill
+        page.get_by_text("This tab is loading").locator("visible=true").wait_for()  # with the server at a standstill
         assert not page.locator("[data-figure=plane]").first.is_visible()
         assert page.get_by_role("tab", name="Maps").get_attribute("aria-selected") == "true"
         go.touch()
