@@ -58,7 +58,7 @@ def page():
                   room.level(texts, search))  # fmt: skip
     rooms.param.watch(lambda event: house.start.moved(event.old, event.new), "room")
     choices = Choices(rooms, house, tongue, share)
-    head = HeadBar(rooms, keep, look, choices.does)
+    head = HeadBar(rooms, keep, look, choices.does, room.USUAL)
     choices.shown_in(head)
     rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
     guide.tour = rooms.room == room.USUAL

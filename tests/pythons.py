@@ -23,6 +23,11 @@ ROOT = Path(__file__).parent.parent
 FIRST, LAST = 11, 14  # of Python 3; of these it is said where there is none
 SHOWN = ("panel", "bokeh", "param", "panel-material-ui", "numpy", "scipy", "tornado", "matplotlib", "segno", "numba")
 VISITORS = 4
+# Whether a room does, alone, where it was said that it is being made.
+STANDS = """([place, waits]) => {
+    const [doc] = Bokeh.documents, {children} = doc.get_model_by_name(place)
+    return children.length == 1 && children[0].id != waits && doc.is_idle
+}"""
 
 
 def pythons():
@@ -64,12 +69,11 @@ def look(url, browser):
     page = browser.new_page(viewport={"width": 1400, "height": 900})
     try:
         visit = Visit(page, url)
-        rooms = ("Three planes", "Build a top", "Families", "Learn", "Measure")
-        for room in rooms:
-            known = page.evaluate("Bokeh.documents[0]._all_models.size")
+        rooms = ("Three planes", "Build a top", "Families", "Learn", "Lab", "Maps", "Measure")  # visit is at Roll
+        for room, name in zip(rooms, visitors.ROOMS, strict=True):
+            waits = page.evaluate("n => Bokeh.documents[0].get_model_by_name(n).children[0].id", f"place of {name}")
             go_to(page, room)
-            page.wait_for_function("n => Bokeh.documents[0]._all_models.size > n && Bokeh.documents[0].is_idle",
-                                   arg=known + visitors.A_ROOM, timeout=PATIENCE)  # fmt: skip
+            page.wait_for_function(STANDS, arg=[f"place of {name}", waits], timeout=PATIENCE)
         print(f"    Chromium: {len(rooms)} rooms opened, {len(visit.errors)} errors in the page", *visit.errors)
         return not visit.errors
     except Exception as error:

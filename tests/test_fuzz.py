@@ -207,6 +207,7 @@ async def each_attribute(url):
     name, one of them. Then good ones, which are taken. Returns how many were sent."""
     page, count = await visitors.come(url), 0
     await visitors.open_rooms(page)
+    await page.until(lambda: page.visitor.find("Surface3D"))  # Roll makes it when the page has come
     visitor = await Visitor.enter(url, page.visitor.token, pull=False)  # one more socket of the same session
     components = {}
     for id, (name, _) in page.visitor.models.items():

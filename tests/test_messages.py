@@ -152,6 +152,8 @@ def look(*events, models, buffers=()):
     ("Select1", "value", ["a", None], ["c", 1, ["a"], {}]),
     ("TextInput1", "value", ["", "x" * 20], ["x" * 21, 7, None]),
     ("FloatSlider1", "value", [0, 0.5, 1], [1.1, -1, True, "0.5", None, float("nan"), 10**400]),
+    ("RangeSlider1", "value", [[0, 0.5], [0, 1]], [0.5, [0.5], [0, 1.1], [0, "1"], [0, 0.5, 1], None]),
+    ("CheckBoxGroup1", "value", [[], ["a"], ["b", "a"]], ["a", ["c"], [1], [["a"]], None]),
     ("Top3D1", "tilted", [[], [1.5, 0.1, 3]], [[1.5], [9, 0, 0], [1.5, "0", 0], [1.5, 0, -1], {}]),
     ("Surface3D1", "hand", [[], ["end", 0.5, 7]], [["a", 0.5, 7], ["end", True, 7], [0.5, 7]]),
     ("New1", "anything", [None, 7, "x", [1, [2]], {"type": "map", "entries": [["a", 1]]}],

@@ -101,8 +101,7 @@ def test_the_tour_covers_nothing_it_shows_and_can_be_skipped(sized):
     page.get_by_role("button", name="Take the tour").click()
     page.get_by_role("button", name="Skip").click()
     page.locator(".stop").wait_for(state="hidden")
-    if page.viewport_size["width"] < 900:  # the controls are there for who asks
-        page.get_by_role("button", name="Show the controls").click()
+    if page.viewport_size["width"] < 900:  # the controls stand under the pictures
         page.get_by_role("slider", name="Jellett’s constant").click()
 
 
@@ -119,6 +118,7 @@ def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_chang
     inertia.fill("viel")
     inertia.press("Enter")
     page.get_by_text("„viel“ ist keine Zahl.").wait_for()
+    page.get_by_role("button", name="Mehr").click()
     page.get_by_role("button", name="Rundgang").click()
     said = []
     for i in range(1, 6):
@@ -136,7 +136,8 @@ def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_chang
     long = [words for words in english if len(words) > 11]
     assert [words for words in long if any(words in each for each in said)] == []
     page.keyboard.press("Escape")
-    page.get_by_role("button", name="English").click()
+    page.get_by_role("button", name="Mehr").click()
+    page.get_by_role("radio", name="English").click()
     page.wait_for_function("document.documentElement.lang == 'en' && window.__tippe?.top3d?.pictures > 0")
     assert page.url.endswith("?v=1&KJ=6.99&lang=en")
     assert page.get_by_role("slider", name="Jellett’s constant").input_value() == "6.99"

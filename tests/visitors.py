@@ -13,8 +13,8 @@ from visiting import of_roll
 from wire import Page, Visitor, run
 
 MOVES = 12  # of each visitor's slider
-ROOMS = ("three-planes", "build-a-top", "families", "learn")  # beside Roll, where a visitor comes
-A_ROOM = 20  # each brings so many models and more
+ROOMS = ("three-planes", "build-a-top", "families", "learn", "lab", "maps", "measure")
+"""Beside Roll, where a visitor comes, as an address names them."""
 PATIENCE = 300  # s
 
 
@@ -34,12 +34,18 @@ async def stay(page, K_J):
 
 
 async def open_rooms(page):
-    """Each room after the other, until it is there."""
-    known = page.visitor.models
+    """Each room after the other, until it stands where it was said that it is being made."""
+
+    def stands(place):
+        """The ids of what does: of the room alone, or of a sentence."""
+        return [child["id"] for child in page.now(place, "children")]
+
     for room in ROOMS:
-        before = len(known)
+        [place] = [id for id in page.visitor.find("panel.models.layout.Column", "name")
+                   if page.now(id, "name") == f"place of {room}"]  # fmt: skip
+        [waits] = stands(place)
         await page.head("room", room)
-        await page.until(lambda before=before: len(known) > before + A_ROOM)
+        await page.until(lambda place=place, waits=waits: len(stands(place)) == 1 and stands(place) != [waits])
 
 
 async def visit(url, count):

@@ -19,15 +19,16 @@ class Head(Bundled):
 
 
 class HeadBar:
-    """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look.
+    """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look; toured: the room that
+    the tour shows.
 
     does: {name: function of a value} for what else is asked: "toy", "table", "share", "language".
     """
 
     SWITCHES = ("dark", "large")
 
-    def __init__(self, rooms, keep, look, does):
-        self._rooms, self._keep, self._look, self._answered = rooms, keep, look, 0
+    def __init__(self, rooms, keep, look, does, toured=""):
+        self._rooms, self._keep, self._look, self._toured, self._answered = rooms, keep, look, toured, 0
         self._toy, self._toys, self._table, self._tables = "", [], "", []
         steps = {"undo": lambda value: keep.undo(), "redo": lambda value: keep.redo()}
         switches = {name: lambda value, name=name: setattr(look, name, bool(value)) for name in self.SWITCHES}
@@ -71,7 +72,7 @@ class HeadBar:
         rooms, keep = self._rooms, self._keep
         names, here = listed("main.rooms"), () if self._tables else rooms.tabs[rooms.tab][rooms.level]
         self.view.state = {
-            "room": rooms.room, "tab": rooms.tab, "level": rooms.level,
+            "room": rooms.room, "tour": rooms.room == self._toured, "tab": rooms.tab, "level": rooms.level,
             "tabs": [[tab, say(f"main.tabs.{tab}"), rooms.first(tab)] for tab in rooms.tabs],
             # what the other level of this tab shows
             "levels": [[level, say(f"main.levels.{level}"),

@@ -130,6 +130,7 @@ class Head {
     for (const levels of this.levels) levels.show(state.levels, state.level);
     this.below.hidden = !state.rooms.length;
     if (state.rooms.length) this.rooms.show(state.rooms, state.chosen);
+    this.tour.hidden = !state.tour;
     this.languages.show(state.languages, state.language);
     for (const { name, box } of this.switches) box.checked = state[name];
     for (const [undo, redo] of this.steps) [undo.disabled, redo.disabled] = [!state.undo, !state.redo];

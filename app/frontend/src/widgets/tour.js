@@ -8,7 +8,7 @@ const STOPS = [
   "input[data-input=K_J]",
   "[data-figure=plane]",
   "[data-picture=surface] canvas",
-  "[role=tab]:nth-of-type(3)",
+  "[role=tablist]",
 ];
 const PLACED_MS = 200; // the page goes on being laid out
 const GAP = 14; // px
