@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from bokeh.document import Document
 from bokeh.embed import file_html
 from bokeh.models import HoverTool
 from bokeh.plotting import figure
@@ -51,10 +52,13 @@ def test_docs_list_all_that_is_borrowed():
 
 
 def drawn():
-    """A figure of 400 x 300 px about x from 0 to 10 and y from -1 to 1."""
+    """A document with a figure of 400 x 300 px about x from 0 to 10 and y from -1 to 1. One of its own: else Bokeh
+    looks into the current one, which an earlier test may have ended."""
     fig = figure(width=400, height=300, x_range=(0, 10), y_range=(-1, 1), tools=[HoverTool()], toolbar_location=None)
     fig.line([0, 10], [0, 0], line_width=20)
-    return fig
+    document = Document()
+    document.add_root(fig)
+    return document
 
 
 @pytest.fixture

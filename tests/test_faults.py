@@ -198,7 +198,7 @@ def test_behind_the_proxy_a_replica_that_stops_sends_its_pages_to_the_other(page
         mine.process.send_signal(signal.SIGTERM)
         page.get_by_text(LOST).wait_for()
         has_come_back(page, "6.5")
-        assert mine.process.wait(60) == 0 and '"sessions": 1' in get(other.root + "/liveness")[2]
+        assert mine.process.wait(60) == 0 and '"sessions": 0' not in get(other.root + "/liveness")[2]
 
 
 LISTENS_IN = """

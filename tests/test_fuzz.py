@@ -193,6 +193,8 @@ ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 30
           {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
 GOOD = {"asked": [7, 6.5, False], "active": 1, "value_input": "7", "hand": [], "tilted": [], "playing": False,
         "gesture": 7, "dark": False}  # fmt: skip
+GOOD_OF = {("Head", "asked"): [7, "table", "rough"], ("LabView", "asked"): [7, "tilt", 5.0],
+           ("LessonView", "asked"): [7, "section", "theorists"]}
 
 
 def attributes_of(name):
@@ -226,8 +228,9 @@ async def each_attribute(url):
                     count += 1
     for name, ids in components.items():
         for attribute in GOOD.keys() & CHANGES.get(name, {}).keys():
+            good = GOOD_OF.get((name, attribute), GOOD[attribute])
             if name not in ("RadioButtonGroup", "RadioBoxGroup"):
-                kind, reply = await visitor.answer(await visitor.set(ids[0], attribute, GOOD[attribute]))
+                kind, reply = await visitor.answer(await visitor.set(ids[0], attribute, good))
                 assert kind == "OK", (name, attribute, reply)
     assert page.lost is None
     visitor.leave()
