@@ -207,7 +207,7 @@ def maps(scene):
 def measure(scene):
     view = Measure(scene, Idle())
     page = view.view
-    view.take("t (s),theta (deg)\n" + "".join(f"{0.1 * i},{5 + i * i}\n" for i in range(9)))  # else of the example's top
+    view.take("t (s),theta (deg)\n" + "".join(f"{0.1 * i},{5 + i * i}\n" for i in range(9)))  # the page's top
     return (view, page), view.show
 
 
