@@ -78,7 +78,7 @@ def pictured(name):
     scene = stored(name)
     return planes_run.solve(Settings(
         top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile, rolling=None, spin=15.0,
-        tilt=12.0, slip=1.0, law="coulomb", mu_k=0.2, mu_s=0.3, gamma=0.3, mu=0.3, eps=0.1, landing="plastic",
+        tilt=12.0, slip=1.0, law="coulomb", mu=0.2, mu_s=0.3, gamma=0.3, eps=0.1, landing="plastic",
         stem=True, seconds=0.3))  # fmt: skip
 
 
