@@ -155,7 +155,7 @@ def test_what_is_typed_is_not_written_over_while_answers_come(page):
         slider.value = 29
         slider.dispatchEvent(new Event("input"))
     }""")
-    page.wait_for_function("location.search.includes('turns=29')")
+    page.wait_for_function("location.search.includes('spin=29')")
     assert tilt.input_value() == "7,2"
     tilt.press("Escape")
     tilt.fill("5,73")
@@ -170,7 +170,7 @@ def test_the_run_before_stays_pale_until_it_is_dismissed(page):
     assert page.locator(".strip .then").count() == 1
     assert page.locator(".answer .then").count() == 1
     page.get_by_role("button", name="Go back to before").click()
-    page.wait_for_function("location.search.includes('turns=29')")
+    page.wait_for_function("location.search.includes('spin=29')")
     assert page.locator(".strip .then").count() == 0
     put(page, "Spin, in turns a second", 30)
     page.get_by_role("button", name="Forget the run before").click()
@@ -189,7 +189,7 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
     page.mouse.down()
     page.wait_for_timeout(500)  # the rest itself
     page.mouse.move(x - 60, y + 40, steps=3)
-    page.wait_for_function("location.search.includes('lean=')")
+    page.wait_for_function("location.search.includes('tilt=')")
     pulled = float(parse_qs(urlsplit(page.url).query)["lean"][0])
     assert pulled > 10
     assert float(entry(page, "Tilt, in degrees").input_value()) == pytest.approx(pulled, abs=0.06)
@@ -198,7 +198,7 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
     pause(page)
     page.get_by_role("slider", name="Time").press("Home")
     handle.press("ArrowRight")
-    page.wait_for_function(f"!location.search.includes('lean={pulled:g}')")
+    page.wait_for_function(f"!location.search.includes('tilt={pulled:g}')")
     put(page, "Tilt, in degrees", 5.73)
 
 
@@ -208,10 +208,10 @@ def test_spin_it_is_the_stronger_the_longer_it_is_held(page):
     page.mouse.down()
     page.get_by_role("button", name="50 rev/s").wait_for()
     page.mouse.up()
-    page.wait_for_function("location.search.includes('turns=50')")
+    page.wait_for_function("location.search.includes('spin=50')")
     page.get_by_role("button", name="Pause").wait_for()
     put(page, "Spin, in turns a second", 30)
-    page.wait_for_function("location.search.includes('turns=30')")
+    page.wait_for_function("location.search.includes('spin=30')")
 
 
 def test_numbers_are_in_a_fold_and_where_the_pointer_is(page):
@@ -234,14 +234,14 @@ def test_a_slider_asks_at_every_move_and_the_newest_is_shown(page):
     for _ in range(12):
         slider.press("ArrowLeft")
     assert entry(page, "Spin, in turns a second").input_value() == "28.8"
-    page.wait_for_function("!location.search.includes('turns=30') && location.search.includes('turns=28.8')")
+    page.wait_for_function("!location.search.includes('spin=30') && location.search.includes('spin=28.8')")
     assert line(page) != before
 
 
 def test_a_link_opens_the_same_elsewhere(page, chromium, server):
     put(page, "Tilt, in degrees", 12)
     choose(page, "Ice")
-    page.wait_for_function("location.search.includes('table=ice') && location.search.includes('lean=12')")
+    page.wait_for_function("location.search.includes('table=ice') && location.search.includes('tilt=12')")
     asked = parse_qs(urlsplit(page.url).query)
     assert asked == {"v": ["1"], "tab": ["lab"], "table": ["ice"], "turns": ["28.8"], "lean": ["12"]}
     other = chromium.new_page(viewport={"width": 1400, "height": 900})
@@ -266,7 +266,7 @@ def test_the_papers_figures_have_this_top_and_start(page):
     choose(page, "Rough")
     put(page, "Spin, in turns a second", 28.8)
     put(page, "Tilt, in degrees", 12)
-    page.wait_for_function("location.search.includes('turns=28.8') && location.search.includes('lean=12')")
+    page.wait_for_function("location.search.includes('spin=28.8') && location.search.includes('tilt=12')")
     page.get_by_role("button", name="The paper’s figures for this top").click()
     page.locator("[data-figure=plane]").first.wait_for()
     assert is_seen(page, "Roll")

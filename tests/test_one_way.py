@@ -334,7 +334,7 @@ STATIONS = (
     (Control, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
     (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneFigure, "show_selected"),
     (Motion, "show"), (PlaneFigure, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
-    (Planes, "see"), (Planes, "follow"), (Planes, "_ask"), (Planes, "_publish"), (ThreePlanes, "show"),
+    (Planes, "ask"), (Planes, "follow"), (Planes, "_run_anew"), (Planes, "_publish"), (ThreePlanes, "show"),
     (TimeFigures, "show"), (PlaneCard, "show_path"),
 )  # fmt: skip
 FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app.tabs.roll.roll, "show_top"),

@@ -77,12 +77,12 @@ class Planes(param.Parameterized):
         self._wanted: Settings | None = None
         self._shown = self.begun = self._told_to_stop = False
         super().__init__()  # type: ignore[no-untyped-call]  # of param
-        start.param.watch(lambda *events: self._ask(), ["given", *SET])
+        start.param.watch(lambda *events: self._run_anew(), ["given", *SET])
 
     def show(self) -> None:
         """Somebody looks."""
         self._shown = self.begun = True
-        self._ask()
+        self._run_anew()
 
     def hide(self) -> None:
         """Nobody looks any more."""
@@ -109,7 +109,7 @@ class Planes(param.Parameterized):
     def follow(self, scene: Scene) -> None:
         """Runs again if the top, or the motion that rolls, is another than the one last asked for; when what is set
         together with it is set too, as by an undo."""
-        self._runs.post(self._ask)
+        self._runs.post(self._run_anew)
 
     @property
     def elapsed(self) -> float:
@@ -140,7 +140,7 @@ class Planes(param.Parameterized):
             rolling=None if start.given == "hand" else start.let_go, **{name: getattr(start, name) for name in SET},
         )  # fmt: skip
 
-    def _ask(self) -> None:
+    def _run_anew(self) -> None:
         if not self._shown:
             return
         settings = self._settings()
