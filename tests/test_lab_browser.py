@@ -9,7 +9,7 @@ from test_axe import CONTRAST, DARK, LIGHT, LOOK, violations
 from visiting import PATIENCE, Visit, is_seen
 
 from app.model.lab_run import TOYS, start_of
-from tippe_core import grip
+from tippe_core import Constants, grip
 
 pytestmark = pytest.mark.served
 
@@ -190,7 +190,7 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
     page.wait_for_timeout(500)  # the rest itself
     page.mouse.move(x - 60, y + 40, steps=3)
     page.wait_for_function("location.search.includes('tilt=')")
-    pulled = float(parse_qs(urlsplit(page.url).query)["lean"][0])
+    pulled = float(parse_qs(urlsplit(page.url).query)["tilt"][0])
     assert pulled > 10
     assert float(entry(page, "Tilt, in degrees").input_value()) == pytest.approx(pulled, abs=0.06)
     page.mouse.up()
@@ -243,7 +243,7 @@ def test_a_link_opens_the_same_elsewhere(page, chromium, server):
     choose(page, "Ice")
     page.wait_for_function("location.search.includes('table=ice') && location.search.includes('tilt=12')")
     asked = parse_qs(urlsplit(page.url).query)
-    assert asked == {"v": ["1"], "tab": ["lab"], "table": ["ice"], "turns": ["28.8"], "lean": ["12"]}
+    assert asked == {"v": ["2"], "tab": ["lab"], "table": ["ice"], "spin": ["28.8"], "tilt": ["12"]}
     other = chromium.new_page(viewport={"width": 1400, "height": 900})
     come(other, page.url)
     other.locator(".lab[data-table=ice]").wait_for()
@@ -270,15 +270,14 @@ def test_the_papers_figures_have_this_top_and_start(page):
     page.get_by_role("button", name="The paper’s figures for this top").click()
     page.locator("[data-figure=plane]").first.wait_for()
     assert is_seen(page, "Roll")
-    page.wait_for_function("location.search.includes('by=state')")
+    page.wait_for_function("location.search.includes('by=hand')")  # the same start, at the other level
+    assert {"spin=28.8", "tilt=12"} <= {*urlsplit(page.url).query.split("&")}
     start = start_of("Leine and Glocker's toy", 28.8, 12.0, 0.3)
-    state, _ = grip(start.top, start.state)
-    asked = {
-        name: float(value[0])
-        for name, value in parse_qs(urlsplit(page.url).query).items()
-        if name in ("th", "w2", "w3")
-    }
-    assert asked == pytest.approx({"th": state.theta, "w2": state.omega2, "w3": state.omega3})
+    state, lost = grip(start.top, start.state)
+    found = Constants.from_state(start.top, state.theta, state.theta_dot, state.omega2, state.omega3)
+    jellett = float(page.get_by_role("slider", name="Jellett’s constant").input_value())
+    assert jellett == pytest.approx(float(found.K_J), abs=0.006)
+    page.get_by_text(f"that took {lost:.2g} MgR of its energy at once").first.wait_for()
 
 
 @pytest.mark.parametrize("size", [(1400, 900), (390, 844)], ids=["1400", "390"])

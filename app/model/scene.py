@@ -266,11 +266,13 @@ def _scene(
         profile=outline(top) if drawn is None else body(drawn),
         shape=drawn,
         inputs=MappingProxyType(inputs),
-        notes=tuple(remarks(marks, drawn, turning[1])),
+        notes=tuple(remarks(marks, drawn, turning[1], lost)),
     )
 
 
-def remarks(marks: Marks, shape: Shape | None, theta_outer: float) -> Iterator[str]:
+def remarks(marks: Marks, shape: Shape | None, theta_outer: float, lost: float) -> Iterator[str]:
+    if lost > AT_LIMIT:
+        yield say("controls.remarks.gripped", lost=lost)
     if shape is None:
         yield say("controls.remarks.stand_in")
     elif shape.touch_angle is not None and theta_outer > shape.touch_angle:
