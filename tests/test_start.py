@@ -19,6 +19,7 @@ from app.model.planes import Planes
 from app.model.planes_picture import SET
 from app.model.runs import Runs
 from app.model.start import Start, arrives, of_toy
+from app.state.keep import explorer_of, read
 from app.state.names import ROWS
 from app.state.start import OneStart
 from app.text import LANGUAGES
@@ -206,6 +207,33 @@ def test_inertias_that_are_no_bodys_are_a_sphere_of_these(views):
     assert isinstance(views.explorer.toy, BareSphere) and views.explorer.toy.top == Top(0.11, 0.399, 0.408)
 
 
+# ---- links of the first version, in which each view had its own ----
+
+
+@pytest.mark.parametrize(("query", "opens"), {
+    "?v=1&tab=lab": {"toy": TOY, "given": "hand", "spin": 28.65, "tilt": 5.73, "mu": 0.3, "law": "contact"},
+    "?v=1&tab=lab&toy=2&turns=30&lean=12&rub=.2&table=ice":
+        {"toy": "Top S", "spin": 30.0, "tilt": 12.0, "mu": 0.2, "table": "ice"},
+    "?v=1&tab=lab&toy=1&by=state&th=.3&w3=9&spin=7": {"toy": PAPER, "given": "hand", "spin": 28.65, "a": 0.07},
+    "?v=1&tab=lab&toy=TruncatedSphere_.02_.01_.024_.004_.02":
+        {"shape": TruncatedSphere(R=0.02, c=0.01, l=0.024, r=0.004, M=0.02)},
+    "?v=1&tab=lab&toy=99": {"toy": TOY},
+    "?v=1&tab=three-planes&KJ=6.7&mu=.2&turns=30": {"given": "hand", "spin": 20.0, "tilt": 10.0, "mu_s": 0.2},
+    "?v=1&tab=three-planes&start=constants&KJ=6.7": {"given": "share", "K_J": 6.7},
+    "?v=1&tab=three-planes&by=E&E=27.5": {"given": "hand", "spin": 20.0},
+    "?v=1&tab=three-planes&law=coulomb&mu=.2&mu_smooth=.9": {"mu_s": 0.4, "mu": 0.3},
+    "?v=1&tab=three-planes&law=coulomb&mu_k=.25&mu_stick=.35": {"mu_s": 0.35, "mu": 0.25},
+    "?v=1&tab=three-planes&mu_k=.25&mu_smooth=.4&mu_stick=.6": {"mu_s": 0.5, "mu": 0.4, "law": "smoothed"},
+    "?v=1&tab=three-planes&plane=compare": {"table": "three"},
+    "?v=1&KJ=6.7&start=spin&turns=30&toy=3": {"given": "share", "K_J": 6.7, "toy": PAPER},
+}.items())  # fmt: skip
+def test_a_link_of_the_first_version_opens_the_start_of_its_view(query, opens):
+    texts, sentence = read(query)
+    explorer, wrong = explorer_of(texts, explores="tab=lab" in query)
+    assert sentence == wrong == ""
+    assert {name: getattr(explorer, name) for name in opens} == opens
+
+
 # ---- the page ----
 
 
@@ -257,7 +285,7 @@ STEPS = (
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("toy", "language"), zip((TOY, PAPER), LANGUAGES, strict=True))
+@pytest.mark.parametrize(("toy", "language"), [*zip((TOY, PAPER), LANGUAGES, strict=True)])
 def test_a_link_of_each_step_opens_the_same_and_undo_goes_back_through_the_tables(toy, language):
     with visitor(f"?lang={language}&tab=lab") as (house, seen):
         house.lab_of.ask(toy=toy)
