@@ -124,7 +124,10 @@ interface DownloadModel extends Model {
   making: boolean;
 }
 
-interface MeasuredStageModel extends Model {
+interface FilmStageModel extends Model {
+  clock: string;
+  label: string;
+  none: string;
   frames: Bytes;
   profile: Bytes;
   tilts: Bytes;
