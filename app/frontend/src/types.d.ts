@@ -111,7 +111,7 @@ interface HeadModel extends Model {
 
 interface LookModel extends Model {
   id: string;
-  dark: boolean;
+  dark: boolean | null;
   large: boolean;
   on_dark: Record<string, string>;
 }
