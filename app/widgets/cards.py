@@ -1,11 +1,10 @@
 """The page's building blocks: cards, words in the page's own type, a grid that fits a phone."""
 
-import html
-
 import panel as pn
 import panel_material_ui as pmui
 
 from app.model.colours import COLOURS
+from app.widgets.typeset import typeset
 
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
 LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light and on dark
@@ -53,7 +52,7 @@ def words(text="", style="", **options):
 
 def alert(text):
     """Plain text that says what is wrong."""
-    return f'<div class="alert" role="alert">{html.escape(text)}</div>' if text else ""
+    return f'<div class="alert" role="alert">{typeset(text)}</div>' if text else ""
 
 
 def note(text):

@@ -57,7 +57,8 @@ export class Surface {
     this.readout.hidden = true;
     this.key = document.createElement("div");
     this.key.className = "key";
-    picture.append(this.readout, this.key);
+    picture.append(this.readout);
+    picture.after(this.key); // below it: over it it would hide what stands at an axis
     this.grid = new Grid({ K_J: float32(), theta: float32(), height: float32(), energy: float32() });
     this.selected = { K_J: NaN, inner: 0, outer: 0 }; // the motion on display
     this.wrong = ""; // what of it cannot be
