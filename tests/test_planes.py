@@ -14,7 +14,7 @@ from app.model.planes import PRESETS
 from app.model.planes_picture import LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES
 from app.model.planes_run import THROWN, for_reader, nudged, solve, touches
 from app.model.planes_tracks import BUCKETS, extremes, tracks
-from app.model.planes_wells import whiles
+from app.model.planes_wells import wells, whiles
 from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS
 from app.model.runs import Runs
 from app.tabs.planes import plots
@@ -22,7 +22,7 @@ from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.planes.words import ball_words, fate, scatter_words
 from app.text import speaking
 from tippe_core import PRESETS as BODIES
-from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, grip, roll, slide
+from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, grip, jellett_potential, roll, slide
 
 HAND = next(iter(PRESETS))
 

@@ -357,6 +357,9 @@ def test_any_header_gives_a_language(header):
 
 
 def test_numbers_are_written_as_the_language_does():
-    assert [written(-1234.5, ",.1f", language) for language in LANGUAGES] == ["−1,234.5", "−1\N{NARROW NO-BREAK SPACE}234,5"]
+    assert [written(-1234.5, ",.1f", language) for language in LANGUAGES] == [
+        "−1,234.5",
+        "−1\N{NARROW NO-BREAK SPACE}234,5",
+    ]
     assert ["12.3" in say("roll.says.unit", "en", time="", milliseconds=12.34),
             "12,3" in say("roll.says.unit", "de", time="", milliseconds=12.34)] == [True, True]  # fmt: skip

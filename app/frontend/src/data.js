@@ -51,7 +51,7 @@ const pointOf = (language) => new Intl.NumberFormat(language).formatToParts(0.5)
 
 // A number's text as the page's language writes it, with a true minus sign.
 /** @param {string} text @param {string} language */
-export function local(text, language = globalThis.document?.documentElement.lang ?? "") {
+export function local(text, language = typeof document === "undefined" ? "" : (document.documentElement?.lang ?? "")) {
   points[language] ??= pointOf(language);
   return text.replaceAll("-", "−").replace(".", points[language]);
 }

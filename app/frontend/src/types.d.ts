@@ -230,7 +230,7 @@ interface Source<Names extends string = string> extends BokehModel {
 // What a hand did on a figure: where, in its numbers and in px.
 type Happened = { event_name: string; x: number; y: number; sx: number; sy: number };
 
-declare const Bokeh: { documents: any[]; index: any };
+declare const Bokeh: { documents: any[]; index: any; require: (name: string) => any };
 
 interface Window {
   // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.
