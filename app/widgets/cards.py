@@ -23,22 +23,25 @@ TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # of two figures, one above the othe
 # The stage beside what answers it. On a narrow page both give their cards to one column.
 HEAD = "calc(82px * var(--type, 1) + 12px)"  # with its second row
 WIDE = "@media (min-width: 1000px)"
-STAGED = f"""
-:host {{ display: flex; flex-direction: column; gap: 12px; padding: 12px }}
-{WIDE} {{ :host {{ display: grid; align-items: start; grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) }} }}
+STAGED = """
+:host { display: flex; flex-direction: column; gap: 12px; padding: 12px }
+@media (min-width: 1000px) {
+  :host { display: grid; align-items: start; grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) } }
 """
-SIDE = f"""
-:host {{ display: contents }} .scroll-button {{ display: none !important }} /* Panel's, which would have a place */
-{WIDE} {{ :host {{ display: flex; flex-direction: column; gap: 12px }} }}
+SIDE = """
+:host { display: contents } .scroll-button { display: none !important }
+@media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 12px } }
 """
-IN_SIGHT = f"{WIDE} and (min-height: 700px) {{ :host {{ position: sticky; top: calc({HEAD} + 12px) }} }}"
-# Of the card with the stage: on a narrow page in sight below the head; else as high as what is
-# below it, which stays in sight too, leaves room for.
-FIRST = f"""
-:host {{ position: sticky; top: {HEAD}; z-index: 5; height: min(50vh, 400px) !important }}
-@media (max-width: 700px) {{ :host {{ height: 330px !important }} }}
-{WIDE} {{ :host {{ position: static; height: clamp(390px, 100vh - {HEAD} - var(--below) - 24px, 52vw) !important }} }}
-"""
+IN_SIGHT = """
+@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }
+""".replace("HEAD", HEAD)
+# Of the card with the stage: on a narrow page in sight below the head; else as high as what is below it, which stays in
+# sight too, leaves room for.
+FIRST = """
+:host { position: sticky; top: HEAD; z-index: 5; height: min(50vh, 400px) !important }
+@media (max-width: 700px) { :host { height: 330px !important } }
+@media (min-width: 1000px) { :host { position: static; height: HIGH !important } }
+""".replace("HIGH", "clamp(390px, 100vh - HEAD - var(--below) - 24px, 52vw)").replace("HEAD", HEAD)
 # A name, a note, and what is wrong, wherever they stand.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
