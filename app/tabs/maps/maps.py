@@ -147,6 +147,10 @@ class Maps:
         self.names.object = note(f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}")
         self.python.text = python(asked)
         self.map.begin(asked)
+        for said in (self.key, self.worst, *self.whys):  # of the map before
+            said.object = ""
+        for row in self.show_rows:
+            row.visible = False
         self._run = Run(partial(self._work, asked), partial(self._done, asked))
         known = recall(asked)
         self.stop.disabled, self.bar.visible, self.bar.object = known is not None, known is None, _bar(0)

@@ -30,10 +30,11 @@ from tippe_core import Top, TopError
 
 PLACES = """
 :host { display: grid; gap: 12px 24px; padding: 12px 24px 16px; align-items: start; box-sizing: border-box;
-  grid-template: "over found" auto "table found" 1fr / minmax(0, 1fr) minmax(300px, 28.6%) }
+  /* max-content: Panel's columns may shrink to nothing, and an auto row would let them where the window is short */
+  grid-template: "over found" max-content "table found" minmax(max-content, 1fr) / minmax(0, 1fr) minmax(300px, 28.6%) }
 .over { grid-area: over } .table { grid-area: table } .found { grid-area: found; min-width: 0 }
 @media (max-width: 800px) { :host { padding: 12px 16px 16px;
-  grid-template: "over" auto "found" auto "table" auto / minmax(0, 1fr) } }
+  grid-template: "over" max-content "found" max-content "table" max-content / minmax(0, 1fr) } }
 """
 FIRST = EXAMPLES[0]
 LAWS = ("contensou", "smoothed", "viscous")
