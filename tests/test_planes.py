@@ -66,7 +66,7 @@ def test_the_three_regimes_of_top_S(explorer, planes, name, verdict, low, high):
         other = picture.motions[plane].trajectory
         assert other.theta.max() < np.radians(6)
         assert np.all(other.omega[:, 2] > 0)
-    planes.plane = "smooth"
+    planes.ask(table="ice")
     assert chosen(explorer, planes, f"Top S {name}").state == picture.state and planes.plane == "smooth"
 
 
