@@ -34,7 +34,7 @@ def page(server, chromium):
     page.get_by_text(re.compile("Friction in force: smoothed Coulomb")).wait_for()
     put(page, "spin", 20)
     put(page, "tilt", 10)
-    page.wait_for_function("/spin=20&tilt=10/.test(location.search)")
+    page.wait_for_function("/by=hand/.test(location.search) && !/spin=|tilt=/.test(location.search)")
     page.wait_for_function(f"{TOPS}.some(top => top.count > 0 && top.pictures > 2)")
     yield page
     page.close()
