@@ -5,6 +5,8 @@ import re
 import pytest
 from visiting import PIXEL, Visit, wait
 
+from app.text import listed
+
 pytestmark = pytest.mark.served
 
 # How many cells a side the finest picture has, and whether something is hatched or lined.
@@ -97,3 +99,37 @@ def test_a_box_looks_closer_and_undo_goes_back(page):
 def test_it_fits_a_phone(page):
     page.set_viewport_size({"width": 390, "height": 844})
     page.wait_for_function("() => document.documentElement.scrollWidth <= 390")
+
+
+# Where the first word that is set like this stands, in whatever shadow.
+WORD = """(word) => {
+  const within = (root) => {
+    for (const part of root.querySelectorAll("*")) {
+      const deeper = part.shadowRoot && within(part.shadowRoot)
+      if (deeper) return deeper
+      for (const node of part.childNodes) {
+        const at = node.nodeType === 3 && !part.closest("button, label, style, script") ? node.data.indexOf(word) : -1
+        if (at < 0) continue
+        const range = document.createRange()
+        range.setStart(node, at)
+        range.setEnd(node, at + word.length)
+        part.scrollIntoView({ block: "center", behavior: "instant" })
+        const box = range.getBoundingClientRect()
+        if (box.width) return [box.x + box.width / 2, box.y + box.height / 2]
+      }
+    }
+  }
+  return within(document)
+}"""
+
+
+def test_a_term_is_explained_where_the_mouse_rests_and_hidden_when_it_goes(page):
+    page.set_viewport_size({"width": 1400, "height": 1000})
+    box = page.locator(".tippe-readout:visible", has_text=listed("glossary.terms.nudge.is", "en"))
+
+    page.evaluate(WORD, "nudge")  # brings it into the window
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    page.mouse.move(*page.evaluate(WORD, "nudge"))
+    box.wait_for()
+    page.mouse.move(0, 0)
+    box.wait_for(state="detached")
