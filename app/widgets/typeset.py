@@ -21,3 +21,9 @@ MINUS = re.compile(r"(?<![\w.\N{MINUS SIGN}-])-(?=[\d.])|(?<=\de)-(?=\d)")
 def typeset(sentence):
     """HTML of plain text."""
     return MINUS.sub("\N{MINUS SIGN}", LETTER.sub(lambda found: LETTERS[found[0]], html.escape(sentence)))
+
+
+def power(value):
+    """A small number as 3·10⁻¹³."""
+    mantissa, exponent = f"{max(value, 1e-16):.0e}".split("e")
+    return f"{mantissa}·10<sup>{int(exponent)}</sup>".replace("-", "\N{MINUS SIGN}")

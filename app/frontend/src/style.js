@@ -55,8 +55,10 @@ export const style = `
 .key span::before { content: ""; display: inline-block; width: 16px; height: 3px; margin: 0 6px 3px 0; vertical-align: middle;
   background: var(--swatch); }
 .key sub { font-size: 70%; line-height: 0; }
-@media (max-width: 600px) {
+@media (max-width: 700px) {
   .scales { display: none; }
+  .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { min-width: 40px; } .bar :is(.back, .forward, .view) { display: none; }
+  .bar:has(.shows) { flex-wrap: wrap; } .bar .shows { flex: 1 0 100%; flex-wrap: nowrap; overflow-x: auto; }
 }
 `;
 

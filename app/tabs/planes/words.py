@@ -11,6 +11,7 @@ from app.model.planes_run import THROWN
 from app.model.regimes import WOULD_LIFT
 from app.text import listed, say, written
 from app.widgets.cards import swatch
+from app.widgets.typeset import power
 
 # A plane's own colour, the same in all pictures of this tab.
 LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": COLOURS["friction"]}
@@ -27,12 +28,6 @@ SHARE, STILL, NEAR_UPRIGHT = 0.1, 1e-6, np.radians(2)
 AT_REST, AT_ONCE = 1e-6, 0.005
 # A nudge of the start that grows so many times makes of the tenth of a degree that no hand holds ten degrees.
 SCATTERS, HAND = 100.0, 0.1
-
-
-def power(value):
-    """A small number as 3·10⁻¹³."""
-    mantissa, exponent = f"{max(value, 1e-16):.0e}".split("e")
-    return f"{mantissa}·10<sup>{int(exponent)}</sup>".replace("-", "−")
 
 
 def degrees(value):

@@ -120,5 +120,5 @@ export function renderLook({ model }) {
     look.system.removeEventListener("change", look.update);
     look.doc.remove_on_change(onChange);
   });
-  if (look.isDark || model.large) look.update();
+  if (look.isDark || model.large || look.system.matches) look.update();
 }
