@@ -92,6 +92,7 @@ class House:
         self.pacer.shows(bench.show, "rest")
         rocking = card(say("main.cards.measure"), *RockingFields(self.builder).view, height="max-content")
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
+        top.stylesheets = [":host { height: clamp(330px, 52vh, 640px) !important }"]
         self.pacer.shows(partial(show_top, top), "rest")
         spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
         section, built, measures = (
