@@ -58,6 +58,17 @@ def test_a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page):
     wait(page, lambda: entry.input_value().startswith("6."))
 
 
+def test_arrow_keys_move_the_bead_and_the_top_beside_is_that_of_its_run(page):
+    x, y = page.evaluate(BEAD)
+    page.get_by_role("img", name="Map: the end of each run").focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Shift+ArrowUp")
+    wait(page, lambda: abs(page.evaluate(BEAD)[0] - x - 5) < 1e-9)  # of 9 cells from 5 to 50
+    entry = page.get_by_label("The run at, Up", exact=True)
+    wait(page, lambda: abs(float(entry.input_value()) - y - 39 / 90) < 1e-3)
+    page.wait_for_function("() => window.__tippe.tops('map').length == 1")
+
+
 def test_what_cannot_be_is_said_and_the_map_stays(page):
     enter(page, "Across, to", "3")
     page.get_by_role("alert").filter(has_text="spin_from = 5").wait_for()

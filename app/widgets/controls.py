@@ -12,7 +12,7 @@ from app.bundle import Bundled
 from app.model.regimes import NAMES
 from app.model.region import PAPER
 from app.state import asked
-from app.text import listed, say
+from app.text import listed, say, written
 from app.widgets.cards import NOTES, PLAIN, alert, note
 from tippe_core import Top
 
@@ -36,7 +36,6 @@ SYMBOLS = {
     "tilt": "<i>θ</i>",
     "slip": "<i>u</i>",
     "seconds": "<i>t</i>",
-    "mu_k": "<i>μ</i><sub>k</sub>",
     "mu": "<i>μ</i>",
     "eps": "<i>ε</i>",
     "patch": "<i>ρ</i>",
@@ -65,7 +64,6 @@ RANGES = {
     "tilt": (0, 180, 0.5),
     "slip": (0, 1, 0.01),
     "seconds": (0.5, 30, 0.5),
-    "mu_k": (0.01, 1, 0.005),
     "mu": (0.01, 1, 0.005),
     "eps": (0.01, 1, 0.005),
     "patch": (0.05, 2, 0.05),
@@ -79,7 +77,7 @@ OF_A_MOTION = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3", *FACES["state"])
 
 
 def number(value):
-    return f"{value:.6g}".replace("-", "−")
+    return written(value, ".6g")
 
 
 def named(name):
@@ -307,7 +305,7 @@ class Controls(param.Parameterized):
         else:
             constants = scene.constants
             values = {"K_J": constants.K_J, "K_R": constants.K_R, "energy": constants.E}
-        said = ", ".join(f"{named(name)} = {value:.4g}".replace("-", "−") for name, value in values.items())
+        said = ", ".join(f"{named(name)} = {written(value, '.4g')}" for name, value in values.items())
         return note(say(f"controls.other.{other}", values=said))
 
     @staticmethod

@@ -111,7 +111,7 @@ interface HeadModel extends Model {
 
 interface LookModel extends Model {
   id: string;
-  dark: boolean;
+  dark: boolean | null;
   large: boolean;
   on_dark: Record<string, string>;
 }
@@ -124,7 +124,10 @@ interface DownloadModel extends Model {
   making: boolean;
 }
 
-interface MeasuredStageModel extends Model {
+interface FilmStageModel extends Model {
+  clock: string;
+  label: string;
+  none: string;
   frames: Bytes;
   profile: Bytes;
   tilts: Bytes;

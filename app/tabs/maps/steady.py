@@ -9,11 +9,11 @@ from bokeh.models import ColumnDataSource, Range1d
 
 from app.bundle import call
 from app.model.colours import INK
-from app.model.maps import QUANTITIES
 from app.model.maps_rates import rates
 from app.model.maps_steady import at_place, bifurcation
 from app.model.runs import MAPS, Run, Stopped
 from app.tabs.maps.picture import DARK
+from app.tabs.maps.words import unit_of
 from app.text import listed, say, told
 from app.widgets.cards import alert, note, words
 from app.widgets.plots import plain
@@ -42,6 +42,7 @@ class Steady:
         for source, shade in zip(self.dots, SHADES, strict=True):
             fig.scatter("x", "y", source=source, size=6, fill_color=shade, line_color=DARK, line_width=0.8)
         for source, marker in zip(self.sweeps, ("triangle", "inverted_triangle"), strict=True):
+            fig.line("x", "y", source=source, line_color="#1558c0", line_width=1, line_alpha=0.6)
             fig.scatter("x", "y", source=source, marker=marker, size=7, fill_color=None, line_color="#1558c0")
         fig.line("x", "y", source=self.here, line_color="#1558c0", line_width=1.5)
         self.grow, self.turn = _figure("maps-growth", 170, None), _figure("maps-turning", 170, None)
@@ -163,7 +164,7 @@ def _figure(name, height, span):
     fig.update(sizing_mode="stretch_width", height=height, min_border_left=44)
     label = say(f"maps.labels.{name.removeprefix('maps-')}")
     fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
-    fig.xaxis.axis_label = f"{listed('maps.quantities')['spin']}, {QUANTITIES['spin'].unit}"
+    fig.xaxis.axis_label = f"{listed('maps.quantities')['spin']}, {unit_of('spin')}"
     fig.xaxis.axis_label_text_font_size = "12px"
     fig.xaxis.axis_label_text_color = INK
     return fig

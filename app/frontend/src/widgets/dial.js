@@ -1,5 +1,5 @@
 import { colours } from "../colours.js";
-import { fill } from "../data.js";
+import { fill, local } from "../data.js";
 
 // One control: its name, a slider, a number to type, words below. What a person does goes to Python as a numbered
 // request, and what Python tells is taken only if it had heard the last of them: nothing late moves a hand back.
@@ -14,7 +14,7 @@ input[type=text] { width: calc(100px * var(--type, 1)); flex: none; height: calc
 input[type=text][aria-invalid=true] { border-color: var(--alert, #b3261e); }
 input:focus-visible { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: 1px; border-radius: 4px; }
 input[type=range] { display: block; width: 100%; height: 26px; accent-color: var(--focus, ${colours.chosen}); cursor: pointer; touch-action: pan-y; }
-.marks { position: relative; height: 1.5em; margin: -3px 8px 2px; font-size: 12px; color: var(--faint, #5b6875); }
+.marks { position: relative; height: 1.5em; margin: -3px 8px 2px; font-size: calc(12px * var(--type, 1)); color: var(--faint, #5b6875); }
 .marks span { position: absolute; transform: translateX(-50%); white-space: nowrap; }
 .marks span:first-child { transform: translateX(-8px); }
 .marks span::before { content: ""; position: absolute; left: 50%; top: -4px; height: 4px; border-left: 1px solid; }
@@ -24,7 +24,7 @@ input[type=range] { display: block; width: 100%; height: 26px; accent-color: var
 const PAGE = 10; // steps that Page Up and Page Down go
 const KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: PAGE, PageDown: -PAGE };
 
-const written = (number) => String(Number(number.toPrecision(6))).replace("-", "−");
+const written = (number) => local(String(Number(number.toPrecision(6))));
 
 // A value in words: with its unit, or where it stands among the marks.
 /** @param {number} value @param {Pick<DialModel, "marks" | "unit" | "texts">} model */
