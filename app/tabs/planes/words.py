@@ -6,6 +6,7 @@ from itertools import groupby
 import numpy as np
 
 from app.model.colours import COLOURS
+from app.model.planes_became import became, trend
 from app.model.planes_picture import PLANES, RTOL, SHORT
 from app.model.planes_run import THROWN
 from app.model.regimes import WOULD_LIFT
@@ -18,12 +19,7 @@ LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": CO
 SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
 # Below this a drift is that of the computation; what physics changes changes by more.
 ROUNDING = 1e-7
-# So many spells on ball, stem or both are told one by one. A tilt whose least and largest change by less than STEADY
-# (rad) between the last two fifths of the time neither rises nor falls.
-MOST_SPELLS, STEADY = 5, np.radians(0.5)
-# SHARE of the tilt, or of what it swings, counts as a change where the tilt is small. A tilt that stays within STILL
-# (rad) has not left its balance; upright is what is within NEAR_UPRIGHT (rad).
-SHARE, STILL, NEAR_UPRIGHT = 0.1, 1e-6, np.radians(2)
+MOST_SPELLS = 5  # on ball, stem or both are told one by one
 # What has less energy of motion (MgR) lies; what begins before AT_ONCE (s) begins at 0.00 s.
 AT_REST, AT_ONCE = 1e-6, 0.005
 # A nudge of the start that grows so many times makes of the tenth of a degree that no hand holds ten degrees.
@@ -94,28 +90,6 @@ def _gripped(picture):
         picture.motions["sliding"], picture.motions["rough"]))  # fmt: skip
     taken = before - after
     return say("planes.fate.gripped", taken=taken) if taken > ROUNDING * before else ""
-
-
-def became(picture, motion):
-    """The key in planes.toml of what became of it on the sliding plane."""
-    found, theta, a = motion.ending, motion.trajectory.theta, picture.settings.top.a
-    if found.flat:
-        return "flat"
-    if found.ended:
-        return "refused"
-    if picture.outcome.nudged and np.ptp(theta) < STILL and all(each.on == "ball" for each in found.stretches):
-        return "balances"
-    if found.on == "ball" and np.all(motion.trajectory.regime[motion.trajectory.t >= found.since] == "roll"):
-        return "rolls"
-    if found.end == "upright" and (found.most > NEAR_UPRIGHT or _trend(motion) == "rises"):
-        return "leaning" if found.settled or _trend(motion) == "takes" else "moving"
-    if found.end == "upright":
-        return "upright" if theta[0] < np.pi / 2 else "comes"
-    if found.end == "inverted":
-        return "inverted" if theta[0] > np.pi / 2 else "turns" if a >= 0 else "falls"
-    if found.end == "leaning" and found.on == "both":
-        return "both"
-    return found.end
 
 
 def _where(picture, motion):
@@ -204,19 +178,7 @@ def _goes_on(picture, motion):
         how = ("rest" if moves < AT_REST else "both" if kind == "both" else "creeps" if found.creeps else
                "else" if low == high else "sways")  # fmt: skip
         return say(f"planes.goes_on.settled.{how}", low=low, high=high)
-    return say("planes.goes_on.cut", seconds=picture.settings.seconds, how=say(f"planes.goes_on.{_trend(motion)}"))
-
-
-def _trend(motion):
-    """Whether its tilt "rises" or "falls" in the last two fifths of the time, more than it swings; or only "takes"."""
-    moved = motion.trajectory
-    last = moved.t >= moved.t[-1] - 0.4 * (moved.t[-1] - moved.t[0])
-    early, late = np.array_split(moved.theta[last], 2)
-    least = min(STEADY, SHARE * moved.theta[last].max())
-    drifts = late.min() - early.min(), late.max() - early.max()
-    if abs(late.mean() - early.mean()) < SHARE * np.ptp(moved.theta[last]):
-        return "takes"
-    return "rises" if min(drifts) > least else "falls" if max(drifts) < -least else "takes"
+    return say("planes.goes_on.cut", seconds=picture.settings.seconds, how=say(f"planes.goes_on.{trend(motion)}"))
 
 
 # ---- what friction does to the ball alone, and how much a run can tell ----
