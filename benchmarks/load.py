@@ -5,9 +5,9 @@
 Visitors speak Bokeh's protocol without a browser (tests/wire.py), and answer what a browser answers. The generator runs
 beside, on the same cores. "arrive" has two server processes and the bare app in one run, in turn:
 
-    came      s of the processor for each who comes, one after another, and for each move: of the page as it is first seen
-              (the Lab, Explore), whose spin is moved and whose reply is the whole run; of Roll (Research); of the bare app
-    thirty    who come within a second, to both: how long until each has his page, and until it is live
+    came      s of the processor for each who comes, and for each move: of the page as it is first seen (the Lab in
+              Explore), whose spin is moved and whose reply is the whole run; of Roll (Research); of the bare app
+    thirty    who come at once, to both: how long until each has his page, and until all are live
 
 The others come to Roll, whose slider they move. A reply is the first picture that comes after a slider moved. To one
 server process ("one"), to two ("two"), and to the bare app ("bare") come
@@ -241,8 +241,8 @@ async def arrive(servers, few):
     for name in servers:
         moved, times = moves[name]
         print(f"    {name}: {1e3 * least[name]:.0f} ms of the processor for each who comes, "
-              f"{least[name] / least[bare]:.1f} times bare; {1e3 * moved:.1f} a move, {moved / moves[bare][0]:.1f} times; "
-              f"{summary(times)}", flush=True)  # fmt: skip
+              f"{least[name] / least[bare]:.1f} times bare; {1e3 * moved:.1f} a move, "
+              f"{moved / moves[bare][0]:.1f} times; {summary(times)}", flush=True)  # fmt: skip
     for name, processes in servers.items():
         start = time.monotonic()
         visitors, waited = await come([each.url for each in processes], 30, 30)
@@ -307,8 +307,8 @@ def all_kinds(folder):
         yield {"bare": plain, "Explore": lab, "Research": roll}
 
 
-KINDS = {"arrive": all_kinds, "one": lambda folder: ours(folder, 1), "two": lambda folder: ours(folder, 2), "bare": bare,
-         "image": lambda folder: ours(folder, 1, "malloc")}  # fmt: skip
+KINDS = {"arrive": all_kinds, "one": lambda folder: ours(folder, 1), "two": lambda folder: ours(folder, 2),
+         "bare": bare, "image": lambda folder: ours(folder, 1, "malloc")}  # fmt: skip
 
 
 def main():
@@ -379,3 +379,7 @@ if __name__ == "__main__":
 # (two workers 1.15-1.17), 10 come together 5660 9048 ms (2902 3954; bare 304 337), 20 of 20 move 12 31 ms (10 19), ms
 # of the processor a move 33-35 (33-36; bare 2.2), 5.3 and 5.8 MB a session (4.9 and 5.1). So of Roll's page a move
 # costs a sixth more than before the house was in order, a page a tenth, and a session has a sixth less.
+#
+# 2026-11-25, arrive, --quick, under other work (load 15 to 20, this run first in turn), before lowest() looked at all
+# tilts at once: who comes costs 46 ms (bare), 176 (Explore, 3.8 times), 1364 (Research, 29.7 times); a move 2.0, 32.4
+# (16.2 times) and 44.8 (22.4 times). A run of the Lab alone: 34 ms of the processor before, 15 after, to the same bit.

@@ -187,6 +187,9 @@ def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
     timers, shown = [], []
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, act: timers.append(act))
     pacer.shows(lambda scene: shown.append(scene.constants.K_J), "still")
+    pacer.begin()
+    timers.clear()
+    shown.clear()
 
     def rest():
         """A hand's: all timers that were set run."""
@@ -200,7 +203,7 @@ def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
         pacer.ask(K_J=K_J)
         rest()
     assert shown == []
-    while timers:
+    for _ in range(5):
         rest()
     assert shown == [6.1]
 

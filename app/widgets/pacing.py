@@ -162,13 +162,14 @@ class Pacer:
         after(STILL_AFTER - REST_AFTER, partial(self._stay, scene))
 
     def _stay(self, scene):
-        if not self._resting or scene is not self._explorer.scene or scene is self._stayed:
-            return
-        if self._hands or self._drawing or self._round_is_due:
-            after(REST_AFTER, partial(self._stay, scene))
-            return
-        self._stayed = scene
-        self._send(partial(_each, self._shows["still"], scene), self._drawing)
+        if self._resting and scene is self._explorer.scene and scene is not self._stayed:
+            self._stayed = scene
+            self.later(partial(self._show_still, scene))
+            self._advance()
+
+    def _show_still(self, scene):
+        if scene is self._explorer.scene:
+            _each(self._shows["still"], scene)
 
     def _see_to_it(self):
         if self._round or self._round_is_due or self._others or (self._begun and self._later):
