@@ -16,8 +16,8 @@ from app.widgets.cards import BUTTON, PLAIN, alert, card, first, flow, note, on_
 from app.widgets.controls import Control, Wish
 from app.widgets.top3d import Top3D, pack_frames
 
-NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
-NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps", "patch")
+NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
+NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
 SWITCHES = ("by", "law", "landing")
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
@@ -61,7 +61,7 @@ class ThreePlanes:
                             margin=(0, 14, 0, 6))  # fmt: skip
         self._switches["stem"] = Wish(box, "stem", ask)
         self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
-        self._verdict, self._table = words(style=TABLE), words(style=TABLE)
+        self._verdict, self._table = words(note(say("planes.run.first")), style=TABLE), words(style=TABLE)
         self._force = words(styles={"min-height": "36px"})
         self._build()
 
@@ -122,8 +122,9 @@ class ThreePlanes:
     def _start_card(self):
         views = {name: control.view for name, control in self._controls.items()}
         self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
-        self._numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0)
-                         for names in NUMBERS.values() for name in names}  # fmt: skip
+        own = NUMBERS[self._switches["law"].view.value]
+        self._numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0, visible=name in own)
+                         for name in dict.fromkeys(name for names in NUMBERS.values() for name in names)}  # fmt: skip
         self._bar = words(margin=(10, 8))
         self._show_progress(0)
         stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
@@ -266,7 +267,7 @@ class ThreePlanes:
         if not top.is_new(settings):
             return
         top.param.update(
-            profile=pack(settings.profile),
+            profile=pack(settings.drawn),
             seconds=settings.scales.time,
             a=settings.top.a,
             frames=pack_frames(*motion.frames) if motion else b"",
