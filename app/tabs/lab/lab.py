@@ -166,6 +166,7 @@ class LabTab:
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
             "R": 1e3 * shape_of(scene.toy).R,
             "answered": self._answered,
+            "whole": scene.whole,
             "busy": lab.busy,
             "reached": lab.reached,
         }

@@ -60,7 +60,7 @@ export class Answer {
   /** @param {PointerEvent} event */
   point({ clientX, clientY }) {
     const { readout, curves, name, texts } = this, box = this.plot.getBoundingClientRect(), x = clientX - box.left;
-    const t = ((x - LEFT) / (this.right - LEFT)) * (this.time.end || 1);
+    const t = ((x - LEFT) / (this.right - LEFT)) * (this.time.span || 1);
     readout.hidden = !READ[name] || !curves?.count || t < 0 || t > this.time.end;
     if (readout.hidden) return;
     readout.textContent = lineOf(texts, curves, READ[name], t);
@@ -85,7 +85,7 @@ export class Answer {
     return this.width - RIGHT;
   }
 
-  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.end || 1);
+  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.span || 1);
 
   draw() {
     const { clientWidth: width, clientHeight: height } = this.plot, { scene, name, texts } = this, said = texts.answers[name];
@@ -113,7 +113,7 @@ export class Answer {
       found.push(drawn("line", { class: value ? "grid" : "axis", x1: LEFT, x2: this.right, y1: y(value), y2: y(value) }),
         drawn("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, text));
     }
-    for (const t of ticks(0, this.time.end || 1, 6)) {
+    for (const t of ticks(0, this.time.span || 1, 6)) {
       found.push(drawn("text", { x: this.x(t), y: this.bottom + 16, "text-anchor": "middle" }, say(this.texts, t ? "{t}" : "{t} s", { t: [t, t % 1 ? 1 : 0] })));
     }
     return { y, found };
@@ -146,9 +146,10 @@ export class Answer {
     if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin);
     const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
     if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by);
-    const above = at(0.4, HEIGHT) - at(0.4, ENERGY) > ROOM;
+    const isFree = (share) => [0, 0.5, 1].every((part) => at(share + part * wide, HEIGHT) - at(share + part * wide, ENERGY) > ROOM);
+    const free = [0.4, 0.3, 0.2, 0.14].find(isFree), stands = free ?? 0.4;
     const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
-    put(0.4, above ? Math.min(at(0.4, HEIGHT), at(0.6, HEIGHT)) - 8 : this.bottom - 6, say(texts, text, { least: [least, 0], most: [most, 0] }));
+    put(stands, free ? Math.min(at(stands, HEIGHT), at(stands + wide, HEIGHT)) - 8 : this.bottom - 6, say(texts, text, { least: [least, 0], most: [most, 0] }));
     return [
       ...found,
       drawn("polygon", { class: "spins", points: `${line(ENERGY)} ${floor}` }), drawn("polygon", { class: "lifts", points: `${line(HEIGHT)} ${floor}` }),

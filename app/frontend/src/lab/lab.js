@@ -129,6 +129,7 @@ class Lab {
     this.scene = scene;
     this.asking.hear(model.state.answered);
     Object.assign(time, { unit: model.seconds, end: scene.end, events: scene.run?.events ?? [], tops: this.stage.tops });
+    time.span = scene.state.whole ? scene.end : Math.max(scene.end, time.span); // no axis changes under a hand
     this.element.dataset.table = scene.table;
     scene.bytes = model.profile;
     this.stage.show(scene);
