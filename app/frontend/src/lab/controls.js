@@ -40,19 +40,19 @@ class Control {
     this.put(value);
   }
 
-  /** @param {number} value */
-  put(value) {
+  /** @param {number} value @param {string} [text] what was typed, where that cannot be */
+  put(value, text) {
     const { low, high, digits } = this.limits, share = (value - low) / (high - low);
     this.slider.style.setProperty("--p", `${(100 * Math.min(Math.max(share, 0), 1)).toFixed(2)}%`);
-    this.write(written(value, digits, this.texts.decimal));
+    this.write(text ?? written(value, digits, this.texts.decimal));
     this.share = share;
     this.point();
   }
 
-  // Never over what a person is typing.
+  // Never over what a person is typing; and what stands there already is left, with what is selected of it.
   /** @param {string} text */
   write(text) {
-    if (!this.isTyping) this.number.value = text;
+    if (!this.isTyping && this.number.value !== text) this.number.value = text;
   }
 
   // The mark of the present value; one typed beyond the track has no place on it.
@@ -73,9 +73,8 @@ class Control {
     const [refused, kept] = [state.refused[this.name], state.values[this.name]];
     if (!ahead) {
       this.slider.value = String(kept);
-      this.put(kept);
+      this.put(kept, message && refused !== undefined ? this.typed(refused) : undefined);
       this.slider.setAttribute("aria-valuetext", `${written(kept, this.limits.digits, this.texts.decimal)} ${this.said.unit}`);
-      if (message && refused !== undefined) this.write(typeof refused === "number" ? written(refused, Number.isInteger(refused) ? 0 : this.limits.digits, this.texts.decimal) : String(refused));
     }
     this.number.setAttribute("aria-invalid", String(Boolean(message)));
     this.element.classList.toggle("bad", Boolean(message));
@@ -83,6 +82,11 @@ class Control {
     const back = say(this.texts, this.texts.back, { value: `${written(kept, this.limits.digits, this.texts.decimal)}${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}` });
     if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), part("span", {}, message, " ",
       part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, kept) }, back)));
+  }
+
+  // As it was typed.
+  typed(value) {
+    return typeof value === "number" ? written(value, Number.isInteger(value) ? 0 : this.limits.digits, this.texts.decimal) : String(value);
   }
 
   // A share of the track, in steps of its digits; returns the value there.

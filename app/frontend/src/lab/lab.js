@@ -135,6 +135,7 @@ class Lab {
     this.stage.show(scene);
     for (const shown of [this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.show(scene);
     this.controls.show(scene, this.asking.isAhead);
+    this.element.toggleAttribute("data-whole", Boolean(scene.state.whole)); // for tests only
     this.element.classList.toggle("old", Boolean(scene.state.old));
     if (this.anew === scene.table) {
       this.anew = "";

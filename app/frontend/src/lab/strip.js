@@ -165,7 +165,7 @@ export class Strip {
 
   // Where the rest of its life is to be.
   comes() {
-    const { scene, texts, time: { end, span } } = this, from = this.x(end);
+    const { scene, texts, time } = this, from = this.x(time.end);
     if (scene.state.whole || this.right - from < NEED) return [];
     return [drawn("text", { x: (from + this.right) / 2, y: this.y(90) - 5, "text-anchor": "middle" }, texts.comes)];
   }
