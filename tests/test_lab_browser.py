@@ -289,7 +289,7 @@ def test_a_link_opens_the_same_elsewhere(page, chromium, server):
 
 def test_three_tables_are_seen_at_once_on_one_clock(page):
     page.get_by_role("radio", name="All three").click()
-    page.locator(".lab[data-table=three]").wait_for()
+    page.locator(".lab[data-table=three][data-whole]").wait_for()
     page.wait_for_function(f"{TOPS}.filter((top) => top.count && top.pictures > 1).length == 3")
     assert page.get_by_role("row").count() == 4
     pause(page)

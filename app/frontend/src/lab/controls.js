@@ -49,10 +49,13 @@ class Control {
     this.point();
   }
 
-  // Never over what a person is typing; and what stands there already is left, with what is selected of it.
+  // Never over what a person is typing; what is selected to be typed over stays so, else that would come behind it.
   /** @param {string} text */
   write(text) {
-    if (!this.isTyping && this.number.value !== text) this.number.value = text;
+    const { number } = this, { value, selectionStart, selectionEnd } = number;
+    if (this.isTyping || value === text) return;
+    number.value = text;
+    if (value && !selectionStart && selectionEnd === value.length && number.matches(":focus")) number.select();
   }
 
   // The mark of the present value; one typed beyond the track has no place on it.

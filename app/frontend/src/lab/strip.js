@@ -79,7 +79,7 @@ export class Strip {
 
   show(scene) {
     this.scene = scene;
-    this.range.max = String(scene.end);
+    this.range.max = (Math.ceil(100 * scene.end) / 100).toFixed(2); // a whole number of its steps
     this.draw();
   }
 
