@@ -328,3 +328,8 @@ if __name__ == "__main__":
 # the top waited for the session. Now the arrival's own picture is there first; at Roll's address the top still waits.
 # Three visits of the arrival each in turn under other work, load 14 to 17, python -m app, least in times bare's:
 # first top 2.18, hand 3.02, page 3.13, cpu 3.22
+#
+# 2026-11-25, later, the same machine, nothing else running (first: the Lab's arrival; steps and drag: Roll in the Lab's
+# level of research, whose Fig. 6 is now over all of 0 to pi with K_R below), python -m app, in times bare: first top
+# 2.61, hand 2.53, page 2.67, cpu 2.60; p95 steps figure 1.68, page 8.37, drag figure 2.92, page 10.31. So an arrival
+# costs half of what it did, and a move of Roll near twice; why is not known yet.

@@ -323,3 +323,8 @@ if __name__ == "__main__":
 #   ms of the processor a move        27-30    29-35      26-33    30-32       2.0
 #   MB with none                      311      318        586      605         69
 #   an idle, an active session, MB    6.3 6.4  5.0 5.1    6.3 6.6  4.7 4.9     0.12 0.13
+#
+# 2026-11-25, later, the same, with one Lab for the toy, Roll and the three planes: s of the processor a page 1.19-1.26
+# (two workers 1.15-1.17), 10 come together 5660 9048 ms (2902 3954; bare 304 337), 20 of 20 move 12 31 ms (10 19), ms
+# of the processor a move 33-35 (33-36; bare 2.2), 5.3 and 5.8 MB a session (4.9 and 5.1). So of Roll's page a move
+# costs a sixth more than before the house was in order, a page a tenth, and a session has a sixth less.

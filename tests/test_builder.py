@@ -14,6 +14,7 @@ from app.model.explorer import Explorer
 from app.model.family import region, share_map
 from app.tabs.build.build import KNOBS, Build
 from app.tabs.families.compare import Compare
+from app.widgets.typeset import typeset
 from tippe_core import (
     PRESETS,
     Ball,
@@ -494,7 +495,7 @@ def test_a_map_stops_when_told_and_refuses_what_cannot_be(explorer, monkeypatch)
         compare = Compare(explorer.scene)
         compare.entries[name].value = text
         compare.compute()
-        assert name in compare.said.object and not compare.start.disabled
+        assert typeset(name) in compare.said.object and not compare.start.disabled
 
 
 def test_many_pieces_have_their_knobs_in_portions(builder, explorer):

@@ -87,4 +87,4 @@ def test_an_error_is_told_in_german_with_the_units_of_the_sliders(monkeypatch):
     assert "fehlt" in sentence(error.value)
     goes = outcome(Top.paper(), State(np.radians(10), 0.0, 0.0, 5.0), Scales.paper())
     said = outcome_words(goes, Scales.paper())
-    assert re.fullmatch(r"Wie bei einem aufrechten Start mit [\d.]+ U/s kippt er um: .*", said)
+    assert re.fullmatch(r"Wie bei einem aufrechten Start mit [\d,]+ U/s kippt er um: .*", said)

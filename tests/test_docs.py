@@ -16,6 +16,7 @@ from claims import ROWS
 import tippe_core
 from app.state.keep import explorer_of, read
 from app.state.names import NAMES
+from app.text import LANGUAGES, listed
 from tippe_core import Top
 
 HERE = Path(__file__).parent
@@ -148,3 +149,16 @@ def test_a_term_is_explained_once():
     terms = [each.strip() for row in re.findall(r"(?m)^\| ([^|]+) \|", text("glossary"))
              for each in re.split(r"[,;]", row)]  # fmt: skip
     assert len(terms) == len({*terms}) > 50
+
+
+def test_the_page_explains_a_term_as_the_glossary_does():
+    """Under the hand and in docs/glossary.md stand the same words."""
+    rows = dict(re.findall(r"(?m)^\| ([^|,]+?)(?:,[^|]*)? \| (.*) \|$", text("glossary")))
+    hover = {each["forms"].split("|")[0]: each["is"] for each in listed("glossary.terms", "en").values()}
+    assert hover == {name: rows.get(name) for name in hover} and len(hover) > 40
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_form_belongs_to_one_term(language):
+    forms = [form.lower() for each in listed("glossary.terms", language).values() for form in each["forms"].split("|")]
+    assert len(forms) == len({*forms})

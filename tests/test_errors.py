@@ -180,9 +180,9 @@ def test_an_error_has_its_code_and_is_told_in_every_language(code, make):
 def test_words_are_chosen_by_code_alone():
     """Not one word of what the core says in English need be as it is."""
     error = TopError("mu_s", 0.2, "μ_s ≥ 0.3", "!", code="below-sliding")
-    assert told(error, "de") == "mu_s = 0.2 ist nicht möglich: erlaubt ist μ_s ≥ 0.3. Die Haftreibung ist die größere."
+    assert told(error, "de") == "mu_s = 0,2 ist nicht möglich: erlaubt ist μ_s ≥ 0,3. Die Haftreibung ist die größere."
     error = NoMotionError("E", 1.0, "?", "!", code="no-motion", least=2.5, K_J=7.0, K_R=10.0)
-    assert told(error, "de").startswith("E = 1 ist nicht möglich: erlaubt ist E >= 2.5 bei K_J = 7 und K_R = 10.")
+    assert told(error, "de").startswith("E = 1 ist nicht möglich: erlaubt ist E >= 2,5 bei K_J = 7 und K_R = 10.")
 
 
 def test_a_replaced_error_says_the_same_of_other_numbers():

@@ -193,8 +193,11 @@ ELEVEN = (None, True, -1, 10**400, 1e308, float("nan"), "", "x" * 5000, [0] * 30
           {"type": "map", "entries": [["a", 1]]}, deep(4))  # fmt: skip
 GOOD = {"asked": [7, 6.5, False], "active": 1, "value_input": "7", "hand": [], "tilted": [], "playing": False,
         "gesture": 7, "dark": False}  # fmt: skip
-GOOD_OF = {("Head", "asked"): [7, "table", "rough"], ("LabView", "asked"): [7, "tilt", 5.0],
-           ("LessonView", "asked"): [7, "section", "theorists"]}
+GOOD_OF = {
+    ("Head", "asked"): [7, "table", "rough"],
+    ("LabView", "asked"): [7, "tilt", 5.0],
+    ("LessonView", "asked"): [7, "section", "theorists"],
+}
 
 
 def attributes_of(name):

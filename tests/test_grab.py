@@ -252,7 +252,7 @@ def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(v
     type_in(visit, STATE_FIELDS["theta"], "4")
     alert = visit.page.locator("[role=alert]:visible")
     alert.wait_for()
-    assert "theta" in alert.inner_text()
+    assert "θ" in alert.inner_text()
     assert np.array_equal(visit.column("theta", 0, "theta"), before)
 
 

@@ -3,6 +3,8 @@
 import csv
 import io
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,13 +15,17 @@ from app.model.maps_lines import disagreements, lines
 from app.model.maps_solving import Level, run, solve
 from app.model.runs import Runs
 from app.model.scene import solve as solve_scene
+from app.server.messages import CHANGES
 from app.state.keep import Keep, read
 from app.state.map_text import MapText
 from app.tabs.maps.export import made, python
 from app.tabs.maps.maps import Maps
+from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import Steady
 from app.text import speaking
 from tippe_core import PRESETS, Scales, Top, TopError, slide_many
+
+ROOT = Path(__file__).parent.parent
 
 
 def last(asked):
@@ -268,13 +274,13 @@ def test_what_cannot_be_leaves_the_last_map(tab):
 
 
 def test_a_click_goes_to_the_run_of_a_cell(tab):
-    tab._by_hand({"x": [44.0], "y": [6.0], "cell": [True]})
+    tab._by_hand({"x": [44.0], "y": [6.0], "cell": [1]})
     i, j = tab.level.cell(44.0, 6.0)
     assert tab.choice.place == [tab.level.x[j], tab.level.y[i]] and tab.level.end[i, j] == "stem"
     assert "stands on its stem" in tab.run_says.object
-    tab._by_hand({"x": [44.0], "y": [6.0], "cell": [False]})
+    tab._by_hand({"x": [44.0], "y": [6.0], "cell": [0]})
     assert tab.choice.place == [44.0, 6.0] and tab.settings.entries["here_across"].value == "44"
-    for odd in ({}, {"x": ["a"], "y": [1], "cell": [True]}, {"x": 3, "y": [1], "cell": [True]}):
+    for odd in ({}, {"x": ["a"], "y": [1], "cell": [1]}, {"x": 3, "y": [1], "cell": [1]}):
         tab._by_hand(odd)
     assert tab.choice.place == [44.0, 6.0]
 
@@ -291,7 +297,7 @@ def test_another_axis_law_and_colour(tab):
 
 
 def test_a_box_looks_closer_and_the_whole_range_comes_back(tab):
-    tab._by_hand({"x": [30.0, 20.0], "y": [5.0, 10.0], "cell": [False, False]})
+    tab._by_hand({"x": [30.0, 20.0], "y": [5.0, 10.0], "cell": [0, 0]})
     assert (tab.asked.across_range, tab.asked.up_range) == ((20.0, 30.0), (5.0, 10.0))
     assert tab.level.x[0] == pytest.approx(20 + 10 / 18) and 20 < tab.choice.place[0] < 30
     tab.settings.look_at(*tab._usual_spans())
@@ -349,3 +355,13 @@ def test_the_map_that_ships_is_what_is_computed():
     fresh = slide_many_of(Map(), [(shipped.x[b], shipped.y[a]) for a, b in zip(i, j, strict=True)])
     assert fresh.end.tolist() == shipped.end[i, j].tolist()
     np.testing.assert_allclose(np.degrees(fresh.theta_end), shipped.columns["theta_end"][i, j], rtol=1e-4)
+
+
+def test_what_a_hand_on_the_map_sends_is_let_in():
+    """As frontend/src/figures/maps.js has it: a place, the middle of a cell, two corners of a box."""
+    source = MapFigure(lambda data: None).hand
+    for x, y, cell in (([30.5], [6.5], [0]), ([30.5], [6.5], [1]), ([5.0, 6.0], [1.0, 2.0], [0, 0])):
+        entries = [["x", x], ["y", y], ["cell", cell]]
+        assert CHANGES["ColumnDataSource"]["data"].fits({"type": "map", "entries": entries}, source)
+    sent = set(re.findall(r"cell: (\[.*?\]) }", (ROOT / "app/frontend/src/figures/maps.js").read_text("utf-8")))
+    assert sent == {"[0]", "[0, 0]", "[Number(clicked)]"}

@@ -5,6 +5,8 @@ import re
 import pytest
 from visiting import PIXEL, Visit, wait
 
+from app.text import listed
+
 pytestmark = pytest.mark.served
 
 # How many cells a side the finest picture has, and whether something is hatched or lined.
@@ -56,6 +58,17 @@ def test_a_click_on_a_cell_and_a_drag_of_the_bead_show_their_runs(page):
     wait(page, lambda: entry.input_value().startswith("6."))
 
 
+def test_arrow_keys_move_the_bead_and_the_top_beside_is_that_of_its_run(page):
+    x, y = page.evaluate(BEAD)
+    page.get_by_role("img", name="Map: the end of each run").focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Shift+ArrowUp")
+    wait(page, lambda: abs(page.evaluate(BEAD)[0] - x - 5) < 1e-9)  # of 9 cells from 5 to 50
+    entry = page.get_by_label("The run at, Up", exact=True)
+    wait(page, lambda: abs(float(entry.input_value()) - y - 39 / 90) < 1e-3)
+    page.wait_for_function("() => window.__tippe.tops('map').length == 1")
+
+
 def test_what_cannot_be_is_said_and_the_map_stays(page):
     enter(page, "Across, to", "3")
     page.get_by_role("alert").filter(has_text="spin_from = 5").wait_for()
@@ -97,3 +110,37 @@ def test_a_box_looks_closer_and_undo_goes_back(page):
 def test_it_fits_a_phone(page):
     page.set_viewport_size({"width": 390, "height": 844})
     page.wait_for_function("() => document.documentElement.scrollWidth <= 390")
+
+
+# Where the first word that is set like this stands, in whatever shadow.
+WORD = """(word) => {
+  const within = (root) => {
+    for (const part of root.querySelectorAll("*")) {
+      const deeper = part.shadowRoot && within(part.shadowRoot)
+      if (deeper) return deeper
+      for (const node of part.childNodes) {
+        const at = node.nodeType === 3 && !part.closest("button, label, style, script") ? node.data.indexOf(word) : -1
+        if (at < 0) continue
+        const range = document.createRange()
+        range.setStart(node, at)
+        range.setEnd(node, at + word.length)
+        part.scrollIntoView({ block: "center", behavior: "instant" })
+        const box = range.getBoundingClientRect()
+        if (box.width) return [box.x + box.width / 2, box.y + box.height / 2]
+      }
+    }
+  }
+  return within(document)
+}"""
+
+
+def test_a_term_is_explained_where_the_mouse_rests_and_hidden_when_it_goes(page):
+    page.set_viewport_size({"width": 1400, "height": 1000})
+    box = page.locator(".tippe-readout:visible", has_text=listed("glossary.terms.nudge.is", "en"))
+
+    page.evaluate(WORD, "nudge")  # brings it into the window
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    page.mouse.move(*page.evaluate(WORD, "nudge"))
+    box.wait_for()
+    page.mouse.move(0, 0)
+    box.wait_for(state="detached")

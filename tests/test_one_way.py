@@ -44,6 +44,8 @@ from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
 from app.tabs.learn.learn import Learn
 from app.tabs.learn.lines import Derivation
+from app.tabs.maps.maps import Maps
+from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.widgets.controls import FACES, Control, Controls
@@ -188,6 +190,27 @@ def compare(scene):
     return view, show
 
 
+class Idle:
+    """Runs that nobody computes."""
+
+    beside = False
+
+    def begin(self, run, *name):
+        return run
+
+
+def maps(scene):
+    view = Maps(Idle(), scene)
+    return (view, view.view), view.show
+
+
+def measure(scene):
+    view = Measure(scene, Idle())
+    page = view.view
+    view.take("t (s),theta (deg)\n" + "".join(f"{0.1 * i},{5 + i * i}\n" for i in range(9)))  # the page's top
+    return (view, page), view.show
+
+
 VIEWS = {
     **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide)},
     "PlaneFigure": with_motion(PlaneFigure), "TimeFigures": with_motion(TimeFigures),
@@ -195,6 +218,7 @@ VIEWS = {
     "Derivation": lambda scene: (lambda view: (view, view.show))(Derivation("a")),
     "Controls": controls, "Roll": roll, "Learn, the lesson": learn("lesson"), "Learn, the lines": learn("derivation"),
     "Build": bench, "Section": section, "Share": share, "Compare": compare,
+    "Maps": maps, "Measure": measure,
     "Tops": lambda scene: (lambda view: (view, view.show))(Tops(scene, nothing, nothing, nothing)),
 }  # fmt: skip
 
@@ -216,7 +240,7 @@ def seen(view):
         elif isinstance(thing, Range1d):
             found[path] = np.array([thing.start, thing.end])
         elif isinstance(thing, (Span, Label)):
-            found[path] = np.asarray(thing.location if isinstance(thing, Span) else thing.text)
+            found[path] = np.asarray((thing.location if isinstance(thing, Span) else thing.text) * thing.visible)
         elif isinstance(thing, param.Parameterized) and hasattr(thing, "jslink"):  # a part of the page
             for name in ("objects", "object", "value", "label", "options", "visible", "styles", "told", "words"):
                 part = getattr(thing, name, None)

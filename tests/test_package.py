@@ -187,3 +187,11 @@ def test_the_workflows_do_what_the_tests_and_the_readme_do():
     assert [f"{python}.0" for python in tests["every"]["strategy"]["matrix"]["python"]] == list(PYTHONS)
     assert {*tests["every"]["strategy"]["matrix"]["system"]} == {"ubuntu-latest", "macos-latest", "windows-latest"}
     assert {*release} == {"archives", "image"}
+
+
+def test_every_action_is_pinned_by_its_commit_and_says_which_version_that_is():
+    """A tag can be moved to another program."""
+    text = "".join(path.read_text(encoding="utf-8") for path in (ROOT / ".github/workflows").glob("*.yml"))
+    used = re.findall(r"uses: (.*)", text)
+    assert len(used) > 8
+    assert [each for each in used if not re.fullmatch(r"[\w-]+/[\w-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+", each)] == []

@@ -14,7 +14,7 @@ from app.model.planes import PRESETS
 from app.model.planes_picture import LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES
 from app.model.planes_run import THROWN, for_reader, nudged, solve, touches
 from app.model.planes_tracks import BUCKETS, extremes, tracks
-from app.model.planes_wells import whiles
+from app.model.planes_wells import wells, whiles
 from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS
 from app.model.runs import Runs
 from app.tabs.planes import plots
@@ -22,7 +22,7 @@ from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.planes.words import ball_words, fate, scatter_words
 from app.text import speaking
 from tippe_core import PRESETS as BODIES
-from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, grip, roll, slide
+from tippe_core import Coulomb, Scales, State, Stretch, Top, TopError, glide, grip, jellett_potential, roll, slide
 
 HAND = next(iter(PRESETS))
 
@@ -66,7 +66,8 @@ def test_the_three_regimes_of_top_S(explorer, planes, name, verdict, low, high):
         other = picture.motions[plane].trajectory
         assert other.theta.max() < np.radians(6)
         assert np.all(other.omega[:, 2] > 0)
-    assert chosen(explorer, planes, f"no friction: {name}").state == picture.state and planes.plane == "smooth"
+    planes.plane = "smooth"
+    assert chosen(explorer, planes, f"Top S {name}").state == picture.state and planes.plane == "smooth"
 
 
 @pytest.mark.slow
@@ -620,3 +621,17 @@ def test_a_place_on_the_map_keeps_I3(explorer, planes):
     view.show(planes.picture)
     view.pick(0.2, 0.9)
     assert explorer.scene.top == Top(0.2, 0.9 * 0.408, 0.408)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", ["contact", "viscous"])
+def test_what_the_bead_has_left_stands_above_it(explorer, planes, law):
+    """Where pivoting changes C_J too: V_J is the least energy at any C_J."""
+    planes.param.update(law=law, seconds=3.0)
+    _, bead = wells(planes.picture, "sliding")
+    inside = bead.which >= 0
+    assert inside.sum() > 100 and np.all(bead.E[inside] >= bead.V[inside])
+    # at first its own C_J is that of the well to a few parts in a thousand, and what is left is the energy over V_J
+    start = planes.picture.motions["sliding"].trajectory
+    assert bead.E[0] - bead.V[0] == pytest.approx(
+        start.energy[0] - jellett_potential(start.theta[0], start.top, start.jellett[0]), abs=1e-9)  # fmt: skip

@@ -120,7 +120,7 @@ def test_there_is_no_well_while_the_stem_touches(page, first):
 
 
 def test_a_preset_sets_the_top_the_start_and_the_law(page):
-    choose(page, "Top S hangs")
+    choose(page, "Hangs halfway")
     page.get_by_text(re.compile(r"^sliding: leans: 109\.\d° at 25 s.*; past 90° at 1\.99 s")).wait_for()
     page.get_by_text(re.compile("Friction in force: viscous")).wait_for()
     page.wait_for_function("field => field.value == '9.5493'", arg=field(page, "spin").element_handle())

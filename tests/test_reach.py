@@ -114,7 +114,7 @@ def test_a_german_page_says_nothing_in_english_and_keeps_its_state_when_it_chang
     inertia = page.get_by_label("Trägheitsmoment um die Achse, in M R Quadrat")
     inertia.fill("2")
     inertia.press("Enter")
-    page.get_by_text("I3 = 2 ist nicht möglich: erlaubt ist 0 < I3 <= 2 I1 = 0.798.").wait_for()
+    page.get_by_text("I3 = 2 ist nicht möglich: erlaubt ist 0 < I3 ≤ 2 I1 = 0,798.").wait_for()
     inertia.fill("viel")
     inertia.press("Enter")
     page.get_by_text("„viel“ ist keine Zahl.").wait_for()

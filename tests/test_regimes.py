@@ -49,7 +49,7 @@ def test_every_regime_has_its_words(language):
 
 def test_regimes_that_stand_beside_each_other_are_told_apart():
     """In the ribbon of the three planes, and of one motion."""
-    for beside in ((regimes.ROLLS, regimes.SLIPS, regimes.FLIES, regimes.WOULD_LIFT, regimes.ENDS),
+    for beside in ((regimes.ROLLS, regimes.SLIPS, regimes.GLIDES, regimes.FLIES, regimes.WOULD_LIFT, regimes.ENDS),
                    (regimes.ROLLS, regimes.WOULD_SLIP, regimes.WOULD_LIFT)):  # fmt: skip
         assert len({regimes.COLOUR[code] for code in beside}) == len(beside)
 

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.bundle import Bundled
-from app.text import DEFAULT, LANGUAGES, listed, preferred
+from app.text import DEFAULT, LANGUAGES, listed, preferred, say, written
 
 APP = Path(__file__).parent.parent / "app"
 CORE = APP.parent / "tippe_core"
@@ -191,7 +191,6 @@ NOT_SAID = {
     "measured_table.py": {"": "what tables call their columns"},
     "codecs.py": {"not one of {}": "said to the log"},
     **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},
-    "planes.py": {"no friction: {}": "the beginning of a key"},
     "prints.py": {"tippe top": "never shown"},
     **{name: {"": "said to the operator, or to a program that is no browser"}
        for name in ("server.py", "arrivals.py", "ballots.py", "health.py", "logs.py", "messages.py", "settings.py",
@@ -355,3 +354,12 @@ PIECES = st.sampled_from(["de", "en", "*", "-AT", ";", "q=", "0.5", "1", ",", " 
 @given(st.text() | st.lists(PIECES).map("".join))
 def test_any_header_gives_a_language(header):
     assert preferred(header) in LANGUAGES
+
+
+def test_numbers_are_written_as_the_language_does():
+    assert [written(-1234.5, ",.1f", language) for language in LANGUAGES] == [
+        "−1,234.5",
+        "−1\N{NARROW NO-BREAK SPACE}234,5",
+    ]
+    assert ["12.3" in say("roll.says.unit", "en", time="", milliseconds=12.34),
+            "12,3" in say("roll.says.unit", "de", time="", milliseconds=12.34)] == [True, True]  # fmt: skip

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.model.maps import NUDGE, UNITS, Map, cells_of
-from tippe_core import ending, slide, slide_many
+from tippe_core import Trajectory, ending, slide, slide_many
 from tippe_core.types import Array, Bools
 
 PIECE, FEWEST, MOST = 0.12, 16, 256  # s a piece should take, and cells in it
 GROWS = 1e3  # a nudge that grows so much: neighbours between two cells may end otherwise
-CURVE = 900  # samples of a run that is drawn
+CURVE, MOST_CURVE = 900, 2400  # samples of a run that is drawn
+TURN = 1.5  # rad: so far it should turn at most between two of them
 Ends: TypeAlias = NDArray[np.str_]
 Progress: TypeAlias = Callable[[float], object]
 
@@ -67,7 +68,7 @@ class Level:
 
 
 class Found(NamedTuple):
-    """What a single run did: times in s, nan if never; theta in degrees over t in s."""
+    """What a single run did: times in s, nan if never; theta in degrees over t in s; film: the motion at t."""
 
     end: str
     time_90: float
@@ -75,6 +76,7 @@ class Found(NamedTuple):
     hops: int
     t: Array
     theta: Array
+    film: Trajectory
 
 
 def solve(asked: Map, look: Progress | None = None) -> Iterator[Level]:
@@ -127,7 +129,8 @@ def _fill(level: Level, piece: NDArray[np.intp], share: float, look: Progress | 
 def run(asked: Map, across: float, up: float, look: Progress | None = None) -> Found:
     """What one place on a map does, in full. TopError where there is no such run."""
     cell = asked.at(across, up)
-    times, time = np.linspace(0, cell.t_end, CURVE), cell.scales.time
+    frames = int(np.clip(abs(cell.state.omega3) * cell.t_end / TURN, CURVE, MOST_CURVE))
+    times, time = np.linspace(0, cell.t_end, frames), cell.scales.time
     moved = slide(cell.top, cell.state, cell.friction, times, rtol=asked.rtol, landing="plastic", edge=cell.edge,
                   progress=look)  # fmt: skip
     over = moved.theta - np.pi / 2
@@ -141,4 +144,5 @@ def run(asked: Map, across: float, up: float, look: Progress | None = None) -> F
         hops=sum(what == "lifts off" for _, what in moved.events),
         t=moved.t * time,
         theta=np.degrees(moved.theta),
+        film=moved,
     )

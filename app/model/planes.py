@@ -25,11 +25,10 @@ PATIENCE = 0.5
 # ---- what a person sets ----
 
 
-def _preset(
-    body: str, spin: float, tilt: float, seconds: float, plane: str = "sliding", **law: object
-) -> dict[str, Number]:
+def _preset(body: str, spin: float, tilt: float, seconds: float, **law: object) -> dict[str, Number]:
+    """Of no table: it stays on that where it is looked at, of which one has no friction."""
     start = {"by": "spin", "spin": spin, "tilt": tilt, "slip": 1.0, "seconds": seconds}
-    return {"body": body, "plane": plane} | start | law
+    return {"body": body} | start | law
 
 
 # Top S as in Rutstam's simulations, arXiv:1306.2470: viscous friction F = -1.0 N v (v in m/s), theta = 0.1, G at rest.
@@ -41,7 +40,6 @@ _S = {
 PRESETS = {
     "The paper’s top by hand": _preset("The paper's tippe top", 20.0, 10.0, 5.0, law="smoothed", mu=0.3, eps=0.1),
     **{f"Top S {name}": preset for name, preset in _S.items()},
-    **{f"no friction: {name}": preset | {"plane": "smooth"} for name, preset in _S.items()},
     "An ordinary top rises": _preset("Wooden cone", 20.0, 15.0, 6.0, law="viscous", gamma=0.3),
 }
 """{name: the body, one of tippe_core.PRESETS, and inputs of Planes}."""

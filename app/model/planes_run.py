@@ -22,7 +22,7 @@ from app.model.planes_picture import (
     Settings,
     Setup,
 )
-from app.model.regimes import ENDS, OF_CORE, WOULD_LIFT
+from app.model.regimes import ENDS, GLIDES, OF_CORE, SLIPS, WOULD_LIFT
 from app.text import told
 from tippe_core import (
     SUNK,
@@ -151,6 +151,8 @@ def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str)
     code = np.array([OF_CORE[word] for word in trajectory.regime])
     if plane == "rough":
         code[trajectory.force[:, 2] < 0] = WOULD_LIFT
+    elif plane == "smooth":
+        code[code == SLIPS] = GLIDES  # where nothing rubs
     frames = [trajectory.t, trajectory.quaternion, trajectory.contact, trajectory.com, *in_space(trajectory), code]
     ended = n < len(times)
     if ended:

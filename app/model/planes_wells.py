@@ -41,8 +41,12 @@ class Well:
 
 
 class Path(NamedTuple):
-    """Where the bead is: theta, the height V of the well there and the energy E above it, at t (n,). which: the place
-    of the well among the wells, -1 while a stem touches."""
+    """Where the bead is: theta, the height V of the well there and up to E what energy it has left, at t (n,). which:
+    the place of the well among the wells, -1 while a stem touches.
+
+    Pivoting changes C_J a little within a While, whose well is that of the middle one: what is left is what it has over
+    V_J of its own C_J then, which is never less than none.
+    """
 
     t: Array
     theta: Array
@@ -84,7 +88,8 @@ def path(motion: Motion | None, found: tuple[While, ...]) -> Path:
     for k, one in enumerate(found):
         inside = (t >= one.start) & (t <= one.end)
         V[inside], which[inside] = jellett_potential(theta[inside], moved.top, one.C_J), k
-    return Path(t, theta, V, moved.energy[every], which)
+    left = moved.energy[every] - jellett_potential(theta, moved.top, moved.jellett[every])
+    return Path(t, theta, V, V + np.maximum(left, 0.0), which)  # its last digit may be below
 
 
 def well(top: Top, one: While, E: Array) -> Well:

@@ -11,7 +11,7 @@ from app.model.colours import COLOURS
 
 _LIST: list[dict[str, str]] = json.loads(Path(__file__).with_name("regimes.json").read_text(encoding="utf-8"))
 
-ROLLS, WOULD_SLIP, WOULD_LIFT, SLIPS, FLIES, ENDS = range(len(_LIST))
+ROLLS, WOULD_SLIP, WOULD_LIFT, SLIPS, FLIES, ENDS, GLIDES = range(len(_LIST))
 NAMES = tuple(regime["name"] for regime in _LIST)
 """By their codes."""
 COLOUR = tuple(COLOURS[regime["colour"]] for regime in _LIST)

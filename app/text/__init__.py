@@ -1,7 +1,8 @@
 """All the words of the page, a folder a language: say("learn.free.title") is `title` under [free] in learn.toml.
 
-Words are HTML; a number stands in them as {name:.2f}, with a decimal point in every language, as on the axes and in the
-files that are saved. English is complete by definition, and the tests compare every other language with it.
+Words are HTML; a number stands in them as {name:.2f} and is written as the language has it, on the page; in files that
+are saved it has a decimal point in every language. English is complete by definition, and the tests compare every other
+language with it.
 """
 
 import re
@@ -30,10 +31,17 @@ CODES = {
 Found: TypeAlias = Any  # what stands under a key: words, a list of them, or a table
 
 
+MARKS = {"en": str.maketrans("-", "−"), "de": str.maketrans("-.,", "−,\N{NARROW NO-BREAK SPACE}")}
+"""{language: what it writes for the sign, the point and the groups of three}."""
+
+
 class _Numbers(string.Formatter):
+    def __init__(self, language: str) -> None:
+        self._marks = MARKS[language]
+
     def format_field(self, value: object, form: str) -> str:
         said = super().format_field(value, form)
-        return said if isinstance(value, str) else said.replace("-", "−")
+        return said if isinstance(value, str) else said.translate(self._marks)
 
 
 @cache
@@ -91,7 +99,12 @@ def listed(key: str, language: str | None = None) -> Found:
 
 def say(key: str, language: str | None = None, **numbers: object) -> str:
     """The words under a key, with these numbers in them. KeyError where there are none, or one lacks its number."""
-    return _Numbers().format(listed(key, language), **numbers)
+    return _Numbers(language or spoken()).format(listed(key, language), **numbers)
+
+
+def written(value: object, form: str = "", language: str | None = None) -> str:
+    """A number outside of a sentence, as format() has it and the page's language writes it."""
+    return _Numbers(language or spoken()).format_field(value, form)
 
 
 def told(error: TopError, language: str | None = None, unit: str = "") -> str:
@@ -111,6 +124,7 @@ def told(error: TopError, language: str | None = None, unit: str = "") -> str:
         said = words.get("sentence", listed("errors.sentence", language)).format(**parts)
         if "remedy" in words:
             said += " " + words["remedy"].format(**error.numbers)
+        said = re.sub(r"(?<=\d)[.](?=\d)", ".".translate(MARKS[language]), said)
     return said.replace(f" = {value} ", f" = {value} {unit} ", 1) if unit else said
 
 

@@ -1,11 +1,10 @@
 """The page's building blocks: cards, words in the page's own type, a grid that fits a phone."""
 
-import html
-
 import panel as pn
 import panel_material_ui as pmui
 
 from app.model.colours import COLOURS
+from app.widgets.typeset import typeset
 
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
 LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light and on dark
@@ -21,6 +20,28 @@ HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
 )
 TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # of two figures, one above the other
+# The stage beside what answers it. On a narrow page both give their cards to one column.
+HEAD = "calc(82px * var(--type, 1) + 12px)"  # with its second row
+WIDE = "@media (min-width: 1000px)"
+STAGED = """
+:host { display: flex; flex-direction: column; gap: 12px; padding: 12px }
+@media (min-width: 1000px) {
+  :host { display: grid; align-items: start; grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) } }
+"""
+SIDE = """
+:host { display: contents } .scroll-button { display: none !important }
+@media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 12px } }
+"""
+IN_SIGHT = """
+@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }
+""".replace("HEAD", HEAD)
+# Of the card with the stage: on a narrow page in sight below the head; else as high as what is below it, which stays in
+# sight too, leaves room for.
+FIRST = """
+:host { position: sticky; top: HEAD; z-index: 5; height: min(50vh, 400px) !important }
+@media (max-width: 700px) { :host { height: 330px !important } }
+@media (min-width: 1000px) { :host { position: static; height: HIGH !important } }
+""".replace("HIGH", "clamp(390px, 100vh - HEAD - var(--below) - 24px, 52vw)").replace("HEAD", HEAD)
 # A name, a note, and what is wrong, wherever they stand.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
@@ -53,7 +74,7 @@ def words(text="", style="", **options):
 
 def alert(text):
     """Plain text that says what is wrong."""
-    return f'<div class="alert" role="alert">{html.escape(text)}</div>' if text else ""
+    return f'<div class="alert" role="alert">{typeset(text)}</div>' if text else ""
 
 
 def note(text):
@@ -124,6 +145,27 @@ def grid(*cards, narrowest=480):
             "padding": "12px",
         },
     )
+
+
+def first(made, below=0):
+    """A card as the first of a stage; below: px that the others of the stage are high, with what is between."""
+    made.styles = made.styles | {"--below": f"{below}px"}
+    made.stylesheets = [FIRST]
+    return made
+
+
+def staged(stage, others):
+    """What is looked at and what answers it, lists of cards: side by side where there is room, the stage then 57 % wide
+    and in sight while the others scroll; else in one column, by their `order`, the first in sight."""
+    left = pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT])
+    right = pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE])
+    return pn.Column(left, right, sizing_mode="stretch_width", margin=0, stylesheets=[STAGED])
+
+
+def later(made, place):
+    """A card that comes so late in one column."""
+    made.styles = made.styles | {"order": str(place)}
+    return made
 
 
 def flexible(*cards):

@@ -12,7 +12,7 @@ from app.bundle import Bundled
 from app.model.regimes import NAMES
 from app.model.region import PAPER
 from app.state import asked
-from app.text import listed, say
+from app.text import listed, say, written
 from app.widgets.cards import NOTES, PLAIN, alert, note
 from tippe_core import Top
 
@@ -79,7 +79,7 @@ OF_A_MOTION = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3", *FACES["state"])
 
 
 def number(value):
-    return f"{value:.6g}".replace("-", "−")
+    return written(value, ".6g")
 
 
 def named(name):
@@ -307,7 +307,7 @@ class Controls(param.Parameterized):
         else:
             constants = scene.constants
             values = {"K_J": constants.K_J, "K_R": constants.K_R, "energy": constants.E}
-        said = ", ".join(f"{named(name)} = {value:.4g}".replace("-", "−") for name, value in values.items())
+        said = ", ".join(f"{named(name)} = {written(value, '.4g')}" for name, value in values.items())
         return note(say(f"controls.other.{other}", values=said))
 
     @staticmethod

@@ -96,7 +96,7 @@ class TimeFigures:
                 fig.js_on_event(event, call("seekAlong"))
             fig.min_border_left = 44
             fig.ygrid.ticker = fig.yaxis.ticker
-            fig.yaxis.ticker.desired_num_ticks = 3
+            fig.yaxis.ticker.desired_num_ticks = 2
             fig.xaxis.visible = name == "constants"
         self.slips = Span(location=0.5, dimension="width", line_color=INK, line_dash=[6, 4], line_width=1.5)
         self.beyond = BoxAnnotation(bottom=0.5, fill_color=COLOURS["friction"], fill_alpha=0.12, line_color=None)

@@ -39,9 +39,9 @@ class SlipLines:
         self.below.scatter("theta", "K_R", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
         self.touch = Span(location=np.pi, dimension="height", line_color=FAINT, line_dash=[2, 3], visible=False)
         above.add_layout(self.touch)
-        self.words = {"keeps": Label(x=0, y=0, y_offset=8, text_align="right", **BESIDE),
+        self.words = {"keeps": Label(x=0, y=0, y_offset=12, text_align="right", **BESIDE),
                       "ends": Label(x=0, y=0, y_offset=-10, text_align="right", text_baseline="top", **BESIDE),
-                      "touches": Label(x=0, y=0, x_offset=6, **BESIDE),
+                      "touches": Label(x=0, y=0, x_offset=-2, text_align="right", **BESIDE),
                       "goes": Label(x=0, y=0, y_offset=-2, text_align="right", text_baseline="top",
                                     **BESIDE)}  # fmt: skip
         for name, label in self.words.items():
@@ -96,6 +96,6 @@ class SlipLines:
         if path.touches is not None:
             self.touch.update(location=touch, visible=True)
             text = say("roll.slips.touches", degrees=np.degrees(touch))
-            said["touches"] = touch, high[0] + 0.55 * (high[1] - high[0]), text
+            said["touches"] = self._plane.figure.x_range.end, high[0] + 0.55 * (high[1] - high[0]), text
         for name, (x, y, text) in said.items():
             self.words[name].update(x=x, y=y, text=text, visible=True)

@@ -1,4 +1,4 @@
-"""What each symbol means, under the hand wherever it stands: its sketch, and the words of controls.toml."""
+"""What each symbol and each term means, under the hand wherever it stands: its sketch, and its words."""
 
 from app.bundle import Bundled
 from app.text import listed
@@ -9,4 +9,4 @@ class Symbols(Bundled):
 
     @classmethod
     def says(cls, language=None):
-        return listed("controls.hints", language)
+        return {"symbols": listed("controls.hints", language), "terms": listed("glossary.terms", language)}

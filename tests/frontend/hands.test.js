@@ -62,7 +62,7 @@ test("numbers of the derivation are short, and a vector has its brackets", () =>
   assert.deepEqual([1.23456789, -0.5, 0, 3e-301, 0.00001234, -2e-7].map((x) => figures(x, 6)), ["1.23457", "−0.5", "0", "0", "1.2e−5", "−2.0e−7"]);
   assert.equal(figures(0.00001234, 10), "1.234e−5");
   assert.equal(figures(NaN, 6), "—");
-  assert.equal(said(Float64Array.of(1, -2), 6), "(1, −2)");
+  assert.equal(said(Float64Array.of(1, -2), 6), "(1; −2)");
 });
 
 test("the row of a time is the nearest, in its nutation", () => {

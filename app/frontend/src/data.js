@@ -45,8 +45,19 @@ export function coalesce(run) {
 /** @param {HTMLCanvasElement} canvas */
 export const penOf = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
 
+/** @type {Record<string, string>} */
+const points = { "": "." };
+const pointOf = (language) => new Intl.NumberFormat(language).formatToParts(0.5).find(({ type }) => type === "decimal")?.value ?? ".";
+
+// A number's text as the page's language writes it, with a true minus sign.
+/** @param {string} text @param {string} language */
+export function local(text, language = typeof document === "undefined" ? "" : (document.documentElement?.lang ?? "")) {
+  points[language] ??= pointOf(language);
+  return text.replaceAll("-", "−").replace(".", points[language]);
+}
+
 // In three digits.
 /** @param {number} number */
 export function tidy(number) {
-  return String(Number(number.toPrecision(3)));
+  return local(String(Number(number.toPrecision(3))));
 }

@@ -10,7 +10,7 @@ import { renderCopy } from "./widgets/copy.js";
 import { renderDial } from "./widgets/dial.js";
 import { renderDownload } from "./widgets/download.js";
 import { renderMeasuredFile } from "./widgets/measured_file.js";
-import { renderMeasuredStage } from "./widgets/measured_stage.js";
+import { renderFilmStage } from "./widgets/film_stage.js";
 import { renderGuide } from "./widgets/guide.js";
 import { renderHead } from "./widgets/head.js";
 import { renderLines } from "./widgets/lines.js";
@@ -34,7 +34,7 @@ export default {
   Download: { render: renderDownload },
   Failure: { render: renderFailure },
   MeasuredFile: { render: renderMeasuredFile },
-  MeasuredStage: { render: renderMeasuredStage },
+  FilmStage: { render: renderFilmStage },
   Guide: { render: renderGuide },
   Head: { render: renderHead },
   LessonView: { render: renderLesson },

@@ -51,13 +51,14 @@ export const style = `
 .readout { position: absolute; left: 0; top: 0; padding: 6px 10px; border-radius: 8px; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733);
   box-shadow: 0 1px 6px #0003; pointer-events: none; white-space: nowrap; font-size: calc(12px * var(--type, 1)); font-variant-numeric: tabular-nums; }
 .readout i { font-family: "Cambria Math", Cambria, "STIX Two Text", Georgia, serif; font-size: calc(14px * var(--type, 1)); }
-.key { position: absolute; left: 12px; bottom: 10px; display: flex; flex-wrap: wrap; gap: 2px 14px; font-size: calc(12px * var(--type, 1)); color: var(--scene-faint, #3a4552);
-  pointer-events: none; }
+.key { flex: none; display: flex; flex-wrap: wrap; gap: 2px 14px; padding: 6px 2px 0; font-size: calc(12px * var(--type, 1)); color: var(--faint, #3a4552); }
 .key span::before { content: ""; display: inline-block; width: 16px; height: 3px; margin: 0 6px 3px 0; vertical-align: middle;
   background: var(--swatch); }
 .key sub { font-size: 70%; line-height: 0; }
-@media (max-width: 600px) {
+@media (max-width: 700px) {
   .scales { display: none; }
+  .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { min-width: 40px; } .bar :is(.back, .forward, .view) { display: none; }
+  .bar:has(.shows) { flex-wrap: wrap; } .bar .shows { flex: 1 0 100%; flex-wrap: nowrap; overflow-x: auto; }
 }
 `;
 

@@ -111,7 +111,7 @@ interface HeadModel extends Model {
 
 interface LookModel extends Model {
   id: string;
-  dark: boolean;
+  dark: boolean | null;
   large: boolean;
   on_dark: Record<string, string>;
 }
@@ -124,7 +124,10 @@ interface DownloadModel extends Model {
   making: boolean;
 }
 
-interface MeasuredStageModel extends Model {
+interface FilmStageModel extends Model {
+  clock: string;
+  label: string;
+  none: string;
   frames: Bytes;
   profile: Bytes;
   tilts: Bytes;
@@ -230,12 +233,16 @@ interface Source<Names extends string = string> extends BokehModel {
 // What a hand did on a figure: where, in its numbers and in px.
 type Happened = { event_name: string; x: number; y: number; sx: number; sy: number };
 
-declare const Bokeh: { documents: any[]; index: any };
+declare const Bokeh: { documents: any[]; index: any; require(path: string): any };
+
+// What app/call.js and app/borrowed.js are given by who runs them.
+declare const run: string, given: any, cb_obj: any, bundles: string[];
 
 interface Window {
   // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.
   __tippe: Record<string, any>;
   tippeCallbacks: Record<string, (given: any, what: any) => unknown>; // of figures/callbacks.js
+  importShim: any; // Panel's import()
   katex?: { render(tex: string, el: HTMLElement, options: object): void };
   // Our own events; what they carry stands where they are sent.
   addEventListener(type: `tippe:${string}`, run: (event: CustomEvent) => void, options?: AddEventListenerOptions): void;

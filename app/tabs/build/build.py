@@ -14,7 +14,7 @@ from app.model.dimensions import FAMILIES, named, value_of
 from app.state import asked
 from app.tabs.build.fields import grid, symbol
 from app.tabs.build.section import Section
-from app.text import listed, say
+from app.text import listed, say, written
 from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
 from app.widgets.controls import Dial, asked_of, number, typed_number, wording
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, Turned
@@ -258,10 +258,10 @@ class Build:
 def derived_words(shape):
     top, angle = shape.top, shape.touch_angle
     rows = [
-        ("<i>a</i>/<i>R</i>", f"= {top.a:.4f}".replace("-", "−")),
-        ("<i>I</i><sub>1</sub>", f"= {top.I1:.4f} <i>MR</i><sup>2</sup>"),
-        ("<i>I</i><sub>3</sub>", f"= {top.I3:.4f} <i>MR</i><sup>2</sup>"),
-        (say("build.body.mass"), f"{1e3 * shape.mass:.4g} g"),
+        ("<i>a</i>/<i>R</i>", f"= {written(top.a, '.4f')}"),
+        ("<i>I</i><sub>1</sub>", f"= {written(top.I1, '.4f')} <i>MR</i><sup>2</sup>"),
+        ("<i>I</i><sub>3</sub>", f"= {written(top.I3, '.4f')} <i>MR</i><sup>2</sup>"),
+        (say("build.body.mass"), f"{written(1e3 * shape.mass, '.4g')} g"),
     ]
     if not isinstance(shape, BareSphere):
         # one number where it is of one material, else the mean

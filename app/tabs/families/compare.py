@@ -13,7 +13,7 @@ from app.model.builder import thrown
 from app.model.colours import FAINT, INK
 from app.model.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
-from app.text import listed, say, told
+from app.text import listed, say, told, written
 from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, words
 from app.widgets.controls import typed_number
 from app.widgets.plots import plain
@@ -92,7 +92,7 @@ class Compare:
             shape = ordinary() if ordinary_tops else TruncatedSphere.paper()
             I1, K_R = shape.top.I1, thrown(shape)[1]
         for name, value in (("I1", I1), ("K_R", K_R), ("mu_s", scene.inputs["mu_s"])):
-            self.entries[name].value = f"{value:.4g}"
+            self.entries[name].value = written(value, ".4g")
 
     def _show_span(self):
         a = SPANS[self.kind.value]

@@ -5,7 +5,7 @@ import html
 import numpy as np
 
 from app.model.colours import COLOURS, FAINT, INK
-from app.text import say
+from app.text import say, written
 
 WIDTH = 360  # px: a phone's; wider where there is room, and its type with it
 LINE, PALE, RULE = f"var(--ink, {INK})", f"var(--faint, {FAINT})", "var(--rule, #e7ebef)"
@@ -108,11 +108,11 @@ def plane(shown, mu_s):
     drawing = Drawing(say("roll.figures.plane"), 262, (0, end), (0, 1.06), (34, 8, 10, 34))
     drawing.text(0, 1.06, K_J, 'font-size="14" text-anchor="end"', shift=(-12, 8))
     for theta in (0, 1, 2, 3):
-        drawing.text(theta, 0, f"{theta:g}", 'text-anchor="middle"', shift=(0, 15))
+        drawing.text(theta, 0, written(theta, "g"), 'text-anchor="middle"', shift=(0, 15))
     drawing.text(end, 0, f"{THETA} (rad)", 'text-anchor="end"', shift=(0, 30))
     for value in _round_steps(pole):
         drawing.path([0, end], [value / pole] * 2, pen(RULE, 1))
-        drawing.text(0, value / pole, f"{value:g}".replace("-", "−"), 'text-anchor="end"', shift=(-5, 4))
+        drawing.text(0, value / pole, written(value, "g"), 'text-anchor="end"', shift=(-5, 4))
     steady, lift, slip, part = shown.lift.theta_steady, shown.lift, shown.slip, shown.part
     # where even the steady precession breaks a limit, the tieline is a point there
     left, right, first, last = (np.where(np.isnan(theta), steady, theta) for theta in (

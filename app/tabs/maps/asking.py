@@ -9,7 +9,7 @@ import panel_material_ui as pmui
 from app.model.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
 from app.model.maps_choice import FIXED
 from app.tabs.maps.words import with_unit
-from app.text import listed, say
+from app.text import listed, say, written
 from app.widgets.cards import beside, field, flow, words
 from app.widgets.controls import typed_number
 
@@ -138,7 +138,7 @@ class Settings:
 
     def _write(self, values):
         for name, value in values.items():
-            self.entries[name].value = f"{value:.5g}"
+            self.entries[name].value = written(value, ".5g")
 
     def _number(self, name):
         text = self.entries[name].value

@@ -8,6 +8,7 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.model.maps import OWN, QUANTITIES, Map, of_page
+from app.model.maps_body import outline_of
 from app.model.maps_choice import AT, MapChoice
 from app.model.maps_kept import keep, recall
 from app.model.maps_lines import disagreements, lines
@@ -20,6 +21,7 @@ from app.state import asked as sent
 from app.tabs.maps.asking import Settings, spans
 from app.tabs.maps.export import KINDS, made, python
 from app.tabs.maps.picture import MapFigure, RunFigure
+from app.tabs.maps.stage import map_stage, show_run
 from app.tabs.maps.steady import Steady
 from app.tabs.maps.words import colours_say, of_disagreement, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
@@ -41,16 +43,17 @@ class Maps:
 
     def __init__(self, runs=None, scene=None, throw=None):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
-        self.choice, self.level, self._found, self._seen = MapChoice(), None, [], None
+        self.choice, self.level, self._found, self._seen, self._outline = MapChoice(), None, [], None, None
         self.usual = {"asked": MAP, "colour": "end", "place": [*AT]}
         if scene is not None:
-            self._seen = of_page(scene)
+            self._seen, self._outline = of_page(scene), scene.profile
             self.choice.asked = self.usual["asked"] = replace(MAP, body=self._seen[0], own=self._seen[1])
         self.settings = Settings(self.choice.asked, "end", self.choice.place, self._set, self._typed_place)
         self.head, self.bar, self.said = words(), words(visible=False, margin=(4, 0)), words()
         self.names, self.worst, self.key = words(), words(), words(margin=(6, 0))
         self.run_says, self.whys = words(margin=(6, 0)), [words() for _ in range(WHY)]
         self.map, self.curve = MapFigure(self._by_hand), RunFigure()
+        self.stage = map_stage()
         self.steady = Steady(self._runs)
         self.stop, self.whole, self.thrown = (
             pmui.Button(label=say(f"maps.{name}"), disabled=name == "stop", **BUTTON)
@@ -85,7 +88,7 @@ class Maps:
                 self.worst, *self.steady.view,
                 words(f"<h2>{say('maps.export')}</h2>", margin=(8, 0)), flow(*self.files), self.python]  # fmt: skip
         whys = [part for pair in zip(self.whys, self.show_rows, strict=True) for part in pair]
-        right = [self.run_says, _figure(self.curve.figure),
+        right = [self.stage, self.run_says, _figure(self.curve.figure),
                  words(f'<div class="axis">{say("maps.run.theta")}</div>'), self.settings.place_view, self.thrown_row,
                  self.key, *whys, *self.settings.view]  # fmt: skip
         sides = [pn.Column(*parts, margin=0, styles=SIDE | {"flex": flex, "min-width": "0"})
@@ -94,7 +97,7 @@ class Maps:
 
     def show(self, scene):
         """The page has another top, perhaps: then that slides."""
-        body = of_page(scene)
+        body, self._outline = of_page(scene), scene.profile
         if self._seen not in (None, body):
             self.choice.asked = replace(self.choice.asked, body=body[0], own=body[1])
         self._seen = body
@@ -144,6 +147,10 @@ class Maps:
         self.names.object = note(f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}")
         self.python.text = python(asked)
         self.map.begin(asked)
+        for said in (self.key, self.worst, *self.whys):  # of the map before
+            said.object = ""
+        for row in self.show_rows:
+            row.visible = False
         self._run = Run(partial(self._work, asked), partial(self._done, asked))
         known = recall(asked)
         self.stop.disabled, self.bar.visible, self.bar.object = known is not None, known is None, _bar(0)
@@ -257,6 +264,7 @@ class Maps:
             with pn.io.hold():
                 self.run_says.object = of_run(asked, across, up, result)
                 self.curve.show(result.t, result.theta, asked.seconds)
+                show_run(self.stage, result, outline_of(asked, asked.at(across, up), self._outline))
 
 
 def _file(kind, level, colour):

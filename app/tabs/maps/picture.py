@@ -1,13 +1,14 @@
 """A Level of a map -> Bokeh: one picture of cells, a hatch on those that are mixed, closed-form lines, the bead."""
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Range1d
+from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Range1d, Span
 from bokeh.palettes import Viridis256
 
 from app.bundle import call
 from app.model.colours import INK
 from app.model.maps import ENDINGS
 from app.model.maps_lines import lines
+from app.tabs.maps.stage import CLOCK
 from app.text import listed, say
 from app.widgets.plots import plain
 
@@ -47,7 +48,7 @@ class MapFigure:
             self.words.append(Label(x=0, y=0, text=" ", visible=False, text_align="center", text_baseline="middle",
                                     text_font_size="12px", text_font_style="bold"))  # fmt: skip
             fig.add_layout(self.words[-1])
-        self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [False]})
+        self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [0]})
         box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color="#1558c0", fill_alpha=0.15,
                             line_color="#1558c0", line_width=2)  # fmt: skip
         fig.add_layout(box)
@@ -56,6 +57,7 @@ class MapFigure:
             fig.js_on_event(event, call("pullBead", **mine))
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label")))
         fig.js_on_change("inner_width", call("keepFinger", fig=fig, bead=self.bead))
+        fig.js_on_change("inner_width", call("moveBead", fig=fig, hand=self.hand, bead=self.bead, map=self.fine))
         self.hand.on_change("data", lambda attr, old, new: go(new))
 
     def begin(self, asked):
@@ -100,7 +102,7 @@ class MapFigure:
 
 
 class RunFigure:
-    """The tilt of one run over time."""
+    """The tilt of one run over time, with the moment at which the stage shows it; a hand puts it to another."""
 
     def __init__(self):
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 180))
@@ -109,6 +111,11 @@ class RunFigure:
         fig.yaxis.ticker.desired_num_ticks = 4
         self.source = ColumnDataSource({"t": [], "theta": []})
         fig.line("t", "theta", source=self.source, line_color=INK, line_width=2)
+        now = Span(location=0, dimension="height", line_color="#1558c0", line_width=1.5)
+        fig.add_layout(now)
+        fig.js_on_change("inner_width", call("moveLines", spans=[now], clock=CLOCK))
+        for event in ("tap", "panstart", "pan", "panend"):
+            fig.js_on_event(event, call("seekAlong", clock=CLOCK))
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=say("maps.label_run")))
 
     def show(self, t, theta, seconds):

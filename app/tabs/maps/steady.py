@@ -42,6 +42,7 @@ class Steady:
         for source, shade in zip(self.dots, SHADES, strict=True):
             fig.scatter("x", "y", source=source, size=6, fill_color=shade, line_color=DARK, line_width=0.8)
         for source, marker in zip(self.sweeps, ("triangle", "inverted_triangle"), strict=True):
+            fig.line("x", "y", source=source, line_color="#1558c0", line_width=1, line_alpha=0.6)
             fig.scatter("x", "y", source=source, marker=marker, size=7, fill_color=None, line_color="#1558c0")
         fig.line("x", "y", source=self.here, line_color="#1558c0", line_width=1.5)
         self.grow, self.turn = _figure("maps-growth", 170, None), _figure("maps-turning", 170, None)

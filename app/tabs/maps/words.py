@@ -6,7 +6,7 @@ from bokeh.palettes import Viridis256
 from app.model.maps import ENDINGS, QUANTITIES, UNITS
 from app.model.maps_lines import lines
 from app.tabs.maps.picture import DASHES, END_COLOURS, span
-from app.text import listed, say
+from app.text import listed, say, written
 from app.widgets.cards import note, px, swatch
 
 PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid #8a96a3; {}"
@@ -28,8 +28,9 @@ def colours_say(level, colour):
     elif found := span(level, colour):
         ramp = ", ".join(Viridis256[::51])
         unit = UNITS[colour]
-        said.append(f'{found[0]:.3g} {unit} <span style="display: inline-block; width: 120px; height: 13px; '
-                    f'background: linear-gradient(90deg, {ramp})"></span> {found[1]:.3g} {unit}; ')  # fmt: skip
+        least, most = (written(value, ".3g") for value in found[:2])
+        said.append(f'{least} {unit} <span style="display: inline-block; width: 120px; height: 13px; '
+                    f'background: linear-gradient(90deg, {ramp})"></span> {most} {unit}; ')  # fmt: skip
         said.append(_patch("background: transparent", say("maps.missing")))
     if level.finest:
         said.append(_patch(HATCHED, say("maps.hatched")))
@@ -54,7 +55,7 @@ def of_run(asked, across, up, found):
 def of_worst(level):
     """The worst numbers of a map, and what hatching is."""
     drift = level.worst("C_J_drift")
-    kept = f"{drift:.0e}" if np.isfinite(drift) else say("maps.drift_none")
+    kept = written(drift, ".0e") if np.isfinite(drift) else say("maps.drift_none")
     return say("maps.worst", energy=level.worst("energy_error"), drift=kept) + " " + say("maps.unsettled")
 
 

@@ -9,7 +9,7 @@ import panel_material_ui as pmui
 
 from app.model.measured_data import corrected
 from app.model.measured_table import UNITS
-from app.text import say
+from app.text import say, written
 from app.widgets.cards import field, flow, note, words
 from app.widgets.controls import typed_number
 
@@ -49,14 +49,14 @@ class Columns:
 
     def _row(self, i, column):
         values = column.values[np.isfinite(column.values)][:FIRST]
-        shown = ", ".join(f"{value:.4g}" for value in values).replace("-", "−")
+        shown = "; ".join(written(value, ".4g") for value in values)
         name = words(f"<b>{html.escape(column.name)}</b><br>{note(f'{shown} …')}", sizing_mode=None, width=170)
         quantity = pmui.Select(label=say("measure.column.quantity", name=column.name), value=column.quantity,
                                options={says: key for key, says in _quantities().items()}, width=150,
                                **SELECT)  # fmt: skip
         unit = pmui.Select(label=say("measure.column.unit"), value=column.unit, width=88,
                            options=[*UNITS.get(column.quantity, {"": 1})], **SELECT)  # fmt: skip
-        error = field("" if column.error is None else f"{column.error:g}", say("measure.column.error"), width=56)
+        error = field("" if column.error is None else written(column.error, "g"), say("measure.column.error"), width=56)
         guessed = words(_guessed(column), sizing_mode=None)
 
         def corrects(event):

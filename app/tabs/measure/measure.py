@@ -21,7 +21,7 @@ from app.tabs.measure.figures import Pictures, constants
 from app.tabs.measure.file import MeasuredFile
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.report import report
-from app.tabs.measure.stage import MeasuredStage, show_film
+from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, found_words, kept_words, models_table, notes_words, numbers_table
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
@@ -30,10 +30,11 @@ from tippe_core import Top, TopError
 
 PLACES = """
 :host { display: grid; gap: 12px 24px; padding: 12px 24px 16px; align-items: start; box-sizing: border-box;
-  grid-template: "over found" auto "table found" 1fr / minmax(0, 1fr) minmax(300px, 28.6%) }
+  /* max-content: Panel's columns may shrink to nothing, and an auto row would let them where the window is short */
+  grid-template: "over found" max-content "table found" minmax(max-content, 1fr) / minmax(0, 1fr) minmax(300px, 28.6%) }
 .over { grid-area: over } .table { grid-area: table } .found { grid-area: found; min-width: 0 }
 @media (max-width: 800px) { :host { padding: 12px 16px 16px;
-  grid-template: "over" auto "found" auto "table" auto / minmax(0, 1fr) } }
+  grid-template: "over" max-content "found" max-content "table" max-content / minmax(0, 1fr) } }
 """
 FIRST = EXAMPLES[0]
 LAWS = ("contensou", "smoothed", "viscous")
@@ -57,7 +58,7 @@ class Measure:
         self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
         at_once(self.file, "table")
         self.file.param.watch(asked.heard(self._brought), "table")
-        self.stage, self.pictures = MeasuredStage(sizing_mode="stretch_width", height=300), Pictures(self._pulled)
+        self.stage, self.pictures = film_stage(), Pictures(self._pulled)
         self.columns = Columns(self._corrected, self._wrong)
         self.said, self.about = words(), words()
         self.constants = pn.Column(sizing_mode="stretch_width", margin=0)

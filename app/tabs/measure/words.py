@@ -5,7 +5,7 @@ import html
 import numpy as np
 
 from app.model.measured_fit import verdict
-from app.text import listed, say
+from app.text import listed, say, written
 from app.widgets.cards import note
 
 SHOWN = {"tilt": 180 / np.pi}
@@ -101,8 +101,9 @@ def models_table(rolling, sliding):
     better = min(rolling, sliding, key=lambda fit: fit.aic)
     rows = []
     for fit in (sliding, rolling):
-        seldom = f"{min(fit.runs.values()):.1f}".replace("-", "−")
-        cells = (f"{fit.chi2:,.0f}", f"{fit.freedom}", f"{fit.aic:,.0f}", seldom, say(f"measure.{_state(fit)}"))
+        seldom = written(min(fit.runs.values()), ".1f")
+        chi2, aic = (written(value, ",.0f") for value in (fit.chi2, fit.aic))
+        cells = (chi2, f"{fit.freedom}", aic, seldom, say(f"measure.{_state(fit)}"))
         rows.append(_row(say(f"measure.models.{fit.model.name}"), *cells, best=fit is better))
     return f"<table><tr>{head}</tr>{''.join(rows)}</table>{note(say('measure.heads_mean'))}"
 

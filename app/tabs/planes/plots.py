@@ -10,14 +10,14 @@ from app.model.groups import areas
 from app.model.planes_picture import PLANES
 from app.model.planes_tracks import QUANTITIES, ledger, tracks
 from app.model.planes_wells import wells
-from app.model.regimes import COLOUR, ENDS, FLIES, ROLLS, SLIPS, WOULD_LIFT
+from app.model.regimes import COLOUR, ENDS, FLIES, GLIDES, ROLLS, SLIPS, WOULD_LIFT
 from app.tabs.planes.words import LOOKS
-from app.text import listed, say
+from app.text import listed, say, written
 from app.widgets.plots import plain
 from tippe_core import PRESETS as BODIES
 
 CLOCK = "planes"
-IN_RIBBON = (ROLLS, SLIPS, FLIES, WOULD_LIFT, ENDS)
+IN_RIBBON = (ROLLS, SLIPS, GLIDES, FLIES, WOULD_LIFT, ENDS)
 LEDGER = {"spin": COLOURS["omega"], "precession and nutation": COLOURS["momentum"], "motion of G": FAINT,
           "height": COLOURS["jellett"], "heat": COLOURS["friction"]}  # fmt: skip
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
@@ -208,7 +208,7 @@ class Map:
             place = self.known[body.name] = (top.a if inside else left + 0.03, top.I1 / top.I3)
             name = named(body.name)
             if not inside:
-                name = say("planes.map.far", name=name, a=f"{top.a:.0f}")
+                name = say("planes.map.far", name=name, a=written(top.a, ".0f"))
             marks.append((*place, name, "circle" if inside else "triangle", *beside(place, name, taken)))
         names = ("x", "y", "name", "marker", "dx", "dy", "align")
         known = ColumnDataSource(dict(zip(names, zip(*marks, strict=True), strict=True)))

@@ -12,7 +12,7 @@ from app.model.regimes import COLOUR, NAMES
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
 from app.text import listed, say
-from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, grid, note, on_click, progress, swatch, words
+from app.widgets.cards import BUTTON, PLAIN, alert, card, first, flow, note, on_click, progress, staged, swatch, words
 from app.widgets.controls import Control, Wish
 from app.widgets.top3d import Top3D, pack_frames
 
@@ -92,46 +92,32 @@ class ThreePlanes:
         return Wish(buttons, name, self._ask)
 
     def _build(self):
-        self._times = self._times_card()
-        self.main = grid(
-            self._stage_card(),
-            self._start_card(),
-            self._times,
-            pn.Column(
-                card(
-                    say("planes.cards.well"),
-                    words(f'<div class="key">{say("planes.keys.well")}</div>'),
-                    pn.pane.Bokeh(self._well.figure, sizing_mode="stretch_both", margin=0),
-                    height="370px",
-                ),
-                card(
-                    say("planes.cards.map"),
-                    words(f'<div class="key">{say("planes.keys.map")}</div>'),
-                    pn.pane.Bokeh(self._map.figure, sizing_mode="stretch_both", margin=0),
-                    height="440px",
-                ),
-                sizing_mode="stretch_width",
-                margin=0,
-                styles={"gap": "12px"},
-            ),
+        well, tops = (
+            card(
+                say(f"planes.cards.{name}"),
+                words(f'<div class="key">{say(f"planes.keys.{name}")}</div>'),
+                pn.pane.Bokeh(shown.figure, sizing_mode="stretch_both", margin=0),
+                height=height,
+            )
+            for name, shown, height in (("well", self._well, "370px"), ("map", self._map, "440px"))
         )
+        became = card(say("planes.cards.became"), self._verdict, self._table, height="max-content")
+        self.main = staged([self._stage_card()], [became, self._start_card(), self._times_card(), well, tops])
 
-    def _stage_card(self):
+    def _presets(self):
         buttons = []
         for name in PRESETS:
             buttons.append(pmui.Button(label=listed("planes.presets")[name], **NARROW))
             on_click(buttons[-1], lambda event, name=name: self._choose(name))
-        presets = flow(*buttons, margin=(4, 0, 0, 0))
+        return flow(*buttons, margin=(6, 14, 8, 16))
+
+    def _stage_card(self):
         self._row = pn.Column(
-            sizing_mode="stretch_width", margin=(6, 0, 0, 0),
+            sizing_mode="stretch_both", margin=(6, 0, 0, 0),
             styles={"display": "grid", "gap": "10px"},
             stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
         )  # fmt: skip
-        self._stage = card(
-            say("planes.cards.stage"), presets, self._force, self._row, self._verdict,
-            self._table, height="max-content",
-        )  # fmt: skip
-        return self._stage
+        return first(card(say("planes.cards.stage"), self._force, self._row))
 
     def _start_card(self):
         views = {name: control.view for name, control in self._controls.items()}
@@ -145,6 +131,7 @@ class ThreePlanes:
         self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
         return card(
             say("planes.cards.start"),
+            self._presets(),
             self._progress,
             self._said["run"],
             self._switches["by"].view,
@@ -249,13 +236,9 @@ class ThreePlanes:
             return
         compare = plane == "compare"
         with pn.io.hold():
-            self._stage.styles = self._stage.styles | {"grid-column": "1 / -1" if compare else "auto"}
-            self._times.styles = self._times.styles | {"grid-row": "span 2" if compare else "auto"}
-            columns = "repeat(auto-fit, minmax(min(100%, 280px), 1fr))" if compare else "1fr"
-            self._row.styles = self._row.styles | {"grid-template-columns": columns}
+            self._spread(compare)
             for name, top in self._tops.items():
                 top.visible = plane in (name, "compare")
-                top.height = 330 if compare else 420
                 top.stylesheets = SMALL_BAR if compare else []
                 if top.visible:
                     self._show_top(top, picture, name)
@@ -267,6 +250,15 @@ class ThreePlanes:
             self._table.visible = compare
             self._figures.look(picture, plane)
             self._well.show(picture, plane)
+
+    def _spread(self, compare):
+        """Three tops need the width of the page: what answers them then stands below, side by side."""
+        left, right = self.main.objects
+        columns = "repeat(auto-fit, minmax(min(100%, {}px), 1fr))"
+        self._row.styles = self._row.styles | {"grid-template-columns": columns.format(280) if compare else "1fr"}
+        self.main.styles = {"display": "flex"} if compare else {}
+        left.styles = {"position": "static"} if compare else {}
+        right.styles = {"display": "grid", "grid-template-columns": columns.format(480)} if compare else {}
 
     def _show_top(self, top, picture, plane):
         motion = picture.motions[plane]

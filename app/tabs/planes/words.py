@@ -9,8 +9,9 @@ from app.model.colours import COLOURS
 from app.model.planes_picture import PLANES, RTOL, SHORT
 from app.model.planes_run import THROWN
 from app.model.regimes import WOULD_LIFT
-from app.text import listed, say
+from app.text import listed, say, written
 from app.widgets.cards import swatch
+from app.widgets.typeset import power
 
 # A plane's own colour, the same in all pictures of this tab.
 LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": COLOURS["friction"]}
@@ -29,18 +30,12 @@ AT_REST, AT_ONCE = 1e-6, 0.005
 SCATTERS, HAND = 100.0, 0.1
 
 
-def power(value):
-    """A small number as 3·10⁻¹³."""
-    mantissa, exponent = f"{max(value, 1e-16):.0e}".split("e")
-    return f"{mantissa}·10<sup>{int(exponent)}</sup>".replace("-", "−")
-
-
 def degrees(value):
-    return f"{np.degrees(value):.1f}°"
+    return f"{written(np.degrees(value), '.1f')}°"
 
 
 def milliseconds(seconds):
-    return f"{max(1e3 * seconds, 0.01):.2g}"
+    return written(max(1e3 * seconds, 0.01), ".2g")
 
 
 def in_force(picture, plane):
@@ -275,7 +270,7 @@ def scatter_words(picture):
     growth = picture.growth
     if growth is None or growth < SCATTERS:
         return ""
-    return say("planes.verdict.scatters", growth=f"{growth:.0e}" if growth >= 1e4 else f"{growth:.2g}", hand=HAND)
+    return say("planes.verdict.scatters", growth=written(growth, ".0e" if growth >= 1e4 else ".2g"), hand=HAND)
 
 
 def run_words(picture):
@@ -321,7 +316,7 @@ def drift_words(name, motion, picture):
     drift, (until, event, alone) = motion.drift[name], motion.alone
     if drift < ROUNDING:
         return f'<span class="kept">{say("planes.drift.stays", power=power(drift))}</span>'
-    changes = say("planes.drift.changes", size=f"{100 * drift:.3g} %" if drift > 1e-3 else power(drift))
+    changes = say("planes.drift.changes", size=f"{written(100 * drift, '.3g')} %" if drift > 1e-3 else power(drift))
     if name == "J" and event and alone < ROUNDING:
         settings = picture.settings
         then = say("planes.drift.then", time=until * settings.scales.time, happens=happens(event, settings),

@@ -11,13 +11,16 @@ from app.model.hands import held, pulled
 from app.model.playing import together
 from app.state import asked
 from app.text import say
-from app.widgets.cards import PLAIN, TALL, card, grid, section, words
+from app.widgets.cards import PLAIN, TALL, WIDE, card, first, later, section, staged, words
 from app.widgets.controls import named
 from app.widgets.plane_card import PlaneCard
 from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top
+from app.widgets.typeset import power
+
+CURVES = 300  # px: the motion over time, below the top
 
 
 def plane_symbols():
@@ -57,7 +60,7 @@ def unit_words(scene):
 
 def kept_words(scene):
     """How well the constants, recomputed from the motion, stay what they are."""
-    return f'<div class="axis key">{say("roll.says.kept", drift=max(scene.drift, 1e-16))}</div>'
+    return f'<div class="axis key">{say("roll.says.kept", drift=power(scene.drift))}</div>'
 
 
 class Switch:
@@ -109,7 +112,7 @@ def controls_card(controls):
     """What sets the motion, the top, and what Figs. 5 and 6 show."""
     side = {"sizing_mode": "stretch_width", "margin": 0, "styles": {"flex": "1 1 220px", "min-width": "0"}}
     styles = {"display": "flex", "flex-flow": "row wrap", "gap": "0 12px"}
-    made = card(
+    return card(
         say("roll.sections.motion"),
         pn.Column(
             pn.Column(*controls.motion, **side),
@@ -121,8 +124,6 @@ def controls_card(controls):
             sizing_mode="stretch_width", margin=(0, -14), styles=styles,
         ), height="max-content",
     )  # fmt: skip
-    made.styles = made.styles | {"grid-row": "span 2"}  # as high as two pictures
-    return made
 
 
 class Roll:
@@ -148,14 +149,12 @@ class Roll:
         self._table = Switch(say("roll.cards.table"), Track, Ring, Force, soon=soon)
         self._floor = card(say("roll.cards.floor", height=named("height"), plane=plane_symbols()))
         self._over_time = card(say("roll.cards.times"))
-        self.main = grid(
-            card(say("roll.cards.top"), self._top, height=TALL),
-            card(say("roll.cards.plane", plane=plane_symbols()), *self._card.content, height=TALL),
-            self._floor,
-            controls_card(controls),
-            self._over_time,
-            self._tilt.view,
-            self._table.view,
+        self._over_time.stylesheets = [f"{WIDE} {{ :host {{ height: {CURVES}px !important }} }}"]
+        plane = card(say("roll.cards.plane", plane=plane_symbols()), *self._card.content, height=TALL)
+        stage = first(card(say("roll.cards.top"), self._top), below=CURVES + 12)
+        self.main = staged(
+            [stage, later(self._over_time, 1)],
+            [plane, controls_card(controls), self._floor, later(self._tilt.view, 2), later(self._table.view, 2)],
         )
         pacer.shows(self._show_hand, "hand")
         for shows in (self._planes, self._times, self._portraits):

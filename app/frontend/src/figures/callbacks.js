@@ -1,5 +1,5 @@
 // What Python has Bokeh call, by its name: app/bundle.py. Each takes what it was given there, then what happened.
-import { keepFinger, pullBead } from "./maps.js";
+import { keepFinger, moveBead, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
 import { followFilm, pullFilm } from "./measured.js";
 import { followMotion, pullPlane, sayPull } from "./plane.js";
@@ -9,7 +9,7 @@ import { pressSection } from "./sections.js";
 import { seekAlong } from "./seeking.js";
 
 const callbacks = {
-  followCurve, followFilm, followMotion, followPlanes, keepFinger, moveLines, nameFigure, pressSection, pullBead, pullFilm,
+  followCurve, followFilm, followMotion, followPlanes, keepFinger, moveBead, moveLines, nameFigure, pressSection, pullBead, pullFilm,
   pullPlane, sayPull, seekAlong, seekOnCurve,
 };
 

@@ -15,12 +15,12 @@ export function nameFigure({ fig, label }) {
 }
 
 // Lines at the clock's time.
-/** @param {{ spans: BokehModel[] }} given */
-export function moveLines({ spans }) {
+/** @param {{ spans: BokehModel[], clock?: string }} given */
+export function moveLines({ spans, clock }) {
   if (isFollowed(spans[0])) return;
   const move = (t) => {
     for (const span of spans) span.setv({ location: t }, { sync: false });
   };
-  followClock(move);
-  move(timeOf());
+  followClock(move, clock);
+  move(timeOf(clock));
 }

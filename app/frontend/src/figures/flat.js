@@ -2,7 +2,7 @@
 import { Bar } from "../widgets/bar.js";
 import { Place } from "../motion/clock.js";
 import { colours } from "../colours.js";
-import { coalesce, float32, penOf } from "../data.js";
+import { coalesce, float32, local, penOf } from "../data.js";
 import { emptyPose } from "../motion/frames.js";
 import { wordOf } from "../regimes.js";
 import { followLook } from "../three/scene.js";
@@ -112,7 +112,7 @@ class Flat {
     pen.fillStyle = hex(look.ink);
     pen.font = "600 15px system-ui, sans-serif";
     pen.textAlign = "center";
-    pen.fillText(`θ = ${((180 * tilt) / Math.PI).toFixed(1)}°`, width / 2, 24);
+    pen.fillText(`θ = ${local(((180 * tilt) / Math.PI).toFixed(1))}°`, width / 2, 24);
     this.verdict = wordOf(pose.regime, model.texts.regimes);
   }
 

@@ -1,6 +1,6 @@
 // A map: a hand near the bead takes hold of it, from anywhere else it draws a box, a click goes to the cell; `hand` takes
-// all of it to Python, of a box two opposite corners.
-import { eventsOf, scalesOf } from "../borrowed.js";
+// all of it to Python, of a box two opposite corners. The arrow keys move the bead from cell to cell.
+import { elementOf, eventsOf, scalesOf } from "../borrowed.js";
 import { clamp } from "./curves.js";
 import { isFollowed } from "./seeking.js";
 
@@ -39,7 +39,7 @@ export function pullBead({ fig, hand, bead, box }, { event_name: name, sx, sy, x
   if (done) own.held = false;
   if (!done && now - own.sent < WAIT) return;
   own.sent = now;
-  hand.data = { ...at, cell: [clicked] };
+  hand.data = { ...at, cell: [Number(clicked)] };
 }
 
 // The box from where the hand began to where it is; at its end it is sent.
@@ -52,7 +52,38 @@ function drawBox(own, hand, box, name, to) {
   if (!done) return;
   own.from = null;
   if (Math.min(Math.abs(to.sx - from.sx), Math.abs(to.sy - from.sy)) < LEAST) return;
-  hand.data = { x: [left, right], y: [bottom, top], cell: [false, false] };
+  hand.data = { x: [left, right], y: [bottom, top], cell: [0, 0] };
+}
+
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+
+// Where a key takes the bead: a cell further, with Shift a tenth of one; it stays on the map.
+/**
+ * @param {string} key @param {boolean} fine @param {[x: number, y: number]} place @param {Record<"x_range" | "y_range", { start: number, end: number }>} ranges
+ * @param {[across: number, up: number]} cells
+ */
+export function keyed(key, fine, [x, y], { x_range: across, y_range: up }, cells) {
+  const [right, above] = ARROWS[key], steps = cells.map((count) => (fine ? 10 : 1) * count);
+  return [
+    clamp(x + (right * (across.end - across.start)) / steps[0], across.start, across.end),
+    clamp(y + (above * (up.end - up.start)) / steps[1], up.start, up.end),
+  ];
+}
+
+/** @param {{ fig: Figure, hand: Source, bead: Source<"x" | "y">, map: Source<"image"> }} given */
+export function moveBead({ fig, hand, bead, map }) {
+  const element = elementOf(fig);
+  if (!element) return;
+  element.tabIndex = 0;
+  element.onkeydown = (event) => {
+    const [up, across] = map.data.image[0]?.shape ?? [];
+    if (!(event.key in ARROWS) || !across || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const [x, y] = keyed(event.key, event.shiftKey, [bead.data.x[0], bead.data.y[0]], fig, [across, up]), at = { x: [x], y: [y] };
+    bead.setv({ data: at }, { sync: false });
+    hand.data = { ...at, cell: [0] };
+  };
 }
 
 // A finger near the bead moves it, and scrolls the page from everywhere else.

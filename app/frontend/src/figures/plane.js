@@ -1,6 +1,6 @@
 // Fig. 6: the bead at the clock's time, and a hand, which `hand` takes to Python.
 import { eventsOf, scalesOf, setCursor } from "../borrowed.js";
-import { fill } from "../data.js";
+import { fill, local } from "../data.js";
 import { timeOf } from "../motion/clock.js";
 import { ROLLS, wordOf } from "../regimes.js";
 import { clamp, nearestRow, spotOf, timeAtTilt, valueAt } from "./curves.js";
@@ -141,7 +141,7 @@ export function readPlane({ K_J, slip_E, lift_E, slip_by, lift_by }, words, { x,
   const why = { slip: words.not_slip, "lift-off": words.not_lift };
   const verdict = E > slip_E[row] ? (why[E > lift_E[row] ? lift_by[row] : slip_by[row]] ?? words.not_at_all) : limited[slip_by[row]];
   return fill(words.place, {
-    K_J: K_J[row].toFixed(3), theta: x.toFixed(3), degrees: ((x * 180) / Math.PI).toFixed(1), E: E.toFixed(4),
-    ratio: Number.isFinite(ratio) ? ratio.toFixed(3) : words.no_contact, verdict,
+    K_J: local(K_J[row].toFixed(3)), theta: local(x.toFixed(3)), degrees: local(((x * 180) / Math.PI).toFixed(1)), E: local(E.toFixed(4)),
+    ratio: Number.isFinite(ratio) ? local(ratio.toFixed(3)) : words.no_contact, verdict,
   });
 }

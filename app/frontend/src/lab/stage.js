@@ -45,11 +45,6 @@ export class Stage {
       part("div", { class: "tops" }, ...this.places), this.ring,
       part("div", { class: "on" }, part("div", { class: "switch" }, part("b", {}, texts.table), this.choice.element)),
       this.pill, this.chip, this.missing);
-    // The wheel scrolls the page; with Ctrl it is for the picture.
-    this.element.addEventListener("wheel", (event) => {
-      if (event.ctrlKey) event.composedPath()[0].focus?.({ preventScroll: true });
-      else event.stopPropagation();
-    }, { capture: true, passive: true });
   }
 
   get tops() {

@@ -23,11 +23,6 @@ export class Stage {
     this.pill = part("div", { class: "pill" });
     this.wait = part("p", { class: "wait", role: "status" });
     this.element = part("section", { class: "stage", "aria-label": texts.stage }, part("div", { class: "tops" }, ...this.places), this.pill, this.wait);
-    // The wheel scrolls the page; with Ctrl it is for the picture.
-    this.element.addEventListener("wheel", (event) => {
-      if (event.ctrlKey) event.composedPath()[0].focus?.({ preventScroll: true });
-      else event.stopPropagation();
-    }, { capture: true, passive: true });
   }
 
   /** @param {any[]} tops @param {any} step @param {any[]} curves */

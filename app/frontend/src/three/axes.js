@@ -1,5 +1,6 @@
 // The box round a surface: floor and back walls with a grid, ticks and names on the edges nearest to the eye.
 import * as THREE from "three";
+import { local } from "../data.js";
 /** @import { Labels } from "./labels.js" */
 /** @import { Stage } from "./stage.js" */
 
@@ -49,7 +50,7 @@ export class Scale {
 
   text(value) {
     const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(this.step * 1.0001)) + (/25/.test(this.step.toPrecision(2)) ? 1 : 0)));
-    return (Math.abs(value) < 1e-9 * this.step ? 0 : value).toFixed(digits).replace("-", "−");
+    return local((Math.abs(value) < 1e-9 * this.step ? 0 : value).toFixed(digits));
   }
 }
 

@@ -1,5 +1,6 @@
 // The handle at the end of the axis of a paused top: dragged, or moved by the arrow keys, it asks for another tilt.
 import { Vector3 } from "three";
+import { local } from "../data.js";
 /** @import { Body } from "./body.js" */
 /** @import { Labels } from "./labels.js" */
 /** @import { Player } from "../motion/player.js" */
@@ -54,7 +55,7 @@ export class Handle {
   // The tilt as it is spoken.
   /** @param {number} theta */
   said(theta) {
-    return this.model.degrees ? ((180 / Math.PI) * theta).toFixed(0) : theta.toFixed(3);
+    return this.model.degrees ? ((180 / Math.PI) * theta).toFixed(0) : local(theta.toFixed(3));
   }
 
   letGo() {

@@ -93,14 +93,8 @@ export class Stage {
     canvas.style.touchAction = "pan-y"; // a finger moving up or down scrolls the page, as it does everywhere else
     this.controls.addEventListener("change", () => this.invalidate());
     this.controls.addEventListener("end", () => this.turned());
-    // The wheel scrolls the page until a person has clicked the picture.
-    holder.addEventListener(
-      "wheel",
-      (event) => {
-        if (/** @type {ShadowRoot} */ (holder.getRootNode()).activeElement !== canvas) event.stopPropagation();
-      },
-      { capture: true, passive: true },
-    );
+    // The wheel scrolls the page; with Ctrl, as two fingers of a touch pad send it, it is for the picture.
+    holder.addEventListener("wheel", (event) => event.ctrlKey || event.stopPropagation(), { capture: true, passive: true });
 
     canvas.addEventListener("keydown", (event) => this.key(event));
 

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { Axes, Scale } from "./axes.js";
 import { colours } from "../colours.js";
-import { coalesce, float32 } from "../data.js";
+import { coalesce, float32, local } from "../data.js";
 import { Labels } from "./labels.js";
 import { wordOf } from "../regimes.js";
 import { followLook } from "./scene.js";
@@ -57,7 +57,8 @@ export class Surface {
     this.readout.hidden = true;
     this.key = document.createElement("div");
     this.key.className = "key";
-    picture.append(this.readout, this.key);
+    picture.append(this.readout);
+    picture.after(this.key); // below it: over it it would hide what stands at an axis
     this.grid = new Grid({ K_J: float32(), theta: float32(), height: float32(), energy: float32() });
     this.selected = { K_J: NaN, inner: 0, outer: 0 }; // the motion on display
     this.wrong = ""; // what of it cannot be
@@ -125,8 +126,8 @@ export class Surface {
   readValue(i, event) {
     const { grid: { theta, K_J, height, energy, columns }, marker } = this, row = Math.floor(i / columns);
     this.readAt(event,
-      `<i>θ</i> = ${theta[i].toFixed(4)} rad = ${((theta[i] * 180) / Math.PI).toFixed(2)}°<br>` +
-      `<i>K</i><sub>J</sub> = ${K_J[row].toFixed(4)}<br>${QUANTITY} = ${height[i].toFixed(4)}<br><i>E</i> = ${energy[row].toFixed(4)}`);
+      `<i>θ</i> = ${local(theta[i].toFixed(4))} rad = ${local(((theta[i] * 180) / Math.PI).toFixed(2))}°<br>` +
+      `<i>K</i><sub>J</sub> = ${local(K_J[row].toFixed(4))}<br>${QUANTITY} = ${local(height[i].toFixed(4))}<br><i>E</i> = ${local(energy[row].toFixed(4))}`);
     marker.visible = true;
     marker.position.fromBufferAttribute(this.mesh.object.geometry.attributes.position, i);
     this.stage.invalidate();
@@ -136,7 +137,7 @@ export class Surface {
   readWhyNot([theta, K_J], event) {
     const { texts, limit } = this.model;
     this.marker.visible = false;
-    this.readAt(event, `<i>θ</i> = ${theta.toFixed(3)} rad, <i>K</i><sub>J</sub> = ${K_J.toFixed(3)}<br>${texts[LIMITS[limit].why]}`);
+    this.readAt(event, `<i>θ</i> = ${local(theta.toFixed(3))} rad, <i>K</i><sub>J</sub> = ${local(K_J.toFixed(3))}<br>${texts[LIMITS[limit].why]}`);
     this.stage.invalidate();
   }
 

@@ -1,6 +1,6 @@
 // The playback bar: buttons, scrubber, speed, what is shown. It reads and drives a player; it draws nothing itself.
 import { colours } from "../colours.js";
-import { fill } from "../data.js";
+import { fill, local } from "../data.js";
 /** @import { Player } from "../motion/player.js" */
 
 const icons = {
@@ -91,7 +91,7 @@ export class Bar {
     }
     this.scrub.max = String(Math.max(frames.count - 1, 0));
     this.scrub.value = String(this.player.place);
-    const seconds = (t * secondsPerUnit).toFixed(4), units = t.toFixed(3);
+    const seconds = local((t * secondsPerUnit).toFixed(4)), units = local(t.toFixed(3));
     this.time.innerHTML = `<b>${seconds} s</b> = ${units} (<i>R</i>/<i>g</i>)<sup>½</sup>`;
     this.scrub.setAttribute("aria-valuetext", fill(this.texts.seconds, { seconds }));
   }

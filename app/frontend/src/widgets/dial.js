@@ -1,5 +1,5 @@
 import { colours } from "../colours.js";
-import { fill } from "../data.js";
+import { fill, local } from "../data.js";
 
 // One control: its name, a slider, a number to type, words below. What a person does goes to Python as a numbered
 // request, and what Python tells is taken only if it had heard the last of them: nothing late moves a hand back.
@@ -24,7 +24,7 @@ input[type=range] { display: block; width: 100%; height: 26px; accent-color: var
 const PAGE = 10; // steps that Page Up and Page Down go
 const KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: PAGE, PageDown: -PAGE };
 
-const written = (number) => String(Number(number.toPrecision(6))).replace("-", "−");
+const written = (number) => local(String(Number(number.toPrecision(6))));
 
 // A value in words: with its unit, or where it stands among the marks.
 /** @param {number} value @param {Pick<DialModel, "marks" | "unit" | "texts">} model */

@@ -1,5 +1,5 @@
 // The page by keyboard and by ear: keys for the clock, the list of them, what the top does in words, and the tour.
-import { fill } from "../data.js";
+import { fill, local } from "../data.js";
 import { find } from "./finding.js";
 import { guideStyle } from "../style.js";
 import { Tour, tourFrame } from "./tour.js";
@@ -51,7 +51,7 @@ function speak(model, signal) {
     playing = detail.playing;
     if (changed) say(now());
     else if (!playing) {
-      const seconds = (detail.t * model.seconds).toFixed(4);
+      const seconds = local((detail.t * model.seconds).toFixed(4));
       say(fill(texts.instant, { seconds, verdict: detail.verdict, said: model.said }));
     }
   };

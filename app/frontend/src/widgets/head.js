@@ -143,6 +143,7 @@ class Head {
   look = () => {
     const dark = document.documentElement.dataset.look?.startsWith("dark");
     for (const each of [this.row, this.below]) each.dataset.look = dark ? "dark" : "light";
+    for (const { name, box } of this.switches) if (name === "dark") box.checked = Boolean(dark); // the system's, where nobody chose
   };
 
   /** @param {any} state */

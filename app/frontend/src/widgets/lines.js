@@ -1,4 +1,5 @@
 // The derivation's lines: each equation typeset, both its sides now, and the symbols that can be pointed at.
+import { local } from "../data.js";
 import { rowBefore } from "../figures/curves.js";
 import { style } from "./lines_style.js";
 
@@ -10,12 +11,12 @@ export function figures(value, digits) {
   if (!Number.isFinite(value)) return "—";
   const size = Math.abs(value);
   const text = size < 1e-300 ? 0 : size < 1e-4 ? value.toExponential(digits > 6 ? 3 : 1) : Number(value.toPrecision(digits));
-  return String(text).replaceAll("-", "−");
+  return local(String(text));
 }
 
 /** @param {Float64Array} part @param {number} digits */
 export const said = (part, digits) =>
-  part.length === 1 ? figures(part[0], digits) : `(${Array.from(part, (x) => figures(x, 6)).join(", ")})`;
+  part.length === 1 ? figures(part[0], digits) : `(${Array.from(part, (x) => figures(x, 6)).join("; ")})`;
 
 // The row nearest to a time, in its nutation; t stands first in each.
 /** @param {{ values: Float64Array, width: number, period: number }} table @param {number} now */

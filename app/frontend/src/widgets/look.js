@@ -1,7 +1,8 @@
 // How the page looks: light or dark, and large for a projector. The page's own type and the widgets follow by variables
 // of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
+import { writeTicks } from "../borrowed.js";
 import { colours, onDark } from "../colours.js";
-import { coalesce } from "../data.js";
+import { coalesce, local } from "../data.js";
 import { words } from "../three/scene.js";
 
 const LARGER = 1.35;
@@ -23,23 +24,23 @@ function exchange(value, as) {
 }
 
 // Of the document's root: what the page, the pictures and the widgets read.
-/** @param {LookModel} model @param {string} name of the look */
-function setVariables(model, name) {
+/** @param {LookModel} model @param {string} name of the look @param {boolean} dark */
+function setVariables(model, name, dark) {
   const [ink, , line, paper] = looks[name], { style, dataset } = document.documentElement;
   const values = {
-    "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper, "--alert": model.dark ? "#ffb4ab" : "#b3261e",
-    "--focus": (model.dark ? onDark : colours).chosen, "--link": model.dark ? "#8ec7f5" : "#0b5cad",
-    "--type": model.large ? LARGER : 1, ...words[model.dark ? "dark" : "light"],
+    "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper, "--alert": dark ? "#ffb4ab" : "#b3261e",
+    "--focus": (dark ? onDark : colours).chosen, "--link": dark ? "#8ec7f5" : "#0b5cad",
+    "--type": model.large ? LARGER : 1, ...words[dark ? "dark" : "light"],
   };
   for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));
   for (const [property, value] of Object.entries(model.on_dark)) {
     // what the widgets read, and what the page itself has
     for (const prefix of ["--look-", "--mui-palette-"]) {
-      if (model.dark) style.setProperty(prefix + property, value);
+      if (dark) style.setProperty(prefix + property, value);
       else style.removeProperty(prefix + property);
     }
   }
-  style.colorScheme = model.dark ? "dark" : "light"; // of what the browser draws
+  style.colorScheme = dark ? "dark" : "light"; // of what the browser draws
   style.setProperty("--look-scheme", style.colorScheme);
   style.setProperty("--panel-on-background-color", ink);
   style.fontSize = model.large ? `${100 * LARGER}%` : "";
@@ -48,6 +49,8 @@ function setVariables(model, name) {
 }
 
 class Look {
+  system = window.matchMedia("(prefers-color-scheme: dark)");
+
   /** @param {LookModel} model */
   constructor(model) {
     this.model = model;
@@ -84,12 +87,17 @@ class Look {
     for (const part of all) if (!part.type?.startsWith("panel.") && part.attributes) this.dress(part);
   }
 
-  update() {
-    const { dark, large } = this.model;
-    this.name = `${dark ? "dark" : "light"}${large ? " large" : ""}`;
-    setVariables(this.model, this.name);
-    this.dressAll();
+  // As a person has chosen, else as the system has it.
+  get isDark() {
+    return this.model.dark ?? this.system.matches;
   }
+
+  update = () => {
+    const { isDark: dark, model: { large } } = this;
+    this.name = `${dark ? "dark" : "light"}${large ? " large" : ""}`;
+    setVariables(this.model, this.name, dark);
+    this.dressAll();
+  };
 
   // Whether a change of the page brought models to dress: a tab is made when it is first looked at. And the widgets' own
   // dark theme has inks for figures, which come later.
@@ -101,13 +109,16 @@ class Look {
 /** @param {Pick<Rendering<LookModel>, "model">} rendering */
 export function renderLook({ model }) {
   document.documentElement.lang = model.texts.language;
+  if (model.texts.language !== "en") writeTicks((text) => local(text));
   const look = new Look(model), again = coalesce(() => look.dressAll());
   const onChange = ({ attr = "" }) => look.isUndone(attr) && again();
   look.doc.on_change(onChange);
-  for (const name of ["dark", "large"]) model.on(name, () => look.update());
+  for (const name of ["dark", "large"]) model.on(name, look.update);
+  look.system.addEventListener("change", look.update);
   model.on("remove", () => {
     again.cancel();
+    look.system.removeEventListener("change", look.update);
     look.doc.remove_on_change(onChange);
   });
-  if (model.dark || model.large) look.update();
+  if (look.isDark || model.large) look.update();
 }

@@ -21,7 +21,7 @@ const drawn = {
   theta_dot: top + ink("M82 10Q98 16 104 30") + ink(head(104, 30, 0.4, 0.9)),
   omega3: top + spin + letter(96, 22, "ω₃"),
   omega2: top + ink(`M60 48L92 66.5${head(92, 66.5, 0.87, 0.5)}`) + letter(96, 66, "2′"),
-  K_J: top + ink("M60 78V10") + around(60, 20, 13, 0) + dot(60, 48) + dot(60, 78) + letter(44, 46, "O") + letter(66, 90, "C"),
+  K_J: top + ink("M60 78L40 12") + around(43, 22, 13, -17) + dot(54, 58.4) + dot(60, 78) + letter(38, 66, "G") + letter(66, 90, "C"),
   K_R: top + spin + ink("M48 84H72") + letter(10, 90, "u = 0"),
   energy: graph + ink("M24 22C44 96 84 96 112 22") + pale("M32 46H106") + letter(4, 50, "E"),
   height: graph + ink("M34 80C46 22 90 22 104 80") + letter(108, 92, "θ"),

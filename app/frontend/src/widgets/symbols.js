@@ -1,7 +1,8 @@
 // Every symbol on the page, in a picture's words, at a control, or in a sentence, has its sketch and its meaning under the
-// hand. A symbol is known by how it is set: <i>K</i><sub>J</sub>.
+// hand, and every term of the glossary its words. A symbol is known by how it is set: <i>K</i><sub>J</sub>.
 import { hideReadout, showReadout } from "../figures/readout.js";
 import { sketchOf } from "./sketches.js";
+import { watchTerms } from "./terms.js";
 
 // {as it is set: its name in controls.toml}
 const NAMES = {
@@ -29,7 +30,7 @@ function quiet(part, words) {
 export function renderSymbols({ model }) {
   const listening = new AbortController(), { signal } = listening, owner = {};
   const over = (event) => {
-    const part = event.composedPath()[0], name = part instanceof Element ? symbolOf(part) : undefined, words = name && model.texts[name];
+    const part = event.composedPath()[0], name = part instanceof Element ? symbolOf(part) : undefined, words = name && model.texts.symbols[name];
     if (!name || !words) return;
     quiet(part, words);
     part.style.cursor = "help";
@@ -41,5 +42,6 @@ export function renderSymbols({ model }) {
   document.addEventListener("pointerout", (event) => event.pointerType !== "touch" && hide(), { signal });
   document.addEventListener("pointerdown", (event) => symbolOf(/** @type {Element} */ (event.composedPath()[0])) === undefined && hide(), { signal });
   window.addEventListener("scroll", hide, { capture: true, passive: true, signal });
+  watchTerms(model.texts.terms, signal);
   model.on("remove", () => listening.abort());
 }

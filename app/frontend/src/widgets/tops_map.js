@@ -1,7 +1,7 @@
 // The map of all tops: a/R across and I1/I3 upwards say which of them can turn over. Each known top stands there as its own
 // silhouette, to be clicked; the ring is the top of the page, to be dragged.
 import { colours } from "../colours.js";
-import { fill } from "../data.js";
+import { fill, local } from "../data.js";
 import { clamp } from "../figures/curves.js";
 
 // a/R on the right of the break in the axis, and on its left, where ordinary tops are; I1/I3
@@ -78,7 +78,7 @@ function areas({ x, y, first, split, last, foot }) {
 }
 
 function axes({ x, y, first, foot, last }, words) {
-  const across = [...FAR_TICKS, ...TICKS].map((a) => `<text x="${x(a)}" y="${foot + 16}" text-anchor="middle">${String(a).replace("-", "−")}</text>`);
+  const across = [...FAR_TICKS, ...TICKS].map((a) => `<text x="${x(a)}" y="${foot + 16}" text-anchor="middle">${local(String(a))}</text>`);
   const up = RATIO_TICKS.map((ratio) => `<text x="${first - 6}" y="${y(ratio) + 4}" text-anchor="end">${ratio}</text>`);
   return `<g class="axis">${across.join("")}${up.join("")}<text x="${first}" y="${foot + 36}">${words.far}</text>
     <text x="${last}" y="${foot + 36}" text-anchor="end">${words.across}</text></g>`;
@@ -106,7 +106,7 @@ export function drawn({ state: { tops, here, chosen }, texts }, size) {
   const own = here.outline ? `<path class="shape" d="${silhouette(here.outline)}"/>` : "";
   const cross = `<path class="line" d="M${scales.first} ${at[1]}H${at[0] - r}M${at[0]} ${scales.foot}V${at[1] + r}"/>`;
   const ring = `<g class="here known" tabindex="0" role="slider" aria-label="${attribute(texts.here)}" aria-valuenow="${here.a}"
-    aria-valuetext="${attribute(fill(texts.at, { a: here.a.toFixed(3), ratio: here.ratio.toFixed(3) }))}">${cross}
+    aria-valuetext="${attribute(fill(texts.at, { a: local(here.a.toFixed(3)), ratio: local(here.ratio.toFixed(3)) }))}">${cross}
     <g transform="translate(${at[0]} ${at[1]})">${own}<circle class="grip" r="${r + 6}" pointer-events="stroke" stroke="transparent" stroke-width="14"/><circle class="ring" r="${r}"/></g></g>`;
   return `<svg viewBox="0 0 ${size.wide} ${size.high}" role="group" aria-label="${attribute(texts.label)}">${areas(scales)}${axes(scales, texts)}${groups(scales, texts, size.wide < NARROW)}${ring}${marks}</svg>`;
 }

@@ -1,10 +1,10 @@
-// The fitted top beside what a film saw of it, and the film's clock: a button that plays it, and the time and tilt.
+// A top that moves once, on a clock of its own: a button that plays it, the time and the tilt; and of a film that was
+// measured, what it saw of the axis.
 import { Top } from "../lab/top.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { colours } from "../colours.js";
 import { coalesce, float32 } from "../data.js";
 
-export const CLOCK = "film";
 const PACE = 1 / 8; // of the real top's own speed
 const STYLE = `<style>
   .film { position: relative; height: 100%; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene, #f1efea) }
@@ -18,15 +18,15 @@ const STYLE = `<style>
   [hidden] { display: none !important }</style>`;
 const PLAY = "M4 2l12 7-12 7z", PAUSE = "M4 2h4v14H4zm7 0h4v14h-4z";
 
-/** @param {Rendering<MeasuredStageModel>} rendering */
-export function renderMeasuredStage({ model, el, view }) {
+/** @param {Rendering<FilmStageModel>} rendering */
+export function renderFilmStage({ model, el, view }) {
   view.tippe?.dispose();
-  const { texts } = model;
+  const { texts, clock } = model;
   el.innerHTML = STYLE;
-  const top = new Top({ texts, label: texts.label, away: 1.05, time: /** @type {any} */ ({ name: CLOCK, pace: PACE }) });
+  const top = new Top({ texts, label: model.label, away: 1.05, time: /** @type {any} */ ({ name: clock, pace: PACE }) });
   Object.assign(top.model, { measured: model.measured, measured_label: model.measured_label, playing: false, show_track: true });
   const pill = part("div", { class: "pill", hidden: true }), shape = drawn("path", { d: PLAY, fill: "currentColor" });
-  const none = part("p", { class: "none" }, texts.none);
+  const none = part("p", { class: "none" }, model.none);
   const play = part("button", { onclick: () => put({ playing: !top.model.playing }) },
     drawn("svg", { viewBox: "0 0 18 18", width: 18, height: 18, "aria-hidden": "true" }, shape));
   el.append(part("div", { class: "film" }, top.element, pill, none, play));
@@ -55,11 +55,11 @@ export function renderMeasuredStage({ model, el, view }) {
     }
   });
   for (const name of ["frames", "profile", "tilts", "measured", "a"]) model.on(name, show);
-  window.addEventListener(`tippe:clock:${CLOCK}`, hear);
+  window.addEventListener(`tippe:clock:${clock}`, hear);
   show();
   view.tippe = { dispose() {
     show.cancel();
-    window.removeEventListener(`tippe:clock:${CLOCK}`, hear);
+    window.removeEventListener(`tippe:clock:${clock}`, hear);
     top.leave();
   } };
   model.on("remove", () => view.tippe?.dispose());

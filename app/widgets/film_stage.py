@@ -1,0 +1,38 @@
+"""A top in 3-D that moves once, on a clock of its own; what a film saw of its axis may stand beside."""
+
+import numpy as np
+import param
+
+from app.bundle import Bundled, pack
+from app.widgets.top3d import pack_frames
+
+
+class FilmStage(Bundled):
+    """Plays a motion. Its clock, which pictures over time may follow, is `tippe:clock:<clock>`, in s."""
+
+    SAYS = ("Stage", "Top3D", "FilmStage")
+    REGIMES = "here"
+
+    clock = param.String(default="film", constant=True, doc="The name of its clock: each has another one.")
+    label = param.String(default="", constant=True, doc="What it shows, to the ear")
+    none = param.String(default="", constant=True, doc="What is said while there is no motion")
+    frames = param.Bytes(default=b"", doc="The motion, from pack_frames, its times in s; empty where there is none.")
+    profile = param.Bytes(default=b"", doc="The body's outline, as of Top3D.")
+    tilts = param.Bytes(default=b"", doc="float32: its tilt at each frame, in degrees")
+    measured = param.Bytes(default=b"", doc="float32 rows (t, x, y, z): where the film saw the axis")
+    measured_label = param.String(default="")
+    a = param.Number(default=None, doc="G's distance below O, in R")
+    start = param.Number(default=0.0, doc="s, where the clock stands first")
+
+
+def put_motion(stage, t, motion, outline, start, **others):
+    """Puts a Trajectory onto a FilmStage. t: its times, s; outline: (k, 2), of the body."""
+    none = np.zeros((len(t), 3))
+    stage.param.update(
+        profile=pack(outline),
+        a=float(motion.top.a),
+        tilts=pack(np.degrees(motion.theta)),
+        start=float(start),
+        frames=pack_frames(t, motion.quaternion, motion.contact, motion.com, none, none, none, np.zeros(len(t))),
+        **others,
+    )

@@ -1,0 +1,80 @@
+"""How the page looks and gives way, in Chromium: by the system's wish for dark, by language, under wheel and hand."""
+
+import re
+
+import pytest
+from visiting import PATIENCE
+
+pytestmark = pytest.mark.served
+
+LOOKS = "name => document.documentElement.dataset.look === name"
+TOP = "canvas[aria-label^='The top'], canvas[aria-label^='Der Kreisel']"
+HIGHER = "([top, before]) => top.getBoundingClientRect().top < before"
+
+
+@pytest.fixture
+def opened(chromium, server):
+    """Opens an address of the page in a browser like this one; an error on the page fails the test."""
+    contexts, errors = [], []
+
+    def open_(search="", **like):
+        contexts.append(chromium.new_context(**{"viewport": {"width": 1400, "height": 900}} | like))
+        page = contexts[-1].new_page()
+        page.set_default_timeout(PATIENCE)
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.goto(server + search)
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+    assert errors == []
+
+
+def test_the_page_is_dark_where_the_system_is_until_a_person_chooses(opened):
+    page = opened("?v=1&tab=roll", color_scheme="dark")
+    page.wait_for_function(LOOKS, arg="dark")
+    page.get_by_role("button", name="More", exact=True).click()
+    box = page.get_by_label("dark", exact=True)
+    assert box.is_checked() and "dark" not in page.url
+    page.emulate_media(color_scheme="light")
+    page.wait_for_function(LOOKS, arg="light")
+    page.emulate_media(color_scheme="dark")
+    page.wait_for_function(LOOKS, arg="dark")
+    box.click()
+    page.wait_for_function(LOOKS, arg="light")
+    page.wait_for_function("() => location.search.includes('dark=no')")
+    assert not box.is_checked()
+
+
+def test_a_german_page_writes_decimal_commas_on_axes_in_fields_and_in_3d(opened):
+    page = opened("?v=1&tab=roll&lang=de")
+    page.locator(TOP).first.wait_for()
+    field = page.locator("input[type=text][aria-label^='Schwerpunkt'], input[type=text]").first
+    page.wait_for_function("() => window.__tippe?.top3d?.count > 0")
+    said = page.locator(".time").first
+    said.filter(has_text=re.compile(r"^\d,\d{4} s")).wait_for()
+    field.fill("6,5")
+    field.press("Enter")
+    page.wait_for_function("() => /KJ=6\\.5/.test(location.search)")
+    ticks = """() => {
+      const figures = [...Bokeh.documents[0].all_models].filter(({ type }) => type === "BasicTickFormatter")
+      return figures[0].doFormat([0.5, 1], { loc: 0 })
+    }"""
+    assert page.evaluate(ticks) == ["0,5", "1"]
+
+
+def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):
+    page = opened("?v=1&tab=roll")
+    page.wait_for_function("() => window.__tippe?.top3d?.pictures > 0")
+    top = page.locator(TOP).first
+    top.click()  # also once it was clicked
+    box = top.bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.wheel(0, 100)
+    page.wait_for_function(HIGHER, arg=[top.element_handle(), box["y"]])
+    assert "view=" not in page.url
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, 100)
+    page.keyboard.up("Control")
+    page.wait_for_function("() => location.search.includes('view=')")
