@@ -93,7 +93,8 @@ def test_its_life_goes_on_to_its_end_faster_where_nothing_new_happens(page):
     time, speed = page.get_by_role("slider", name="Time"), page.get_by_role("combobox", name="Speed")
     assert float(time.get_attribute("max")) == pytest.approx(12, abs=0.02)
     speeds = set()
-    for t, said in ((2.2, "It stands on its stem"), (7.0, "It comes off its stem"), (11.5, "The table grips it: it rolls.")):
+    stages = (2.2, "It stands on its stem"), (7.0, "It comes off its stem"), (11.5, "The table grips it: it rolls.")
+    for t, said in stages:
         time.evaluate("(bar, t) => { bar.value = t; bar.dispatchEvent(new Event('input')) }", t)
         page.get_by_text(said).first.wait_for()
         speeds.add(speed.input_value())
