@@ -146,10 +146,11 @@ export class Answer {
     if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin);
     const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
     if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by);
-    const isFree = (share) => [0, 0.5 * wide, wide].every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > ROOM);
-    const free = [0.4, 0.3, 0.2, 0.14].find(isFree), stands = free ?? 0.4;
+    const long = 112 / (this.right - LEFT);
+    const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > ROOM);
+    const free = [0.4, 0.3, 0.2, 0.08].find(isFree), stands = free ?? 0.4;
     const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
-    put(stands, free ? Math.min(at(stands, HEIGHT), at(stands + wide, HEIGHT)) - 8 : this.bottom - 6, say(texts, text, { least: [least, 0], most: [most, 0] }));
+    put(stands, free ? Math.min(at(stands, HEIGHT), at(stands + long, HEIGHT)) - 8 : this.bottom - 6, say(texts, text, { least: [least, 0], most: [most, 0] }));
     return [
       ...found,
       drawn("polygon", { class: "spins", points: `${line(ENERGY)} ${floor}` }), drawn("polygon", { class: "lifts", points: `${line(HEIGHT)} ${floor}` }),

@@ -11,7 +11,7 @@ export class Body {
     /** @type {Control[]} */
     this.parts = [];
     this.place = part("div");
-    this.element = part("details", { class: "numbers body" }, part("summary", {}, texts.body), this.place);
+    this.element = part("details", { class: "body" }, part("summary", {}, texts.body), this.place);
   }
 
   /** @param {any} state @param {boolean} ahead */
