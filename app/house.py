@@ -26,7 +26,7 @@ from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
-from app.widgets.cards import BUTTON, card, flexible, grid, on_click
+from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt
 from app.widgets.pacing import Pacer
@@ -91,16 +91,15 @@ class House:
         bench = Build(self.builder, self.pacer.soon)
         self.pacer.shows(bench.show, "rest")
         rocking = card(say("main.cards.measure"), *RockingFields(self.builder).view, height="max-content")
-        rocking.styles = rocking.styles | {"grid-column": "1 / -1"}
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
+        top.stylesheets = [":host { height: clamp(330px, 52vh, 640px) !important }"]
         self.pacer.shows(partial(show_top, top), "rest")
         spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
-        return grid(
-            card(say("main.cards.section"), *bench.section_view, height="max-content"),
-            card(say("main.cards.built"), top, spin, height="max-content"),
-            card(say("main.cards.bench"), *bench.bench_view, height="max-content"),
-            rocking,
+        section, built, measures = (
+            card(say(f"main.cards.{name}"), *parts, height="max-content")
+            for name, parts in (("section", bench.section_view), ("built", (top, spin)), ("bench", bench.bench_view))
         )
+        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
 
     def _spin(self):
         self.start.spin()

@@ -635,3 +635,11 @@ def test_what_the_bead_has_left_stands_above_it(explorer, planes, law):
     start = planes.picture.motions["sliding"].trajectory
     assert bead.E[0] - bead.V[0] == pytest.approx(
         start.energy[0] - jellett_potential(start.theta[0], start.top, start.jellett[0]), abs=1e-9)  # fmt: skip
+
+
+def test_without_its_stem_the_ball_alone_is_drawn(explorer, planes):
+    """Nothing of it would stop at the table, through which a stem would be seen to go."""
+    settings = planes.picture.settings
+    assert settings.drawn is settings.profile and settings.profile[:, 1].max() > 1.5
+    alone = replace(settings, stem=False).drawn
+    assert np.allclose(np.hypot(*alone.T), 1, atol=1e-6)

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from app.model.bodies import second_part
+from app.model.bodies import outline, second_part
 from tippe_core import (
     Contensou,
     Coulomb,
@@ -80,6 +80,13 @@ class Setup:
         """theta from which that edge touches, inf where none takes part."""
         found = self.shape.touch_angle if self.edge and self.shape else None
         return np.inf if found is None else found
+
+    @property
+    def drawn(self) -> Array:
+        """The outline that is drawn, as profile: of the ball alone where the stem takes no part and might go into the
+        table."""
+        alone = self.shape is not None and self.shape.touch_angle is not None and self.edge is None
+        return outline(self.top) if alone else self.profile
 
     @property
     def part(self) -> str:

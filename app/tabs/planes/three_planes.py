@@ -266,7 +266,7 @@ class ThreePlanes:
         if not top.is_new(settings):
             return
         top.param.update(
-            profile=pack(settings.profile),
+            profile=pack(settings.drawn),
             seconds=settings.scales.time,
             a=settings.top.a,
             frames=pack_frames(*motion.frames) if motion else b"",
