@@ -16,6 +16,7 @@ from app.state.names import LEVELS, ROOMS
 from app.state.start import OneStart
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
+from app.tabs.build.verdict import VerdictWords
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
 from app.tabs.lab import room
@@ -94,10 +95,12 @@ class House:
         rocking.styles = rocking.styles | {"grid-column": "1 / -1"}
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
         self.pacer.shows(partial(show_top, top), "rest")
+        told = VerdictWords(self.runs)
+        self.pacer.shows(told.show, "rest")
         spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
         return grid(
             card(say("main.cards.section"), *bench.section_view, height="max-content"),
-            card(say("main.cards.built"), top, spin, height="max-content"),
+            card(say("main.cards.built"), top, told.view, spin, height="max-content"),
             card(say("main.cards.bench"), *bench.bench_view, height="max-content"),
             rocking,
         )
