@@ -105,9 +105,9 @@ test("the track is the contact of each frame, in seconds and R", () => {
 const BEFORE = { inputs: { spin: { name: "Spin" }, mu: { name: "Friction" } }, toy: "Top", decimal: ".",
   changed: "{name}: {from} → {to}", changed_why: "Now: {now}. Before: {before}." };
 const scene = (spin, mu, events, table = "ordinary") => ({ table, runs: {}, run: { events, stages: [[0, "", "", "Nods"]], why: "" },
-  state: { of: { spin: [spin, `Spin ${spin}.0 rev/s`], mu: [mu, `Friction ${mu}`] }, runs: {} } });
+  state: { of: { spin: [spin, `Spin ${spin}.0 rev/s`], mu: [mu, `Friction ${mu}`], table: [table, `Table ${table}`, "Table"] }, runs: {} } });
 
-test("the run before is that before the gesture, until it is dismissed, gone back to, or the table is another", () => {
+test("the run before is that before the gesture, until it is dismissed or gone back to, on another table too", () => {
   const before = new Before(BEFORE), stands = [[1, "over", "turns over", ""], [1.5, "stands", "stands on its stem", ""]];
   const slow = scene(20, 0.3, []), middle = scene(24, 0.3, []), fast = scene(28, 0.3, stands);
   assert.equal(before.follow(null, slow), null);
@@ -130,7 +130,11 @@ test("the run before is that before the gesture, until it is dismissed, gone bac
   before.forget();
   assert.equal(before.follow(slow, slow), null);
   before.follow(slow, fast);
-  assert.equal(before.follow(fast, scene(20, 0.3, [], "rough")), null);
+  const rough = before.follow(fast, scene(28, 0.3, [], "rough"));
+  assert.equal(rough.what, "Table ordinary");
+  assert.equal(rough.headline, ""); // the stage says what another table does
+  assert.equal(rough.table, "ordinary");
+  assert.equal(before.follow(scene(28, 0.3, [], "rough"), scene(28, 0.3, [], "three")), null);
 });
 
 test("a press has no strength of its own, a hold the more the longer, to the greatest", () => {

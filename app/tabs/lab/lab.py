@@ -183,7 +183,7 @@ class LabTab:
     def _state(self, scene):
         lab = self._lab
         messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
-        dims = dimensions(lab.toy)
+        dims, view = dimensions(lab.toy), listed("lab_view.view")
         return {
             "table": scene.table,
             "toy": lab.toy if isinstance(lab.toy, str) else "",
@@ -201,6 +201,7 @@ class LabTab:
                 "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
                 if isinstance(scene.toy, str)
                 else [repr(scene.toy), say("main.own")],
+                "table": [scene.table, f"{view['table']} {view['tables'][scene.table]}", view["table"]],
                 **{
                     name: [size, self._sized(dimensions(scene.toy)[name], size), _word(dimensions(scene.toy)[name])]
                     for name, size in sizes(scene.toy).items()
