@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from app.model import arrival
 from app.model.bodies import body
 from app.model.lab_life import SECONDS, lived, thinned
-from app.model.planes_picture import Motion, Setup
+from app.model.planes_picture import Motion, Setup, by_hand
 from app.model.planes_run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
 from tippe_core import PRESETS, Contensou, Preset, Shape, State, TopError, Trajectory, glide, grip, roll
@@ -54,7 +54,7 @@ class Patience:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Start(Setup):
-    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees."""
+    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees; else as it is given."""
 
     most_turn: ClassVar[float] = 0.5  # 2000 frames of a fast one
 
@@ -62,6 +62,7 @@ class Start(Setup):
     spin: float
     tilt: float
     mu: float
+    given: State | None = None
 
     @property
     def friction(self) -> Friction:
@@ -69,8 +70,9 @@ class Start(Setup):
 
     @property
     def state(self) -> State:
-        turn = 2 * np.pi / self.scales.angular_velocity
-        return State(float(np.radians(self.tilt)), 0.0, 0.0, turn * self.spin, vx=0.0, vy=0.0)
+        if self.given is not None:
+            return self.given
+        return by_hand(self.spin, self.tilt, 1.0, self.scales)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -117,32 +119,31 @@ def shape_of(toy: Toy) -> Shape:
     return TOYS[toy].shape if isinstance(toy, str) else toy
 
 
-def start_of(toy: Toy, spin: float, tilt: float, mu: float) -> Start:
+def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> Start:
     """The Start of a toy."""
     shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
     return Start(toy=toy, top=top, scales=shape.scales, shape=shape, profile=body(shape),
-                 landing="plastic", stem=True, seconds=SECONDS, spin=spin, tilt=tilt, mu=mu)  # fmt: skip
+                 landing="plastic", stem=True, seconds=SECONDS, spin=spin, tilt=tilt, mu=mu, given=given)  # fmt: skip
 
 
 @lru_cache(12)
-def motion_on(table: str, toy: Toy, spin: float, tilt: float, mu: float) -> TableMotion:
+def motion_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
     """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
     units of the controls."""
-    start = start_of(toy, spin, tilt, mu)
-    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL:
+    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
         return whole_on(table, toy, spin, tilt, mu)
-    return on(start, table)
+    return on(start_of(toy, spin, tilt, mu, given), table)
 
 
 @lru_cache(12)
-def whole_on(table: str, toy: Toy, spin: float, tilt: float, mu: float) -> TableMotion:
+def whole_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
     """As motion_on(), to the end of the toy's life; where a table knows no end, as long as on the ordinary one."""
-    start = start_of(toy, spin, tilt, mu)
-    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL:
+    start = start_of(toy, spin, tilt, mu, given)
+    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
         kept = arrival.read(start.top)
         return moved(replace(start, seconds=start.scales.time * float(kept.t[-1])), table, kept, 0.0, whole=True)
     if table != "ordinary":
-        seconds = whole_on("ordinary", toy, spin, tilt, mu).start.seconds
+        seconds = whole_on("ordinary", toy, spin, tilt, mu, given).start.seconds
         return on(replace(start, seconds=seconds), table)
     try:
         seconds, kept = lived(start, Patience())

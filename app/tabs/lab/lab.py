@@ -13,7 +13,7 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.dimensions import FAMILIES, changed, sentence, value_of
-from app.model.lab import SHOWN, Lab
+from app.model.lab import FIRST, SHOWN, Lab
 from app.model.lab_run import shape_of
 from app.state import asked
 from app.text import listed, say
@@ -82,15 +82,14 @@ class LabView(Bundled):
 
 
 def lab_view(lab, keep, go):
-    """The tab. lab: a Lab; keep: a Keep; go: shows the paper's figures of its start."""
-    keep.add(lab)
+    """The tab. lab: a Lab; keep: the Keep of its start; go: shows the paper's figures of it."""
 
     def rests():
         keep.at_rest()
         lab.rest()
 
     tab = LabTab(lab, go, rests)
-    if all(getattr(lab, name) == lab.param[name].default for name in Lab.INPUTS):
+    if lab.inputs == FIRST:
         lab.show()  # it is kept, so that it is there with the page
     if pn.state.loaded:
         begin(lab)
@@ -127,7 +126,7 @@ class LabTab:
             self._research()
         elif name == "stop":
             self._lab.stop()
-        elif name in Lab.INPUTS or name in dimensions(self._lab.toy):
+        elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
             self._tried[name], self._wrong = value, {}
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
         else:
@@ -138,7 +137,7 @@ class LabTab:
     def _of_body(self, name, value):
         """What the Lab is to be asked for by a dimension of the body, in its unit; nothing, and a sentence at it, where
         there is no such body."""
-        toy, dimension = self._lab.toy, dimensions(self._lab.toy)[name]
+        toy, dimension = self._lab.start.toy, dimensions(self._lab.start.toy)[name]
         try:
             number = asked.number(value)
         except asked.Unasked:
@@ -181,21 +180,21 @@ class LabTab:
         self.view.param.update(**changes)
 
     def _state(self, scene):
-        lab = self._lab
+        lab, start = self._lab, self._lab.start
         messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
-        dims, view = dimensions(lab.toy), listed("lab_view.view")
+        dims, view = dimensions(start.toy), listed("lab_view.view")
         return {
             "table": scene.table,
-            "toy": lab.toy if isinstance(lab.toy, str) else "",
-            "values": {name: getattr(lab, name) for name in INPUTS} | sizes(lab.toy),
+            "toy": start.toy if isinstance(start.toy, str) else "",
+            "values": {name: getattr(start, name) for name in INPUTS} | sizes(start.toy),
             "sliders": SLIDERS
             | {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()},
             "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
             "messages": messages,
             "refused": {name: self._tried.get(name) for name in messages},
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
-            "was": self._differ(scene, scene, lab),
-            "wants": self._differ(lab, scene, lab),
+            "was": self._differ(scene, scene, start),
+            "wants": self._differ(start, scene, start),
             "of": {
                 **{name: [getattr(scene, name), self._named(scene, name)] for name in INPUTS},
                 "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
