@@ -118,7 +118,8 @@ class House:
         planes = Planes(self.explorer, self.runs)
         self.start.have(planes)
         inputs = {"plane": planes.plane} | planes.inputs
-        view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes)
+        view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes,
+                           self.playing)  # fmt: skip
         planes.param.watch(lambda event: view.show(event.new), "picture")
         self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
         planes.param.watch(lambda event: view.wait(), "busy")
