@@ -16,6 +16,7 @@ from app.state.names import LEVELS, ROOMS
 from app.state.start import OneStart
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
+from app.tabs.build.verdict import VerdictWords
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
 from app.tabs.lab import room
@@ -100,10 +101,12 @@ class House:
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
         top.stylesheets = [":host { height: clamp(330px, 52vh, 640px) !important }"]
         self.pacer.shows(partial(show_top, top), "rest")
+        told = VerdictWords(self.runs)
+        self.pacer.shows(told.show, "rest")
         spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
+        parts = {"section": bench.section_view, "built": (top, told.view, spin), "bench": bench.bench_view}
         section, built, measures = (
-            card(say(f"main.cards.{name}"), *parts, height="max-content")
-            for name, parts in (("section", bench.section_view), ("built", (top, spin)), ("bench", bench.bench_view))
+            card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()
         )
         return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
 
