@@ -26,7 +26,7 @@ from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
-from app.widgets.cards import BUTTON, card, flexible, grid, on_click
+from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt
 from app.widgets.pacing import Pacer
@@ -47,22 +47,28 @@ class House:
     """The Explorer that solves, the Pacer that is asked and shows its scenes, the Builder of bodies, the Lab, how the
     top is played, what is kept, and what runs beside.
 
-    look_at(name of a room) shows it: the page sets where that leads.
+    look_at(name of a room) shows it, and level is how much the page shows: the page sets where that leads.
     """
 
-    def __init__(self, texts, sentence, look_at):
-        self.explorer, wrong = explorer_of(texts)
+    def __init__(self, texts, sentence, look_at, level):
+        self.level = level
+        self.explorer, wrong = explorer_of(texts, self._explores())
         self.pacer = Pacer(self.explorer)
         self.builder = Builder(self.explorer.scene, self.pacer.ask)
         self.pacer.shows(self.builder.follow, "hand")
         self.playing, self._look_at = Playing(), look_at
-        self.keep = kept(self.explorer, texts, " ".join(filter(None, (sentence, wrong))), shortest=room.shortest)
+        self.keep = kept(
+            self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
+        )
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
-        self.lab_of = Lab(self.runs)
-        self.start = OneStart(self.lab_of, self.explorer, self.pacer.ask, self.builder)
+        self.lab_of = Lab(self.runs, self.explorer)
+        self.start = OneStart(self.explorer, self.lab_of)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
         pn.state.onload(self.pacer.begin)
+
+    def _explores(self):
+        return self.level == LEVELS[0]
 
     @property
     def scene(self):
@@ -91,34 +97,32 @@ class House:
         bench = Build(self.builder, self.pacer.soon)
         self.pacer.shows(bench.show, "rest")
         rocking = card(say("main.cards.measure"), *RockingFields(self.builder).view, height="max-content")
-        rocking.styles = rocking.styles | {"grid-column": "1 / -1"}
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
+        top.stylesheets = [":host { height: clamp(330px, 52vh, 640px) !important }"]
         self.pacer.shows(partial(show_top, top), "rest")
         spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
-        return grid(
-            card(say("main.cards.section"), *bench.section_view, height="max-content"),
-            card(say("main.cards.built"), top, spin, height="max-content"),
-            card(say("main.cards.bench"), *bench.bench_view, height="max-content"),
-            rocking,
+        section, built, measures = (
+            card(say(f"main.cards.{name}"), *parts, height="max-content")
+            for name, parts in (("section", bench.section_view), ("built", (top, spin)), ("bench", bench.bench_view))
         )
+        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
 
     def _spin(self):
-        self.start.spin()
+        self.lab_of.ask(table="ordinary")
         self._look_at(room.FIRST)
 
     def planes(self):
-        planes = Planes(self.scene, self.runs)
-        self.keep.add(planes)
+        planes = Planes(self.explorer, self.runs)
         self.start.have(planes)
-        inputs = {name: getattr(planes, name) for name in ("plane", *Planes.INPUTS)}
-        view = ThreePlanes(inputs, self.pacer.ask_of(planes), self.pacer.ask, self.builder.choose, planes)
+        inputs = {"plane": planes.plane} | planes.inputs
+        view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes)
         planes.param.watch(lambda event: view.show(event.new), "picture")
-        planes.param.watch(lambda event: view.look(event.new), "plane")
+        self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
         planes.param.watch(lambda event: view.wait(), "busy")
+        planes.show()
         if planes.picture is not None:
             view.show(planes.picture)
         view.wait()
-        self.pacer.shows(planes.see, "hand")
         self.pacer.shows(planes.follow, "rest")
         return view.main
 
@@ -139,7 +143,6 @@ class House:
 
     def _use(self, name):
         """A known top in the Lab, and everywhere."""
-        self.builder.choose(name)
         self.lab_of.ask(toy=name)
         self._look_at("lab")
 

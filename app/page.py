@@ -46,7 +46,7 @@ def page():
     if VOTE in texts:  # a student's link
         return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), failed],
                          stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
-    house = House(texts, sentence, lambda name: setattr(rooms, "room", name))
+    house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts, search))
     pacer, keep = house.pacer, house.keep
     look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()
     share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room))
@@ -55,8 +55,11 @@ def page():
     for show, when in ((share.show, "hand"), (guide.show, "rest")):
         pacer.shows(show, when)
     rooms = Rooms(house.makers, TABS, keep, pacer.soon, room.AT_ONCE, room.opened(texts, search), room.USUAL,
-                  room.level(texts, search))  # fmt: skip
+                  house.level)  # fmt: skip
+    rooms.param.watch(lambda event: setattr(house, "level", event.new), "level")
     rooms.param.watch(lambda event: house.start.moved(event.old, event.new), "room")
+    house.level = rooms.level
+    house.start.moved("", rooms.room)
     choices = Choices(rooms, house, tongue, share)
     head = HeadBar(rooms, keep, look, choices.does, room.USUAL)
     choices.shown_in(head)

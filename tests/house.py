@@ -1,6 +1,7 @@
 """View-models and views put together as the page does it, but without a page: what is asked is done at once."""
 
 from app.model.builder import Builder
+from app.model.explorer import Explorer
 from app.model.planes import Planes, preset
 
 
@@ -12,9 +13,10 @@ def builder_of(explorer):
 
 
 def planes_of(explorer, runs=None):
-    """Planes that see this Explorer's scenes."""
-    planes = Planes(explorer.scene, runs)
-    explorer.param.watch(lambda event: planes.see(event.new), "scene")
+    """Planes that are looked at, with this Explorer's top let go by a hand as Start has it."""
+    explorer.param.update(given="hand", **{name: Explorer.param[name].default for name in Explorer.GIVEN["hand"]})
+    planes = Planes(explorer, runs)
+    planes.show()
     return planes
 
 
@@ -22,7 +24,7 @@ def choose(name, explorer, planes):
     """A preset of the three planes."""
     body, inputs = preset(name)
     builder_of(explorer).choose(body)
-    planes.param.update(**inputs)
+    planes.ask(**inputs)
 
 
 class Shown:

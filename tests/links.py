@@ -20,6 +20,7 @@ from panel.io.state import set_curdoc
 from app import page, text
 from app.model import lesson
 from app.model.explorer import Explorer
+from app.model.start import PLANE
 from app.state.codecs import Body
 from app.state.keep import Keep
 from app.state.names import NAMES, of
@@ -30,17 +31,40 @@ TABS = ("roll", "three-planes", "build-a-top", "families", "learn", "maps", "mea
 FILE = Path(__file__).parent / "data" / "links.json"
 
 
+MOTION = ("by", "KJ", "KR", "e", "E", "th", "thd", "w2", "w3", "phi", "psi")
+HANDS = ("spin", "tilt", "slip")
+BESIDE = (*HANDS, "law", "mu_k", "mu_stick", "gamma", "mu_smooth", "eps", "patch", "land", "stem", "seconds", "plane")
+"""What the three planes had of their own, beside a start and a friction of what rolls."""
+
+
 def known():
-    """{link: what it opened}; a step of the ten that there were opens what tells it now, by the name it has now."""
+    """{link: what it opened}; a step of the ten that there were opens what tells it now, by the name it has now. What a
+    view had of its own that the link did not open is left out, and so is what had no effect in the one it did."""
     found = kept_links()
+    found["?v=2&KJ=6.7"]["said"] = ""  # there was no such version then
     for what in found.values():
-        step = what["settings"].get("step")
+        settings = what["settings"]
+        step = settings.get("step")
         if step in lesson.BEFORE:
-            what["settings"]["step"] = now = lesson.BEFORE[step]
-            what["address"] = what["address"].replace(f"step={step}", f"step={now}")
-        if "law" in what["settings"]:
-            what["settings"].setdefault("patch", 0.5)  # mm; there was none of a real contact when the first were kept
+            settings["step"] = lesson.BEFORE[step]
+        what.pop("address", None)  # as it was said then
+        if "law" in settings:
+            settings.setdefault("patch", 0.5)  # mm; there was none of a real contact when the first were kept
+            what["settings"] = in_effect(settings)
+            if settings["start"] == "spin":
+                left = "motion", "turns"
+                for name in left:
+                    del what[name]
     return found
+
+
+def in_effect(settings):
+    """Those of the three planes that made the picture."""
+    law, hand = settings["law"], settings["start"] == "spin"
+    without = {*(MOTION if hand else HANDS), *({"mu"} if law == "coulomb" else {"mu_k", "mu_stick"})}
+    if law not in ("smoothed", "contact"):
+        without.add("mu_smooth")
+    return {name: value for name, value in settings.items() if name not in without}
 
 
 def kept_links():
@@ -73,20 +97,29 @@ def opened(link):
         [seen] = [owner for _, owner, fields in parts if "room" in fields and "level" in fields]
         keep, scene = parts[0][0], explorer.scene
         face = NAMES["face"].codec.value(keep.waits.get("face", "constants"))  # was there on every page
-        return {
+        settings = {field.key: plain(field.codec, getattr(owner, name))
+                    for _, owner, fields in parts if owner is not seen for name, field in fields.items()}  # fmt: skip
+        planes, hand = seen.room == "three-planes", explorer.given == "hand"
+        del settings["table"]
+        if planes:  # as the three planes had them
+            settings |= {"start": "spin" if hand else "constants", "plane": PLANE[explorer.table],
+                         "mu_stick": explorer.mu_s, "mu_smooth": explorer.mu}  # fmt: skip
+            settings = in_effect(settings)
+        else:
+            settings = {name: value for name, value in settings.items() if name not in BESIDE}
+        found = {
             "language": text.spoken(),
-            "settings": {"face": face}
-            | {field.key: plain(field.codec, getattr(owner, name))
-               for _, owner, fields in parts if owner is not seen for name, field in fields.items()}
-            | {"tab": TABS.index(seen.room)},
+            "settings": {"face": face} | settings | {"tab": TABS.index(seen.room)},
             "body": {"R": scene.scales.R, "M": scene.scales.M, "height": float(np.ptp(scene.profile[:, 1]))},
             "top": asdict(scene.top),
             "motion": {name: float(getattr(scene.constants, name)) for name in ("K_J", "K_R", "E")},
             "turns": [float(theta) for theta in scene.turning],
             "wrong": sorted(scene.messages),
-            "address": "" if keep.query == ROLL else keep.query,
             "said": keep.sentence.replace("lab, ", "").replace("a class, as", "a vote, as"),  # by their names then
         }  # fmt: skip
+        for name in ("motion", "turns") if planes and hand else ():
+            del found[name]
+        return found
 
 
 def plain(codec, value):

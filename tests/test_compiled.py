@@ -264,15 +264,18 @@ compiled.made.clear()
 from app.model import family, lesson
 from app.model.explorer import Explorer
 from app.model.known_tops import known_tops
-from app.model.planes import LAWS, Planes
+from app.model.planes import Planes
+from app.model.planes_picture import LAWS
 explorer = Explorer()
 for step in lesson.STEPS:
     step.answer(lesson.planned(step, explorer.scene))
-planes = Planes(explorer.scene)
+explorer.param.update(given="hand", spin=20.0, tilt=10.0, seconds=0.5)
+planes = Planes(explorer)
+planes.show()
 for law in LAWS:
-    planes.param.update(law=law, seconds=0.5)
-    planes.param.update(by="constants")
-    planes.param.update(by="spin")
+    planes.ask(law=law)
+    planes.ask(by="constants")
+    planes.ask(by="spin", spin=20.0)
 for top in known_tops():
     top.shown(0.5)
 next(family.share_map(0.4, 10.0, 0.5, [0.1, -0.2], [1.0, 1.1]))

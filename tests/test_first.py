@@ -106,7 +106,7 @@ def test_what_a_hand_moved_before_the_session_came_is_asked_for_then(waiting):
     page, go = waiting
     page.locator("#lab-spin").press("ArrowRight")
     go()
-    page.wait_for_function("location.search.includes('turns=28.8')")
+    page.wait_for_function("location.search.includes('spin=28.8')")
     assert page.get_by_role("textbox", name="Spin, in turns a second").input_value() == "28.8"
 
 

@@ -107,7 +107,7 @@ def test_the_slip_and_the_spin_of_a_start_are_the_runs():
     settings = planes_of(Explorer()).picture.settings
     for start in (State(0.3, 0.4, -0.2, 9.0, vx=-0.5, vy=0.2), State(1.2, -0.1, 0.3, -4.0, vx=0.0, vy=0.0)):
         picture = run(replace(settings, rolling=start, seconds=0.01, stem=False, law="coulomb"))
-        moved = slide(settings.top, start, Coulomb(settings.mu_k, settings.mu_s), np.array([0.0, 1e-3]))
+        moved = slide(settings.top, start, Coulomb(settings.mu, settings.mu_s), np.array([0.0, 1e-3]))
         assert picture.slip == pytest.approx(settings.scales.velocity * np.hypot(*moved.slip[0]), rel=1e-9)
         assert picture.turns == pytest.approx(start.omega3 / settings.scales.time / (2 * np.pi), rel=1e-12)
 
@@ -166,7 +166,7 @@ def test_of_many_wishes_for_another_view_model_the_newest_is_granted(pacer):
     """As of the Explorer's: two are on their way to the browser, and the rest waits until one is painted."""
     playing, set_to = Playing(), []
     playing.param.watch(lambda event: set_to.append(event.new), "speed")
-    ask = pacer.ask_of(playing)
+    ask = pacer.ask_of(playing.param.update)
     for speed in (0.1, 0.2, 0.3, 0.4, 0.5):
         ask(speed=speed)
     assert set_to == [0.1, 0.2]

@@ -7,11 +7,11 @@ from urllib.parse import urlencode
 
 import numpy as np
 import pytest
-from house import planes_of
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from app.model.explorer import Explorer
+from app.model.maps_choice import MapChoice
 from app.model.playing import Playing
 from app.share.parts import Clock
 from app.state.codecs import Body, Number
@@ -21,11 +21,13 @@ from app.text import say
 from app.widgets.controls import Controls
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
 
-# Version 1 of the links: a default or a name that is not as here makes old links mean something else.
-VERSION_1 = {
+# Version 2 of the links: a default or a name that is not as here makes old links mean something else.
+VERSION_2 = {
     "body": TruncatedSphere(R=0.016, c=0.0082, l=0.0192, r=0.0032, M=0.0115), "a": 0.070, "I1": 0.399, "I3": 0.408,
     "mu": 0.5, "by": "share", "KJ": 7.0, "KR": 10.0, "e": 0.9, "E": 0.0, "th": 0.0, "thd": 0.0, "w2": 0.0, "w3": 0.0,
-    "phi": 0.0, "psi": 0.0, "half": True, "limit": "lift-off", "face": "constants"}  # fmt: skip
+    "phi": 0.0, "psi": 0.0, "half": True, "limit": "lift-off", "face": "constants", "spin": 20.0, "tilt": 10.0,
+    "slip": 1.0, "table": "ordinary", "mu_k": 0.3, "law": "smoothed", "gamma": 0.3, "eps": 0.1, "patch": 0.5,
+    "land": "plastic", "stem": True, "seconds": 5.0}  # fmt: skip
 BODIES = [
     *(preset.shape for preset in PRESETS),
     Lathe(R=0.003, points=((0.002, 0.001), (0.02, 0.006), (0.02, 0.01), (0.0, 0.03)), density=(7e3, 1e3, 7e2, 1 / 3)),
@@ -55,10 +57,10 @@ def assert_same_picture(explorer, other):
     assert explorer.scene.plane.limit == other.scene.plane.limit
 
 
-def test_version_1_is_what_it_was():
+def test_version_2_is_what_it_was():
     parts = {Explorer: EXPLORER, Controls: of("Controls")}
     assert {field.key: owner.param[name].default for owner, known in parts.items() for name, field in known.items()
-            } == VERSION_1  # fmt: skip
+            } == VERSION_2  # fmt: skip
 
     assert kept(Explorer()).query == ""
 
@@ -112,7 +114,7 @@ def test_the_same_body_to_the_last_digit(shape):
 def test_a_link_is_short():
     explorer = Explorer()
     explorer.param.update(K_J=6.7, mu_s=0.3)
-    assert kept(explorer).query == "?v=1&mu=.3&KJ=6.7"
+    assert kept(explorer).query == "?v=2&mu=.3&KJ=6.7"
     shape = LoadedSphere(R=0.02, b=0.008, d=0.01, density=1190.0, core_density=7850.0)
     # every number with as many digits as there are
     explorer.param.update(shape=shape, a=1 / 7, I1=1 / 3, I3=2 / 5.1, mu_s=1 / 3, K_J=7 / 3, K_R=28 / 3, energy=1 / 7)
@@ -135,7 +137,7 @@ def test_the_longest_body_fits():
     "?a=1", "?e=-1", "?mu=-1", "?by=state&th=4", "?body=" + 13_000 * "z", "&".join(f"n{i}=1" for i in range(100)),
     "?body=z" + base64.urlsafe_b64encode(zlib.compress(b"[" * 60_000)).decode(),
     "?body=z" + base64.urlsafe_b64encode(zlib.compress(bytes(50_000_000))).decode()[:LONGEST_QUERY - 100],
-    "?v=2", "?v=0&KJ=5",
+    "?v=3", "?v=0&KJ=5",
 ])  # fmt: skip
 def test_a_bad_link_gives_a_sentence_and_the_default(query):
     explorer, sentence = opened(query)
@@ -224,25 +226,25 @@ def test_what_cannot_be_is_neither_kept_nor_a_step():
 
 
 def test_a_view_made_later_gets_its_part_of_the_link():
-    texts, _ = read("?v=1&plane=smooth&gamma=.25&KJ=6&x=%26a%3Db")
+    texts, _ = read("?v=2&mapby=heat&mapat=3_4&KJ=6&x=%26a%3Db")
     explorer, _ = explorer_of(texts)
-    keep, other = kept(explorer, texts), planes_of(explorer)
+    keep, other = kept(explorer, texts), MapChoice()
     assert opened(keep.query)[0].K_J == 6
     assert read(keep.query)[0] == texts  # what belongs to views not made yet stays in the link
     keep.add(other)
-    assert keep.sentence == "" and (other.plane, other.gamma) == ("smooth", 0.25)
+    assert keep.sentence == "" and (other.colour, other.place) == ("heat", [3.0, 4.0])
     assert not keep.can_undo
-    other.gamma = 0.5
+    other.place = [5.0, 4.0]
     keep.at_rest()
-    assert read(keep.query)[0]["gamma"] == ".5"
+    assert read(keep.query)[0]["mapat"] == "5_4"
     keep.undo()
-    assert other.gamma == 0.25
+    assert other.place == [3.0, 4.0]
     explorer = Explorer()
-    keep, other = kept(explorer, {"gamma": "much"}), planes_of(explorer)
+    keep, other = kept(explorer, {"mapby": "much"}), MapChoice()
     keep.add(other)
     keep.at_rest()
-    assert "gamma" in keep.sentence
-    other.gamma = 2.0
+    assert "mapby" in keep.sentence
+    other.place = [2.0, 2.0]
     keep.at_rest()
     assert keep.sentence == ""
 

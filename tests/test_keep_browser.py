@@ -90,7 +90,7 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
 
 
 def test_undo_is_one_step_a_gesture(go, server):
-    roll = f"{server}?v=1&tab=roll"  # as the page itself writes it
+    roll = f"{server}?v=2&tab=roll"  # as the page itself writes it
     visit = go(roll)
     before = visit.column("theta", 0, "theta")
     box = thumb(visit).bounding_box()
@@ -109,7 +109,7 @@ def test_undo_is_one_step_a_gesture(go, server):
     undo, redo = (visit.page.get_by_role("button", name=name) for name in ("Undo", "Redo"))
     visit.page.keyboard.press("Control+z")
     visit.until_column("theta", 0, "theta", before[0])
-    visit.page.wait_for_function("['?tab=roll', '?v=1&tab=roll'].includes(location.search)")
+    visit.page.wait_for_function("['?tab=roll', '?v=2&tab=roll'].includes(location.search)")
     assert np.array_equal(visit.column("theta", 0, "theta"), before)
     visit.page.wait_for_function("button => button.disabled", arg=undo.element_handle())
     redo.click()

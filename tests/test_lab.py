@@ -282,7 +282,7 @@ def test_before_somebody_looks_nothing_is_computed(monkeypatch):
     monkeypatch.setattr("app.model.lab.scene_of", None)
     lab = Lab()
     lab.ask(spin=20.0)
-    assert lab.scene is None and lab.spin == 20.0
+    assert lab.scene is None and lab.start.spin == 20.0
 
 
 @pytest.mark.parametrize(("name", "value", "says"), [
@@ -304,18 +304,18 @@ def test_what_cannot_be_is_told_and_all_else_stays(lab, name, value, says):
     lab.ask(spin=28.65)
     assert not lab.scene.messages
     if name in LIMITS and isinstance(value, float | int):
-        lab.param.update(**{name: value})  # as a link does
+        lab.start.param.update(**{name: value})  # as a link does
         assert dict(lab.scene.messages) == {name: says} and lab.inputs == before
 
 
 def test_a_body_that_would_be_in_the_table_is_told_at_the_tilt(lab):
     lab.ask(toy="Disc on a peg", tilt=120.0)
     assert lab.scene.messages["tilt"].startswith("At 120° a part of this body would be below the table.")
-    assert (lab.scene.toy, lab.tilt) == ("Disc on a peg", TILT)
+    assert (lab.scene.toy, lab.start.tilt) == ("Disc on a peg", TILT)
     lab.ask(tilt=80.0)
     assert lab.scene.tilt == 80 and not lab.scene.messages
     lab.ask(tilt=120.0)
-    assert lab.scene.messages and lab.inputs == (ARRIVAL[0], "Disc on a peg", SPIN, 80.0, 0.3)
+    assert lab.scene.messages and lab.inputs == (ARRIVAL[0], "Disc on a peg", SPIN, 80.0, 0.3, None)
 
 
 def test_a_table_on_which_it_cannot_begin_says_so_in_its_place(lab):

@@ -9,7 +9,7 @@ from test_axe import CONTRAST, DARK, LIGHT, LOOK, violations
 from visiting import PATIENCE, Visit, is_seen
 
 from app.model.lab_run import TOYS, start_of
-from tippe_core import grip
+from tippe_core import Constants, grip
 
 pytestmark = pytest.mark.served
 
@@ -155,7 +155,7 @@ def test_what_is_typed_is_not_written_over_while_answers_come(page):
         slider.value = 29
         slider.dispatchEvent(new Event("input"))
     }""")
-    page.wait_for_function("location.search.includes('turns=29')")
+    page.wait_for_function("location.search.includes('spin=29')")
     assert tilt.input_value() == "7,2"
     tilt.press("Escape")
     tilt.fill("5,73")
@@ -170,7 +170,7 @@ def test_the_run_before_stays_pale_until_it_is_dismissed(page):
     assert page.locator(".strip .then").count() == 1
     assert page.locator(".answer .then").count() == 1
     page.get_by_role("button", name="Go back to before").click()
-    page.wait_for_function("location.search.includes('turns=29')")
+    page.wait_for_function("location.search.includes('spin=29')")
     assert page.locator(".strip .then").count() == 0
     put(page, "Spin, in turns a second", 30)
     page.get_by_role("button", name="Forget the run before").click()
@@ -189,8 +189,8 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
     page.mouse.down()
     page.wait_for_timeout(500)  # the rest itself
     page.mouse.move(x - 60, y + 40, steps=3)
-    page.wait_for_function("location.search.includes('lean=')")
-    pulled = float(parse_qs(urlsplit(page.url).query)["lean"][0])
+    page.wait_for_function("location.search.includes('tilt=')")
+    pulled = float(parse_qs(urlsplit(page.url).query)["tilt"][0])
     assert pulled > 10
     assert float(entry(page, "Tilt, in degrees").input_value()) == pytest.approx(pulled, abs=0.06)
     page.mouse.up()
@@ -198,7 +198,7 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
     pause(page)
     page.get_by_role("slider", name="Time").press("Home")
     handle.press("ArrowRight")
-    page.wait_for_function(f"!location.search.includes('lean={pulled:g}')")
+    page.wait_for_function(f"!location.search.includes('tilt={pulled:g}')")
     put(page, "Tilt, in degrees", 5.73)
 
 
@@ -208,10 +208,10 @@ def test_spin_it_is_the_stronger_the_longer_it_is_held(page):
     page.mouse.down()
     page.get_by_role("button", name="50 rev/s").wait_for()
     page.mouse.up()
-    page.wait_for_function("location.search.includes('turns=50')")
+    page.wait_for_function("location.search.includes('spin=50')")
     page.get_by_role("button", name="Pause").wait_for()
     put(page, "Spin, in turns a second", 30)
-    page.wait_for_function("location.search.includes('turns=30')")
+    page.wait_for_function("location.search.includes('spin=30')")
 
 
 def test_numbers_are_in_a_fold_and_where_the_pointer_is(page):
@@ -234,16 +234,16 @@ def test_a_slider_asks_at_every_move_and_the_newest_is_shown(page):
     for _ in range(12):
         slider.press("ArrowLeft")
     assert entry(page, "Spin, in turns a second").input_value() == "28.8"
-    page.wait_for_function("!location.search.includes('turns=30') && location.search.includes('turns=28.8')")
+    page.wait_for_function("!location.search.includes('spin=30') && location.search.includes('spin=28.8')")
     assert line(page) != before
 
 
 def test_a_link_opens_the_same_elsewhere(page, chromium, server):
     put(page, "Tilt, in degrees", 12)
     choose(page, "Ice")
-    page.wait_for_function("location.search.includes('table=ice') && location.search.includes('lean=12')")
+    page.wait_for_function("location.search.includes('table=ice') && location.search.includes('tilt=12')")
     asked = parse_qs(urlsplit(page.url).query)
-    assert asked == {"v": ["1"], "tab": ["lab"], "table": ["ice"], "turns": ["28.8"], "lean": ["12"]}
+    assert asked == {"v": ["2"], "tab": ["lab"], "table": ["ice"], "spin": ["28.8"], "tilt": ["12"]}
     other = chromium.new_page(viewport={"width": 1400, "height": 900})
     come(other, page.url)
     other.locator(".lab[data-table=ice]").wait_for()
@@ -266,19 +266,18 @@ def test_the_papers_figures_have_this_top_and_start(page):
     choose(page, "Rough")
     put(page, "Spin, in turns a second", 28.8)
     put(page, "Tilt, in degrees", 12)
-    page.wait_for_function("location.search.includes('turns=28.8') && location.search.includes('lean=12')")
+    page.wait_for_function("location.search.includes('spin=28.8') && location.search.includes('tilt=12')")
     page.get_by_role("button", name="The paper’s figures for this top").click()
     page.locator("[data-figure=plane]").first.wait_for()
     assert is_seen(page, "Roll")
-    page.wait_for_function("location.search.includes('by=state')")
+    page.wait_for_function("location.search.includes('by=hand')")  # the same start, at the other level
+    assert {"spin=28.8", "tilt=12"} <= {*urlsplit(page.url).query.split("&")}
     start = start_of("Leine and Glocker's toy", 28.8, 12.0, 0.3)
-    state, _ = grip(start.top, start.state)
-    asked = {
-        name: float(value[0])
-        for name, value in parse_qs(urlsplit(page.url).query).items()
-        if name in ("th", "w2", "w3")
-    }
-    assert asked == pytest.approx({"th": state.theta, "w2": state.omega2, "w3": state.omega3})
+    state, lost = grip(start.top, start.state)
+    found = Constants.from_state(start.top, state.theta, state.theta_dot, state.omega2, state.omega3)
+    jellett = float(page.get_by_role("slider", name="Jellett’s constant").input_value())
+    assert jellett == pytest.approx(float(found.K_J), abs=0.006)
+    page.get_by_text(f"that took {lost:.2g} MgR of its energy at once").first.wait_for()
 
 
 @pytest.mark.parametrize("size", [(1400, 900), (390, 844)], ids=["1400", "390"])

@@ -2,13 +2,11 @@
 
 import pytest
 
+from app.model.arrival import TILT
 from app.model.lab import Lab
-from app.state.asked import Unasked
-from app.state.codecs import Toy
-from app.state.names import of
+from app.model.start import arrives
 from app.tabs.lab.lab import SLIDERS, LabTab, spelled
 from app.text import speaking
-from tippe_core import PRESETS
 
 
 @pytest.fixture
@@ -38,7 +36,7 @@ def test_what_cannot_be_is_said_and_the_motion_stays(tab):
     frames = tab.view.frames_ordinary
     state = wish(tab, 1, "tilt", 185.0)
     assert list(state["messages"]) == ["tilt"] and state["refused"] == {"tilt": 185.0}
-    assert state["values"]["tilt"] == tab.lab.param.tilt.default and "5.7°" in state["old"]
+    assert state["values"]["tilt"] == TILT and "5.7°" in state["old"]
     assert tab.view.frames_ordinary == frames
     assert wish(tab, 2, "tilt", state["values"]["tilt"])["messages"] == {}
 
@@ -62,24 +60,9 @@ def test_what_a_page_never_sends_changes_nothing(tab, asked):
     assert wish(tab, *asked) == before
 
 
-def test_every_input_that_a_link_keeps_is_written_and_read():
-    fields, lab = of("Lab"), Lab()
-    assert set(fields) == set(Lab.INPUTS)
-    for name, field in fields.items():
-        value = getattr(lab, name)
-        assert field.codec.value(field.codec.text(value)) == value
-    toys = Toy([preset.name for preset in PRESETS])
-    assert [toys.value(toys.text(preset.name)) for preset in PRESETS] == [preset.name for preset in PRESETS]
-    for wrong in ("0", str(len(PRESETS) + 1), "-1", "1.5", "\u0661", ""):
-        with pytest.raises(ValueError):
-            toys.value(wrong)
-    with pytest.raises(Unasked):
-        toys.text("no such toy")
-
-
 def test_a_slider_has_the_start_of_the_arrival_within_it():
     for name, (low, high, step, _) in SLIDERS.items():
-        assert low < Lab.param[name].default < high and step < high - low
+        assert low < arrives()[name] < high and step < high - low
 
 
 def test_numbers_are_written_as_the_language_writes_them():

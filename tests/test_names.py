@@ -13,10 +13,10 @@ from app.state.keep import Keep
 from app.state.names import NAMES, ROWS
 
 APP = Path(__file__).parent.parent / "app"
-TABLE = APP / "state" / "names.py"
+TABLE, OLDER = APP / "state" / "names.py", APP / "state" / "older.py"
 EVERY = sorted({*NAMES, names.VOTE, names.VERSION_NAME})
 SOURCES = [path for kind in ("*.py", "*.js", "*.html", "*.toml") for path in APP.rglob(kind)
-           if path != TABLE and not {"node_modules", "static"} & {*path.parts}]  # fmt: skip
+           if path not in (TABLE, OLDER) and not {"node_modules", "static"} & {*path.parts}]  # fmt: skip
 IN_A_LINK = re.compile(rf"[?&]({'|'.join(EVERY)})=")
 READ = re.compile(r"URLSearchParams|searchParams")
 BEFORE = ("first.html", "first.js")  # what the browser shows before Python is asked, in the language of the address

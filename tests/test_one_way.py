@@ -80,7 +80,7 @@ def pictured(name):
     scene = stored(name)
     return planes_run.solve(Settings(
         top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile, rolling=None, spin=15.0,
-        tilt=12.0, slip=1.0, law="coulomb", mu_k=0.2, mu_s=0.3, gamma=0.3, mu=0.3, eps=0.1, landing="plastic",
+        tilt=12.0, slip=1.0, law="coulomb", mu=0.2, mu_s=0.3, gamma=0.3, eps=0.1, landing="plastic",
         stem=True, seconds=0.3))  # fmt: skip
 
 
@@ -358,7 +358,7 @@ STATIONS = (
     (Control, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
     (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneFigure, "show_selected"),
     (Motion, "show"), (PlaneFigure, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
-    (Planes, "see"), (Planes, "follow"), (Planes, "_ask"), (Planes, "_publish"), (ThreePlanes, "show"),
+    (Planes, "ask"), (Planes, "follow"), (Planes, "_run_anew"), (Planes, "_publish"), (ThreePlanes, "show"),
     (TimeFigures, "show"), (PlaneCard, "show_path"),
 )  # fmt: skip
 FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app.tabs.roll.roll, "show_top"),

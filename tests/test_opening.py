@@ -34,7 +34,7 @@ def test_what_goes_without_saying_opens_the_same(others, tab, shown):
 
 
 def test_a_page_as_it_comes_has_an_address_without_a_query():
-    for tab, query in (("lab", {}), ("roll", {"v": "1", "tab": "roll"})):
+    for tab, query in (("lab", {}), ("roll", {"v": "2", "tab": "roll"})):
         keep = Keep({"tab": tab}, shortest=shortest)
         keep.at_rest()
         assert dict(parse_qsl(keep.query[1:])) == query

@@ -325,8 +325,8 @@ def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy
     monkeypatch.setattr("app.model.planes.PATIENCE", 0.0)
     explorer = Explorer()
     planes = planes_of(explorer, page.runs)
-    planes.spin = 21.0
-    planes.spin = 22.0  # before the session hears that the first is not run
+    planes.ask(spin=21.0)
+    planes.ask(spin=22.0)  # before the session hears that the first is not run
     busy.end()
     while planes.busy:
         page.next()

@@ -234,9 +234,10 @@ class Builder(param.Parameterized):
 
     def _adopt(self, shape: Shape, motion: Motion | None = None, top: Top | None = None) -> None:
         top = top or shape.top
-        K_J, K_R = motion(shape) if motion else thrown(shape, top)
-        self._coming = shape
-        self._ask(shape=shape, a=top.a, I1=top.I1, I3=top.I3, K_J=K_J, K_R=K_R)
+        self._coming, constants = shape, {}
+        if self._scene.inputs.get("given") != "hand":  # which lets go any body alike
+            constants = dict(zip(("K_J", "K_R"), motion(shape) if motion else thrown(shape, top), strict=True))
+        self._ask(shape=shape, a=top.a, I1=top.I1, I3=top.I3, **constants)
         if self.draft.messages:
             self._publish(replace(self.draft, messages=MappingProxyType({})))
 

@@ -14,13 +14,14 @@ FRAMES_A_NUTATION = 64
 MOST_FRAMES = 2400
 # The picture between two frames is a turn about one axis, so a frame must not turn the top far.
 MOST_TURN = 0.3
+STILL = 1e-6  # an angular velocity of which no frame could show a turn
 
 
 def frame_times(period: float, top: Top, constants: Constants) -> Array:
     """Some nutations in frames of equal length, short enough that the top turns little between two; (n,)."""
     # (33) bounds the spin: no component is larger than this.
     fastest = float(np.sqrt((2 * abs(float(constants.E)) + 4 * abs(top.a)) / min(top.I1, top.I3)))
-    step = min(period / FRAMES_A_NUTATION, MOST_TURN / fastest)
+    step = min(period / FRAMES_A_NUTATION, MOST_TURN / max(fastest, STILL))
     frames = min(round(NUTATIONS * period / step), MOST_FRAMES)
     return step * np.arange(frames + 1.0)
 

@@ -12,14 +12,15 @@ from typing import Any, TypeAlias
 
 import param
 
-from app.model.arrival import ARRIVAL, MU, SPIN, TABLE, TILT, TOY
+from app.model.arrival import ARRIVAL, TABLE, TILT
 from app.model.lab_ends import Ends, Key, ends_of, known_ends
 from app.model.lab_keeps import Row, keeps
 from app.model.lab_run import SECONDS, TABLES, TOYS, TableMotion, TooLong, Toy, motion_on, shape_of, start_of
 from app.model.runs import Result, Run, Runs, Stopped
+from app.model.start import Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, story
 from app.text import say, told
-from tippe_core import Shape, TopError
+from tippe_core import Shape, State, TopError
 from tippe_core.types import Array
 
 LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5)})
@@ -27,12 +28,15 @@ LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": 
 CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
 SHOWN = 30  # characters of what is no number, in a sentence
 PATIENCE = 0.5  # s: a run that a newer one replaces may still finish within this
-Inputs: TypeAlias = tuple[str, Toy, float, float, float]  # table, toy, spin, tilt, mu
+Inputs: TypeAlias = tuple[str, Toy, float, float, float, State | None]
+"""table, toy, spin, tilt, mu; and the State of a start that is not let go by a hand, with G at rest."""
+WATCHED = "table", "shape", "a", "I1", "I3", "given", "spin", "tilt", "slip", "theta_dot", "omega2", "mu"
+FIRST: Inputs = *ARRIVAL, None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LabScene:
-    """All that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu: what it is of.
+    """All that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu, given: what it is of.
 
     motions: {table: TableMotion or None}; None where it is not watched, or cannot be: then refused has a sentence why.
     stories: {table: Story}, of the motions. said: headline and explanation of all three together. keeps: {table: Rows},
@@ -45,6 +49,7 @@ class LabScene:
     spin: float
     tilt: float
     mu: float
+    given: State | None
     motions: MappingProxyType[str, TableMotion | None]
     stories: MappingProxyType[str, Story]
     refused: MappingProxyType[str, str]
@@ -73,7 +78,7 @@ class LabScene:
         return self.stories.get(table) or Story((), (Stage(0.0, short, self.refused[table], short),), short)
 
 
-def scene_of(table: str, toy: Toy, spin: float, tilt: float, mu: float) -> LabScene:
+def scene_of(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> LabScene:
     """The LabScene of a start, in the page's language. Raises TopError, whose name is an input, where none of the
     tables can have it because of that input's value."""
     watched = tuple(TABLES) if table == "three" else (table,)
@@ -81,7 +86,7 @@ def scene_of(table: str, toy: Toy, spin: float, tilt: float, mu: float) -> LabSc
     refused: dict[str, str] = {}
     for each in watched:
         try:
-            motions[each] = motion_on(each, toy, spin, tilt, mu)
+            motions[each] = motion_on(each, toy, spin, tilt, mu, given)
         except TopError as error:
             if error.code == "body-below-table":
                 raise
@@ -92,7 +97,7 @@ def scene_of(table: str, toy: Toy, spin: float, tilt: float, mu: float) -> LabSc
     start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
     turned = "ordinary" in found and any(event.code == "over" for event in stories["ordinary"].events)
     return LabScene(
-        table=table, toy=toy, spin=spin, tilt=tilt, mu=mu, motions=MappingProxyType(motions),
+        table=table, toy=toy, spin=spin, tilt=tilt, mu=mu, given=given, motions=MappingProxyType(motions),
         stories=MappingProxyType(stories), refused=MappingProxyType(refused),
         said=(say(f"lab.three.{'turned' if turned else 'headline'}"), say("lab.three.why")),
         keeps=MappingProxyType({name: keeps(motion) for name, motion in found.items()} if table == "three" else {}),
@@ -121,77 +126,91 @@ def fault(name: str, value: object) -> str:
 
 
 class Lab(param.Parameterized):
-    """The controls, each set by ask(); one `scene` event for each answer. What cannot be set goes back to what was.
+    """What the page's Start does on the Lab's table, one `scene` event for each answer. What cannot be set goes back to
+    what was.
 
-    runs: the page's Runs. Of several starts asked for while one is computed only the newest is.
+    start: the Start, which ask() sets; runs: the page's Runs. Of several starts asked for while one is computed only
+    the newest is.
     """
 
-    table: param.Selector[str] = param.Selector(
-        default=TABLE, objects=list(CHOICES["table"]), doc="on what it stands; all three beside each other"
-    )
-    toy = param.Parameter(TOY, doc="a name in tippe_core.PRESETS, or a Shape")
-    spin = param.Number(SPIN, doc="about its axis at the start, rev/s")
-    tilt = param.Number(TILT, doc="at the start, degrees")
-    mu = param.Number(MU, doc="friction of the ordinary table")
     busy = param.Boolean(False, constant=True, doc="whether a newer start is being computed")
     scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last answer; None before show()")
     ends = param.Parameter(None, constant=True, doc="lab_ends.Ends over the slider's spins; None until they are there")
 
     INPUTS = ("table", "toy", "spin", "tilt", "mu")
 
-    def __init__(self, runs: Runs | None = None, **inputs: Any) -> None:
+    def __init__(self, runs: Runs | None = None, start: Start | None = None) -> None:
+        self.start = start or Start(**arrives())  # type: ignore[no-untyped-call]  # of param
         self._runs = runs or Runs()
         self._run: Run | None = None
-        self._shown = self._again = False
+        self._shown = self.begun = self._again = False
         self._messages: dict[str, str] = {}
-        self._good: Inputs = ARRIVAL
-        self._strip: Key = ARRIVAL[1], *ARRIVAL[3:]
-        super().__init__(**inputs)  # type: ignore[no-untyped-call]  # of param
+        self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and what puts the Start back to it
+        self._strip: Key | None = None
+        super().__init__()  # type: ignore[no-untyped-call]  # of param
+        self.start.param.watch(self._follow, list(WATCHED))
 
     @property
     def inputs(self) -> Inputs:
-        """What is set: table, toy, spin, tilt, mu."""
-        return self.table, self.toy, self.spin, self.tilt, self.mu
+        """What is set."""
+        start = self.start
+        return start.table, start.toy, start.spin, start.tilt, start.mu, None if start.at_rest else start.let_go
 
     def show(self) -> None:
         """Computes from now on what is set: before somebody looks nothing is."""
-        if not self._shown:
-            self._shown = True
-            self._follow()
+        self._shown = self.begun = True
+        self._follow()
+
+    def hide(self) -> None:
+        """Nobody looks any more."""
+        self._shown = False
 
     def ask(self, **inputs: object) -> None:
-        """Sets what can be; for each that cannot there is a sentence in the scene's messages, and it stays."""
+        """Sets what can be; for each that cannot there is a sentence in the scene's messages, and it stays. Another
+        toy, spin or tilt is let go by a hand."""
         faults = {name: fault(name, value) for name, value in inputs.items()}
         self._messages = {name: said for name, said in faults.items() if said}
-        good = {name: value for name, value in inputs.items() if not faults[name]}
-        if all(getattr(self, name) == value for name, value in good.items()):
-            self._tell()
-        self.param.update(**good)
+        self._set_start({name: value for name, value in inputs.items() if not faults[name]})
+        self._tell()
+
+    def _set_start(self, inputs: dict[str, Any]) -> None:
+        """The inputs of the Lab into the Start."""
+        start = self.start
+        found = inputs | (of_toy(inputs["toy"]) if "toy" in inputs else {})
+        if {"toy", "spin", "tilt"} & inputs.keys():
+            found = {"given": "hand", "spin": start.spin, "tilt": start.tilt, "slip": 1.0} | found
+        found.pop("toy", None)
+        start.later(**found)
 
     @property
     def reached(self) -> float:
         """How much of the run that is computed is done, 0 to 1."""
         if self._run is None:
             return 0.0
-        return min(1.0, self._run.reached * shape_of(self.toy).scales.time / SECONDS)
+        return min(1.0, self._run.reached * shape_of(self.start.toy).scales.time / SECONDS)
 
     def stop(self) -> None:
         """Ends the run that is computed; what it was of goes back to what is shown."""
         if self._run is None:
             return
         self._run.stop()
-        names = self.INPUTS
-        self.param.update(**dict(zip(names, self._good, strict=True)))
+        self.start.later(**self._back)
+
+    @property
+    def _key(self) -> Key | None:
+        """Of the Ends; None where they are of no start such as this."""
+        start = self.start
+        return (start.toy, start.tilt, start.mu) if start.at_rest else None
 
     def rest(self) -> None:
         """To be called when no hand moves: where the runs of all spins end is looked up, or computed beside."""
-        key = self._strip = self.toy, self.tilt, self.mu
-        self._set(ends=known_ends(*key))
-        if self.ends is None:
+        key = self._strip = self._key
+        self._set(ends=key and known_ends(*key))
+        if key and self.ends is None:
             self._runs.begin(Run(lambda run: ends_of(*key, look=run.look), partial(self._ended, key)), "ends")
 
-    def _ended(self, key: tuple[str, float, float], result: Result) -> None:
-        if isinstance(result, Ends) and key == (self.toy, self.tilt, self.mu):
+    def _ended(self, key: Key, result: Result) -> None:
+        if isinstance(result, Ends) and key == self._key:
             self._set(ends=result)
         elif isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
             raise result
@@ -201,19 +220,19 @@ class Lab(param.Parameterized):
         with param.edit_constant(self):
             self.param.update(**values)
 
-    @param.depends(*INPUTS, watch=True)
-    def _follow(self) -> None:
+    def _follow(self, *events: param.parameterized.Event) -> None:
         """Computes what is set, now or when the present run is done."""
-        names, now = self.INPUTS, self.inputs
-        faults = {name: said for name, value in zip(names, now, strict=True) if (said := fault(name, value))}
+        if not self._shown:
+            return
+        faults = {name: said for name in self.INPUTS if (said := fault(name, getattr(self.start, name)))}
         if faults:  # of a link
             self._messages |= faults
-            self.param.update(**{name: self._good[names.index(name)] for name in faults})
+            self.start.later(**self._back)
             self._tell()
             return
-        if self._strip != (self.toy, self.tilt, self.mu):
+        if self._strip != self._key:
             self._set(ends=None)
-        if not self._shown or (self.scene is not None and now == self._good and self._run is None):
+        if self.scene is not None and self.inputs == self._good and self._run is None:
             return
         if self._run is None:
             self._begin()
@@ -224,15 +243,15 @@ class Lab(param.Parameterized):
 
     def _begin(self) -> None:
         inputs, self._again = self.inputs, False
-        work = Run(lambda run: scene_of(*inputs), partial(self._done, inputs))
-        if inputs == ARRIVAL or not self._runs.beside:  # what ships needs no thread
+        work = Run(lambda run: scene_of(*inputs), partial(self._done, inputs, self.start.set))
+        if inputs == FIRST or not self._runs.beside:  # what ships needs no thread
             work.done(work.result())
             return
         self._run = work
         self._set(busy=True)
         self._runs.begin(work, "lab")
 
-    def _done(self, inputs: Inputs, result: Result) -> None:
+    def _done(self, inputs: Inputs, back: dict[str, Any], result: Result) -> None:
         self._run = None
         if self._again:
             self._begin()
@@ -241,7 +260,7 @@ class Lab(param.Parameterized):
         if isinstance(result, TopError):
             self._refused(inputs, result)
         elif isinstance(result, LabScene):
-            self._good = inputs
+            self._good, self._back = inputs, back
             self._set(scene=result)
             self._tell()
         elif not isinstance(result, Stopped):
@@ -252,7 +271,8 @@ class Lab(param.Parameterized):
         self._messages["tilt"] = _sentence(error)
         if self.inputs != inputs:
             return  # something else is asked for by now
-        self.param.update(tilt=self._good[3] if self._good[1] == self.toy and self.scene else TILT)
+        known = self._good[1] == self.start.toy and self.scene
+        self.start.later(**{"tilt": self._good[3] if known else TILT} if self.start.at_rest else self._back)
         self._tell()
 
     def _tell(self) -> None:

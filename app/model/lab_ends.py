@@ -52,7 +52,7 @@ class Ends(NamedTuple):
 _kept: OrderedDict[Key, Ends] = OrderedDict()
 
 
-def known_ends(toy: str, tilt: float, mu: float) -> Ends | None:
+def known_ends(toy: Toy, tilt: float, mu: float) -> Ends | None:
     """What ends_of() has found before, or ships with the arrival; None if it has to be asked."""
     found = _kept.get((toy, tilt, mu))
     if found is None and (toy, tilt, mu) == (arrival.TOY, arrival.TILT, arrival.MU):
@@ -62,7 +62,7 @@ def known_ends(toy: str, tilt: float, mu: float) -> Ends | None:
     return found
 
 
-def ends_of(toy: str, tilt: float, mu: float, look: Callable[[float], object] | None = None) -> Ends:
+def ends_of(toy: Toy, tilt: float, mu: float, look: Callable[[float], object] | None = None) -> Ends:
     """The Ends of a toy. look: called with the share that is done; what it raises ends it. Raises TopError."""
     starts = [start_of(toy, float(spin), tilt, mu) for spin in SPINS]
     start, states = starts[0], np.array([[each.state] for each in starts], dtype=object)

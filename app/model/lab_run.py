@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.model import arrival
 from app.model.bodies import body
-from app.model.planes_picture import Motion, Setup
+from app.model.planes_picture import Motion, Setup, by_hand
 from app.model.planes_run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
 from tippe_core import PRESETS, Contensou, Preset, Shape, State, TopError, Trajectory, glide, grip, roll
@@ -53,7 +53,7 @@ class Patience:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Start(Setup):
-    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees."""
+    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees; else as it is given."""
 
     most_turn: ClassVar[float] = 0.5  # 2000 frames of a fast one
 
@@ -61,6 +61,7 @@ class Start(Setup):
     spin: float
     tilt: float
     mu: float
+    given: State | None = None
 
     @property
     def friction(self) -> Friction:
@@ -68,8 +69,9 @@ class Start(Setup):
 
     @property
     def state(self) -> State:
-        turn = 2 * np.pi / self.scales.angular_velocity
-        return State(float(np.radians(self.tilt)), 0.0, 0.0, turn * self.spin, vx=0.0, vy=0.0)
+        if self.given is not None:
+            return self.given
+        return by_hand(self.spin, self.tilt, 1.0, self.scales)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -115,19 +117,19 @@ def shape_of(toy: Toy) -> Shape:
     return TOYS[toy].shape if isinstance(toy, str) else toy
 
 
-def start_of(toy: Toy, spin: float, tilt: float, mu: float) -> Start:
+def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> Start:
     """The Start of a toy."""
     shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
     return Start(toy=toy, top=top, scales=shape.scales, shape=shape, profile=body(shape),
-                 landing="plastic", stem=True, seconds=SECONDS, spin=spin, tilt=tilt, mu=mu)  # fmt: skip
+                 landing="plastic", stem=True, seconds=SECONDS, spin=spin, tilt=tilt, mu=mu, given=given)  # fmt: skip
 
 
 @lru_cache(12)
-def motion_on(table: str, toy: Toy, spin: float, tilt: float, mu: float) -> TableMotion:
+def motion_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
     """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
     units of the controls."""
-    start = start_of(toy, spin, tilt, mu)
-    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL:
+    start = start_of(toy, spin, tilt, mu, given)
+    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
         return moved(start, table, arrival.read(start.top), 0.0)
     try:
         return moved(start, table, *computed(start, table))

@@ -1,16 +1,19 @@
 """The view-model of the three planes: the controls, one run of what they say, one frozen Picture of it all."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import partial
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import param
 
-from app.model.planes_picture import LAWS, PLANES, SET, Picture, Settings
+from app.model.explorer import Explorer
+from app.model.planes_picture import BY, SET, Picture, Settings
 from app.model.planes_run import for_reader, hits, nudged, solve
 from app.model.runs import Result, Run, Runs, Stopped
 from app.model.scene import Scene
+from app.model.start import PLANE
 from app.text import say, told
 from tippe_core import (
     Scales,
@@ -27,7 +30,7 @@ PATIENCE = 0.5
 
 def _preset(body: str, spin: float, tilt: float, seconds: float, **law: object) -> dict[str, Number]:
     """Of no table: it stays on that where it is looked at, of which one has no friction."""
-    start = {"by": "spin", "spin": spin, "tilt": tilt, "slip": 1.0, "seconds": seconds}
+    start = {"given": "hand", "spin": spin, "tilt": tilt, "slip": 1.0, "seconds": seconds}
     return {"body": body} | start | law
 
 
@@ -52,63 +55,59 @@ def preset(name: str) -> tuple[str, dict[str, Number]]:
 
 
 class Planes(param.Parameterized):
-    """The controls. Several set in one `param.update` make one run, and one `picture` event when it is done.
+    """What the page's start does on three planes: one run of it, and one `picture` event when it is done.
 
-    see() is to be called with each scene, whose top it is about, and follow() with that of a hand at rest. runs: the
-    page's Runs; of several asked for while one is under way only the newest is made.
+    start: the Explorer, which ask() sets. runs: the page's Runs; of several asked for while one is under way only the
+    newest is made. follow() is to be called with the scene of a hand at rest. Nothing is computed before show(), nor
+    after hide().
     """
 
-    plane: param.Selector[str] = param.Selector(
-        default="sliding", objects=[*PLANES, "compare"], doc="what is looked at; computes nothing"
-    )
-    by: param.Selector[str] = param.Selector(
-        default="spin", objects=["spin", "constants"], doc="how the start is given"
-    )
-    spin = param.Number(20.0, doc="omega_3 at the start, rev/s")
-    tilt = param.Number(10.0, doc="theta at the start, degrees")
-    slip = param.Number(1.0, doc="slip at the start, of what it is with G at rest")
-    law: param.Selector[str] = param.Selector(
-        default="smoothed", objects=list(LAWS), doc="the law of friction of the sliding plane"
-    )
-    mu_k = param.Number(0.3, doc="coefficient of sliding friction (Coulomb)")
-    mu_s = param.Number(0.4, doc="coefficient of static friction (Coulomb)")
-    gamma = param.Number(0.3, doc="viscous friction, in (gR)^-1/2")
-    mu = param.Number(0.3, doc="coefficient of the friction of a real contact, and of smoothed friction")
-    eps = param.Number(0.1, doc="slip at which smoothed friction is 0.7 of its full size, in (gR)^1/2")
-    patch = param.Number(0.5, doc="radius of the patch of a real contact, mm")
-    landing: param.Selector[str] = param.Selector(
-        default="plastic", objects=["stop", "plastic"], doc="what follows where it lifts off"
-    )
-    stem = param.Boolean(True, doc="whether the stem can touch the table")
-    seconds = param.Number(5.0, doc="how long a time is computed, s of the real top")
     busy = param.Boolean(False, constant=True, doc="whether a run is under way")
     picture = param.ClassSelector(class_=Picture, constant=True, doc="the last solution; None before the first")
 
     INPUTS = ("by", *SET)
 
-    def __init__(self, scene: Scene, runs: Runs | None = None) -> None:
-        self._scene, self._runs = scene, runs or Runs()
+    def __init__(self, start: Explorer, runs: Runs | None = None) -> None:
+        self._start, self._runs = start, runs or Runs()
         self._run: Run | None = None
         self._beside: Run | None = None
+        self._asked: Settings | None = None
         self._wanted: Settings | None = None
-        self._told_to_stop = False
+        self._shown = self.begun = self._told_to_stop = False
         super().__init__()  # type: ignore[no-untyped-call]  # of param
+        start.param.watch(lambda *events: self._run_anew(), ["given", *SET])
 
-    def see(self, scene: Scene) -> None:
-        """What is asked for from now on is about this scene."""
-        self._scene = scene
+    def show(self) -> None:
+        """Somebody looks."""
+        self._shown = self.begun = True
+        self._run_anew()
+
+    def hide(self) -> None:
+        """Nobody looks any more."""
+        self._shown = False
+
+    @property
+    def plane(self) -> str:
+        """What is looked at: one of PLANES, or "compare"."""
+        return PLANE[self._start.table]
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """What is set."""
+        start = self._start
+        return {name: getattr(start, name) for name in SET} | {"by": BY[start.given == "hand"]}
+
+    def ask(self, by: str | None = None, **inputs: Any) -> None:
+        """Sets inputs; by: "spin" or "constants", the same start by the other."""
+        if by:
+            self._start.settle()
+            inputs["given"] = "hand" if by == "spin" else "state"
+        self._start.later(**inputs)
 
     def follow(self, scene: Scene) -> None:
-        """Runs again if the top, or the motion chosen for rolling, is another than the one last asked for; when what is
-        set together with it is set too, as by an undo."""
-        self.see(scene)
-        self._runs.post(self._follow)
-
-    def _follow(self) -> None:
-        asked, now = self._asked, self._settings()
-        same = (asked.top, asked.scales, asked.shape, asked.rolling) == (now.top, now.scales, now.shape, now.rolling)
-        if not same:
-            self._ask()
+        """Runs again if the top, or the motion that rolls, is another than the one last asked for; when what is set
+        together with it is set too, as by an undo."""
+        self._runs.post(self._run_anew)
 
     @property
     def elapsed(self) -> float:
@@ -133,20 +132,19 @@ class Planes(param.Parameterized):
             self._run.stop()
 
     def _settings(self) -> Settings:
-        scene, rolling = self._scene, None
-        if self.by == "constants":
-            start, a = scene.state, scene.top.a
-            s, c = np.sin(start.theta), np.cos(start.theta)
-            vx, vy = start.omega2 * (c - a) - start.omega3 * s, -start.theta_dot * (1 - a * c)
-            rolling = replace(start, phi=0.0, psi=0.0, vx=float(vx), vy=float(vy))
-        inputs = {name: getattr(self, name) for name in SET}
+        start, scene = self._start, self._start.scene
         return Settings(
-            top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile, rolling=rolling, **inputs
-        )
+            top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile,
+            rolling=None if start.given == "hand" else start.let_go, **{name: getattr(start, name) for name in SET},
+        )  # fmt: skip
 
-    @param.depends(*INPUTS, watch=True, on_init=True)
-    def _ask(self) -> None:
-        self._asked = settings = self._settings()
+    def _run_anew(self) -> None:
+        if not self._shown:
+            return
+        settings = self._settings()
+        if self._asked and _same(settings, self._asked):
+            return
+        self._asked = settings
         if self._beside:
             self._beside.forget()
         if not self._runs.beside:
@@ -192,7 +190,7 @@ class Planes(param.Parameterized):
             if self.picture is None:
                 return
             result = replace(self.picture, messages=MappingProxyType(messages))
-        result = replace(result, inputs=MappingProxyType({name: getattr(self, name) for name in self.INPUTS}))
+        result = replace(result, inputs=MappingProxyType(self.inputs))
         with param.edit_constant(self):
             self.picture = result
         if not messages and self._runs.beside and not self.busy and hits(result):
@@ -204,3 +202,8 @@ class Planes(param.Parameterized):
         if isinstance(growth, float) and self.picture is not None and self.picture.motions is picture.motions:
             with param.edit_constant(self):
                 self.picture = replace(self.picture, growth=growth)
+
+
+def _same(one: Settings, other: Settings) -> bool:
+    """Whether two runs would be the same; the profile is the shape's, or the top's."""
+    return all(getattr(one, part.name) == getattr(other, part.name) for part in fields(one) if part.name != "profile")

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from app.model.bodies import second_part
+from app.model.bodies import outline, second_part
 from tippe_core import (
     Contensou,
     Coulomb,
@@ -29,7 +29,8 @@ from tippe_core.types import Array, Indices, Rim
 
 PLANES = ("rough", "smooth", "sliding")
 LAWS = ("contact", "coulomb", "viscous", "smoothed")
-SET = ("spin", "tilt", "slip", "law", "mu_k", "mu_s", "gamma", "mu", "eps", "patch", "landing", "stem", "seconds")
+SET = ("spin", "tilt", "slip", "law", "mu", "mu_s", "gamma", "eps", "patch", "landing", "stem", "seconds")
+BY = {True: "spin", False: "constants"}
 KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
 
 MOST_SECONDS = 60.0
@@ -82,6 +83,13 @@ class Setup:
         return np.inf if found is None else found
 
     @property
+    def drawn(self) -> Array:
+        """The outline that is drawn, as profile: of the ball alone where the stem takes no part and might go into the
+        table."""
+        alone = self.shape is not None and self.shape.touch_angle is not None and self.edge is None
+        return outline(self.top) if alone else self.profile
+
+    @property
     def part(self) -> str:
         """What touches beside the ball, "stem" or "rim"."""
         return second_part(self.shape)
@@ -114,18 +122,16 @@ class Settings(Setup):
     tilt: float
     slip: float
     law: str
-    mu_k: float
+    mu: float
     mu_s: float
     gamma: float
-    mu: float
     eps: float
     patch: float = 0.5  # mm
 
     @property
     def inputs(self) -> MappingProxyType[str, Any]:
         """What a person set, by the names of the Planes."""
-        by = "spin" if self.rolling is None else "constants"
-        return MappingProxyType({name: getattr(self, name) for name in SET} | {"by": by})
+        return MappingProxyType({name: getattr(self, name) for name in SET} | {"by": BY[self.rolling is None]})
 
     @property
     def friction(self) -> Friction:
@@ -133,21 +139,24 @@ class Settings(Setup):
             return Viscous(self.gamma)
         if self.law == "contact":
             return Contensou(self.mu, 1e-3 * self.patch / self.scales.R)
-        return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu_k, self.mu_s)
+        return SmoothedCoulomb(self.mu, self.eps) if self.law == "smoothed" else Coulomb(self.mu, self.mu_s)
 
     @property
     def state(self) -> State:
-        """The State at t = 0. slip 1: G at rest; 0: G moves as rolling needs; in between and beyond in proportion."""
-        if self.rolling is not None:
-            return self.rolling
-        if not 0 <= self.tilt <= 180:
-            raise TopError("tilt", self.tilt, "0 <= tilt <= 180 (°)")
-        for name in ("spin", "slip"):
-            if not np.isfinite(getattr(self, name)):
-                raise TopError(name, getattr(self, name), "a finite number", code="not-finite")
-        theta = float(np.radians(self.tilt))
-        spin = 2 * np.pi * self.spin / self.scales.angular_velocity
-        return State(theta, 0.0, 0.0, spin, vx=-(1 - self.slip) * spin * np.sin(theta), vy=0.0)
+        """The State at t = 0, before any table grips it."""
+        return self.rolling or by_hand(self.spin, self.tilt, self.slip, self.scales)
+
+
+def by_hand(spin: float, tilt: float, slip: float, scales: Scales) -> State:
+    """The State of a top that a hand lets go: spin in rev/s, tilt in degrees. slip 1: G at rest; 0: G moves as rolling
+    needs; in between and beyond in proportion. Raises TopError, whose name is an input."""
+    if not 0 <= tilt <= 180:
+        raise TopError("tilt", tilt, "0 <= tilt <= 180 (°)")
+    for name, value in (("spin", spin), ("slip", slip)):
+        if not np.isfinite(value):
+            raise TopError(name, value, "a finite number", code="not-finite")
+    theta, omega3 = float(np.radians(tilt)), 2 * np.pi * spin / scales.angular_velocity
+    return State(theta, 0.0, 0.0, omega3, vx=-(1 - slip) * omega3 * np.sin(theta), vy=0.0)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

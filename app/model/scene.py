@@ -27,6 +27,7 @@ from tippe_core import (
     TopError,
     Trajectory,
     TruncatedSphere,
+    grip,
     omega3,
     turning_points,
 )
@@ -51,9 +52,10 @@ class Scene:
 
     ratio is F_h/F_z; regime a code a frame, of regimes.py; upright_spin omega_3 at theta = 0; profile (k, 2) the
     radius of the body drawn and its height above O along axis 3; shape the body, None where a, I1, I3 were set apart
-    from it, and then scales are still its R and M. inputs: all that was asked for, by the names of the Explorer.
-    messages: a sentence for each control that was given what cannot be; the rest of the scene, but for the inputs, is
-    then the last good one. notes: sentences about what is shown.
+    from it, and then scales are still its R and M. lost: the energy that the rough table took when it gripped. inputs:
+    all that was asked for, by the names of the Explorer. messages: a sentence for each control that was given what
+    cannot be; the rest of the scene, but for the inputs, is then the last good one. notes: sentences about what is
+    shown.
     """
 
     top: Top
@@ -80,6 +82,7 @@ class Scene:
     upright_spin: float
     profile: Array
     shape: Shape | None
+    lost: float
     inputs: MappingProxyType[str, Any]
     messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
     notes: tuple[str, ...] = ()
@@ -157,13 +160,17 @@ def solve(
     *,
     E: float | None = None,
     state: State | None = None,
+    let_go: State | None = None,
 ) -> Scene:
     """The Scene of one top and one motion; shape: the body, appendix A's where none is given.
 
-    E, where given, is the energy, whatever the share; state, where given, the motion at t = 0, whatever the constants.
-    Raises TopError, whose name is the input at fault.
+    E, where given, is the energy, whatever the share; state, where given, the motion at t = 0, whatever the constants;
+    let_go, where given, what the rough table grips at t = 0. Raises TopError, whose name is the input at fault.
     """
-    shape = shape or TruncatedSphere.paper()
+    shape, lost = shape or TruncatedSphere.paper(), 0.0
+    if let_go is not None:
+        state, lost = grip(top, let_go)
+        state = replace(state, vx=None, vy=None)
     if state is not None:
         constants = Constants.from_state(top, state.theta, state.theta_dot, state.omega2, state.omega3)
         K_J, K_R, E = float(constants.K_J), float(constants.K_R), float(constants.E)
@@ -194,7 +201,7 @@ def solve(
     whole = plane(top, K_R, mu_s, upper, limit, *K_J_range(top, K_J, K_R, upper))
     turns = float(turning[0]), float(turning[1])
     asked = {"mu_s": mu_s, "upper": upper, "limit": limit, "shape": shape}
-    return _scene(asked, constants, share, marks, state, rolling, whole, turns, trajectory)
+    return _scene(asked, lost, constants, share, marks, state, rolling, whole, turns, trajectory)
 
 
 def _check_sizes(top: Top, numbers: dict[str, float]) -> None:
@@ -210,6 +217,7 @@ def _check_sizes(top: Top, numbers: dict[str, float]) -> None:
 
 def _scene(
     asked: dict[str, Any],
+    lost: float,
     constants: Constants,
     share: float,
     marks: Marks,
@@ -229,11 +237,14 @@ def _scene(
     theta = between(*turning, MESH_COLUMNS)
     inputs = asked | {"K_J": constants.K_J, "K_R": constants.K_R, "energy": share, "E": constants.E}
     inputs |= {name: getattr(state, name) for name in STATE} | {name: getattr(top, name) for name in TOP}
+    turns = float(state.omega3 * shape.scales.angular_velocity / (2 * np.pi))
+    inputs |= {"spin": turns, "tilt": float(np.degrees(state.theta))}
     return Scene(
         top=top,
         scales=shape.scales,
         mu_s=mu_s,
         constants=constants,
+        lost=lost,
         share=share,
         marks=marks,
         state=state,
@@ -255,11 +266,13 @@ def _scene(
         profile=outline(top) if drawn is None else body(drawn),
         shape=drawn,
         inputs=MappingProxyType(inputs),
-        notes=tuple(remarks(marks, drawn, turning[1])),
+        notes=tuple(remarks(marks, drawn, turning[1], lost)),
     )
 
 
-def remarks(marks: Marks, shape: Shape | None, theta_outer: float) -> Iterator[str]:
+def remarks(marks: Marks, shape: Shape | None, theta_outer: float, lost: float) -> Iterator[str]:
+    if lost > AT_LIMIT:
+        yield say("controls.remarks.gripped", lost=lost)
     if shape is None:
         yield say("controls.remarks.stand_in")
     elif shape.touch_angle is not None and theta_outer > shape.touch_angle:

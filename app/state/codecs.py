@@ -13,7 +13,7 @@ from app.model import measured_film
 from app.model.classroom import KEY
 from app.state import asked
 from app.text import say
-from tippe_core import Shape, load_top, save_top
+from tippe_core import load_top, save_top
 from tippe_core.bodies.files import LONGEST
 from tippe_core.bodies.shapes import KINDS
 
@@ -114,29 +114,6 @@ class Body:
         except (binascii.Error, zlib.error, ValueError):
             raise ValueError(say("share.link.file")) from None
         return load_top(document)
-
-
-class Toy:
-    """One of the toys, by the place of its name, which is no word for a link; or a body of somebody's own."""
-
-    def __init__(self, names):
-        self._names = list(names)
-
-    def text(self, value):
-        """The place of a name; Unasked where there is no such toy."""
-        if isinstance(value, Shape):
-            return Body.text(value)
-        if value not in self._names:
-            raise asked.Unasked(value)
-        return str(self._names.index(value) + 1)
-
-    def value(self, text):
-        """The name at a place, or the body; else a ValueError."""
-        if text[:1].isalpha():
-            return Body.value(text)
-        if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= len(self._names):
-            raise ValueError(say("share.link.one_of", words=f"1 ... {len(self._names)}"))
-        return self._names[int(text) - 1]
 
 
 class Key:

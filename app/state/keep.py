@@ -1,7 +1,7 @@
 """The state of the page as the query of a URL, and the steps back and forth through it.
 
 Which name keeps what is in names.py. A query holds what is not the default, every number to the last digit:
-?v=1&KJ=6.7&mu=.3. What a stranger wrote there is read, never believed.
+?v=2&KJ=6.7&mu=.3. What a stranger wrote there is read, never believed.
 """
 
 from dataclasses import dataclass
@@ -12,14 +12,15 @@ from urllib.parse import parse_qsl
 import param
 
 from app.model.explorer import Explorer
-from app.state import asked
+from app.model.start import arrives
+from app.state import asked, older
 from app.state.codecs import Body, Number
 from app.state.names import SECRET, VERSION_NAME, of, query
 from app.text import say, told
 from tippe_core import TopError
 
-# The defaults are part of a version: with others, or with another meaning of a name, this becomes 2.
-VERSION = 1
+# The defaults are part of a version: with others, or with another meaning of a name, this becomes 3.
+VERSION = 2
 LONGEST_QUERY = 12_000  # a body of the most points that can be built is shorter
 MOST_NAMES = 60
 STEPS = 100
@@ -37,7 +38,9 @@ def read(query):
         texts = dict(parse_qsl(query, keep_blank_values=True, max_num_fields=MOST_NAMES))
     except ValueError:
         return {}, say("share.link.too_many")
-    version = texts.pop(VERSION_NAME, str(VERSION))
+    version = texts.pop(VERSION_NAME, "1")
+    if version == "1":
+        return older.today(texts), ""
     return texts, "" if version == str(VERSION) else say("share.link.newer")
 
 
@@ -60,31 +63,35 @@ def values(texts, known, skip=()):
     return found, say("share.link.unreadable", wrong=" ".join(wrong)) if wrong else ""
 
 
-def explorer_of(texts):
-    """(Explorer, sentence): the motion that texts ask for, else the default one. Never raises."""
+def explorer_of(texts, explores=False):
+    """(Explorer, sentence): the start that texts ask for, else the default one of this level. Never raises."""
     inputs, sentence = values(texts, EXPLORER)
     if "shape" in inputs:
         top = inputs["shape"].top
         inputs = {"a": top.a, "I1": top.I1, "I3": top.I3} | inputs
+    first = arrives() if explores else {}
     try:
-        return Explorer(**inputs), sentence
+        return Explorer(**first | inputs), sentence
     # what the solver says of numbers whose squares or reciprocals are no numbers
     except (ValueError, ArithmeticError) as error:
         why = told(error) if isinstance(error, TopError) else say("share.link.extreme")
-        return Explorer(), say("share.link.impossible", why=why)
+        return Explorer(**first), say("share.link.impossible", why=why)
 
 
-def kept(explorer, texts=None, sentence="", **more):
-    """The Keep of a page about this Explorer, of which the link has been obeyed already."""
-    keep = Keep(texts, sentence, allowed=lambda: not explorer.scene.messages, **more)
-    keep.add(explorer, usual, opened=True)
+def kept(explorer, texts=None, sentence="", explores=lambda: False, **more):
+    """The Keep of a page about this Explorer, of which the link has been obeyed already. explores(): whether the page
+    explores. What a hand lets go may be kept where it cannot be said how that rolls."""
+    keep = Keep(texts, sentence, allowed=lambda: explorer.given == "hand" or not explorer.scene.messages, **more)
+    keep.add(explorer, lambda explorer: usual(explorer, explores()), opened=True)
     return keep
 
 
-def usual(explorer):
-    """{parameter: value} of an Explorer where a query is silent about it: the motion by which it is given, its body."""
+def usual(explorer, explores=False):
+    """{parameter: value} of an Explorer where a query is silent about it: the start by which it is given, its body."""
     names = [name for name in EXPLORER if name not in FOLLOWING or name in Explorer.GIVEN[explorer.given]]
     first = {name: Explorer.param[name].default for name in names}
+    if explores:
+        first |= {name: value for name, value in arrives().items() if name in first}
     if explorer.shape == first["shape"]:
         return first
     top = explorer.shape.top

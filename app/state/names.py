@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import quote
 
-from app.model.lab_run import TABLES, TOYS
 from app.model.lesson import BEFORE
 from app.model.lesson import NAMES as STEPS
 from app.model.maps import COLOURS_BY
-from app.model.planes_picture import LAWS, PLANES
+from app.model.planes_picture import LAWS
 from app.model.region import PAPER
-from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf, Toy
+from app.model.start import TABLES
+from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf
 from app.state.map_text import MapText
 from app.text import LANGUAGES
 
@@ -51,7 +51,7 @@ ROWS = (
     Name("I1", "Explorer", "I1", Number),
     Name("I3", "Explorer", "I3", Number),
     Name("mu", "Explorer", "mu_s", Number),
-    Name("by", "Explorer", "given", _words("share", "E", "state")),
+    Name("by", "Explorer", "given", _words("share", "E", "state", "hand")),
     Name("KJ", "Explorer", "K_J", Number),
     Name("KR", "Explorer", "K_R", Number),
     Name("e", "Explorer", "energy", Number),
@@ -62,6 +62,18 @@ ROWS = (
     Name("w3", "Explorer", "omega3", Number),
     Name("phi", "Explorer", "phi", Number),
     Name("psi", "Explorer", "psi", Number),
+    Name("spin", "Explorer", "spin", Number),
+    Name("tilt", "Explorer", "tilt", Number),
+    Name("slip", "Explorer", "slip", Number),
+    Name("table", "Explorer", "table", _words(*TABLES), undoable=False),
+    Name("mu_k", "Explorer", "mu", Number),
+    Name("law", "Explorer", "law", _words(*LAWS)),
+    Name("gamma", "Explorer", "gamma", Number),
+    Name("eps", "Explorer", "eps", Number),
+    Name("patch", "Explorer", "patch", Number),
+    Name("land", "Explorer", "landing", _words("stop", "plastic")),
+    Name("stem", "Explorer", "stem", _SWITCH),
+    Name("seconds", "Explorer", "seconds", Number),
     Name("half", "Explorer", "upper", OneOf(yes=True, no=False, paper=PAPER)),
     Name("limit", "Explorer", "limit", OneOf(lift="lift-off", slip="slip")),
     # how it is played and looked at
@@ -82,28 +94,6 @@ ROWS = (
     Name("dark", "Look", "dark", _SWITCH, undoable=False),
     Name("large", "Look", "large", _SWITCH, undoable=False),
     Name(LANGUAGE, "Tongue", "lang", _words(*LANGUAGES), undoable=False),
-    # the Lab
-    Name("table", "Lab", "table", _words(*TABLES, "three"), undoable=False),
-    Name("toy", "Lab", "toy", Toy(TOYS)),
-    Name("turns", "Lab", "spin", Number),
-    Name("lean", "Lab", "tilt", Number),
-    Name("rub", "Lab", "mu", Number),
-    # the three planes
-    Name("plane", "Planes", "plane", _words(*PLANES, "compare"), undoable=False),
-    Name("start", "Planes", "by", _words("spin", "constants")),
-    Name("law", "Planes", "law", _words(*LAWS)),
-    Name("land", "Planes", "landing", _words("stop", "plastic")),
-    Name("stem", "Planes", "stem", _SWITCH),
-    Name("spin", "Planes", "spin", Number),
-    Name("tilt", "Planes", "tilt", Number),
-    Name("slip", "Planes", "slip", Number),
-    Name("seconds", "Planes", "seconds", Number),
-    Name("mu_k", "Planes", "mu_k", Number),
-    Name("gamma", "Planes", "gamma", Number),
-    Name("eps", "Planes", "eps", Number),
-    Name("patch", "Planes", "patch", Number),
-    Name("mu_smooth", "Planes", "mu", Number),
-    Name("mu_stick", "Planes", "mu_s", Number),
     # the maps
     Name("map", "MapChoice", "asked", MapText),
     Name("mapby", "MapChoice", "colour", _words(*COLOURS_BY)),

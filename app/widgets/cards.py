@@ -28,6 +28,7 @@ STAGED = """
 @media (min-width: 1000px) {
   :host { display: grid; align-items: start; grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) } }
 """
+MIRRORED = "@media (min-width: 1000px) { :host { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) } }"
 SIDE = """
 :host { display: contents } .scroll-button { display: none !important }
 @media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 12px } }
@@ -154,12 +155,16 @@ def first(made, below=0):
     return made
 
 
-def staged(stage, others):
+def staged(stage, others, mirrored=False):
     """What is looked at and what answers it, lists of cards: side by side where there is room, the stage then 57 % wide
-    and in sight while the others scroll; else in one column, by their `order`, the first in sight."""
-    left = pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT])
-    right = pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE])
-    return pn.Column(left, right, sizing_mode="stretch_width", margin=0, stylesheets=[STAGED])
+    and in sight while the others scroll; else in one column, by their `order`, the first in sight. mirrored: the stage
+    is on the right, and in one column after the others."""
+    sides = [
+        pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT]),
+        pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
+    ]
+    sheets = [STAGED, MIRRORED] if mirrored else [STAGED]
+    return pn.Column(*sides[:: -1 if mirrored else 1], sizing_mode="stretch_width", margin=0, stylesheets=sheets)
 
 
 def later(made, place):

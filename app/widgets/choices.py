@@ -1,8 +1,9 @@
 """What is chosen in the page's head beside a tab: the top, the table, the language, and Share."""
 
 from app.model.lab_run import TOYS
+from app.model.start import TABLES
 from app.state import asked
-from app.state.start import PLANE, PLANES, ROLLING, TABLE, TOY
+from app.state.start import PLANES, ROLLING, TOY
 from app.text import LANGUAGES, listed, say
 
 OWN = ""  # a body that is none of those with a name
@@ -18,7 +19,7 @@ class Choices:
     def __init__(self, rooms, house, tongue, share):
         self._rooms, self._house, self._tongue, self._share = rooms, house, tongue, share
         self.does = {"toy": self._toy, "table": self._table, "language": self._language,
-                     "share": lambda value: share.open()}  # fmt: skip
+                     "share": lambda value: self._open()}  # fmt: skip
 
     def _toy(self, name):
         if name not in TOYS:
@@ -29,8 +30,12 @@ class Choices:
         else:
             self._house.builder.choose(name)
 
+    def _open(self):
+        self._house.explorer.settle()
+        self._share.open()
+
     def _table(self, name):
-        if name not in PLANE:
+        if name not in TABLES:
             raise asked.Unasked(name)
         self._rooms.room = self._house.start.table(name)
 
@@ -42,11 +47,11 @@ class Choices:
 
     def shown_in(self, head):
         """From now on."""
-        lab, builder, start = self._house.lab_of, self._house.builder, self._house.start
+        start, builder = self._house.explorer, self._house.builder
 
         def tops(*events):
             names = listed("build.presets")
-            toy = lab.toy if self._rooms.room == TOY else builder.draft.name
+            toy = start.toy if self._rooms.room == TOY else builder.draft.name
             known = [[name, names[name]["name"]] for name in TOYS]
             own = toy not in TOYS
             head.tops(OWN if own else toy, [[OWN, say("main.own")], *known] if own else known)
@@ -55,12 +60,12 @@ class Choices:
             room = self._rooms.room
             known = [[name, word, ROLLING if name == "rough" else PLANES]
                      for name, word in listed("main.tables").items()]  # fmt: skip
-            head.tables("rough" if room == ROLLING else TABLE[start.plane], known if room in (ROLLING, PLANES) else [])
+            head.tables("rough" if room == ROLLING else start.table, known if room in (ROLLING, PLANES) else [])
 
         self._rooms.param.watch(tops, "room")
         self._rooms.param.watch(tables, "room")
-        lab.param.watch(tops, "toy")
+        start.param.watch(tops, ["shape", "a", "I1", "I3"])
         builder.param.watch(tops, "draft")
-        start.param.watch(tables, "plane")
+        start.param.watch(tables, "table")
         tops()
         tables()

@@ -43,7 +43,7 @@ class Pacer:
         self.painted = Painted(width=0, height=0, margin=0)
         at_once(self.painted, "painted")
         self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
-        self._others = {}  # view-model -> what is wanted of it
+        self._others = {}  # what takes inputs of another view-model -> what is wanted of it
         self._single = True  # whether the hand was at rest before the last request
         self._said = None  # the scene that was shown to the rest since then
         self._requested = 0.0
@@ -92,12 +92,12 @@ class Pacer:
             after(REST_AFTER, self._rest)
         self._advance()
 
-    def ask_of(self, model):
-        """What asks for inputs of another view-model in the same turns, as ask() does of the Explorer's."""
-        return partial(self._ask_other, model)
+    def ask_of(self, take):
+        """What asks for inputs that take(**inputs) takes, in the same turns as ask() does for the Explorer's."""
+        return partial(self._ask_other, take)
 
-    def _ask_other(self, model, **inputs):
-        self._others.setdefault(model, {}).update(inputs)
+    def _ask_other(self, take, **inputs):
+        self._others.setdefault(take, {}).update(inputs)
         self._advance()
         if self._others:
             after(ANSWER_WITHIN, self._finish)
@@ -111,8 +111,8 @@ class Pacer:
             self._explorer.param.update(**inputs)
         if self._others and len(self._hands) < HANDS_IN_FLIGHT:
             others, self._others = self._others, {}
-            for model, inputs in others.items():
-                self._send(partial(model.param.update, **inputs), self._hands)
+            for take, inputs in others.items():
+                self._send(partial(take, **inputs), self._hands)
         if not self._drawing and not (self._single and self._hands):
             if not self._round and self._round_is_due:
                 scene, self._round_is_due = self._explorer.scene, False

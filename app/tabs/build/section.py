@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from bokeh.models import ColumnDataSource, HoverTool, Range1d
+from bokeh.models import ColumnDataSource, HoverTool, Range1d, Span
 
 from app.bundle import call
 from app.model.bodies import body
@@ -11,10 +11,10 @@ from app.model.colours import COLOURS, FAINT, INK
 from app.model.dimensions import handles, pulled, value_of
 from app.text import say
 from app.widgets.controls import number
-from app.widgets.plots import plain
+from app.widgets.plots import PAPER, plain
 from tippe_core import LoadedSphere, Turned
 
-PARTS = {"body": "#d9b98c", "hollow": "white", "core": "#8a96a3"}  # of the section, in the order they are drawn
+PARTS = {"body": "#d9b98c", "hollow": PAPER, "core": "#8a96a3"}  # of the section, in the order they are drawn
 FRAME = 276  # px; square, so that both axes have one scale
 REACH = 16  # px from a handle that still take hold of it
 
@@ -36,8 +36,10 @@ class Section:
         self.handles = ColumnDataSource({"x": [], "z": [], "name": [], "says": []})
         for part, colour in PARTS.items():
             fig.patch("x", "z", source=self.parts[part], fill_color=colour, line_color=INK, line_width=1.5)
+        self.table = Span(dimension="width", line_color=INK, line_width=2)
+        fig.add_layout(self.table)
         fig.multi_line("x", "z", source=self.lines, line_color="colour", line_dash="dash", line_width="width")
-        fig.scatter("x", "z", source=self.points, size=7, color="colour")
+        fig.scatter("x", "z", source=self.points, size=8, fill_color="colour", line_color="white")
         fig.text("x", "z", text="text", source=self.letters, x_offset="dx", y_offset="dy", text_color=INK,
                  text_font_size="15px", text_font_style="style", text_font={"value": "Georgia, serif"},
                  text_align="center", text_baseline="middle")  # fmt: skip
@@ -88,9 +90,8 @@ class Section:
             self.parts[part].data = {"x": x, "z": z}
         low, high = min(-R, profile[:, 1].min()), profile[:, 1].max()
         wide = profile[:, 0].max()
-        aside = wide + 0.05 * span
+        aside, self.table.location = wide + 0.05 * span, -R
         straight = [
-            ((-span, span), (-R, -R), INK, [], 2),
             ((0, 0), (low, high + 0.06 * span), FAINT, [8, 4], 1.5),
             ((-wide - 0.03 * span, wide + 0.03 * span), (height, height), FAINT, [8, 4], 1.5),
             ((0, -R * 0.8), (0, -R * 0.6), COLOURS["normal"], [], 2),

@@ -11,7 +11,7 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
-from app.model.lab import Lab
+from app.model.lab import FIRST, Lab
 from app.model.lab_run import shape_of
 from app.state import asked
 from app.text import listed, say
@@ -59,15 +59,14 @@ class LabView(Bundled):
 
 
 def lab_view(lab, keep, go):
-    """The tab. lab: a Lab; keep: a Keep; go: shows the paper's figures of its start."""
-    keep.add(lab)
+    """The tab. lab: a Lab; keep: the Keep of its start; go: shows the paper's figures of it."""
 
     def rests():
         keep.at_rest()
         lab.rest()
 
     tab = LabTab(lab, go, rests)
-    if all(getattr(lab, name) == lab.param[name].default for name in Lab.INPUTS):
+    if lab.inputs == FIRST:
         lab.show()  # it is kept, so that it is there with the page
     if pn.state.loaded:
         begin(lab)
@@ -143,18 +142,18 @@ class LabTab:
         self.view.param.update(**changes)
 
     def _state(self, scene):
-        lab = self._lab
+        lab, start = self._lab, self._lab.start
         messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
         return {
             "table": scene.table,
-            "toy": lab.toy if isinstance(lab.toy, str) else "",
-            "values": {name: getattr(lab, name) for name in INPUTS},
+            "toy": start.toy if isinstance(start.toy, str) else "",
+            "values": {name: getattr(start, name) for name in INPUTS},
             "sliders": SLIDERS,
             "messages": messages,
             "refused": {name: self._tried.get(name) for name in messages},
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
-            "was": self._differ(scene, scene, lab),
-            "wants": self._differ(lab, scene, lab),
+            "was": self._differ(scene, scene, start),
+            "wants": self._differ(start, scene, start),
             "of": {
                 **{name: [getattr(scene, name), self._named(scene, name)] for name in INPUTS},
                 "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]

@@ -27,7 +27,9 @@ def level(texts, query=""):
 
 
 def shortest(texts):
-    """The texts of a query without the tab and the level, where these go without saying."""
+    """The texts of a query without the tab, the level and the table, where these go without saying."""
+    if opened(texts) == USUAL:
+        texts = {key: text for key, text in texts.items() if key != "table"}
     for key, usual in ((LEVEL, level), (TAB, opened)):
         others = {name: text for name, text in texts.items() if name != key}
         if key in texts and usual(others) == texts[key]:

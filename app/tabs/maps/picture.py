@@ -15,7 +15,7 @@ from app.widgets.plots import plain
 # One hue, light to dark by tilt, always with the word; what rolls or changes stands between.
 END_COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2", "moving": "#cdb88f",
                "inverted": "#a88a55", "stem": "#80632f", "refused": "#9aa3ac"}  # fmt: skip
-ON_END = {"inverted": "#ffffff", "stem": "#ffffff"}  # words on these; else dark
+ON_END = {"inverted": "white", "stem": "white"}  # words on these; else dark
 DARK = "#1b2430"
 DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
           "window_high": "dotdash"}  # fmt: skip

@@ -9,11 +9,11 @@ from bokeh.models import ColumnDataSource, Range1d
 
 from app.bundle import call
 from app.model.colours import INK
-from app.model.maps import QUANTITIES
 from app.model.maps_rates import rates
 from app.model.maps_steady import at_place, bifurcation
 from app.model.runs import MAPS, Run, Stopped
 from app.tabs.maps.picture import DARK
+from app.tabs.maps.words import unit_of
 from app.text import listed, say, told
 from app.widgets.cards import alert, note, words
 from app.widgets.plots import plain
@@ -164,7 +164,7 @@ def _figure(name, height, span):
     fig.update(sizing_mode="stretch_width", height=height, min_border_left=44)
     label = say(f"maps.labels.{name.removeprefix('maps-')}")
     fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
-    fig.xaxis.axis_label = f"{listed('maps.quantities')['spin']}, {QUANTITIES['spin'].unit}"
+    fig.xaxis.axis_label = f"{listed('maps.quantities')['spin']}, {unit_of('spin')}"
     fig.xaxis.axis_label_text_font_size = "12px"
     fig.xaxis.axis_label_text_color = INK
     return fig

@@ -8,6 +8,7 @@ from app.model.maps_lines import lines
 from app.tabs.maps.picture import DASHES, END_COLOURS, span
 from app.text import listed, say, written
 from app.widgets.cards import note, px, swatch
+from app.widgets.typeset import power
 
 PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid #8a96a3; {}"
 HATCHED = "background: repeating-linear-gradient(135deg, #dccaa2 0 3px, #1b2430 3px 4px)"
@@ -41,7 +42,7 @@ def colours_say(level, colour):
 
 def of_run(asked, across, up, found):
     """What became of one run."""
-    units = [QUANTITIES[name].unit for name in (asked.across, asked.up)]
+    units = [unit_of(name) for name in (asked.across, asked.up)]
     says = say("maps.run.says", across=across, across_unit=units[0], up=up, up_unit=units[1],
                end=listed("maps.ends")[found.end])  # fmt: skip
     times = [say("maps.run.passes", time=found.time_90) if np.isfinite(found.time_90) else say("maps.run.never")]
@@ -55,15 +56,15 @@ def of_run(asked, across, up, found):
 def of_worst(level):
     """The worst numbers of a map, and what hatching is."""
     drift = level.worst("C_J_drift")
-    kept = written(drift, ".0e") if np.isfinite(drift) else say("maps.drift_none")
-    return say("maps.worst", energy=level.worst("energy_error"), drift=kept) + " " + say("maps.unsettled")
+    kept = power(drift) if np.isfinite(drift) else say("maps.drift_none")
+    return say("maps.worst", energy=power(level.worst("energy_error")), drift=kept) + " " + say("maps.unsettled")
 
 
 def of_disagreement(found, asked, first):
     """Where runs do otherwise than the closed form says, and why; first: of the kinds that there may be."""
     if found is None:
         return note(say("maps.agree")) if first else ""
-    unit = QUANTITIES[asked.across].unit
+    unit = unit_of(asked.across)
     says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=found.low, high=found.high,
                unit=unit) + say(f"maps.why.{found.why}")  # fmt: skip
     return (f"<h2>{say('maps.disagree')}</h2>" if first else "") + says
@@ -76,7 +77,12 @@ def title(asked, colour):
                up=named[asked.up])  # fmt: skip
 
 
+def unit_of(name):
+    """Of a quantity, as it is written after a number."""
+    return listed("maps.units").get(QUANTITIES[name].unit, QUANTITIES[name].unit)
+
+
 def with_unit(name):
     """The name of an axis."""
-    unit = QUANTITIES[name].unit
+    unit = unit_of(name)
     return listed("maps.quantities")[name] + (f", {unit}" if unit else "")

@@ -16,8 +16,8 @@ from app.widgets.cards import BUTTON, PLAIN, alert, card, first, flow, note, on_
 from app.widgets.controls import Control, Wish
 from app.widgets.top3d import Top3D, pack_frames
 
-NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu_k", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
-NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu_k", "mu_s", "gamma", "mu", "eps", "patch")
+NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
+NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
 SWITCHES = ("by", "law", "landing")
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
@@ -123,7 +123,7 @@ class ThreePlanes:
         views = {name: control.view for name, control in self._controls.items()}
         self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
         self._numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0)
-                         for names in NUMBERS.values() for name in names}  # fmt: skip
+                         for name in dict.fromkeys(name for names in NUMBERS.values() for name in names)}  # fmt: skip
         self._bar = words(margin=(10, 8))
         self._show_progress(0)
         stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
@@ -266,7 +266,7 @@ class ThreePlanes:
         if not top.is_new(settings):
             return
         top.param.update(
-            profile=pack(settings.profile),
+            profile=pack(settings.drawn),
             seconds=settings.scales.time,
             a=settings.top.a,
             frames=pack_frames(*motion.frames) if motion else b"",

@@ -119,7 +119,7 @@ const strip = `
 .lab[data-table=three] .strip .ice { stroke-dasharray: 2 3; } .lab.old .strip :is(.rest, .past, .shape) { opacity: .38; }
 .then { stroke: var(--line-2); stroke-width: 2; stroke-dasharray: 6 5; fill: none; } .lab.old .then { opacity: .38; }
 path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
-.strip .now { position: absolute; left: -1px; top: 14px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
+.strip .now { position: absolute; left: -1px; top: 20px; bottom: 22px; width: 2px; background: var(--accent); pointer-events: none; }
 .strip .head { position: absolute; left: -10px; bottom: 12px; width: 20px; height: 20px; border-radius: 50%; background: var(--ground); border: 5px solid var(--accent); pointer-events: none; }
 .at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; }
 .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }

@@ -84,10 +84,10 @@ const small = `
 @container (min-width: 1500px) { .lesson { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 640px; font-size: var(--t-m); } .question { font-size: 38px; } .picture { max-height: 420px; } }
 @container (max-width: 1180px) { .lesson { --side: 400px; gap: 10px 16px; padding: 8px 16px; } .question { font-size: 24px; } }
 @container (max-width: 700px) {
-  .lesson { --touch: 44px; --stage: 236px; display: flex; flex-direction: column; gap: 8px; padding: 0 0 8px; }
+  .lesson { --touch: 44px; --stage: clamp(160px, 100vh - 648px, 236px); display: flex; flex-direction: column; gap: 6px; padding: 0 0 8px; }
   .right, .side { display: contents; } .lesson > :not(.stage), .side > *, .picture { padding: 0 16px; } .crumbs { justify-content: flex-end; gap: 0 4px; padding: 4px 12px !important; } .crumbs span { display: none; } .crumbs button { min-height: 40px; min-width: 32px; justify-content: center; }
   .stage { order: 1; height: var(--stage) !important; flex: none; border-radius: 0; position: sticky !important; top: var(--head) !important; z-index: 2; } .crumbs { order: 0; }
-  .bar { order: 2; position: relative; grid-template-columns: minmax(0, 1fr); } .bar .plot { height: 88px; } .bar .round { position: absolute; right: 12px; top: -60px; z-index: 3; }
+  .bar { order: 2; position: relative; grid-template-columns: minmax(0, 1fr); } .bar .plot { height: 76px; } .bar .round { position: absolute; right: 12px; top: -60px; z-index: 3; }
   .picture { order: 6; flex: none; } .picture .plot { flex: none; height: 132px; min-height: 0; } .question { order: 3; font-size: 20px; } .side > * { order: 4; } .side > .dock { order: 8; } .more { order: 7; }
   .side :is(input, button) { scroll-margin: calc(var(--head) + var(--stage) + 16px) 0 84px; }
   .side > .dock { position: sticky; bottom: 0; z-index: 5; background: var(--ground); border-top: 1px solid var(--line); padding: 8px 16px; } .primary { min-height: 44px; }

@@ -14,7 +14,7 @@ input[type=text] { width: calc(100px * var(--type, 1)); flex: none; height: calc
 input[type=text][aria-invalid=true] { border-color: var(--alert, #b3261e); }
 input:focus-visible { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: 1px; border-radius: 4px; }
 input[type=range] { display: block; width: 100%; height: 26px; accent-color: var(--focus, ${colours.chosen}); cursor: pointer; touch-action: pan-y; }
-.marks { position: relative; height: 1.5em; margin: -3px 8px 2px; font-size: 12px; color: var(--faint, #5b6875); }
+.marks { position: relative; height: 1.5em; margin: -3px 8px 2px; font-size: calc(12px * var(--type, 1)); color: var(--faint, #5b6875); }
 .marks span { position: absolute; transform: translateX(-50%); white-space: nowrap; }
 .marks span:first-child { transform: translateX(-8px); }
 .marks span::before { content: ""; position: absolute; left: 50%; top: -4px; height: 4px; border-left: 1px solid; }

@@ -6,12 +6,12 @@ import { coalesce, local } from "../data.js";
 import { words } from "../three/scene.js";
 
 const LARGER = 1.35;
-const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff"]; // and grid, paper of app/widgets/plots.py
+const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff", "#d9b98c"]; // and grid, paper of app/widgets/plots.py; wood of a section
 const looks = {
   light: INKS,
-  "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff"],
-  dark: ["#eef2f6", "#9aa7b4", "#333d48", "#161c23"],
-  "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#000000"],
+  "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff", "#d9b98c"],
+  dark: ["#eef2f6", "#9aa7b4", "#333d48", "#161c23", "#75592f"],
+  "dark large": ["#ffffff", "#c4ccd4", "#4a5661", "#000000", "#75592f"],
 };
 const FAINT_TYPE = { light: "#5b6875", "light large": "#26323d", dark: "#aab6c2", "dark large": "#e3e8ed" };
 
@@ -120,5 +120,5 @@ export function renderLook({ model }) {
     look.system.removeEventListener("change", look.update);
     look.doc.remove_on_change(onChange);
   });
-  if (look.isDark || model.large) look.update();
+  if (look.isDark || model.large || look.system.matches) look.update();
 }

@@ -55,7 +55,8 @@ export function placeNames(tops, size) {
   return tops.map(({ x, y, words }, own) => {
     const wide = LETTER * words.length;
     /** @type {[dx: number, dy: number][]} */
-    const places = [[half, -LINE / 2], [-half - wide, -LINE / 2], [-wide / 2, half], [-wide / 2, -half - LINE], [half, half - LINE / 2], [half, -half]];
+    const places = [[half, -LINE / 2], [-half - wide, -LINE / 2], [-wide / 2, half], [-wide / 2, -half - LINE], [half, half - LINE / 2], [half, -half],
+      [-half - wide, half - LINE / 2], [-half - wide, -half], [-wide / 2, half + LINE], [-wide / 2, -half - 2 * LINE]];
     const free = ([dx, dy]) => {
       const name = box(x + dx, y + dy, wide, LINE);
       return name.left > LEFT && name.right < size.wide && !taken.some((each, k) => k !== own && meets(name, each));
@@ -79,13 +80,14 @@ function areas({ x, y, first, split, last, foot }) {
 
 function axes({ x, y, first, foot, last }, words) {
   const across = [...FAR_TICKS, ...TICKS].map((a) => `<text x="${x(a)}" y="${foot + 16}" text-anchor="middle">${local(String(a))}</text>`);
-  const up = RATIO_TICKS.map((ratio) => `<text x="${first - 6}" y="${y(ratio) + 4}" text-anchor="end">${ratio}</text>`);
+  const up = RATIO_TICKS.map((ratio) => `<text x="${first - 6}" y="${y(ratio) + 4}" text-anchor="end">${local(String(ratio))}</text>`);
   return `<g class="axis">${across.join("")}${up.join("")}<text x="${first}" y="${foot + 36}">${words.far}</text>
     <text x="${last}" y="${foot + 36}" text-anchor="end">${words.across}</text></g>`;
 }
 
 function groups({ x, y, first, last }, words, narrow) {
-  const places = [["ordinary", first + 10, TOP + 24, "start"], ["part", x(0) + 20, TOP + 24, "start"],
+  // narrow, the first two would run into one another on one line
+  const places = [["ordinary", narrow ? 4 + first : 10 + first, TOP + (narrow ? 48 : 24), "start"], ["part", x(0) + 20, TOP + 24, "start"],
     ["turns", last - 14, y(1.04), "end"], ["never", x(0) + 20, y(0.46), "start"]];
   return places.map(([name, across, down, anchor]) => {
     const [head, more] = words.groups[name], below = narrow ? "" : `<text x="${across}" y="${down + 18}" text-anchor="${anchor}">${more}</text>`;

@@ -1,0 +1,134 @@
+"""One top, let go once: all that a person sets of it, each quantity once, whatever view shows it.
+
+The motion is given by one set of GIVEN: by a hand's spin and tilt, with G at rest unless slip says otherwise, or by
+what rolls. The table is where it is watched; changing it keeps the start.
+"""
+
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import param
+
+from app.model import arrival
+from app.model.bodies import fits
+from app.model.lab_run import PATCH, TOYS, Toy
+from app.model.planes_picture import LAWS, by_hand
+from tippe_core import BareSphere, Shape, State, Top, TopError, TruncatedSphere
+from tippe_core.paper.equations import rolling_velocity
+
+TABLES = ("ordinary", "rough", "ice", "three")
+PLANE = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth", "three": "compare"})
+"""{table: what the three planes call it}."""
+
+
+class Start(param.Parameterized):
+    """What a page has one of. Several set in one `param.update` make one start."""
+
+    # the top
+    shape = param.ClassSelector(
+        class_=Shape, default=TruncatedSphere.paper(), allow_None=False, doc="the body; a, I1, I3 are set with it"
+    )
+    a = param.Number(0.070, doc="distance of G below the centre O of the sphere, in R")
+    I1 = param.Number(0.399, doc="moment of inertia about an axis through G across the axis of symmetry, in MR^2")
+    I3 = param.Number(0.408, doc="moment of inertia about the axis of symmetry, in MR^2")
+    # its motion
+    given: param.Selector[str] = param.Selector(
+        default="share", objects=["share", "E", "state", "hand"], doc="which of GIVEN holds"
+    )
+    K_J = param.Number(7.0, doc="Jellett's constant, in (g/R)^1/2")
+    K_R = param.Number(10.0, doc="Routh's constant, in (MR^2)^1/2 (g/R)^1/2")
+    energy = param.Number(0.9, doc="0 the steady precession, 1 the limit of friction, 2 the limit F_z = 0")
+    E = param.Number(0.0, doc="the energy itself, in MgR")
+    theta = param.Number(0.0, doc="the tilt at t = 0, in rad")
+    theta_dot = param.Number(0.0, doc="its rate, in (g/R)^1/2")
+    omega2 = param.Number(0.0, doc="the angular velocity about 2' at t = 0, in (g/R)^1/2")
+    omega3 = param.Number(0.0, doc="the angular velocity about the axis of symmetry at t = 0, in (g/R)^1/2")
+    phi = param.Number(0.0, doc="the azimuth of 1' at t = 0, in rad")
+    psi = param.Number(0.0, doc="the turn about the axis of symmetry at t = 0, in rad")
+    spin = param.Number(20.0, doc="about its axis as a hand lets it go, rev/s")
+    tilt = param.Number(10.0, doc="as a hand lets it go, degrees")
+    slip = param.Number(1.0, doc="as a hand lets it go, of what it is with G at rest")
+    # its table
+    table: param.Selector[str] = param.Selector(default="ordinary", objects=list(TABLES), doc="on what it is watched")
+    mu_s = param.Number(0.5, doc="coefficient of static friction")
+    mu = param.Number(0.3, doc="coefficient of sliding friction")
+    law: param.Selector[str] = param.Selector(
+        default="smoothed", objects=list(LAWS), doc="the law of friction of the ordinary table"
+    )
+    gamma = param.Number(0.3, doc="viscous friction, in (gR)^-1/2")
+    eps = param.Number(0.1, doc="slip at which smoothed friction is 0.7 of its full size, in (gR)^1/2")
+    patch = param.Number(1e3 * PATCH, doc="radius of the patch of a real contact, mm")
+    # a run on it
+    landing: param.Selector[str] = param.Selector(
+        default="plastic", objects=["stop", "plastic"], doc="what follows where it lifts off"
+    )
+    stem = param.Boolean(True, doc="whether the stem can touch the table")
+    seconds = param.Number(5.0, doc="how long a time is computed, s of the real top")
+
+    GIVEN = MappingProxyType(
+        {
+            "share": ("K_J", "K_R", "energy"),
+            "E": ("K_J", "K_R", "E"),
+            "state": ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"),
+            "hand": ("spin", "tilt", "slip"),
+        }
+    )
+
+    @property
+    def set(self) -> dict[str, Any]:
+        """{input: value} of the top, how its motion is given, and the Lab's table: what puts it back."""
+        names = ("shape", "a", "I1", "I3", "given", *self.GIVEN[self.given], "table", "mu")
+        return {name: getattr(self, name) for name in names}
+
+    def later(self, **inputs: Any) -> None:
+        """Takes inputs, as `param.update` does."""
+        self.param.update(**inputs)
+
+    @property
+    def toy(self) -> Toy:
+        """The name in TOYS that the body has; else the body, or a sphere of these a, I1 and I3."""
+        try:
+            top = Top(self.a, self.I1, self.I3)
+        except TopError:  # said at the control that was given it
+            top = self.shape.top
+        for name, preset in TOYS.items():
+            if preset.shape == self.shape and preset.top == top:
+                return name
+        if fits(self.shape, top):
+            return self.shape
+        return BareSphere(R=self.shape.scales.R, M=self.shape.scales.M, a=top.a, I1=top.I1, I3=top.I3)
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether a hand lets it go with G at rest."""
+        return self.given == "hand" and self.slip == 1
+
+    @property
+    def let_go(self) -> State:
+        """The State at t = 0, before any table grips it."""
+        return by_hand(self.spin, self.tilt, self.slip, self.shape.scales)
+
+
+def rolls(state: State, top: Top) -> State:
+    """A State that rolls, from the origin, with the velocity that this is of G."""
+    s, c = np.sin(state.theta), np.cos(state.theta)
+    vx, vy = rolling_velocity(c, s, state.theta_dot, state.omega2, state.omega3, top)
+    return replace(state, phi=0.0, psi=0.0, vx=float(vx), vy=float(vy))
+
+
+def of_toy(toy: Toy) -> dict[str, Any]:
+    """{input of a Start: value} of the body of a toy."""
+    preset = TOYS[toy] if isinstance(toy, str) else None
+    shape = preset.shape if preset else toy
+    assert isinstance(shape, Shape)
+    top = preset.top if preset else shape.top
+    return {"shape": shape, "a": top.a, "I1": top.I1, "I3": top.I3}
+
+
+def arrives() -> dict[str, Any]:
+    """{input of a Start: value} of what is seen on arrival, as far as it is not the default."""
+    return of_toy(arrival.TOY) | {
+        "given": "hand", "spin": arrival.SPIN, "tilt": arrival.TILT, "mu": arrival.MU, "law": "contact",
+    }  # fmt: skip

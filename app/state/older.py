@@ -1,0 +1,51 @@
+"""Links of the first version, in which each view of the Lab had a top, a start and a table of its own: they open what
+they opened, and say it in the names of today."""
+
+from app.model.lab_run import TOYS
+from app.model.start import PLANE
+from app.state.codecs import Body, Number
+from app.state.names import TAB
+
+LAB = {"turns": "spin", "lean": "tilt", "rub": "mu_k"}  # of a hand in the Lab
+MOTION = "by", "KJ", "KR", "e", "E", "th", "thd", "w2", "w3", "phi", "psi"
+HAND = "spin", "tilt", "slip"  # of a hand in the three planes
+TABLE = {plane: table for table, plane in PLANE.items()}
+ONLY_THEN = {*LAB, "toy", "plane", "start", "mu_smooth", "mu_stick"}
+MU_S = ".4"  # of Coulomb's law in the three planes, where a link said nothing
+
+
+def today(texts):
+    """The texts of a query of version 1 as those of version 2. What the views that it did not open had of their own is
+    left out."""
+    room = texts.get(TAB, "roll")
+    of_room = {"lab": _lab, "three-planes": _planes}.get(room, dict)
+    return {key: text for key, text in of_room(texts).items() if key not in ONLY_THEN}
+
+
+def _lab(texts):
+    left = {*MOTION, *HAND, "body", "a", "I1", "I3", "mu_k", "law", "gamma", "eps", "patch"}
+    found = {LAB.get(key, key): text for key, text in texts.items() if key not in left}
+    return found | _body(texts.get("toy", ""))
+
+
+def _body(text):
+    """Of a toy, which was the place of its name, or a body."""
+    if text[:1].isalpha():
+        return {"body": text}
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= len(TOYS):
+        return {}
+    toy = list(TOYS.values())[int(text) - 1]
+    own = {name: Number.text(getattr(toy.top, name)) for name in ("a", "I1", "I3")}
+    return {"body": Body.text(toy.shape)} | (own if toy.top != toy.shape.top else {})
+
+
+def _planes(texts):
+    found = dict(texts)
+    if "plane" in texts:
+        found["table"] = TABLE.get(texts["plane"], texts["plane"])
+    if texts.get("start") != "constants":
+        found = {key: text for key, text in found.items() if key not in MOTION} | {"by": "hand"}
+    if texts.get("law") == "coulomb":
+        return found | {"mu": texts.get("mu_stick", MU_S)}
+    found.pop("mu_k", None)
+    return found | ({"mu_k": texts["mu_smooth"]} if "mu_smooth" in texts else {})
