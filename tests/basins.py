@@ -72,9 +72,9 @@ def drawn(spins, tilts, end):
     figure.savefig(DOCS / "basins.png", dpi=150)
 
 
-def page(cells, starts, found, rtol):
+def page(cells, starts, found, rtol=None):
     """The lines of docs/basins.md. found: {(low, high): ends of pairs()}; rtol: the share of the same starts that end
-    otherwise where steps are a thousand times as exact."""
+    otherwise where steps are a thousand times as exact, where that was asked."""
     rng, others = np.random.default_rng(5), {spins: ends[:, 1:] != ends[:, :1] for spins, ends in found.items()}
     yield from ("# Where the paper’s top ends", "")
     yield (f"The paper’s top with its stem, `SmoothedCoulomb(0.3, 0.1)`, {SECONDS:g} s: {cells} × {cells} runs of "
@@ -100,14 +100,15 @@ def page(cells, starts, found, rtol):
         yield f"| α, {name} | " + " | ".join(powers) + " |"
     yield ""
     yield ("So there is no one power. From 1 down to 0.03 rev/s the border looks like a fractal: halving a distance "
-           "hardly makes the end surer. Below some 0.01 rev/s it looks smooth, and pairs that are closer than 0.001 "
-           "rev/s hardly ever end differently. That is what a toy that hops a few times and then comes to rest can do: "
-           "each hop folds the border once more, and there are not endlessly many. Published work that says it is one "
-           "or the other was not found.")  # fmt: skip
-    yield ""
-    yield (f"With steps a thousand times as exact (`rtol` 1e-9) {rtol:.1%} of the starts from {SPINS[0]:g} to "
-           f"{SPLIT:g} rev/s end otherwise. So where a single cell near a border ends is not certain; how often "
-           "neighbours differ, among runs all made in one way, is.")  # fmt: skip
+           "hardly makes the end surer. Below some 0.01 rev/s the power is not told from 1, that of a smooth border, and "
+           "pairs that are closer than 0.001 rev/s hardly ever end differently. So would it be if each hop of the top "
+           "folded the border once more, for it hops a few times only and then comes to rest; that was not tried."
+           )  # fmt: skip
+    if rtol is not None:
+        yield ""
+        yield (f"With steps a thousand times as exact (`rtol` 1e-9) {rtol:.1%} of the starts from {SPINS[0]:g} to "
+               f"{SPLIT:g} rev/s end otherwise. So where a single cell near a border ends is not certain; how often "
+               "neighbours differ, among runs all made in one way, is.")  # fmt: skip
 
 
 def main(cells):
