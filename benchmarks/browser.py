@@ -333,3 +333,15 @@ if __name__ == "__main__":
 # level of research, whose Fig. 6 is now over all of 0 to pi with K_R below), python -m app, in times bare: first top
 # 2.61, hand 2.53, page 2.67, cpu 2.60; p95 steps figure 1.68, page 8.37, drag figure 2.92, page 10.31. So an arrival
 # costs half of what it did, and a move of Roll near twice; why is not known yet.
+#
+# 2026-11-25, why: a figure that is hidden (Fig. 6 from near) had all of the page laid out at each picture of the clock;
+# each step waited for the path of the slip (25 ms); a label that grew laid out the page; the second picture in 3-D came
+# after the first, and fine, once the hand counted as gone. Hand alone, python -m app, two rounds, p95 in times
+# bare's, this run first in turn under other work (load 11 to 18):
+#                    07:21 (27b8bf4)   before   hidden figures, path   after
+# steps figure        1.05              1.38     1.17
+# steps page          5.00              6.60     5.84                   2.9
+# drag  figure        1.99              2.14     1.55                   1.5
+# drag  page          7.20              9.63     7.86                   6.0
+# (after: parts of the page measured apart, one visit, bare's of the run before). Of a step's 180 ms the data are there
+# after 66, the plots after 103, the top after 170, Fig. 5 after 181: what is left of a drag is drawing.

@@ -2,10 +2,15 @@
 
     python benchmarks/load.py [--quick] [--only NAME ...]      some 20 minutes where nothing else runs
 
-Visitors speak Bokeh's protocol without a browser (tests/wire.py), and answer what a browser answers. They come to Roll,
-whose slider they move: with the Lab in front it draws nothing. A reply is the first picture that comes after a slider
-moved. The generator runs beside, on the same cores. To one server process ("one"), to two ("two"), and to the bare app
-("bare") come
+Visitors speak Bokeh's protocol without a browser (tests/wire.py), and answer what a browser answers. The generator runs
+beside, on the same cores. "arrive" has two server processes and the bare app in one run, in turn:
+
+    came      s of the processor for each who comes, and for each move: of the page as it is first seen (the Lab in
+              Explore), whose spin is moved and whose reply is the whole run; of Roll (Research); of the bare app
+    thirty    who come at once, to both: how long until each has his page, and until all are live
+
+The others come to Roll, whose slider they move. A reply is the first picture that comes after a slider moved. To one
+server process ("one"), to two ("two"), and to the bare app ("bare") come
 
     class     100 sessions, each moves a slider every 2 s, for 120 s
     lecture   200 sessions, of which 20 move one
@@ -64,10 +69,11 @@ class Active(Page):
     def __init__(self, visitor):
         super().__init__(visitor)
         self.moved, self.times = None, []
-        self.dial, self.slider = (visitor.find(kind) for kind in ("Dial", "Slider"))
+        self.lab, self.dial, self.slider = (visitor.find(kind) for kind in ("LabView", "Dial", "Slider"))
 
-    def heard(self):
-        if self.moved is not None:
+    def heard(self, content):
+        whole = not self.lab or any(event.get("attr") == "frames_ordinary" for event in content["events"])
+        if self.moved is not None and whole:
             self.times.append(time.monotonic() - self.moved)
             self.moved = None
 
@@ -76,7 +82,10 @@ class Active(Page):
         if self.moved is not None:
             self.times.append(time.monotonic() - self.moved)
         self.moved = time.monotonic()
-        if self.dial:
+        if self.lab:
+            spin = 20 + 0.1 * len(self.times)
+            await self.visitor.set(self.lab[0], "asked", [len(self.times) + 1, "spin", round(spin, 1)])
+        elif self.dial:
             await self.visitor.set(self.dial[0], "asked", [len(self.times), value, False])
         else:
             await self.visitor.set(self.slider[0], "value", value)
@@ -92,9 +101,9 @@ class Active(Page):
             await asyncio.sleep(max(0, due - time.monotonic()))
 
 
-async def come(urls, count):
+async def come(urls, count, at_once=COMING):
     """So many visitors, a few at a time, over all the servers; and how long each waited for his page, s."""
-    waited, gate = [], asyncio.Semaphore(COMING)
+    waited, gate = [], asyncio.Semaphore(at_once)
 
     async def one(i):
         async with gate:
@@ -136,17 +145,19 @@ class Run:
                 return
             before = now
 
-    async def come(self, count):
-        """So many more."""
+    async def come(self, count, quietly=False):
+        """So many more. each: s of the processor that one took."""
         before = self.seconds()
         visitors, waited = await come([server.url for server in self.servers], count)
         self.visitors += visitors
         await self.quiet()
-        print(f"    {count} more come: page after {summary(waited)}; {(self.seconds() - before) / count:.2f} s of "
-              "processor each")  # fmt: skip
+        self.each = (self.seconds() - before) / count
+        if not quietly:
+            print(f"    {count} more come: page after {summary(waited)}; {self.each:.2f} s of processor each")
 
-    async def move(self, active, seconds):
-        """Some of them move a slider; returns p95 in s, inf where a session was lost."""
+    async def move(self, active, seconds, quietly=False):
+        """Some of them move a slider; returns p95 in s, inf where a session was lost; quietly: instead the processor's
+        s for each move."""
         await self.quiet()  # until what was left undone before is done
         before, moving = self.seconds(), self.visitors[:active]
         for each in moving:
@@ -156,6 +167,8 @@ class Run:
         await asyncio.sleep(1)
         times = [t for each in moving for t in each.times]
         lost = [each.lost for each in self.visitors if each.lost]
+        if quietly:
+            return (self.seconds() - before) / max(len(times), 1)
         print(f"    {active} of {len(self.visitors)} move for {seconds} s: {summary(times)} of {len(times)} moves; "
               f"{1e3 * (self.seconds() - before) / max(len(times), 1):.1f} ms of processor a move; "
               f"lost {len(lost)} {lost[:1] or ''}", flush=True)  # fmt: skip
@@ -212,6 +225,34 @@ async def leak(run, count):
     await run.leave()
 
 
+async def arrive(servers, few):
+    """All that "arrive" measures, the least of each; servers: {name: [Process]}, of which the bare app comes first."""
+    least, moves = {}, {}
+    for _ in range(max(1, 6 // few)):
+        for name, processes in servers.items():
+            run = Run(processes[:1])
+            await run.come(5, quietly=True)
+            least[name] = min(run.each, least.get(name, np.inf))
+            moved = await run.move(5, 10, quietly=True)
+            if moved < moves.get(name, (np.inf,))[0]:
+                moves[name] = moved, [t for each in run.visitors for t in each.times]
+            await run.leave()
+    bare = next(iter(servers))
+    for name in servers:
+        moved, times = moves[name]
+        print(f"    {name}: {1e3 * least[name]:.0f} ms of the processor for each who comes, "
+              f"{least[name] / least[bare]:.1f} times bare; {1e3 * moved:.1f} a move, "
+              f"{moved / moves[bare][0]:.1f} times; {summary(times)}", flush=True)  # fmt: skip
+    for name, processes in servers.items():
+        start = time.monotonic()
+        visitors, waited = await come([each.url for each in processes], 30, 30)
+        live = time.monotonic() - start
+        print(f"    thirty, {name}: page after {summary(waited)}; all are live after {live:.1f} s", flush=True)
+        for each in visitors:
+            await each.leave()
+        await asyncio.sleep(10)
+
+
 class Process:
     """A server that runs: where its page is, and what the system says of its process."""
 
@@ -258,8 +299,16 @@ def bare(folder):
         process.wait()
 
 
-KINDS = {"one": lambda folder: ours(folder, 1), "two": lambda folder: ours(folder, 2), "bare": bare,
-         "image": lambda folder: ours(folder, 1, "malloc")}  # fmt: skip
+@contextmanager
+def all_kinds(folder):
+    """{name: [Process]} for arrive(), all at once."""
+    with bare(folder) as plain, ours(folder, 2) as roll:
+        lab = [Process(each.pid, each.url.partition("?")[0]) for each in roll]
+        yield {"bare": plain, "Explore": lab, "Research": roll}
+
+
+KINDS = {"arrive": all_kinds, "one": lambda folder: ours(folder, 1), "two": lambda folder: ours(folder, 2),
+         "bare": bare, "image": lambda folder: ours(folder, 1, "malloc")}  # fmt: skip
 
 
 def main():
@@ -273,7 +322,9 @@ def main():
     for name in options.only:
         print(f"  {name}, load {os.getloadavg()[0]:.1f} before")
         with tempfile.TemporaryDirectory() as folder, KINDS[name](folder) as servers:
-            asyncio.run(asyncio.wait_for(visits(servers, 10 if options.quick else 1, name == "image"), 900))
+            few = 10 if options.quick else 1
+            does = arrive(servers, few) if name == "arrive" else visits(servers, few, name == "image")
+            asyncio.run(asyncio.wait_for(does, 900))
 
 
 if __name__ == "__main__":
@@ -328,3 +379,7 @@ if __name__ == "__main__":
 # (two workers 1.15-1.17), 10 come together 5660 9048 ms (2902 3954; bare 304 337), 20 of 20 move 12 31 ms (10 19), ms
 # of the processor a move 33-35 (33-36; bare 2.2), 5.3 and 5.8 MB a session (4.9 and 5.1). So of Roll's page a move
 # costs a sixth more than before the house was in order, a page a tenth, and a session has a sixth less.
+#
+# 2026-11-25, arrive, --quick, under other work (load 15 to 20, this run first in turn), before lowest() looked at all
+# tilts at once: who comes costs 46 ms (bare), 176 (Explore, 3.8 times), 1364 (Research, 29.7 times); a move 2.0, 32.4
+# (16.2 times) and 44.8 (22.4 times). A run of the Lab alone: 34 ms of the processor before, 15 after, to the same bit.

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from bokeh.document import Document
 from bokeh.embed import file_html
+from bokeh.layouts import column
 from bokeh.models import HoverTool
 from bokeh.plotting import figure
 from bokeh.resources import INLINE
@@ -61,12 +62,27 @@ def drawn():
     return document
 
 
+def beside():
+    """A document with a column of two figures, each in a column of its own, the second of which is hidden."""
+    figures = [figure(width=400, height=150, y_range=(-1, 1), name=name) for name in ("seen", "hidden")]
+    for fig in figures:
+        fig.line([0, 10], [0, 0])
+    document = Document()
+    document.add_root(column([column(fig, visible=fig.name == "seen") for fig in figures]))
+    return document
+
+
+def of_bokeh(chromium, document):
+    page = chromium.new_page(viewport={"width": 500, "height": 400})
+    page.add_init_script(COUNTING)
+    page.route(f"{HERE}/", lambda route: route.fulfill(body=file_html(document, INLINE), content_type="text/html"))
+    return page
+
+
 @pytest.fixture
 def bare(chromium):
     """A page with Bokeh's own scripts, a figure `fig`, and ours in `borrowed`."""
-    page = chromium.new_page(viewport={"width": 500, "height": 400})
-    page.add_init_script(COUNTING)
-    page.route(f"{HERE}/", lambda route: route.fulfill(body=file_html(drawn(), INLINE), content_type="text/html"))
+    page = of_bokeh(chromium, drawn())
     page.route(f"{HERE}/borrowed.js", lambda route: route.fulfill(path=BUNDLED, content_type="text/javascript"))
     page.goto(f"{HERE}/")
     page.wait_for_function("() => Bokeh.documents[0]?.is_idle")
@@ -89,12 +105,46 @@ def painted(page):
     )
 
 
+def laid_out(page, figure, high):
+    """How often all of a page is laid out where one of its figures gets a range whose labels are as long as high."""
+    return page.evaluate(
+        """async ([figure, high]) => {
+          const [root] = Bokeh.documents[0].roots(), view = Bokeh.index.find_one(root), { compute_layout } = view;
+          let count = 0;
+          view.compute_layout = function () { count += 1; return compute_layout.call(this); };
+          root.children[figure].children[0].y_range.setv({ start: -high, end: high });
+          for (let i = 0; i < 4; i += 1) await new Promise((done) => requestAnimationFrame(done));
+          delete view.compute_layout;
+          return count;
+        }""",
+        [figure, high],
+    )
+
+
+OURS = BEFORE.read_text(encoding="utf-8").partition("// 2.")[0]
+
+
 def test_a_figure_is_painted_without_asking_the_style_sheets(bare):
     """1. The part of app/borrowed.js that stands before Panel's."""
     assert painted(bare) > 20  # else this may go
-    ours = BEFORE.read_text(encoding="utf-8").partition("// 2.")[0]
-    bare.evaluate(f"() => {{ {ours} }}")
+    bare.evaluate(f"() => {{ {OURS} }}")
     assert painted(bare) == 0
+
+
+def test_a_figure_makes_room_for_its_labels_in_itself(chromium):
+    """And so the page is not laid out, nor by a figure that nobody sees."""
+    page = of_bokeh(chromium, beside())
+    page.goto(f"{HERE}/")
+    page.wait_for_function("() => Bokeh.documents[0]?.is_idle")
+    assert laid_out(page, 0, 1000) and laid_out(page, 1, 1000)  # else this may go
+    page.evaluate(f"() => {{ {OURS} }}")
+    inside = "() => Bokeh.documents[0].roots()[0].children.map(({ children: [fig] }) => fig.inner_width)"
+    before = page.evaluate(inside)[0]
+    assert laid_out(page, 0, 10_000_000) == 0 == laid_out(page, 1, 10_000_000)
+    page.wait_for_function(f"(before) => ({inside})()[0] < before - 5", arg=before)
+    page.evaluate("() => { Bokeh.documents[0].roots()[0].children[1].visible = true }")
+    page.wait_for_function(f"() => {{ const [one, other] = ({inside})(); return other > 100 && other === one }}")
+    page.close()
 
 
 def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):

@@ -182,6 +182,32 @@ def test_what_shows_a_scene_shows_the_present_one_at_once(pacer):
     assert len(shown) == 3 and all(scene is pacer._explorer.scene for scene in shown)
 
 
+def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
+    """Not between the steps of a hand that goes on."""
+    timers, shown = [], []
+    monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, act: timers.append(act))
+    pacer.shows(lambda scene: shown.append(scene.constants.K_J), "still")
+    pacer.begin()
+    timers.clear()
+    shown.clear()
+
+    def rest():
+        """A hand's: all timers that were set run."""
+        pacer._requested -= 1  # it is long ago
+        due, timers[:] = timers[:], []
+        for act in due:
+            act()
+        pacer.painted.painted = pacer._sent
+
+    for K_J in (6.0, 6.1):
+        pacer.ask(K_J=K_J)
+        rest()
+    assert shown == []
+    for _ in range(5):
+        rest()
+    assert shown == [6.1]
+
+
 def test_what_fails_to_show_a_scene_keeps_no_other_from_it(pacer):
     shown, fails = [], []
 

@@ -198,7 +198,7 @@ class Page:
                 if kind == "ERROR":
                     raise RuntimeError(content["text"])
                 if kind == "PATCH-DOC":
-                    self.heard()
+                    self.heard(content)
                     self.visitor.note(content)
                     for event in content["events"]:
                         if event["kind"] == "ModelChanged" and event["model"]["id"] in self.visitor.models:
@@ -213,7 +213,7 @@ class Page:
             async with self._heard:
                 self._heard.notify_all()
 
-    def heard(self):
+    def heard(self, content):
         """Something new to show has come."""
 
     async def until(self, condition):

@@ -18,6 +18,7 @@ QUIET = 1e-3
 CREEPS, THERE = 1e-3, 3.5e-3
 # SUNK (R): so far below the table a point of the body counts as in it; rounding and a coarse rtol sink less.
 SUNK = 1e-3
+ANGLES = 1024  # for which lowest() looks at a profile at once
 REFUSED = ("rim touches", "another part touches", "Painleve's limit")
 STOPS = ("stands upright", "too many events", "too many turns", *REFUSED)
 
@@ -129,8 +130,9 @@ def _from_stable(moved: Trajectory, last: Bools) -> float:
 
 def lowest(profile: Array, theta: Array) -> Array:
     """How far the lowest point of a profile, (k, 2) of radius and height above O in R, is above O at theta (n,)."""
-    radius, z = profile.T
-    return np.array([np.min(z * c - radius * s) for s, c in zip(np.sin(theta), np.cos(theta), strict=True)])
+    radius, z = profile.T[:, :, None]
+    parts = np.array_split(theta, len(theta) // ANGLES + 1)  # so that a long motion takes no more memory
+    return np.concatenate([(z * np.cos(part) - radius * np.sin(part)).min(axis=0) for part in parts])
 
 
 def sunk(trajectory: Trajectory, profile: Array) -> int:

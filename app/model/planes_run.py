@@ -41,7 +41,7 @@ from tippe_core import (
     slide,
     sunk,
 )
-from tippe_core.types import Array, Number
+from tippe_core.types import Array, Bools, Number
 
 THROWN, ANOTHER = "stem throws it up", "another part touches"
 NUDGE, BESIDE = 1e-6, 3.0  # rad, s: a run beside the run starts so much further tilted, and goes so far past a touch
@@ -85,14 +85,20 @@ def check_room(settings: Setup, state: State) -> None:
     """TopError where a part of the body that is neither ball nor edge would be below the table at the start."""
     if settings.edge is None:
         return
-    theta = np.append(np.linspace(0, np.pi, 3601), state.theta)
-    radius, height, rounding = settings.edge
-    stands = np.maximum(1, rounding - height * np.cos(theta) + radius * np.sin(theta))
-    below = stands + lowest(body(settings.shape), theta) < -SUNK
-    if below[-1]:
+    if _below(settings, np.array([state.theta]))[0]:
+        theta = np.linspace(0, np.pi, 3601)
+        below = np.append(_below(settings, theta), True)
         most = np.degrees(theta[max(int(np.argmax(below)) - 1, 0)])
         raise TopError("tilt", float(np.degrees(state.theta)), "at most {most:.4g} degrees for this body",
                        "Another part of it would be below the table.", code="body-below-table", most=most)  # fmt: skip
+
+
+def _below(settings: Setup, theta: Array) -> Bools:
+    """Whether a part of the body is below the table, where it stands on ball or edge with these tilts."""
+    assert settings.edge is not None
+    radius, height, rounding = settings.edge
+    stands = np.maximum(1, rounding - height * np.cos(theta) + radius * np.sin(theta))
+    return np.asarray(stands + lowest(body(settings.shape), theta) < -SUNK)
 
 
 def _until(trajectory: Trajectory, count: int, time: float, event: str) -> Trajectory:

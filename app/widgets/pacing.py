@@ -13,8 +13,8 @@ from app.widgets.failure import after, attempt
 
 # Two, so that one is on its way while the browser paints the other.
 HANDS_IN_FLIGHT = 2
-# After its last request a hand is taken to rest.
-REST_AFTER = 0.15
+# After its last request a hand is taken to rest; one that goes on in steps rests between them, but is not still.
+REST_AFTER, STILL_AFTER = 0.15, 0.6
 # A hidden tab paints nothing and so never answers.
 ANSWER_WITHIN = 2.0
 
@@ -33,19 +33,21 @@ class Pacer:
     What shows a scene says by itself when it does: shows(). "hand" is for what a hand moves, and is cheap. The
     "pictures" follow in turn, each in a message of its own once the one before is painted, so that a hand never waits
     for more than one; a round of them shows one scene, the newest at its start. "rest" is for a hand at rest, or for an
-    input that cannot be. After a single step pictures and what is for the rest come in one message: each costs the
+    input that cannot be; "still" for what costs more than a step may, and waits until the hand has gone, and at first
+    until the page has come. After a single step pictures and what is for the rest come in one message: each costs the
     server more than what is in it.
     """
 
     def __init__(self, explorer):
         self._explorer = explorer
-        self._shows = {"hand": [], "pictures": [], "rest": []}
+        self._shows = {"hand": [], "pictures": [], "rest": [], "still": []}
         self.painted = Painted(width=0, height=0, margin=0)
         at_once(self.painted, "painted")
         self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
         self._others = {}  # what takes inputs of another view-model -> what is wanted of it
         self._single = True  # whether the hand was at rest before the last request
         self._said = None  # the scene that was shown to the rest since then
+        self._stayed = explorer.scene  # the one that was shown to what waits until all is still
         self._requested = 0.0
         self._later, self._begun = [], False
         self._hands, self._drawing = [], []  # (number, when sent) of what the browser has yet to paint
@@ -54,9 +56,12 @@ class Pacer:
         self.painted.param.watch(self._on_painted, "painted")
 
     def shows(self, show, when):
-        """Has show(scene) called now, and from now on when a scene is to be shown: when is "hand", "pictures" or
-        "rest"."""
-        show(self._explorer.scene)
+        """Has show(scene) called now, and from now on when a scene is to be shown: when is "hand", "pictures",
+        "rest" or "still"."""
+        if when == "still":
+            self.later(lambda: show(self._explorer.scene))
+        else:
+            show(self._explorer.scene)
         self._shows[when].append(show)
 
     def begin(self):
@@ -138,6 +143,8 @@ class Pacer:
         self._round_is_due = True
         if self._resting or event.new.messages or event.old.messages:
             self._say(event.new)
+        if self._resting:
+            after(STILL_AFTER, partial(self._stay, event.new))
 
     def _rest(self):
         try:
@@ -149,8 +156,20 @@ class Pacer:
                 after(left, self._rest)
         if not self._resting:
             return
-        self._say(self._explorer.scene)
+        scene = self._explorer.scene
+        self._say(scene)
         self._see_to_it()
+        after(STILL_AFTER - REST_AFTER, partial(self._stay, scene))
+
+    def _stay(self, scene):
+        if self._resting and scene is self._explorer.scene and scene is not self._stayed:
+            self._stayed = scene
+            self.later(partial(self._show_still, scene))
+            self._advance()
+
+    def _show_still(self, scene):
+        if scene is self._explorer.scene:
+            _each(self._shows["still"], scene)
 
     def _see_to_it(self):
         if self._round or self._round_is_due or self._others or (self._begun and self._later):

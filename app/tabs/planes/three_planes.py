@@ -61,7 +61,7 @@ class ThreePlanes:
                             margin=(0, 14, 0, 6))  # fmt: skip
         self._switches["stem"] = Wish(box, "stem", ask)
         self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
-        self._verdict, self._table = words(style=TABLE), words(style=TABLE)
+        self._verdict, self._table = words(note(say("planes.run.first")), style=TABLE), words(style=TABLE)
         self._force = words(styles={"min-height": "36px"})
         self._build()
 
@@ -122,7 +122,8 @@ class ThreePlanes:
     def _start_card(self):
         views = {name: control.view for name, control in self._controls.items()}
         self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
-        self._numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0)
+        own = NUMBERS[self._switches["law"].view.value]
+        self._numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0, visible=name in own)
                          for name in dict.fromkeys(name for names in NUMBERS.values() for name in names)}  # fmt: skip
         self._bar = words(margin=(10, 8))
         self._show_progress(0)

@@ -159,7 +159,7 @@ class Roll:
         pacer.shows(self._show_hand, "hand")
         for shows in (self._planes, self._times, self._portraits):
             pacer.shows(partial(self._draw, shows), "pictures")
-        pacer.shows(self._card.show_path, "rest")
+        pacer.shows(self._card.show_path, "still")
         pacer.shows(self._show_words, "rest")
         for make in (self._make_times, self._make_surface, *(partial(self._make_portraits, switch)
                                                              for switch in (self._tilt, self._table))):  # fmt: skip

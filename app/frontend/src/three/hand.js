@@ -1,5 +1,5 @@
 // Whether a person's hand is on a control of the page, not on a picture in 3-D.
-const HAND_MS = 150; // how long after its last input a hand is taken to have let go
+const HAND_MS = 350; // how long after its last input a hand is taken to have let go
 let inputAt = -Infinity;
 const isCanvas = (target) => target.localName === "canvas";
 const onInput = (event) => {

@@ -193,8 +193,8 @@ export class Stage {
   isReady(now) {
     if (this.width && !this.isPrepared()) return false;
     if (this.fence) return this.isDrawn();
-    if (inWork) return false;
     if (this.isHeld(now)) return this.asked; // once more, and fine, when the hand lets go
+    if (inWork) return false;
     const early = this.moving && this.cost > SLOW_MS && now - this.drawnAt < pace.rest * this.cost;
     return !early && (this.asked || this.moving || (this.simple && this.inView));
   }
