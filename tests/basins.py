@@ -101,8 +101,8 @@ def page(cells, starts, found, rtol=None):
     yield ""
     yield ("So there is no one power. From 1 down to 0.03 rev/s the border looks like a fractal: halving a distance "
            "hardly makes the end surer. Below some 0.01 rev/s the power is not told from 1, that of a smooth border, "
-           "and pairs that are closer than 0.001 rev/s hardly ever end differently. So would it be if each hop of the top "
-           "folded the border once more, for it hops a few times only and then comes to rest; that was not tried."
+           "and pairs that are closer than 0.001 rev/s hardly ever end differently. So would it be if each hop of the "
+           "top folded the border once more, for it hops a few times only and then comes to rest; that was not tried."
            )  # fmt: skip
     if rtol is not None:
         yield ""
