@@ -55,7 +55,7 @@ export class Before {
     const { texts } = this, said = (name) => texts.inputs[name]?.name ?? next.state.of[name][2] ?? texts.toy;
     const value = (scene, name) => scene.state.of[name][1].replace(`${said(name)} `, "");
     const headline = what.map((name) => say(texts, texts.changed, { name: said(name), from: value(run, name), to: value(next, name) })).join("; ");
-    const isTable = what.length === 1 && what[0] === "table"; // of which the stage says enough
+    const isTable = what.includes("table"); // of which the stage says enough
     return {
       canGoBack: !what.includes("toy") || run.state.toy === run.state.of.toy?.[0], // a body without a name is not asked for
       what: what.map((name) => run.state.of[name][1]).join(", "), headline: isTable ? "" : headline,
