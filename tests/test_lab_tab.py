@@ -14,6 +14,7 @@ from tippe_core import PRESETS
 def tab(monkeypatch):
     monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: act())
     lab, done = Lab(), []
+    lab.rest = lambda: None  # where all spins end is no part of it
     made = LabTab(lab, lambda: done.append("research"), lambda: done.append("rests"))
     made.lab, made.done = lab, done
     lab.show()
@@ -23,6 +24,20 @@ def tab(monkeypatch):
 def wish(tab, *asked):
     tab.view.asked = list(asked)
     return tab.view.state
+
+
+def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
+    """As by an undo; of several scenes the last."""
+    waits, rested = [], []
+    monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: waits.append(act))
+    lab = Lab()
+    LabTab(lab, None, None)
+    lab.rest = lambda: rested.append(lab.start.tilt)
+    lab.show()
+    lab.ask(tilt=12.0)
+    for act in waits:
+        act()
+    assert rested == [12.0]
 
 
 def test_a_wish_is_answered_with_its_count(tab):

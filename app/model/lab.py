@@ -149,7 +149,7 @@ class Lab(param.Parameterized):
         self.start = start or Start(**arrives())  # type: ignore[no-untyped-call]  # of param
         self._runs = runs or Runs()
         self._run: Run | None = None
-        self._shown = self.begun = self._again = self._rests = False
+        self._shown = self.begun = self._again = self.rests = False
         self._messages: dict[str, str] = {}
         self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and what puts the Start back to it
         self._strip: Key | None = None
@@ -214,13 +214,13 @@ class Lab(param.Parameterized):
         self._set(ends=key and known_ends(*key))
         if key and self.ends is None:
             self._runs.begin(Run(lambda run: ends_of(*key, look=run.look), partial(self._ended, key)), "ends")
-        self._rests = True
+        self.rests = True
         self._live()
 
     def _live(self) -> None:
         """Has the rest of the life of what is shown computed, where no hand moves and nothing else is."""
         scene, inputs = self.scene, self._good
-        if self._rests and scene is not None and not scene.whole and self._run is None:
+        if self.rests and scene is not None and not scene.whole and self._run is None:
             self._runs.begin(Run(lambda run: scene_of(*inputs, whole=True), partial(self._lived, inputs)), "life")
 
     def _lived(self, inputs: Inputs, result: Result) -> None:
@@ -255,7 +255,7 @@ class Lab(param.Parameterized):
             return
         if self._strip != self._key:
             self._set(ends=None)
-        self._rests = False
+        self.rests = False
         if self.scene is not None and self.inputs == self._good and self._run is None:
             return
         if self._run is None:

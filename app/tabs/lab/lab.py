@@ -116,6 +116,7 @@ class LabTab:
         self.view.param.watch(asked.heard(self._heard), "asked")
         lab.param.watch(lambda event: self.show(), ["scene", "ends"])
         lab.param.watch(self._waits, "busy")
+        lab.param.watch(lambda event: after(RESTS, partial(self._still, event.new)), "scene")
         self.show()
 
     def _heard(self, event):
@@ -160,6 +161,11 @@ class LabTab:
         if self._lab.busy:
             self.show()
             after(LOOKS, self._look)
+
+    def _still(self, scene):
+        """What no hand of this tab has asked for, an undo or another tab, comes to rest too."""
+        if self._lab.scene is scene and not self._lab.rests:
+            self._lab.rest()
 
     def _rest(self, answered):
         if answered == self._answered:
