@@ -16,6 +16,7 @@ from app.state.names import LEVELS, ROOMS
 from app.state.start import OneStart
 from app.tabs.build.build import Build
 from app.tabs.build.rocking import RockingFields
+from app.tabs.build.verdict import VerdictWords
 from app.tabs.families.compare import Compare
 from app.tabs.families.tops import Tops
 from app.tabs.lab import room
@@ -100,10 +101,12 @@ class House:
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
         top.stylesheets = [":host { height: clamp(330px, 52vh, 640px) !important }"]
         self.pacer.shows(partial(show_top, top), "rest")
+        told = VerdictWords(self.runs)
+        self.pacer.shows(told.show, "rest")
         spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
+        parts = {"section": bench.section_view, "built": (top, told.view, spin), "bench": bench.bench_view}
         section, built, measures = (
-            card(say(f"main.cards.{name}"), *parts, height="max-content")
-            for name, parts in (("section", bench.section_view), ("built", (top, spin)), ("bench", bench.bench_view))
+            card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()
         )
         return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
 
@@ -115,7 +118,8 @@ class House:
         planes = Planes(self.explorer, self.runs)
         self.start.have(planes)
         inputs = {"plane": planes.plane} | planes.inputs
-        view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes)
+        view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes,
+                           self.playing)  # fmt: skip
         planes.param.watch(lambda event: view.show(event.new), "picture")
         self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
         planes.param.watch(lambda event: view.wait(), "busy")

@@ -97,12 +97,16 @@ def off_truth(found, truth):
 
 
 def other_value(found, data, name, truth):
-    """A value half as large, or half as large again, or at the end of what is possible, with which the others, fitted
-    anew from what was found and from the truth, leave less than 4 more of chi-square; None where there is none."""
+    """A value half as large, or half as large again, or further away than two of its errors, or at the end of what is
+    possible, with which the others, fitted anew from what was found, from its mirror and from the truth, leave less
+    than 4 more of chi-square; None where there is none."""
     names, value = [each for each in found.model.free if each != name], found.model.values[name]
     least, (low, high) = found.chi2, BOUNDS[name]
+    below, above = found.sides[name]
     limits = np.array([BOUNDS[each] for each in names]).T
-    for there in (0.5 * value, 1.5 * value, low, high):
+    here = found.model.values
+    mirrored = {**here, **{each: -here[each] for each in ("tilt_rate",) if each in names}}
+    for there in (0.5 * value, 1.5 * value, value - 2.5 * below, value + 2.5 * above, low, high):
         held = found.model.with_values({name: float(np.clip(there, low, high))})
 
         def rest(x, held=held):
@@ -111,7 +115,7 @@ def other_value(found, data, name, truth):
             except TopError:
                 return np.full(len(found.left.row), 1e4)
 
-        for start in (found.model.values, {**found.model.values, **truth}):
+        for start in (here, mirrored, {**here, **truth}):
             x = np.clip([start[each] for each in names], limits[0] + 1e-6, limits[1] - 1e-6)
             best = least_squares(rest, x, bounds=limits, x_scale=np.maximum(np.abs(x), 0.05), diff_step=1e-4)
             if 2 * best.cost < least + 4:

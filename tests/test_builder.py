@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,11 @@ from app.model.builder import Rocking
 from app.model.dimensions import FAMILIES, changed, handles, pulled, sentence, value_of
 from app.model.explorer import Explorer
 from app.model.family import region, share_map
+from app.model.lab_run import TooLong
+from app.model.runs import Runs
+from app.model.verdict import verdict
 from app.tabs.build.build import KNOBS, Build
+from app.tabs.build.verdict import VerdictWords
 from app.tabs.families.compare import Compare
 from app.widgets.typeset import typeset
 from tippe_core import (
@@ -537,3 +542,36 @@ def test_a_period_or_diameter_out_of_this_world_is_refused(given):
     rocking = Rocking(**({"T": 1.08, "dT": 0.01, "D": 0.032, "dD": 1e-4, "M": 0.0115} | given))
     with pytest.raises(TopError):
         rocking.a(TruncatedSphere.paper())
+
+
+# ---- whether it turns over ----
+
+
+def test_the_verdict_is_that_of_the_run():
+    """Leine and Glocker's toy stands; the same with its mass in the middle does not; a body that cannot be so."""
+    toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
+    found = verdict(toy)
+    assert (found.code, found.headline) == ("over", "Yes, it turns over.")
+    assert "past 90° after 1.0 s. It stands on its stem after 1.5 s. It starts to fall at 4.5 s." in found.why
+    round_ = verdict(changed(toy, "a", 0.0))
+    assert round_.code == "not" and "its tilt is between" in round_.why
+
+
+def test_a_body_that_cannot_be_let_go_so_has_a_verdict_that_says_so(monkeypatch):
+    def never(*start):
+        raise TooLong
+
+    monkeypatch.setattr("app.model.verdict.whole_on", never)
+    found = verdict(PRESETS[0].shape)
+    assert found.code == "refused" and "could not be computed" in found.headline and "chatters" in found.why
+
+
+def test_the_words_beside_the_body_are_of_that_body():
+    runs = Runs()
+    told = VerdictWords(runs)
+    assert "Working out" in told.view.object
+    toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
+    told.show(SimpleNamespace(shape=toy))
+    assert "Yes, it turns over." in told.view.object and "Working out" not in told.view.object
+    told.show(SimpleNamespace(shape=None))  # parted: nothing is known of it
+    assert "Yes, it turns over." in told.view.object

@@ -13,6 +13,7 @@ from app.model.hands import held, pulled
 from app.model.levers import levers
 from app.model.planes_run import solve as run
 from app.model.playing import Playing, together
+from app.tabs.planes.three_planes import ThreePlanes
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D
 from tippe_core import PRESETS, Coulomb, State, slide, turning_points
@@ -151,6 +152,25 @@ def test_a_picture_and_what_is_kept_of_it_go_together_both_ways():
     playing.time = 3.0
     together(playing, second)
     assert not second.playing and not playing.playing and second.time == first.time == 3.0
+
+
+def test_what_rolls_and_the_three_planes_run_stand_and_go_as_fast_as_each_other():
+    planes, playing = planes_of(Explorer()), Playing()
+    inputs = {"plane": planes.plane} | planes.inputs
+    view = ThreePlanes(inputs, planes.ask, None, None, planes, playing)
+    view.show(planes.picture)
+    tops = list(view._tops.values())
+    assert {top.speed for top in tops} == {1 / 4}  # 5 s are watched for 20, as long as nobody chose
+    assert playing.speed == Playing.param.speed.default
+    tops[1].speed = 1 / 8  # a hand's
+    assert {top.speed for top in tops} == {playing.speed} == {1 / 8}
+    playing.param.update(speed=1 / 2, playing=False)
+    assert {(top.speed, top.playing) for top in tops} == {(1 / 2, False)}
+    planes.ask(seconds=2.0)
+    view.show(planes.picture)
+    assert {top.speed for top in tops} == {1 / 2}
+    tops[0].playing = True
+    assert playing.playing and all(top.playing for top in tops)
 
 
 # ---- the Pacer ----

@@ -12,7 +12,8 @@ from app.model import arrival, lab_ends, lab_run
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
 from app.model.lab import LIMITS, Lab, scene_of
 from app.model.lab_ends import SPINS, Ends, ends_of, mixed
-from app.model.lab_run import SECONDS, TABLES, TOYS, computed, motion_on, start_of
+from app.model.lab_life import FAR, LIFE, SECONDS, lived
+from app.model.lab_run import TABLES, TOYS, motion_on, start_of, whole_on
 from app.model.regimes import ENDS
 from app.model.runs import Runs
 from app.model.story import marks, story
@@ -44,16 +45,17 @@ def test_the_arrival_turns_over_stands_and_falls_when_compliant_contacts_say(lab
     assert times["stands"] == pytest.approx(1.471, abs=0.01)
     assert times["falls"] == pytest.approx(4.497, abs=0.01)
     assert times["stem"] == pytest.approx(1.371, abs=0.01)
+    assert times["off"] == pytest.approx(5.57, abs=0.01)
     assert [stage.headline for stage in lab.scene.stages] == [
         "Rubbing tips it up.", "It turns over.", "It stands on its stem and spins on.", "It falls.",
-        "It leans and goes round.",
+        "It comes off its stem.", "It tips back.", "It leans and goes round.", "The table grips it: it rolls.",
     ]  # fmt: skip
     assert "at 4.5 s too little is left, and it falls" in lab.scene.stages[2].why
 
 
 def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
     """Its numbers are float32, and no other processor takes the same last digit."""
-    kept, (fresh, _) = arrival.read(TOYS[TOY].top), computed(start_of(*ARRIVAL[1:]), "ordinary")
+    kept, (_, fresh) = arrival.read(TOYS[TOY].top), lived(start_of(*ARRIVAL[1:]), lambda reached: None)
     for name in ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "velocity", "heat"):
         assert getattr(kept, name) == pytest.approx(getattr(fresh, name), abs=2e-4), name
     until = 4.75 / SHAPE.scales.time  # then ever smaller bounces, of which rtol lets fewer or more be told
@@ -118,9 +120,66 @@ def test_the_energy_is_that_of_a_body_in_joules(table, toy, spin, tilt):
 
 def test_the_curves_reach_from_start_to_end_with_a_few_hundred_rows():
     for table in TABLES:
-        curves = motion_on(table, *ARRIVAL[1:]).curves
+        motion = motion_on(table, *ARRIVAL[1:])
+        curves, end = motion.curves, motion.start.seconds
         assert curves.dtype == np.float32 and 600 <= len(curves) <= 1500 and curves.shape[1] == 8
-        assert curves[0, 0] == 0 and curves[-1, 0] == pytest.approx(SECONDS) and (np.diff(curves[:, 0]) > 0).all()
+        assert curves[0, 0] == 0 and curves[-1, 0] == pytest.approx(end) and (np.diff(curves[:, 0]) > 0).all()
+        assert end == pytest.approx(12, abs=0.01) if table == "ordinary" else end == SECONDS
+
+
+# ---- its life ----
+
+
+@pytest.mark.parametrize("spin", [22.0, 28.65, 38.2])  # 38.2: 240 rad/s
+def test_a_life_goes_on_until_it_rolls_and_ends_leaning_with_no_spin_about_the_vertical(spin):
+    """As compliant contacts say: at about 65 degrees, near 12 rad/s about its own axis."""
+    motion = whole_on("ordinary", TOY, spin, TILT, MU)
+    moved, found = motion.trajectory, codes(motion)
+    assert motion.whole and list(found)[-1] == "rolls"
+    assert set(moved.regime[motion.seconds > found["rolls"]]) == {"roll"}
+    assert motion.start.seconds == pytest.approx(found["rolls"] + 2, abs=0.15)
+    own = abs(moved.omega[-1, 2]) * SHAPE.scales.angular_velocity
+    assert 60 < motion.tilt[-1] < 70 and own == pytest.approx(12, abs=1)
+    assert abs(motion.curves[-1, 6]) < 0.01  # rev/s
+    after = motion.seconds > found["off"] + 0.01
+    assert set(motion.carried[after]) == {"ball"} and motion.carried[~after][-3] != "ball"
+    if spin > 30:
+        assert found["falls"] == pytest.approx(9.81, abs=0.03)
+
+
+def test_its_rows_are_fewer_and_the_motion_is_that_of_all_of_them():
+    """Between two rows the top turns little, so that the straight line between them is where it was."""
+    start = start_of(*ARRIVAL[1:])
+    seconds, few = lived(start, lambda reached: None)
+    times = np.linspace(0, seconds / start.scales.time, 8001)
+    every = slide(start.top, start.state, start.friction, times, edge=start.edge, landing="plastic")
+    assert len(few.t) < 1600
+    turned = np.diff(few.t) * np.linalg.norm(few.omega, axis=1)[1:]
+    assert turned.max() < 1.5 * FAR[0]
+    smooth = every.t * start.scales.time < 4.7  # then it rattles on both
+    theta = np.interp(every.t, few.t, few.theta)
+    assert np.degrees(np.abs(theta - every.theta)[smooth]).max() < 0.5
+
+
+def test_what_would_go_on_for_longer_than_can_be_shown_ends_when_it_must():
+    motion = whole_on("ordinary", "Disc on a peg", 50.0, 6.0, 0.3)
+    assert SECONDS < motion.start.seconds < LIFE and len(motion.t) <= 6001 and motion.whole
+
+
+def test_all_three_are_seen_for_as_long():
+    scene = scene_of("three", TOY, 22.0, TILT, MU, whole=True)
+    ends = {motion.curves[-1, 0] for motion in scene.motions.values()}
+    assert len(ends) == 1 and ends.pop() > 9 and scene.whole
+    assert not scene_of("three", TOY, 22.0, TILT, MU).whole and scene_of("ice", TOY, 22.0, TILT, MU).whole
+
+
+def test_a_hand_that_rests_sees_the_rest(lab):
+    lab.ask(spin=22.0)
+    assert not lab.scene.whole and lab.scene.motions["ordinary"].start.seconds == SECONDS
+    lab.rest()
+    assert lab.scene.whole and lab.scene.motions["ordinary"].start.seconds > 9
+    lab.ask(spin=185.0)
+    assert lab.scene.whole and lab.scene.messages
 
 
 def test_the_rough_table_grips_and_tells_what_that_takes():
@@ -225,7 +284,7 @@ def test_a_run_that_nobody_waits_for_says_so(monkeypatch):
 def test_the_papers_top_hangs_on_no_stem_and_is_caught():
     """At 35 rev/s its stem touches, it falls back on its ball and is caught, rolling: as a direct run of it says."""
     motion = motion_on("ordinary", "The paper's tippe top", 35.0, 6.0, 0.3)
-    assert list(codes(motion)) == ["over", "stem", "rolls"]
+    assert list(codes(motion)) == ["over", "stem", "off", "rolls"]
     preset = TOYS["The paper's tippe top"]
     shape, scales = preset.shape, preset.shape.scales
     state = State(np.radians(6), 0, 0, 2 * np.pi * 35 / scales.angular_velocity)

@@ -89,6 +89,22 @@ def test_it_flips_on_arrival_with_nothing_clicked(page):
     assert page.evaluate(TILT) > 170
 
 
+def test_its_life_goes_on_to_its_end_faster_where_nothing_new_happens(page):
+    time, speed = page.get_by_role("slider", name="Time"), page.get_by_role("combobox", name="Speed")
+    assert float(time.get_attribute("max")) == pytest.approx(12, abs=0.02)
+    speeds = set()
+    stages = (2.2, "It stands on its stem"), (7.0, "It comes off its stem"), (11.5, "The table grips it: it rolls.")
+    for t, said in stages:
+        time.evaluate("(bar, t) => { bar.value = t; bar.dispatchEvent(new Event('input')) }", t)
+        page.get_by_text(said).first.wait_for()
+        speeds.add(speed.input_value())
+    page.get_by_text("now real speed").wait_for()
+    assert "1" in speeds
+    page.wait_for_function(f"{TIME} * {UNIT} > 11.9")
+    assert 60 < page.evaluate(TILT) < 70  # it leans
+    page.get_by_role("button", name="again").click()
+
+
 def test_the_head_of_the_bar_is_dragged_from_a_rest(page):
     pause(page)
     box = page.locator(".strip .head").bounding_box()
@@ -102,7 +118,8 @@ def test_the_head_of_the_bar_is_dragged_from_a_rest(page):
     assert moved["x"] - box["x"] == pytest.approx(200, abs=2)
     page.mouse.up()
     ends = page.locator(".strip .axis").first.bounding_box()
-    expected = 6 * (x + 200 - ends["x"]) / ends["width"]
+    end = float(page.get_by_role("slider", name="Time").get_attribute("max"))
+    expected = end * (x + 200 - ends["x"]) / ends["width"]
     page.wait_for_function(f"t => Math.abs({TIME} * {UNIT} - t) < 0.02", arg=expected)
 
 
@@ -133,6 +150,7 @@ def test_another_table_keeps_the_start_and_begins_anew(page):
 
 def test_what_cannot_be_is_said_beside_it_and_the_motion_stays(page):
     choose(page, "Ordinary")
+    page.locator(".lab[data-whole]").wait_for()
     before = line(page)
     put(page, "Tilt, in degrees", 185)
     page.get_by_role("alert").filter(has_text="Tilt goes from 0°").wait_for()
@@ -146,6 +164,24 @@ def test_what_cannot_be_is_said_beside_it_and_the_motion_stays(page):
     page.get_by_role("alert").filter(has_text="half is not a number").wait_for()
     put(page, "Tilt, in degrees", "5,73")
     page.get_by_role("alert").filter(has_text="half").wait_for(state="hidden")
+
+
+def test_what_is_selected_to_be_typed_over_stays_selected_while_answers_come(page):
+    """Else what is typed next stands behind it."""
+    put(page, "Tilt, in degrees", "half")
+    page.get_by_role("alert").filter(has_text="half is not a number").wait_for()
+    tilt = entry(page, "Tilt, in degrees")
+    tilt.select_text()
+    page.locator("#lab-spin").evaluate("""(slider) => {
+        slider.value = 29.5
+        slider.dispatchEvent(new Event("input"))
+    }""")
+    page.wait_for_function("location.search.includes('turns=29.5')")
+    assert tilt.evaluate("(field) => field.value.slice(field.selectionStart, field.selectionEnd)") == tilt.input_value()
+    page.keyboard.insert_text("5,73")
+    tilt.press("Enter")
+    page.get_by_role("alert").filter(has_text="half").wait_for(state="hidden")
+    assert tilt.input_value() == "5.7"
 
 
 def test_what_is_typed_is_not_written_over_while_answers_come(page):
@@ -254,7 +290,7 @@ def test_a_link_opens_the_same_elsewhere(page, chromium, server):
 
 def test_three_tables_are_seen_at_once_on_one_clock(page):
     page.get_by_role("radio", name="All three").click()
-    page.locator(".lab[data-table=three]").wait_for()
+    page.locator(".lab[data-table=three][data-whole]").wait_for()
     page.wait_for_function(f"{TOPS}.filter((top) => top.count && top.pictures > 1).length == 3")
     assert page.get_by_role("row").count() == 4
     pause(page)

@@ -7,6 +7,7 @@ from app.model.lab import Lab
 from app.model.start import arrives
 from app.tabs.lab.lab import SLIDERS, LabTab, spelled
 from app.text import speaking
+from tippe_core import PRESETS
 
 
 @pytest.fixture
@@ -30,6 +31,36 @@ def test_a_wish_is_answered_with_its_count(tab):
     assert (state["answered"], state["values"]["tilt"]) == (1, 12.0)
     assert tab.view.frames_ordinary != frames
     assert tab.done == ["rests"]
+
+
+def test_the_stem_and_the_ballast_are_ordinary_controls(tab):
+    """A rounder, longer stem: another body, whose own runs end otherwise."""
+    state = tab.view.state
+    assert [name for name, *_ in state["dims"]] == ["dim:R", "dim:r", "dim:h", "dim:a"]
+    assert state["values"]["dim:r"] == 5.0 and state["sliders"]["dim:r"][3] == 1
+    state = wish(tab, 1, "dim:r", 3.0)
+    assert state["values"]["dim:r"] == 3.0 and tab.lab.scene.motions["ordinary"].start.shape.r == pytest.approx(3e-3)
+    assert state["of"]["dim:r"][:2] == [3.0, "radius of the stem's end 3.0\u00a0mm"]
+    motion = tab.lab.scene.motions["ordinary"]
+    for number, (value, said) in enumerate(
+        [("round", "round is not a number"), (1e9, "1000000000"), ("nan", "nan")], 2
+    ):
+        state = wish(tab, number, "dim:r", value)
+        assert said in state["messages"]["dim:r"] and state["refused"]["dim:r"] == value
+        assert tab.lab.scene.motions["ordinary"] is motion and state["values"]["dim:r"] == 3.0
+    assert not wish(tab, 9, "dim:r", 5.0)["messages"]
+
+
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_every_toy_has_its_dimensions_in_the_limits_of_their_sliders(tab, preset):
+    state = wish(tab, 1, "toy", preset.name)
+    for name, *_ in state["dims"]:
+        low, high, *_ = state["sliders"][name]
+        assert low <= state["values"][name] <= high
+    if state["dims"]:
+        name, *_ = state["dims"][0]
+        grown = wish(tab, 2, name, 1.1 * state["values"][name])
+        assert grown["values"][name] == pytest.approx(1.1 * state["values"][name]) and not grown["messages"]
 
 
 def test_what_cannot_be_is_said_and_the_motion_stays(tab):

@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 import pytest
 
-from app.model import measured_film
+from app.model import measured_film, measured_work
 from app.model.explorer import Explorer
 from app.model.measured_data import settled
 from app.model.measured_examples import EXAMPLES, FOLDER
@@ -40,6 +40,46 @@ def test_a_saved_film_opens_as_it_was(data):
 
 def test_a_table_alone_says_nothing_of_a_fit():
     assert opened("t\ttilt\n0\t1\n") is None
+
+
+@pytest.mark.slow
+def test_a_link_with_a_fit_shows_it_without_fitting_anew(monkeypatch):
+    """As it was, and says where it is from; what it leaves over is computed from the link's own data."""
+    one = Measure(Explorer().scene)
+    one.take(written(FILM, settled(read((FOLDER / "made-rolls.csv").read_bytes()))))
+    one.compute()
+    one.in_link.value = True
+    monkeypatch.setattr(measured_work, "fit", lambda *_: pytest.fail("fitted anew"))
+    other = Measure(Explorer().scene)
+    other.filmed.film = one.filmed.film
+    assert other.view is not None
+    for before, after in zip(one._found.fits, other._found.fits, strict=True):
+        assert after.model.values == pytest.approx(before.model.values, rel=1e-8)
+        assert (after.unknown, after.sure, after.refused) == (before.unknown, before.sure, before.refused)
+        assert after.chi2 == pytest.approx(before.chi2, rel=0.02)  # data are written to a twentieth of their errors
+        for name, sides in before.sides.items():
+            assert after.sides[name] == pytest.approx(sides, rel=1e-8)
+        np.testing.assert_allclose(after.correlation, before.correlation, atol=1e-3)
+    assert "came with the film" in other.found.object and "came with" not in one.found.object
+
+
+def fits_that_are_none():
+    one = {"values": {"tilt": 0.1, "tilt_rate": 0.0, "across": 0.0, "spin": 8.0}, "unknown": [], "sure": True}
+    one["sides"] = {name: [0.1, 0.1] for name in one["values"]}
+    yield [one]
+    yield 3
+    for change in ({"values": {}}, {"values": one["values"] | {"tilt": 9}}, {"sides": {}}, {"unknown": ["mass"]},
+                   {"sides": one["sides"] | {"spin": [-1, 1]}}, {"values": None}):  # fmt: skip
+        yield [one | change, one | change]
+
+
+@pytest.mark.parametrize("fits", [*fits_that_are_none()])
+def test_fits_that_cannot_be_are_refused(fits):
+    text = written(FILM, settled(read((FOLDER / "made-rolls.csv").read_bytes())))
+    head, _, table = text.partition("\n")
+    said = json.loads(head.removeprefix(measured_film.MARK)) | {"fits": fits}
+    with pytest.raises(MeasuredError):
+        opened(f"{measured_film.MARK} {json.dumps(said)}\n{table}")
 
 
 @pytest.mark.parametrize("change", [

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.model.explorer import Explorer
-from app.model.lab_rolling import rolling
+from app.model.start import arrives
 from app.widgets.plane_card import PlaneCard
 from app.widgets.plots import Motion
 from tippe_core import Top
@@ -56,7 +56,7 @@ def test_where_it_would_slip_there_is_a_road(card):
 
 def test_a_toy_that_was_gripped_is_shown_from_near_and_one_press_shows_the_papers_top(card):
     assert not card.near.view.visible and not card.paper.visible
-    card.explorer.param.update(**rolling("Leine and Glocker's toy", 28.65, 5.73, 0.3))
+    card.explorer.param.update(**arrives())
     inner, outer = np.degrees(card.explorer.scene.turning)
     assert (inner, outer) == pytest.approx((1.2, 5.7), abs=0.05)
     assert card.near.view.visible and card.paper.visible

@@ -99,7 +99,7 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
     )
     bead = page.evaluate(COLUMN, ["planes-well", "E"])[0]
     assert bead == pytest.approx([first.motions["sliding"].trajectory.energy[index]], abs=1e-4)
-    assert page.evaluate("__tippe.top3d.playing")  # the top of the tab Roll has a clock of its own
+    page.wait_for_function("!__tippe.top3d.playing")  # what rolls stands too
     table = page.locator("table").first.inner_text()
     assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
     put_on(page, "Ice: no friction")

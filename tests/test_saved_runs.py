@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from app.model.lab_run import motion_on, start_of
+from app.model.lab_run import motion_on, start_of, whole_on
 from app.share.saved_runs import Shown, run_csv, run_glb, run_npz, run_print, run_python
 
 TOY = "The paper's tippe top"
@@ -47,9 +47,20 @@ def test_the_python_computes_it_again(shown, monkeypatch, tmp_path):
     code = run_python(shown)
     found: dict = {}
     exec(code, found)
-    moved, n = shown.trajectory, len(shown.trajectory.t)
-    assert np.allclose(found["motion"].theta[:n], moved.theta, atol=1e-9)
+    moved, motion = shown.trajectory, found["motion"]
+    rows = np.searchsorted(motion.t, moved.t)  # of which those are kept that show it
+    assert np.array_equal(motion.t[rows], moved.t) and np.allclose(motion.theta[rows], moved.theta, atol=1e-9)
     assert (tmp_path / "run.png").stat().st_size > 1000
+
+
+def test_the_python_of_a_whole_life_goes_to_its_end(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    life, found = whole_on("ordinary", "Leine and Glocker's toy", 22.0, 5.73, 0.3), {}
+    exec(run_python(Shown("ordinary", life.trajectory, life.start)), found)
+    motion, moved = found["motion"], life.trajectory
+    assert motion.t[-1] == pytest.approx(moved.t[-1], abs=1e-6)
+    assert np.degrees(abs(motion.theta[-1] - moved.theta[-1])) < 0.1
 
 
 def test_the_animation_stands_on_its_ball_where_the_ball_is(shown):

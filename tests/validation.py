@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import accuracy
+import measured_proof
 import mpmath
 import numpy as np
 import pytest
@@ -75,6 +76,8 @@ def page(found, accuracy_lines):
     yield "| what | evidence | row |\n|---|---|---|"
     for what, evidence, row in SLIPS:
         yield f"| {what} | {evidence} | {row} |"
+    yield "\n## Tops on film\n"
+    yield from measured_proof.lines([*measured_proof.kept().values()])
     yield "\n## Accuracy map\n"
     yield inspect.getdoc(accuracy)
     yield ""

@@ -54,9 +54,10 @@ def read_ends() -> tuple[str, ...]:
 def main() -> None:
     # which read what is written here
     from app.model.lab_ends import ends_of
-    from app.model.lab_run import computed, start_of
+    from app.model.lab_life import lived
+    from app.model.lab_run import Patience, start_of
 
-    write(computed(start_of(TOY, SPIN, TILT, MU), TABLE)[0], ends_of(TOY, TILT, MU).codes)
+    write(lived(start_of(TOY, SPIN, TILT, MU), Patience())[1], ends_of(TOY, TILT, MU).codes)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,8 @@ import param
 from app.model.arrival import ARRIVAL, TABLE, TILT
 from app.model.lab_ends import Ends, Key, ends_of, known_ends
 from app.model.lab_keeps import Row, keeps
-from app.model.lab_run import SECONDS, TABLES, TOYS, TableMotion, TooLong, Toy, motion_on, shape_of, start_of
+from app.model.lab_life import SECONDS
+from app.model.lab_run import TABLES, TOYS, TableMotion, TooLong, Toy, motion_on, shape_of, start_of, whole_on
 from app.model.runs import Result, Run, Runs, Stopped
 from app.model.start import Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, story
@@ -42,6 +43,7 @@ class LabScene:
     stories: {table: Story}, of the motions. said: headline and explanation of all three together. keeps: {table: Rows},
     of all three. messages: {input: a sentence} for what was asked for and cannot be; all else is the last good one.
     profile: (k, 2) in R, a in R and seconds, of one unit of time, for the picture in 3-D; part: "stem" or "rim".
+    whole: whether they are seen to their end.
     """
 
     table: str
@@ -59,6 +61,7 @@ class LabScene:
     a: float
     seconds: float
     part: str
+    whole: bool
     messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
 
     @property
@@ -78,15 +81,17 @@ class LabScene:
         return self.stories.get(table) or Story((), (Stage(0.0, short, self.refused[table], short),), short)
 
 
-def scene_of(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> LabScene:
-    """The LabScene of a start, in the page's language. Raises TopError, whose name is an input, where none of the
-    tables can have it because of that input's value."""
-    watched = tuple(TABLES) if table == "three" else (table,)
+def scene_of(
+    table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, *, whole: bool = False
+) -> LabScene:
+    """The LabScene of a start, in the page's language; whole: to the end of the toy's life. Raises TopError, whose name
+    is an input, where none of the tables can have it because of that input's value."""
+    watched, seen = tuple(TABLES) if table == "three" else (table,), whole_on if whole else motion_on
     motions: dict[str, TableMotion | None] = dict.fromkeys(TABLES)
     refused: dict[str, str] = {}
     for each in watched:
         try:
-            motions[each] = motion_on(each, toy, spin, tilt, mu, given)
+            motions[each] = seen(each, toy, spin, tilt, mu, given)
         except TopError as error:
             if error.code == "body-below-table":
                 raise
@@ -102,6 +107,7 @@ def scene_of(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: S
         said=(say(f"lab.three.{'turned' if turned else 'headline'}"), say("lab.three.why")),
         keeps=MappingProxyType({name: keeps(motion) for name, motion in found.items()} if table == "three" else {}),
         profile=start.profile, a=start.top.a, seconds=start.scales.time, part=start.part,
+        whole=whole or (table != "three" and all(motion.whole for motion in found.values())),
     )  # fmt: skip
 
 
@@ -143,7 +149,7 @@ class Lab(param.Parameterized):
         self.start = start or Start(**arrives())  # type: ignore[no-untyped-call]  # of param
         self._runs = runs or Runs()
         self._run: Run | None = None
-        self._shown = self.begun = self._again = False
+        self._shown = self.begun = self._again = self._rests = False
         self._messages: dict[str, str] = {}
         self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and what puts the Start back to it
         self._strip: Key | None = None
@@ -208,6 +214,23 @@ class Lab(param.Parameterized):
         self._set(ends=key and known_ends(*key))
         if key and self.ends is None:
             self._runs.begin(Run(lambda run: ends_of(*key, look=run.look), partial(self._ended, key)), "ends")
+        self._rests = True
+        self._live()
+
+    def _live(self) -> None:
+        """Has the rest of the life of what is shown computed, where no hand moves and nothing else is."""
+        scene, inputs = self.scene, self._good
+        if self._rests and scene is not None and not scene.whole and self._run is None:
+            self._runs.begin(Run(lambda run: scene_of(*inputs, whole=True), partial(self._lived, inputs)), "life")
+
+    def _lived(self, inputs: Inputs, result: Result) -> None:
+        """The whole life in the place of its beginning, if that is still what is shown."""
+        scene = self.scene
+        if isinstance(result, LabScene) and scene is not None:
+            if inputs == self._good and not result.refused.keys() - scene.refused.keys():
+                self._set(scene=replace(result, messages=scene.messages))
+        elif not isinstance(result, Stopped):
+            raise result
 
     def _ended(self, key: Key, result: Result) -> None:
         if isinstance(result, Ends) and key == self._key:
@@ -232,6 +255,7 @@ class Lab(param.Parameterized):
             return
         if self._strip != self._key:
             self._set(ends=None)
+        self._rests = False
         if self.scene is not None and self.inputs == self._good and self._run is None:
             return
         if self._run is None:
@@ -263,6 +287,7 @@ class Lab(param.Parameterized):
             self._good, self._back = inputs, back
             self._set(scene=result)
             self._tell()
+            self._live()
         elif not isinstance(result, Stopped):
             raise result
 

@@ -4,7 +4,7 @@ Ordinary: it slips, with the friction of a real contact. Rough: it can only roll
 friction at all.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from types import MappingProxyType
 from typing import ClassVar, TypeAlias
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from app.model import arrival
 from app.model.bodies import body
+from app.model.lab_life import SECONDS, lived, thinned
 from app.model.planes_picture import Motion, Setup, by_hand
 from app.model.planes_run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
@@ -25,9 +26,9 @@ TABLES = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smoo
 """{table: what planes_run.py calls it}."""
 TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
 PATCH = 0.5e-3  # m, the radius of the patch of contact
-SECONDS = 6.0
 MOST_LOOKS = 20_000  # of slide() at its page: some seconds; a toy that flips needs a hundred
 STEP = 2  # a row of the curves for so many frames: 200 rows in a second of a fast top
+NEARLY = 1e-5  # of its time: as float32 has it
 
 
 Toy: TypeAlias = str | Shape
@@ -85,6 +86,7 @@ class TableMotion(Motion):
     start: Start
     table: str
     lost: float
+    whole: bool
     curves: Array
 
     @property
@@ -128,9 +130,30 @@ def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None 
 def motion_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
     """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
     units of the controls."""
+    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
+        return whole_on(table, toy, spin, tilt, mu)
+    return on(start_of(toy, spin, tilt, mu, given), table)
+
+
+@lru_cache(12)
+def whole_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
+    """As motion_on(), to the end of the toy's life; where a table knows no end, as long as on the ordinary one."""
     start = start_of(toy, spin, tilt, mu, given)
     if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
-        return moved(start, table, arrival.read(start.top), 0.0)
+        kept = arrival.read(start.top)
+        return moved(replace(start, seconds=start.scales.time * float(kept.t[-1])), table, kept, 0.0, whole=True)
+    if table != "ordinary":
+        seconds = whole_on("ordinary", toy, spin, tilt, mu, given).start.seconds
+        return on(replace(start, seconds=seconds), table)
+    try:
+        seconds, kept = lived(start, Patience())
+    except TopError as error:
+        raise for_reader(error, start.scales) from None
+    return moved(replace(start, seconds=seconds), table, kept, 0.0, whole=True)
+
+
+def on(start: Start, table: str) -> TableMotion:
+    """The TableMotion of a Start on a table. Raises TopError in the units of the controls."""
     try:
         return moved(start, table, *computed(start, table))
     except TopError as error:
@@ -149,10 +172,13 @@ def computed(start: Start, table: str) -> tuple[Trajectory, float]:
     return clear(partial(roll, top, None, times, state), start, state), lost
 
 
-def moved(start: Start, table: str, trajectory: Trajectory, lost: float) -> TableMotion:
-    """The TableMotion of what computed() gives."""
-    motion = motion_of(trajectory, start, start.times, TABLES[table])
-    return TableMotion(**vars(motion), start=start, table=table, lost=lost, curves=_curves(motion, start, lost))
+def moved(start: Start, table: str, trajectory: Trajectory, lost: float, *, whole: bool = False) -> TableMotion:
+    """The TableMotion of what computed() gives; whole: of what is thinned already, and seen to its end."""
+    shown, end = trajectory if whole else thinned(trajectory, start.scales.time), start.seconds / start.scales.time
+    times = shown.t if end - shown.t[-1] < NEARLY * end else np.append(shown.t, end)
+    motion = motion_of(shown, start, times, TABLES[table])
+    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole or table != "ordinary",
+                       curves=_curves(motion, start, lost))  # fmt: skip
 
 
 def _curves(motion: Motion, start: Start, lost: float) -> Array:

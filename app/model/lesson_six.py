@@ -127,7 +127,7 @@ def asked(*options: str) -> Choice:
 DOT = 0.6235  # s: its painted dot faces who looks
 THREE = ("ordinary", "rough", "ice")
 SIX = (
-    Step("flips", asked("over", "upright", "falls"), flips, ("ordinary",), 0.25, 5.9, sources=("perry", "bohr")),
+    Step("flips", asked("over", "upright", "falls"), flips, ("ordinary",), 0.25, 11.9, sources=("perry", "bohr")),
     Step("way", asked("same", "other", "stopped"), way, ("ordinary",), DOT, 2.3737, "spin", sources=("gray",)),
     Step("height", asked("push", "spin", "free"), height, ("ordinary",), DOT, 1.6, "energy", sources=("pliskin",)),
     Step("tables", asked("both", "rough", "ice", "neither"), tables, THREE, 0.25, 2.4, sources=("gallop",)),

@@ -6,15 +6,16 @@ import binascii
 import json
 import math
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from app.model.measured_data import Data
 from app.model.measured_motion import OF_LAW
+from app.model.measured_remembered import checked
 from app.model.measured_table import LARGEST, MeasuredError
-from app.model.measured_work import LOOSE
+from app.model.measured_work import LOOSE, models
 from tippe_core import Scales, Shape, Top, TopError, load_top, save_top
 
 MARK = "# film:"
@@ -26,7 +27,7 @@ UNITS = {"tilt": "rad", "azimuth": "rad", "spin": "rad/s", "precession": "rad/s"
 @dataclass(frozen=True, eq=False)
 class Film:
     """law: a key of OF_LAW but "rolling"; loose: keys of LOOSE; part: (start, end) in s. top, scales, shape: of what
-    was filmed."""
+    was filmed. fits: of rolling and of sliding what said_of() keeps, none where nothing was fitted."""
 
     law: str
     loose: tuple[str, ...]
@@ -34,6 +35,12 @@ class Film:
     top: Top
     scales: Scales
     shape: Shape | None
+    fits: tuple[dict[str, Any], ...] = ()
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The numbers that are loose."""
+        return tuple(name for key in self.loose for name in LOOSE[key])
 
 
 def table_of(data: Data) -> str:
@@ -59,7 +66,7 @@ def written(film: Film, data: Data) -> str:
         "part": [round(each, 6) for each in film.part],
         "top": [top.a, top.I1, top.I3, scales.R, scales.M, scales.g],
         "body": json.loads(save_top(film.shape)) if film.shape else None,
-    }
+    } | ({"fits": film.fits} if film.fits else {})
     return f"{MARK} {json.dumps(said)}\n{table_of(data)}"
 
 
@@ -84,7 +91,11 @@ def _film(said: Any) -> Film:
         raise ValueError("numbers")
     start, end, a, I1, I3, R, M, g = map(float, numbers)
     shape = load_top(json.dumps(said["body"])) if said["body"] else None
-    return Film(law, loose, (start, end), Top(a, I1, I3), Scales(R, M, g), shape)
+    film = Film(law, loose, (start, end), Top(a, I1, I3), Scales(R, M, g), shape)
+    if fits := said.get("fits"):
+        both = models(film.top, film.scales, shape, law, film.free)
+        return replace(film, fits=tuple(checked(each, model) for each, model in zip(fits, both, strict=True)))
+    return film
 
 
 def packed(text: str) -> str:

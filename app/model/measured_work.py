@@ -2,12 +2,14 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 from app.model.measured_data import Data, settled
 from app.model.measured_examples import FILMED, FOLDER
 from app.model.measured_fit import Fit, fit
 from app.model.measured_kept import Kept, kept
 from app.model.measured_motion import Model, model_of
+from app.model.measured_remembered import remembered
 from app.model.measured_shown import Shown, shown
 from app.model.measured_table import read
 from tippe_core import Scales, Shape, Top
@@ -44,7 +46,15 @@ def models(top: Top, scales: Scales, shape: Shape | None, law: str, loose: tuple
 
 def found(data: Data, both: tuple[Model, Model]) -> Found:
     """Takes seconds, and looks whether it is to end. Raises TopError."""
-    rolling, sliding = (fit(model, data) for model in both)
+    return _of_both(data, *(fit(model, data) for model in both))
+
+
+def found_again(data: Data, both: tuple[Model, Model], fits: tuple[dict[str, Any], ...]) -> Found:
+    """What a saved film has, without fitting anew. Raises TopError."""
+    return _of_both(data, *(remembered(model, data, said) for model, said in zip(both, fits, strict=True)))
+
+
+def _of_both(data: Data, rolling: Fit, sliding: Fit) -> Found:
     better = min((rolling, sliding), key=lambda each: each.aic)
     return Found(rolling, sliding, kept(data, better.model.top, better.model.scales), shown(better.model, data))
 

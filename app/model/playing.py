@@ -28,11 +28,11 @@ class Playing(param.Parameterized):
         return {name: getattr(self, name) for name in self.NAMES}
 
 
-def together(playing: Playing, picture: param.Parameterized) -> None:
-    """From now on a picture that has the same parameters goes with a Playing, and the Playing with it."""
-    picture.param.update(**playing.chosen)
+def together(playing: Playing, picture: param.Parameterized, names: tuple[str, ...] = Playing.NAMES) -> None:
+    """From now on a picture that has these parameters goes with a Playing, and the Playing with it."""
+    picture.param.update(**{name: getattr(playing, name) for name in names})
     for one, other in ((playing, picture), (picture, playing)):
-        one.param.watch(partial(_pass_on, other), list(Playing.NAMES))
+        one.param.watch(partial(_pass_on, other), list(names))
 
 
 def _pass_on(other: param.Parameterized, *events: param.parameterized.Event) -> None:

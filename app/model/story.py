@@ -25,7 +25,16 @@ LEAST_SPIN = 0.5  # rev/s, of what is called spinning
 TENTH = (0.05, 0.15)  # degrees
 UNSTAGED = ("flies",)
 
-COME_FROM = ("begins", "high", "over", "topples", "stem", "falls", "back")  # with more to come, had the run gone on
+COME_FROM = (
+    "begins",
+    "high",
+    "over",
+    "topples",
+    "stem",
+    "falls",
+    "off",
+    "back",
+)  # with more to come, had the run gone on
 SPINS_ON = ("stands", "stays", "inverted", "leans")
 
 
@@ -108,14 +117,19 @@ def _over(motion: TableMotion) -> list[Mark]:
 
 
 def _touches(motion: TableMotion) -> list[Mark]:
-    """The stem touches for the first time; the table is left for longer than a hop."""
+    """The stem touches for the first time; the table is left for longer than a hop; the stem comes off it for good."""
     scale, stretches = motion.start.scales.time, motion.ending.stretches if motion.ending else ()
     touch = next((each.start for each in stretches if each.on in ("stem", "both")), None)
     flight = next(
         (each.start for each in stretches if each.on == "air" and (each.end - each.start) * scale > HOP), None
     )
     found = [] if touch is None else [Mark(touch * scale, "stem")]
-    return found if flight is None else [*found, Mark(flight * scale, "flies")]
+    if flight is not None:
+        found.append(Mark(flight * scale, "flies"))
+    last = next((each for each in reversed(stretches) if each.on in ("stem", "both")), None)
+    if touch is not None and last and stretches[-1].on == "ball" and (last.end - touch) * scale > WHILE:
+        found.append(Mark(last.end * scale, "off"))
+    return found
 
 
 def _stands(motion: TableMotion) -> list[Mark]:
@@ -219,6 +233,8 @@ class _Ordinary:
             why += " " + say("lab.next.spins", **numbers)
         elif mark.code in COME_FROM:
             why += " " + say("lab.next.tilt", **numbers)
+        elif mark.code == "rolls":
+            why += " " + say("lab.next.forever")
         short = say(f"lab.stages.{code}.short", **numbers)
         return Stage(mark.t, say(f"lab.stages.{code}.headline", **numbers), why.strip(), short[:1].upper() + short[1:])
 

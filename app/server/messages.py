@@ -175,7 +175,7 @@ CHANGES = {
     "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT)},
     "FilmStage": {},
     "Guide": {},
-    "LessonView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
+    "LessonView": {"asked": row(COUNT, one_of("vote"), NUMBER | SHORT) | row(COUNT, SHORT, SHORT)},
     "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
     "LabView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
     "Look": {"dark": FLAG, "large": FLAG},

@@ -38,13 +38,25 @@ test("marks of a scale are round and within it", () => {
   near(ticks(-17, 31, 5), [-10, 0, 10, 20, 30]);
 });
 
-test("it plays slowly until it has turned over and stood a moment, and always where it never does", () => {
-  const events = [[0.98, "over"], [1.37, "stem"], [1.47, "stands"], [4.5, "falls"]];
-  assert.deepEqual([0, 1.4, 2, 2.1, 6].map((t) => tempo(events, t)), [0.25, 0.25, 0.25, 0.5, 0.5]);
-  assert.deepEqual([0, 6].map((t) => tempo([], t)), [0.25, 0.25]);
-  let t = 0, watched = 0;
-  for (; t < 2; watched += 0.01) t += 0.01 * tempo(events, t);
-  assert.ok(watched < 10, "the whole flip is seen within 10 s");
+const LIFE = [[0.98, "over"], [1.37, "stem"], [1.47, "stands"], [4.5, "falls"], [5.57, "off"], [8.59, "back"], [9.22, "leans"], [9.96, "rolls"]];
+
+test("it plays slowly until it has turned over and stood a moment, and always where nothing happens", () => {
+  assert.deepEqual([0, 1.4, 2].map((t) => tempo(LIFE, t, 12)), [0.25, 0.25, 0.25]);
+  assert.deepEqual([0, 6].map((t) => tempo([], t, 6)), [0.25, 0.25]);
+  const watched = (end) => {
+    let t = 0, found = 0;
+    for (; t < end - 0.01; found += 0.01) t += 0.01 * tempo(LIFE, t, 12);
+    return found;
+  };
+  assert.ok(watched(2) < 10, "the whole flip is seen within 10 s");
+  assert.ok(watched(12) < 30, "and its life within half a minute");
+});
+
+test("where for long nothing new happens it plays at the real speed or faster, and what happens is not passed over", () => {
+  assert.deepEqual([2.5, 4.4, 4.6, 5.6, 7].map((t) => tempo(LIFE, t, 12)), [1, 0.5, 0.5, 0.5, 1]);
+  const long = [[1.4, "over"], [2.2, "stands"], [25, "falls"]];
+  assert.deepEqual([2.7, 3, 24.6, 24.8].map((t) => tempo(long, t, 27)), [0.25, 8, 8, 0.5]);
+  assert.deepEqual([1, 3, 8, 9].map((t) => tempo([[8, "rolls"]], t, 10)), [0.25, 2, 0.5, 1]);
 });
 
 test("words of events stand where there is room, in short where there is little, and never over another", () => {
@@ -93,9 +105,9 @@ test("the track is the contact of each frame, in seconds and R", () => {
 const BEFORE = { inputs: { spin: { name: "Spin" }, mu: { name: "Friction" } }, toy: "Top", decimal: ".",
   changed: "{name}: {from} → {to}", changed_why: "Now: {now}. Before: {before}." };
 const scene = (spin, mu, events, table = "ordinary") => ({ table, runs: {}, run: { events, stages: [[0, "", "", "Nods"]], why: "" },
-  state: { of: { spin: [spin, `Spin ${spin}.0 rev/s`], mu: [mu, `Friction ${mu}`] }, runs: {} } });
+  state: { of: { spin: [spin, `Spin ${spin}.0 rev/s`], mu: [mu, `Friction ${mu}`], table: [table, `Table ${table}`, "Table"] }, runs: {} } });
 
-test("the run before is that before the gesture, until it is dismissed, gone back to, or the table is another", () => {
+test("the run before is that before the gesture, until it is dismissed or gone back to, on another table too", () => {
   const before = new Before(BEFORE), stands = [[1, "over", "turns over", ""], [1.5, "stands", "stands on its stem", ""]];
   const slow = scene(20, 0.3, []), middle = scene(24, 0.3, []), fast = scene(28, 0.3, stands);
   assert.equal(before.follow(null, slow), null);
@@ -118,7 +130,11 @@ test("the run before is that before the gesture, until it is dismissed, gone bac
   before.forget();
   assert.equal(before.follow(slow, slow), null);
   before.follow(slow, fast);
-  assert.equal(before.follow(fast, scene(20, 0.3, [], "rough")), null);
+  const rough = before.follow(fast, scene(28, 0.3, [], "rough"));
+  assert.equal(rough.what, "Table ordinary");
+  assert.equal(rough.headline, ""); // the stage says what another table does
+  assert.equal(rough.table, "ordinary");
+  assert.equal(before.follow(scene(28, 0.3, [], "rough"), scene(28, 0.3, [], "three")), null);
 });
 
 test("a press has no strength of its own, a hold the more the longer, to the greatest", () => {

@@ -139,6 +139,7 @@ interface FilmStageModel extends Model {
 
 interface MeasuredFileModel extends Model {
   most: number;
+  rows: number;
   table: [text: string, each: number, count: number];
 }
 

@@ -4,6 +4,7 @@ The picture, its controls and its words are one component of the browser; here i
 Lab then has becomes what the component draws.
 """
 
+import math
 from functools import partial
 
 import panel as pn
@@ -11,19 +12,41 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
-from app.model.lab import FIRST, Lab
+from app.model.dimensions import FAMILIES, changed, sentence, value_of
+from app.model.lab import FIRST, SHOWN, Lab
 from app.model.lab_run import shape_of
 from app.state import asked
 from app.text import listed, say
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
+from tippe_core import TopError
 
 INPUTS = ("spin", "tilt", "mu")
 SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2)}
 """{input: (least, most, step, digits) of its slider}; more can be typed."""
 LOOKS = 0.3  # s between two looks at how far a run is
 RESTS = 0.4  # s after its last wish a hand is taken to rest
+
+
+def dimensions(toy):
+    """{wish: Dimension} of what can be set here of a toy."""
+    family = FAMILIES[type(shape_of(toy))][1]
+    return {f"dim:{each.name}": each for each in family if each.unit == "mm" or each.name == "a"}
+
+
+def sizes(toy):
+    """{wish: how large that is now, in its unit}."""
+    return {name: round(each.factor * value_of(shape_of(toy), each.name), 6) for name, each in dimensions(toy).items()}
+
+
+def digits_of(dimension):
+    """After the point."""
+    return max(0, -math.floor(math.log10(dimension.step)))
+
+
+def _word(dimension):
+    return say("lab.inputs.ballast") if dimension.name == "a" else dimension.words
 
 
 class LabView(Bundled):
@@ -87,7 +110,7 @@ class LabTab:
 
     def __init__(self, lab, research, rests):
         self._lab, self._research, self._rests = lab, research, rests
-        self._answered, self._shown, self._tried = 0, None, {}
+        self._answered, self._shown, self._tried, self._wrong = 0, None, {}, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
         self.view.param.watch(asked.heard(self._heard), "asked")
@@ -103,14 +126,29 @@ class LabTab:
             self._research()
         elif name == "stop":
             self._lab.stop()
-        elif name in Lab.INPUTS:
-            if name in INPUTS:
-                self._tried[name] = value
-            self._lab.ask(**{name: value})
+        elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
+            self._tried[name], self._wrong = value, {}
+            self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
         else:
             raise asked.Unasked(name)
         after(RESTS, partial(self._rest, self._answered))
         self.show()
+
+    def _of_body(self, name, value):
+        """What the Lab is to be asked for by a dimension of the body, in its unit; nothing, and a sentence at it, where
+        there is no such body."""
+        toy, dimension = self._lab.start.toy, dimensions(self._lab.start.toy)[name]
+        try:
+            number = asked.number(value)
+        except asked.Unasked:
+            typed = str(value).strip()[:SHOWN] or say("lab.inputs.nothing")
+            self._wrong[name] = say("lab.inputs.no_number", value=typed)
+            return {}
+        try:
+            return {"toy": changed(shape_of(toy), dimension.name, number / dimension.factor)}
+        except TopError as error:
+            self._wrong[name] = sentence(error)
+            return {}
 
     def _waits(self, event):
         """Tells how far a run is, as long as one is computed."""
@@ -143,12 +181,15 @@ class LabTab:
 
     def _state(self, scene):
         lab, start = self._lab, self._lab.start
-        messages = {name: spelled(sentence) for name, sentence in scene.messages.items()}
+        messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
+        dims, view = dimensions(start.toy), listed("lab_view.view")
         return {
             "table": scene.table,
             "toy": start.toy if isinstance(start.toy, str) else "",
-            "values": {name: getattr(start, name) for name in INPUTS},
-            "sliders": SLIDERS,
+            "values": {name: getattr(start, name) for name in INPUTS} | sizes(start.toy),
+            "sliders": SLIDERS
+            | {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()},
+            "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
             "messages": messages,
             "refused": {name: self._tried.get(name) for name in messages},
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
@@ -159,15 +200,26 @@ class LabTab:
                 "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
                 if isinstance(scene.toy, str)
                 else [repr(scene.toy), say("main.own")],
+                "table": [scene.table, f"{view['table']} {view['tables'][scene.table]}", view["table"]],
+                **{
+                    name: [size, self._sized(dimensions(scene.toy)[name], size), _word(dimensions(scene.toy)[name])]
+                    for name, size in sizes(scene.toy).items()
+                },
             },
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": list(map(spelled, scene.said)),
             "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
             "R": 1e3 * shape_of(scene.toy).R,
             "answered": self._answered,
+            "whole": scene.whole,
             "busy": lab.busy,
             "reached": lab.reached,
         }
+
+    @staticmethod
+    def _sized(dimension, size):
+        """A dimension in words."""
+        return spelled(f"{_word(dimension)} {size:.{digits_of(dimension)}f} {dimension.unit}".strip())
 
     def _differ(self, said, one, other):
         """What differs in two that have these inputs, in words, as one of them has it."""

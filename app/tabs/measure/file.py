@@ -4,10 +4,12 @@ long."""
 import param
 
 from app.bundle import Bundled
+from app.model.measured_table import MOST
 
 
 class MeasuredFile(Bundled):
     """The newest text of a table. Nothing of it is kept anywhere but in this session."""
 
     most = param.Integer(default=180_000, constant=True, doc="characters of a text; of a longer one rows are left out")
+    rows = param.Integer(default=MOST, constant=True, doc="rows of a table; of a longer one rows are left out")
     table = param.List(default=["", 1, 0], doc="[the text, each how-manieth row of the file it has, how many so far]")

@@ -10,10 +10,11 @@ from app.model.measured_data import settled
 from app.model.measured_examples import EXAMPLES, FILMED, FOLDER
 from app.model.measured_film import Film, opened, packed, unpacked, written
 from app.model.measured_kept import kept
+from app.model.measured_remembered import said_of
 from app.model.measured_report import program, residuals_table
 from app.model.measured_shown import placed
 from app.model.measured_table import MeasuredError, read
-from app.model.measured_work import LOOSE, found, found_of_example, models
+from app.model.measured_work import LOOSE, found, found_again, found_of_example, models
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.measure.columns import Columns
@@ -180,8 +181,8 @@ class Measure:
             self._corrected(table)
             return
         self._choose(film.law, film.loose)
-        if self._corrected(table, film.part) and self._runs.beside:
-            self.compute()
+        if self._corrected(table, film.part) and (film.fits or self._runs.beside):
+            self.compute(fits=film.fits)
 
     def _corrected(self, table, part=None):
         """Whether there is something to fit: the data of the table as it is understood now. Where it makes none, what
@@ -259,14 +260,15 @@ class Measure:
 
     # ---- the fit ----
 
-    def compute(self, event=None):
-        """Both fits, beside the server."""
+    def compute(self, event=None, fits=()):
+        """Both fits, beside the server; fits: those that a saved film has."""
         data, both = self._data.between(*self._part), self._models()
         if self._is_whole_example:
             asked_for = self._example, self.law.value, self._loose
             work = lambda run: found_of_example(*asked_for)  # noqa: E731
         else:
-            work = lambda run: found(data, both)  # noqa: E731
+            work = lambda run: found_again(data, both, fits) if fits else found(data, both)  # noqa: E731
+        self._again = bool(fits)
         self.start.disabled, self.cancel.disabled = True, False
         self.found.object = f'<div role="status">{note(say("measure.waits"))}</div>' + kept_words(self._kept)
         self._run = Run(work, self._done)
@@ -280,8 +282,10 @@ class Measure:
             if not isinstance(result, (Stopped, TopError)):
                 raise result
             return
-        self._found, self._taken = result, self._film()
-        self.found.object = (found_words(*result.fits, result.kept) + numbers_table(result.better)
+        self._found = result
+        self._taken = self._film()
+        saved = note(say("measure.fit_of_film")) if self._again else ""
+        self.found.object = (found_words(*result.fits, result.kept) + saved + numbers_table(result.better)
                              + models_table(*result.fits))  # fmt: skip
         self.pictures.show(result.motion, result.better)
         show_film(self.stage, result.motion, self._body[3])
@@ -293,7 +297,8 @@ class Measure:
     def _film(self):
         """The text of the film as it is fitted now."""
         top, scales, shape, _ = self._body
-        film = Film(self.law.value, tuple(self.loose.value), self._part, top, scales, shape)
+        film = Film(self.law.value, tuple(self.loose.value), self._part, top, scales, shape,
+                    tuple(said_of(each) for each in self._found.fits) if self._found else ())  # fmt: skip
         return written(film, self._data)
 
     def _put_in_link(self):

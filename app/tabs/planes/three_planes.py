@@ -8,6 +8,7 @@ from app.bundle import pack
 from app.model.colours import COLOURS
 from app.model.planes import PATIENCE, PRESETS, preset
 from app.model.planes_picture import PLANES
+from app.model.playing import Playing, together
 from app.model.regimes import COLOUR, NAMES
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
@@ -39,19 +40,23 @@ class ThreePlanes:
     """main: the tab. show(picture), look(plane) and wait() say what is to be seen.
 
     inputs: of a Planes, as they are at first, with its plane; ask: takes others; ask_top: takes inputs of the Explorer;
-    choose: the name of a body; work: the Planes' run under way, with busy, elapsed, share and stop().
+    choose: the name of a body; work: the Planes' run under way, with busy, elapsed, share and stop(); playing: the
+    Playing of what rolls, which runs, stands and goes as fast as these.
     """
 
-    def __init__(self, inputs, ask, ask_top, choose, work):
+    def __init__(self, inputs, ask, ask_top, choose, work, playing=None):
         self._ask, self._ask_top, self._choose_body, self._work = ask, ask_top, choose, work
         self._poll, self._picture, self._plane = None, None, inputs["plane"]
+        self._playing = playing or Playing()
         self._tops = {
             plane: Top3D(sizing_mode="stretch_both", min_width=250, clock=CLOCK, label=say(f"planes.tops.{plane}"),
                          show_momentum=False, show_cone=False)
             for plane in PLANES
         }  # fmt: skip
         for top in self._tops.values():
-            top.param.watch(lambda event: self._set_speed(event.new), "speed")
+            together(self._playing, top, ("playing",))
+            top.param.watch(self._on_speed, "speed")
+        self._playing.param.watch(lambda event: self._set_speed(event.new), "speed")
         self._figures, self._well = Figures(), Well()
         self._map = Map(self.pick, choose)
         follow_clock(self._figures, self._well)
@@ -79,7 +84,12 @@ class ThreePlanes:
         self._choose_body(body)
         self._ask(**inputs)
 
+    def _on_speed(self, event):
+        if event.new != self._speed:  # a hand's: that of what rolls, too
+            self._playing.speed = event.new
+
     def _set_speed(self, speed):
+        self._speed = speed
         for top in self._tops.values():
             top.speed = speed
 
@@ -220,11 +230,13 @@ class ThreePlanes:
                 self._shown = settings
                 self.look(self._plane)
 
-    _shown = _paced = None
+    _shown = _paced = _speed = None
 
     def _tempo(self, settings):
-        """A speed at which the motion can be watched, when its length is new."""
-        if self._paced != settings.seconds:
+        """The speed that somebody chose; else one at which the motion can be watched, when its length is new."""
+        if self._playing.speed != Playing.param.speed.default:
+            self._set_speed(self._playing.speed)
+        elif self._paced != settings.seconds:
             self._paced, speed = settings.seconds, 1.0
             while settings.seconds / speed < SHORTEST_SHOW and speed > SLOWEST:
                 speed /= 2

@@ -3,6 +3,7 @@
 import { ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "./curves.js";
 import { lineOf } from "./numbers.js";
 import { Choice, drawn, part, say } from "./parts.js";
+import { float32 } from "../data.js";
 
 const NAMES = ["energy", "spin", "path"];
 const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }; // of numbers.js
@@ -60,7 +61,7 @@ export class Answer {
   /** @param {PointerEvent} event */
   point({ clientX, clientY }) {
     const { readout, curves, name, texts } = this, box = this.plot.getBoundingClientRect(), x = clientX - box.left;
-    const t = ((x - LEFT) / (this.right - LEFT)) * (this.time.end || 1);
+    const t = ((x - LEFT) / (this.right - LEFT)) * (this.time.span || 1);
     readout.hidden = !READ[name] || !curves?.count || t < 0 || t > this.time.end;
     if (readout.hidden) return;
     readout.textContent = lineOf(texts, curves, READ[name], t);
@@ -85,7 +86,7 @@ export class Answer {
     return this.width - RIGHT;
   }
 
-  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.end || 1);
+  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.span || 1);
 
   draw() {
     const { clientWidth: width, clientHeight: height } = this.plot, { scene, name, texts } = this, said = texts.answers[name];
@@ -95,7 +96,7 @@ export class Answer {
     this.drawing.setAttribute("aria-label", said.note);
     if (!width || !scene) return;
     this.note.replaceChildren(...(scene.state.old ? [part("b", {}, say(texts, texts.old, { what: scene.state.old })), ". "] : []), said.note,
-      ...(this.before && name !== "path" ? [texts.note_then] : []));
+      ...(this.before ? [texts.note_then] : []));
     Object.assign(this, { width, height, bottom: height - FOOT });
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
     this.moves = [];
@@ -113,7 +114,7 @@ export class Answer {
       found.push(drawn("line", { class: value ? "grid" : "axis", x1: LEFT, x2: this.right, y1: y(value), y2: y(value) }),
         drawn("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, text));
     }
-    for (const t of ticks(0, this.time.end || 1, 6)) {
+    for (const t of ticks(0, this.time.span || 1, 6)) {
       found.push(drawn("text", { x: this.x(t), y: this.bottom + 16, "text-anchor": "middle" }, say(this.texts, t ? "{t}" : "{t} s", { t: [t, t % 1 ? 1 : 0] })));
     }
     return { y, found };
@@ -146,9 +147,11 @@ export class Answer {
     if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin);
     const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
     if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by);
-    const above = at(0.4, HEIGHT) - at(0.4, ENERGY) > ROOM;
+    const long = 112 / (this.right - LEFT);
+    const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > ROOM);
+    const free = [0.4, 0.3, 0.2, 0.08].find(isFree), stands = free ?? 0.4;
     const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
-    put(0.4, above ? Math.min(at(0.4, HEIGHT), at(0.6, HEIGHT)) - 8 : this.bottom - 6, say(texts, text, { least: [least, 0], most: [most, 0] }));
+    put(stands, free ? Math.min(at(stands, HEIGHT), at(stands + long, HEIGHT)) - 8 : this.bottom - 6, say(texts, text, { least: [least, 0], most: [most, 0] }));
     return [
       ...found,
       drawn("polygon", { class: "spins", points: `${line(ENERGY)} ${floor}` }), drawn("polygon", { class: "lifts", points: `${line(HEIGHT)} ${floor}` }),
@@ -180,16 +183,26 @@ export class Answer {
     ];
   }
 
+  // The track of the run before, in radii of the present top.
+  /** @param {number} R in mm */
+  trackThen(R) {
+    const { before } = this.scene;
+    if (!before?.curves[before.table].count) return [];
+    const share = before.state.R / R;
+    return trackOf(float32(before.frames[before.table]), before.unit).map(([t, x, y]) => [t, share * x, share * y]);
+  }
+
   path() {
     const { scene, texts } = this, track = /** @type {number[][]} */ (scene.track(scene.table === "three" ? "ordinary" : scene.table)), { R } = scene.state;
     if (!track.length) return [];
-    const thin = Math.max(1, Math.ceil(track.length / MOST_POINTS)), kept = track.filter((_, i) => i % thin === 0 || i === track.length - 1);
-    const bounds = (i) => [Math.min(...kept.map((p) => p[i])), Math.max(...kept.map((p) => p[i]))];
+    const kept = thinned(track), then = thinned(this.trackThen(R)), all = [...kept, ...then];
+    const bounds = (i) => [Math.min(...all.map((p) => p[i])), Math.max(...all.map((p) => p[i]))];
     const [[x0, x1], [y0, y1]] = [bounds(1), bounds(2)], wide = this.width - 2 * RIGHT, high = this.height - 2 * TOP - FOOT;
     const scale = Math.min(wide / Math.max(x1 - x0, 0.05), high / Math.max(y1 - y0, 0.05));
     const at = (/** @type {number[]} */ [, x, y]) => [this.width / 2 + scale * (x - (x0 + x1) / 2), TOP + high / 2 - scale * (y - (y0 + y1) / 2)];
-    const isJump = (i) => !i || Math.hypot(kept[i][1] - kept[i - 1][1], kept[i][2] - kept[i - 1][2]) > JUMP;
-    const points = kept.map((p, i) => `${isJump(i) ? "M" : "L"}${at(p).map((v) => v.toFixed(1)).join(" ")}`);
+    const isJump = (line, i) => !i || Math.hypot(line[i][1] - line[i - 1][1], line[i][2] - line[i - 1][2]) > JUMP;
+    const pathOf = (line) => line.map((p, i) => `${isJump(line, i) ? "M" : "L"}${at(p).map((v) => v.toFixed(1)).join(" ")}`);
+    const points = pathOf(kept), [wordX, wordY] = then.length ? at(then[then.length - 1]) : [0, 0];
     const past = drawn("path", { class: "past" }), dot = drawn("circle", { class: "dot", r: 6 });
     this.moves.push((t) => {
       const count = kept.filter(([when]) => when <= t + 1e-9).length, [x, y] = at(kept[Math.max(count - 1, 0)]);
@@ -199,6 +212,7 @@ export class Answer {
     });
     const mm = ticks(0, (wide * R) / scale, 3)[1], bar = (mm / R) * scale, foot = this.height - 8;
     return [
+      ...(then.length ? [drawn("path", { class: "then", d: pathOf(then).join("") }), drawn("text", { class: "halo", x: wordX + 6, y: wordY + 4 }, texts.then)] : []),
       drawn("path", { class: "rest", d: points.join("") }), past, dot,
       drawn("path", { class: "axis", d: `M${RIGHT} ${foot - 5}v5h${bar}v-5` }),
       drawn("text", { x: RIGHT + bar + 8, y: foot + 2 }, say(texts, "{mm} mm", { mm: [mm, mm < 1 ? 1 : 0] })),
@@ -215,6 +229,13 @@ export class Answer {
   leave() {
     this.resizing.disconnect();
   }
+}
+
+// Of many points some, and the last.
+/** @param {number[][]} line */
+function thinned(line) {
+  const step = Math.max(1, Math.ceil(line.length / MOST_POINTS));
+  return line.filter((_, i) => i % step === 0 || i === line.length - 1);
 }
 
 // The point of contact over time, of frames as app/widgets/top3d.py packs them: [s, x, y], lengths in R.

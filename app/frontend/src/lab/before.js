@@ -1,6 +1,7 @@
-// "What did I change?": the run before stays beside the present one until it is dismissed, or the table is another.
+// "What did I change?": the run before stays beside the present one until it is dismissed. Three at once have none.
 import { say, written } from "./parts.js";
 
+const SIZE = "dim:"; // a dimension of the body
 const GESTURE = 1500; // ms: what the same hand asks for sooner is one change
 const TELLING = ["stands", "inverted", "upright", "leans", "topples", "over", "rolls", "lies"]; // what became of it, the first that did
 
@@ -31,9 +32,10 @@ export class Before {
   // The next scene's run before, or null.
   /** @param {any} shown what was there until now @param {any} next */
   follow(shown, next) {
-    const isSame = shown?.table === next.table;
-    if (!isSame) this.forget();
-    if (!isSame || next.table === "three" || !next.state.of) return null;
+    if (!shown || shown.table === "three" || next.table === "three" || !next.state.of) {
+      this.forget();
+      return null;
+    }
     if (changes(shown, next).length) this.run = this.isBack ? null : { ...(this.last ?? shown), before: null };
     const what = this.run ? changes(this.run, next) : [];
     if (this.run && !what.length) this.run = null; // it is as it was
@@ -50,12 +52,13 @@ export class Before {
   }
 
   words(what, run, next) {
-    const { texts } = this, said = (name) => texts.inputs[name]?.name ?? texts.toy;
+    const { texts } = this, said = (name) => texts.inputs[name]?.name ?? next.state.of[name][2] ?? texts.toy;
     const value = (scene, name) => scene.state.of[name][1].replace(`${said(name)} `, "");
     const headline = what.map((name) => say(texts, texts.changed, { name: said(name), from: value(run, name), to: value(next, name) })).join("; ");
+    const isTable = what.length === 1 && what[0] === "table"; // of which the stage says enough
     return {
-      canGoBack: run.state.toy === run.state.of.toy?.[0], // a body without a name is not asked for
-      what: what.map((name) => run.state.of[name][1]).join(", "), headline,
+      canGoBack: !what.includes("toy") || run.state.toy === run.state.of.toy?.[0], // a body without a name is not asked for
+      what: what.map((name) => run.state.of[name][1]).join(", "), headline: isTable ? "" : headline,
       why: say(texts, texts.changed_why, { now: this.end(next), before: this.end(run) }),
     };
   }
@@ -73,7 +76,11 @@ export class Before {
 // The inputs in which two scenes differ.
 function changes(one, other) {
   const [a, b] = [one.state.of, other.state.of];
-  return a && b ? Object.keys(b).filter((name) => a[name]?.[0] !== b[name][0]) : [];
+  if (!a || !b) return [];
+  const found = Object.keys(b).filter((name) => a[name]?.[0] !== b[name][0]), sizes = found.filter((name) => name.startsWith(SIZE));
+  // a body of another kind has other dimensions
+  const isOther = sizes.some((name) => !a[name]) || Object.keys(a).some((name) => !b[name]) || sizes.length > 1;
+  return found.filter((name) => (isOther ? !name.startsWith(SIZE) : name !== "toy" || !sizes.length));
 }
 
 /** @param {any} before @param {number} t @param {number} column */

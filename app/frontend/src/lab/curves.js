@@ -78,13 +78,21 @@ export function ticks(least, most, count) {
   return found;
 }
 
-const SLOW = 1 / 4, AFTER = 1 / 2, LOOK = 0.6; // s
+const SLOW = 1 / 4, AFTER = 1 / 2, FASTEST = 8;
+const LOOK = 0.6, SOON = 0.3, FIRST = 2, QUIET = 1.2, LONG = 3; // s
 
-// How fast to play where nobody chose: slowly until it has turned over, and a moment more; where it never does, slowly.
-/** @param {any[][]} events @param {number} t in s */
-export function tempo(events, t) {
+// How fast to play where nobody chose: slowly until it has turned over, and a moment more, or for a while; then at half
+// its speed, and faster where for long nothing new happens.
+/** @param {any[][]} events @param {number} t in s @param {number} end */
+export function tempo(events, t, end) {
+  if (!events.length) return SLOW;
   const over = events.filter(([, code]) => code === "over" || code === "stands").slice(0, 2);
-  return over.length && t > over[over.length - 1][0] + LOOK ? AFTER : SLOW;
+  const since = over.length ? over[over.length - 1][0] + LOOK : FIRST;
+  if (t <= since) return SLOW;
+  const before = events.filter(([at]) => at <= t).at(-1), next = events.find(([at]) => at > t);
+  const from = Math.max(since, before ? before[0] + LOOK : 0), to = next ? next[0] - SOON : end;
+  if (t <= from || t > to || to - from < QUIET) return AFTER;
+  return Math.min(2 ** Math.max(Math.ceil(Math.log2((to - from) / LONG)), 0), FASTEST);
 }
 
 // Where the words of events stand beside their lines: right of it or left, in full where all have room, else in short.

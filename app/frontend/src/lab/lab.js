@@ -129,11 +129,13 @@ class Lab {
     this.scene = scene;
     this.asking.hear(model.state.answered);
     Object.assign(time, { unit: model.seconds, end: scene.end, events: scene.run?.events ?? [], tops: this.stage.tops });
+    time.span = scene.state.whole ? scene.end : Math.max(scene.end, time.span); // no axis changes under a hand
     this.element.dataset.table = scene.table;
     scene.bytes = model.profile;
     this.stage.show(scene);
     for (const shown of [this.strip, this.words, this.answer, this.keeps, this.numbers]) shown.show(scene);
     this.controls.show(scene, this.asking.isAhead);
+    this.element.toggleAttribute("data-whole", Boolean(scene.state.whole)); // for tests only
     this.element.classList.toggle("old", Boolean(scene.state.old));
     if (this.anew === scene.table) {
       this.anew = "";

@@ -3,6 +3,7 @@
 import { thenAt } from "./before.js";
 import { latest, TILT, TURNING } from "./curves.js";
 import { Choice, drawn, part, say } from "./parts.js";
+import { SPEEDS } from "./time.js";
 import { Top } from "./top.js";
 
 export const TABLES = ["ordinary", "rough", "ice"];
@@ -17,6 +18,7 @@ export class Stage {
    */
   constructor(texts, time, ask, { forget, hand }) {
     this.texts = texts;
+    this.time = time;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // under three tops, what each does
     const words = { ...texts, handle: texts.axis, handle_hint: texts.axis_hint };
@@ -99,7 +101,8 @@ export class Stage {
     } else if (curves.count) {
       const [, , , word] = latest(run.stages, t) ?? [], tilt = [curves.at(t, TILT), 0];
       const turning = curves.at(t, TURNING), most = Math.abs(turning);
-      this.pill.textContent = this.old || say(texts, texts.pill, { word: word ?? "", tilt });
+      const { fast } = this.time, speed = texts.speeds[SPEEDS.indexOf(fast)];
+      this.pill.textContent = this.old || say(texts, fast ? texts.pill_fast : texts.pill, { word: word ?? "", tilt, speed });
       this.turns.textContent = say(texts, texts.turns, { turns: [most, most < 9.95 ? 1 : 0] });
       this.ring.classList.toggle("back", turning < 0);
       this.ring.hidden = most < 0.05;

@@ -2,8 +2,8 @@
 import { latest, placed, ticks, TILT } from "./curves.js";
 import { drawn, part, say } from "./parts.js";
 import { TABLES } from "./stage.js";
+import { SPEEDS } from "./time.js";
 
-const SPEEDS = [1, 1 / 2, 1 / 4, 1 / 8, 1 / 16];
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
 const LETTER = 0.56; // how wide a letter is, in its size
 const NEED = 100; // px of a stage in which the top is drawn as it then stands
@@ -69,17 +69,17 @@ export class Strip {
     return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 190 : 0);
   }
 
-  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.end || 1);
+  x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.span || 1);
   y = (tilt) => this.bottom - ((this.bottom - this.top) * tilt) / 180;
 
   /** @param {number} x in px */
   timeAt(x) {
-    return ((x - LEFT) / (this.right - LEFT)) * this.time.end;
+    return ((x - LEFT) / (this.right - LEFT)) * this.time.span;
   }
 
   show(scene) {
     this.scene = scene;
-    this.range.max = String(scene.end);
+    this.range.max = (Math.ceil(100 * scene.end) / 100).toFixed(2); // a whole number of its steps
     this.draw();
   }
 
@@ -96,7 +96,7 @@ export class Strip {
     this.drawing.replaceChildren(
       drawn("clipPath", { id: "played" }, this.clip), drawn("clipPath", { id: "all" }, drawn("rect", { x: 0, y: 0, width: this.right + 1, height })), ...this.axes(), ...this.events(), ...this.shapes(),
       ...this.then(), ...lines.map((line) => line("rest")), drawn("g", { "clip-path": "url(#played)" }, ...lines.map((line) => line("past"))),
-      ...this.names(),
+      ...this.names(), ...this.comes(),
     );
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.at(this.time.t);
@@ -117,7 +117,7 @@ export class Strip {
       found.push(drawn("line", { class: tilt ? "grid" : "axis", x1: LEFT, x2: right, y1: this.y(tilt), y2: this.y(tilt) }),
         drawn("text", { x: LEFT - 6, y: this.y(tilt) + 4, "text-anchor": "end" }, `${tilt}°`));
     }
-    for (const t of ticks(0, time.end || 1, Math.min(8, this.width / 50))) {
+    for (const t of ticks(0, time.span || 1, Math.min(8, this.width / 50))) {
       found.push(drawn("text", { x: this.x(t), y: bottom + 16, "text-anchor": "middle" }, say(texts, t ? "{t}" : "{t} s", { t: [t, t % 1 ? 1 : 0] })));
     }
     return found;
@@ -161,6 +161,13 @@ export class Strip {
       return [drawn("path", { class: "shape", d: `M${turned.map(([px, py]) => `${(x + R * px).toFixed(1)} ${(table + R * (py - least)).toFixed(1)}`).join("L")}Z` }),
         drawn("line", { class: "shape", x1: x - 15, x2: x + 15, y1: table + 1, y2: table + 1 })];
     });
+  }
+
+  // Where the rest of its life is to be.
+  comes() {
+    const { scene, texts, time } = this, from = this.x(time.end);
+    if (scene.state.whole || this.right - from < NEED) return [];
+    return [drawn("text", { x: (from + this.right) / 2, y: this.y(90) - 5, "text-anchor": "middle" }, texts.comes)];
   }
 
   // Of three curves, at their ends, each where there is room.

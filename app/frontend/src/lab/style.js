@@ -63,7 +63,7 @@ const places = `
 .lab[data-table=three] { --stage: clamp(300px, 100vh - 458px, 40cqw);
   grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say answer" auto "controls answer" auto / var(--side) minmax(0, 1fr); }
 .lab[data-table=three] .answer { display: none; } .lab[data-table=three] .keeps { display: block; }
-.lab[data-table=three] .ctl:not(:nth-child(2)) { display: none; }
+.lab[data-table=three] :is(.ctl:not(:nth-child(2)), .body) { display: none; }
 .lab[data-table=three] .outline { display: none; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
@@ -185,7 +185,8 @@ const controls = `
 .ends .was { position: absolute; top: -4px; height: 18px; border-left: 2px dashed var(--ink); margin-left: -1px; }
 .launch { min-width: 116px; text-align: right; } .launch .primary { touch-action: none; user-select: none; -webkit-user-select: none; } .wait { display: flex; align-items: center; gap: 12px; } .wait .small { min-width: 4ch; font-variant-numeric: tabular-nums; } .wait .outline { min-height: 40px; }
 .wait progress { width: 110px; height: 6px; accent-color: var(--ink); }
-.numbers { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } .numbers summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } .numbers summary::after { content: "+"; } .numbers[open] summary::after { content: "−"; }
+:is(.numbers, .body) { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } :is(.numbers, .body) summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } :is(.numbers, .body) summary::after { content: "+"; } :is(.numbers, .body)[open] summary::after { content: "−"; }
+.body .ctl { margin-bottom: 8px; } .body + .numbers { border-top: 0; }
 .numbers th { font-weight: 400; color: var(--ink-2); } .numbers td { text-align: right; padding-right: 0; } .numbers :is(th, td) { padding-block: 2px; }
 .words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }
 .words b { position: absolute; transform: translateX(-50%); color: var(--ink); font-weight: 400; }
@@ -196,7 +197,7 @@ const controls = `
   .picks b { display: block; font-size: var(--t-m); color: var(--ink); font-variant-numeric: tabular-nums; white-space: nowrap; }
   .picks [aria-pressed=true], .picks [aria-pressed=true] b { color: var(--accent); font-weight: 600; }
   .picks [aria-pressed=true] { box-shadow: inset 0 -3px 0 var(--accent); }
-  .numbers { display: none; } .chip { top: 108px; left: 8px; } .chip button { height: 44px; }
+  :is(.numbers, .body) { display: none; } .chip { top: 108px; left: 8px; } .chip button { height: 44px; }
   .primary { min-height: 44px; } .controls .ctl:not(.picked) { display: none; }
   .ctl label { display: none; } .ctl > span { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
   .ctl.bad > span { position: static; width: auto; height: auto; clip-path: none; grid-column: 1 / -1; }

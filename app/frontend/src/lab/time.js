@@ -3,6 +3,7 @@
 import { tempo } from "./curves.js";
 
 const CLOCK = "lab";
+export const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16]; // in times the real one
 const LONGEST_STEP = 0.25; // s: a top's time goes on by at most so much of the wall clock at once
 const NEARLY = 0.02; // s
 
@@ -14,6 +15,7 @@ export class Time {
     this.t = 0; // s
     this.unit = 1; // s in one unit of the tops' own time
     this.end = 0; // s
+    this.span = 0; // s: of the axes; there may be more to come
     this.playing = false;
     this.held = false;
     this.chosen = 0; // the speed that a person chose; 0: none
@@ -25,8 +27,13 @@ export class Time {
     window.addEventListener(`tippe:clock:${name}`, ({ detail }) => this.hear(detail), { signal: this.listening.signal });
   }
 
+  // The speed that is no slower than the real one, unless a person chose it or nothing moves; else 0.
+  get fast() {
+    return this.playing && !this.chosen && this.speed >= 1 ? this.speed : 0;
+  }
+
   get speed() {
-    return this.chosen || tempo(this.events, this.t);
+    return this.chosen || tempo(this.events, this.t, this.end);
   }
 
   // Of the tops: their longest step ends at the end at most, where they would begin anew.

@@ -33,7 +33,7 @@ export class Words {
     let said = latest(scene.run?.stages ?? [], t)?.slice(1, 3) ?? ["", scene.run?.why ?? ""];
     if (scene.table === "three") said = state.said;
     const { before } = scene;
-    if (before) said = [before.headline, before.why];
+    if (before?.headline) said = [before.headline, before.why];
     this.back.hidden = !before?.canGoBack || Boolean(state.old);
     if (scene.waits) said = [say(texts, texts.working, { what: state.wants }), say(texts, texts.working_why, { what: state.old })];
     else if (state.old) said = [say(texts, texts.still, { what: state.old }), texts.still_why];

@@ -18,6 +18,7 @@ const FRAME = `<style>
   <div class="row"><label><input type="file" accept=".csv,.tsv,.txt,.json,text/*"></label><textarea rows="1"></textarea>
     <div class="says" role="status"></div></div><div class="over" hidden><b></b></div>`;
 const HEAD = 12; // first lines, which are always kept: names stand there
+const ABOVE = 3; // lines of a whole table that hold no values
 const SPARE = 1.05; // lines are not of one length
 const CHUNK = 1 << 22; // bytes that are read at a time
 const LOOK = 4096; // bytes by which it is seen what a file is
@@ -26,11 +27,11 @@ const LONG = /(\d[.,]\d{7})\d+/g; // digits that no film has
 /** @param {number} length @param {number} most @returns {number} each how-manieth row is kept */
 const everyOf = (length, most) => (length <= most ? 1 : Math.ceil(length / most * SPARE));
 
-/** @param {string} text @param {number} most @returns {[string, number]} what is kept of it, and each how-manieth row */
-export function thinned(text, most) {
-  if (text.length <= most) return [text, 1];
-  const short = text.replace(LONG, "$1"), each = everyOf(short.length, most);
-  return [short.split(/\r\n|\r|\n/).filter((_, i) => i < HEAD || i % each === 0).join("\n"), each];
+/** @param {string} text @param {number} most letters @param {number} rows @returns {[string, number]} what is kept of it, and each how-manieth row */
+export function thinned(text, most, rows) {
+  const short = text.length <= most ? text : text.replace(LONG, "$1"), lines = short.split(/\r\n|\r|\n/);
+  const few = lines.length <= rows + ABOVE, each = Math.max(everyOf(short.length, most), few ? 1 : Math.ceil((lines.length - HEAD) / (rows - HEAD)));
+  return each === 1 ? [short, 1] : [lines.filter((_, i) => i < HEAD || i % each === 0).join("\n"), each];
 }
 
 /** @param {Uint8Array} bytes the first of a file @returns {string} how its text is written */
@@ -43,15 +44,15 @@ export function encodingOf(bytes) {
 // A file as thinned() has it, read piece by piece, so that it may be larger than the memory. What is no text comes as its
 // first bytes, which tell that.
 /**
- * @param {Blob} file @param {number} most
+ * @param {Blob} file @param {number} most @param {number} rows
  * @param {(share: number) => void} reached
  * @returns {Promise<[string, number]>}
  */
-export async function readFile(file, most, reached) {
+export async function readFile(file, most, rows, reached) {
   const first = new Uint8Array(await file.slice(0, LOOK).arrayBuffer()), encoding = encodingOf(first);
   const decoder = new TextDecoder(encoding), wide = encoding.startsWith("utf-16");
   if (!wide && first.includes(0)) return [new TextDecoder("windows-1252").decode(first), 1];
-  if (file.size <= 2 * most) return thinned(decoder.decode(await file.arrayBuffer()), most);
+  if (file.size <= 2 * most) return thinned(decoder.decode(await file.arrayBuffer()), most, rows);
   const sample = decoder.decode(first), shorter = sample.replace(LONG, "$1").length / first.length;
   const each = everyOf(file.size * shorter, most), kept = [], stream = new TextDecoder(encoding);
   let line = 0, rest = "";
@@ -66,7 +67,7 @@ export async function readFile(file, most, reached) {
     }
     reached(Math.min(1, (at + CHUNK) / file.size));
   }
-  const text = kept.join("\n"), again = text.length > most ? thinned(text, most) : [text, 1];
+  const again = thinned(kept.join("\n"), most, rows);
   return [String(again[0]), each * Number(again[1])];
 }
 
@@ -93,7 +94,7 @@ export function renderMeasuredFile({ model, el, view }) {
   const read = async (file) => {
     if (!file) return;
     try {
-      send(await readFile(file, model.most, (share) => (says.textContent = fill(texts.reading, { name: file.name, percent: Math.round(100 * share) }))));
+      send(await readFile(file, model.most, model.rows, (share) => (says.textContent = fill(texts.reading, { name: file.name, percent: Math.round(100 * share) }))));
       says.textContent = "";
     } catch {
       says.textContent = fill(texts.unreadable, { name: file.name });
@@ -103,9 +104,9 @@ export function renderMeasuredFile({ model, el, view }) {
     await read(input.files?.[0]);
     input.value = "";
   };
-  area.onchange = () => area.value.trim() && send(thinned(area.value, model.most));
+  area.onchange = () => area.value.trim() && send(thinned(area.value, model.most, model.rows));
   area.onpaste = () => setTimeout(() => {
-    send(thinned(area.value, model.most));
+    send(thinned(area.value, model.most, model.rows));
     area.value = "";
   });
   const isSeen = () => el.isConnected && el.clientWidth > 0, brings = (event) => event.dataTransfer?.types.includes("Files");

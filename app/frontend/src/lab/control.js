@@ -1,0 +1,159 @@
+// A quantity of the start or of the top: a slider, a number to type, and below it what is wrong, or how runs end.
+import { part, read, say, written } from "./parts.js";
+
+const THUMB = 10; // px from the end of a slider's track to the middle of its thumb there
+const WIDTH = 340, WIDE = 5.6, APART = 16; // px: of the strip of ends at least, of a letter under it, between words
+
+export class Control {
+  /**
+   * @param {string} name
+   * @param {{ name: string, typed: string, unit: string }} said
+   * @param {Record<string, any>} texts
+   * @param {(name: string, value: any) => void} ask
+   */
+  constructor(name, said, texts, ask) {
+    this.name = name;
+    this.texts = texts;
+    this.said = said;
+    this.ask = ask;
+    this.limits = { low: 0, high: 1, digits: 0 };
+    this.share = this.value = 0; // of the track, where the value is; what was shown last of a hold
+    const id = `lab-${name}`;
+    this.slider = part("input", { type: "range", id, "aria-label": said.name, oninput: () => {
+      this.put(Number(this.slider.value));
+      ask(name, Number(this.slider.value));
+    } });
+    this.number = part("input", {
+      class: "num", inputmode: "decimal", "aria-label": said.typed, "aria-describedby": `${id}-wrong`,
+      oninput: () => (this.isTyping = true), onblur: () => (this.isTyping = false), onchange: () => this.type(),
+    });
+    this.wrong = part("p", { class: "wrong", id: `${id}-wrong`, role: "alert", hidden: true });
+    this.below = part("div", { class: "below" });
+    this.element = part("div", { class: "ctl" }, part("label", { for: id }, said.name),
+      part("span", {}, this.number, part("span", { class: "unit" }, said.unit)), this.slider, this.below, this.wrong);
+  }
+
+  type() {
+    this.isTyping = false;
+    const value = read(this.number.value);
+    this.ask(this.name, Number.isFinite(value) ? value : this.number.value);
+    if (!Number.isFinite(value)) return;
+    this.slider.value = String(value);
+    this.put(value);
+  }
+
+  /** @param {number} value @param {string} [text] what was typed, where that cannot be */
+  put(value, text) {
+    const { low, high, digits } = this.limits, share = (value - low) / (high - low);
+    this.slider.style.setProperty("--p", `${(100 * Math.min(Math.max(share, 0), 1)).toFixed(2)}%`);
+    this.write(text ?? written(value, digits, this.texts.decimal));
+    this.share = share;
+    this.point();
+  }
+
+  // Never over what a person is typing; what is selected to be typed over stays so, else that would come behind it.
+  /** @param {string} text */
+  write(text) {
+    const { number } = this, { value, selectionStart, selectionEnd } = number;
+    if (this.isTyping || value === text) return;
+    number.value = text;
+    if (value && !selectionStart && selectionEnd === value.length && number.matches(":focus")) number.select();
+  }
+
+  // The mark of the present value; one typed beyond the track has no place on it.
+  point() {
+    if (!this.mark) return;
+    this.mark.hidden = this.share < 0 || this.share > 1;
+    this.mark.style.left = this.along(this.share);
+  }
+
+  /** @param {number} share of the track */
+  along = (share) => `calc(${THUMB}px + ${share} * (100% - ${2 * THUMB}px))`;
+
+  /** @param {any} state @param {boolean} ahead whether a hand has moved it since */
+  show(state, ahead) {
+    const [low, high, step, digits] = state.sliders[this.name], message = state.messages[this.name];
+    this.limits = { low, high, digits };
+    Object.assign(this.slider, { min: low, max: high, step });
+    const [refused, kept] = [state.refused[this.name], state.values[this.name]];
+    if (!ahead) {
+      this.slider.value = String(kept);
+      this.put(kept, message && refused !== undefined ? this.typed(refused) : undefined);
+      this.slider.setAttribute("aria-valuetext", `${written(kept, this.limits.digits, this.texts.decimal)} ${this.said.unit}`);
+    }
+    this.number.setAttribute("aria-invalid", String(Boolean(message)));
+    this.element.classList.toggle("bad", Boolean(message));
+    this.wrong.hidden = !message;
+    const back = say(this.texts, this.texts.back, { value: `${written(kept, this.limits.digits, this.texts.decimal)}${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}` });
+    if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), part("span", {}, message, " ",
+      part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, kept) }, back)));
+  }
+
+  // As it was typed.
+  typed(value) {
+    return typeof value === "number" ? written(value, Number.isInteger(value) ? 0 : this.limits.digits, this.texts.decimal) : String(value);
+  }
+
+  // A share of the track, in steps of its digits; returns the value there.
+  /** @param {number} share */
+  putShare(share) {
+    const { low, high, digits } = this.limits;
+    this.value = Number((low + share * (high - low)).toFixed(digits));
+    this.slider.value = String(this.value);
+    this.put(this.value);
+    return this.value;
+  }
+
+  // On the strip below the track: where the run before was.
+  /** @param {number | undefined} value */
+  showWas(value) {
+    const { low, high } = this.limits, bar = this.below.firstChild;
+    this.was?.remove();
+    if (value === undefined || !bar || value < low || value > high) return;
+    this.was = part("i", { class: "was", title: say(this.texts, this.texts.was, { value: [value, this.limits.digits] }),
+      style: `left: ${this.along((value - low) / (high - low))}` });
+    bar.append(this.was);
+  }
+
+  // Under the track: how it ends for each spin.
+  /** @param {[from: number, to: number, code: string, word: string][] | null} ends */
+  showEnds(ends) {
+    const key = JSON.stringify(ends);
+    if (key === this.ends) return;
+    this.ends = key;
+    const { low, high } = this.limits, at = (value) => this.along((value - low) / (high - low));
+    const bar = part("div", { class: "ends", role: "img", "aria-label": this.texts.ends });
+    this.mark = part("i", { class: "mark" });
+    if (!ends?.length) {
+      this.below.replaceChildren(bar, part("div", { class: "words" }, part("span", {}, this.texts.ends_wait)));
+      bar.classList.add("none");
+      return;
+    }
+    bar.setAttribute("aria-label", `${this.texts.ends}: ${ends.map(([from, to, , word]) => `${this.digits(from)}–${this.digits(to)} ${word}`).join("; ")}`);
+    bar.append(...ends.map(([from, to, code, word]) => part("span", {
+      class: `end ${code}`, title: `${this.digits(from)}–${this.digits(to)} ${this.said.unit}: ${word}`,
+      style: `left: ${at(from)}; right: calc(100% - ${at(to)})`,
+    })), this.mark);
+    this.below.replaceChildren(bar, this.words(ends));
+    this.point();
+  }
+
+  digits = (value) => written(value, value % 1 ? 1 : 0, this.texts.decimal);
+
+  // The words of its two largest stretches, left and right, and where the right one begins.
+  words(ends) {
+    const { low, high } = this.limits, size = ([from, to]) => to - from;
+    const [large, next] = [...ends].sort((a, b) => size(b) - size(a)), line = part("div", { class: "words" });
+    if (!next || next[3] === large[3]) line.append(part("span", {}, large[3]));
+    else {
+      const [left, right] = large[0] < next[0] ? [large, next] : [next, large], at = (right[0] - low) / (high - low);
+      line.append(part("span", {}, left[3]));
+      const letters = WIDE * (left[3].length + right[3].length);
+      if (at * WIDTH > WIDE * left[3].length + APART && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
+        line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));
+      }
+      line.append(part("span", {}, right[3]));
+    }
+    return line;
+  }
+}
