@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import os
 import sys
 import threading
 import weakref
@@ -23,7 +24,7 @@ from wire import until
 from app.model import lesson
 from app.model.explorer import Explorer
 from app.model.family import share_map
-from app.model.runs import TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
+from app.model.runs import MAPS, NICE, TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn
 from app.text import speaking, spoken
@@ -350,3 +351,22 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
         assert not compare.cancel.disabled
         page.next()
     assert "Cancelled" in compare.said.object and not compare.start.disabled
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a thread has no priority of its own here")
+def test_a_map_stands_back_with_all_threads_that_it_begins():
+    found, done = [], threading.Event()
+
+    def priority():
+        return os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
+
+    def piece():
+        found.append(priority())
+        beside = threading.Thread(target=lambda: found.append(priority()))
+        beside.start()
+        beside.join()
+        done.set()
+
+    MAPS.add(object(), piece)
+    assert done.wait(20)
+    assert found == 2 * [min(priority() + NICE, 19)]

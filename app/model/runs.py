@@ -6,6 +6,8 @@ something else. A page has one piece of each kind of work: a newer one takes the
 """
 
 import logging
+import os
+import sys
 import threading
 import time
 from collections import Counter
@@ -17,6 +19,7 @@ from typing import Any, TypeAlias
 
 from app.text import speaking, spoken
 
+NICE = 5  # how far a map stands back behind whoever moves something
 # A run rests for NAP after each TURN, s, so that the server gets to its other visitors.
 TURN, NAP = 0.01, 0.001
 
@@ -32,12 +35,21 @@ class Stopped(Exception):
     """Raised within a run that is to end."""
 
 
+def stand_back() -> None:
+    """Gives this thread, and all that it begins, a lower priority: where a thread has one of its own."""
+    if sys.platform == "linux":
+        first = os.getpriority(os.PRIO_PROCESS, os.getpid())  # of the thread that answers
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), min(first + NICE, 19))
+
+
 class Pool:
     """A few threads, and who waits for one. Visitors take turns: next is who has the fewest pieces of work under way,
-    of these the one whose turn was longest ago. The last free thread is for who has none under way."""
+    of these the one whose turn was longest ago. The last free thread is for who has none under way. begin: called in
+    each thread first."""
 
-    def __init__(self, threads: int, name: str) -> None:
-        self.threads, self._executor = threads, ThreadPoolExecutor(threads, thread_name_prefix=name)
+    def __init__(self, threads: int, name: str, begin: Piece | None = None) -> None:
+        self.threads = threads
+        self._executor = ThreadPoolExecutor(threads, thread_name_prefix=name, initializer=begin)
         self._waiting: dict[Hashable, list[Piece]] = {}  # visitor -> his pieces that wait
         self._working: Counter[Hashable] = Counter()  # how many are under way
         self._since: dict[Piece, float] = {}  # of those that wait
@@ -109,7 +121,7 @@ class Pool:
 # Who asks while all are busy waits, and sees that nothing is done yet.
 WORK = Pool(4, "run")
 FILES = Pool(1, "file")  # matplotlib draws one figure at a time
-MAPS = Pool(2, "map")  # each piece of a map takes all cores, so that more at a time would only all be later
+MAPS = Pool(2, "map", stand_back)  # each piece of a map takes all cores, so that more at a time would only all be later
 
 
 class Run:

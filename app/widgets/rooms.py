@@ -21,9 +21,7 @@ class Place:
 
     def __init__(self, name, make, soon):
         self._make, self._soon, self._view, self._asked = make, soon, None, False
-        again = pmui.Button(label=say("main.making.again"), **BUTTON)
-        on_click(again, lambda event: self.ask())
-        self._wrong = [words(alert(say("main.making.failed")), margin=AROUND), pn.Row(again, margin=(0, 28))]
+        self._failed = False
         self.column = pn.Column(
             self._waiting(), name=f"place of {name}", sizing_mode="stretch_width", margin=0, visible=False
         )
@@ -37,7 +35,8 @@ class Place:
         if self._asked:
             return
         self._asked = True
-        if self.column.objects == self._wrong:
+        if self._failed:
+            self._failed = False
             self.column.objects = [self._waiting()]
         self._soon(self.fill)
 
@@ -49,8 +48,13 @@ class Place:
             self.column.objects = [self._view]
         except Exception:
             log.exception("a bug: a tab could not be made")
-            self._asked = False
-            self.column.objects = self._wrong
+            self._asked, self._failed = False, True
+            again = pmui.Button(label=say("main.making.again"), **BUTTON)
+            on_click(again, lambda event: self.ask())
+            self.column.objects = [
+                words(alert(say("main.making.failed")), margin=AROUND),
+                pn.Row(again, margin=(0, 28)),
+            ]
 
 
 class Rooms(param.Parameterized):
