@@ -383,3 +383,8 @@ if __name__ == "__main__":
 # 2026-11-25, arrive, --quick, under other work (load 15 to 20, this run first in turn), before lowest() looked at all
 # tilts at once: who comes costs 46 ms (bare), 176 (Explore, 3.8 times), 1364 (Research, 29.7 times); a move 2.0, 32.4
 # (16.2 times) and 44.8 (22.4 times). A run of the Lab alone: 34 ms of the processor before, 15 after, to the same bit.
+#
+# 2026-11-25, 16:40, arrive, --quick, this run first in turn, load 6: who comes costs 50 ms (bare), 142 (Explore, 2.8
+# times), 1176 (Research, 23.5 times); a move 2.0, 54.8 (27 times; p50 18 ms until the run is there, 61 before) and 45.6
+# (23 times). Each move here is followed by a rest, in which the Lab computes its ends and the rest of its life: not
+# parted from the move yet.
