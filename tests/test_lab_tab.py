@@ -5,7 +5,7 @@ import pytest
 from app.model.arrival import TILT
 from app.model.lab import Lab
 from app.model.start import arrives
-from app.tabs.lab.lab import SLIDERS, LabTab, spelled
+from app.tabs.lab.lab import SLIDERS, LabTab, begin, spelled
 from app.text import speaking
 from tippe_core import PRESETS
 
@@ -31,13 +31,13 @@ def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
     waits, rested = [], []
     monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: waits.append(act))
     lab = Lab()
-    LabTab(lab, None, None)
     lab.rest = lambda: rested.append(lab.start.tilt)
-    lab.show()
-    lab.ask(tilt=12.0)
+    begin(lab)
+    for tilt in (11.0, 12.0):
+        lab.ask(tilt=tilt)
     for act in waits:
         act()
-    assert rested == [12.0]
+    assert rested == [TILT, 12.0]
 
 
 def test_a_wish_is_answered_with_its_count(tab):

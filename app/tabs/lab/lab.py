@@ -99,9 +99,16 @@ def lab_view(lab, keep, go):
 
 
 def begin(lab):
-    """What takes a thread, which a page has once it is there."""
+    """What takes a thread, which a page has once it is there. What no hand of the tab has asked for, as an undo, comes
+    to rest too."""
+
+    def still(scene):
+        if lab.scene is scene and not lab.rests:
+            lab.rest()
+
     lab.show()
     lab.rest()
+    lab.param.watch(lambda event: after(RESTS, partial(still, event.new)), "scene")
 
 
 class LabTab:
@@ -116,7 +123,6 @@ class LabTab:
         self.view.param.watch(asked.heard(self._heard), "asked")
         lab.param.watch(lambda event: self.show(), ["scene", "ends"])
         lab.param.watch(self._waits, "busy")
-        lab.param.watch(lambda event: after(RESTS, partial(self._still, event.new)), "scene")
         self.show()
 
     def _heard(self, event):
@@ -161,11 +167,6 @@ class LabTab:
         if self._lab.busy:
             self.show()
             after(LOOKS, self._look)
-
-    def _still(self, scene):
-        """What no hand of this tab has asked for, an undo or another tab, comes to rest too."""
-        if self._lab.scene is scene and not self._lab.rests:
-            self._lab.rest()
 
     def _rest(self, answered):
         if answered == self._answered:
