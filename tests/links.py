@@ -99,6 +99,7 @@ def opened(link):
         face = NAMES["face"].codec.value(keep.waits.get("face", "constants"))  # was there on every page
         settings = {field.key: plain(field.codec, getattr(owner, name))
                     for _, owner, fields in parts if owner is not seen for name, field in fields.items()}  # fmt: skip
+        settings["dark"] = bool(settings["dark"])  # None where nobody has chosen: then as the system has it
         planes, hand = seen.room == "three-planes", explorer.given == "hand"
         del settings["table"]
         if planes:  # as the three planes had them
