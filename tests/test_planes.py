@@ -216,7 +216,7 @@ def test_the_default_run_is_told_with_all_its_touches(usual):
     assert f"and from {both:.2f} s to the end on both ball and stem" in said
     assert said.startswith("leans on ball and stem: 118.8° at 5 s") and "turn" not in said
     with speaking("de"):
-        assert "8.2 ms lang auf dem Stiel allein" in fate(picture, "sliding")
+        assert "8,2 ms lang auf dem Stiel allein" in fate(picture, "sliding")
 
 
 @pytest.mark.slow
