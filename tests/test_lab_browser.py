@@ -176,7 +176,7 @@ def test_what_is_selected_to_be_typed_over_stays_selected_while_answers_come(pag
         slider.value = 29.5
         slider.dispatchEvent(new Event("input"))
     }""")
-    page.wait_for_function("location.search.includes('turns=29.5')")
+    page.wait_for_function("location.search.includes('spin=29.5')")
     assert tilt.evaluate("(field) => field.value.slice(field.selectionStart, field.selectionEnd)") == tilt.input_value()
     page.keyboard.insert_text("5,73")
     tilt.press("Enter")
