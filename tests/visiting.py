@@ -42,9 +42,9 @@ WHOLE = """
 """
 
 
-# Whether both pictures in 3-D are drawn; on a phone the second one is below the window, and waits to come in view.
+# Whether the top is drawn.
 # Fig. 5 stands below the first 900 px, and is drawn when it is seen.
-DRAWN = "window.__tippe?.top3d?.pictures > 0 && (innerWidth < 600 || window.__tippe.surface3d)"
+DRAWN = "window.__tippe?.top3d?.pictures > 0"
 
 
 def of_roll(url):

@@ -24,7 +24,7 @@ TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # of two figures, one above the othe
 HEAD = "calc(82px * var(--type, 1) + 12px)"  # with its second row
 WIDE = "@media (min-width: 1000px)"
 STAGED = """
-:host { display: flex; flex-direction: column; gap: 12px; padding: 12px }
+:host { display: flex; flex-direction: column; gap: 12px; padding: 12px; min-height: max-content }
 @media (min-width: 1000px) {
   :host { display: grid; align-items: start; grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) } }
 """
