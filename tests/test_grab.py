@@ -304,7 +304,7 @@ def test_a_finger_pulls_the_tieline_and_scrolls_the_page_from_elsewhere(chromium
             touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
     top = "() => document.body.getClientRects().length && (" + PIXEL + ")(['plane', 0.62, 7])[1]"
-    page.locator("[data-figure=plane]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
+    page.locator("[data-figure=plane]").first.evaluate("e => e.scrollIntoView({block: 'end'})")
     place = page.evaluate(top)
     x, y = visit.pixel("plane", 0.62, 7.0)
     drag(x, y, 60)
