@@ -57,7 +57,7 @@ def serve(chromium):
         column = pn.Column(component, width=640)
         port = free_port()
         servers.append(pn.serve(column, port=port, threaded=True, show=False))
-        page = chromium.new_context(viewport={"width": 700, "height": 600}, **context).new_page()
+        page = chromium.new_context(viewport={"width": 720, "height": 600}, **context).new_page()
         pages.append(page)
         page.on("pageerror", lambda error: errors.append(str(error)))
         page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
@@ -174,13 +174,15 @@ def test_no_motion_is_said_and_a_later_one_shown(serve, top):
 
 
 def over_the_surface(page):
-    """Moves the mouse until the picture reads a value off."""
-    box = page.locator("canvas").bounding_box()
+    """Moves the mouse until the picture reads a value off, and no end of the tieline is below it."""
+    canvas = page.locator("canvas")
+    box = canvas.bounding_box()
     for y in np.linspace(0.75, 0.4, 8):
         for x in np.linspace(0.4, 0.7, 8):
             page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
             page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-            if page.evaluate("window.__tippe.surface3d.readout?.includes('E = ')"):  # the floor says why not
+            says = page.evaluate("window.__tippe.surface3d.readout?.includes('E = ')")  # the floor says why not
+            if says and canvas.evaluate("e => e.style.cursor") != "move":
                 return
     raise AssertionError("no place of the picture reads a value off")
 
