@@ -127,7 +127,7 @@ def test_a_top_is_saved_and_loaded_back_and_a_bad_file_changes_nothing(bench):
     document = json.loads(text)
     document["dimensions"]["t"] = -0.004
     load(bench, json.dumps(document))
-    bench.page.get_by_text("t = -4 mm is not possible").wait_for()
+    bench.page.get_by_text("t = −4 mm is not possible").wait_for()
     load(bench, "no top at all")
     bench.page.get_by_text("JSON").wait_for()
     assert download(bench, "Save this top").decode() == save_top(TruncatedSphere.paper())

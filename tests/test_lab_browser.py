@@ -1,10 +1,12 @@
 """The Lab in Chromium: on arrival it flips, with nothing clicked; what a hand moves, types and chooses is shown."""
 
+import re
 from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 import pytest
 from axe_playwright_python.base import AXE_SCRIPT
+from playwright.sync_api import expect
 from test_axe import CONTRAST, DARK, LIGHT, LOOK, violations
 from visiting import PATIENCE, Visit, is_seen
 
@@ -127,7 +129,7 @@ def test_the_bar_is_moved_by_keys(page):
     slider = page.get_by_role("slider", name="Time")
     slider.press("Home")
     page.wait_for_function(f"{TIME} == 0")
-    assert slider.get_attribute("aria-valuetext").startswith("0.00 s, tilt 6 degrees")
+    expect(slider).to_have_attribute("aria-valuetext", re.compile("^0.00 s, tilt 6 degrees"))
     slider.press("ArrowRight")
     page.wait_for_function(f"{TIME} > 0")
 
@@ -207,11 +209,11 @@ def test_the_run_before_stays_pale_until_it_is_dismissed(page):
     assert page.locator(".answer .then").count() == 1
     page.get_by_role("button", name="Go back to before").click()
     page.wait_for_function("location.search.includes('spin=29')")
-    assert page.locator(".strip .then").count() == 0
+    expect(page.locator(".strip .then")).to_have_count(0)
     put(page, "Spin, in turns a second", 30)
     page.get_by_role("button", name="Forget the run before").click()
     page.get_by_text("Before: Spin").wait_for(state="hidden")
-    assert page.locator(".strip .then").count() == 0
+    expect(page.locator(".strip .then")).to_have_count(0)
 
 
 def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
