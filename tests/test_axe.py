@@ -106,7 +106,7 @@ def test_axe_finds_nothing_anywhere_in_any_look_and_no_other_machine_is_asked(ch
     asked = []
     page.on("request", lambda request: asked.append(request.url))
     page.goto(f"{server}?tab=roll")
-    page.wait_for_function("window.__tippe?.surface3d?.pictures > 0 && Bokeh.documents[0].is_idle")
+    page.wait_for_function("window.__tippe?.top3d?.pictures > 0 && Bokeh.documents[0].is_idle")
     assert not page.evaluate("__tippe.top3d.playing")
     page.evaluate(AXE_SCRIPT)
     vote = None
