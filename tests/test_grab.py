@@ -190,6 +190,8 @@ def test_beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_say
 
 def test_the_bead_moves_the_clock_and_nothing_else(visit):
     stop_at_the_start(visit)
+    visit.page.wait_for_function("""[...Bokeh.documents[0]._all_models.values()].some(
+        (m) => m.type == "Label" && m.visible && m.text.startsWith("rolls again"))""")  # the last to come
     place, aim = selected(visit), 0.7
     visit.drag(visit.pixel("plane", place["theta"], 7.0), visit.pixel("plane", aim, 7.3))
     visit.sent.clear()
