@@ -7,6 +7,9 @@ import re
 import sys
 from ipaddress import ip_address
 
+from tornado.iostream import StreamClosedError
+from tornado.websocket import WebSocketClosedError
+
 # What may be an address, of IPv4 or IPv6.
 WORD = re.compile(r"(?<![\w.:])[0-9a-fA-F]*[.:][0-9a-fA-F.:]*[0-9a-fA-F:](?![\w])")
 
@@ -65,3 +68,9 @@ def begin(settings):
         logging.getLogger(name).setLevel("CRITICAL")  # what they say of an error, note() says
     if settings.log == "debug":
         logging.getLogger("tornado.access").setLevel(logging.INFO)
+
+
+def unheard(loop, context):
+    """What nobody waits for: that a page has closed while something was on its way to it is no error."""
+    if not isinstance(context.get("exception"), (WebSocketClosedError, StreamClosedError)):
+        loop.default_exception_handler(context)

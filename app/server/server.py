@@ -28,9 +28,7 @@ from panel.io.session import generate_session
 from panel.io.state import set_curdoc
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
-from tornado.iostream import StreamClosedError
 from tornado.netutil import bind_sockets
-from tornado.websocket import WebSocketClosedError
 
 from app import borrowed
 from app.kernels import compile_beside
@@ -68,7 +66,7 @@ def serve(settings, sockets, show, board, parent=None):
                       max_header_size=32 * 1024, idle_connection_timeout=idle, body_timeout=idle)  # fmt: skip
     arrivals = Arrivals(http, sockets, most_files())
     loop = IOLoop.current()
-    loop.asyncio_loop.set_exception_handler(unheard)
+    loop.asyncio_loop.set_exception_handler(logs.unheard)
     borrowed.in_one_thread(loop.asyncio_loop, tornado.applications["/app"])
     server = BaseServer(loop, tornado, http)
 
@@ -132,12 +130,6 @@ def prepared(settings, show):
         each(template.document.session_context)
     template.destroy()
     return tornado
-
-
-def unheard(loop, context):
-    """What nobody waits for: that a page has closed while something was on its way to it is no error."""
-    if not isinstance(context.get("exception"), (WebSocketClosedError, StreamClosedError)):
-        loop.default_exception_handler(context)
 
 
 def main(settings, show):
