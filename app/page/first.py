@@ -28,10 +28,9 @@ from app.state.keep import VERSION
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 
-APP = Path(__file__).parents[1]
 PAGE = Path(__file__).with_name("first.html")
-BORROWED = (APP / "borrowed.js").read_text(encoding="utf-8")
-FILE = APP / "data" / "arrival.gz"
+BORROWED = Path(__file__).parents[1].joinpath("borrowed.js").read_text(encoding="utf-8")
+FILE = Path(__file__).with_name("arrival.gz")
 FRAME, POSE, CURVE = 20, 10, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
 NUMBERS = {"profile": (2, 2, 2**20), "frames_ordinary": (FRAME, POSE, 2**12), "curves_ordinary": (CURVE, CURVE, 2**7)}
 """{what a LabView says in bytes: (columns, those that are needed at first, steps in one)}."""
@@ -90,7 +89,7 @@ def version():
 
 def variables():
     """What PAGE needs."""
-    address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.parent.name}/{FILE.name}"
+    address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.name}"
     return {
         "borrowed": BORROWED,
         "bundles": [address_of(kind) for kind in (Bundled, pmui.Page)],
