@@ -270,6 +270,11 @@ def check(told, motion):
 def test_an_ordinary_top_is_set_upright_and_a_slow_one_falls():
     up = story(motion_on("ordinary", CONE, 20.0, 15.0, 0.3))
     assert [event.code for event in up.events] == ["upright"] and up.stages[0].headline == "Rubbing sets it upright."
+    for tilt in (11.0, 15.0):  # it stands when it is about as upright as it comes, not at once
+        motion = motion_on("ordinary", CONE, 20.0, tilt, 0.3)
+        ((since, code, _, _),) = story(motion).events
+        assert code == "upright" and np.interp(since, motion.seconds, motion.tilt) < motion.tilt[-1] + 5 < tilt
+        assert story(motion).stages[0].why.endswith(f"At {since:.1f} s it stands.") and since > 0.1
     down = story(motion_on("ordinary", CONE, 0.5, 6.0, 0.3))
     assert down.stages[0].headline == "It leans further and further."
     assert "its rim touches" in [event.word for event in down.events]

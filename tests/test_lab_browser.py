@@ -6,6 +6,7 @@ from urllib.parse import parse_qs, urlsplit
 import numpy as np
 import pytest
 from axe_playwright_python.base import AXE_SCRIPT
+from PIL import Image
 from playwright.sync_api import expect
 from test_axe import CONTRAST, DARK, LIGHT, LOOK, violations
 from visiting import PATIENCE, Visit, is_seen
@@ -374,3 +375,20 @@ def test_on_a_phone_nothing_covers_what_the_stage_says_and_the_top_can_be_change
     page.get_by_role("radio", name="Alle drei").click()
     expect(page.locator(".dock input[type=range]").first).to_be_visible()
     phone.close()
+
+
+def test_a_photo_has_the_tops_that_are_in_sight(chromium, server, tmp_path):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    come(page, f"{server}?v=2&tab=lab&table=three")
+    page.wait_for_function(f"{TOPS}.filter((top) => top.pictures && top.count).length == 3")
+    page.get_by_role("button", name="Share", exact=True).click()
+    page.get_by_role("button", name="Figures for print").click()
+    button = page.get_by_role("button", name="PNG", exact=True).last  # of the photo
+    with page.expect_download() as download:
+        button.click()
+    picture = Image.open(download.value.path()).convert("RGB")
+    assert picture.width == pytest.approx(2400, abs=9) and picture.height < picture.width / 2
+    for third in range(3):
+        part = picture.crop((third * 800, 0, third * 800 + 800, picture.height))
+        assert len(part.resize((80, 80)).getcolors(10_000)) > 300, third  # a top
+    page.close()

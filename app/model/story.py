@@ -20,6 +20,7 @@ UPRIGHT, LEANS = 10.0, 20.0  # degrees: below the first it is upright, from the 
 NODS = 10.0  # degrees: swings by less are nodding
 WHILE, PASSING = 0.2, 0.1  # s: what lasts is longer; a stand that is left for less goes on
 HOP = 0.05  # s: a shorter flight is not seen
+AT_ONCE = 0.05  # s: what is so from so early on, it began with
 AT_REST = 1e-6  # MgR: with less energy of motion it lies
 LEAST_SPIN = 0.5  # rev/s, of what is called spinning
 TENTH = (0.05, 0.15)  # degrees
@@ -164,10 +165,11 @@ def _settles(motion: TableMotion) -> list[Mark]:
     """It comes to lean at a tilt that it keeps, or upright."""
     t, theta = motion.seconds, motion.tilt
     last = theta[-1]
-    away = np.flatnonzero(np.abs(theta - last) > NODS)
+    away = np.flatnonzero(np.abs(theta - last) > (NODS / 2 if last < UPRIGHT else NODS))
     if not len(away) or UPRIGHT < last < LEANS or last > STANDS or t[-1] - t[away[-1]] < 2 * WHILE:
         return []
-    return [Mark(float(t[away[-1] + 1]), "upright" if last < UPRIGHT else "leans")]
+    since = float(t[away[-1] + 1])
+    return [Mark(since, "upright" if last < UPRIGHT else "leans")] if since > AT_ONCE else []
 
 
 def _ended(motion: TableMotion) -> Mark | None:
@@ -208,7 +210,7 @@ class _Ordinary:
             return "rises"
         if theta[0] > ON_ITS_SIDE and codes:
             return "high"
-        if "upright" in codes:
+        if "upright" in codes or (a < 0 and theta[0] > UPRIGHT and theta[0] - theta[-1] > NODS / 2):
             return "rights"
         if "rolls" in codes:
             return "slips"

@@ -27,7 +27,7 @@ from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
-from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
+from app.widgets.cards import BUTTON, ONE_ROW, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt
 from app.widgets.pacing import Pacer
@@ -44,6 +44,12 @@ TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"
 """{tab: {level: the names that its rooms have in an address}}, in the order of the head."""
 
 
+# The top that is built, alone: what it goes with is a matter of the Lab.
+BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
+HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
+PLAIN = ".tippe :is(.verdict, .scales, .time, .shows) { display: none !important }"
+
+
 class House:
     """The Explorer that solves, the Pacer that is asked and shows its scenes, the Builder of bodies, the Lab, how the
     top is played, what is kept, and what runs beside.
@@ -52,7 +58,7 @@ class House:
     """
 
     def __init__(self, texts, sentence, look_at, level):
-        self.level = level
+        self._level, self._shows_level = level, []
         self.explorer, wrong = explorer_of(texts, self._explores())
         self.pacer = Pacer(self.explorer)
         self.builder = Builder(self.explorer.scene, self.pacer.ask)
@@ -67,6 +73,21 @@ class House:
         self.start = OneStart(self.explorer, self.lab_of)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
         pn.state.onload(self.pacer.begin)
+
+    @property
+    def level(self):
+        return self._level
+
+    @level.setter
+    def level(self, level):
+        self._level = level
+        for show in self._shows_level:
+            show(self._explores())
+
+    def _at_levels(self, show):
+        """show(whether it explores), now and at each other level."""
+        self._shows_level.append(show)
+        show(self._explores())
 
     def _explores(self):
         return self.level == LEVELS[0]
@@ -97,18 +118,20 @@ class House:
     def build(self):
         bench = Build(self.builder, self.pacer.soon)
         self.pacer.shows(bench.show, "rest")
-        rocking = card(say("main.cards.measure"), *RockingFields(self.builder).view, height="max-content")
-        top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
-        top.stylesheets = [":host { height: clamp(330px, 52vh, 640px) !important }"]
+        fields = RockingFields(self.builder)
+        self._at_levels(lambda explores: setattr(fields.formula, "visible", not explores))
+        rocking = card(say("main.cards.measure"), *fields.view, height="max-content")
+        top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"), **BARE)
+        self._at_levels(lambda explores: setattr(top, "stylesheets", [HIGH, PLAIN] if explores else [HIGH]))
         self.pacer.shows(partial(show_top, top), "rest")
         told = VerdictWords(self.runs)
         self.pacer.shows(told.show, "rest")
-        spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
+        spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0), variant="contained", color="default")
         parts = {"section": bench.section_view, "built": (top, told.view, spin), "bench": bench.bench_view}
         section, built, measures = (
             card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()
         )
-        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
+        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True, head=ONE_ROW)
 
     def _spin(self):
         self.lab_of.ask(table="ordinary")

@@ -23,6 +23,7 @@ class Photo(Bundled):
 
     caption = param.List(default=[], doc="lines of plain text")
     wide = param.Integer(default=2400, doc="of the picture, in px")
+    none = param.String(default="", doc="what is said where no top is in sight")
 
 
 class Clock(param.Parameterized):

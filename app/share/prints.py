@@ -54,6 +54,8 @@ def curves(seconds, rows, words, kind):
         figure.get_layout_engine().set(rect=(0, 0.12, 1, 0.88))
         for axes, (named, values) in zip(np.ravel(figure.subplots(len(rows), sharex=True)), rows, strict=True):
             axes.plot(seconds, values, color=INK, linewidth=0.9)
+            if np.ptp(values) < 1e-6 * np.abs(values).max():  # what is kept is no noise
+                axes.set_ylim(*sorted((0, 1.2 * values[0])))
             axes.set_ylabel(named)
         axes.set_xlabel("$t$ (s)")
         for line, text in enumerate(words):

@@ -9,7 +9,8 @@ import numpy as np
 
 from app.model.planes.picture import Setup
 from app.share import export, glb, prints
-from tippe_core import Trajectory
+from app.text import say
+from tippe_core import Contensou, Coulomb, SmoothedCoulomb, Trajectory
 
 UNITS = {
     "t": ("time", "s", "time"), "theta": ("angle of axis 3 with the vertical", "rad", None),
@@ -23,8 +24,9 @@ UNITS = {
     "energy": ("energy", "J", "energy"), "heat": ("heat since the start", "J", "energy"),
 }  # fmt: skip
 """{array of a Trajectory: (what it is, unit, the scale that makes it SI)}."""
-ROUGH, SMOOTH = "rough", "smooth"
-SLIDING = {"ordinary": "sliding", "rough": ROUGH, "ice": SMOOTH} | {name: name for name in (ROUGH, SMOOTH, "sliding")}
+ORDINARY, ROUGH, ICE = "ordinary", "rough", "ice"
+PLANES = {"sliding": ORDINARY, "smooth": ICE}
+"""What the three planes call two of the tables."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,14 +39,14 @@ class Shown:
 
     @property
     def name(self):
-        """The table's name: rough, smooth or sliding."""
-        return SLIDING[self.table]
+        """The table's name: ordinary, rough or ice."""
+        return PLANES.get(self.table, self.table)
 
     @property
     def parameters(self):
         """{name: (value, unit)} of what it is, every number to the last digit."""
         top, scales = self.setup.top, self.setup.scales
-        law = repr(self.setup.friction) if self.name == "sliding" else self.name
+        law = repr(self.setup.friction) if self.name == ORDINARY else self.name
         return {
             "table": (self.name, ""), "friction": (law, ""), "a": (top.a, "R"), "I1": (top.I1, "MR^2"),
             "I3": (top.I3, "MR^2"), "start": (repr(self.setup.state), ""), "R": (scales.R, "m"),
@@ -97,17 +99,33 @@ def run_print(shown, kind):
     moved, scales = shown.trajectory, shown.setup.scales
     rows = ((r"$\theta$ (°)", np.degrees(moved.theta)), (r"$F_z$ ($Mg$)", moved.force[:, 2]),
             (r"$E$ ($MgR$)", moved.energy))  # fmt: skip
-    return prints.curves(moved.t * scales.time, rows, _caption(shown), kind)
+    return prints.curves(moved.t * scales.time, rows, caption(shown), kind)
 
 
-def _caption(shown):
+def caption(shown):
+    """What it is, in two lines of mathtext."""
     top, state, scales = shown.setup.top, shown.setup.state, shown.setup.scales
     spin = state.omega3 * scales.angular_velocity / (2 * np.pi)
     return (
         f"$a$ = {top.a:.6g} $R$,  $I_1$ = {top.I1:.6g} $MR^2$,  $I_3$ = {top.I3:.6g} $MR^2$;  "
         f"$R$ = {1e3 * scales.R:.4g} mm,  $M$ = {1e3 * scales.M:.4g} g",
-        rf"{shown.parameters['friction'][0]};  $\theta$ = {np.degrees(state.theta):.5g}°, {spin:.6g}/s",
+        rf"{_law(shown)};  $\theta$ = {np.degrees(state.theta):.5g}°, {say('share.spin', spin=spin)}",
     )
+
+
+def _law(shown):
+    """What rubs, in words, lengths in mm and speeds in cm/s."""
+    law, scales = shown.setup.friction, shown.setup.scales
+    if shown.name != ORDINARY:
+        return say(f"share.laws.{shown.name}")
+    match law:
+        case Contensou(mu=mu, radius=radius):
+            return say("share.laws.contact", mu=mu, patch=1e3 * scales.R * radius)
+        case Coulomb(mu_k=mu_k, mu_s=mu_s):
+            return say("share.laws.coulomb", mu_k=mu_k, mu_s=mu_s)
+        case SmoothedCoulomb(mu=mu, eps=eps):
+            return say("share.laws.smoothed", mu=mu, speed=100 * scales.velocity * eps)
+    return say("share.laws.viscous", gamma=law.gamma / scales.velocity)
 
 
 def run_python(shown):
@@ -119,11 +137,11 @@ def run_python(shown):
     edge = None if setup.edge is None else tuple(float(x) for x in setup.edge)
     moves = {
         ROUGH: "roll(top, None, t, grip(top, state)[0])",
-        SMOOTH: "glide(top, state, t)",
-        "sliding": f"slide(top, state, {setup.friction!r}, t, landing={setup.landing!r}, edge={edge!r})",
+        ICE: "glide(top, state, t)",
+        ORDINARY: f"slide(top, state, {setup.friction!r}, t, landing={setup.landing!r}, edge={edge!r})",
     }[shown.name]
-    law = f"{type(setup.friction).__name__}, " * (shown.name == "sliding")
-    uses = {ROUGH: "grip, roll", SMOOTH: "glide", "sliding": "slide"}[shown.name]
+    law = f"{type(setup.friction).__name__}, " * (shown.name == ORDINARY)
+    uses = {ROUGH: "grip, roll", ICE: "glide", ORDINARY: "slide"}[shown.name]
     return f"""\
 import matplotlib.pyplot as plt
 import numpy as np

@@ -108,16 +108,16 @@ class Share:
         except segno.DataOverflowError:
             self._code.object = ""
             self._length.object = say("share.dialog.too_long", letters=len(link))
-        self._photo.caption = list(plain_caption(self._scene))
         self._show_python()
         self._show_tables()
+        self._photo.caption = self._photo_caption()
         self._dialog.open = True
 
     def _make(self):
         text = {"button": listed("share.copy"), "sizing_mode": "stretch_width", "margin": (4, 0)}
         self._link = Copy(label=say("share.dialog.link_label"), **text)
         self._code, self._length = words(""), words("", margin=(4, 0))
-        self._photo = Photo(margin=0)
+        self._photo = Photo(margin=0, none=say("share.no_top"))
         self._python = Copy(label="Python", rows=13, **text)
         self._run_python = Copy(label="Python", rows=4, **text)
         shown = listed("share.python")
@@ -182,6 +182,12 @@ class Share:
         ]  # fmt: skip
         return _row(say(f"share.tables.{name}"), *files)
 
+    def _photo_caption(self):
+        """Of what is in sight: of three tops the words that all have."""
+        shown = list(self._tables.values())
+        lines = saved_runs.caption(shown[0])[: 1 if len(shown) > 1 else 2] if shown else caption(self._scene)
+        return list(plain(lines))
+
     @property
     def _slower(self):
         return 1 / self._playing.speed
@@ -215,10 +221,10 @@ def _row(says, *buttons):
     )
 
 
-def plain_caption(scene):
-    """The caption of the figures without their mathtext."""
+def plain(lines):
+    """Lines without their mathtext."""
     marks = {"$": "", r"\mu": "μ", r"\theta": "θ", "^2": "²", "^{1/2}": "½", "{": "", "}": "", "_": ""}
-    for line in caption(scene):
+    for line in lines:
         for mark, sign in marks.items():
             line = line.replace(mark, sign)
         yield line

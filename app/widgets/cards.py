@@ -22,6 +22,7 @@ HEIGHT_OF_A_CARD = (
 TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # of two figures, one above the other
 # The stage beside what answers it. On a narrow page both give their cards to one column.
 HEAD = "calc(82px * var(--type, 1) + 12px)"  # with its second row
+ONE_ROW = "calc(48px * var(--type, 1))"
 WIDE = "@media (min-width: 1000px)"
 STAGED = """
 :host { display: flex; flex-direction: column; gap: 12px; padding: 12px; min-height: max-content }
@@ -33,9 +34,7 @@ SIDE = """
 :host { display: contents } .scroll-button { display: none !important }
 @media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 12px } }
 """
-IN_SIGHT = """
-@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }
-""".replace("HEAD", HEAD)
+IN_SIGHT = "@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }"
 # Of the card with the stage: on a narrow page in sight below the head; else as high as what is below it, which stays in
 # sight too, leaves room for.
 FIRST = """
@@ -155,12 +154,12 @@ def first(made, below=0):
     return made
 
 
-def staged(stage, others, mirrored=False):
+def staged(stage, others, mirrored=False, head=HEAD):
     """What is looked at and what answers it, lists of cards: side by side where there is room, the stage then 57 % wide
     and in sight while the others scroll; else in one column, by their `order`, the first in sight. mirrored: the stage
-    is on the right, and in one column after the others."""
+    is on the right, and in one column after the others. head: how high the head of the page is."""
     sides = [
-        pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT]),
+        pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", head)]),
         pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
     ]
     sheets = [STAGED, MIRRORED] if mirrored else [STAGED]

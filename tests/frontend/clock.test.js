@@ -5,7 +5,7 @@ import { motion, near } from "./helping.js";
 const window = (globalThis.window = new EventTarget());
 let still = false; // whether a person prefers less motion
 globalThis.matchMedia = () => ({ matches: still });
-const { photoOf, Place, timeOf } = await import("../../app/frontend/src/motion/clock.js");
+const { photosOf, Place, timeOf } = await import("../../app/frontend/src/motion/clock.js");
 
 function topOn(clock, { inView = true, wide = 1, rows = [0, 1, 2, 4], ...more } = {}) {
   const listeners = {}, model = {
@@ -65,7 +65,7 @@ test("the first in view that has a motion moves the time, at the model's speed",
     assert.deepEqual(pass(180), [true, true]); // both begin anew
     near([leader.player.t, last.player.t], [0.5, 0.5]);
     assert.equal(timeOf("a"), leader.player.t);
-    assert.equal(photoOf(7, "a"), "a 7");
+    assert.deepEqual(photosOf(6), ["a 2", "a 2", "a 2"]); // of those in sight
     assert.equal(timeOf("nobody's"), 0);
   }));
 

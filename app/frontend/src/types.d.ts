@@ -146,6 +146,7 @@ interface MeasuredFileModel extends Model {
 interface PhotoModel extends Model {
   caption: string[];
   wide: number;
+  none: string;
 }
 
 interface CopyModel extends Model {

@@ -21,6 +21,7 @@ from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, Turned
 
 KNOBS = 32  # made at a time
 SAYS = "calc(55px * var(--type, 1))"  # three lines of where a preset comes from
+NARROW = {"max-width": "max(326px, min(100%, 100vh - 300px))"}  # so that what follows from the section is in sight
 OWN = ""  # a select has no way to show that nothing is chosen
 
 
@@ -31,8 +32,8 @@ class Knob:
         self.dimension, self._pull, self._heard = dimension, pull, 0
         name, spoken = dimension.name, f"{dimension.words}, {dimension.unit}".strip(", ")
         self.view = Dial(
-            input=name, title=f'{symbol(name)}&ensp;<span class="note">{spoken}</span>', spoken=dimension.words,
-            unit=dimension.unit, step=dimension.step, start=dimension.low, end=dimension.high,
+            input=name, title=f'{symbol(name)}&ensp;<span class="note">{spoken}</span>'.removeprefix("&ensp;"),
+            spoken=dimension.words, unit=dimension.unit, step=dimension.step, start=dimension.low, end=dimension.high,
             sizing_mode="stretch_width", margin=(0, 6, 8, 6),
         )  # fmt: skip
         at_once(self.view, "asked")
@@ -81,7 +82,7 @@ class Pieces:
             words(note(say("build.pieces.says"))),
             flow(self.kind, beside("<i>r</i>", self.entries["r"]),
                  *(beside(say(f"build.pieces.{name}"), self.entries[name]) for name in ("from", "to")),
-                 beside("<i>ρ</i>", self.density),
+                 beside(say("build.pieces.names.density"), self.density),
                  self.put, self.take, self.undo),
             self.words, sizing_mode="stretch_width", margin=0)  # fmt: skip
 
@@ -183,7 +184,8 @@ class Build:
     @property
     def section_view(self):
         """The section, what follows from it, and whether the explorer's numbers are still its own."""
-        return [pn.pane.Bokeh(self.section.figure, margin=0), self.derived, self.parted]
+        figure = pn.pane.Bokeh(self.section.figure, margin=0, sizing_mode="scale_width", styles=NARROW)
+        return [figure, self.derived, self.parted]
 
     @property
     def bench_view(self):

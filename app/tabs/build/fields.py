@@ -3,12 +3,14 @@
 import panel as pn
 
 SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
-           "I3": "<i>I</i><sub>3</sub>", "density": "<i>ρ</i>", "core_density": "<i>ρ</i><sub>core</sub>"}  # fmt: skip
+           "I3": "<i>I</i><sub>3</sub>"}  # fmt: skip
+WORDS = ("density", "core_density")  # which have no letter in the paper
 
 
 def symbol(name):
-    if name.startswith("density "):
-        return SYMBOLS["density"]
+    """The letter of a dimension; "" where a word says it."""
+    if name.startswith("density ") or name in WORDS:
+        return ""
     return SYMBOLS.get(name, f"<i>{name}</i>")
 
 

@@ -22,7 +22,7 @@ class RockingFields:
         self.builder = builder
         spoken = listed("build.own.spoken")
         self.entries = {name: field(value, spoken[name]) for name, value, _ in self.FIELDS}
-        self.result = words()
+        self.formula, self.result = words(say("build.own.formula")), words()
         self.use = pmui.Button(label=say("build.own.explore"), **BUTTON | {"margin": (4, 0)})
         on_click(self.use, self._use)
         for entry in self.entries.values():
@@ -37,7 +37,7 @@ class RockingFields:
             pn.Row(words(note(says), margin=(5, 6, 0, 0)), self.entries[name], sizing_mode="stretch_width",
                    margin=(2, 0))
             for name, says in listed("build.own.fields").items()]  # fmt: skip
-        return [words(say("build.own.says")), grid(*fields), self.result, self.use]
+        return [words(say("build.own.says")), self.formula, grid(*fields), self.result, self.use]
 
     def _found(self):
         """(Rocking, Measured); raises TopError, ValueError."""

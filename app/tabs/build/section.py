@@ -15,7 +15,8 @@ from app.widgets.plots import PAPER, plain
 from tippe_core import LoadedSphere, Turned
 
 PARTS = {"body": "#d9b98c", "hollow": PAPER, "core": "#8a96a3"}  # of the section, in the order they are drawn
-FRAME = 276  # px; square, so that both axes have one scale
+FRAME = 276  # px, where the browser has not said how large it is; square, so that both axes have one scale
+BORDERS = {"left": 40, "right": 10, "above": 20, "below": 30}  # px; the same both ways, for the figure is square, too
 REACH = 16  # px from a handle that still take hold of it
 
 
@@ -26,7 +27,11 @@ class Section:
         self._pull, self._held, self._shape, self._span = pull, None, None, 0.0
         self.last_point = None  # index of the point of a Lathe that was held last
         self.figure = fig = plain(x_range=Range1d(-1, 1), y_range=Range1d(-1, 1), name="section")
-        fig.update(sizing_mode=None, width=FRAME + 50, height=FRAME + 30, frame_width=FRAME, frame_height=FRAME)
+        borders = {
+            f"min_border_{side}": px
+            for side, px in zip(("left", "right", "top", "bottom"), BORDERS.values(), strict=True)
+        }
+        fig.update(sizing_mode="scale_width", aspect_ratio=1, **borders)
         fig.xaxis.ticker.desired_num_ticks = fig.yaxis.ticker.desired_num_ticks = 5
         # A patch each: of patches Bokeh 3.10 may draw as many as there were before.
         self.parts = {part: ColumnDataSource({"x": [], "z": []}) for part in PARTS}
@@ -62,7 +67,7 @@ class Section:
         """The name of the handle that a hand at (x, y) in mm takes hold of, or None."""
         places = {name: np.hypot(1e3 * across - x, 1e3 * z - y) for name, (across, z) in handles(self._shape).items()}
         nearest = min(places, key=places.get, default=None)
-        return nearest if places and places[nearest] < REACH * self._span / FRAME else None
+        return nearest if places and places[nearest] < REACH * self._span / (self.figure.inner_width or FRAME) else None
 
     def _drag(self, event):
         if self._held:

@@ -9,7 +9,10 @@ from app.text import say
 from app.widgets.cards import words
 from app.widgets.spelling import spelled
 
-OLD = ".old { opacity: .45 } .verdict { min-height: calc(110px * var(--type, 1)) } h3 { margin: 8px 0 4px }"
+OLD = """
+.old { opacity: .45 } .verdict { min-height: calc(110px * var(--type, 1)) }
+h3 { margin: 8px 0 4px; font-size: calc(26px * var(--type, 1)); line-height: 1.2 }
+"""
 
 
 class VerdictWords:

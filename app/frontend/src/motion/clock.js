@@ -14,8 +14,11 @@ const leaderOf = (name) => on(name).find(({ inView, player }) => inView() && pla
 /** The time of a clock, 0 where nothing is on it. @param {string} clock */
 export const timeOf = (clock = "") => leaderOf(clock)?.player.t ?? 0;
 
-/** A picture of what leads a clock, so many pixels wide. @param {number} wide */
-export const photoOf = (wide, clock = "") => leaderOf(clock)?.photo(wide);
+/** Pictures of the tops that are in sight, together so many pixels wide. @param {number} wide */
+export function photosOf(wide) {
+  const seen = [...clocks.values()].flat().filter(({ isSeen }) => isSeen);
+  return seen.map(({ photo }) => photo(wide / seen.length));
+}
 
 export class Place {
   /**
@@ -29,6 +32,7 @@ export class Place {
    */
   constructor({ model, picture, changed, inView, photo, report }) {
     this.model = model;
+    this.picture = picture;
     this.inView = inView;
     this.photo = photo;
     this.report = report;
@@ -64,6 +68,10 @@ export class Place {
 
   get suffix() {
     return this.name ? `:${this.name}` : "";
+  }
+
+  get isSeen() {
+    return this.inView() && this.picture.clientWidth > 0 && this.player.frames.count > 0;
   }
 
   get others() {
