@@ -173,6 +173,10 @@ interface ConnectionModel extends Model {
   words: string;
 }
 
+interface NearModel extends Model {
+  near: boolean;
+}
+
 interface PaintedModel extends Model {
   sent: number;
   painted: number;

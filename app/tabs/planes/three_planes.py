@@ -20,6 +20,7 @@ from app.widgets.top3d import Top3D, pack_frames
 NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
 NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
 SWITCHES = ("by", "law", "landing")
+SLIDES = ("sliding", "compare")  # where there is friction to set, and it can fly
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
@@ -68,6 +69,7 @@ class ThreePlanes:
         self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
         self._verdict, self._table = words(note(say("planes.run.first")), style=TABLE), words(style=TABLE)
         self._force = words(styles={"min-height": "36px"})
+        self._lands = words(say("planes.keys.lands"), margin=(6, 14, 0, 16))
         self._build()
 
     # ---- what a person asks ----
@@ -152,7 +154,7 @@ class ThreePlanes:
             self._switches["law"].view,
             self._said["law"],
             *self._numbers.values(),
-            words(say("planes.keys.lands"), margin=(6, 14, 0, 16)),
+            self._lands,
             self._switches["landing"].view,
             self._switches["stem"].view,
             self._said["stem"],
@@ -210,8 +212,7 @@ class ThreePlanes:
         settings, messages = picture.settings, picture.messages
         with pn.io.hold():
             self._starts.visible = inputs["by"] == "spin"
-            for name, number in self._numbers.items():
-                number.visible = name in NUMBERS[inputs["law"]]
+            self._show_friction()
             if not self._work.busy:
                 for name, control in self._controls.items():
                     control.show(inputs[name], inputs[name], self._note(name, picture), messages.get(name))
@@ -220,7 +221,7 @@ class ThreePlanes:
             for name, said in self._said.items():
                 said.object = alert(messages.get(name, "")) or {
                     "stem": stem_words(settings), "by": self._start_words(picture)}.get(name, "")  # fmt: skip
-            self._switches["stem"].view.disabled = settings.shape is None or settings.shape.touch_angle is None
+            self._switches["stem"].view.visible = settings.shape is not None and settings.shape.touch_angle is not None
             self._verdict.object = verdict_words(picture)
             if self._shown is not settings:
                 self._figures.show(picture)
@@ -229,6 +230,14 @@ class ThreePlanes:
                 self._tempo(settings)
                 self._shown = settings
                 self.look(self._plane)
+
+    def _show_friction(self):
+        """What is set of the friction and of a flight, where there is any."""
+        slides = self._plane in SLIDES
+        for part in (self._switches["law"].view, self._said["law"], self._lands, self._switches["landing"].view):
+            part.visible = slides
+        for name, number in self._numbers.items():
+            number.visible = slides and name in NUMBERS[self._picture.inputs["law"]]
 
     _shown = _paced = _speed = None
 
@@ -250,6 +259,7 @@ class ThreePlanes:
         compare = plane == "compare"
         with pn.io.hold():
             self._spread(compare)
+            self._show_friction()
             for name, top in self._tops.items():
                 top.visible = plane in (name, "compare")
                 top.stylesheets = SMALL_BAR if compare else []
