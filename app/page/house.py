@@ -7,6 +7,7 @@ import panel_material_ui as pmui
 
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
+from app.model.lab.run import PATCH
 from app.model.planes.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
@@ -169,7 +170,7 @@ class House:
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):
-        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu)
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH)  # as the map has it
         if look:
             self._look_at("lab")
 

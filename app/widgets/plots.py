@@ -47,29 +47,22 @@ def plain(**options):
 
 
 class Motion:
-    """The motion on display over time, for all figures that follow it."""
+    """The tilt of the motion on display over time, for the figures that follow the clock with it."""
 
     def __init__(self):
-        names = ("t", "theta", "normal", "ratio", "K_J", "K_R", "E")
-        self.source = ColumnDataSource({name: np.zeros(2) for name in names})
+        self.source = ColumnDataSource({"t": np.zeros(2), "theta": np.zeros(2)})
         self._shown = None
 
     def show(self, scene):
-        if scene.trajectory is self._shown:
-            return
-        self._shown = scene.trajectory
-        t = scene.trajectory.t
-        every = max(1, len(t) // POINTS_A_CURVE)
-        curves = {
-            "t": t,
-            "theta": scene.trajectory.theta,
-            "normal": scene.normal,
-            "ratio": scene.ratio,
-            "K_J": scene.K_J,
-            "K_R": scene.K_R,
-            "E": scene.E,
-        }
-        self.source.data = {name: curve[::every] for name, curve in curves.items()}
+        if scene.trajectory is not self._shown:
+            self._shown = scene.trajectory
+            self.source.data = thinned(t=scene.trajectory.t, theta=scene.trajectory.theta)
+
+
+def thinned(**curves):
+    """Some of the rows of curves, enough to draw."""
+    every = max(1, len(curves["t"]) // POINTS_A_CURVE)
+    return {name: curve[::every] for name, curve in curves.items()}
 
 
 class TimeFigures:
@@ -77,8 +70,10 @@ class TimeFigures:
 
     NAMES = ("theta", "normal", "ratio", "constants")
 
-    def __init__(self, motion):
+    def __init__(self):
         x_range = Range1d(0, 1)
+        names = ("t", "theta", "normal", "ratio", "K_J", "K_R", "E")
+        self.source = ColumnDataSource({name: np.zeros(2) for name in names})
         self.figures = {name: plain(x_range=x_range, y_range=Range1d(0, 1), name=name) for name in self.NAMES}
         curves = {
             "theta": {"theta": COLOURS["theta"]},
@@ -89,7 +84,7 @@ class TimeFigures:
         self.spans = []
         for name, fig in self.figures.items():
             for column, colour in curves[name].items():
-                fig.line("t", column, source=motion.source, line_color=colour, line_width=2)
+                fig.line("t", column, source=self.source, line_color=colour, line_width=2)
             self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
             fig.add_layout(self.spans[-1])
             for event in ("tap", "panstart", "pan", "panend"):
@@ -114,6 +109,8 @@ class TimeFigures:
             return
         self._shown = (scene.trajectory, scene.mu_s)
         t = scene.trajectory.t
+        self.source.data = thinned(t=t, theta=scene.trajectory.theta, normal=scene.normal, ratio=scene.ratio,
+                                   K_J=scene.K_J, K_R=scene.K_R, E=scene.E)  # fmt: skip
         self.figures["theta"].x_range.update(start=t[0], end=t[-1])
         self.slips.location = self.beyond.bottom = scene.mu_s
         bounds = {

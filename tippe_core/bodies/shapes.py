@@ -66,13 +66,12 @@ class TruncatedSphere(OneMaterial):
     @cached_property
     def _touch(self) -> tuple[float | None, Rim | None]:
         angle, edge = super()._touch
-        if not self.rounding:
-            return angle, edge
-        q, h, b = ((self.r - self.rounding) / self.R, (self.c + self.l - self.rounding) / self.R, self.rounding / self.R)
+        b = self.rounding / self.R
+        q, h = self.r / self.R - b, (self.c + self.l) / self.R - b
         D = hypot(q, h)
-        if D <= 1 - b:
+        if not b or D <= 1 - b:
             return angle, edge
-        rounded = atan2(q, -h) - acos(max(-1.0, min(1.0, (1 - b) / D)))
+        rounded = atan2(q, -h) - acos((1 - b) / D)
         return (rounded, (q, h, b)) if angle is None or rounded <= angle else (angle, edge)
 
 

@@ -10,6 +10,7 @@ export const style = `
 .picture canvas:active { cursor: grabbing; }
 .picture canvas:focus-visible { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: -2px; }
 .labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: var(--scene-ink, #1d2733); }
+.picture:not(.drawn) .labels { visibility: hidden }
 .labels span { position: absolute; left: 0; top: 0; white-space: nowrap; will-change: transform; }
 .labels .vector { font: italic 600 calc(17px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif;
   text-shadow: 0 0 3px var(--halo, #fff), 0 0 3px var(--halo, #fff), 0 0 5px var(--halo, #fff); }

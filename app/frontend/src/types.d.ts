@@ -173,6 +173,11 @@ interface ConnectionModel extends Model {
   words: string;
 }
 
+interface MomentsModel extends Model {
+  clock: string;
+  rows: [t: number, when: string, word: string, more: string][];
+}
+
 interface NearModel extends Model {
   near: boolean;
 }

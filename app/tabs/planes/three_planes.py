@@ -6,20 +6,41 @@ import panel_material_ui as pmui
 
 from app.bundle import pack
 from app.model.colours import COLOURS
+from app.model.planes.moments import moments
 from app.model.planes.picture import PLANES
 from app.model.planes.planes import PATIENCE, PRESETS, preset
 from app.model.playing import Playing, together
 from app.model.regimes import COLOUR, NAMES
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
 from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
-from app.text import listed, say
-from app.widgets.cards import BUTTON, PLAIN, alert, card, first, flow, note, on_click, progress, staged, swatch, words
+from app.text import listed, say, written
+from app.widgets.cards import (
+    BUTTON,
+    PLAIN,
+    alert,
+    card,
+    first,
+    flow,
+    later,
+    note,
+    on_click,
+    progress,
+    staged,
+    swatch,
+    words,
+)
 from app.widgets.controls import Control, Wish
+from app.widgets.moments import Moments
 from app.widgets.top3d import Top3D, pack_frames
 
 NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
 NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
 SWITCHES = ("by", "law", "landing")
+BELOW = 270  # px: what stands under the stage
+BESIDE = """
+:host { display: grid; gap: 12px } .scroll-button { display: none !important }
+@media (min-width: 700px) { :host { grid-template-columns: minmax(0, 5fr) minmax(0, 3fr) } }
+"""
 SLIDES = ("sliding", "compare")  # where there is friction to set, and it can fly
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
@@ -104,6 +125,9 @@ class ThreePlanes:
         return Wish(buttons, name, self._ask)
 
     def _build(self):
+        self._happened = Moments(clock=CLOCK, sizing_mode="stretch_width", margin=(4, 0, 0, 0))
+        happened = card(say("planes.moments.title"), self._happened, height=f"{BELOW}px")
+        happened.styles = happened.styles | {"overflow": "auto"}
         well, tops = (
             card(
                 say(f"planes.cards.{name}"),
@@ -111,10 +135,12 @@ class ThreePlanes:
                 pn.pane.Bokeh(shown.figure, sizing_mode="stretch_both", margin=0),
                 height=height,
             )
-            for name, shown, height in (("well", self._well, "370px"), ("map", self._map, "440px"))
+            for name, shown, height in (("well", self._well, f"{BELOW}px"), ("map", self._map, "440px"))
         )
+        below = pn.Column(happened, well, sizing_mode="stretch_width", margin=0, stylesheets=[BESIDE])
         became = card(say("planes.cards.became"), self._verdict, self._table, height="max-content")
-        self.main = staged([self._stage_card()], [became, self._start_card(), self._times_card(), well, tops])
+        self.main = staged([self._stage_card(), later(below, 1)], [became, self._start_card(), later(
+            self._times_card(), 1), later(tops, 1)])  # fmt: skip
 
     def _presets(self):
         buttons = []
@@ -129,7 +155,7 @@ class ThreePlanes:
             styles={"display": "grid", "gap": "10px"},
             stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
         )  # fmt: skip
-        return first(card(say("planes.cards.stage"), self._force, self._row))
+        return first(card(say("planes.cards.stage"), self._force, self._row), below=BELOW + 12)
 
     def _start_card(self):
         views = {name: control.view for name, control in self._controls.items()}
@@ -273,6 +299,11 @@ class ThreePlanes:
             self._table.visible = compare
             self._figures.look(picture, plane)
             self._well.show(picture, plane)
+            which = "sliding" if compare else plane
+            self._happened.rows = [
+                [t, f"{written(seconds, '.2f')} s", word, more]
+                for t, seconds, word, more in moments(picture.motions[which], picture.settings, which)
+            ]
 
     def _spread(self, compare):
         """Three tops need the width of the page: what answers them then stands below, side by side."""
