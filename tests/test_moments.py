@@ -63,13 +63,14 @@ def test_a_stem_that_chatters_is_told_in_few_lines():
 
 def test_friction_and_flight_are_set_only_where_there_are_any(toy):
     view = ThreePlanes(dict(toy.inputs) | {"plane": "sliding"}, *(lambda *args, **inputs: None,) * 3,
-                       SimpleNamespace(busy=False))  # fmt: skip
+                       SimpleNamespace(busy=False, stop=None))  # fmt: skip
     view.show(toy)
-    idle = [view._switches["law"].view, view._switches["landing"].view, view._numbers["mu"], view._numbers["patch"]]
+    start = view._start
+    idle = [start.switches["law"].view, start.switches["landing"].view, start.numbers["mu"], start.numbers["patch"]]
     for plane, there in (("sliding", True), ("smooth", False), ("rough", False), ("compare", True)):
         view.look(plane)
         assert {part.visible for part in idle} == {there}
-        assert view._controls["spin"].view.visible and view._controls["seconds"].view.visible
+        assert start.controls["spin"].view.visible and start.controls["seconds"].view.visible
 
 
 def test_what_nobody_sees_is_drawn_when_somebody_does():
