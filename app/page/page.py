@@ -87,9 +87,7 @@ def chosen(rooms, house, tongue, share):
         house.explorer.settle()
         share.open()
 
-    return choices.choices(
-        toy=lambda name: house.take(name, rooms.room), table=table, language=language, share=take_home
-    )
+    return choices.asks(toy=lambda name: house.take(name, rooms.room), table=table, language=language, share=take_home)
 
 
 def tells(head, rooms, house):
