@@ -17,8 +17,8 @@ def run():
     except ValueError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
-    from app.model.desk import DESK
-    from app.page import show
+    from app.model.votes.desk import DESK
+    from app.page.page import show
     from app.server.server import main
 
     DESK.keep(settings.votes, settings.votes_per_address)

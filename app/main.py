@@ -3,6 +3,6 @@
 This is run for each session, and emptied when the session ends; so nothing that others use may be made here.
 """
 
-from app.page import show
+from app.page.page import show
 
 show()

@@ -22,7 +22,7 @@ import time
 
 import numpy as np
 
-from app.model.family import ordinary
+from app.model.families.family import ordinary
 from tippe_core import Constants, Top, allowed_shares, f, figures, pole_constants
 from tippe_core.paper.share import PART, ROWS
 

@@ -1,8 +1,8 @@
 """View-models and views put together as the page does it, but without a page: what is asked is done at once."""
 
-from app.model.builder import Builder
+from app.model.build.builder import Builder
 from app.model.explorer import Explorer
-from app.model.planes import Planes, preset
+from app.model.planes.planes import Planes, preset
 
 
 def builder_of(explorer):

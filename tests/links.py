@@ -17,10 +17,11 @@ import panel as pn
 from bokeh.document import Document
 from panel.io.state import set_curdoc
 
-from app import page, text
-from app.model import lesson
+from app import text
 from app.model.explorer import Explorer
+from app.model.lesson import lesson
 from app.model.start import PLANE
+from app.page import page
 from app.state.codecs import Body
 from app.state.keep import Keep
 from app.state.names import NAMES, of

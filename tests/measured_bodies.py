@@ -7,9 +7,9 @@ import rigid_body as rb
 import sliding_body as sb
 from scipy.optimize import least_squares
 
-from app.model.measured_data import Data, Series
-from app.model.measured_fit import fit
-from app.model.measured_motion import BOUNDS, left_over, model_of
+from app.model.measured.data import Data, Series
+from app.model.measured.fit import fit
+from app.model.measured.motion import BOUNDS, left_over, model_of
 from tippe_core import Scales, Top, TopError
 
 FRAMES, RATE = 72, 60

@@ -11,19 +11,19 @@ from pathlib import Path
 import numpy as np
 from measured_bodies import film, other_value, recovered
 
-import app.model as model
-from app.model.measured_fit import Problem
-from app.model.measured_motion import model_of
+from app.model import measured
+from app.model.measured.fit import Problem
+from app.model.measured.motion import model_of
 
 ALL = range(1000, 1200)
 """The seeds, fixed before any was looked at."""
 FILE = Path(__file__).parent / "data" / "measured.jsonl"
-FIT = ("measured_data", "measured_fit", "measured_known", "measured_motion", "measured_starts")
+FIT = ("data", "fit", "known", "motion", "starts")
 
 
 def stamp():
     """Of the fit as it is."""
-    texts = (Path(model.__path__[0]) / f"{name}.py" for name in FIT)
+    texts = (Path(measured.__path__[0]) / f"{name}.py" for name in FIT)
     return hashlib.sha256(b"".join(path.read_bytes() for path in texts)).hexdigest()[:12]
 
 

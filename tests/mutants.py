@@ -38,8 +38,8 @@ APP = [
     "frames",
     "bodies",
     "planes",
-    "planes_picture",
-    "planes_run",
+    "planes/picture",
+    "planes/run",
     "family",
 ]
 FILES = [*CORE, *APP]
@@ -68,7 +68,7 @@ OF_APP = {
         for name in ("explorer", "scene", "marks", "region", "frames", "bodies")
     },
     "hands": ["test_hands.py"],
-    **{name: ["test_planes.py", "test_ending.py"] for name in ("planes", "planes_picture", "planes_run")},
+    **{name: ["test_planes.py", "test_ending.py"] for name in ("planes", "planes/picture", "planes/run")},
     "family": ["test_builder.py", "test_explorer.py"],
 }
 REST_OF_APP = ["test_explorer.py", "test_planes.py", "test_lesson.py", "test_export.py", "test_builder.py"]
@@ -108,7 +108,7 @@ EXPLAINED = {
         "scene",
         "return self.rolling(np.linspace(0, self.rolling.period, SAMPLES_A_NUTATION - 1))",
     ): "two points less of a curve",
-    ("planes_run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
+    ("planes/run", "starts = np.flatnonzero(np.diff(code, prepend=+1))"): "no regime has the number 1, either",
     (
         "family",
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",

@@ -9,13 +9,13 @@ import pytest
 from house import builder_of
 from limits import limit
 
-from app.model.builder import Rocking
-from app.model.dimensions import FAMILIES, changed, handles, pulled, sentence, value_of
+from app.model.build.builder import Rocking
+from app.model.build.dimensions import FAMILIES, changed, handles, pulled, sentence, value_of
+from app.model.build.verdict import verdict
 from app.model.explorer import Explorer
-from app.model.family import region, share_map
-from app.model.lab_run import TooLong
+from app.model.families.family import region, share_map
+from app.model.lab.run import TooLong
 from app.model.runs import Runs
-from app.model.verdict import verdict
 from app.tabs.build.build import KNOBS, Build
 from app.tabs.build.verdict import VerdictWords
 from app.tabs.families.compare import Compare
@@ -561,7 +561,7 @@ def test_a_body_that_cannot_be_let_go_so_has_a_verdict_that_says_so(monkeypatch)
     def never(*start):
         raise TooLong
 
-    monkeypatch.setattr("app.model.verdict.whole_on", never)
+    monkeypatch.setattr("app.model.build.verdict.whole_on", never)
     found = verdict(PRESETS[0].shape)
     assert found.code == "refused" and "could not be computed" in found.headline and "chatters" in found.why
 

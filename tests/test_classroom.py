@@ -12,10 +12,10 @@ import pytest
 from visiting import free_port
 from wire import redis_serving, until
 
-from app.model import ballots, classroom
-from app.model import desk as desks
-from app.model.ballots import Away, Sqlite, store, usual
-from app.model.classroom import BETWEEN, LASTS, MOST_VOTES, ROOMS_OF_ADDRESS, USED, Refused, Room, Rooms
+from app.model.votes import ballots, classroom
+from app.model.votes import desk as desks
+from app.model.votes.ballots import Away, Sqlite, store, usual
+from app.model.votes.classroom import BETWEEN, LASTS, MOST_VOTES, ROOMS_OF_ADDRESS, USED, Refused, Room, Rooms
 
 CHOICE = {"step": "flips", "asks": {"options": ["over", "between"]}, "top": {"a": ".07"}}
 GUESS = CHOICE | {"asks": {"low": 0.0, "high": 10.0, "step": 0.1, "unit": "%"}}

@@ -261,11 +261,12 @@ from tippe_core.ahead import compile_all
 assert compile_all() == ""
 compiled.made.clear()
 
-from app.model import family, lesson
+from app.model.families import family
+from app.model.lesson import lesson
 from app.model.explorer import Explorer
-from app.model.known_tops import known_tops
-from app.model.planes import Planes
-from app.model.planes_picture import LAWS
+from app.model.families.known_tops import known_tops
+from app.model.planes.planes import Planes
+from app.model.planes.picture import LAWS
 explorer = Explorer()
 for step in lesson.STEPS:
     step.answer(lesson.planned(step, explorer.scene))

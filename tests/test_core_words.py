@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from house import builder_of
 
-from app.model.dimensions import FAMILIES, sentence
+from app.model.build.dimensions import FAMILIES, sentence
 from app.model.explorer import Explorer
-from app.model.planes import PRESETS as STARTS
-from app.model.planes_run import ANOTHER, THROWN
+from app.model.planes.planes import PRESETS as STARTS
+from app.model.planes.run import ANOTHER, THROWN
 from app.tabs.planes.words import outcome_words
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, Scales, State, Top, TopError, load_top, outcome, slide

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.model import derivation, stretches
+from app.model import stretches
 from app.model.explorer import Explorer
+from app.model.roll import derivation
 from app.text import listed
 from tippe_core import Gliding, State, Top
 

@@ -8,7 +8,7 @@ from string import Formatter
 import numpy as np
 import pytest
 
-from app.model.dimensions import sentence
+from app.model.build.dimensions import sentence
 from app.text import CODES as OF_THE_PAGE
 from app.text import DEFAULT, LANGUAGES, listed, speaking, told
 from tippe_core import (

@@ -9,7 +9,7 @@ import pytest
 import app.model.bodies
 import app.model.explorer
 import app.model.frames
-import app.model.region
+import app.model.roll.region
 import app.model.scene
 from app.model.explorer import Explorer
 from app.model.regimes import ROLLS, WOULD_LIFT, WOULD_SLIP
@@ -228,7 +228,7 @@ def test_hover_knows_the_whole_plane(explorer):
 
 
 def test_a_plane_that_ends_at_a_whole_step_has_a_tieline_there():
-    plane = app.model.region.plane(Top.paper(), 10.0, 0.5, True, "slip", 0.0, 12.0)
+    plane = app.model.roll.region.plane(Top.paper(), 10.0, 0.5, True, "slip", 0.0, 12.0)
     assert plane.K_J[0] == 0 and plane.K_J[-1] == plane.hover_K_J[-1] == 12.0
 
 
@@ -473,7 +473,7 @@ def test_what_cannot_be_is_said_at_the_control_that_was_used(explorer, pacer):
 def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
     """From 0 to P = 8.36508, where the paper draws it, and with half a unit of room beside a K_J outside."""
     for K_J in (-12.3, -3.4, 0.0, 4.0, 8.3, 9.4, 9.6, 30.2):
-        low, high = app.model.region.K_J_range(Top.paper(), K_J, 10.0, upper)
+        low, high = app.model.roll.region.K_J_range(Top.paper(), K_J, 10.0, upper)
         assert low <= 0 and high >= 8.36508 and low <= K_J <= high
         assert upper or low < -8.708  # the inverted pole's
         if K_J < (0 if upper else -10.9):
@@ -483,8 +483,8 @@ def test_the_plane_reaches_to_the_poles_and_to_the_motion(upper):
 
 
 def test_a_top_without_spin_has_a_plane_all_the_same():
-    assert app.model.region.K_J_range(Top.paper(), 0.0, 0.0, True) == (-1.0, 1.0)
-    assert app.model.region.K_J_range(Top.paper(), 5.0, 0.0, True) == (-1.0, 6.0)
+    assert app.model.roll.region.K_J_range(Top.paper(), 0.0, 0.0, True) == (-1.0, 1.0)
+    assert app.model.roll.region.K_J_range(Top.paper(), 5.0, 0.0, True) == (-1.0, 6.0)
 
 
 def test_the_curve_of_the_energy_goes_past_both_turning_points(explorer):

@@ -138,7 +138,7 @@ def test_the_page_needs_no_place_to_write():
     """matplotlib does, for its list of fonts: it waits until a figure is printed."""
     code = """
 import sys
-import app.page
+import app.page.page
 print("matplotlib" in sys.modules, "app.share.prints" in sys.modules)"""
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=120)
     assert done.stdout.split()[-2:] == ["False", "True"], done.stderr[-2000:]

@@ -11,7 +11,7 @@ import pytest
 from test_lab_browser import DRAWN, TIME, TOPS, come
 from visiting import PATIENCE
 
-from app import first
+from app.page import first
 
 MOST = 350_000  # bytes, compressed
 

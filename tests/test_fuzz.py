@@ -19,7 +19,7 @@ from tornado.websocket import WebSocketClosedError
 from visiting import of_roll
 from wire import Closed, Visitor, megabytes, run, served
 
-import app.page  # noqa: F401  (all components)
+import app.page.page  # noqa: F401  (all components)
 from app.server.messages import CHANGES
 
 pytestmark = pytest.mark.served

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.path import Path
 
-from app.model.groups import areas
+from app.model.families.groups import areas
 from tippe_core import Top, thresholds
 
 PLACE = {"left": -0.6, "right": 0.8, "low": 0.45, "high": 1.75}

@@ -10,9 +10,9 @@ from scipy.spatial.transform import Rotation
 from app.model.explorer import Explorer
 from app.model.frames import in_space
 from app.model.hands import held, pulled
-from app.model.levers import levers
-from app.model.planes_run import solve as run
+from app.model.planes.run import solve as run
 from app.model.playing import Playing, together
+from app.model.roll.levers import levers
 from app.tabs.planes.three_planes import ThreePlanes
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D

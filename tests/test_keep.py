@@ -11,7 +11,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from app.model.explorer import Explorer
-from app.model.maps_choice import MapChoice
+from app.model.maps.choice import MapChoice
 from app.model.playing import Playing
 from app.share.parts import Clock
 from app.state.codecs import Body, Number

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from app.model.explorer import Explorer
-from app.model.known_tops import PRESET_OF, known_of, known_tops
+from app.model.families.known_tops import PRESET_OF, known_of, known_tops
 from app.tabs.families.tops import Tops, sentence
 from tippe_core import PRESETS, figures
 

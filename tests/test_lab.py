@@ -8,12 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.model import arrival, lab_ends, lab_run
+from app.model import arrival
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
-from app.model.lab import LIMITS, Lab, scene_of
-from app.model.lab_ends import SPINS, Ends, ends_of, mixed
-from app.model.lab_life import FAR, LIFE, SECONDS, lived
-from app.model.lab_run import TABLES, TOYS, motion_on, start_of, whole_on
+from app.model.lab import ends, run
+from app.model.lab.ends import SPINS, Ends, ends_of, mixed
+from app.model.lab.lab import LIMITS, Lab, scene_of
+from app.model.lab.life import FAR, LIFE, SECONDS, lived
+from app.model.lab.run import TABLES, TOYS, motion_on, start_of, whole_on
 from app.model.regimes import ENDS
 from app.model.runs import Runs
 from app.model.story import marks, story
@@ -64,16 +65,16 @@ def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
         assert [each[1] for each in ours] == [each[1] for each in theirs]
         assert [each[0] for each in ours] == pytest.approx([each[0] for each in theirs], abs=1e-3)
     motion_on.cache_clear()
-    monkeypatch.setattr(lab_run, "slid", None)  # nothing is computed for it
+    monkeypatch.setattr(run, "slid", None)  # nothing is computed for it
     assert motion_on(*ARRIVAL).trajectory.theta.tolist() == kept.theta.tolist()
     motion_on.cache_clear()
 
 
 def test_where_the_runs_of_its_other_spins_end_ships_too(monkeypatch):
-    monkeypatch.setattr(lab_ends, "_kept", lab_ends.OrderedDict())
-    kept = lab_ends.known_ends(TOY, TILT, MU)
-    assert kept.codes == lab_ends.ends_of(TOY, TILT, MU).codes
-    assert lab_ends.known_ends(TOY, TILT, 2 * MU) is None
+    monkeypatch.setattr(ends, "_kept", ends.OrderedDict())
+    kept = ends.known_ends(TOY, TILT, MU)
+    assert kept.codes == ends.ends_of(TOY, TILT, MU).codes
+    assert ends.known_ends(TOY, TILT, 2 * MU) is None
 
 
 @pytest.mark.slow
@@ -218,7 +219,7 @@ def test_what_each_keeps_is_what_its_trajectory_does():
 def test_what_is_marked_is_where_the_tilt_says(toy, spin, tilt, mu):
     try:
         motion = motion_on("ordinary", toy, spin, tilt, mu)
-    except (TopError, lab_run.TooLong):  # of the second the page says that nobody waits for it
+    except (TopError, run.TooLong):  # of the second the page says that nobody waits for it
         return
     t, theta, found = motion.seconds, motion.tilt, codes(motion)
     step = np.abs(np.diff(theta)).max(initial=0.0) + 1e-6
@@ -276,7 +277,7 @@ def test_an_ordinary_top_is_set_upright_and_a_slow_one_falls():
 
 def test_a_run_that_nobody_waits_for_says_so(monkeypatch):
     """A cone whose rim chatters: ten thousand events in half a second of its motion."""
-    monkeypatch.setattr(lab_run, "MOST_LOOKS", 500)
+    monkeypatch.setattr(run, "MOST_LOOKS", 500)
     scene = scene_of("ordinary", CONE, 8.0, 6.0, 0.3)
     assert scene.motions["ordinary"] is None and scene.stages[0].why.startswith("Its rim chatters on the table")
 
@@ -306,7 +307,7 @@ def test_the_strip_of_the_toy_leans_and_then_stands():
     assert 22.3 < found.segments[-1].least < 27.06
     assert found.segments[0].least == 0 and found.segments[-1].most == 50
     assert all(a.most == b.least for a, b in zip(found.segments, found.segments[1:], strict=False))
-    assert lab_ends.known_ends(TOY, TILT, 0.3) is found and lab_ends.known_ends(TOY, TILT, 0.31) is None
+    assert ends.known_ends(TOY, TILT, 0.3) is found and ends.known_ends(TOY, TILT, 0.31) is None
 
 
 @pytest.mark.slow
@@ -338,7 +339,7 @@ def test_nothing_is_smoothed(letters):
 
 
 def test_before_somebody_looks_nothing_is_computed(monkeypatch):
-    monkeypatch.setattr("app.model.lab.scene_of", None)
+    monkeypatch.setattr("app.model.lab.lab.scene_of", None)
     lab = Lab()
     lab.ask(spin=20.0)
     assert lab.scene is None and lab.start.spin == 20.0
@@ -409,8 +410,8 @@ def test_beside_the_server_the_newest_is_computed_and_one_event_tells_it():
 def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):
     asked = []
     found = Ends(SPINS, ("leans",) * len(SPINS), "stem")
-    monkeypatch.setattr("app.model.lab.ends_of", lambda *key, look: asked.append(key) or found)
-    monkeypatch.setattr("app.model.lab.known_ends", lambda *key: found if key in asked else None)
+    monkeypatch.setattr("app.model.lab.lab.ends_of", lambda *key, look: asked.append(key) or found)
+    monkeypatch.setattr("app.model.lab.lab.known_ends", lambda *key: found if key in asked else None)
     for _ in range(2):
         lab = Lab()
         lab.show()

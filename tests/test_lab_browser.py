@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 from test_axe import CONTRAST, DARK, LIGHT, LOOK, violations
 from visiting import PATIENCE, Visit, is_seen
 
-from app.model.lab_run import TOYS, start_of
+from app.model.lab.run import TOYS, start_of
 from tippe_core import Constants, grip
 
 pytestmark = pytest.mark.served

@@ -3,7 +3,7 @@
 import pytest
 
 from app.model.arrival import TILT
-from app.model.lab import Lab
+from app.model.lab.lab import Lab
 from app.model.start import arrives
 from app.tabs.lab.lab import SLIDERS, LabTab, begin, spelled
 from app.text import speaking

@@ -8,8 +8,9 @@ import pytest
 from visiting import Visit
 from wire import served
 
-from app.model import derivation, lesson, lesson_parts
 from app.model.explorer import Explorer
+from app.model.lesson import lesson, parts
+from app.model.roll import derivation
 from app.state.keep import read
 from app.tabs.learn.teach import link
 from app.tabs.learn.worksheet import worksheet
@@ -128,7 +129,7 @@ def test_what_is_for_theorists(browser, server, name):
     visit, step = opened(browser, f"{server}?tab=learn&step={name}"), lesson.OF_NAME[name]
     page = visit.page
     page.get_by_role("button", name=say(f"learn.{name}.title")).wait_for()
-    if isinstance(step.asks, lesson_parts.Choice):
+    if isinstance(step.asks, parts.Choice):
         page.get_by_role("radio").first.check(force=True)
     else:  # a slider counts once a hand has moved it
         slider = page.get_by_role("slider", name=say("learn.view.number_none"))

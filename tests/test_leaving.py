@@ -36,7 +36,7 @@ def here():
 @pytest.fixture
 def idle(monkeypatch):
     """Pages compute nothing that takes long."""
-    monkeypatch.setattr("app.model.planes.solve", lambda settings, look=None: None)
+    monkeypatch.setattr("app.model.planes.planes.solve", lambda settings, look=None: None)
     monkeypatch.setattr("app.tabs.families.compare.share_map", lambda *asked: iter(()))
 
 

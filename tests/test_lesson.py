@@ -9,10 +9,10 @@ from cases import BALL, LOADED, ORDINARY, PAPER, TOPS
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from app.model import lesson, lesson_runs
 from app.model.explorer import Explorer
-from app.model.lab_run import start_of
-from app.model.lesson_parts import Choice
+from app.model.lab.run import start_of
+from app.model.lesson import lesson, runs
+from app.model.lesson.parts import Choice
 from app.text import LANGUAGES, listed, say
 from tippe_core import PRESETS, SmoothedCoulomb, Top, pole_constants, slide
 
@@ -86,7 +86,7 @@ def turns(poses, t):
 
 def test_the_spin_that_is_told_is_that_of_the_poses_which_are_seen():
     """A painted dot, by two pictures: it has no part in how the lesson finds its numbers."""
-    motion, numbers, step = lesson_runs.on_table("ordinary"), numbers_of("way"), lesson.OF_NAME["way"]
+    motion, numbers, step = runs.on_table("ordinary"), numbers_of("way"), lesson.OF_NAME["way"]
     t, poses = motion.frames[0] * motion.start.scales.time, motion.frames[1]
     for when, names in ((0.0, ("own", "above")), (step.end, ("own_end", "above_end"))):
         i = min(np.searchsorted(t, when), len(t) - 2)
@@ -121,10 +121,10 @@ def smooth_turning(top, theta, spin):
 
 def test_neither_rolling_nor_gliding_turns_it_over():
     """Ice by appendix B; the rough table by a body that knows no constant, from where its impulse leaves it."""
-    numbers, start = numbers_of("tables"), lesson_runs.on_table("ordinary").start
+    numbers, start = numbers_of("tables"), runs.on_table("ordinary").start
     inner = smooth_turning(start.top, start.state.theta, start.state.omega3)
     assert (numbers["ice_min"], numbers["ice_max"]) == pytest.approx((np.degrees(inner), 5.73), abs=2e-3)
-    rough = lesson_runs.on_table("rough").trajectory
+    rough = runs.on_table("rough").trajectory
     w1, w2, w3 = rough.omega[0]
     times = np.linspace(0, rough.t[np.argmax(rough.t > 8.0)], 1201)
     moved = rb.integrate(rb.Body.of(start.top), rb.euler_quaternion(0.0, rough.theta[0], 0.0),
@@ -137,9 +137,9 @@ def test_neither_rolling_nor_gliding_turns_it_over():
 
 def test_one_torque_has_two_arms():
     """a/R is 3 mm of 15 mm; L by the inertia of the toy and the turning of its poses."""
-    numbers, motion = numbers_of("arms"), lesson_runs.on_table("ordinary")
+    numbers, motion = numbers_of("arms"), runs.on_table("ordinary")
     assert numbers["a"] == pytest.approx(3 / 15) and numbers["one_to"] == pytest.approx(5)
-    n, top, poses = lesson_runs.on_ball(motion), motion.start.top, motion.frames[1]
+    n, top, poses = runs.on_ball(motion), motion.start.top, motion.frames[1]
     t, taken = motion.frames[0], []
     for i in (0, n - 2):
         rate = (Rotation.from_quat(poses[i + 1]) * Rotation.from_quat(poses[i]).inv()).as_rotvec() / (t[i + 1] - t[i])
@@ -166,7 +166,7 @@ def test_the_contradiction():
 
 @pytest.mark.slow
 def test_a_run_that_slips_comes_onto_its_head():
-    found = lesson_runs.slipped()
+    found = runs.slipped()
     assert np.interp(300.0, found.t, np.cos(found.theta)) == pytest.approx(-0.99947, abs=5e-4)
 
 

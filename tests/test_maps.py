@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.model import maps_kept
-from app.model.maps import ENDINGS, OWN, UNITS, Map
-from app.model.maps_lines import disagreements, lines
-from app.model.maps_solving import Level, run, solve
+from app.model.maps import kept
+from app.model.maps.lines import disagreements, lines
+from app.model.maps.maps import ENDINGS, OWN, UNITS, Map
+from app.model.maps.solving import Level, run, solve
 from app.model.runs import Runs
 from app.model.scene import solve as solve_scene
 from app.server.messages import CHANGES
@@ -40,8 +40,8 @@ def level():
 
 @pytest.fixture(autouse=True)
 def nothing_kept(monkeypatch):
-    monkeypatch.setattr(maps_kept, "_path", lambda asked: None)
-    maps_kept._memory.clear()
+    monkeypatch.setattr(kept, "_path", lambda asked: None)
+    kept._memory.clear()
 
 
 def slide_many_of(asked, places):
@@ -191,21 +191,21 @@ def test_an_impossible_cell_is_refused_and_the_others_are_run():
 
 
 def test_maps_are_kept_and_bounded(level, monkeypatch, tmp_path):
-    monkeypatch.setattr(maps_kept, "_path", lambda asked: tmp_path / "maps" / f"{asked.seconds:g}.npz")
-    monkeypatch.setattr(maps_kept, "AS_FILES", 2)
-    monkeypatch.setattr(maps_kept, "IN_MEMORY", 1)
+    monkeypatch.setattr(kept, "_path", lambda asked: tmp_path / "maps" / f"{asked.seconds:g}.npz")
+    monkeypatch.setattr(kept, "AS_FILES", 2)
+    monkeypatch.setattr(kept, "IN_MEMORY", 1)
     maps = [last(Map(cells=3, seconds=seconds)) for seconds in (0.1, 0.2, 0.3)]
     for each in maps:
-        assert maps_kept.recall(each.asked) is None
-        maps_kept.keep(each)
-    assert len(maps_kept._memory) == 1 and len(list((tmp_path / "maps").iterdir())) == 2
-    again = maps_kept.recall(maps[1].asked)
+        assert kept.recall(each.asked) is None
+        kept.keep(each)
+    assert len(kept._memory) == 1 and len(list((tmp_path / "maps").iterdir())) == 2
+    again = kept.recall(maps[1].asked)
     np.testing.assert_array_equal(again.end, maps[1].end)
     for name in UNITS:
         np.testing.assert_array_equal(again.columns[name], maps[1].columns[name])
     (tmp_path / "maps" / "0.3.npz").write_bytes(b"broken")
-    maps_kept._memory.clear()
-    assert maps_kept.recall(maps[2].asked) is None
+    kept._memory.clear()
+    assert kept.recall(maps[2].asked) is None
 
 
 @pytest.mark.parametrize("up", ["tilt", "mu", "second", "slip", "a", "ratio", "R", "stem", "rounding"])
@@ -349,7 +349,7 @@ def test_the_run_of_the_bead_goes_to_the_lab():
 
 
 def test_the_map_that_ships_is_what_is_computed():
-    shipped = maps_kept.recall(Map())
+    shipped = kept.recall(Map())
     assert shipped.finest
     i, j = np.array([3, 20, 40, 44]), np.array([44, 30, 10, 25])
     fresh = slide_many_of(Map(), [(shipped.x[b], shipped.y[a]) for a, b in zip(i, j, strict=True)])

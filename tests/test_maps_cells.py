@@ -9,8 +9,8 @@ import pytest
 import stem_body
 from references import kept
 
-from app.model.maps import LAWS, Map
-from app.model.maps_solving import solve
+from app.model.maps.maps import LAWS, Map
+from app.model.maps.solving import solve
 from tippe_core import PRESETS, TopError, ending, slide
 
 BODIES = [preset.name for preset in PRESETS if preset.shape.edge is not None and preset.top.a > 0]

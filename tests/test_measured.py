@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from app.model.explorer import Explorer
-from app.model.measured_examples import EXAMPLES, FOLDER, example
-from app.model.measured_table import read
+from app.model.measured.examples import EXAMPLES, FOLDER, example
+from app.model.measured.table import read
 from app.tabs.measure.measure import Measure
 from app.tabs.measure.recipe import recipe
 from app.text import LANGUAGES, speaking

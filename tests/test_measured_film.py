@@ -7,12 +7,12 @@ import zlib
 import numpy as np
 import pytest
 
-from app.model import measured_film, measured_work
 from app.model.explorer import Explorer
-from app.model.measured_data import settled
-from app.model.measured_examples import EXAMPLES, FOLDER
-from app.model.measured_film import Film, opened, packed, unpacked, written
-from app.model.measured_table import MeasuredError, read
+from app.model.measured import film, work
+from app.model.measured.data import settled
+from app.model.measured.examples import EXAMPLES, FOLDER
+from app.model.measured.film import Film, opened, packed, unpacked, written
+from app.model.measured.table import MeasuredError, read
 from app.tabs.measure.measure import Measure
 from tippe_core import Scales, Top, TruncatedSphere
 
@@ -49,7 +49,7 @@ def test_a_link_with_a_fit_shows_it_without_fitting_anew(monkeypatch):
     one.take(written(FILM, settled(read((FOLDER / "made-rolls.csv").read_bytes()))))
     one.compute()
     one.in_link.value = True
-    monkeypatch.setattr(measured_work, "fit", lambda *_: pytest.fail("fitted anew"))
+    monkeypatch.setattr(work, "fit", lambda *_: pytest.fail("fitted anew"))
     other = Measure(Explorer().scene)
     other.filmed.film = one.filmed.film
     assert other.view is not None
@@ -77,9 +77,9 @@ def fits_that_are_none():
 def test_fits_that_cannot_be_are_refused(fits):
     text = written(FILM, settled(read((FOLDER / "made-rolls.csv").read_bytes())))
     head, _, table = text.partition("\n")
-    said = json.loads(head.removeprefix(measured_film.MARK)) | {"fits": fits}
+    said = json.loads(head.removeprefix(film.MARK)) | {"fits": fits}
     with pytest.raises(MeasuredError):
-        opened(f"{measured_film.MARK} {json.dumps(said)}\n{table}")
+        opened(f"{film.MARK} {json.dumps(said)}\n{table}")
 
 
 @pytest.mark.parametrize("change", [
@@ -89,9 +89,9 @@ def test_fits_that_cannot_be_are_refused(fits):
 def test_what_a_film_cannot_be_is_refused_by_its_line(change):
     text = written(FILM, settled(read((FOLDER / "made-rolls.csv").read_bytes())))
     head, _, table = text.partition("\n")
-    said = json.loads(head.removeprefix(measured_film.MARK)) | change
+    said = json.loads(head.removeprefix(film.MARK)) | change
     with pytest.raises(MeasuredError) as error:
-        opened(f"# mine\n{measured_film.MARK} {json.dumps(said)}\n{table}")
+        opened(f"# mine\n{film.MARK} {json.dumps(said)}\n{table}")
     assert (error.value.code, error.value.numbers) == ("film", {"line": 2})
 
 

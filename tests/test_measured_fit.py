@@ -10,10 +10,10 @@ from measured_bodies import LOSSES, LOSSY, film, off_truth, other_value, recover
 from measured_proof import ALL, go_on, share_within_two
 from measured_proof import kept as kept_films
 
-from app.model.measured_data import Data, Series
-from app.model.measured_fit import fit, runs, verdict
-from app.model.measured_kept import kept
-from app.model.measured_motion import Left, left_over, model_of
+from app.model.measured.data import Data, Series
+from app.model.measured.fit import fit, runs, verdict
+from app.model.measured.kept import kept
+from app.model.measured.motion import Left, left_over, model_of
 from app.model.runs import Run, Runs, Stopped
 from tippe_core import Scales, Top, TopError
 

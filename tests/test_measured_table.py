@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.model.measured_data import corrected, roughness, settled
-from app.model.measured_table import LARGEST, MeasuredError, read, written
+from app.model.measured.data import corrected, roughness, settled
+from app.model.measured.table import LARGEST, MeasuredError, read, written
 from app.text import LANGUAGES, listed, say
 
 ROWS = [(i / 60, 5 + 2 * i, 28 - i / 8) for i in range(20)]

@@ -13,7 +13,7 @@ from bokeh.model import DataModel
 from visiting import Visit, go_to, of_roll
 from wire import Visitor, event, megabytes, run, served
 
-from app.model.builder import LARGEST_FILE
+from app.model.build.builder import LARGEST_FILE
 from app.server.messages import CHANGES, MOST, Refused, look_at
 from tippe_core import LoadedSphere, save_top
 

@@ -26,16 +26,16 @@ from panel.io.state import set_curdoc
 import app.model.explorer
 import app.tabs.roll.roll
 from app.bundle import Bundled
-from app.house import House
-from app.model import planes_run
-from app.model.builder import Builder
+from app.model.build.builder import Builder
 from app.model.explorer import Explorer
-from app.model.planes import Planes
-from app.model.planes_picture import Settings
+from app.model.planes import run
+from app.model.planes.picture import Settings
+from app.model.planes.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs
 from app.model.scene import Scene, solve
-from app.page import page
+from app.page.house import House
+from app.page.page import page
 from app.share.share import Share
 from app.state.keep import Keep
 from app.tabs.build.build import Build
@@ -78,7 +78,7 @@ TOPS = ("The paper's tippe top", "Leine and Glocker's toy", "Wooden cone")
 @cache
 def pictured(name):
     scene = stored(name)
-    return planes_run.solve(Settings(
+    return run.solve(Settings(
         top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile, rolling=None, spin=15.0,
         tilt=12.0, slip=1.0, law="coulomb", mu=0.2, mu_s=0.3, gamma=0.3, eps=0.1, landing="plastic",
         stem=True, seconds=0.3))  # fmt: skip
@@ -363,7 +363,7 @@ STATIONS = (
 )  # fmt: skip
 FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app.tabs.roll.roll, "show_top"),
              (app.tabs.roll.roll, "show_surface"),
-             (app.model.planes, "solve"))  # fmt: skip
+             (app.model.planes.planes, "solve"))  # fmt: skip
 
 
 def station(owner, name):
@@ -399,7 +399,7 @@ def walk(monkeypatch):
     for kind in (House, Roll, Controls, ThreePlanes):
         monkeypatch.setattr(kind, "__init__", kept(kind.__init__))
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
-    monkeypatch.setattr("app.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
+    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
     with set_curdoc(Document()):
 
         def rest():

@@ -10,11 +10,11 @@ import pytest
 from house import builder_of, choose, planes_of
 
 from app.model.explorer import Explorer
-from app.model.planes import PRESETS
-from app.model.planes_picture import LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES
-from app.model.planes_run import THROWN, for_reader, nudged, solve, touches
-from app.model.planes_tracks import BUCKETS, extremes, tracks
-from app.model.planes_wells import wells, whiles
+from app.model.planes.picture import LEAST_FRAMES, MOST_FRAMES, MOST_SECONDS, MOST_TURN, PLANES
+from app.model.planes.planes import PRESETS
+from app.model.planes.run import THROWN, for_reader, nudged, solve, touches
+from app.model.planes.tracks import BUCKETS, extremes, tracks
+from app.model.planes.wells import wells, whiles
 from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS
 from app.model.runs import Runs
 from app.tabs.planes import plots

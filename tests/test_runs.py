@@ -21,9 +21,9 @@ from panel.io.application import build_single_handler_application
 from wire import run as run_async
 from wire import until
 
-from app.model import lesson
 from app.model.explorer import Explorer
-from app.model.family import share_map
+from app.model.families.family import share_map
+from app.model.lesson import lesson
 from app.model.runs import MAPS, NICE, TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn
@@ -323,7 +323,7 @@ def test_the_lesson_begins_before_its_runs_are_there(page):
 
 @pytest.mark.slow
 def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy, monkeypatch):
-    monkeypatch.setattr("app.model.planes.PATIENCE", 0.0)
+    monkeypatch.setattr("app.model.planes.planes.PATIENCE", 0.0)
     explorer = Explorer()
     planes = planes_of(explorer, page.runs)
     planes.ask(spin=21.0)

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from app.model.lab_run import motion_on, start_of, whole_on
+from app.model.lab.run import motion_on, start_of, whole_on
 from app.share.saved_runs import Shown, run_csv, run_glb, run_npz, run_print, run_python
 
 TOY = "The paper's tippe top"

@@ -7,7 +7,7 @@ from pathlib import Path
 import bokeh.server
 import pytest
 
-import app.page  # noqa: F401  all components
+import app.page.page  # noqa: F401  all components
 from app.bundle import Bundled
 
 FRONTEND = Path(__file__).parent.parent / "app/frontend"

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from app.model.roll.slipping import MU, at_the_end, slipping
 from app.model.scene import solve
-from app.model.slipping import MU, at_the_end, slipping
 from tippe_core import PRESETS, Constants, LoadedSphere, Top, TruncatedSphere, steady_precessions
 
 

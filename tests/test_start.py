@@ -10,15 +10,15 @@ import pytest
 from bokeh.document import Document
 from panel.io.state import set_curdoc
 
-from app import page
-from app.house import House
 from app.model.explorer import Explorer
-from app.model.lab import Lab
-from app.model.lab_run import TOYS, start_of
-from app.model.planes import Planes
-from app.model.planes_picture import SET
+from app.model.lab.lab import Lab
+from app.model.lab.run import TOYS, start_of
+from app.model.planes.picture import SET
+from app.model.planes.planes import Planes
 from app.model.runs import Runs
 from app.model.start import Start, arrives, of_toy
+from app.page import page
+from app.page.house import House
 from app.state.keep import explorer_of, read
 from app.state.names import ROWS
 from app.state.start import OneStart
@@ -251,8 +251,10 @@ def visitor(search):
 
         return patch.object(kind, "__init__", making)
 
-    with set_curdoc(Document()), kept(House), kept(rooms.Rooms), patch("app.house.Runs", lambda *session: Runs()), \
-            patch.object(rooms.Place, "ask", rooms.Place.fill):  # fmt: skip
+    with (
+        set_curdoc(Document()), kept(House), kept(rooms.Rooms), patch("app.page.house.Runs", lambda *session: Runs()),
+        patch.object(rooms.Place, "ask", rooms.Place.fill),
+    ):  # fmt: skip
         pn.state.location.search = search
         page.page()
         yield made[House], made[rooms.Rooms]

@@ -26,7 +26,7 @@ def fails_in_panel(pane, *arguments, **named):
 Bokeh._get_model = fails_in_panel
 """
 IN_MAKER = """
-import app.house as page
+import app.page.house as page
 failed_in_maker, real_in_maker = [], page.House.families
 def fails_in_maker(*arguments):
     if not failed_in_maker:
@@ -49,7 +49,7 @@ Viewable._preprocess = fails_in_hooks
 # The view waits for a file, and so does the whole server; the first map is never done.
 SLOW = """
 import os, sys, time
-import app.tabs.families.compare as compare, app.house as page
+import app.tabs.families.compare as compare, app.page.house as page
 real_view, real_map, maps = page.House.families, compare.share_map, []
 def late(*arguments):
     while not os.path.exists(GO):

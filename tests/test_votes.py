@@ -12,8 +12,8 @@ from test_server import workers_of
 from visiting import free_port
 from wire import Page, Visitor, get, redis_serving, run, served, until
 
-from app.model.ballots import Sqlite
-from app.model.classroom import Room
+from app.model.votes.ballots import Sqlite
+from app.model.votes.classroom import Room
 from app.text import say
 
 pytestmark = pytest.mark.served

@@ -21,7 +21,7 @@ HAPPENS = "events", "supports"
 
 
 def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:
-    """Keeps a Trajectory, its numbers as float32, and the codes of lab_ends.Ends."""
+    """Keeps a Trajectory, its numbers as float32, and the codes of lab/ends.py Ends."""
     rows = {
         part.name: getattr(trajectory, part.name) for part in fields(trajectory) if part.name not in ("top", *HAPPENS)
     }
@@ -46,16 +46,16 @@ def read(top: Top) -> Trajectory:
 
 
 def read_ends() -> tuple[str, ...]:
-    """The code of each of lab_ends.SPINS: how a run ends with this tilt and friction."""
+    """The code of each of lab/ends.py SPINS: how a run ends with this tilt and friction."""
     with np.load(FILE) as kept:
         return tuple(kept["ends"].tolist())
 
 
 def main() -> None:
     # which read what is written here
-    from app.model.lab_ends import ends_of
-    from app.model.lab_life import lived
-    from app.model.lab_run import Patience, start_of
+    from app.model.lab.ends import ends_of
+    from app.model.lab.life import lived
+    from app.model.lab.run import Patience, start_of
 
     write(lived(start_of(TOY, SPIN, TILT, MU), Patience())[1], ends_of(TOY, TILT, MU).codes)
 

@@ -13,8 +13,8 @@ import param
 
 from app.model import arrival
 from app.model.bodies import fits
-from app.model.lab_run import PATCH, TOYS, Toy
-from app.model.planes_picture import LAWS, by_hand
+from app.model.lab.run import PATCH, TOYS, Toy
+from app.model.planes.picture import LAWS, by_hand
 from tippe_core import BareSphere, Shape, State, Top, TopError, TruncatedSphere
 from tippe_core.paper.equations import rolling_velocity
 

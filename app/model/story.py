@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.lab_run import TableMotion
+from app.model.lab.run import TableMotion
 from app.model.regimes import WOULD_LIFT
 from app.text import listed, say
 from tippe_core.types import Array, Number

@@ -12,7 +12,7 @@ from typing import Any
 
 from bokeh.model import DataModel
 
-from app.model.builder import LARGEST_FILE
+from app.model.build.builder import LARGEST_FILE
 
 MOST_EVENTS, MOST_PARTS, DEEPEST = 100, 10_000, 16
 KINDS = {"PATCH-DOC", "PULL-DOC-REQ"}  # a browser never pushes a document

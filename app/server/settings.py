@@ -8,7 +8,7 @@ from importlib.util import find_spec
 
 from bokeh.server.util import check_allowlist
 
-from app.model.ballots import store
+from app.model.votes.ballots import store
 
 PORT = re.compile(r":(\d+|\*)$")
 

@@ -1,10 +1,8 @@
-"""What the page's head and its dialog are made of: the address and keys, a text to copy, a photo, the time."""
+"""What the page's head and its dialog are made of: the address and keys, a photo, the time."""
 
 import param
 
 from app.bundle import Bundled
-
-# A phone at arm's length reads modules of this size, px.
 
 
 class Address(Bundled):
@@ -18,15 +16,6 @@ class Address(Bundled):
     undone = param.Integer(default=0, doc="how often Ctrl+Z was pressed")
     redone = param.Integer(default=0, doc="how often Ctrl+Shift+Z or Ctrl+Y was pressed")
     reloads = param.Integer(default=0, doc="one more: the page is loaded anew, from its address")
-
-
-class Copy(Bundled):
-    """A text to take along, and a button that copies it, also where a page without https may not."""
-
-    text = param.String(default="")
-    label = param.String(default="")
-    rows = param.Integer(default=1)
-    button = param.List(default=[], doc="what its button says, and what it says once that is done")
 
 
 class Photo(Bundled):

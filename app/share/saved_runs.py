@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.model.planes_picture import Setup
+from app.model.planes.picture import Setup
 from app.share import export, glb, prints
 from tippe_core import Trajectory
 

@@ -11,11 +11,12 @@ from app.borrowed import at_once
 from app.model.runs import Runs
 from app.share import export, glb, programs, saved_runs
 from app.share.letter import letter
-from app.share.parts import Address, Clock, Copy, Photo
+from app.share.parts import Address, Clock, Photo
 from app.share.prints import FIGURES, caption, draw
 from app.state.keep import shared
 from app.text import listed, say
 from app.widgets.cards import PLAIN, words
+from app.widgets.copy import Copy
 from app.widgets.download import Download
 from app.widgets.failure import after
 

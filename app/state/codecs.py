@@ -9,8 +9,8 @@ import re
 import zlib
 from dataclasses import fields
 
-from app.model import measured_film
-from app.model.classroom import KEY
+from app.model.measured import film
+from app.model.votes.classroom import KEY
 from app.state import asked
 from app.text import say
 from tippe_core import load_top, save_top
@@ -138,7 +138,7 @@ class Film:
         """The letters themselves, where a film is in them; else a ValueError."""
         try:
             if text:
-                measured_film.unpacked(text)
+                film.unpacked(text)
         except ValueError:
             raise ValueError(say("share.link.film")) from None
         return text

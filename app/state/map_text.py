@@ -1,7 +1,7 @@
 """A map of runs in the address."""
 
-from app.model.maps import QUANTITIES, Map
-from app.model.maps_choice import FIXED
+from app.model.maps.choice import FIXED
+from app.model.maps.maps import QUANTITIES, Map
 from app.state.codecs import Number
 from tippe_core import PRESETS, TopError
 

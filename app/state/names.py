@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import quote
 
-from app.model.lesson import BEFORE
-from app.model.lesson import NAMES as STEPS
-from app.model.maps import COLOURS_BY
-from app.model.planes_picture import LAWS
-from app.model.region import PAPER
+from app.model.lesson.lesson import BEFORE
+from app.model.lesson.lesson import NAMES as STEPS
+from app.model.maps.maps import COLOURS_BY
+from app.model.planes.picture import LAWS
+from app.model.roll.region import PAPER
 from app.model.start import TABLES
 from app.state.codecs import Body, Film, Key, Number, Numbers, OneOf
 from app.state.map_text import MapText

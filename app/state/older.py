@@ -1,7 +1,7 @@
 """Links of the first version, in which each view of the Lab had a top, a start and a table of its own: they open what
 they opened, and say it in the names of today."""
 
-from app.model.lab_run import TOYS
+from app.model.lab.run import TOYS
 from app.model.start import PLANE
 from app.state.codecs import Body, Number
 from app.state.names import TAB

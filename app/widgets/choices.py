@@ -1,6 +1,6 @@
 """What is chosen in the page's head beside a tab: the top, the table, the language, and Share."""
 
-from app.model.lab_run import TOYS
+from app.model.lab.run import TOYS
 from app.model.start import TABLES
 from app.state import asked
 from app.state.start import PLANES, ROLLING, TOY

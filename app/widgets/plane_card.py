@@ -6,7 +6,7 @@ import panel_material_ui as pmui
 from app.model.colours import COLOURS, FAINT
 from app.model.explorer import Explorer
 from app.model.regimes import WOULD_SLIP
-from app.model.slipping import slipping
+from app.model.roll.slipping import slipping
 from app.text import say
 from app.widgets.cards import BUTTON, on_click, swatch, words
 from app.widgets.controls import SPIN, SYMBOLS, named

@@ -1,4 +1,4 @@
-// The Lab as it is on arrival, moving before the session has come: app/first.py says what its model will say, and why.
+// The Lab as it is on arrival, moving before the session has come: app/page/first.py says what its model will say, and why.
 // A stand-in for that model draws it, and hands the picture over when the model is there.
 import { renderLab } from "./lab/lab.js";
 import { numbersIn, standIn } from "./stand_in.js";

@@ -9,8 +9,8 @@ import panel as pn
 import panel_material_ui as pmui
 
 from app.borrowed import WholeFile, at_once
-from app.model.builder import LARGEST_FILE
-from app.model.dimensions import FAMILIES, named, value_of
+from app.model.build.builder import LARGEST_FILE
+from app.model.build.dimensions import FAMILIES, named, value_of
 from app.state import asked
 from app.tabs.build.fields import grid, symbol
 from app.tabs.build.section import Section

@@ -3,8 +3,8 @@
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.builder import Rocking
-from app.model.dimensions import sentence
+from app.model.build.builder import Rocking
+from app.model.build.dimensions import sentence
 from app.tabs.build.fields import grid
 from app.text import listed, say
 from app.widgets.cards import BUTTON, alert, field, note, on_click, words

@@ -7,8 +7,8 @@ from bokeh.models import ColumnDataSource, HoverTool, Range1d, Span
 
 from app.bundle import call
 from app.model.bodies import body
+from app.model.build.dimensions import handles, pulled, value_of
 from app.model.colours import COLOURS, FAINT, INK
-from app.model.dimensions import handles, pulled, value_of
 from app.text import say
 from app.widgets.controls import number
 from app.widgets.plots import PAPER, plain

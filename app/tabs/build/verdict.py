@@ -3,8 +3,8 @@
 import html
 from functools import partial
 
+from app.model.build.verdict import verdict
 from app.model.runs import Run, Stopped
-from app.model.verdict import verdict
 from app.text import say
 from app.widgets.cards import words
 from app.widgets.spelling import spelled

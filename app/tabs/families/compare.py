@@ -9,9 +9,9 @@ import panel_material_ui as pmui
 from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d
 from bokeh.palettes import Viridis256
 
-from app.model.builder import thrown
+from app.model.build.builder import thrown
 from app.model.colours import FAINT, INK
-from app.model.family import ordinary, share_map
+from app.model.families.family import ordinary, share_map
 from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
 from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, words

@@ -8,8 +8,8 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled
-from app.model.dimensions import named as spoken_name
-from app.model.known_tops import KnownTop, known_of, known_tops
+from app.model.build.dimensions import named as spoken_name
+from app.model.families.known_tops import KnownTop, known_of, known_tops
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.families.drawings import pair

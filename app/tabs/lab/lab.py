@@ -12,9 +12,9 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
-from app.model.dimensions import FAMILIES, changed, sentence, value_of
-from app.model.lab import FIRST, SHOWN, Lab
-from app.model.lab_run import shape_of
+from app.model.build.dimensions import FAMILIES, changed, sentence, value_of
+from app.model.lab.lab import FIRST, SHOWN, Lab
+from app.model.lab.run import shape_of
 from app.state import asked
 from app.text import listed, say
 from app.widgets.failure import after

@@ -4,8 +4,8 @@ import panel as pn
 import panel_material_ui as pmui
 import param
 
-from app.model import lesson
-from app.model.lesson_runs import on_table
+from app.model.lesson import lesson
+from app.model.lesson.runs import on_table
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.state.names import SECTIONS

@@ -10,15 +10,15 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
-from app.model import lesson
 from app.model.arrival import SPIN, TILT
 from app.model.frames import in_space
-from app.model.lab_run import TableMotion
-from app.model.lesson_parts import Choice
-from app.model.lesson_runs import named, own
-from app.model.lesson_six import UNSURE
-from app.model.levers import levers
+from app.model.lab.run import TableMotion
+from app.model.lesson import lesson
+from app.model.lesson.parts import Choice
+from app.model.lesson.runs import named, own
+from app.model.lesson.six import UNSURE
 from app.model.regimes import OF_CORE
+from app.model.roll.levers import levers
 from app.model.story import story
 from app.text import listed, say, told
 from app.widgets.spelling import spelled
@@ -167,7 +167,7 @@ def asks(step, truth=None):
 
 
 def _graph(picture):
-    """A lesson_parts.Picture, for the browser."""
+    """A Picture, for the browser."""
     if picture is None:
         return None
     return {

@@ -5,7 +5,8 @@ import panel as pn
 import param
 
 from app.bundle import Bundled
-from app.model import derivation, stretches
+from app.model import stretches
+from app.model.roll import derivation
 from app.text import listed, say
 
 PLANES = ("rough", "smooth")

@@ -4,11 +4,11 @@ from dataclasses import asdict
 
 import panel as pn
 
-from app.model import lesson
-from app.model.ballots import Away
-from app.model.classroom import Refused
-from app.model.desk import DESK
+from app.model.lesson import lesson
 from app.model.runs import to_session
+from app.model.votes.ballots import Away
+from app.model.votes.classroom import Refused
+from app.model.votes.desk import DESK
 from app.state.keep import EXPLORER, explorer_of
 from app.text import say
 

@@ -7,10 +7,10 @@ import numpy as np
 import panel as pn
 import segno
 
-from app.model import lesson
-from app.model.ballots import Away
-from app.model.classroom import Refused
-from app.model.lesson_parts import Choice
+from app.model.lesson import lesson
+from app.model.lesson.parts import Choice
+from app.model.votes.ballots import Away
+from app.model.votes.classroom import Refused
 from app.state.names import VOTE, link
 from app.tabs.learn.poll import Counter, asked_of, page_address, refusal
 

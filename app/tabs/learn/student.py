@@ -4,10 +4,10 @@ import panel as pn
 import param
 
 from app.bundle import Bundled
-from app.model import lesson
-from app.model.ballots import Away
-from app.model.classroom import MARK, Refused
+from app.model.lesson import lesson
 from app.model.runs import Run, Runs, Stopped, connected_to, to_session
+from app.model.votes.ballots import Away
+from app.model.votes.classroom import MARK, Refused
 from app.state import asked
 from app.state.names import link
 from app.tabs.learn.lesson import LessonView, runs_of, said

@@ -5,7 +5,7 @@ import re
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model import lesson
+from app.model.lesson import lesson
 from app.state import names
 from app.text import listed, say
 from app.widgets.cards import PLAIN, card, grid, on_click, px, words

@@ -6,8 +6,8 @@ from functools import partial
 
 import panel_material_ui as pmui
 
-from app.model.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
-from app.model.maps_choice import FIXED
+from app.model.maps.choice import FIXED
+from app.model.maps.maps import COLOURS_BY, LAWS, QUANTITIES, SECONDS, Map
 from app.tabs.maps.words import with_unit
 from app.text import listed, say, written
 from app.widgets.cards import beside, field, flow, words

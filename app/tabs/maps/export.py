@@ -7,8 +7,8 @@ from dataclasses import asdict
 
 import numpy as np
 
-from app.model.maps import QUANTITIES, UNITS, Map
-from app.model.maps_lines import lines
+from app.model.maps.lines import lines
+from app.model.maps.maps import QUANTITIES, UNITS, Map
 from app.tabs.maps.picture import END_COLOURS, span
 from app.tabs.maps.words import title, with_unit
 from app.text import listed

@@ -7,16 +7,15 @@ from functools import partial
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.maps import OWN, QUANTITIES, Map, of_page
-from app.model.maps_body import outline_of
-from app.model.maps_choice import AT, MapChoice
-from app.model.maps_kept import keep, recall
-from app.model.maps_lines import disagreements, lines
-from app.model.maps_solving import run as one_run
-from app.model.maps_solving import solve
-from app.model.maps_throw import throw_of
+from app.model.maps.body import outline_of
+from app.model.maps.choice import AT, MapChoice
+from app.model.maps.kept import keep, recall
+from app.model.maps.lines import disagreements, lines
+from app.model.maps.maps import OWN, QUANTITIES, Map, of_page
+from app.model.maps.solving import run as one_run
+from app.model.maps.solving import solve
+from app.model.maps.throw import throw_of
 from app.model.runs import MAPS, Run, Runs, Stopped
-from app.share.parts import Copy
 from app.state import asked as sent
 from app.tabs.maps.asking import Settings, spans
 from app.tabs.maps.export import KINDS, made, python
@@ -26,6 +25,7 @@ from app.tabs.maps.steady import Steady
 from app.tabs.maps.words import colours_say, of_disagreement, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, alert, flow, note, on_click, progress, words
+from app.widgets.copy import Copy
 from app.widgets.download import Download
 from tippe_core import TopError
 

@@ -6,8 +6,8 @@ from bokeh.palettes import Viridis256
 
 from app.bundle import call
 from app.model.colours import INK
-from app.model.maps import ENDINGS
-from app.model.maps_lines import lines
+from app.model.maps.lines import lines
+from app.model.maps.maps import ENDINGS
 from app.tabs.maps.stage import CLOCK
 from app.text import listed, say
 from app.widgets.plots import plain

@@ -9,8 +9,8 @@ from bokeh.models import ColumnDataSource, Range1d
 
 from app.bundle import call
 from app.model.colours import INK
-from app.model.maps_rates import rates
-from app.model.maps_steady import at_place, bifurcation
+from app.model.maps.rates import rates
+from app.model.maps.steady import at_place, bifurcation
 from app.model.runs import MAPS, Run, Stopped
 from app.tabs.maps.picture import DARK
 from app.tabs.maps.words import unit_of

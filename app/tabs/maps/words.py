@@ -3,8 +3,8 @@
 import numpy as np
 from bokeh.palettes import Viridis256
 
-from app.model.maps import ENDINGS, QUANTITIES, UNITS
-from app.model.maps_lines import lines
+from app.model.maps.lines import lines
+from app.model.maps.maps import ENDINGS, QUANTITIES, UNITS
 from app.tabs.maps.picture import DASHES, END_COLOURS, span
 from app.text import listed, say, written
 from app.widgets.cards import note, px, swatch

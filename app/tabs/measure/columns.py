@@ -7,8 +7,8 @@ import numpy as np
 import panel as pn
 import panel_material_ui as pmui
 
-from app.model.measured_data import corrected
-from app.model.measured_table import UNITS
+from app.model.measured.data import corrected
+from app.model.measured.table import UNITS
 from app.text import say, written
 from app.widgets.cards import field, flow, note, words
 from app.widgets.controls import typed_number

@@ -4,7 +4,7 @@ long."""
 import param
 
 from app.bundle import Bundled
-from app.model.measured_table import MOST
+from app.model.measured.table import MOST
 
 
 class MeasuredFile(Bundled):

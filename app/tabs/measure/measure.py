@@ -6,15 +6,15 @@ import param
 
 from app.borrowed import at_once
 from app.model.bodies import body, outline
-from app.model.measured_data import settled
-from app.model.measured_examples import EXAMPLES, FILMED, FOLDER
-from app.model.measured_film import Film, opened, packed, unpacked, written
-from app.model.measured_kept import kept
-from app.model.measured_remembered import said_of
-from app.model.measured_report import program, residuals_table
-from app.model.measured_shown import placed
-from app.model.measured_table import MeasuredError, read
-from app.model.measured_work import LOOSE, found, found_again, found_of_example, models
+from app.model.measured.data import settled
+from app.model.measured.examples import EXAMPLES, FILMED, FOLDER
+from app.model.measured.film import Film, opened, packed, unpacked, written
+from app.model.measured.kept import kept
+from app.model.measured.remembered import said_of
+from app.model.measured.report import program, residuals_table
+from app.model.measured.shown import placed
+from app.model.measured.table import MeasuredError, read
+from app.model.measured.work import LOOSE, found, found_again, found_of_example, models
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.measure.columns import Columns

@@ -4,7 +4,7 @@ import html
 
 import numpy as np
 
-from app.model.measured_fit import verdict
+from app.model.measured.fit import verdict
 from app.text import listed, say, written
 from app.widgets.cards import note
 

@@ -4,12 +4,12 @@ import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Range1d, Span
 
 from app.bundle import call
+from app.model.build.dimensions import named
 from app.model.colours import COLOURS, FAINT, INK
-from app.model.dimensions import named
-from app.model.groups import areas
-from app.model.planes_picture import PLANES
-from app.model.planes_tracks import QUANTITIES, ledger, tracks
-from app.model.planes_wells import wells
+from app.model.families.groups import areas
+from app.model.planes.picture import PLANES
+from app.model.planes.tracks import QUANTITIES, ledger, tracks
+from app.model.planes.wells import wells
 from app.model.regimes import COLOUR, ENDS, FLIES, GLIDES, ROLLS, SLIPS, WOULD_LIFT
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say, written

@@ -6,8 +6,8 @@ import panel_material_ui as pmui
 
 from app.bundle import pack
 from app.model.colours import COLOURS
-from app.model.planes import PATIENCE, PRESETS, preset
-from app.model.planes_picture import PLANES
+from app.model.planes.picture import PLANES
+from app.model.planes.planes import PATIENCE, PRESETS, preset
 from app.model.playing import Playing, together
 from app.model.regimes import COLOUR, NAMES
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock

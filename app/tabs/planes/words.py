@@ -6,9 +6,9 @@ from itertools import groupby
 import numpy as np
 
 from app.model.colours import COLOURS
-from app.model.planes_became import became, trend
-from app.model.planes_picture import PLANES, RTOL, SHORT
-from app.model.planes_run import THROWN
+from app.model.planes.became import became, trend
+from app.model.planes.picture import PLANES, RTOL, SHORT
+from app.model.planes.run import THROWN
 from app.model.regimes import WOULD_LIFT
 from app.text import listed, say, written
 from app.widgets.cards import swatch

@@ -1,0 +1,307 @@
+"""The top builder without its widgets: dimensions, presets and files -> a shape, and the motion it is given.
+
+SI, as in tippe_core.bodies. Where a person reads or sets a dimension it is in the unit of its Dimension.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import TypeAlias
+
+import numpy as np
+import param
+
+from app.model.build.dimensions import FAMILIES, MASS, Dimension, Value, changed, density_dimension, sentence
+from app.model.scene import Scene
+from app.text import listed, say
+from tippe_core import (
+    PRESETS,
+    BareSphere,
+    Constants,
+    Lathe,
+    Measured,
+    Preset,
+    Scales,
+    Shape,
+    Solid,
+    Top,
+    TopError,
+    Turned,
+    a_from_rocking,
+    ball,
+    cylinder,
+    frustum,
+    load_top,
+    pole_constants,
+    save_top,
+)
+from tippe_core.paper.curve import f3_squared
+
+# What a new body is thrown with: the spin near theta = 0 that the paper's top has at K_R = 10, and a tippe top's K_J at
+# the share of P that it has at K_J = 7. An ordinary top is let go at a tilt, or it would not stay up.
+THROWN_SHARE = 7 / pole_constants(Top.paper(), 10.0)[0]
+THROWN_SPIN = 10.0 / f3_squared(0.0, Top.paper()) ** 0.5 * Scales.paper().angular_velocity  # rad/s
+THROWN_TILT = 0.3
+
+LARGEST_FILE = 64 * 1024  # bytes, of a saved top
+Motion: TypeAlias = Callable[[Shape], tuple[float, float]]  # K_J and K_R
+Edit: TypeAlias = Callable[[tuple[Value, ...], Callable[[tuple[Value, ...], int], Value]], tuple[Value, ...]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Draft:
+    """The body as it stands on the bench: all that its views show.
+
+    messages: a sentence for each field ("file" and "stl" among them) that was given what cannot be; the shape is then
+    the last good one. name and source: of the preset it is, else empty; the name is tippe_core's.
+    """
+
+    shape: Shape
+    messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    name: str = ""
+    source: str = ""
+
+    @property
+    def family(self) -> str:
+        """What kind of body it is: a key in build.toml."""
+        return FAMILIES[type(self.shape)][0]
+
+    @property
+    def dimensions(self) -> tuple[Dimension, ...]:
+        """The Dimensions that can be set."""
+        dimensions = FAMILIES[type(self.shape)][1]
+        if isinstance(self.shape, Lathe) and isinstance(self.shape.density, tuple):
+            last = self.shape.points[0][1]
+            pieces = [density_dimension("density 0", "peg_density")]
+            for index, (_, height) in enumerate(self.shape.points[1:], 1):
+                if height > last:  # a step is no piece
+                    pieces.append(
+                        density_dimension(f"density {index}", "piece_density", low=1e3 * last, high=1e3 * height)
+                    )
+                last = height
+            return (dimensions[0], *pieces, MASS)
+        return dimensions
+
+
+class Builder(param.Parameterized):
+    """Asks for other bodies. What stands on the bench, `draft`, is the body of the last scene that it was given, and
+    what was refused since; one event a change.
+
+    ask: takes inputs of the Explorer; follow() is to be called with each of its scenes.
+    """
+
+    # __init__ makes the first one
+    draft: param.ClassSelector[Draft] = param.ClassSelector(  # type: ignore[assignment]
+        class_=Draft, constant=True, doc="the body as it stands"
+    )
+
+    def __init__(self, scene: Scene, ask: Callable[..., object]) -> None:
+        super().__init__()  # type: ignore[no-untyped-call]  # of param
+        self._ask, self._scene = ask, scene
+        self._coming: Shape | None = None  # asked for, and not in a scene yet: a next edit is of this one
+        self._top = scene.top
+        self._publish(_draft(scene.inputs["shape"], scene.top))
+
+    def follow(self, scene: Scene) -> None:
+        """Shows the body of this scene, whoever asked for it."""
+        self._scene, self._coming, shape = scene, None, scene.inputs["shape"]
+        if (shape, scene.top) != (self.draft.shape, self._top):
+            now = _draft(shape, scene.top)
+            if (now.shape, now.name) != (self.draft.shape, self.draft.name):
+                self._publish(now)
+            self._top = scene.top
+
+    def set(self, name: str, value: float | tuple[float, float]) -> None:
+        """One dimension, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
+        self._try(name, lambda: changed(self._body, name, value))
+
+    @property
+    def _lathe(self) -> Lathe:
+        """The body, where it is one of points."""
+        assert isinstance(self._body, Lathe)
+        return self._body
+
+    def add_point(self, x: float = 0.0, z: float | None = None) -> None:
+        """A point of a Lathe's profile: at radius |x| and height z, or in the middle of its longest piece."""
+        points = self._lathe.points
+        if z is None:
+            rows = np.array(points)
+            index = int(np.hypot(*np.diff(rows, axis=0).T).argmax()) + 1 if len(rows) > 1 else 1
+            x, z = rows[index - 1 : index + 1].mean(axis=0) if len(rows) > 1 else rows[0] + [0, self._body.R]
+        else:
+            index = sum(height <= z for _, height in points)
+        self._rows("points", lambda rows, fill: (*rows[:index], fill(rows, index), *rows[index:]), (abs(x), z))
+
+    def remove_point(self, index: int) -> None:
+        """Takes the point away."""
+        self._rows("points", lambda rows, fill: (*rows[:index], *rows[index + 1 :]), ())
+
+    def _rows(self, name: str, edit: Edit, point: tuple[float, ...]) -> None:
+        """The Lathe whose points, and densities if it has one a point, are edited alike."""
+        shape = self._lathe
+        rows: dict[str, Value] = {
+            "points": edit(shape.points, lambda rows, index: tuple(round(float(x), 5) for x in point))
+        }
+        if isinstance(shape.density, tuple):
+            rows["density"] = edit(shape.density, lambda rows, index: rows[min(index, len(rows) - 1)])
+        self._try(name, lambda: replace(shape, **rows))
+
+    def part_densities(self) -> None:
+        """A density for each piece of a Lathe instead of one for all, or back to the first."""
+        shape = self._lathe
+        density = shape.density[0] if isinstance(shape.density, tuple) else (shape.density,) * len(shape.points)
+        self._try("density", lambda: replace(shape, density=density))
+
+    def compose(self, kind: str, density: float, r: float, low: float, high: float) -> None:
+        """Puts a piece on the body, or takes it away where the density (kg/m^3) is negative: a "cylinder" or "cone"
+        (its point up) from the height low to high (m), or a "ball" of radius r about (low + high)/2."""
+
+        def made() -> Shape:
+            form = {"cylinder": lambda: cylinder(r, low, high), "cone": lambda: frustum(r, 0.0, low, high),
+                    "ball": lambda: ball(r, (low + high) / 2)}[kind]()  # fmt: skip
+            return self._body + density * form
+
+        self._try("piece", made)
+
+    def take_off(self) -> None:
+        """Undoes the last compose of a Turned body."""
+        shape = self._body
+        self._try("piece", lambda: Turned(R=shape.R, solid=Solid(shape.solid.slices[:-1])))
+
+    def choose(self, name: str) -> None:
+        """The preset of this name, thrown anew."""
+        self._take(next(preset for preset in PRESETS if preset.name == name))
+
+    def choose_family(self, family: str) -> None:
+        """The first preset of a family, thrown anew."""
+        self._take(next(preset for preset in PRESETS if FAMILIES[type(preset.shape)][0] == family))
+
+    def load(self, text: str | bytes) -> None:
+        """The body in a file that save() wrote, thrown anew."""
+        self._try("file", lambda: load_top(text), thrown)
+
+    def refuse_file(self, largest: int) -> None:
+        """Says that a file was larger than so many bytes."""
+        self._refuse("file", TopError(
+            "file", "too large", "at most {most} bytes", "A saved top is far smaller.", code="file-too-large",
+            most=largest))  # fmt: skip
+
+    def save(self) -> str:
+        """The body as the text of a small JSON file."""
+        return save_top(self.draft.shape)
+
+    def stl(self) -> bytes | None:
+        """The body as the bytes of an STL file, in mm; None, and a sentence at "stl", where there is none."""
+        try:
+            return self.draft.shape.stl()
+        except TopError as error:
+            self._refuse("stl", error)
+            return None
+
+    def measured(self, *, M: float, R: float, a: float) -> None:
+        """A sphere of this M and R with a/R as measured and the inertia, in MR^2, of the body on the bench."""
+        own = self._body.top
+        self._try("measured", lambda: BareSphere(R=R, M=M, a=a, I1=own.I1, I3=own.I3))
+
+    def attach(self) -> None:
+        """Gives the Explorer the body's own a, I1 and I3 back."""
+        self._adopt(self._body, self._keep)
+
+    @property
+    def attached(self) -> bool:
+        """Whether the scene's a, I1 and I3 are the body's."""
+        return self._scene.shape is not None
+
+    @property
+    def _body(self) -> Shape:
+        """What an edit begins with."""
+        return self._coming or self.draft.shape
+
+    def _take(self, preset: Preset) -> None:
+        self._adopt(preset.shape, top=preset.top)
+
+    def _try(self, name: str, make: Callable[[], Shape], motion: Motion | None = None) -> None:
+        try:
+            shape = make()
+            shape.top  # noqa: B018  (a body may be sound and still stand on no peg)
+        except TopError as error:
+            self._refuse(name, error)
+        else:
+            self._adopt(shape, motion or self._keep)
+
+    def _refuse(self, name: str, error: TopError) -> None:
+        self._publish(replace(self.draft, messages=MappingProxyType({name: sentence(error)})))
+
+    def _adopt(self, shape: Shape, motion: Motion | None = None, top: Top | None = None) -> None:
+        top = top or shape.top
+        self._coming, constants = shape, {}
+        if self._scene.inputs.get("given") != "hand":  # which lets go any body alike
+            constants = dict(zip(("K_J", "K_R"), motion(shape) if motion else thrown(shape, top), strict=True))
+        self._ask(shape=shape, a=top.a, I1=top.I1, I3=top.I3, **constants)
+        if self.draft.messages:
+            self._publish(replace(self.draft, messages=MappingProxyType({})))
+
+    def _publish(self, draft: Draft) -> None:
+        with param.edit_constant(self):
+            self.draft = draft
+
+    def _keep(self, shape: Shape) -> tuple[float, float]:
+        """K_J and K_R of the same spin in rad/s near theta = 0, and the same share of P, as the scene has now."""
+        scene = self._scene
+        K_J, K_R = scene.inputs["K_J"], scene.inputs["K_R"]
+        if scene.top == shape.top and scene.scales == shape.scales:
+            return K_J, K_R
+        slower = shape.scales.time / scene.scales.time
+        spun = K_R * slower * (f3_squared(0.0, shape.top) / f3_squared(0.0, scene.top)) ** 0.5
+        pole = pole_constants(scene.top, K_R)[0]
+        share = K_J / pole if pole else 0.0
+        return float(share * pole_constants(shape.top, spun)[0]), float(spun)
+
+
+def thrown(shape: Shape, top: Top | None = None) -> tuple[float, float]:
+    """(K_J, K_R) of the throw that a new body is given."""
+    spin, top = THROWN_SPIN * shape.scales.time, top or shape.top
+    if top.a < 0:
+        constants = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, spin)
+        return float(constants.K_J), float(constants.K_R)
+    K_R = spin * f3_squared(0.0, top) ** 0.5
+    return float(THROWN_SHARE * pole_constants(top, K_R)[0]), float(K_R)
+
+
+def _draft(shape: Shape, top: Top) -> Draft:
+    known = [preset for preset in PRESETS if preset.shape == shape]
+    if not known:
+        return Draft(shape=shape)
+    known = next((preset for preset in known if preset.top == top), known[-1])
+    return Draft(shape=shape, name=known.name, source=listed("build.presets")[known.name]["source"])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rocking:
+    """What a stopwatch, a balance and a caliper say: SI, each with its standard uncertainty."""
+
+    T: float
+    dT: float
+    D: float
+    dD: float
+    M: float
+
+    def a(self, shape: Shape) -> Measured:
+        """a/R with its uncertainty, a tippe_core.Measured, for the I1 (in MR^2) of the shape."""
+        try:
+            return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
+        except TopError as error:
+            # what was measured is the diameter
+            if error.name == "R":
+                raise TopError(
+                    say("build.own.diameter"), self.D, "{range} ({unit})", range="2e-09 <= D <= 2e+09", unit="m"
+                ) from None
+            if error.name == "dR":
+                raise TopError(
+                    say("build.own.diameter_uncertainty"),
+                    self.dD,
+                    "{range} ({unit})",
+                    range="0 <= dD <= 2e+09",
+                    unit="m",
+                ) from None
+            raise

@@ -1,0 +1,40 @@
+"""Whether a body turns over, read from its own run: let go as the arrival's toy is, on the ordinary table."""
+
+from dataclasses import dataclass
+
+from app.model.arrival import MU, SPIN, TABLE, TILT
+from app.model.lab.run import TooLong, whole_on
+from app.model.story import marks
+from app.text import say, told
+from tippe_core import Shape, TopError
+from tippe_core.types import Number
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """code: "over", "not", or "refused" where there is no such run; headline and why: in words."""
+
+    code: str
+    headline: str
+    why: str
+
+
+def verdict(shape: Shape) -> Verdict:
+    """The Verdict on a body, in the page's language."""
+    start: dict[str, Number] = {"spin": SPIN, "tilt": TILT, "mu": MU}
+    try:
+        motion = whole_on(TABLE, shape, SPIN, TILT, MU)
+    except (TopError, TooLong) as error:
+        why = told(error) if isinstance(error, TopError) else say("lab.refused.too-long")
+        return Verdict("refused", say("build.verdict.refused"), say("build.verdict.refused_why", why=why, **start))
+    found: dict[str, float] = {}
+    for mark in marks(motion):
+        found.setdefault(mark.code, mark.t)
+    code = "over" if "over" in found else "not"
+    part = say(f"planes.parts.{motion.start.part}")
+    said = [say(f"build.verdict.{each}", time=found[each], part=part)
+            for each in ("over", "stands", "inverted", "falls") if each in found]  # fmt: skip
+    if code == "not":
+        low, high = float(motion.tilt.min()), float(motion.tilt.max())
+        said = [say("build.verdict.stays", low=low, high=high, seconds=motion.start.seconds)]
+    return Verdict(code, say(f"build.verdict.{code}_headline"), " ".join([say("build.verdict.start", **start), *said]))

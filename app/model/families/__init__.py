@@ -1,0 +1,1 @@
+"""A top among others."""

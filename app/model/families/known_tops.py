@@ -1,0 +1,69 @@
+"""The tops that have a name, as places on the map of all tops: a/R and I1/I3 decide which of them can turn over."""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from app.model.bodies import body
+from app.model.build.builder import thrown
+from app.model.families.family import Region, region
+from app.model.scene import Scene
+from tippe_core import PRESETS, Preset, Thresholds, Top, thresholds
+from tippe_core.types import Array
+
+SAME = 5e-4  # of a/R and of I1/I3: two such tops have one place
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class KnownTop:
+    """A top with a name. outline (n, 2): the radius and the height of its surface, in R. turn: rev/s in one
+    (g/R)^1/2."""
+
+    name: str
+    top: Top
+    outline: Array
+    turn: float
+
+    @property
+    def ratio(self) -> float:
+        return self.top.I1 / self.top.I3
+
+    @property
+    def limits(self) -> Thresholds:
+        return thresholds(self.top)
+
+    @property
+    def least_spin(self) -> float:
+        """In rev/s: more slowly spun upright it does what it does at rest; nan where no spin changes that."""
+        limits = self.limits
+        spins = [limits.upright.spin, limits.launch] if limits.group == "can invert" else [limits.upright.spin]
+        return max(spins) * self.turn
+
+    def shown(self, mu_s: float) -> Region:
+        """Its Figs. 5 and 6, thrown as a new body is."""
+        return region(self.name, self.top, thrown(PRESET_OF[self.name].shape, self.top)[1], mu_s)
+
+
+PRESET_OF: dict[str, Preset] = {preset.name: preset for preset in PRESETS}
+
+
+@cache
+def known_tops() -> tuple[KnownTop, ...]:
+    """One of each place, the first of the presets that have it."""
+    found: list[KnownTop] = []
+    for preset in PRESETS:
+        turn = preset.shape.scales.angular_velocity / (2 * np.pi)
+        top = KnownTop(name=preset.name, top=preset.top, outline=body(preset.shape), turn=turn)
+        if not any(_same(top.top, other.top) for other in found):
+            found.append(top)
+    return tuple(found)
+
+
+def known_of(scene: Scene) -> KnownTop | None:
+    """The known top that a Scene is of."""
+    return next((each for each in known_tops() if _same(each.top, scene.top)), None)
+
+
+def _same(one: Top, other: Top) -> bool:
+    return abs(one.a - other.a) < SAME and abs(one.I1 / one.I3 - other.I1 / other.I3) < SAME

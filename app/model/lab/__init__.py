@@ -1,0 +1,1 @@
+"""The Lab: a toy let go by a hand, on three tables."""

@@ -1,0 +1,95 @@
+"""Where the runs of all spins end, for the strip below the slider: of a toy, tilt and friction, for all visitors."""
+
+from collections import OrderedDict
+from collections.abc import Callable
+from itertools import groupby, pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from app.model import arrival
+from app.model.lab.run import Toy, start_of
+from app.text import say
+from tippe_core import Many, slide_many
+from tippe_core.types import Array
+
+SPINS = np.linspace(0.0, 50.0, 101)  # rev/s: all of the slider
+TIMES = np.arange(1.0, 6.01, 0.5)  # s: whether it stands is looked at then, for it may fall again
+STANDS, LEANS = np.radians(170), np.radians(20)
+CLOSE = 2  # cells: where the end changes as soon again, ends are mixed
+MOST = 64  # that are kept
+Key = tuple[Toy, float, float]  # toy, tilt, mu
+
+
+class Segment(NamedTuple):
+    """From one spin to another (rev/s) runs end alike: a code of [ends] in lab.toml, and its word."""
+
+    least: float
+    most: float
+    code: str
+    word: str
+
+
+class Ends(NamedTuple):
+    """spins (n,), the code of each run (n,), and the same in Segments; "mixed" where neighbours alternate."""
+
+    spins: Array
+    codes: tuple[str, ...]
+    part: str
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        """In the page's language."""
+        part = say(f"planes.parts.{self.part}")
+        edges = [self.spins[0], *(self.spins[1:] + self.spins[:-1]) / 2, self.spins[-1]]
+        found, place = [], 0
+        for code, group in groupby(mixed(self.codes)):
+            first, place = place, place + len(list(group))
+            found.append(Segment(float(edges[first]), float(edges[place]), code, say(f"lab.ends.{code}", part=part)))
+        return tuple(found)
+
+
+_kept: OrderedDict[Key, Ends] = OrderedDict()
+
+
+def known_ends(toy: Toy, tilt: float, mu: float) -> Ends | None:
+    """What ends_of() has found before, or ships with the arrival; None if it has to be asked."""
+    found = _kept.get((toy, tilt, mu))
+    if found is None and (toy, tilt, mu) == (arrival.TOY, arrival.TILT, arrival.MU):
+        found = _kept[toy, tilt, mu] = Ends(SPINS, arrival.read_ends(), start_of(toy, 0.0, tilt, mu).part)
+    if found is not None:
+        _kept.move_to_end((toy, tilt, mu))
+    return found
+
+
+def ends_of(toy: Toy, tilt: float, mu: float, look: Callable[[float], object] | None = None) -> Ends:
+    """The Ends of a toy. look: called with the share that is done; what it raises ends it. Raises TopError."""
+    starts = [start_of(toy, float(spin), tilt, mu) for spin in SPINS]
+    start, states = starts[0], np.array([[each.state] for each in starts], dtype=object)
+    times = TIMES / start.scales.time
+    many = slide_many(start.top, states, start.friction, times, edge=start.edge, progress=look)
+    found = _kept[toy, tilt, mu] = Ends(SPINS, codes_of(many), start.part)
+    while len(_kept) > MOST:
+        _kept.popitem(last=False)
+    return found
+
+
+def codes_of(many: Many) -> tuple[str, ...]:
+    """The code of each row of runs, that differ in their length alone."""
+    high = many.theta_end > STANDS
+    stands, inverted = ((high & (many.end == end)).any(axis=1) for end in ("stem", "inverted"))
+    last = many.theta_end[:, -1]
+    codes = np.select(
+        [stands, inverted, np.isnan(last), last > LEANS], ["stands", "inverted", "refused", "leans"], "upright"
+    )
+    return tuple(codes.tolist())
+
+
+def mixed(codes: tuple[str, ...]) -> tuple[str, ...]:
+    """The codes, with "mixed" from where they begin to alternate within CLOSE cells to where that ends."""
+    changes = [i for i in range(1, len(codes)) if codes[i] != codes[i - 1]]
+    found = list(codes)
+    for first, then in pairwise(changes):
+        if then - first <= CLOSE:
+            found[first - 1 : then + 1] = ["mixed"] * (then + 2 - first)
+    return tuple(found)

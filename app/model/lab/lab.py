@@ -1,0 +1,306 @@
+"""The view-model of the Lab: one toy, one start, let go by a hand, and the table on which it is watched.
+
+Of what is asked for the newest is computed, beside the server; the scene before stays until then, and where what was
+asked for cannot be.
+"""
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import partial
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+import param
+
+from app.model.arrival import ARRIVAL, TABLE, TILT
+from app.model.lab.ends import Ends, Key, ends_of, known_ends
+from app.model.lab.keeps import Row, keeps
+from app.model.lab.life import SECONDS
+from app.model.lab.run import TABLES, TOYS, TableMotion, TooLong, Toy, motion_on, shape_of, start_of, whole_on
+from app.model.runs import Result, Run, Runs, Stopped
+from app.model.start import Start, arrives, of_toy
+from app.model.story import Event, Stage, Story, story
+from app.text import say, told
+from tippe_core import Shape, State, TopError
+from tippe_core.types import Array
+
+LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5)})
+"""{input: what it may be}, in rev/s and degrees; the sliders show less."""
+CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
+SHOWN = 30  # characters of what is no number, in a sentence
+PATIENCE = 0.5  # s: a run that a newer one replaces may still finish within this
+Inputs: TypeAlias = tuple[str, Toy, float, float, float, State | None]
+"""table, toy, spin, tilt, mu; and the State of a start that is not let go by a hand, with G at rest."""
+WATCHED = "table", "shape", "a", "I1", "I3", "given", "spin", "tilt", "slip", "theta_dot", "omega2", "mu"
+FIRST: Inputs = *ARRIVAL, None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LabScene:
+    """All that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu, given: what it is of.
+
+    motions: {table: TableMotion or None}; None where it is not watched, or cannot be: then refused has a sentence why.
+    stories: {table: Story}, of the motions. said: headline and explanation of all three together. keeps: {table: Rows},
+    of all three. messages: {input: a sentence} for what was asked for and cannot be; all else is the last good one.
+    profile: (k, 2) in R, a in R and seconds, of one unit of time, for the picture in 3-D; part: "stem" or "rim".
+    whole: whether they are seen to their end.
+    """
+
+    table: str
+    toy: Toy
+    spin: float
+    tilt: float
+    mu: float
+    given: State | None
+    motions: MappingProxyType[str, TableMotion | None]
+    stories: MappingProxyType[str, Story]
+    refused: MappingProxyType[str, str]
+    said: tuple[str, str]
+    keeps: MappingProxyType[str, tuple[Row, ...]]
+    profile: Array
+    a: float
+    seconds: float
+    part: str
+    whole: bool
+    messages: MappingProxyType[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """Of the table that is watched; of all three, the ordinary one's."""
+        return self._story.events
+
+    @property
+    def stages(self) -> tuple[Stage, ...]:
+        """As events; where that motion cannot be, one stage that says so."""
+        return self._story.stages
+
+    @property
+    def _story(self) -> Story:
+        table = "ordinary" if self.table == "three" else self.table
+        short = say("lab.caption.refused")
+        return self.stories.get(table) or Story((), (Stage(0.0, short, self.refused[table], short),), short)
+
+
+def scene_of(
+    table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, *, whole: bool = False
+) -> LabScene:
+    """The LabScene of a start, in the page's language; whole: to the end of the toy's life. Raises TopError, whose name
+    is an input, where none of the tables can have it because of that input's value."""
+    watched, seen = tuple(TABLES) if table == "three" else (table,), whole_on if whole else motion_on
+    motions: dict[str, TableMotion | None] = dict.fromkeys(TABLES)
+    refused: dict[str, str] = {}
+    for each in watched:
+        try:
+            motions[each] = seen(each, toy, spin, tilt, mu, given)
+        except TopError as error:
+            if error.code == "body-below-table":
+                raise
+            refused[each] = _sentence(error)
+        except TooLong:
+            refused[each] = say("lab.refused.too-long")
+    found = {name: motion for name, motion in motions.items() if motion is not None}
+    start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
+    turned = "ordinary" in found and any(event.code == "over" for event in stories["ordinary"].events)
+    return LabScene(
+        table=table, toy=toy, spin=spin, tilt=tilt, mu=mu, given=given, motions=MappingProxyType(motions),
+        stories=MappingProxyType(stories), refused=MappingProxyType(refused),
+        said=(say(f"lab.three.{'turned' if turned else 'headline'}"), say("lab.three.why")),
+        keeps=MappingProxyType({name: keeps(motion) for name, motion in found.items()} if table == "three" else {}),
+        profile=start.profile, a=start.top.a, seconds=start.scales.time, part=start.part,
+        whole=whole or (table != "three" and all(motion.whole for motion in found.values())),
+    )  # fmt: skip
+
+
+def _sentence(error: TopError) -> str:
+    """Why a start cannot be."""
+    if error.code in ("stem-below-table", "body-below-table"):
+        return say(f"lab.refused.{error.code}", tilt=error.value, most=error.numbers["most"])
+    return told(error)
+
+
+def fault(name: str, value: object) -> str:
+    """Why an input cannot have a value, in a sentence; "" where it can."""
+    if name == "toy" and isinstance(value, Shape):
+        return ""
+    if name in CHOICES:
+        return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])
+    least, most = LIMITS[name]
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        typed = str(value).strip()[:SHOWN] or say("lab.inputs.nothing")
+        return say("lab.inputs.number", value=typed, least=least, most=most)
+    return "" if least <= value <= most else say(f"lab.inputs.{name}", value=value, least=least, most=most)
+
+
+class Lab(param.Parameterized):
+    """What the page's Start does on the Lab's table, one `scene` event for each answer. What cannot be set goes back to
+    what was.
+
+    start: the Start, which ask() sets; runs: the page's Runs. Of several starts asked for while one is computed only
+    the newest is.
+    """
+
+    busy = param.Boolean(False, constant=True, doc="whether a newer start is being computed")
+    scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last answer; None before show()")
+    ends = param.Parameter(None, constant=True, doc="Ends over the slider's spins; None until they are there")
+
+    INPUTS = ("table", "toy", "spin", "tilt", "mu")
+
+    def __init__(self, runs: Runs | None = None, start: Start | None = None) -> None:
+        self.start = start or Start(**arrives())  # type: ignore[no-untyped-call]  # of param
+        self._runs = runs or Runs()
+        self._run: Run | None = None
+        self._shown = self.begun = self._again = self.rests = False
+        self._messages: dict[str, str] = {}
+        self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and what puts the Start back to it
+        self._strip: Key | None = None
+        super().__init__()  # type: ignore[no-untyped-call]  # of param
+        self.start.param.watch(self._follow, list(WATCHED))
+
+    @property
+    def inputs(self) -> Inputs:
+        """What is set."""
+        start = self.start
+        return start.table, start.toy, start.spin, start.tilt, start.mu, None if start.at_rest else start.let_go
+
+    def show(self) -> None:
+        """Computes from now on what is set: before somebody looks nothing is."""
+        self._shown = self.begun = True
+        self._follow()
+
+    def hide(self) -> None:
+        """Nobody looks any more."""
+        self._shown = False
+
+    def ask(self, **inputs: object) -> None:
+        """Sets what can be; for each that cannot there is a sentence in the scene's messages, and it stays. Another
+        toy, spin or tilt is let go by a hand."""
+        faults = {name: fault(name, value) for name, value in inputs.items()}
+        self._messages = {name: said for name, said in faults.items() if said}
+        self._set_start({name: value for name, value in inputs.items() if not faults[name]})
+        self._tell()
+
+    def _set_start(self, inputs: dict[str, Any]) -> None:
+        """The inputs of the Lab into the Start."""
+        start = self.start
+        found = inputs | (of_toy(inputs["toy"]) if "toy" in inputs else {})
+        if {"toy", "spin", "tilt"} & inputs.keys():
+            found = {"given": "hand", "spin": start.spin, "tilt": start.tilt, "slip": 1.0} | found
+        found.pop("toy", None)
+        start.later(**found)
+
+    @property
+    def reached(self) -> float:
+        """How much of the run that is computed is done, 0 to 1."""
+        if self._run is None:
+            return 0.0
+        return min(1.0, self._run.reached * shape_of(self.start.toy).scales.time / SECONDS)
+
+    def stop(self) -> None:
+        """Ends the run that is computed; what it was of goes back to what is shown."""
+        if self._run is None:
+            return
+        self._run.stop()
+        self.start.later(**self._back)
+
+    @property
+    def _key(self) -> Key | None:
+        """Of the Ends; None where they are of no start such as this."""
+        start = self.start
+        return (start.toy, start.tilt, start.mu) if start.at_rest else None
+
+    def rest(self) -> None:
+        """To be called when no hand moves: where the runs of all spins end is looked up, or computed beside."""
+        key = self._strip = self._key
+        self._set(ends=key and known_ends(*key))
+        if key and self.ends is None:
+            self._runs.begin(Run(lambda run: ends_of(*key, look=run.look), partial(self._ended, key)), "ends")
+        self.rests = True
+        self._live()
+
+    def _live(self) -> None:
+        """Has the rest of the life of what is shown computed, where no hand moves and nothing else is."""
+        scene, inputs = self.scene, self._good
+        if self.rests and scene is not None and not scene.whole and self._run is None:
+            self._runs.begin(Run(lambda run: scene_of(*inputs, whole=True), partial(self._lived, inputs)), "life")
+
+    def _lived(self, inputs: Inputs, result: Result) -> None:
+        """The whole life in the place of its beginning, if that is still what is shown."""
+        scene = self.scene
+        if isinstance(result, LabScene) and scene is not None:
+            if inputs == self._good and not result.refused.keys() - scene.refused.keys():
+                self._set(scene=replace(result, messages=scene.messages))
+        elif not isinstance(result, Stopped):
+            raise result
+
+    def _ended(self, key: Key, result: Result) -> None:
+        if isinstance(result, Ends) and key == self._key:
+            self._set(ends=result)
+        elif isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
+            raise result
+
+    def _set(self, **values: object) -> None:
+        """Sets constants; an event where they are others."""
+        with param.edit_constant(self):
+            self.param.update(**values)
+
+    def _follow(self, *events: param.parameterized.Event) -> None:
+        """Computes what is set, now or when the present run is done."""
+        if not self._shown:
+            return
+        faults = {name: said for name in self.INPUTS if (said := fault(name, getattr(self.start, name)))}
+        if faults:  # of a link
+            self._messages |= faults
+            self.start.later(**self._back)
+            self._tell()
+            return
+        if self._strip != self._key:
+            self._set(ends=None)
+        self.rests = False
+        if self.scene is not None and self.inputs == self._good and self._run is None:
+            return
+        if self._run is None:
+            self._begin()
+        else:
+            self._again = True
+            if self._run.elapsed > PATIENCE:
+                self._run.stop()
+
+    def _begin(self) -> None:
+        inputs, self._again = self.inputs, False
+        work = Run(lambda run: scene_of(*inputs), partial(self._done, inputs, self.start.set))
+        if inputs == FIRST or not self._runs.beside:  # what ships needs no thread
+            work.done(work.result())
+            return
+        self._run = work
+        self._set(busy=True)
+        self._runs.begin(work, "lab")
+
+    def _done(self, inputs: Inputs, back: dict[str, Any], result: Result) -> None:
+        self._run = None
+        if self._again:
+            self._begin()
+        if self._run is None:
+            self._set(busy=False)
+        if isinstance(result, TopError):
+            self._refused(inputs, result)
+        elif isinstance(result, LabScene):
+            self._good, self._back = inputs, back
+            self._set(scene=result)
+            self._tell()
+            self._live()
+        elif not isinstance(result, Stopped):
+            raise result
+
+    def _refused(self, inputs: Inputs, error: TopError) -> None:
+        """A tilt that this body cannot have: it goes back, of another body to the first one's."""
+        self._messages["tilt"] = _sentence(error)
+        if self.inputs != inputs:
+            return  # something else is asked for by now
+        known = self._good[1] == self.start.toy and self.scene
+        self.start.later(**{"tilt": self._good[3] if known else TILT} if self.start.at_rest else self._back)
+        self._tell()
+
+    def _tell(self) -> None:
+        """The messages into the scene."""
+        if self.scene is not None and dict(self.scene.messages) != self._messages:
+            self._set(scene=replace(self.scene, messages=MappingProxyType(dict(self._messages))))

@@ -1,0 +1,198 @@
+"""One toy let go by a hand, on the three tables: what it does on each, as a Motion, and the curves of it.
+
+Ordinary: it slips, with the friction of a real contact. Rough: it can only roll, so it is gripped first. Ice: no
+friction at all.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+from types import MappingProxyType
+from typing import ClassVar, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.model import arrival
+from app.model.bodies import body
+from app.model.lab.life import SECONDS, lived, thinned
+from app.model.planes.picture import Motion, Setup, by_hand
+from app.model.planes.run import check_room, clear, for_reader, motion_of, slid
+from app.model.runs import look
+from tippe_core import PRESETS, Contensou, Preset, Shape, State, TopError, Trajectory, glide, grip, roll
+from tippe_core.motion.friction import Friction
+from tippe_core.types import Array
+
+TABLES = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth"})
+"""{table: what planes/run.py calls it}."""
+TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
+PATCH = 0.5e-3  # m, the radius of the patch of contact
+MOST_LOOKS = 20_000  # of slide() at its page: some seconds; a toy that flips needs a hundred
+STEP = 2  # a row of the curves for so many frames: 200 rows in a second of a fast top
+NEARLY = 1e-5  # of its time: as float32 has it
+
+
+Toy: TypeAlias = str | Shape
+"""The name of one of TOYS, or a body of somebody's own."""
+
+
+class TooLong(Exception):
+    """A run, of a rim that chatters, takes more work than anybody waits for."""
+
+
+class Patience:
+    """What a run calls now and then: ends it where its page has gone, or after MOST_LOOKS."""
+
+    def __init__(self) -> None:
+        self._left = MOST_LOOKS
+
+    def __call__(self, reached: float) -> None:
+        self._left -= 1
+        if self._left < 0:
+            raise TooLong
+        look(reached)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Start(Setup):
+    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees; else as it is given."""
+
+    most_turn: ClassVar[float] = 0.5  # 2000 frames of a fast one
+
+    toy: Toy
+    spin: float
+    tilt: float
+    mu: float
+    given: State | None = None
+
+    @property
+    def friction(self) -> Friction:
+        return Contensou(self.mu, PATCH / self.scales.R)
+
+    @property
+    def state(self) -> State:
+        if self.given is not None:
+            return self.given
+        return by_hand(self.spin, self.tilt, 1.0, self.scales)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TableMotion(Motion):
+    """A Motion of a Start on a table. lost: the energy that the rough table took when it gripped, MgR; heat counts it.
+
+    curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
+    (mm), heat so far in the same, spin about its own axis and turning seen from above (rev/s), and the code of
+    regimes.py."""
+
+    start: Start
+    table: str
+    lost: float
+    whole: bool
+    curves: Array
+
+    @property
+    def seconds(self) -> Array:
+        """The times of the trajectory in s."""
+        return self.trajectory.t * self.start.scales.time
+
+    @property
+    def tilt(self) -> Array:
+        """theta in degrees, as far as the trajectory goes."""
+        return np.degrees(self.trajectory.theta)
+
+    @property
+    def carried(self) -> NDArray[np.str_]:
+        """On what it stands at these times: "ball", "stem", "both" or "none"."""
+        since, on = zip(*self.trajectory.supports, strict=True)
+        return np.array(on)[np.searchsorted(since, self.trajectory.t, side="right") - 1]
+
+    @property
+    def rolls_since(self) -> float:
+        """From when on it rolls to the end, s; nan if it does not."""
+        slips = np.flatnonzero(self.trajectory.regime != "roll")
+        if not len(slips):
+            return 0.0
+        return float(self.seconds[slips[-1] + 1]) if slips[-1] + 1 < len(self.seconds) else np.nan
+
+
+def shape_of(toy: Toy) -> Shape:
+    """The body of a toy."""
+    return TOYS[toy].shape if isinstance(toy, str) else toy
+
+
+def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> Start:
+    """The Start of a toy."""
+    shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
+    return Start(toy=toy, top=top, scales=shape.scales, shape=shape, profile=body(shape),
+                 landing="plastic", stem=True, seconds=SECONDS, spin=spin, tilt=tilt, mu=mu, given=given)  # fmt: skip
+
+
+@lru_cache(12)
+def motion_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
+    """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
+    units of the controls."""
+    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
+        return whole_on(table, toy, spin, tilt, mu)
+    return on(start_of(toy, spin, tilt, mu, given), table)
+
+
+@lru_cache(12)
+def whole_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
+    """As motion_on(), to the end of the toy's life; where a table knows no end, as long as on the ordinary one."""
+    start = start_of(toy, spin, tilt, mu, given)
+    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
+        kept = arrival.read(start.top)
+        return moved(replace(start, seconds=start.scales.time * float(kept.t[-1])), table, kept, 0.0, whole=True)
+    if table != "ordinary":
+        seconds = whole_on("ordinary", toy, spin, tilt, mu, given).start.seconds
+        return on(replace(start, seconds=seconds), table)
+    try:
+        seconds, kept = lived(start, Patience())
+    except TopError as error:
+        raise for_reader(error, start.scales) from None
+    return moved(replace(start, seconds=seconds), table, kept, 0.0, whole=True)
+
+
+def on(start: Start, table: str) -> TableMotion:
+    """The TableMotion of a Start on a table. Raises TopError in the units of the controls."""
+    try:
+        return moved(start, table, *computed(start, table))
+    except TopError as error:
+        raise for_reader(error, start.scales) from None
+
+
+def computed(start: Start, table: str) -> tuple[Trajectory, float]:
+    """What a Start does on a table, and the energy that the rough one took when it gripped, MgR."""
+    top, state, times, lost = start.top, start.state, start.times, 0.0
+    check_room(start, state)
+    if table == "ordinary":
+        return slid(start, state, times, Patience()), lost
+    if table == "ice":
+        return clear(partial(glide, top, state, times), start, state), lost
+    state, lost = grip(top, state)
+    return clear(partial(roll, top, None, times, state), start, state), lost
+
+
+def moved(start: Start, table: str, trajectory: Trajectory, lost: float, *, whole: bool = False) -> TableMotion:
+    """The TableMotion of what computed() gives; whole: of what is thinned already, and seen to its end."""
+    shown, end = trajectory if whole else thinned(trajectory, start.scales.time), start.seconds / start.scales.time
+    times = shown.t if end - shown.t[-1] < NEARLY * end else np.append(shown.t, end)
+    motion = motion_of(shown, start, times, TABLES[table])
+    return TableMotion(**vars(motion), start=start, table=table, lost=lost, whole=whole or table != "ordinary",
+                       curves=_curves(motion, start, lost))  # fmt: skip
+
+
+def _curves(motion: Motion, start: Start, lost: float) -> Array:
+    moved, scales = motion.trajectory, start.scales
+    turns, millimetres = scales.angular_velocity / (2 * np.pi), 1e3 * scales.R
+    spin, above = moved.omega[:, 2], moved.omega[:, 1] * np.sin(moved.theta) + moved.omega[:, 2] * np.cos(moved.theta)
+    height = moved.com[:, 2]
+    energy = moved.ledger.kinetic + height
+    rows = np.column_stack([
+        moved.t * scales.time, np.degrees(moved.theta), millimetres * height, millimetres * energy,
+        millimetres * (moved.heat + lost), turns * spin, turns * above, motion.frames[-1][: len(moved.t)],
+    ])  # fmt: skip
+    if len(motion.t) > len(moved.t):  # it ended early, and stands still to the end
+        rows = np.concatenate([rows, rows[-1:]])
+        rows[-1, 0], rows[-1, -1] = motion.t[-1] * scales.time, motion.frames[-1][-1]
+    kept = np.arange(0, len(rows), STEP)
+    return rows[kept if kept[-1] == len(rows) - 1 else np.append(kept, len(rows) - 1)].astype(np.float32)

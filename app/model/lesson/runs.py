@@ -1,0 +1,133 @@
+"""The runs that the lesson shows, each computed by tippe_core from a start that a hand gives.
+
+One toy, the Lab's on arrival, on its three tables; the same toy with a contact that is a point, and with one that is a
+small patch; the paper's top, a whole ball, rolling, and on its head with either of two spins; and the page's own top.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from app.model.arrival import MU, SPIN, TILT, TOY
+from app.model.bodies import outline
+from app.model.lab.run import TOYS, Start, TableMotion, computed, motion_on, moved, start_of
+from app.model.lesson.parts import K_R
+from app.model.lesson.parts import TILT as THROWN_TILT
+from app.model.scene import Scene
+from tippe_core import Constants, Contensou, Coulomb, SmoothedCoulomb, State, Top, Trajectory, omega3, roll, slide
+from tippe_core.motion.friction import Friction
+from tippe_core.types import Array
+
+SMALL_PATCH = 1e-4  # m: of a hard toy
+HEAD_SECONDS = 1.2  # s for which a top on its head is shown
+LAW = SmoothedCoulomb(0.3, 1.0)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Pointed(Start):
+    """A toy whose contact is a point, with Coulomb's friction alone."""
+
+    @property
+    def friction(self) -> Friction:
+        return Coulomb(self.mu, self.mu)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Patched(Start):
+    """A toy whose contact is a small patch."""
+
+    @property
+    def friction(self) -> Friction:
+        return Contensou(self.mu, SMALL_PATCH / self.scales.R)
+
+
+@lru_cache(4)
+def of_contact(kind: type[Start]) -> TableMotion:
+    """The arrival's toy and start on the ordinary table, with another contact."""
+    start = kind(**vars(start_of(TOY, SPIN, TILT, MU)))
+    return moved(start, "ordinary", *computed(start, "ordinary"))
+
+
+def on_table(table: str) -> TableMotion:
+    """The arrival's toy and start on a table."""
+    return motion_on(table, TOY, SPIN, TILT, MU)
+
+
+def own(scene: Scene) -> TableMotion:
+    """The page's own top, let go as the arrival's toy is; a TopError where it cannot be."""
+    start = Start(toy="", top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile,
+                  landing="plastic", stem=True, seconds=6.0, spin=SPIN, tilt=TILT, mu=MU)  # fmt: skip
+    return moved(start, "ordinary", *computed(start, "ordinary"))
+
+
+# ---- the proof: the paper's top, a whole ball ----
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Proof:
+    """A top near upright, rolling, and what its constants ask for on its head; spins in rev/s about its own axis.
+
+    start: its Constants; spin: at the start.
+    """
+
+    top: Top
+    start: Constants
+    spin: float
+    jellett: float
+    routh: float
+    setup: Start
+
+    def at(self, theta: Array) -> Array:
+        """The spin about its own axis that Routh's constant asks for at these tilts, rev/s."""
+        return self.setup.turns * omega3(theta, self.top, self.start)
+
+
+@lru_cache(1)
+def proof() -> Proof:
+    """Of the paper's top, spun to the paper's K_R."""
+    preset = TOYS["The paper's tippe top"]
+    top, turns = preset.top, preset.shape.scales.angular_velocity / (2 * np.pi)
+    omega = float(omega3(THROWN_TILT, top, Constants(0.0, K_R, 0.0)))
+    start = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, omega)
+    # (30) at theta = pi, where omega_2' has no part in it
+    jellett = -top.I1 / top.I3 * float(start.K_J) / (1 + top.a)
+    setup = Start(toy=preset.name, top=top, scales=preset.shape.scales, shape=None, profile=outline(top),
+                  landing="plastic", stem=False, seconds=HEAD_SECONDS, spin=turns * omega,
+                  tilt=float(np.degrees(THROWN_TILT)), mu=MU)  # fmt: skip
+    return Proof(top=top, start=start, spin=turns * omega, jellett=turns * jellett,
+                 routh=turns * float(omega3(np.pi, top, start)), setup=setup)  # fmt: skip
+
+
+@lru_cache(4)
+def rolled(tilt: float, spin: float) -> TableMotion:
+    """The proof's top rolling from this tilt (rad) on, spun about its own axis (rev/s), its axis at rest."""
+    setup = proof().setup
+    motion = roll(setup.top, None, setup.times, State(tilt, 0.0, 0.0, spin / setup.turns))
+    return moved(setup, "rough", motion, 0.0)
+
+
+def named(name: str) -> TableMotion:
+    """The run that a step calls by this name."""
+    found = proof()
+    if name in ("point", "patch"):
+        return of_contact(Pointed if name == "point" else Patched)
+    if name == "rolls":
+        return rolled(THROWN_TILT, found.spin)
+    if name in ("by_jellett", "by_routh"):
+        return rolled(np.pi, found.jellett if name == "by_jellett" else found.routh)
+    return on_table(name)
+
+
+@lru_cache(1)
+def slipped() -> Trajectory:
+    """The proof's top, let slip: with an ordinary friction of 0.3 it comes onto its head."""
+    found = proof()
+    state = State(THROWN_TILT, 0.0, 0.0, found.spin / found.setup.turns)
+    return slide(found.top, state, LAW, np.linspace(0.0, 400.0, 4001), landing="plastic")
+
+
+def on_ball(motion: TableMotion) -> int:
+    """For how many instants of its trajectory the ball alone carries it."""
+    others = np.flatnonzero(motion.carried != "ball")
+    return int(others[0]) if len(others) else len(motion.trajectory.t)

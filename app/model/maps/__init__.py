@@ -1,0 +1,1 @@
+"""Maps of a sliding top: many runs over two quantities."""

@@ -1,0 +1,23 @@
+"""What a reader of Maps has set: the map, what its colours say, and the place of the bead."""
+
+from typing import Any, ClassVar
+
+import param
+
+from app.model.maps.maps import COLOURS_BY, Map
+
+AT = (28.6, 5.7)
+FIXED = ("spin", "tilt", "slip", "mu", "second")
+"""What can be set where it is on no axis."""
+
+
+class MapChoice(param.Parameterized):
+    """asked: the Map; colour: one of COLOURS_BY; place: across and up of the bead."""
+
+    INPUTS: ClassVar = ("asked", "colour", "place")
+
+    asked = param.ClassSelector(class_=Map, default=Map(), doc="the map")
+    colour: Any = param.Selector(default="end", objects=[*COLOURS_BY], doc="what its colours say")
+    place = param.List(
+        default=[*AT], item_type=float, bounds=(2, 2), doc="across and up of the bead, in units of the axes"
+    )

@@ -1,0 +1,92 @@
+"""Maps that were made, for all visitors: the newest in memory, and as files beside the kernels that made them. Those
+that are seen first ship with the page, in app/data.
+
+    python -m app.model.maps.kept
+
+computes those anew, after a change of the physics; a test compares some of its cells with fresh runs.
+"""
+
+import hashlib
+import threading
+from collections import OrderedDict
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from app.model.maps.maps import UNITS, Map
+from app.model.maps.solving import Level, solve
+from tippe_core import kept
+
+DATA = Path(__file__).parents[2] / "data"
+SHIPPED = {Map(): DATA / "map.npz", Map(body="The paper's tippe top"): DATA / "map-paper.npz"}
+IN_MEMORY, AS_FILES = 64, 400  # of 48 x 48 cells each takes some 150 kB
+_memory: OrderedDict[Map, Level] = OrderedDict()
+_changing = threading.Lock()
+
+
+def recall(asked: Map) -> Level | None:
+    """The whole map, if it was made before with these sources of tippe_core."""
+    with _changing:
+        level = _memory.get(asked)
+        if level is not None:
+            _memory.move_to_end(asked)
+            return level
+    path = SHIPPED.get(asked) or _path(asked)
+    if path is None or not path.exists():
+        return None
+    with suppress(OSError, ValueError, KeyError, BadZipFile), np.load(path) as file:
+        x, y = asked.centres(asked.cells)
+        columns = {name: file[name].astype(float) for name in UNITS}
+        level = Level(asked=asked, x=x, y=y, end=file["end"], columns=columns)
+        _remember(level)
+        return level
+    return None
+
+
+def keep(level: Level) -> None:
+    """A whole map; the oldest files go."""
+    _remember(level)
+    path = _path(level.asked)
+    if path is None:
+        return
+    with suppress(OSError):
+        path.parent.mkdir(exist_ok=True)
+        _write(level, path)
+        for old in sorted(path.parent.glob("*.npz"), key=lambda each: each.stat().st_mtime)[:-AS_FILES]:
+            old.unlink(missing_ok=True)
+
+
+def _write(level: Level, path: Path, kind: Any = float) -> None:
+    new = path.with_suffix(f".{threading.get_ident()}.new")
+    with new.open("wb") as file:
+        columns = {name: values.astype(kind) for name, values in level.columns.items()}
+        np.savez_compressed(file, allow_pickle=False, end=level.end, **columns)
+    new.replace(path)
+
+
+def _remember(level: Level) -> None:
+    with _changing:
+        _memory[level.asked] = level
+        while len(_memory) > IN_MEMORY:
+            _memory.popitem(last=False)
+
+
+def _path(asked: Map) -> Path | None:
+    """By content; the folder's own name says which sources of tippe_core computed it."""
+    try:
+        folder = kept.folder()
+    except ImportError:  # no numba: nothing is kept
+        return None
+    return folder and folder / "maps" / f"{hashlib.sha256(repr(asked).encode()).hexdigest()[:32]}.npz"
+
+
+def main() -> None:
+    for asked, path in SHIPPED.items():
+        _write(next(level for level in solve(asked) if level.finest), path, np.float32)
+
+
+if __name__ == "__main__":
+    main()

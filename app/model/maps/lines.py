@@ -1,0 +1,130 @@
+"""What closed forms say of a map: lines over it, and why runs end otherwise than they allow."""
+
+from collections import Counter
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from app.model.maps.maps import Map
+from app.model.maps.solving import Level
+from tippe_core import Thresholds, Top, TopError, strongest_friction, thresholds
+from tippe_core.paper import equations as eq
+from tippe_core.types import Array, Bools
+
+FINE = 61  # points a side at which closed forms are asked
+MANY = 20  # hops that cost more than a little spin
+TURNED = ("stem", "inverted")
+WINDOW = ("window_low", "window_high")  # I1/I3 = 1 - a/R and 1 + a/R: the borders of the groups of tops
+
+
+@dataclass(frozen=True)
+class Disagreement:
+    """Where runs do otherwise than a closed form says. kind: "lies" (it lets a top stand turned over, and the run does
+    not), "stays" (it cannot stay upright, and does), "beyond" (it cannot stand turned over, and does). count: cells, of
+    how many of which the form says so; why most of them do otherwise, a key of maps.toml; one of them, (across, up);
+    from and to which value across."""
+
+    kind: str
+    count: int
+    allowed: int
+    why: str
+    one: tuple[float, float]
+    low: float
+    high: float
+
+
+@lru_cache(256)
+def _strongest(top: Top) -> float:
+    return strongest_friction(top)
+
+
+@lru_cache(256)
+def _limits(top: Top) -> Thresholds:
+    return thresholds(top)
+
+
+def _excess(asked: Map, x: float, y: float) -> dict[str, float]:
+    """{line: by how much a start is beyond it}; nan where there is no such start, or no such line."""
+    none = dict.fromkeys(("stands", "leaves", "painleve", *WINDOW), np.nan)
+    try:
+        cell = asked.at(x, y)
+    except TopError:
+        return none
+    top, state, limits = cell.top, cell.state, _limits(cell.top)
+    C_J = eq.C_J(np.cos(state.theta), np.sin(state.theta), 0.0, state.omega3, top)
+    launch = abs(C_J / eq.C_J(1.0, 0.0, 0.0, 1.0, top))
+    found = {"stands": launch - limits.launch if limits.inverted.stable == "above" else np.nan,
+             "leaves": launch - limits.upright.spin if limits.upright.stable == "below" else np.nan}  # fmt: skip
+    mu = cell.friction.law.mu if asked.law != "viscous" else np.nan  # that grows with the slip without bound
+    found["painleve"] = mu - _strongest(top)
+    return found | {"window_low": top.I1 / top.I3 - (1 - top.a), "window_high": top.I1 / top.I3 - (1 + top.a)}
+
+
+@lru_cache(32)
+def lines(asked: Map) -> tuple[tuple[str, Array], ...]:
+    """(name, (k, 2) places) of each line: "stands", above which a top can stand turned over; "leaves", above which it
+    cannot stay upright; "painleve", friction beyond which no normal force balances it on the ball; and of a map over
+    tops the WINDOW."""
+    x, y = (np.linspace(*span, FINE) for span in (asked.across_range, asked.up_range))
+    fields = [[_excess(asked, float(one), float(other)) for one in x] for other in y]
+    wanted = ("stands", "leaves", "painleve", *(WINDOW if {"a", "ratio"} & {asked.across, asked.up} else ()))
+    found: list[tuple[str, Array]] = []
+    for name in wanted:
+        z = np.array([[each[name] for each in row] for row in fields])
+        along, up = _crossings(x, y, z), [line[:, ::-1] for line in _crossings(y, x, z.T)]
+        found += [(name, line) for line in max(along, up, key=lambda lines: sum(map(len, lines)))]
+    return tuple(found)
+
+
+def _crossings(x: Array, y: Array, z: Array) -> list[Array]:
+    """Where z (y, x) passes 0 along each row: the first places of all rows as one line, the second as another, ..."""
+    found: dict[int, list[tuple[float, float]]] = {}
+    for row, other in zip(z, y, strict=True):
+        at = np.flatnonzero((row[:-1] < 0) & (row[1:] >= 0) | (row[:-1] >= 0) & (row[1:] < 0))
+        for k, i in enumerate(at):
+            place = x[i] + (x[i + 1] - x[i]) * row[i] / (row[i] - row[i + 1])
+            found.setdefault(k, []).append((float(place), float(other)))
+    return [np.array(line) for line in found.values() if len(line) > 1]
+
+
+def disagreements(level: Level) -> list[Disagreement]:
+    """Of a level that is whole, a kind each; none where all runs do what the closed forms say."""
+    excess = [[_excess(level.asked, float(x), float(y)) for x in level.x] for y in level.y]
+    stands, leaves = (np.array([[each[name] for each in row] for row in excess]) for name in ("stands", "leaves"))
+    was_run, turned = level.end != "refused", np.isin(level.end, TURNED)
+    kinds = {
+        "lies": (stands > 0, ~turned),
+        "stays": (leaves > 0, level.end == "upright"),
+        "beyond": (stands <= 0, turned),
+    }
+    return [found for kind, (says, does) in kinds.items()
+            if (found := _disagreement(level, kind, says & was_run, says & was_run & does))]  # fmt: skip
+
+
+def _disagreement(level: Level, kind: str, says: Bools, otherwise: Bools) -> Disagreement | None:
+    if not otherwise.any():
+        return None
+    places = np.argwhere(otherwise)
+    reasons = [_why(level, kind, int(i), int(j)) for i, j in places]
+    why = Counter(reasons).most_common(1)[0][0]
+    own = places[[reason == why for reason in reasons]]
+    i, j = own[len(own) // 2]
+    across = level.x[places[:, 1]]
+    return Disagreement(kind, len(places), int(says.sum()), why, (float(level.x[j]), float(level.y[i])),
+                        float(across.min()), float(across.max()))  # fmt: skip
+
+
+def _why(level: Level, kind: str, i: int, j: int) -> str:
+    """Why a run does otherwise, by what it did itself."""
+    end = str(level.end[i, j])
+    if end == "rolling" or (kind == "stays" and level.asked.law == "coulomb"):
+        return "sticks"
+    if kind == "beyond":
+        return "carries" if end == "stem" else "high"
+    if np.isfinite(level.columns["time_stem"][i, j]):
+        pivots = "falls" if level.asked.law == "contensou" else "stem"
+        return "lifts" if level.columns["hops"][i, j] > MANY else pivots
+    if kind == "stays" or end == "moving":
+        return "time"
+    return "pivoting" if level.asked.law == "contensou" else "time"

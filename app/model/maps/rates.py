@@ -1,0 +1,148 @@
+"""How fast small tilts grow and turn, by the linear picture and by runs; and how the time of inversion scales."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from app.model.maps.maps import Cell, Map
+from app.model.maps.steady import at_place, fixed, launch
+from tippe_core import State, TopError, slide, slide_many, spinning_modes, steady_states, tumbling_modes
+from tippe_core.types import Array
+
+SPINS, DOTS = 97, 9
+SMALL = 1e-7  # rad: a start so near to a pole is a small motion for a while
+FOLDS = 3.0  # e-folds over which a run's growth is measured
+MOST_TIME = 400.0  # (R/g)^1/2: no run is followed longer for it
+POINTS = 9  # runs of a power
+REACH = 1.5  # times more, and less, than at the bead
+Look = Callable[[float], object]
+
+
+class Branch(NamedTuple):
+    """Of "upright", "inverted" or "tumbling" spin: the growth (1/s) and the turning (1/s, seen from above) of the mode
+    that grows fastest, over spin (rev/s of the start); growth of runs at spins of their own, none for tumbling."""
+
+    name: str
+    spin: Array
+    growth: Array
+    turning: Array
+    run_spin: Array
+    run_growth: Array
+
+
+class Power(NamedTuple):
+    """time ~ quantity^power, with its error; nan where fewer than three runs turn over. runs: how many do."""
+
+    law: str
+    quantity: str
+    power: float
+    error: float
+    runs: int
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Rates:
+    """branches: of Branch; powers: of Power."""
+
+    branches: tuple[Branch, ...]
+    powers: tuple[Power, ...]
+
+
+def rates(asked: Map, place: tuple[float, float], look: Look | None = None) -> Rates:
+    """The Rates at the bead. Raises TopError where there is no such top."""
+    own, x = fixed(asked, place), at_place(asked, place)
+    low, high = own.across_range
+    spin = np.linspace(max(low, 0.0), high, SPINS)
+    if high <= 0:
+        return Rates(branches=(), powers=())
+    here = own.at(high, x["tilt"])
+    branches = tuple(_branch(name, here, spin, look) for name in ("upright", "tumbling", "inverted"))
+    return Rates(branches=branches, powers=powers(own, x, look))
+
+
+def _branch(name: str, here: Cell, spin: Array, look: Look | None) -> Branch:
+    top, law, unit, per_spin = here.top, here.friction, here.scales.angular_velocity, launch(here)
+    found, of_runs = np.full((len(spin), 2), np.nan), np.empty((0, 2))
+    for i, each in enumerate(spin):
+        if name == "tumbling":
+            steady = steady_states(top, per_spin * each)
+            between = steady.theta[1:-1][steady.stable[1:-1]]
+            if not len(between):
+                continue
+            modes = tumbling_modes(top, law, float(between[0]))
+            modes = np.delete(modes, np.argmin(np.abs(modes)))  # along the steady motions themselves
+        else:
+            modes = spinning_modes(top, law, _own_spin(name, per_spin * each, here), name == "inverted")
+        found[i] = unit * modes[0].real, unit * abs(modes[0].imag)
+    if name != "tumbling" and law.law.kind != 0:
+        places = np.linspace(spin[0], spin[-1], DOTS + 2)[1:-1]
+        of_runs = np.array([_grown(name, here, per_spin * each, look) for each in places]) * [1 / per_spin, unit]
+    return Branch(name, spin, *found.T, *of_runs.T)
+
+
+def _own_spin(name: str, C_J: float, here: Cell) -> float:
+    """omega3 at a pole with this C_J: I3 (c - a) omega3."""
+    c = -1.0 if name == "inverted" else 1.0
+    return C_J / (here.top.I3 * (c - here.top.a))
+
+
+def _grown(name: str, here: Cell, C_J: float, look: Look | None) -> tuple[float, float]:
+    """(C_J that pivoting has left by then, how fast the tilt from the pole grows in a run: nan where it dies away)."""
+    top, law, spin = here.top, here.friction, _own_spin(name, C_J, here)
+    modes = spinning_modes(top, law, spin, name == "inverted").real
+    none = C_J, np.nan
+    if modes[0] <= 0:
+        return none
+    since = min(np.log(1e3) / max(modes[0] - modes[1], 1e-3), 6 / modes[0])
+    end = since + FOLDS / modes[0]
+    if end > MOST_TIME:
+        return none
+    pole = np.pi if name == "inverted" else 0.0
+    state = State(abs(pole - SMALL), 0.0, 0.0, spin, vx=0.0, vy=0.0)
+    moved = slide(top, state, law, np.linspace(0, end, 200), rtol=1e-11, progress=look)
+    late = moved.t >= since
+    if np.count_nonzero(late) < 10:
+        return none
+    growth = np.polyfit(moved.t[late], np.log(np.abs(pole - moved.theta[late])), 1)[0]
+    return float(moved.jellett[late].mean()), float(growth)
+
+
+def powers(own: Map, x: dict[str, float], look: Look | None = None) -> tuple[Power, ...]:
+    """How the time to pass 90 degrees goes with the spin, with mu and with the law's second number, by each law."""
+    found = []
+    for law in ("coulomb", "viscous", "contensou"):
+        second = x["second"] if law == own.law else Map(law=law).start["second"]
+        mine = x | {"second": second}
+        for quantity in ("spin", "mu", *(("second",) if law != "viscous" else ())):
+            found.append(_power(own, law, quantity, mine, look))
+    return tuple(found)
+
+
+def _power(own: Map, law: str, quantity: str, x: dict[str, float], look: Look | None) -> Power:
+    by = np.geomspace(1 / REACH, REACH, POINTS)
+    cells, values = [], []
+    for each in by:
+        value = x[quantity] * each
+        told = tuple((x | {quantity: value}).items())
+        try:
+            asked = replace(own, law=law, values=tuple(pair for pair in told if pair[0] in ("mu", "second", "slip")))
+            cells.append(asked.at(value if quantity == "spin" else x["spin"], x["tilt"]))
+            values.append(value)
+        except TopError:
+            continue
+    if not cells:
+        return Power(law, quantity, np.nan, np.nan, 0)
+    first = cells[0]
+    many = slide_many(first.top, [cell.state for cell in cells], [cell.friction for cell in cells], first.t_end,
+                      first.edge, rtol=own.rtol, progress=look)  # fmt: skip
+    passed = np.isfinite(many.time_90) & (many.time_90 > 0)
+    count = int(passed.sum())
+    if count < 3:
+        return Power(law, quantity, np.nan, np.nan, count)
+    X, Y = np.log(np.array(values)[passed]), np.log(many.time_90[passed])
+    X = X - X.mean()
+    power = X @ Y / (X @ X)
+    left = Y - Y.mean() - power * X
+    return Power(law, quantity, float(power), float(np.sqrt(left @ left / (count - 2) / (X @ X))), count)

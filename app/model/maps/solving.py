@@ -1,0 +1,148 @@
+"""A Map solved in pieces, coarse to fine, so that it can be stopped between two of them; every cell is one run."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.model.maps.maps import NUDGE, UNITS, Map, cells_of
+from tippe_core import Trajectory, ending, slide, slide_many
+from tippe_core.types import Array, Bools
+
+PIECE, FEWEST, MOST = 0.12, 16, 256  # s a piece should take, and cells in it
+GROWS = 1e3  # a nudge that grows so much: neighbours between two cells may end otherwise
+CURVE, MOST_CURVE = 900, 2400  # samples of a run that is drawn
+TURN = 1.5  # rad: so far it should turn at most between two of them
+Ends: TypeAlias = NDArray[np.str_]
+Progress: TypeAlias = Callable[[float], object]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Level:
+    """A map as far as it is: end (up, across), "" where no run was made yet; columns: {name of UNITS: (up, across)} in
+    these units, nan there."""
+
+    asked: Map
+    x: Array
+    y: Array
+    end: Ends
+    columns: dict[str, Array]
+
+    @property
+    def whole(self) -> bool:
+        """Whether each cell was run."""
+        return bool((self.end != "").all())
+
+    @property
+    def finest(self) -> bool:
+        """Whether no finer one follows."""
+        return self.whole and len(self.x) == self.asked.cells
+
+    @property
+    def mixed(self) -> Bools:
+        """Where two or more of four neighbours end otherwise, or a nudge grows beyond GROWS."""
+        differ = np.zeros(self.end.shape, int)
+        for one, other in (((slice(1, None), slice(None)), (slice(-1), slice(None))),
+                           ((slice(None), slice(1, None)), (slice(None), slice(-1)))):  # fmt: skip
+            unlike = self.end[one] != self.end[other]
+            differ[one] += unlike
+            differ[other] += unlike
+        with np.errstate(invalid="ignore"):
+            return ((differ >= 2) | (self.columns["growth"] > GROWS)) & (self.end != "")
+
+    def copy(self) -> "Level":
+        """As it is now: what solve() gives is filled on."""
+        return replace(self, end=self.end.copy(), columns={name: x.copy() for name, x in self.columns.items()})
+
+    def worst(self, name: str) -> float:
+        """The largest size in a column; nan where it has no number."""
+        sizes = np.abs(self.columns[name])
+        return float(np.nanmax(sizes)) if np.isfinite(sizes).any() else np.nan
+
+    def cell(self, across: float, up: float) -> tuple[int, int]:
+        """(row, column) of the cell that a place is in."""
+        return int(np.argmin(np.abs(self.y - up))), int(np.argmin(np.abs(self.x - across)))
+
+
+class Found(NamedTuple):
+    """What a single run did: times in s, nan if never; theta in degrees over t in s; film: the motion at t."""
+
+    end: str
+    time_90: float
+    time_stem: float
+    hops: int
+    t: Array
+    theta: Array
+    film: Trajectory
+
+
+def solve(asked: Map, look: Progress | None = None) -> Iterator[Level]:
+    """Levels, one after each piece; look: called with the share that is done, what it raises stops all."""
+    before: Level | None = None
+    total, done = sum(n * n for n in asked.levels()), 0
+    for n in asked.levels():
+        level = _empty(asked, n)
+        if before is not None and n == 3 * len(before.x):
+            level.end[1::3, 1::3] = before.end
+            for name, values in level.columns.items():
+                values[1::3, 1::3] = before.columns[name]
+            done += len(before.x) ** 2
+        left, size = np.flatnonzero(level.end.ravel() == ""), FEWEST
+        while left.size:
+            piece, left = left[:size], left[size:]
+            began = perf_counter()
+            _fill(level, piece, done / total, look)
+            size = int(np.clip(size * PIECE / max(perf_counter() - began, 1e-6), max(FEWEST, size // 2), MOST))
+            done += len(piece)
+            yield level
+        before = level
+
+
+def _empty(asked: Map, n: int) -> Level:
+    x, y = asked.centres(n)
+    return Level(asked=asked, x=x, y=y, end=np.full((n, n), "", "<U8"),
+                 columns={name: np.full((n, n), np.nan) for name in UNITS})  # fmt: skip
+
+
+def _fill(level: Level, piece: NDArray[np.intp], share: float, look: Progress | None) -> None:
+    asked, (rows, columns) = level.asked, np.divmod(piece, len(level.x))
+    found = cells_of(asked, list(zip(level.x[columns].tolist(), level.y[rows].tolist(), strict=True)))
+    level.end[rows, columns] = "refused"
+    if not found.good:
+        return
+    tops, scales, edges, states, laws, t_end = zip(*found.good, strict=True)
+    edge = None if edges[0] is None else np.array(edges)
+    told = None if look is None else lambda _: look(share)
+    many = slide_many(list(tops), list(states), list(laws), np.array(t_end), edge, rtol=asked.rtol,
+                      nudge=NUDGE if asked.nudged else None, progress=told)  # fmt: skip
+    at, time = (rows[found.which], columns[found.which]), np.array([each.time for each in scales])
+    level.end[at] = many.end
+    units = {"theta_end": 180 / np.pi, "time_90": time, "time_stem": time}
+    refused = many.end == "refused"
+    for name, values in level.columns.items():
+        values[at] = np.where(refused, np.nan, getattr(many, name) * units.get(name, 1.0))
+
+
+def run(asked: Map, across: float, up: float, look: Progress | None = None) -> Found:
+    """What one place on a map does, in full. TopError where there is no such run."""
+    cell = asked.at(across, up)
+    frames = int(np.clip(abs(cell.state.omega3) * cell.t_end / TURN, CURVE, MOST_CURVE))
+    times, time = np.linspace(0, cell.t_end, frames), cell.scales.time
+    moved = slide(cell.top, cell.state, cell.friction, times, rtol=asked.rtol, landing="plastic", edge=cell.edge,
+                  progress=look)  # fmt: skip
+    over = moved.theta - np.pi / 2
+    passed = np.flatnonzero((over[:-1] < 0) != (over[1:] < 0))[:1]
+    t_90 = moved.t[passed] + (moved.t[passed + 1] - moved.t[passed]) * over[passed] / (over[passed] - over[passed + 1])
+    stems = [start for start, on in moved.supports if on == "stem"]
+    return Found(
+        end=ending(moved).end,
+        time_90=float(t_90[0]) * time if passed.size else np.nan,
+        time_stem=float(stems[0]) * time if stems else np.nan,
+        hops=sum(what == "lifts off" for _, what in moved.events),
+        t=moved.t * time,
+        theta=np.degrees(moved.theta),
+        film=moved,
+    )

@@ -1,0 +1,192 @@
+"""The end tilt over the spin: steady motions as lines, runs as dots, and what becomes of a run in the long.
+
+All at the tilt, friction and law of a Map's bead: rev/s across, degrees up.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from app.model.maps.maps import QUANTITIES, Cell, Map
+from tippe_core import States, Top, slide, slide_many, steady_states
+from tippe_core.paper import equations as eq
+from tippe_core.types import Array
+
+RUNS, SWEEP, TILTS, LONGER = 41, 17, 181, 4
+MOST_SECONDS = 60.0
+DRIFT = 600  # samples of the long run
+Look = Callable[[float], object]
+
+
+class Line(NamedTuple):
+    """Spins of a start that has the C_J of a steady motion at these tilts; whether it is stable."""
+
+    spin: Array
+    theta: Array
+    stable: bool
+
+
+class Life(NamedTuple):
+    """A long run: the spin of a start with the C_J that is left, and the tilt, over t (s); when it first stands on its
+    stem alone and when it last leaves it, s, nan if never; how long it was followed, s; the tilt at the end."""
+
+    t: Array
+    spin: Array
+    theta: Array
+    stands: float
+    leaves: float
+    seconds: float
+    end: float
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Bifurcation:
+    """lines: of Line; spin (n,), and of runs from there the tilt at the end (degrees) after each of times (s), (2, n);
+    up, down (m,): tilts over swept (m,), each run going on from the one before with its C_J brought to the next spin;
+    life: of the start at the bead."""
+
+    lines: tuple[Line, ...]
+    spin: Array
+    times: tuple[float, float]
+    theta: Array
+    swept: Array
+    up: Array
+    down: Array
+    life: Life
+
+
+def spins_of(asked: Map) -> tuple[float, float]:
+    """From which to which spin (rev/s)."""
+    if asked.across == "spin":
+        return asked.across_range
+    if asked.up == "spin":
+        return asked.up_range
+    return QUANTITIES["spin"].low, QUANTITIES["spin"].high
+
+
+def at_place(asked: Map, place: tuple[float, float]) -> dict[str, float]:
+    """{name: value} of QUANTITIES at the bead."""
+    return asked.start | {asked.across: place[0], asked.up: place[1]}
+
+
+def fixed(asked: Map, place: tuple[float, float]) -> Map:
+    """The Map over spin and tilt that goes through the bead of another."""
+    x, axes = at_place(asked, place), (asked.across, asked.up)
+    if set(axes) & {"a", "ratio", "R", "stem", "rounding"}:
+        cell = asked.at(*place)
+        own = asked.thing._replace(top=cell.top, scales=cell.scales, edge=cell.edge)
+        asked = replace(asked, body="", own=own)
+    tilt = QUANTITIES["tilt"]
+    values = tuple((name, x[name]) for name in ("mu", "second", "slip", "spin", "tilt"))
+    low, high = spins_of(asked) if "spin" in axes else (QUANTITIES["spin"].low, QUANTITIES["spin"].high)
+    return replace(asked, across="spin", up="tilt", across_range=(low, high), up_range=(tilt.low, tilt.high),
+                   values=values, nudged=False)  # fmt: skip
+
+
+def launch(cell: Cell) -> float:
+    """C_J of a start for each rev/s of its spin."""
+    top, theta = cell.top, cell.state.theta
+    unit = 2 * np.pi / cell.scales.angular_velocity
+    return float(eq.C_J(np.cos(theta), np.sin(theta), 0.0, unit, top))
+
+
+def steady_lines(top: Top, per_spin: float, low: float, high: float) -> tuple[Line, ...]:
+    """The steady motions of a top whose starts have C_J = per_spin times their spin: the poles, and between them
+    C_J^2 = a I_eff^2/(I1 c - I3 (c - a)), each cut where it turns stable."""
+    found: list[Line] = []
+    spins = np.linspace(low, high, 241)
+    poles = [steady_states(top, per_spin * spin).stable[[0, -1]] for spin in spins]
+    for pole, theta in ((0, 0.0), (1, 180.0)):
+        found += _cut(spins, np.full(len(spins), theta), np.array([each[pole] for each in poles]))
+    theta = np.linspace(0, np.pi, TILTS + 2)[1:-1]
+    s, c = np.sin(theta), np.cos(theta)
+    turns = top.I1 * c - top.I3 * (c - top.a)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        spin = np.sqrt(top.a / turns) * (top.I1 * s * s + top.I3 * (c - top.a) ** 2) / abs(per_spin)
+    spin[(top.a * turns <= 0) | (spin < low) | (spin > high)] = np.nan
+    stable = np.zeros(len(theta), bool)
+    for i in np.flatnonzero(np.isfinite(spin)):
+        states = steady_states(top, per_spin * spin[i])
+        stable[i] = states.stable[np.argmin(np.abs(states.theta - theta[i]))]
+    return tuple(found + _cut(spin, np.degrees(theta), stable))
+
+
+def _cut(spin: Array, theta: Array, stable: Array) -> list[Line]:
+    """Pieces of one line that are stable or not all along."""
+    there = np.isfinite(spin)
+    ends = np.flatnonzero((stable[1:] != stable[:-1]) | (there[1:] != there[:-1])) + 1
+    pieces = [(0 if first == 0 else first, last) for first, last in zip([0, *ends], [*ends, len(spin)], strict=True)]
+    return [Line(spin[first:last], theta[first:last], bool(stable[first])) for first, last in pieces
+            if there[first] and last - first > 1]  # fmt: skip
+
+
+def bifurcation(asked: Map, place: tuple[float, float], look: Look | None = None) -> Bifurcation:
+    """The Bifurcation through the bead. Raises TopError where there is no such top."""
+    own, x = fixed(asked, place), at_place(asked, place)
+    low, high = own.across_range
+    here = own.at(x["spin"], x["tilt"])
+    spin = np.linspace(low, high, RUNS)
+    times = own.seconds, min(LONGER * own.seconds, MOST_SECONDS)
+    cells = [own.at(float(each), x["tilt"]) for each in spin]
+    t_end = np.array(times)[:, None] / here.scales.time
+    many = slide_many(here.top, [cell.state for cell in cells], here.friction, t_end, here.edge, rtol=own.rtol,
+                      progress=look)  # fmt: skip
+    theta = np.where(many.end == "refused", np.nan, np.degrees(many.theta_end))
+    swept = np.linspace(low, high, SWEEP)
+    up = _sweep(own, x["tilt"], swept, look)
+    down = _sweep(own, x["tilt"], swept[::-1], look)[::-1]
+    lines = steady_lines(here.top, launch(here), low, high) if low >= 0 else ()
+    return Bifurcation(lines=lines, spin=spin, times=times, theta=theta, swept=swept, up=up, down=down,
+                       life=_life(here, look))  # fmt: skip
+
+
+def _sweep(own: Map, tilt: float, spins: Array, look: Look | None) -> Array:
+    """The tilt at the end of each run; it starts where the one before ended, all velocities in proportion to bring C_J
+    to the next spin. A run that was refused is nan, and the next starts anew."""
+    found, state = np.full(len(spins), np.nan), None
+    for i, spin in enumerate(spins):
+        cell = own.at(float(spin), tilt)
+        start = cell.state if state is None else _brought(state, cell)
+        if start is None:
+            continue
+        many = slide_many(cell.top, start, cell.friction, cell.t_end, cell.edge, rtol=own.rtol)
+        state = None
+        if many.end != "refused":
+            found[i], state = np.degrees(many.theta_end), many.state_end
+        if look:
+            look(0.0)
+    return found
+
+
+def _brought(state: States, cell: Cell) -> States | None:
+    """A state with the C_J of a cell's start."""
+    top = cell.top
+
+    def C_J(theta: Array, omega2: Array, omega3: Array) -> float:
+        return float(eq.C_J(np.cos(theta), np.sin(theta), omega2, omega3, top))
+
+    now = C_J(state.theta, state.omega2, state.omega3)
+    if now == 0.0:
+        return None
+    by = C_J(np.asarray(cell.state.theta), np.asarray(0.0), np.asarray(cell.state.omega3)) / now
+    names = ("theta_dot", "omega2", "omega3", "vx", "vy")
+    return state._replace(**{name: by * getattr(state, name) for name in names})
+
+
+def _life(here: Cell, look: Look | None) -> Life:
+    """The run of the bead for MOST_SECONDS."""
+    time = here.scales.time
+    times = np.linspace(0, MOST_SECONDS / time, DRIFT)
+    moved = slide(here.top, here.state, here.friction, times, rtol=1e-6, landing="plastic", edge=here.edge,
+                  progress=look)  # fmt: skip
+    supports = [*moved.supports, (float(moved.t[-1]), "")]
+    stems = [(start * time, end * time) for (start, on), (end, _) in pairwise(supports)
+             if on == "stem"]  # fmt: skip
+    last = stems[-1][1] if stems else np.nan
+    over = stems and last >= moved.t[-1] * time
+    return Life(moved.t * time, np.abs(moved.jellett / launch(here)), np.degrees(moved.theta),
+                stems[0][0] if stems else np.nan, np.nan if over else last, float(moved.t[-1] * time),
+                float(np.degrees(moved.theta[-1])))  # fmt: skip

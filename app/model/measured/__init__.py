@@ -1,0 +1,1 @@
+"""What somebody measured, and the motion that is fitted to it."""

@@ -1,0 +1,99 @@
+"""What was measured, in s, rad and m: the columns of a Table as a person settled them."""
+
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from app.model.measured.table import UNITS, Column, MeasuredError, Table
+from tippe_core.types import Array
+
+TOGETHER = (("x", "y"), ("tip_x", "tip_y"))
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """One measured quantity: values at t, each with this standard error; s, and rad, rad/s or m."""
+
+    t: Array
+    values: Array
+    error: float
+
+
+@dataclass(frozen=True, eq=False)
+class Data:
+    """Series by quantity, keys of UNITS but for "time"."""
+
+    series: MappingProxyType[str, Series]
+
+    @property
+    def t(self) -> Array:
+        """All times, each once."""
+        return np.unique(np.concatenate([series.t for series in self.series.values()]))
+
+    def between(self, start: float, end: float) -> "Data":
+        """The same, of this part of the time alone."""
+        parts = {}
+        for name, series in self.series.items():
+            inside = (series.t >= start) & (series.t <= end)
+            parts[name] = Series(series.t[inside], series.values[inside], series.error)
+        if sum(len(series.t) for series in parts.values()) < 8:
+            raise MeasuredError("part", start=start, end=end)
+        return Data(MappingProxyType({name: part for name, part in parts.items() if len(part.t)}))
+
+
+def corrected(column: Column, quantity: str, unit: str) -> Column:
+    """The column as another quantity; a unit that it does not have becomes its first."""
+    units = UNITS.get(quantity, {})
+    return replace(column, quantity=quantity, unit=unit if unit in units else next(iter(units), ""), guessed=False)
+
+
+def settled(table: Table, rate: float = 0.0) -> Data:
+    """The Data of a Table. rate: frames a second, where the time is counted in frames."""
+    used = [column for column in table.columns if column.quantity]
+    for quantity in UNITS:
+        alike = [column.name for column in used if column.quantity == quantity]
+        if len(alike) > 1:
+            raise MeasuredError("twice", first=alike[0], second=alike[1])
+    time = next((column for column in used if column.quantity == "time"), None)
+    if time is None:
+        raise MeasuredError("no-time-column", line=max(table.lines[0] - 1, 1))
+    if time.unit == "frames" and not rate > 0:
+        raise MeasuredError("rate", rate=rate)
+    known = np.isfinite(time.values)
+    t = time.values[known] * (1 / rate if time.unit == "frames" else UNITS["time"][time.unit])
+    lines = np.array(table.lines)[known]
+    falls = np.flatnonzero(np.diff(t) < 0)
+    if falls.size:
+        before, after = time.values[known][falls[0] : falls[0] + 2]
+        raise MeasuredError("falling", line=int(lines[falls[0] + 1]), before=float(before), after=float(after))
+    series = {column.quantity: _series(column, t, known) for column in used if column is not time}
+    for one, other in TOGETHER:
+        if (one in series) != (other in series):
+            raise MeasuredError(
+                "half-a-track", here=one if one in series else other, missing=other if one in series else one
+            )
+    if not series:
+        raise MeasuredError("nothing", line=max(table.lines[0] - 1, 1))
+    return Data(MappingProxyType(series))
+
+
+def _series(column: Column, t: Array, known: Array) -> Series:
+    size = UNITS[column.quantity][column.unit]
+    values = column.values[known] * size
+    good = np.isfinite(values)
+    if good.sum() < 4:
+        raise MeasuredError("few-values", name=column.name, count=int(good.sum()))
+    values, t = values[good], t[good]
+    if column.quantity == "azimuth":
+        values = np.unwrap(values)
+    least = 1e-4 * float(np.ptp(values)) or 1e-6  # of numbers that were rounded away, or computed
+    error = column.error * size if column.error and column.error > 0 else max(roughness(values), least)
+    return Series(t, values, error)
+
+
+def roughness(values: Array) -> float:
+    """The standard error of one value, from how the values jump about a smooth curve: of third differences, whose
+    variance is 20 times theirs, the middle one."""
+    jumps = np.abs(np.diff(values, 3))
+    return float(np.median(jumps) / (0.6745 * np.sqrt(20))) if jumps.size else 0.0

@@ -1,0 +1,116 @@
+"""A film's data with what is to be fitted to them, as text: a table that any program reads, below a line that starts
+with `# film:` and says the rest. In a link it is packed."""
+
+import base64
+import binascii
+import json
+import math
+import zlib
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from app.model.measured.data import Data
+from app.model.measured.motion import OF_LAW
+from app.model.measured.remembered import checked
+from app.model.measured.table import LARGEST, MeasuredError
+from app.model.measured.work import LOOSE, models
+from tippe_core import Scales, Shape, Top, TopError, load_top, save_top
+
+MARK = "# film:"
+FINE = 20.0  # digits of a value go to this part of its error
+LONGEST_PACKED = 6000  # letters in a link
+UNITS = {"tilt": "rad", "azimuth": "rad", "spin": "rad/s", "precession": "rad/s"}
+
+
+@dataclass(frozen=True, eq=False)
+class Film:
+    """law: a key of OF_LAW but "rolling"; loose: keys of LOOSE; part: (start, end) in s. top, scales, shape: of what
+    was filmed. fits: of rolling and of sliding what said_of() keeps, none where nothing was fitted."""
+
+    law: str
+    loose: tuple[str, ...]
+    part: tuple[float, float]
+    top: Top
+    scales: Scales
+    shape: Shape | None
+    fits: tuple[dict[str, Any], ...] = ()
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The numbers that are loose."""
+        return tuple(name for key in self.loose for name in LOOSE[key])
+
+
+def table_of(data: Data) -> str:
+    """The data as a table that table.read takes, in the digits that their errors leave them: one row a time,
+    an empty cell where nothing was measured."""
+    heads = [f"{name.replace('_', ' ')} ({UNITS.get(name, 'm')}) ± {series.error:.4g}"
+             for name, series in data.series.items()]  # fmt: skip
+    digits = {name: max(0, math.ceil(-math.log10(series.error / FINE))) for name, series in data.series.items()}
+    columns = {name: dict(zip(series.t, series.values, strict=True)) for name, series in data.series.items()}
+    rows = ["\t".join(["time (s)", *heads])]
+    for t in data.t:
+        cells = [f"{column[t]:.{digits[name]}f}" if t in column else "" for name, column in columns.items()]
+        rows.append("\t".join([f"{t:.6g}", *cells]))
+    return "\n".join(rows) + "\n"
+
+
+def written(film: Film, data: Data) -> str:
+    """The text of a film's data and its settings."""
+    top, scales = film.top, film.scales
+    said = {
+        "law": film.law,
+        "loose": film.loose,
+        "part": [round(each, 6) for each in film.part],
+        "top": [top.a, top.I1, top.I3, scales.R, scales.M, scales.g],
+        "body": json.loads(save_top(film.shape)) if film.shape else None,
+    } | ({"fits": film.fits} if film.fits else {})
+    return f"{MARK} {json.dumps(said)}\n{table_of(data)}"
+
+
+def opened(text: str | bytes) -> Film | None:
+    """What a text says of its fit, None where it is a table alone. Raises MeasuredError where that cannot be read."""
+    plain = text.decode("utf-8-sig", "replace") if isinstance(text, bytes) else text.removeprefix("\ufeff")
+    for line, said in enumerate(plain[:LARGEST].split("\n", 20)[:20], 1):
+        if said.startswith(MARK):
+            try:
+                return _film(json.loads(said[len(MARK) :], parse_int=float))
+            except (ValueError, TypeError, KeyError, RecursionError, TopError):
+                raise MeasuredError("film", line=line) from None
+    return None
+
+
+def _film(said: Any) -> Film:
+    law, loose, part, top = said["law"], tuple(said["loose"]), said["part"], said["top"]
+    numbers = np.array([*part, *top], dtype=float)
+    if law not in OF_LAW or law == "rolling" or set(loose) - set(LOOSE) or numbers.shape != (8,):
+        raise ValueError(law)
+    if not np.isfinite(numbers).all() or min(numbers[5:]) <= 0:
+        raise ValueError("numbers")
+    start, end, a, I1, I3, R, M, g = map(float, numbers)
+    shape = load_top(json.dumps(said["body"])) if said["body"] else None
+    film = Film(law, loose, (start, end), Top(a, I1, I3), Scales(R, M, g), shape)
+    if fits := said.get("fits"):
+        both = models(film.top, film.scales, shape, law, film.free)
+        return replace(film, fits=tuple(checked(each, model) for each, model in zip(fits, both, strict=True)))
+    return film
+
+
+def packed(text: str) -> str:
+    """Letters and digits for a link; "" where they are too many."""
+    letters = base64.urlsafe_b64encode(zlib.compress(text.encode(), 9)).decode().rstrip("=")
+    return letters if len(letters) <= LONGEST_PACKED else ""
+
+
+def unpacked(letters: str) -> str:
+    """The text of what packed() gave. Raises ValueError."""
+    unpack = zlib.decompressobj()
+    try:
+        text = unpack.decompress(base64.urlsafe_b64decode(letters + "=" * (-len(letters) % 4)), LARGEST).decode()
+        if not unpack.eof:
+            raise ValueError("length")
+        return text
+    except (binascii.Error, zlib.error, ValueError):
+        raise ValueError("film") from None

@@ -1,0 +1,258 @@
+"""The fit of a Model to Data: least squares from several starts, what it knows and what it cannot tell."""
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import chi2 as chi_square
+from scipy.stats import norm
+
+from app.model.measured.data import Data
+from app.model.measured.known import RISE, known
+from app.model.measured.motion import BODY, BOUNDS, NO_MOTION, Left, Model, left_over, shifted
+from app.model.measured.starts import around, scattered, starts
+from app.model.runs import look
+from tippe_core import Constants, TopError
+from tippe_core.types import Array
+
+STEP = 1e-4  # of a number, or of its typical size, for central differences
+SIZES = {"tilt": 0.1, "tilt_rate": 0.3, "across": 0.3, "spin": 3.0, "rolling_resistance": 1e-3, "air_drag": 1e-3}
+STARTS = 6  # of the grid, the best are followed
+FOLLOWED = 10  # if that is in vain, of those scattered widely so many
+ROUNDS = 3  # around the best, where that fits nothing
+AGREEING, SAME = 3, 1e-3  # so many starts end at one chi-square, to this part of it, where it is surely the least
+ALSO = RISE  # by less of chi-square other numbers are as good: two standard errors
+MOST_BETTER = 3  # times that a valley may lead to a better place
+ALL = slice(None)
+GROWING = (0.25, 0.5, 0.75)  # parts of the time that are fitted one after the other
+TOGETHER = 0.95  # correlation from which two numbers are said to move together
+REFUSED = 1e-3  # a model that is right is refused as often
+CLEARLY = 6.0  # by so much of AIC one model is better
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """model: with the numbers found. sides: one standard error of each free one, below and above it, inf where
+    chi-square never says no; covariance: (k, k), by the curvature of chi-square.
+    left: what it leaves over. runs: {quantity: how many standard errors its residuals change sign too seldom}.
+    unknown: free numbers that these data do not tell; together: (one, other, correlation), likewise.
+    sure: whether it is as good as chance allows, or several starts ended here: else a better one may be elsewhere."""
+
+    model: Model
+    sides: dict[str, tuple[float, float]]
+    covariance: Array
+    left: Left
+    hidden: int
+    runs: dict[str, float]
+    unknown: tuple[str, ...]
+    together: tuple[tuple[str, str, float], ...]
+    sure: bool
+
+    @property
+    def errors(self) -> dict[str, float]:
+        """The standard error of each free number, to the side on which it is larger."""
+        return {name: max(both) for name, both in self.sides.items()}
+
+    @property
+    def chi2(self) -> float:
+        """Of all residuals."""
+        return float(self.left.row @ self.left.row)
+
+    @property
+    def chi2_of(self) -> dict[str, tuple[float, int]]:
+        """{quantity: (chi-square, how many values)}."""
+        return {name: (float(row @ row), len(row)) for name, row in self.left.residuals.items()}
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom."""
+        return max(len(self.left.row) - len(self.model.free) - self.hidden, 1)
+
+    @property
+    def aic(self) -> float:
+        """Akaike's criterion: the less the better."""
+        return self.chi2 + 2 * (len(self.model.free) + self.hidden)
+
+    @property
+    def refused(self) -> bool:
+        """Whether the data refuse the model: by chi-square, or by residuals that keep their sign for too long."""
+        seldom = norm.ppf(REFUSED / (2 * len(self.runs)))
+        return bool(chi_square.sf(self.chi2, self.freedom) < REFUSED or min(self.runs.values()) < seldom)
+
+    @property
+    def correlation(self) -> Array:
+        """(k, k), in the order of the free numbers."""
+        size = np.sqrt(np.diag(self.covariance))
+        return self.covariance / np.outer(size, size)
+
+    @property
+    def constants(self) -> dict[str, tuple[float, float]]:
+        """{K_J, K_R, E: (value at the start, standard error)}."""
+        names = self.model.free
+        here = _constants(self.model)
+        slopes = []
+        for name in names:
+            step = STEP * max(abs(self.model.values[name]), SIZES.get(name, 0.0))
+            high, low = (_constants(self.model.with_values({name: self.model.values[name] + way * step}))
+                         for way in (1, -1))  # fmt: skip
+            slopes.append((high - low) / (2 * step))
+        spread = np.array(slopes).T @ self.covariance @ np.array(slopes)
+        return {name: (float(value), float(np.sqrt(error)))
+                for name, value, error in zip(("K_J", "K_R", "E"), here, np.diag(spread), strict=True)}  # fmt: skip
+
+
+def _constants(model: Model) -> Array:
+    v = model.values
+    top = type(model.top)(*(v[name] for name in BODY))
+    found = Constants.from_state(top, v["tilt"], v["tilt_rate"], v["across"], v["spin"])
+    return np.array([found.K_J, found.K_R, found.E], dtype=float)
+
+
+def fit(model: Model, data: Data) -> Fit:
+    """The best Fit of the model's free numbers. It looks whether it is to end. Raises TopError where none of the starts
+    is a motion."""
+    problem = Problem(model, data)
+    if (count := problem.count) <= len(model.free) + shifted(data):
+        raise TopError("values", count, "more than {least} measured values", "Free fewer numbers, or measure more.",
+                       code="too-few-values", least=len(model.free) + shifted(data))  # fmt: skip
+    # At first of the beginning alone: of a whole motion, that turns many times, there are many false minima.
+    t = np.concatenate([series.t for series in data.series.values()])
+    shares = [t <= t.min() + share * np.ptp(t) for share in GROWING]
+    ends: list[tuple[float, Array]] = []
+    for x in problem.best_of(starts(model, data), STARTS, shares[0]):
+        for row in shares:
+            x = problem.followed(x, 12, row)[1]
+        ends.append(problem.followed(x, 25))
+    if not _settled(ends, problem):
+        # A law's number that the beginning hardly tells may have been led astray by it: others, by the whole motion.
+        for x in problem.best_of(scattered(model, data), FOLLOWED):
+            ends.append(problem.followed(x, 25))
+            if _settled(ends, problem):
+                break
+    best, x = _least(ends, problem)
+    for _ in range(ROUNDS):
+        if problem.good(best) or _alike(ends) >= AGREEING:
+            break
+        # Nothing fits, so that there may be a better place: whether those around the best lead back to it.
+        for y in problem.best_of(around(x, problem.sizes), FOLLOWED):
+            ends.append(problem.followed(y, 60))
+            if _alike(ends) >= AGREEING:
+                break
+        best, x = _least(ends, problem)
+    sure = problem.good(best) or _alike(ends) >= AGREEING
+    return _judged(model, data, problem, x, sure, [x for chi2, x in ends if chi2 < best + ALSO])
+
+
+def _least(ends: list[tuple[float, Array]], problem: "Problem") -> tuple[float, Array]:
+    """The least of the ends, followed to its own end."""
+    at = min(range(len(ends)), key=lambda i: ends[i][0])
+    ends[at] = problem.followed(ends[at][1], 60, exactly=True)
+    return ends[at]
+
+
+def _alike(ends: list[tuple[float, Array]]) -> int:
+    """How many end at the least."""
+    least = min(chi2 for chi2, _ in ends)
+    return sum(chi2 < least + max(0.1, SAME * least) for chi2, _ in ends)
+
+
+def _settled(ends: list[tuple[float, Array]], problem: "Problem") -> bool:
+    """Whether there is no need to look elsewhere: one that is as good as chance allows may still be a false one."""
+    return problem.good(min(chi2 for chi2, _ in ends)) and _alike(ends) > 1
+
+
+class Problem:
+    """Least squares of a Model's free numbers, in their order."""
+
+    def __init__(self, model: Model, data: Data) -> None:
+        self.model, self.data = model, data
+        self.count = sum(len(series.t) for series in data.series.values())
+        self.bounds = np.array([BOUNDS[name] for name in model.free]).T
+        self.sizes = np.array([SIZES.get(name, 0.1 * max(abs(model.values[name]), 0.01)) for name in model.free])
+
+    def residuals(self, x: Array) -> Array:
+        """In standard errors, all in one."""
+        look()
+        values = dict(zip(self.model.free, map(float, x), strict=True))
+        try:
+            row = left_over(self.model.with_values(values), self.data).row
+        except TopError:
+            return np.full(self.count, NO_MOTION)
+        return np.nan_to_num(row, nan=NO_MOTION, posinf=NO_MOTION, neginf=-NO_MOTION)
+
+    def slopes(self, x: Array) -> Array:
+        """Of the residuals."""
+        columns = []
+        for i, size in enumerate(np.maximum(STEP * np.abs(x), STEP * self.sizes)):
+            low, high = x.copy(), x.copy()
+            low[i], high[i] = max(x[i] - size, self.bounds[0, i]), min(x[i] + size, self.bounds[1, i])
+            columns.append((self.residuals(high) - self.residuals(low)) / (high[i] - low[i]))
+        return np.array(columns).T
+
+    def best_of(self, starts: list[Array], most: int, row: Array | slice = ALL) -> list[Array]:
+        """Those from which least is left over, the best first."""
+        inside = [np.clip(x, self.bounds[0] + 1e-6, self.bounds[1] - 1e-6) for x in starts]
+        return sorted(inside, key=lambda x: float(np.sum(self.residuals(x)[row] ** 2)))[:most]
+
+    def followed(self, x: Array, steps: int, row: Array | slice = ALL, exactly: bool = False) -> tuple[float, Array]:
+        """(chi-square, numbers) where least squares from x end."""
+        narrow = {"xtol": 1e-10, "ftol": 1e-10} if exactly else {}
+        found = least_squares(lambda x: self.residuals(x)[row], x, lambda x: self.slopes(x)[row], self.bounds,
+                              x_scale=self.sizes, max_nfev=steps, **narrow)  # fmt: skip
+        return 2 * float(found.cost), found.x
+
+    def good(self, chi2: float) -> bool:
+        """Whether it is as good as chance allows."""
+        return chi2 < self.count + np.sqrt(2 * self.count)
+
+
+def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, others: list[Array]) -> Fit:
+    names = model.free
+    for _ in range(MOST_BETTER):
+        found = known(problem, x)
+        if found.better is None:
+            break
+        _, x = problem.followed(found.better, 60, exactly=True)
+    model = model.with_values(dict(zip(names, map(float, x), strict=True)))
+    left = left_over(model, data)
+    tells = found.tells(x, problem.bounds)
+    for other in others:  # as good, and outside of what the valley around the best allows
+        tells = np.all([tells, other > x - 2 * found.below, other < x + 2 * found.above], axis=0)
+    errors = np.sqrt(np.diag(found.covariance))
+    correlation = found.covariance / np.outer(errors, errors)
+    pairs = [(names[i], names[j], float(correlation[i, j])) for i, j in itertools.combinations(range(len(names)), 2)
+             if abs(correlation[i, j]) > TOGETHER]  # fmt: skip
+    sides = {name: (float(below), float(above))
+             for name, below, above in zip(names, found.below, found.above, strict=True)}  # fmt: skip
+    return Fit(model, sides, found.covariance, left, shifted(data),
+               {name: runs(row) for name, row in left.residuals.items()},
+               tuple(name for name, so in zip(names, tells, strict=True) if not so), tuple(pairs), sure)  # fmt: skip
+
+
+def runs(row: Array) -> float:
+    """How far the number of runs of one sign is from what chance makes it, in standard errors (Wald and Wolfowitz);
+    negative: too few, so that the residuals follow something."""
+    above = row > 0
+    n, m = int(above.sum()), int((~above).sum())
+    count = 1 + int(np.count_nonzero(above[1:] != above[:-1]))
+    if min(n, m) == 0:
+        return 0.0 if len(row) < 8 else -float(np.sqrt(len(row)))
+    mean = 2 * n * m / (n + m) + 1
+    spread = (mean - 1) * (mean - 2) / (n + m - 1)
+    return float((count - mean) / np.sqrt(spread)) if spread > 0 else 0.0
+
+
+def verdict(rolling: Fit, sliding: Fit) -> str:
+    """ "rolled", "slipped", "neither", "either" where these data cannot tell, or "unsure" where a fit that is refused
+    may not be the best one: a key of [found] in measure.toml."""
+    if any(fit.refused and not fit.sure for fit in (rolling, sliding)):
+        return "unsure"
+    if rolling.refused and sliding.refused:
+        return "neither"
+    if rolling.refused or sliding.refused:
+        return "slipped" if rolling.refused else "rolled"
+    difference = rolling.aic - sliding.aic
+    if abs(difference) < CLEARLY:
+        return "either"
+    return "slipped" if difference > 0 else "rolled"

@@ -1,0 +1,163 @@
+"""A motion of rolling or sliding with numbers that a fit may move, seen as a film sees it."""
+
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+
+from app.model.measured.data import TOGETHER, Data
+from tippe_core import (
+    Contensou,
+    Scales,
+    Shape,
+    SmoothedCoulomb,
+    State,
+    Top,
+    TopError,
+    Trajectory,
+    Viscous,
+    roll,
+    slide,
+)
+from tippe_core.motion.friction import Friction
+from tippe_core.types import Array
+
+BODY = ("a", "I1", "I3")
+START = ("tilt", "tilt_rate", "across", "spin")
+OF_LAW = {"rolling": (), "smoothed": ("mu", "eps"), "contensou": ("mu", "radius"), "viscous": ("gamma",)}
+"""{model: the numbers of its law of friction}."""
+BOUNDS = {
+    "tilt": (1e-3, np.pi - 1e-3), "tilt_rate": (-20.0, 20.0), "across": (-40.0, 40.0), "spin": (-200.0, 200.0),
+    "mu": (1e-3, 2.0), "eps": (1e-3, 3.0), "radius": (1e-4, 0.5), "gamma": (1e-4, 5.0),
+    "rolling_resistance": (0.0, 0.05), "air_drag": (0.0, 0.05), "a": (-20.0, 0.99), "I1": (1e-3, 400.0),
+    "I3": (1e-3, 400.0),
+}  # fmt: skip
+"""{number: least and largest}, in units of R, M and g; across is omega_2'."""
+RTOL = 1e-9
+NO_MOTION = 1e4  # what a residual is where the numbers make no motion
+MOST_SHIFTED = {"azimuth": 1, "x": 3, "tip_x": 3}
+"""{quantity: how many numbers of where a film looks from are fitted to it}: where the azimuth is counted from, and a
+track's origin and direction."""
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """name: a key of OF_LAW. values: of all its numbers; free: those that a fit moves. edge, tip: of the stem, where it
+    takes part; tip is its height above O in R."""
+
+    name: str
+    top: Top
+    scales: Scales
+    free: tuple[str, ...]
+    values: MappingProxyType[str, float]
+    edge: tuple[float, ...] | None = None
+    tip: float = 1.0
+
+    def with_values(self, values: dict[str, float]) -> "Model":
+        """The same with some of its numbers changed."""
+        settled = MappingProxyType({**self.values, **values})
+        return Model(self.name, self.top, self.scales, self.free, settled, self.edge, self.tip)
+
+    def with_stem(self, edge: tuple[float, ...] | None, tip: float) -> "Model":
+        """The same with this edge of the stem's end, and its tip so high above O."""
+        return Model(self.name, self.top, self.scales, self.free, self.values, edge, tip)
+
+    def moved(self, t: Array) -> Trajectory:
+        """The Trajectory at t (s, the first the start). Raises TopError."""
+        v, times = self.values, (t - t[0]) / self.scales.time
+        top = Top(v["a"], v["I1"], v["I3"])
+        state = State(v["tilt"], v["tilt_rate"], v["across"], v["spin"])
+        if self.name == "rolling":
+            return roll(top, None, times, state)
+        return slide(top, state, self._friction(), times, rtol=RTOL, landing="plastic", edge=self.edge,
+                     rolling_resistance=v["rolling_resistance"], air_drag=v["air_drag"])  # fmt: skip
+
+    def _friction(self) -> Friction:
+        v = self.values
+        if self.name == "viscous":
+            return Viscous(v["gamma"])
+        return SmoothedCoulomb(v["mu"], v["eps"]) if self.name == "smoothed" else Contensou(v["mu"], v["radius"])
+
+    def seen(self, t: Array) -> dict[str, Array]:
+        """{quantity: what a film would show of it at t}, in rad, rad/s and m; a motion that ends stays as it ended."""
+        motion = self.moved(t)
+        there = np.minimum(np.arange(len(t)), len(motion.t) - 1)
+        theta, phi, omega = motion.theta[there], motion.phi[there], motion.omega[there]
+        contact, R = motion.contact[there], self.scales.R
+        s, c = np.sin(theta), np.cos(theta)
+        tip = contact + self.tip * s[:, None] * np.column_stack([np.sin(phi), -np.cos(phi)])
+        height = motion.com[there, 2]
+        return {
+            "tilt": theta,
+            "azimuth": phi,
+            "spin": omega[:, 2] * self.scales.angular_velocity,
+            "precession": omega[:, 1] / np.maximum(s, 1e-9) * self.scales.angular_velocity,
+            "height": R * height,
+            "tip": R * (height + (motion.top.a + self.tip) * c),
+            "x": R * contact[:, 0],
+            "y": R * contact[:, 1],
+            "tip_x": R * tip[:, 0],
+            "tip_y": R * tip[:, 1],
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Left:
+    """What a Model leaves over of Data: residuals in standard errors, and the model's values beside the data, moved to
+    where the film looks from; {quantity: (n,)} each."""
+
+    residuals: dict[str, Array] = field(default_factory=dict)
+    values: dict[str, Array] = field(default_factory=dict)
+
+    @property
+    def row(self) -> Array:
+        """All residuals in one."""
+        return np.concatenate(list(self.residuals.values()))
+
+
+def left_over(model: Model, data: Data) -> Left:
+    """What the model leaves over; raises TopError where there is no such motion."""
+    times = data.t
+    seen, left = model.seen(times), Left()
+    at = {name: np.searchsorted(times, series.t) for name, series in data.series.items()}
+    shown = {name: seen[name][at[name]] for name in data.series}
+    if "azimuth" in shown:
+        shown["azimuth"] = shown["azimuth"] + np.mean(data.series["azimuth"].values - shown["azimuth"])
+    for x, y in TOGETHER:
+        if x in shown and len(at[x]) == len(at[y]):
+            shown[x], shown[y] = _turned(shown[x], shown[y], data.series[x].values, data.series[y].values)
+    for name, series in data.series.items():
+        left.values[name] = shown[name]
+        left.residuals[name] = (series.values - shown[name]) / series.error
+    return left
+
+
+def _turned(x: Array, y: Array, x_seen: Array, y_seen: Array) -> tuple[Array, Array]:
+    """A track turned and moved to lie best on the one seen: least squares over an angle and a place."""
+    own, seen = x + 1j * y, x_seen + 1j * y_seen
+    own = own - own.mean()
+    turn = np.angle(np.vdot(own, seen - seen.mean()))
+    track = own * np.exp(1j * turn) + seen.mean()
+    return track.real, track.imag
+
+
+def shifted(data: Data) -> int:
+    """How many numbers of where the film looks from are fitted beside a Model's own."""
+    return sum(MOST_SHIFTED.get(name, 0) for name in data.series)
+
+
+def model_of(
+    name: str, top: Top, scales: Scales, shape: Shape | None = None, loose: tuple[str, ...] = (), **held: float
+) -> Model:
+    """The Model in which the start and the law are free, and what is loose beside; held: numbers that stand. A top
+    that rolls may start anyhow; one that slides was spun about its axis and let go, unless tilt_rate and across are
+    loose."""
+    if unknown := [each for each in (*loose, *held) if each not in BOUNDS]:
+        raise TopError("loose", unknown[0], " | ".join(BOUNDS), code="wrong-kind")
+    first = START if name == "rolling" else ("tilt", "spin", *OF_LAW[name])
+    free = tuple(dict.fromkeys(each for each in (*first, *loose) if each not in held))
+    values = {"tilt": 0.1, "tilt_rate": 0.0, "across": 0.0, "spin": 8.0, "mu": 0.3, "eps": 0.1, "radius": 0.03,
+              "gamma": 0.3, "rolling_resistance": 0.0, "air_drag": 0.0, "a": top.a, "I1": top.I1,
+              "I3": top.I3}  # fmt: skip
+    tip = float(shape.profile()[:, 1].max() / shape.R) if shape else 1.0
+    return Model(name, top, scales, free, MappingProxyType(values | held), shape.edge if shape else None, tip)

@@ -1,0 +1,44 @@
+"""What is taken home of a fit: the residuals as a table, and the Python that repeats it."""
+
+from app.model.measured.data import Data
+from app.model.measured.film import table_of
+from app.model.measured.fit import Fit
+
+PROGRAM = '''"""Repeats a fit of the tippe top explorer; run it in the explorer's folder."""
+
+from app.model.measured.data import settled
+from app.model.measured.fit import fit
+from app.model.measured.motion import model_of
+from app.model.measured.table import read
+from tippe_core import Scales, Top
+
+TABLE = """{table}"""
+
+data = settled(read(TABLE)).between({start!r}, {end!r})
+top, scales = Top({a!r}, {I1!r}, {I3!r}), Scales({R!r}, {M!r}, {g!r})
+for name in {names!r}:
+    model = model_of(name, top, scales, loose={loose!r}){edge}
+    found = fit(model, data)
+    print(name, f"chi-square {{found.chi2:.1f}} for {{found.freedom}} degrees of freedom")
+    for number, error in found.errors.items():
+        print(f"  {{number}} = {{found.model.values[number]:.6g}} +- {{error:.2g}}")
+'''
+
+
+def residuals_table(data: Data, fit: Fit) -> str:
+    """A row a value: its time, quantity, what was measured and fitted in s, rad, m, and what is left in errors."""
+    rows = ["t_s,quantity,measured,fitted,residual_in_errors"]
+    for name, series in data.series.items():
+        parts = zip(series.t, series.values, fit.left.values[name], fit.left.residuals[name], strict=True)
+        rows += [f"{t:.6g},{name},{seen:.8g},{fitted:.8g},{rest:.5g}" for t, seen, fitted, rest in parts]
+    return "\n".join(rows) + "\n"
+
+
+def program(data: Data, fits: tuple[Fit, ...], loose: tuple[str, ...], start: float, end: float) -> str:
+    """Python that reads the same data and fits the same models."""
+    model = fits[0].model
+    top, scales = model.top, model.scales
+    edge = "" if model.edge is None else f".with_stem({model.edge!r}, {model.tip!r})"
+    return PROGRAM.format(table=table_of(data), start=start, end=end, a=top.a, I1=top.I1, I3=top.I3, R=scales.R,
+                          M=scales.M, g=scales.g, names=tuple(fit.model.name for fit in fits), loose=loose,
+                          edge=edge)  # fmt: skip

@@ -1,0 +1,64 @@
+"""Where the fit of a Model to Data begins."""
+
+import itertools
+
+import numpy as np
+from scipy.stats import qmc
+
+from app.model.measured.data import Data
+from app.model.measured.motion import Model
+from tippe_core.types import Array
+
+SCATTERED = 256  # starts that are looked at where those by the first values are in vain
+NEAR, MOST_NEAR = 0.1, 8  # part of a number's own size, around the best; so many
+FIRST = 4.0  # standard errors about the first values, in which these lie
+RANGES = {
+    "tilt": (0.05, 1.3), "tilt_rate": (-1.0, 1.0), "across": (-3.0, 3.0), "spin": (-12.0, 12.0), "mu": (0.05, 0.8),
+    "eps": (0.01, 1.0), "radius": (3e-3, 0.2), "gamma": (0.03, 1.5), "rolling_resistance": (1e-4, 0.02),
+    "air_drag": (1e-4, 0.02),
+}  # fmt: skip
+"""{number: least and largest of these starts}, evenly in its logarithm where it is above 0."""
+
+
+def starts(model: Model, data: Data) -> list[Array]:
+    """Where to begin: what the first values say, and a grid of what they do not."""
+    first = {name: float(np.median(series.values[:5])) for name, series in data.series.items()}
+    unit = model.scales.angular_velocity
+    tilts = [first["tilt"]] if "tilt" in first else [0.1, 0.4, 0.9]
+    spins = [first["spin"] / unit] if "spin" in first else [way * size for size in (3, 5, 8, 12) for way in (1, -1)]
+    grid = {"tilt": tilts, "spin": spins, "mu": [0.1, 0.2, 0.3, 0.5], "eps": [0.03, 0.1, 0.4],
+            "radius": [0.01, 0.03, 0.1], "gamma": [0.05, 0.15, 0.4, 1.0],
+            "rolling_resistance": [1e-3], "air_drag": [1e-3]}  # fmt: skip
+    if model.name == "rolling":
+        turn = first.get("precession")
+        if turn is None and "azimuth" in data.series:
+            series = data.series["azimuth"]
+            turn = float(np.polyfit(series.t, series.values, 1)[0])
+        known = [] if turn is None else [turn / unit * np.sin(tilt) for tilt in tilts]
+        grid |= {"across": [*known, -1.0, -0.3, 0.0, 0.3, 1.0, 3.0], "tilt_rate": [-0.4, 0.0, 0.4]}
+    choices = [grid.get(name, [model.values[name]]) for name in model.free]
+    return [np.array(x, dtype=float) for x in itertools.product(*choices)]
+
+
+def scattered(model: Model, data: Data) -> list[Array]:
+    """Starts spread evenly over what the first values allow."""
+    unit = {"tilt": 1.0, "spin": model.scales.angular_velocity}
+    points = qmc.Sobol(len(model.free), seed=0).random(SCATTERED)
+    columns = []
+    for share, name in zip(points.T, model.free, strict=True):
+        if name in data.series and name in unit:
+            series = data.series[name]
+            value, error = float(np.median(series.values[:5])) / unit[name], series.error / unit[name]
+            columns.append(value + FIRST * error * (2 * share - 1))
+        elif name in RANGES:
+            low, high = RANGES[name]
+            columns.append(low * (high / low) ** share if low > 0 else low + (high - low) * share)
+        else:
+            columns.append(model.values[name] * (0.8 + 0.4 * share))
+    return list(np.array(columns).T)
+
+
+def around(x: Array, sizes: Array) -> list[Array]:
+    """Starts around a place, within a part of each number or of its usual size, whichever is larger."""
+    shares = 2 * qmc.Sobol(len(x), seed=1).random(MOST_NEAR) - 1
+    return [x + NEAR * share * np.maximum(np.abs(x), sizes) for share in shares]

@@ -1,0 +1,1 @@
+"""One top on the three planes, with friction."""

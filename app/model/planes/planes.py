@@ -1,0 +1,209 @@
+"""The view-model of the three planes: the controls, one run of what they say, one frozen Picture of it all."""
+
+from dataclasses import fields, replace
+from functools import partial
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import param
+
+from app.model.explorer import Explorer
+from app.model.planes.picture import BY, SET, Picture, Settings
+from app.model.planes.run import for_reader, hits, nudged, solve
+from app.model.runs import Result, Run, Runs, Stopped
+from app.model.scene import Scene
+from app.model.start import PLANE
+from app.text import say, told
+from tippe_core import (
+    Scales,
+    TopError,
+)
+from tippe_core.types import Number
+
+# A run that a newer one replaces may still finish within this, s; later it is stopped.
+PATIENCE = 0.5
+
+
+# ---- what a person sets ----
+
+
+def _preset(body: str, spin: float, tilt: float, seconds: float, **law: object) -> dict[str, Number]:
+    """Of no table: it stays on that where it is looked at, of which one has no friction."""
+    start = {"given": "hand", "spin": spin, "tilt": tilt, "slip": 1.0, "seconds": seconds}
+    return {"body": body} | start | law
+
+
+# Top S as in Rutstam's simulations, arXiv:1306.2470: viscous friction F = -1.0 N v (v in m/s), theta = 0.1, G at rest.
+_GAMMA_S = float(Scales(R=0.02, M=0.02).velocity)
+_S = {
+    name: _preset("Top S", round(spin / (2 * np.pi), 4), 5.73, seconds, law="viscous", gamma=round(_GAMMA_S, 4))
+    for name, spin, seconds in (("fast", 90, 10.0), ("hangs", 60, 25.0), ("never", 25, 25.0))
+}
+PRESETS = {
+    "The paper’s top by hand": _preset("The paper's tippe top", 20.0, 10.0, 5.0, law="smoothed", mu=0.3, eps=0.1),
+    **{f"Top S {name}": preset for name, preset in _S.items()},
+    "An ordinary top rises": _preset("Wooden cone", 20.0, 15.0, 6.0, law="viscous", gamma=0.3),
+}
+"""{name: the body, one of tippe_core.PRESETS, and inputs of Planes}."""
+
+
+def preset(name: str) -> tuple[str, dict[str, Number]]:
+    """The name of its body, to be thrown anew, and the inputs of its start."""
+    inputs = dict(PRESETS[name])
+    return inputs.pop("body"), inputs
+
+
+class Planes(param.Parameterized):
+    """What the page's start does on three planes: one run of it, and one `picture` event when it is done.
+
+    start: the Explorer, which ask() sets. runs: the page's Runs; of several asked for while one is under way only the
+    newest is made. follow() is to be called with the scene of a hand at rest. Nothing is computed before show(), nor
+    after hide().
+    """
+
+    busy = param.Boolean(False, constant=True, doc="whether a run is under way")
+    picture = param.ClassSelector(class_=Picture, constant=True, doc="the last solution; None before the first")
+
+    INPUTS = ("by", *SET)
+
+    def __init__(self, start: Explorer, runs: Runs | None = None) -> None:
+        self._start, self._runs = start, runs or Runs()
+        self._run: Run | None = None
+        self._beside: Run | None = None
+        self._asked: Settings | None = None
+        self._wanted: Settings | None = None
+        self._shown = self.begun = self._told_to_stop = False
+        super().__init__()  # type: ignore[no-untyped-call]  # of param
+        start.param.watch(lambda *events: self._run_anew(), ["given", *SET])
+
+    def show(self) -> None:
+        """Somebody looks."""
+        self._shown = self.begun = True
+        self._run_anew()
+
+    def hide(self) -> None:
+        """Nobody looks any more."""
+        self._shown = False
+
+    @property
+    def plane(self) -> str:
+        """What is looked at: one of PLANES, or "compare"."""
+        return PLANE[self._start.table]
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """What is set."""
+        start = self._start
+        return {name: getattr(start, name) for name in SET} | {"by": BY[start.given == "hand"]}
+
+    def ask(self, by: str | None = None, **inputs: Any) -> None:
+        """Sets inputs; by: "spin" or "constants", the same start by the other."""
+        if by:
+            self._start.settle()
+            inputs["given"] = "hand" if by == "spin" else "state"
+        self._start.later(**inputs)
+
+    def follow(self, scene: Scene) -> None:
+        """Runs again if the top, or the motion that rolls, is another than the one last asked for; when what is set
+        together with it is set too, as by an undo."""
+        self._runs.post(self._run_anew)
+
+    @property
+    def elapsed(self) -> float:
+        """How long the present run has taken, s; 0 without one."""
+        return self._run.elapsed if self._run else 0.0
+
+    @property
+    def share(self) -> float:
+        """How much of the present run is done, 0 to 1."""
+        return min(1.0, self._reached / self._running.seconds) if self._run else 1.0
+
+    @property
+    def _reached(self) -> float:
+        """s of the real top."""
+        return self._run.reached * self._running.scales.time if self._run else 0.0
+
+    def stop(self) -> None:
+        """Ends the present run; the last picture stays, with a sentence."""
+        self._wanted = None
+        if self._run:
+            self._told_to_stop = True
+            self._run.stop()
+
+    def _settings(self) -> Settings:
+        start, scene = self._start, self._start.scene
+        return Settings(
+            top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile,
+            rolling=None if start.given == "hand" else start.let_go, **{name: getattr(start, name) for name in SET},
+        )  # fmt: skip
+
+    def _run_anew(self) -> None:
+        if not self._shown:
+            return
+        settings = self._settings()
+        if self._asked and _same(settings, self._asked):
+            return
+        self._asked = settings
+        if self._beside:
+            self._beside.forget()
+        if not self._runs.beside:
+            self._runs.begin(Run(lambda run: solve(settings), partial(self._publish, settings)), "planes")
+            return
+        self._wanted = settings
+        if self._run is None:
+            self._begin(settings)
+        elif self._run.elapsed > PATIENCE:
+            self._run.stop()
+
+    def _begin(self, settings: Settings) -> None:
+        self._running, self._wanted, self._told_to_stop = settings, None, False
+        with param.edit_constant(self):
+            self.busy = True
+        self._run = Run(lambda run: solve(settings, run.look), self._done)
+        self._runs.begin(self._run, "planes")
+
+    def _done(self, result: Result) -> None:
+        settings, reached, told_to_stop = self._running, self._reached, self._told_to_stop
+        self._run = None
+        if self._wanted is not None:
+            self._begin(self._wanted)
+        else:
+            with param.edit_constant(self):
+                self.busy = False
+        if isinstance(result, Stopped) and not told_to_stop:
+            return
+        self._publish(settings, result, reached)
+
+    def _publish(self, settings: Settings, result: Result, reached: float = 0.0) -> None:
+        messages = {}
+        if isinstance(result, Stopped):
+            messages["run"] = say("planes.run.stopped", reached=reached)
+        elif isinstance(result, TopError):
+            error = for_reader(result, settings.scales)
+            name = "law" if error.name == "friction" else error.name
+            hidden = settings.rolling is not None and name in ("spin", "tilt", "slip")
+            messages["by" if hidden else name] = told(error)
+        elif isinstance(result, Exception):
+            raise result
+        if messages:
+            if self.picture is None:
+                return
+            result = replace(self.picture, messages=MappingProxyType(messages))
+        result = replace(result, inputs=MappingProxyType(self.inputs))
+        with param.edit_constant(self):
+            self.picture = result
+        if not messages and self._runs.beside and not self.busy and hits(result):
+            self._beside = Run(lambda run: nudged(result, run.look), partial(self._nudged, result))
+            self._runs.begin(self._beside, "nudged")
+
+    def _nudged(self, picture: Picture, growth: object) -> None:
+        """What the run beside the run tells of it, if that is still what is shown."""
+        if isinstance(growth, float) and self.picture is not None and self.picture.motions is picture.motions:
+            with param.edit_constant(self):
+                self.picture = replace(self.picture, growth=growth)
+
+
+def _same(one: Settings, other: Settings) -> bool:
+    """Whether two runs would be the same; the profile is the shape's, or the top's."""
+    return all(getattr(one, part.name) == getattr(other, part.name) for part in fields(one) if part.name != "profile")

@@ -1,0 +1,1 @@
+"""What is seen of a Scene that rolls: the plane of its tielines, levers, the derivation, what slips."""

@@ -1,0 +1,1 @@
+"""Votes of a class, and where they are kept."""

@@ -1,0 +1,1 @@
+"""The page: what stands on it, and the picture before the session."""

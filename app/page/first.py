@@ -1,0 +1,103 @@
+"""The page around Bokeh's own: in it the arrival's top moves before the scripts, the session and the controls come.
+
+What the Lab of a session says on arrival is the same for all. Its words are written into the page, its numbers are a
+file that the browser keeps. first.js draws both, and hands the picture over to the session's component when that is
+made.
+
+    python -m app.page.first
+
+writes the file anew, after `python -m app.model.arrival`; a test compares it with what a session sends.
+"""
+
+import gzip
+import hashlib
+import json
+from functools import cache
+from pathlib import Path
+from urllib.parse import urlencode
+
+import numpy as np
+import panel_material_ui as pmui
+from panel.custom import JSComponent
+
+from app.borrowed import address_of
+from app.bundle import Bundled
+from app.model.lab.lab import Lab
+from app.state import names
+from app.state.keep import VERSION
+from app.tabs.lab.lab import LabTab
+from app.text import LANGUAGES, speaking
+
+PAGE = Path(__file__).with_name("first.html")
+BORROWED = Path(__file__).parents[1].joinpath("borrowed.js").read_text(encoding="utf-8")
+FILE = Path(__file__).with_name("arrival.gz")
+FRAME, POSE, CURVE = 20, 10, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
+NUMBERS = {"profile": (2, 2, 2**20), "frames_ordinary": (FRAME, POSE, 2**12), "curves_ordinary": (CURVE, CURVE, 2**7)}
+"""{what a LabView says in bytes: (columns, those that are needed at first, steps in one)}."""
+
+
+class Numbers:
+    """Where Panel's server finds the file."""
+
+    _bundle_path = FILE
+
+
+def arrival():
+    """A LabView as it is on arrival, of no session."""
+    lab = Lab()
+    lab.show()
+    lab.rest()
+    return LabTab(lab, None, None).view
+
+
+def written(view):
+    """The file: a line of JSON, [[name, rows, columns, columns that follow], ...], then float32 column by column, in
+    steps that no eye sees and that are packed well."""
+    heads, parts = [], []
+    for name, (width, needed, steps) in NUMBERS.items():
+        rows = np.frombuffer(getattr(view, name), "<f4").reshape(-1, width)
+        heads.append([name, len(rows), width, needed])
+        parts.append((np.round(rows[:, :needed].T * steps) / steps).astype("<f4").tobytes())
+    return gzip.compress(b"\n".join([json.dumps(heads).encode(), b"".join(parts)]), 9, mtime=0)
+
+
+@cache
+def words():
+    """JSON of {language: all else that a LabView says on arrival}."""
+    found = {}
+    for language in LANGUAGES:
+        with speaking(language):
+            view = arrival()
+            kept = {name: getattr(view, name) for name in view.param if name not in JSComponent.param}
+        found[language] = {name: value for name, value in kept.items() if not isinstance(value, bytes)}
+    return json.dumps(found).replace("<", "\\u003c")
+
+
+def searches():
+    """{search of an address that opens the arrival: its language, or "" for the browser's own}."""
+    found = {"": ""}
+    for language in LANGUAGES:
+        asked = {names.LANGUAGE: language}
+        found |= {names.query(asked): language, names.query({names.VERSION_NAME: str(VERSION)} | asked): language}
+    return found
+
+
+@cache
+def version():
+    return hashlib.sha256(FILE.read_bytes()).hexdigest()[:12]
+
+
+def variables():
+    """What PAGE needs."""
+    address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.name}"
+    return {
+        "borrowed": BORROWED,
+        "bundles": [address_of(kind) for kind in (Bundled, pmui.Page)],
+        "first": words(),
+        "searches": json.dumps(searches()),
+        "numbers": f"{address}?{urlencode({'v': version()})}",
+    }
+
+
+if __name__ == "__main__":
+    FILE.write_bytes(written(arrival()))

@@ -1,0 +1,191 @@
+"""What a page has besides its views, and each view made with its own part of it."""
+
+from functools import partial
+
+import panel as pn
+import panel_material_ui as pmui
+
+from app.model.build.builder import Builder
+from app.model.lab.lab import Lab
+from app.model.planes.planes import Planes
+from app.model.playing import Playing
+from app.model.runs import Runs, connected_to, to_session
+from app.share.saved_runs import Shown
+from app.state.keep import explorer_of, kept
+from app.state.names import LEVELS, ROOMS
+from app.state.start import OneStart
+from app.tabs.build.build import Build
+from app.tabs.build.rocking import RockingFields
+from app.tabs.build.verdict import VerdictWords
+from app.tabs.families.compare import Compare
+from app.tabs.families.tops import Tops
+from app.tabs.lab import room
+from app.tabs.lab.lab import lab_view
+from app.tabs.learn.learn import Learn
+from app.tabs.maps.maps import Maps
+from app.tabs.measure.measure import Measure
+from app.tabs.planes.three_planes import ThreePlanes
+from app.tabs.roll.roll import Roll
+from app.text import say
+from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
+from app.widgets.controls import Controls
+from app.widgets.failure import attempt
+from app.widgets.pacing import Pacer
+from app.widgets.top3d import Top3D, show_top
+
+
+def alike(*rooms):
+    """The rooms of a tab that has the same at each level."""
+    return dict.fromkeys(LEVELS, rooms)
+
+
+TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"), "maps": alike("families", "maps"),
+        "measure": alike("measure")}  # fmt: skip
+"""{tab: {level: the names that its rooms have in an address}}, in the order of the head."""
+
+
+class House:
+    """The Explorer that solves, the Pacer that is asked and shows its scenes, the Builder of bodies, the Lab, how the
+    top is played, what is kept, and what runs beside.
+
+    look_at(name of a room) shows it, and level is how much the page shows: the page sets where that leads.
+    """
+
+    def __init__(self, texts, sentence, look_at, level):
+        self.level = level
+        self.explorer, wrong = explorer_of(texts, self._explores())
+        self.pacer = Pacer(self.explorer)
+        self.builder = Builder(self.explorer.scene, self.pacer.ask)
+        self.pacer.shows(self.builder.follow, "hand")
+        self.playing, self._look_at = Playing(), look_at
+        self.keep = kept(
+            self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
+        )
+        post = to_session(pn.state.curdoc)
+        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
+        self.lab_of = Lab(self.runs, self.explorer)
+        self.start = OneStart(self.explorer, self.lab_of)
+        pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
+        pn.state.onload(self.pacer.begin)
+
+    def _explores(self):
+        return self.level == LEVELS[0]
+
+    @property
+    def scene(self):
+        return self.explorer.scene
+
+    # ---- the rooms, each made when it is first looked at ----
+
+    def lab(self):
+        return lab_view(self.lab_of, self.keep, lambda: self._look_at(room.USUAL))
+
+    def roll(self):
+        controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
+        self.keep.add(controls)
+        for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
+            self.pacer.shows(show, when)
+        slip = lambda: self._look_at(self.start.table("ordinary"))  # noqa: E731
+        return Roll(self.pacer, self.playing, controls, slip).main
+
+    def _road(self, says, goes, **layout):
+        """A button that leads on."""
+        button = pmui.Button(label=say(says), **BUTTON | layout)
+        on_click(button, lambda event: goes())
+        return button
+
+    def build(self):
+        bench = Build(self.builder, self.pacer.soon)
+        self.pacer.shows(bench.show, "rest")
+        rocking = card(say("main.cards.measure"), *RockingFields(self.builder).view, height="max-content")
+        top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"))
+        top.stylesheets = [":host { height: clamp(330px, 52vh, 640px) !important }"]
+        self.pacer.shows(partial(show_top, top), "rest")
+        told = VerdictWords(self.runs)
+        self.pacer.shows(told.show, "rest")
+        spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0))
+        parts = {"section": bench.section_view, "built": (top, told.view, spin), "bench": bench.bench_view}
+        section, built, measures = (
+            card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()
+        )
+        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
+
+    def _spin(self):
+        self.lab_of.ask(table="ordinary")
+        self._look_at(room.FIRST)
+
+    def planes(self):
+        planes = Planes(self.explorer, self.runs)
+        self.start.have(planes)
+        inputs = {"plane": planes.plane} | planes.inputs
+        view = ThreePlanes(inputs, self.pacer.ask_of(planes.ask), self.pacer.ask, self.builder.choose, planes,
+                           self.playing)  # fmt: skip
+        planes.param.watch(lambda event: view.show(event.new), "picture")
+        self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
+        planes.param.watch(lambda event: view.wait(), "busy")
+        planes.show()
+        if planes.picture is not None:
+            view.show(planes.picture)
+        view.wait()
+        self.pacer.shows(planes.follow, "rest")
+        return view.main
+
+    def families(self):
+        tops, compare = (
+            Tops(self.scene, self.pacer.ask, self._use, self._change, self.runs),
+            Compare(self.scene, self.runs),
+        )
+        self.pacer.shows(tops.show, "rest")
+        self.pacer.shows(compare.show, "hand")
+        compare.compute()
+        cards = (
+            (card(say("family.tops.title"), *tops.map_view, height="max-content"), "3 1 560px"),
+            (card("", *tops.beside_view, height="max-content"), "2 1 360px"),
+            (card(say("main.cards.map"), *compare.map_view, height="max-content"), "1 1 100%"),
+        )
+        return flexible(*cards)
+
+    def _use(self, name):
+        """A known top in the Lab, and everywhere."""
+        self.lab_of.ask(toy=name)
+        self._look_at("lab")
+
+    def _change(self, name):
+        self.builder.choose(name)
+        self._look_at("build-a-top")
+
+    def learn(self):
+        learn = Learn(self.scene, self.runs)
+        self.pacer.shows(learn.show, "rest")
+        self.keep.add(learn)
+        learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
+        return learn.view
+
+    def maps(self):
+        maps = Maps(self.runs, self.scene, self._throw)
+        self.keep.add(maps.choice, usual=lambda choice: maps.usual)
+        maps.choice.param.watch(lambda *events: self.keep.at_rest(), [*maps.choice.INPUTS])
+        self.pacer.shows(maps.show, "rest")
+        return maps.view
+
+    def _throw(self, toy, spin, tilt, mu, look):
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu)
+        if look:
+            self._look_at("lab")
+
+    def measure(self):
+        measure = Measure(self.scene, self.runs)
+        self.keep.add(measure.filmed)
+        self.pacer.shows(measure.show, "hand")
+        return measure.view
+
+    def runs_shown(self, looked_at):
+        """The runs on the tables that this room shows, as saved_runs.Shown."""
+        found = {room.FIRST: self.start.lab_runs, room.PLANES: self.start.planes_runs}.get(looked_at, list)()
+        return [Shown(table, motion.trajectory, setup) for table, motion, setup in found]
+
+    @property
+    def makers(self):
+        """{name of a room in the address: its maker}."""
+        made = (self.lab, self.roll, self.planes, self.build, self.families, self.learn, self.maps, self.measure)
+        return dict(zip(ROOMS, made, strict=True))

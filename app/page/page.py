@@ -1,0 +1,84 @@
+"""The page, layout only."""
+
+from weakref import WeakKeyDictionary
+
+import panel as pn
+import panel_material_ui as pmui
+import param
+from panel.util import edit_readonly
+
+from app import text
+from app.page import first
+from app.page.house import TABS, House
+from app.share.share import Share
+from app.state.keep import read
+from app.state.names import LANGUAGE, VOTE
+from app.tabs.lab import room
+from app.tabs.learn.student import student_page
+from app.text import say
+from app.widgets.choices import Choices
+from app.widgets.connection import Connection
+from app.widgets.failure import failure
+from app.widgets.guide import Guide
+from app.widgets.head import HeadBar
+from app.widgets.look import Look
+from app.widgets.rooms import Rooms
+from app.widgets.symbols import Symbols
+from app.widgets.theme import HEADLESS, STYLE, THEME
+
+SPEAKS = WeakKeyDictionary()  # document -> its language
+text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc else text.DEFAULT)
+BARE = {"theme_toggle": False, "busy_indicator": None}
+
+
+class Tongue(param.Parameterized):
+    """Which language the page speaks; another one means another page, so it is loaded anew, with its state."""
+
+    lang = param.Selector(default="", objects=["", *text.LANGUAGES], doc='"": the one the browser prefers')
+
+
+def page():
+    search = pn.state.location.search
+    asked = read(search)[0].get(LANGUAGE)
+    accepted = text.preferred(pn.state.headers.get("Accept-Language", ""))
+    SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
+    texts, sentence = read(search)  # what it says is in that language
+    failed = failure()
+    if VOTE in texts:  # a student's link
+        return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), failed],
+                         stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
+    house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts, search))
+    pacer, keep = house.pacer, house.keep
+    look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()
+    share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room))
+    for owner in (look, tongue):
+        keep.add(owner)
+    for show, when in ((share.show, "hand"), (guide.show, "rest")):
+        pacer.shows(show, when)
+    rooms = Rooms(house.makers, TABS, keep, pacer.soon, room.AT_ONCE, room.opened(texts, search), room.USUAL,
+                  house.level)  # fmt: skip
+    rooms.param.watch(lambda event: setattr(house, "level", event.new), "level")
+    rooms.param.watch(lambda event: house.start.moved(event.old, event.new), "room")
+    house.level = rooms.level
+    house.start.moved("", rooms.room)
+    choices = Choices(rooms, house, tongue, share)
+    head = HeadBar(rooms, keep, look, choices.does, room.USUAL)
+    choices.shown_in(head)
+    rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
+    guide.tour = rooms.room == room.USUAL
+    pn.state.curdoc.template_variables.update(first.variables() | {"language": text.spoken()})
+    unseen = {"width": 0, "height": 0, "margin": 0}
+    around = [look, guide, pacer.painted, Connection(words=say("main.lost"), **unseen), Symbols(**unseen), failed]
+    return pmui.Page(template=first.PAGE, title=say("main.title"), theme_config={"light": THEME, "dark": THEME},
+                     main=[head.view, *share.main, *around, *rooms.columns], stylesheets=[*STYLE, *HEADLESS],
+                     **BARE)  # fmt: skip
+
+
+def show():
+    """Puts the page into the document that is being served."""
+    pn.extension("katex", respect_explicit_sizing=True)
+    shown = page()
+    with edit_readonly(shown):
+        # It would be told whether any page of this server is busy, which kept it and all it shares for ever.
+        shown.busy = shown.param.theme_toggle
+    shown.servable()
