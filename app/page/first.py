@@ -25,6 +25,7 @@ from app.bundle import Bundled
 from app.model.lab.lab import Lab
 from app.state import names
 from app.state.keep import VERSION
+from app.tabs.lab import room
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 
@@ -74,11 +75,12 @@ def words():
 
 
 def searches():
-    """{search of an address that opens the arrival: its language, or "" for the browser's own}."""
-    found = {"": ""}
-    for language in LANGUAGES:
-        asked = {names.LANGUAGE: language}
-        found |= {names.query(asked): language, names.query({names.VERSION_NAME: str(VERSION)} | asked): language}
+    """{search of an address that opens the arrival and asks for nothing else: its language, or "" for the browser's
+    own}."""
+    found, tab = {"": ""}, {names.TAB: room.FIRST}
+    for language in ("", *LANGUAGES):
+        asked = tab | ({names.LANGUAGE: language} if language else {})
+        found |= {names.query(more | asked): language for more in ({}, {names.VERSION_NAME: str(VERSION)})}
     return found
 
 

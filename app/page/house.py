@@ -167,7 +167,7 @@ class House:
         self._look_at("build-a-top")
 
     def learn(self):
-        learn = Learn(self.scene, self.runs)
+        learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
         self.pacer.shows(learn.show, "rest")
         self.keep.add(learn)
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
