@@ -12,6 +12,8 @@ from test_lab_browser import DRAWN, TIME, TOPS, come
 from visiting import PATIENCE
 
 from app.page import first
+from app.state.keep import read
+from app.tabs.lab.room import FIRST, opened
 
 MOST = 350_000  # bytes, compressed
 
@@ -40,6 +42,11 @@ def test_each_language_has_its_words_and_nothing_else():
     assert english["texts"]["spin_it"] != german["texts"]["spin_it"]
     assert english["state"]["runs"]["ordinary"]["stages"] != german["state"]["runs"]["ordinary"]["stages"]
     assert english["state"]["values"] == german["state"]["values"]
+
+
+def test_it_is_drawn_only_where_the_session_opens_the_same():
+    for search in first.searches():
+        assert opened(read(search)[0], search) == FIRST, search
 
 
 @pytest.mark.served

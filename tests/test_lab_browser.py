@@ -198,7 +198,7 @@ def test_what_is_typed_is_not_written_over_while_answers_come(page):
     tilt.press("Escape")
     tilt.fill("5,73")
     tilt.press("Enter")
-    page.wait_for_function("!location.search.includes('lean')")
+    page.get_by_text("→ 29.0 rev/s").first.wait_for()
 
 
 def test_the_run_before_stays_pale_until_it_is_dismissed(page):
@@ -344,4 +344,33 @@ def test_all_that_a_finger_touches_is_44_px_high(chromium, server):
     small = page.evaluate(SMALL)
     assert small == []
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    phone.close()
+
+
+# Whether two parts of the Lab lie on each other, as long as the words of the first can be.
+COVERS = """([one, other, words]) => {
+    const all = (root) => [...root.querySelectorAll("*")].flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
+    const find = (name) => all(document).find((e) => e.matches(".lab " + name))
+    find(one).textContent = words
+    const [a, b] = [one, other].map((name) => find(name).getBoundingClientRect())
+    return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom
+}"""
+
+
+def test_on_a_phone_nothing_covers_what_the_stage_says_and_the_top_can_be_changed(chromium, server):
+    phone = chromium.new_context(viewport={"width": 390, "height": 844}, is_mobile=True, has_touch=True)
+    page = phone.new_page()
+    come(page, f"{server}?v=2&tab=lab&lang=de")
+    page.get_by_role("button", name="Anhalten").click()
+    longest = "Kippt auf die Seite · 140° · jetzt 1/16 Tempo"
+    for other in (".paces", ".starts"):
+        assert not page.evaluate(COVERS, [".pill", other, longest]), other
+    entry = page.get_by_label("Radius der Kugel").first
+    page.get_by_text("Kreisel: Stiel, Ballast").click()
+    entry.scroll_into_view_if_needed()
+    expect(entry).to_be_in_viewport()
+    expect(page.get_by_role("button", name="Abspielen")).to_be_in_viewport()
+    expect(page.get_by_role("button", name="Los")).to_be_in_viewport()
+    page.get_by_role("radio", name="Alle drei").click()
+    expect(page.locator(".dock input[type=range]").first).to_be_visible()
     phone.close()

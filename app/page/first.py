@@ -25,13 +25,14 @@ from app.bundle import Bundled
 from app.model.lab.lab import Lab
 from app.state import names
 from app.state.keep import VERSION
+from app.tabs.lab import room
 from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 
 PAGE = Path(__file__).with_name("first.html")
 BORROWED = Path(__file__).parents[1].joinpath("borrowed.js").read_text(encoding="utf-8")
 FILE = Path(__file__).with_name("arrival.gz")
-FRAME, POSE, CURVE = 20, 10, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
+FRAME, POSE, CURVE = 21, 11, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
 NUMBERS = {"profile": (2, 2, 2**20), "frames_ordinary": (FRAME, POSE, 2**12), "curves_ordinary": (CURVE, CURVE, 2**7)}
 """{what a LabView says in bytes: (columns, those that are needed at first, steps in one)}."""
 
@@ -74,11 +75,12 @@ def words():
 
 
 def searches():
-    """{search of an address that opens the arrival: its language, or "" for the browser's own}."""
-    found = {"": ""}
-    for language in LANGUAGES:
-        asked = {names.LANGUAGE: language}
-        found |= {names.query(asked): language, names.query({names.VERSION_NAME: str(VERSION)} | asked): language}
+    """{search of an address that opens the arrival and asks for nothing else: its language, or "" for the browser's
+    own}."""
+    found, tab = {"": ""}, {names.TAB: room.FIRST}
+    for language in ("", *LANGUAGES):
+        asked = tab | ({names.LANGUAGE: language} if language else {})
+        found |= {names.query(more | asked): language for more in ({}, {names.VERSION_NAME: str(VERSION)})}
     return found
 
 

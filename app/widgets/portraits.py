@@ -8,13 +8,11 @@ from bokeh.models import ColumnDataSource, DataRange1d, Line, MultiLine, Patch, 
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
+from app.model.roll import portraits
 from app.text import say
 from app.widgets.plots import PAPER, draw, plain
 
-POINTS_OF_A_TRACK = 480
-POINTS_OF_A_CIRCLE = 73
-# A circle so much larger than the track is a straight line to the eye.
-STRAIGHT = 300
+POINTS_OF_A_TRACK = 480  # on a screen
 
 
 class Portrait:
@@ -82,7 +80,7 @@ class Curve(Portrait):
 
     def draw(self, scene):
         motion = scene.nutation
-        square = motion.omega[:, 0] ** 2
+        square = portraits.square(scene)
         self.put(motion, motion.theta, square)
         self.frame(motion.theta, [0, square.max()])
 
@@ -160,24 +158,9 @@ class Track(Portrait):
              line_width=1.5)  # fmt: skip
 
     def draw(self, scene):
-        motion = scene.trajectory
-        every = max(1, len(motion.t) // POINTS_OF_A_TRACK)
-        x, y = motion.contact[::every].T
-        self.curve.data = {"t": motion.t[::every], "x": x, "y": y}
-        arcs = {"x": [], "y": []}
-        rosette = scene.rosette
-        if rosette:
-            centre_x, centre_y, nearest, farthest = rosette
-            angle = np.unwrap(np.arctan2(y - centre_y, x - centre_x))
-            low, high = angle.min(), angle.max()
-            margin = 0.06 * (high - low)
-            if farthest < STRAIGHT:
-                low, high = (0, 2 * np.pi) if high - low > np.pi else (low - margin, high + margin)
-            around = np.linspace(low, high, POINTS_OF_A_CIRCLE)
-            for radius in (nearest, farthest):
-                arcs["x"].append(centre_x + radius * np.cos(around))
-                arcs["y"].append(centre_y + radius * np.sin(around))
-        self.circles.data = arcs
+        seen = portraits.track(scene, POINTS_OF_A_TRACK)
+        self.put(seen, seen.x, seen.y)
+        self.circles.data = {"x": [x for x, _ in seen.rings], "y": [y for _, y in seen.rings]}
 
     def words(self, scene):
         if scene.rosette is None:
@@ -207,20 +190,11 @@ class Ring(Portrait):
             self.figure.add_layout(edge)
 
     def draw(self, scene):
-        motion = scene.trajectory
-        every = max(1, len(motion.t) // POINTS_OF_A_TRACK)
-        x, y = motion.contact[::every].T
-        if scene.rosette is None:
-            along, across, width = np.hypot(x, y), np.zeros(len(x)), 0.0
-        else:
-            centre_x, centre_y, nearest, farthest = scene.rosette
-            x, y, width = x - centre_x, y - centre_y, farthest - nearest
-            along = (nearest + farthest) / 2 * np.abs(np.unwrap(np.arctan2(y, x)) - np.arctan2(y[0], x[0]))
-            across = np.hypot(x, y) - nearest
-        for edge, location in zip(self.edges, (0.0, width), strict=True):
+        seen = portraits.track(scene, POINTS_OF_A_TRACK)
+        for edge, location in zip(self.edges, (0.0, seen.width), strict=True):
             edge.location = location
-        self.curve.data = {"t": motion.t[::every], "x": along, "y": across}
-        self.frame(along, [0, width])
+        self.put(seen, seen.along, seen.across)
+        self.frame(seen.along, [0, seen.width])
 
 
 class Force(Portrait):
@@ -244,11 +218,5 @@ class Force(Portrait):
         ]
 
     def draw(self, scene):
-        motion = scene.nutation
-        F_x, F_y, F_z = motion.force.T
-        there = F_z > 1e-3
-        # Beyond lift-off there is no table to push: the locus has a gap.
-        x, y = (np.where(there, F / np.where(there, F_z, 1), np.nan) for F in (F_x, F_y))
-        around = np.linspace(0, 2 * np.pi, POINTS_OF_A_CIRCLE)
-        self.disc.data = {"x": scene.mu_s * np.cos(around), "y": scene.mu_s * np.sin(around)}
-        self.put(motion, x, y)
+        self.disc.data = dict(zip("xy", portraits.circle(scene.mu_s), strict=True))
+        self.put(scene.nutation, *portraits.pushes(scene))

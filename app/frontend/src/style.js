@@ -9,6 +9,7 @@ export const style = `
 .picture canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline: none; cursor: grab; }
 .picture canvas:active { cursor: grabbing; }
 .picture canvas:focus-visible { outline: 2px solid var(--focus, ${colours.chosen}); outline-offset: -2px; }
+.picture:not([data-drawn]) .labels { visibility: hidden; }
 .labels { position: absolute; inset: 0; overflow: hidden; pointer-events: none; color: var(--scene-ink, #1d2733); }
 .labels span { position: absolute; left: 0; top: 0; white-space: nowrap; will-change: transform; }
 .labels .vector { font: italic 600 calc(17px * var(--type, 1))/1 "Cambria Math", Cambria, "STIX Two Text", Georgia, serif;
@@ -57,7 +58,8 @@ export const style = `
 .key sub { font-size: 70%; line-height: 0; }
 @media (max-width: 700px) {
   .scales { display: none; }
-  .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { min-width: 40px; } .bar :is(.back, .forward, .view) { display: none; }
+  .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { min-width: 40px; } .bar .view { display: none; }
+  .bar :is(button, select, .scrub) { height: 44px; } .bar .shows label { height: 36px; }
   .bar:has(.shows) { flex-wrap: wrap; } .bar .shows { flex: 1 0 100%; flex-wrap: nowrap; overflow-x: auto; }
 }
 `;

@@ -20,8 +20,10 @@ export class Controls {
     });
     this.picks = part("div", { class: "picks", role: "group", "aria-label": texts.hand }, ...this.parts.map(({ said, name }) =>
       part("button", { type: "button", onclick: () => this.pick(name) }, said.name, part("b"))));
-    this.element = part("section", { class: "controls", "aria-label": texts.hand },
-      part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks, this.launch.element), ...this.parts.map(({ element }) => element), this.body.element);
+    // on a phone the dock stands at the foot of the window
+    const dock = part("div", { class: "dock" }, part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks, this.launch.element),
+      ...this.parts.map(({ element }) => element));
+    this.element = part("section", { class: "controls", "aria-label": texts.hand }, dock, this.body.element);
     this.pick("spin");
   }
 
@@ -39,14 +41,15 @@ export class Controls {
     this.launch.show(scene);
     this.body.show(state, ahead);
     for (const [i, control] of this.parts.entries()) {
-      // ice has no friction to set, and on the rough table nothing slips
-      const idle = control.name === "mu" && (table === "rough" || table === "ice");
+      // ice has no friction to set, and on the rough table nothing slips; three tops have one slider
+      const idle = table === "three" ? i > 0 : control.name === "mu" && (table === "rough" || table === "ice");
       control.element.hidden = this.picks.children[i].hidden = idle;
       control.show(state, ahead);
       const { digits } = control.limits, { unit } = control.said;
       this.picks.children[i].lastChild.textContent = `${written(state.values[control.name], digits, texts.decimal)}${unit === "°" ? "" : " "}${unit}`;
       if (state.messages[control.name]) this.pick(control.name);
     }
+    if (this.parts.some(({ element }) => element.hidden && element.classList.contains("picked"))) this.pick("spin");
     if (table === "rough" || table === "ice") this.parts[0].below.replaceChildren();
     else this.parts[0].showEnds(state.ends);
     const was = before?.state.of.spin[0];

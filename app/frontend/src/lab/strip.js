@@ -6,6 +6,7 @@ import { SPEEDS } from "./time.js";
 
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
 const LETTER = 0.56; // how wide a letter is, in its size
+const NARROW = 400; // px of a strip
 const NEED = 100; // px of a stage in which the top is drawn as it then stands
 const ICONS = {
   play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z", again: "M4 4v4h4M4.500 8a6 6 0 1 1-.6 4",
@@ -83,10 +84,17 @@ export class Strip {
     this.draw();
   }
 
+  // Short where there is little room.
+  writeSpeeds() {
+    const { texts, width } = this;
+    SPEEDS.forEach((_, i) => (this.speed.options[i].text = (width < NARROW ? texts.short_speeds : texts.speeds)[i]));
+  }
+
   draw() {
     const { clientWidth: width, clientHeight: height } = this.plot, { scene } = this;
     if (!width || !scene) return;
     Object.assign(this, { width, top: HEADROOM, bottom: height - FOOT });
+    this.writeSpeeds();
     const shown = scene.table === "three" ? TABLES : [scene.table];
     const lines = shown.filter((table) => scene.curves[table].count).map((table) => {
       const points = scene.curves[table].points(this.x, this.y, TILT);

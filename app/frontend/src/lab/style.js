@@ -63,7 +63,7 @@ const places = `
 .lab[data-table=three] { --stage: clamp(300px, 100vh - 458px, 40cqw);
   grid-template: "stage stage" var(--stage) "strip strip" var(--bar) "say answer" auto "controls answer" auto / var(--side) minmax(0, 1fr); }
 .lab[data-table=three] .answer { display: none; } .lab[data-table=three] .keeps { display: block; }
-.lab[data-table=three] :is(.ctl:not(:nth-child(2)), .body) { display: none; }
+.lab[data-table=three] .body { display: none; }
 .lab[data-table=three] .outline { display: none; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
@@ -76,7 +76,9 @@ const places = `
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; }
   .strip, .say, .answer, .keeps { padding: 8px 16px 0; }
-  .controls { position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
+  .dock { order: 1; position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
+  :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
+  :is(.body, .numbers) :is(summary, input, button) { scroll-margin: calc(var(--stage) + 60px) 0 190px; } /* between stage and dock */
 }
 `;
 
@@ -127,13 +129,13 @@ path.shape { fill: var(--shape); } line.shape { stroke: var(--line-2); }
 .say > div { min-height: calc(1.3 * var(--t-l) + 2.9 * var(--t-m)); } .say p:not(.big) { max-width: 76ch; }
 @container (max-width: 1180px) { .outline { max-width: 230px; } }
 @container (max-width: 700px) {
-  .strip { grid-template-columns: minmax(0, 1fr); } .strip .plot { height: 116px; }
-  .starts, .paces { position: absolute; z-index: 3; top: calc(var(--stage) - 58px); } .starts { right: 12px; } .clock { display: none; }
-  .paces { right: 68px; display: flex; } .again { display: none; } .speed { background: var(--ground); border-radius: 22px; padding: 0 10px; min-height: 44px; }
-  .lab { position: relative; } .strip { position: static; }
+  /* on the stage, and as long in sight as that */
+  .strip { display: contents; } .strip .plot { height: 124px; margin: 0 16px; padding-top: 8px; flex: none; }
+  .starts, .paces { position: sticky; z-index: 3; top: calc(48px * var(--type, 1) + var(--stage) - 58px); height: 58px; margin-top: -58px; align-self: end; align-content: start; }
+  .stage, .starts, .paces { order: -1; } .starts { margin-right: 12px; } .paces { margin-right: 68px; } .clock, .again { display: none; } .speed { background: var(--ground); border-radius: 22px; padding: 0 10px; min-height: 44px; }
   .strip .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
-  .lab[data-table=three] .strip { grid-template: "starts paces" auto "plot plot" auto / auto 1fr; }
-  .lab[data-table=three] :is(.starts, .paces) { position: static; } .lab[data-table=three] .strip .plot { grid-area: plot; }
+  .lab[data-table=three] .strip { display: grid; grid-template: "starts paces" auto "plot plot" auto / auto 1fr; } .lab[data-table=three] .strip .plot { grid-area: plot; margin: 0; }
+  .lab[data-table=three] :is(.starts, .paces) { position: static; height: auto; margin: 0; align-self: center; }
   .say { grid-template-columns: 1fr; } .outline { max-width: none; } .outline span { display: inline; font-size: inherit; margin-right: 6px; }
 }
 `;
@@ -161,7 +163,7 @@ thead th { color: var(--ink-2); font-weight: 400; font-size: var(--t-s); } tbody
 `;
 
 const controls = `
-.controls { display: grid; gap: 12px; align-content: start; } .controls .titled { min-height: 44px; }
+:is(.controls, .dock) { display: grid; gap: 12px; align-content: start; } .controls .titled { min-height: 44px; }
 .picks { display: none; }
 .ctl { display: grid; grid-template-columns: 1fr auto; align-items: baseline; column-gap: 8px; }
 .ctl label { font-weight: 600; }
@@ -191,16 +193,17 @@ const controls = `
 .words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }
 .words b { position: absolute; transform: translateX(-50%); color: var(--ink); font-weight: 400; }
 @container (max-width: 700px) {
-  .controls { gap: 0; } .controls h2 { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+  .controls { display: contents; } .dock { gap: 0; } .controls h2 { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
   .picks { display: flex; gap: 4px; margin-left: -8px; } .controls .titled { align-items: center; }
   .picks button { padding: 0 8px; min-height: 44px; line-height: 1.15; text-align: left; color: var(--ink-2); font-size: var(--t-s); border-radius: 0; }
   .picks b { display: block; font-size: var(--t-m); color: var(--ink); font-variant-numeric: tabular-nums; white-space: nowrap; }
   .picks [aria-pressed=true], .picks [aria-pressed=true] b { color: var(--accent); font-weight: 600; }
   .picks [aria-pressed=true] { box-shadow: inset 0 -3px 0 var(--accent); }
-  :is(.numbers, .body) { display: none; } .chip { top: 108px; left: 8px; } .chip button { height: 44px; }
-  .primary { min-height: 44px; } .controls .ctl:not(.picked) { display: none; }
-  .ctl label { display: none; } .ctl > span { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
-  .ctl.bad > span { position: static; width: auto; height: auto; clip-path: none; grid-column: 1 / -1; }
+  .chip { top: 60px; left: 8px; max-width: calc(100% - 118px); } .chip span { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; } .chip button { flex: none; height: 44px; }
+  .pill { max-width: calc(100% - 184px); line-height: 1.2; }
+  .primary { min-height: 44px; } .dock .ctl:not(.picked) { display: none; }
+  .dock label { display: none; } .dock .ctl > span { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+  .dock .ctl.bad > span { position: static; width: auto; height: auto; clip-path: none; grid-column: 1 / -1; }
   .ctl input[type=range] { height: 44px; margin: -2px 0 -10px; }
   .ctl input::-webkit-slider-thumb { width: 28px; height: 28px; margin-top: -12px; border-width: 6px; }
 }

@@ -297,6 +297,7 @@ export class Stage {
     gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
     this.pictures += 1;
+    this.holder.dataset.drawn = ""; // before, no label has anything to stand on
     this.shown();
   }
 
