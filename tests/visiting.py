@@ -44,6 +44,22 @@ window.IntersectionObserver = class extends Seen {
 """
 
 
+# In the middle of the window, and there since the picture before.
+IN_SIGHT = """
+part => new Promise((done) => {
+  part.scrollIntoView({block: "center"})
+  let before = NaN
+  const look = () => {
+    const {top, height} = part.getBoundingClientRect()
+    if (top + height === before) done(true)
+    before = top + height
+    requestAnimationFrame(look)
+  }
+  look()
+})
+"""
+
+
 # Whether the last of the cards that are made after the page has come is there.
 WHOLE = """
 () => window.Bokeh?.documents?.[0]?.is_idle

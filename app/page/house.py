@@ -69,6 +69,18 @@ class House:
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
         pn.state.onload(self.pacer.begin)
 
+    def take(self, name, looked_at):
+        """A top that has a name, in the room that is looked at and so everywhere."""
+        if looked_at == room.FIRST:
+            self.lab_of.ask(toy=name)
+            self.lab_of.rest()
+        else:
+            self.builder.choose(name)
+
+    def toy(self, looked_at):
+        """What the top of this room is called; another name than any where it has none."""
+        return self.explorer.toy if looked_at == room.FIRST else self.builder.draft.name
+
     def _explores(self):
         return self.level == LEVELS[0]
 
@@ -156,7 +168,7 @@ class House:
         self._look_at("build-a-top")
 
     def learn(self):
-        learn = Learn(self.scene, self.runs)
+        learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
         self.pacer.shows(learn.show, "rest")
         self.keep.add(learn)
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it

@@ -9,6 +9,7 @@ type Later = { (): void; cancel(): void };
 // The top at one moment, in the axes of space; app/widgets/top3d.py says what each is.
 type Pose = Record<"contact" | "com" | "force" | "omega" | "momentum", import("three").Vector3> & {
   quaternion: import("three").Quaternion;
+  theta: number;
   regime: number;
 };
 
