@@ -318,8 +318,8 @@ def test_a_rounded_stem(share):
     assert shape.mass == pytest.approx(PAPER.M, rel=1e-12)
     angle, points = shape.touch_angle, shape.profile(1000)
     assert lowest(points, angle - 1e-3) == pytest.approx(shape.R, rel=1e-5)
-    assert lowest(points, angle + 1e-2) > shape.R * (1 + 2e-5)
     if share < 1:  # else the cut's rim is the first
+        assert lowest(points, angle + 1e-2) > shape.R * (1 + 1e-4)
         assert shape.edge == pytest.approx((q / shape.R, (shape.c + shape.l - b) / shape.R, b / shape.R))
     assert load_top(save_top(shape)) == shape
     assert "rounding" not in save_top(PAPER)  # as before there was one

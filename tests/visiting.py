@@ -68,7 +68,6 @@ WHOLE = """
 
 
 # Whether the top is drawn.
-# Fig. 5 stands below the first 900 px, and is drawn when it is seen.
 DRAWN = "window.__tippe?.top3d?.pictures > 0"
 
 
