@@ -131,11 +131,11 @@ async def ask_in_two_languages(url, go):
         before = page.now(lab, "frames_ordinary")
         await page.set(lab, "asked", [1, "spin", 21.0])
         place = len(said) + 1
-        await page.until(lambda: page.now(failure, "waits") == say("main.queue.waits", language, place=place))  # noqa: B023
+        await page.until(lambda: page.now(failure, "waits") == say("main.queue.waits", language, count=place))  # noqa: B023
         said.append((page, failure, lab, before, language))
     go()
     [_, (page, failure, _, _, language)] = said
-    await page.until(lambda: page.now(failure, "waits") in ("", say("main.queue.waits", language, place=1)))
+    await page.until(lambda: page.now(failure, "waits") in ("", say("main.queue.waits", language, count=1)))
     go()
     for page, failure, lab, before, _ in said:
         await page.until(lambda: page.now(failure, "waits") == "" and page.now(lab, "frames_ordinary") != before)  # noqa: B023

@@ -44,14 +44,14 @@ def waits(place):
     """Has the page that is being served say its place in a queue; 0: it is in none any more."""
     page = _page(pn.state.curdoc)
     if page:
-        page.waits = say("main.queue.waits", place=place) if place else ""
+        page.waits = say("main.queue.waits", count=place) if place else ""
 
 
 def full(waiting):
     """Has it say that what was asked for is not done, as so many wait already."""
     page = _page(pn.state.curdoc)
     if page:
-        page.param.update(words=say("main.queue.full", waiting=waiting), times=page.times + 1)
+        page.param.update(words=say("main.queue.full", count=waiting), times=page.times + 1)
 
 
 def failure():
