@@ -30,7 +30,7 @@ from app.tabs.roll.roll import Roll
 from app.text import say
 from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
-from app.widgets.failure import attempt
+from app.widgets.failure import attempt, full, waits
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D, show_top
 
@@ -63,7 +63,7 @@ class House:
             self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
         )
         post = to_session(pn.state.curdoc)
-        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
+        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
         self.lab_of = Lab(self.runs, self.explorer)
         self.start = OneStart(self.explorer, self.lab_of)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())

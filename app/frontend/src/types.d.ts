@@ -168,6 +168,7 @@ interface AddressModel extends Model {
 interface FailureModel extends Model {
   words: string;
   close: string;
+  waits: string;
 }
 
 interface ConnectionModel extends Model {
