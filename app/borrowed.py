@@ -5,9 +5,11 @@ another stands anywhere else in the page. The issues named are the libraries' ow
 """
 
 import inspect
+from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import cache, wraps
+from weakref import WeakKeyDictionary
 
 import panel.custom
 import panel.io.document
@@ -17,10 +19,12 @@ import panel.reactive
 import panel_material_ui as pmui
 import param
 from bokeh.document.models import DocumentModelManager
+from bokeh.server.connection import ServerConnection
 from bokeh.server.session import ServerSession
 from panel.io.resources import LOCAL_DIST
 
 FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that have Panel's freeze_doc
+WAITING = WeakKeyDictionary()  # of a connection, the messages that are made and not out
 
 
 # --- of a server, whichever starts it
@@ -92,6 +96,39 @@ def to_the_last(dispatch):
     return dispatched
 
 
+def put(connection, events):
+    """One message of these, behind what the connection has waiting."""
+    WAITING.setdefault(connection, deque()).append(connection.protocol.create("PATCH-DOC", events))
+
+
+async def send(connection):
+    """What the connection has waiting goes out."""
+    waiting = WAITING[connection]
+    while waiting:
+        await connection._socket.send_message(waiting.popleft())
+
+
+def send_one(connection, event):
+    """What Bokeh 3.9 does for each change; awaited when its lock opens."""
+    put(connection, [event])
+    return send(connection)
+
+
+def send_all(document, connections, events):
+    """What Panel 1.9 does for what it held back."""
+    for connection in connections:
+        put(connection, events)
+        panel.io.document._dispatch_write_task(document, send, connection)
+
+
+def in_order():
+    """3, for Panel 1.9 and Bokeh 3.9: messages go out in the order in which they were made. Both wrote on their own, so
+    that one which names a figure overtook the one that brings it, and the browser knew of no such figure. The newer
+    ones make a message only when they write it. https://github.com/holoviz/panel/pull/6028"""
+    ServerConnection.send_patch_document = send_one
+    panel.io.document.write_events = panel.io.document.schedule_write_events = send_all
+
+
 @cache
 def mend():
     """2, 3, and 4: where Panel takes its style sheets from for a part that never came into a document, because its view
@@ -101,6 +138,8 @@ def mend():
     for module in FREEZES:
         module.freeze_doc = thawed(module.freeze_doc)
     panel.io.document._dispatch_msgs = to_the_last(panel.io.document._dispatch_msgs)
+    if hasattr(panel.io.document, "_WRITE_MSGS"):  # Panel 1.9
+        in_order()
     panel.reactive.CDN_DIST = LOCAL_DIST
 
 

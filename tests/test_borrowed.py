@@ -18,7 +18,9 @@ import param
 import pytest
 from bokeh.document import Document
 from bokeh.document.models import DocumentModelManager
-from bokeh.models import ImportedStyleSheet
+from bokeh.models import ColumnDataSource, Div, ImportedStyleSheet, Row
+from bokeh.protocol import Protocol
+from bokeh.server.connection import ServerConnection
 from bokeh.server.contexts import ApplicationContext
 from bokeh.server.session import ServerSession
 from bokeh.server.tornado import BokehTornado
@@ -26,6 +28,7 @@ from panel.custom import JSComponent
 from panel.io.resources import CDN_DIST, LOCAL_DIST
 from panel.io.state import set_curdoc
 from tornado.ioloop import IOLoop
+from tornado.locks import Lock
 
 from app import borrowed
 from app.bundle import BUNDLE, Bundled
@@ -128,6 +131,54 @@ def test_a_list_of_models_is_kept_no_longer_than_the_change_that_failed():
         assert document.models._freeze_count == 0
     for module in borrowed.FREEZES:
         assert list(inspect.signature(module.freeze_doc).parameters)[:1] in (["doc"], ["of"])
+
+
+class Socket:
+    """A page's end that takes its time."""
+
+    def __init__(self):
+        self.write_lock, self.ws_connection, self.written = Lock(), Mock(is_closing=lambda: False), []
+
+    async def send_message(self, message):
+        async with self.write_lock:
+            await asyncio.sleep(0)
+            self.written.append(message.content_json)
+
+    def send(self, text_data):
+        if '"events"' in text_data:
+            self.written.append(text_data)
+        return asyncio.sleep(0)
+
+
+async def show_and_fill():
+    """A figure is brought by Panel while something else is written, and filled by Bokeh under its lock."""
+    document, row, source = Document(), Row(), ColumnDataSource({"x": [0]})
+    document.add_root(row)
+    session, socket = ServerSession("mine", document, io_loop=IOLoop.current()), Socket()
+    connection = ServerConnection(Protocol(), socket, None, session)
+    with set_curdoc(document):
+        panel.state._loaded[document] = True
+        async with socket.write_lock:
+            document.hold("combine")
+            row.children = [Div(name="figure", tags=[source])]
+            events, document.callbacks._held_events = document.callbacks._held_events, []
+            document.unhold()
+            panel.io.document.schedule_write_events(document, [connection], events)
+            await asyncio.sleep(0)
+        await session.with_document_locked(source.update, data={"x": [1.5]})
+        await asyncio.sleep(0.1)
+    session.destroy()
+    return [("figure" in text, "1.5" in text) for text in socket.written]
+
+
+def test_what_fills_a_figure_comes_behind_the_figure(monkeypatch):
+    """3."""
+    if hasattr(panel.io.document, "_WRITE_MSGS"):
+        monkeypatch.setattr(ServerConnection, "send_patch_document", ServerConnection.send_patch_document)
+        for name in ("write_events", "schedule_write_events"):
+            monkeypatch.setattr(panel.io.document, name, getattr(panel.io.document, name))
+        borrowed.in_order()
+    assert asyncio.run(show_and_fill()) == [(True, False), (False, True)]
 
 
 def test_what_writes_to_a_page_waits_under_these_names():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from visiting import COLUMN, PIXEL, WHOLE, Visit, wait
+from visiting import COLUMN, IN_SIGHT, PIXEL, WHOLE, Visit, wait
 
 from app.model.roll.region import least_energy
 from app.model.scene import solve
@@ -260,7 +260,8 @@ def test_a_state_that_is_typed_shows_its_constants_and_the_other_face_keeps_it(v
 
 def test_the_floor_of_fig_5_can_be_pulled_and_says_why_not(visit):
     visit.pause()
-    visit.page.locator("canvas[aria-label^='Figure 5']").scroll_into_view_if_needed()
+    visit.page.locator("canvas[aria-label^='Figure 5']").evaluate(IN_SIGHT)
+    visit.page.wait_for_function(f"() => __tippe.surface3d.selected === ({SELECTED})().K_J")
     _, outer = visit.page.evaluate("__tippe.surface3d.grips")
     visit.drag(outer, (outer[0] + 25, outer[1] + 4))
     visit.page.wait_for_function(f"() => ({SELECTED})().outer > 0.8")

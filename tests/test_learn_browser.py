@@ -99,6 +99,13 @@ def test_a_walk_through_the_lesson(browser, server, language, width):
         page.get_by_role("heading", name=say(f"learn.{step.name}.question", language)).wait_for()
         watch = page.get_by_role("button", name=say("learn.view.watch", language))
         watch.wait_for()
+        # on a phone the two arms stand where the top does, before the question, and the circles beside the dot
+        seen = "section.picture" if step.picture == "arms" and width < 600 else ".stage"
+        box = page.locator(seen).bounding_box()
+        assert box["y"] >= -1 and box["y"] + box["height"] <= page.locator(".question").bounding_box()["y"] + 900 * (
+            width > 600
+        )
+        assert page.locator(".ways").is_visible() == (step.name == "way")
         assert watch.is_disabled() and page.locator(".option :checked").count() == 0
         page.locator(".bar .covered").wait_for()
         answer = step.answer(Explorer().scene)
@@ -118,9 +125,15 @@ def test_a_walk_through_the_lesson(browser, server, language, width):
             assert box["y"] >= -1 and box["y"] + box["height"] <= 900, "the top is in sight beside the question"
         if step is not lesson.LESSON[-1]:
             page.get_by_role("button", name=say("learn.view.next", language)).click()
+    # the end says what was learned, and leads to where it can be tried
+    learned = [say(f"learn.{step.name}.learned", language) for step in lesson.LESSON]
+    assert page.locator(".end li").all_inner_texts() == learned
     crumbs.nth(1).click()
     page.locator(".side .told .big").get_by_text(say("learn.view.off", language)).wait_for()
     page.wait_for_function("location.search.includes('step=way')")
+    crumbs.last.click()
+    page.get_by_role("button", name=say("learn.view.lab", language)).click()
+    page.wait_for_function("!location.search.includes('tab=learn')")
     closed(visit)
 
 
@@ -152,9 +165,9 @@ def phones(chromium):
 
 
 def presented(page):
-    """From the lesson to the big screen, by its key."""
+    """From the lesson to the big screen, by its key, as a teacher who has just chosen the tab."""
     page.locator(".crumbs button").nth(1).wait_for()
-    page.locator("body").click(position={"x": 2, "y": 2})
+    page.get_by_role("tab", name="Learn", exact=True).focus()
     page.keyboard.press("p")
     page.locator(".lesson.present .board").wait_for()
 
@@ -173,6 +186,7 @@ def test_a_class_with_two_phones(browser, phones, server):
     page, languages = visit.page, ("en", "de")
     presented(page)
     page.locator(".link-said").get_by_text("?vote=").wait_for()
+    page.locator(".count").get_by_text(say("teach.room.nobody")).wait_for()
     assert page.locator(".qr svg").bounding_box()["height"] > 300  # it is read across a room
     assert page.locator(".warning").inner_text() == say("teach.room.local")
     address = f"http://{page.locator('.link-said').inner_text()}"

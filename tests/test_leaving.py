@@ -16,6 +16,7 @@ from inside import inside
 from wire import run, until
 
 from app.text import say
+from app.widgets.download import Download
 
 pytestmark = pytest.mark.served
 
@@ -164,6 +165,12 @@ async def flood(here, monkeypatch):
         go.get(timeout=PATIENCE)
         return b"figure"
 
+    def clicked(download, event):
+        click(download, event)
+        heard.append((download._asked[0].constants.K_J, event.new))
+
+    click, heard = Download._clicked, []
+    monkeypatch.setattr(Download, "_clicked", clicked)
     monkeypatch.setattr("app.share.share.draw", draw)
     pages = {}
     for who, K_J in (("flood", 5.5), ("other", 6.5)):
@@ -179,7 +186,8 @@ async def flood(here, monkeypatch):
     wanted = other.visitor.find("Download")[0]
     await other.set(wanted, "clicks", 1)
     await other.set(wanted, "clicks", 2)
-    await other.until(lambda: other.now(wanted, "making"))  # clicks are gathered for a moment before they are heard
+    await asyncio.to_thread(until, lambda: (6.5, 2) in heard)  # clicks are gathered for a moment before they are heard
+    assert other.now(wanted, "making")
     go.put(None)
     go.put(None)
     await other.until(lambda: other.now(wanted, "file", [0])[0] == 1)

@@ -3,13 +3,13 @@
 import re
 
 import pytest
-from visiting import PATIENCE
+from visiting import PATIENCE, WHOLE
 
 pytestmark = pytest.mark.served
 
 LOOKS = "name => document.documentElement.dataset.look === name"
 TOP = "canvas[aria-label^='The top'], canvas[aria-label^='Der Kreisel']"
-HIGHER = "([top, before]) => top.getBoundingClientRect().top < before"
+HIGHER = "([part, before]) => part.getBoundingClientRect().top < before"
 
 
 @pytest.fixture
@@ -66,13 +66,14 @@ def test_a_german_page_writes_decimal_commas_on_axes_in_fields_and_in_3d(opened)
 
 def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):
     page = opened("?v=1&tab=roll")
-    page.wait_for_function("() => window.__tippe?.top3d?.pictures > 0")
-    top = page.locator(TOP).first
+    page.wait_for_function(WHOLE)  # else there is nothing to scroll
+    top, figure = page.locator(TOP).first, page.locator("canvas[aria-label^='Figure 5']").element_handle()
     top.click()  # also once it was clicked
-    box = top.bounding_box()
+    box, before = top.bounding_box(), figure.bounding_box()["y"]
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.wheel(0, 100)
-    page.wait_for_function(HIGHER, arg=[top.element_handle(), box["y"]])
+    page.wait_for_function(HIGHER, arg=[figure, before])
+    assert top.bounding_box()["y"] > 0  # it stays in sight
     assert "view=" not in page.url
     page.keyboard.down("Control")
     page.mouse.wheel(0, 100)

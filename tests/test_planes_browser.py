@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from house import planes_of
-from visiting import PIXEL, Visit, go_to
+from visiting import IN_SIGHT, PIXEL, Visit, go_to
 
 from app.model.explorer import Explorer
 from tippe_core import PRESETS
@@ -157,7 +157,7 @@ def test_a_long_run_shows_how_far_it_is_and_can_be_stopped(page):
 
 
 def test_a_click_on_the_map_goes_there(page):
-    page.get_by_text("Which tops can turn over").scroll_into_view_if_needed()
+    page.locator("[data-figure=planes-map]").evaluate(IN_SIGHT)
     body = next(body for body in PRESETS if body.name == "Loaded sphere")
     page.mouse.click(*page.evaluate(PIXEL, ["planes-map", body.shape.top.a, body.shape.top.I1 / body.shape.top.I3]))
     here = f"a => ({COLUMN})(['planes-map', 'x']).some((x) => x.length == 1 && Math.abs(x[0] - a) < 0.005)"

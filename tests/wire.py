@@ -94,6 +94,16 @@ class Visitor:
             for each in part.values():
                 self.note(each)
 
+    def unknown(self, part):
+        """The ids of models that are named there and were not brought: a browser throws away the whole message."""
+        if isinstance(part, list):
+            return {id for each in part for id in self.unknown(each)}
+        if not isinstance(part, dict) or part.get("type") == "bytes":  # whose id is a buffer's
+            return set()
+        if set(part) == {"id"} and re.fullmatch(r"p\d+", str(part["id"])):
+            return {part["id"]} - set(self.models)
+        return {id for each in part.values() for id in self.unknown(each)}
+
     def find(self, kind, *names):
         """The ids of the models of this type that have these attributes, in the order of the document."""
         return [id for id, (name, attributes) in self.models.items()
@@ -200,6 +210,8 @@ class Page:
                 if kind == "PATCH-DOC":
                     self.heard(content)
                     self.visitor.note(content)
+                    if unknown := self.visitor.unknown(content):
+                        raise RuntimeError(f"references {sorted(unknown)} are not known")
                     for event in content["events"]:
                         if event["kind"] == "ModelChanged" and event["model"]["id"] in self.visitor.models:
                             self.visitor.models[event["model"]["id"]][1][event["attr"]] = event["new"]

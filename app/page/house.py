@@ -7,6 +7,7 @@ import panel_material_ui as pmui
 
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
+from app.model.lab.run import PATCH
 from app.model.planes.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
@@ -29,7 +30,7 @@ from app.tabs.roll.roll import Roll
 from app.text import say
 from app.widgets.cards import BUTTON, ONE_ROW, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
-from app.widgets.failure import attempt
+from app.widgets.failure import attempt, full, waits
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D, show_top
 
@@ -68,7 +69,7 @@ class House:
             self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
         )
         post = to_session(pn.state.curdoc)
-        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
+        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
         self.lab_of = Lab(self.runs, self.explorer)
         self.start = OneStart(self.explorer, self.lab_of)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
@@ -88,6 +89,18 @@ class House:
         """show(whether it explores), now and at each other level."""
         self._shows_level.append(show)
         show(self._explores())
+
+    def take(self, name, looked_at):
+        """A top that has a name, in the room that is looked at and so everywhere."""
+        if looked_at == room.FIRST:
+            self.lab_of.ask(toy=name)
+            self.lab_of.rest()
+        else:
+            self.builder.choose(name)
+
+    def toy(self, looked_at):
+        """What the top of this room is called; another name than any where it has none."""
+        return self.explorer.toy if looked_at == room.FIRST else self.builder.draft.name
 
     def _explores(self):
         return self.level == LEVELS[0]
@@ -178,7 +191,7 @@ class House:
         self._look_at("build-a-top")
 
     def learn(self):
-        learn = Learn(self.scene, self.runs)
+        learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
         self.pacer.shows(learn.show, "rest")
         self.keep.add(learn)
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
@@ -192,7 +205,7 @@ class House:
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):
-        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu)
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH)  # as the map has it
         if look:
             self._look_at("lab")
 

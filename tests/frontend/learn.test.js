@@ -3,6 +3,7 @@ import { test } from "node:test";
 import { apart } from "../../app/frontend/src/learn/graph.js";
 import { wishOf } from "../../app/frontend/src/learn/present.js";
 import { verdictOf } from "../../app/frontend/src/learn/question.js";
+import { arrow } from "../../app/frontend/src/learn/ways.js";
 
 test("a guess is right or not, and not to know yet is neither", () => {
   const asks = { options: [["over", ""], ["falls", ""], ["unsure", ""]], unsure: "unsure" };
@@ -28,4 +29,12 @@ test("keys are for the class only while it is presented to, and never with Ctrl"
   assert.deepEqual(["ArrowLeft", "ArrowRight", " ", "r", "0", "Escape", "p", "x"].map((key) => press(key, true)),
     ["back", "on", "play", "reveal", "reset", "leave", "leave", ""]);
   assert.equal(press("r", true, { ctrlKey: true }), "");
+});
+
+test("an arrow goes as far as it turns fast, counterclockwise where that is positive, and there is none at rest", () => {
+  const end = (share) => arrow(share).line.split(" ").slice(-2).map((value) => Number(value) + 0);
+  assert.deepEqual(arrow(0), { line: "", head: "" });
+  assert.deepEqual(end(0.3), [-24, 0]); // a quarter, to the left
+  assert.deepEqual(end(-0.3), [24, 0]);
+  assert.deepEqual(end(2), end(1)); // never a whole circle
 });

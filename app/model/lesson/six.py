@@ -38,7 +38,7 @@ def flips(scene: Scene) -> Answer:
     motion = on_table("ordinary")
     when = times(motion)
     truth = "over" if {"over", "stands"} <= when.keys() else "falls" if "topples" in when else "upright"
-    return Answer(truth, {code: when.get(code, np.nan) for code in ("over", "stands", "falls")})
+    return Answer(truth, {code: when.get(code, np.nan) for code in ("over", "stands", "falls", "rolls")})
 
 
 def way(scene: Scene) -> Answer:
@@ -112,11 +112,13 @@ def contradiction(scene: Scene) -> Answer:
 
 
 def yours(scene: Scene) -> Answer:
-    """Whether the page's own top turns over."""
+    """Whether the page's own top turns over, as long as it is watched."""
     motion = own(scene)
-    over = times(motion).get("over", np.nan)
-    numbers = {"over": over, "low": motion.tilt.min(), "high": motion.tilt.max(), "seconds": motion.seconds[-1]}
-    turned = bool(np.isfinite(over))
+    over, rows = times(motion).get("over", np.nan), motion.curves
+    tilt = rows[rows[:, 0] <= YOURS.end, 1]
+    numbers = {"over": over, "low": tilt.min(), "high": tilt.max(), "end": tilt[-1],
+               "seconds": min(YOURS.end, rows[-1, 0])}  # fmt: skip
+    turned = bool(over <= YOURS.end)
     return Answer("over" if turned else "not", numbers, told="told_over" if turned else "told_not")
 
 

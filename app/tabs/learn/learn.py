@@ -25,17 +25,18 @@ WISHES = ("present", "reveal", "reset")  # of who stands at the big screen
 class Learn(param.Parameterized):
     """The lesson, and beside it the derivation, the teacher's page and the history.
 
-    scene: the first, show() is for others; runs: the page's Runs. What a link keeps: step, section, and of a vote that
-    is open the teacher's key, room.
+    scene: the first, show() is for others; runs: the page's Runs; lab: leads there. What a link
+    keeps: step, section, and of a vote that is open the teacher's key, room.
     """
 
     step = param.Selector(default=lesson.NAMES[0], objects=list(lesson.NAMES))
     section = param.Selector(default=SECTIONS[0], objects=list(SECTIONS))
     room = param.String(default="")
 
-    def __init__(self, scene, runs=None):
+    def __init__(self, scene, runs=None, lab=None):
         super().__init__()
         self._scene, self._runs, self._of = scene, runs or Runs(), {}
+        self._lab = lab or (lambda: None)
         self.lesson = LessonView(sizing_mode="stretch_width", margin=0, worksheet=worksheet())
         self.lesson.param.watch(asked.heard(self._heard), "asked")
         self.top = Top3D(clock=CLOCK, height=360, sizing_mode="stretch_width")
@@ -109,6 +110,8 @@ class Learn(param.Parameterized):
             self.step = value
         elif name == "section" and value in SECTIONS:
             self.section = value
+        elif name == "lab":
+            self._lab()
         elif name in WISHES:
             getattr(self.teacher, name)()
         else:

@@ -27,7 +27,6 @@ from app.tabs.measure.words import TABLE, found_words, kept_words, models_table,
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from app.widgets.download import Download
-from app.widgets.failure import after
 from tippe_core import Top, TopError
 
 PLACES = """
@@ -39,7 +38,6 @@ PLACES = """
   grid-template: "over" max-content "found" max-content "table" max-content / minmax(0, 1fr) } }
 """
 FIRST = EXAMPLES[0]
-PLACED = 0.2  # s after which the tab stands on the page
 LAWS = ("contensou", "smoothed", "viscous")
 
 
@@ -99,10 +97,11 @@ class Measure:
         examples = [pmui.Button(label=says, **BUTTON) for says in listed("measure.examples").values()]
         for button, name in zip(examples, EXAMPLES, strict=True):
             on_click(button, lambda event, name=name: self.take_example(name))
-        if self._runs.beside:  # what it finds may not reach the browser before the figures it is for
-            after(PLACED, self._take_first)
-        else:
-            self._take_first()
+        if self.filmed.film:
+            self.in_link.value = True
+            self.take(unpacked(self.filmed.film))
+        if self._table is None:
+            self.take_example(FIRST)
         parts = {
             "over": [self.pictures.view, self.part],
             "found": [self.stage, self.found, self.about, flow(self.law), self.loose, flow(self.start, self.cancel),
@@ -113,14 +112,6 @@ class Measure:
         sides = [pn.Column(*part, css_classes=[place], sizing_mode="stretch_width", margin=0)
                  for place, part in parts.items()]  # fmt: skip
         return pn.Column(*sides, sizing_mode="stretch_width", margin=0, stylesheets=[PLACES])
-
-    def _take_first(self):
-        """The film of the link, else an example."""
-        if self.filmed.film:
-            self.in_link.value = True
-            self.take(unpacked(self.filmed.film))
-        if self._table is None:
-            self.take_example(FIRST)
 
     def show(self, scene):
         """From now on a film is of the top of this scene; what was fitted stays as it is."""

@@ -13,6 +13,7 @@ export class Arms {
     this.outline = { across: /** @type {number[]} */ ([]), along: /** @type {number[]} */ ([]) };
     /** @type {(point: Point) => Point} */
     this.put = (point) => point;
+    this.scale = 1; // px
     this.hull = drawn("path", { class: "hull" });
     this.axis = drawn("path", { class: "axis thin" });
     this.upwards = drawn("path", { class: "axis thin" });
@@ -32,6 +33,7 @@ export class Arms {
     this.rows = float32(run.arms);
     this.outline = { across: [...radius, ...radius.map((r) => -r).reverse()], along: [...along, ...along.slice().reverse()] };
     const scale = Math.min(width / 5.4, height / 2.9), x0 = width / 2, y0 = height - 22;
+    this.scale = scale;
     this.put = ([x, y]) => /** @type {Point} */ ([x0 + scale * x, y0 - scale * y]);
     return [this.hull, drawn("path", { class: "table", d: `M8 ${y0}H${width - 8}` }), this.upwards, this.axis, this.own, this.upright, this.mass,
       this.push, ...Object.values(this.words)];
@@ -60,10 +62,11 @@ export class Arms {
     for (const [shape, at] of /** @type {[any, Point][]} */ ([[this.mass, G], [this.push, [0, 0]]])) {
       shape.setAttribute("transform", `translate(${this.put(at).map((v) => v.toFixed(1)).join(" ")})`);
     }
+    const clear = 14 / this.scale; // px above the table's line
     const side = G[0] <= 0 ? 1 : -1, [near, far] = side > 0 ? ["start", "end"] : ["end", "start"];
     this.word(words.push, [0, 0], 0, 20, "middle");
     this.word(words.upright, [G[0], 0], -14 * side, -8, far);
-    this.word(words.own, [0.6 * foot[0], 0.6 * foot[1]], 12 * side, 4, near);
+    this.word(words.own, [0.6 * foot[0], Math.max(0.6 * foot[1], clear)], 12 * side, 4, near);
     this.word(words.axis, tip, 8, 4, "start");
     this.word(words.mass, G, -10 * side, 4, far);
   }

@@ -108,7 +108,7 @@ export class Bar {
   events() {
     const { scene: { step, tops }, texts } = this;
     if (tops.length > 1) return [];
-    let free = LEFT;
+    let free = LEFT - 14; // beside the uppermost number of the axis there is room
     return step.events.filter(([t]) => t <= step.end).flatMap(([t, , , short]) => {
       const word = `${short} ${say(texts, "{t} s", { t: [t, 1] })}`, x = this.x(t), wide = LETTER * word.length;
       const side = x - wide - 8 > free ? "end" : "start", from = side === "end" ? x - wide - 5 : x + 5;

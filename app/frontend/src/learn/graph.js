@@ -4,7 +4,7 @@ import { drawn, part, say } from "../lab/parts.js";
 import { float32 } from "../data.js";
 import { Arms } from "./arms.js";
 
-const LEFT = 46, RIGHT = 12, TOP = 10, FOOT = 22, APART = 15; // px
+const LEFT = 46, RIGHT = 12, TOP = 10, FOOT = 22, APART = 15, CLOSE = 24; // px
 
 // Words beside points of a drawing, pushed apart where they would lie over each other.
 /** @template {{ y: number }} T @param {T[]} words @param {number} least @param {number} most */
@@ -116,7 +116,7 @@ export class Graph {
     if (time) found.push(this.covering, this.now);
     for (const [, px, py] of marks) found.push(drawn("circle", { class: "mark", cx: x(px), cy: y(py), r: 5 }));
     this.words = [...lines.map((line) => ({ ...line, at: time ? null : line.points.findLast((point) => point.every(Number.isFinite)) })), ...marks.map(([word, px, py]) => ({ word, at: [px, py], points: [] }))]
-      .filter(({ word }) => word).map((word) => ({ ...word, element: drawn("text", { class: `word halo ${word.kind ?? ""}`, fill: word.colour }, word.word) }));
+      .filter(({ word }) => word).map((word) => ({ ...word, element: drawn("text", { class: `word halo ${word.kind ?? ""}`, style: word.colour ? `fill: color-mix(in srgb, ${word.colour} 50%, var(--ink))` : undefined }, word.word) }));
     this.scale = { x, y, time, clip, bottom, right };
     return [...found, ...this.words.map(({ element }) => element)];
   }
@@ -127,8 +127,11 @@ export class Graph {
     const found = this.words.map((word) => {
       const point = word.at ?? word.points.findLast(([t]) => t <= seen + 1e-6) ?? word.points[0], px = x(point[0]);
       const py = y(point[1]);
-      return { word, px, y: py + (word.below ? 16 : word.above || px >= middle ? -8 : 4) };
+      return { word, px, py, y: py + (word.below ? 16 : word.above || px >= middle ? -8 : 4) };
     });
+    // of two lines that end close together the lower has its word below
+    const ends = found.filter(({ word, px }) => px >= middle && !word.below && !word.above).sort((one, other) => one.py - other.py);
+    ends.forEach((end, i) => i && end.py - ends[i - 1].py < CLOSE && ends[i - 1].y < ends[i - 1].py && (end.y = end.py + 16));
     for (const { word, px, y: py } of apart(found, TOP + 8, bottom - 6)) {
       const after = px < middle;
       word.element.setAttribute("x", String(after ? px + 8 : px - 8));

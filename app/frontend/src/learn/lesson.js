@@ -32,16 +32,17 @@ class Lesson {
     this.stage = new Stage(texts, this.time);
     this.bar = new Bar(texts, this.time);
     this.question = new Question(texts, {
-      guess: (value) => this.guess(value), watch: () => this.watch(), next: () => this.go(1),
+      guess: (value) => this.guess(value), watch: () => this.watch(), next: () => this.go(1), lab: () => this.ask("lab", ""),
     });
     this.graph = new Graph(texts);
     this.presenting = this.lost = this.back = false;
     this.presenter = new Presenter(texts, (wish) => this.does(wish));
     this.phone = new PhoneSide(texts, (name, value) => this.ask(name, value), () => this.replay());
     this.more = part("nav", { class: "more", "aria-label": texts.lesson.more });
-    this.element = part("div", { class: "lesson" }, this.crumbs, this.heading, this.stage.element, this.bar.element,
-      part("div", { class: "right" }, this.question.element, this.graph.element), this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.more);
-    this.frame = part("div", { class: "frame" }, this.element);
+    this.right = part("div", { class: "right" }, this.question.element, this.graph.element);
+    this.element = part("div", { class: "lesson" }, this.crumbs, this.heading, this.stage.element, this.bar.element, this.right,
+      this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.more);
+    this.frame = part("div", { class: "frame", tabindex: -1 }, this.element);
     el.replaceChildren(part("style", {}, style), this.frame);
     this.look();
     this.show = coalesce(() => this.showNow());
@@ -59,7 +60,8 @@ class Lesson {
     window.addEventListener("tippe:look", this.look, { signal });
     window.addEventListener("tippe:lost", this.onLost, { signal });
     window.addEventListener("tippe:back", this.onLost, { signal });
-    window.addEventListener("keydown", this.onKey, { signal });
+    // first of all: what has the focus, a tab of the head, would take an arrow for itself
+    window.addEventListener("keydown", this.onKey, { signal, capture: true });
     document.addEventListener("fullscreenchange", this.onScreen, { signal });
   }
 
@@ -137,6 +139,7 @@ class Lesson {
     this.frame.classList.toggle("presenting", presenting);
     this.element.classList.toggle("present", presenting);
     if (presenting) {
+      this.frame.focus({ preventScroll: true });
       document.documentElement.requestFullscreen?.().catch(() => {});
       if (!this.room.code) this.ask("present", "");
     } else if (document.fullscreenElement) document.exitFullscreen();
@@ -247,7 +250,7 @@ class Lesson {
     this.scene = { step, tops, curves, record, inClass: this.presenting };
     this.bar.show(this.scene);
     this.graph.show(this.scene);
-    this.element.dataset.picture = this.graph.element.hidden ? "" : step.picture;
+    this.putPicture();
     if (!tops.length) return;
     time.seek(t);
     if (this.beginning) {
@@ -257,9 +260,21 @@ class Lesson {
     this.at();
   }
 
+  // Beside the question; the arms in place of the top where that fills the screen or the page is narrow; before a class
+  // a graph comes with the answer, where the code was.
+  putPicture() {
+    const { graph, presenting, presenter, record } = this, kind = graph.element.hidden ? "" : graph.kind;
+    const place = !presenting ? this.right : kind === "arms" ? this.element : presenter.board;
+    if (graph.element.parentElement !== place) place.insertBefore(graph.element, place === presenter.board ? presenter.code : null);
+    this.element.dataset.picture = kind;
+    this.element.toggleAttribute("data-answered", Boolean(record.done));
+    graph.draw();
+  }
+
   showQuestion() {
-    const { steps, step, record, lost, back } = this;
-    this.question.show(step, record, { playing: this.time.playing, last: steps.at(-1) === step });
+    const { steps, step, record, lost, back } = this, last = steps.at(-1) === step;
+    const learned = last && !step.theory ? steps.map((each) => each.learned).filter(Boolean) : [];
+    this.question.show(step, record, { playing: this.time.playing, last, learned });
     if (this.presenting) this.presenter.put(step, record, this.room, { steps, lost, back });
   }
 
@@ -272,7 +287,7 @@ class Lesson {
     }));
     const other = this.model.steps.find(({ theory }) => theory !== step.theory);
     this.more.replaceChildren(
-      ...(other ? [this.link(step.theory ? lesson.home : lesson.sections.theory, () => this.open(other.name))] : []),
+      this.link(step.theory ? lesson.home : lesson.sections.theory, () => other && this.open(other.name)),
       ...SECTIONS.map((name) => this.link(lesson.sections[name], () => this.ask("section", name))),
       this.link(lesson.worksheet, () => this.paper()), this.link(lesson.room.present, () => this.present(true)));
   }
@@ -299,6 +314,7 @@ class Lesson {
     if (time.t > record.seen) record.seen = time.t;
     if (record.asked && !record.done && !time.playing && !time.held && time.t >= time.end - NEARLY) {
       record.done = true;
+      this.putPicture();
       this.showCrumbs();
       this.showQuestion();
     }

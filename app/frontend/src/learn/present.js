@@ -51,7 +51,7 @@ export class Presenter {
     this.code.hidden = !open || done;
     this.link.textContent = open && !done ? room.address.replace(/^https?:\/\//, "") : "";
     this.warning.textContent = back ? said.back : lost ? said.lost : room.said || (room.local && !done ? said.local : "");
-    this.count.replaceChildren(...(open ? [part("b", {}, String(room.voted)), ` ${say(texts, said.voted, { phones: room.phones })}`] : []));
+    this.count.replaceChildren(...(open ? room.phones ? [part("b", {}, String(room.voted)), ` ${say(texts, said.voted, { phones: room.phones })}`] : [said.nobody] : []));
     this.show.hidden = Boolean(record.asked) || !step.asks;
     this.next.hidden = !done || steps.at(-1) === step;
     this.dots.replaceChildren(...steps.map((each) => part("i", { class: each === step ? "here" : "" })), ` ${say(texts, said.place, { i: steps.indexOf(step) + 1, n: steps.length })}`);

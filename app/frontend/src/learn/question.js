@@ -15,7 +15,7 @@ const digitsOf = (step) => (step < 1 ? 1 : 0);
 export class Question {
   /**
    * @param {Record<string, any>} texts
-   * @param {{ guess(value: any): void, watch(): void, next(): void }} hand
+   * @param {{ guess(value: any): void, watch(): void, next(): void, lab(): void }} hand
    */
   constructor(texts, hand) {
     this.texts = texts;
@@ -26,11 +26,12 @@ export class Question {
     this.watch = part("button", { class: "primary", type: "button", onclick: () => hand.watch() });
     this.next = part("button", { class: "primary", type: "button", onclick: () => hand.next() }, `${texts.lesson.next} →`);
     this.guess = part("span", { class: "small" }, texts.lesson.guess);
+    this.end = part("div", { class: "end" });
     this.dock = part("div", { class: "dock" }, this.watch, this.next, this.guess);
-    this.element = part("section", { class: "side" }, this.hint, this.place, this.verdict, this.dock);
+    this.element = part("section", { class: "side" }, this.hint, this.place, this.verdict, this.end, this.dock);
   }
 
-  show(step, record, { playing, last }) {
+  show(step, record, { playing, last, learned }) {
     const { texts: { lesson } } = this;
     this.step = step;
     this.record = record;
@@ -40,6 +41,7 @@ export class Question {
       this.shown = shown;
       this.place.replaceChildren(...(step.refused || record.done ? [] : step.asks.options ? this.options() : this.slider()));
       this.verdict.replaceChildren(...(record.done ? this.told() : []));
+      this.end.replaceChildren(...(record.done && learned.length ? this.ended(learned) : []));
     }
     this.hint.hidden = Boolean(record.done);
     this.watch.hidden = Boolean(step.refused);
@@ -88,6 +90,13 @@ export class Question {
     return [part("div", { class: "number" }, words, input)];
   }
 
+  // After the last step: all that was learned, and where it can be tried.
+  ended(learned) {
+    const { hand, texts: { lesson } } = this;
+    return [part("p", { class: "big" }, lesson.done), part("ol", {}, ...learned.map((words) => Object.assign(part("li"), { innerHTML: words }))),
+      part("button", { type: "button", class: "primary", onclick: () => hand.lab() }, lesson.lab)];
+  }
+
   word(value) {
     const { step: { asks }, texts } = this;
     if (asks.options) return asks.options.find(([key]) => key === value)?.[1] ?? "";
@@ -105,7 +114,7 @@ export class Question {
     const learned = html(step.learned, "");
     learned.prepend(part("b", {}, `${lesson.learned}: `));
     found.push(part("div", { class: "learned" }, learned));
-    if (step.sources.length) found.push(part("p", { class: "small" }, `${lesson.read}: `, ...step.sources.flatMap(([, short, full], i) => [i ? " · " : "", part("span", { title: full }, short)])));
+    if (step.sources.length) found.push(part("details", { class: "small" }, part("summary", {}, `${lesson.read}: ${step.sources.map(([, short]) => short).join(" · ")}`), ...step.sources.map(([, , full]) => html(full, ""))));
     return found;
   }
 }

@@ -2,6 +2,7 @@
 import { latest, TILT } from "../lab/curves.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { Top } from "../lab/top.js";
+import { Ways } from "./ways.js";
 
 const MOST = 3;
 export const DASHES = ["", "7 4", "2 4"]; // of their curves
@@ -16,13 +17,14 @@ export class Stage {
     /** @type {string[]} */
     this.names = [];
     // one that stands alone is near, of several each is a little further off
-    this.tops = Array.from({ length: 1 + MOST }, (_, i) => new Top({ texts, time, label: texts.stage, away: i ? 1.75 : 1.3 }));
+    this.tops = Array.from({ length: 1 + MOST }, (_, i) => new Top({ texts, time, label: texts.stage, away: i ? 1.5 : 1.3 }));
     this.captions = this.tops.map(() => part("p", { class: "caption" }));
     this.covers = this.tops.map(() => part("p", { class: "cover" }, texts.lesson.later));
     this.places = this.tops.map((top, i) => part("div", { class: "place" }, top.element, this.captions[i], this.covers[i]));
     this.pill = part("div", { class: "pill" });
+    this.ways = new Ways(texts);
     this.wait = part("p", { class: "wait", role: "status" });
-    this.element = part("section", { class: "stage", "aria-label": texts.stage }, part("div", { class: "tops" }, ...this.places), this.pill, this.wait);
+    this.element = part("section", { class: "stage", "aria-label": texts.stage }, part("div", { class: "tops" }, ...this.places), this.pill, this.ways.element, this.wait);
   }
 
   /** @param {any[]} tops @param {any} step @param {any[]} curves */
@@ -31,6 +33,7 @@ export class Stage {
     this.step = step;
     this.curves = curves;
     this.names = tops.map(({ name }) => name);
+    this.ways.element.hidden = step.picture !== "spin" || !tops.length;
     this.wait.textContent = tops.length ? "" : step.refused ? `${lesson.wrong} ${step.refused}` : lesson.wait;
     this.tops.forEach((top, i) => {
       const found = tops.length > 1 ? tops[i - 1] : tops[i];
@@ -50,6 +53,7 @@ export class Stage {
   at(t) {
     const { step, names, texts } = this, word = names.length === 1 && latest(step.stages?.[names[0]] ?? [], t)?.[1];
     this.pill.hidden = !word;
+    if (!this.ways.element.hidden) this.ways.at(this.curves[0], t);
     if (word) this.pill.textContent = say(texts, texts.lesson.pill, { word, tilt: [this.curves[0].at(t, TILT), 0] });
   }
 

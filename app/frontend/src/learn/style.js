@@ -2,7 +2,7 @@
 import { shared } from "../lab/style.js";
 
 const places = `
-.frame { --head: calc(48px * var(--type, 1)); scroll-margin-top: var(--head); }
+.frame:focus { outline: 0; } .frame { --head: calc(48px * var(--type, 1)); scroll-margin-top: var(--head); }
 .lesson { display: grid; gap: 10px 24px; padding: 10px 24px 8px; --side: 520px; --stage: clamp(300px, 100vh - 380px, 62cqw);
   grid-template: "crumbs crumbs" auto "question question" auto "stage right" var(--stage) "bar right" auto "more more" auto / minmax(0, 1fr) var(--side); align-content: start; }
 .right { grid-area: right; display: flex; flex-direction: column; gap: 12px; min-width: 0; }
@@ -31,6 +31,9 @@ const places = `
 .at { position: absolute; inset: 0; width: 100%; height: 100%; margin: 0; opacity: 0; pointer-events: none; } .at:focus-visible ~ .head { outline: 3px solid var(--accent); outline-offset: 2px; }
 .side { display: flex; flex-direction: column; gap: 10px; min-width: 0; }
 .picture { min-width: 0; flex: 1; display: flex; flex-direction: column; max-height: 330px; } .picture .plot { position: relative; flex: 1; min-height: 170px; } .picture h3 { font-size: var(--t-m); font-weight: 600; margin: 0 0 4px; }
+.ways { position: absolute; top: 12px; right: 12px; display: grid; gap: 4px; } .ways figure { margin: 0; text-align: center; } .ways svg { width: 76px; height: 76px; margin: 0 auto; } .ways figcaption { font-size: var(--t-s); color: var(--scene-ink, #1d2733); }
+[data-look=dark] .ways figcaption { color: var(--ink); }
+.ways .rim { fill: color-mix(in srgb, var(--ground) 75%, transparent); stroke: var(--line-2); } .ways .line { stroke-width: 4; } .tip.own { fill: var(--q-spin); } .tip.turning { fill: var(--ink); }
 .axis-name { text-align: right; font-size: var(--t-s); color: var(--ink-2); } .axis-name:empty { display: none; }
 .more { grid-area: more; display: flex; flex-wrap: wrap; gap: 0 20px; } .more .link { font-weight: 400; color: var(--ink-2); }
 `;
@@ -49,7 +52,8 @@ fieldset { border: 0; margin: 0; padding: 0; display: grid; gap: 8px; min-width:
 .number .unset::-webkit-slider-thumb { opacity: .3; } .number .unset::-moz-range-thumb { opacity: .3; }
 .told { display: grid; gap: 8px; } .told:empty { display: none; } .learned { border-left: 4px solid var(--accent); padding-left: 12px; }
 .equation { overflow-x: auto; overflow-y: hidden; padding: 4px 0 6px; } .equations { display: grid; gap: 4px; } math { font-family: 'STIX Two Math', 'Cambria Math', 'Latin Modern Math', 'DejaVu Math TeX Gyre', math; }
-.told .small span { cursor: help; }
+details > summary { cursor: pointer; min-height: 24px; } details p { margin: 4px 0; }
+.end { display: grid; gap: 8px; justify-items: start; } .end:empty { display: none; } .end ol { margin: 0; padding-left: 20px; display: grid; gap: 4px; }
 `;
 
 const drawings = `
@@ -69,11 +73,14 @@ const present = `
 .present .board { grid-area: board; display: flex; flex-direction: column; gap: 12px; min-height: 0; min-width: 0; } .present .foot { grid-area: foot; display: flex; justify-content: space-between; align-items: center; gap: 16px; flex-wrap: wrap; font-size: var(--t-s); color: var(--ink-2); }
 .letters { list-style: none; margin: 0; padding: 0; display: grid; gap: 10px; } .letters li { display: flex; gap: 16px; } .letters b { width: 1.2em; } .letters span { flex: 1; } .letters .true { color: var(--accent); font-weight: 600; }
 .votes { display: flex; align-items: center; gap: 8px; } .votes i { height: 12px; background: var(--ink-2); max-width: 80%; border-radius: 3px; } .letters .true i { background: var(--accent); } .letters em { font-style: normal; font-weight: 600; }
+.present > .picture { grid-area: stage; max-height: none; } .lesson.present[data-picture=arms] .stage { visibility: hidden; }
+.board .picture { display: none; } [data-answered] .board .picture { display: flex; flex: none; height: 300px; max-height: 34vh; } .present .told { flex: 0 1 auto; min-height: 0; }
 .qr { flex: 1; min-height: 200px; display: grid; place-items: center; } .qr svg { width: min(100%, 46vh); height: auto; background: #fff; } .link-said { text-align: center; overflow-wrap: anywhere; font-weight: 600; } .link-said:empty, .warning:empty { display: none; }
 .warning { border-left: 4px solid var(--ink); padding-left: 12px; } .counted { margin-top: auto; display: flex; align-items: center; justify-content: space-between; gap: 16px; } .count b { font-size: 2em; } .present .primary { min-height: 64px; padding: 0 36px; }
 .present .told { overflow: auto; } .present .bar .plot { height: 150px; } .keys { display: flex; gap: 4px; flex-wrap: wrap; } .keys button { min-height: 36px; padding: 0 8px; } kbd { font: inherit; border: 1px solid var(--line-2); border-radius: 4px; padding: 0 6px; margin-right: 6px; }
 .dots i { display: inline-block; width: 12px; height: 12px; border-radius: 6px; margin-right: 8px; box-shadow: inset 0 0 0 1.5px var(--line-2); } .dots .here { width: 32px; background: var(--accent); box-shadow: none; }
-.lesson[data-role=phone] { display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; --stage: 280px; } .lesson[data-role=phone] > :is(.crumbs, .more, .bar) { display: none; } .lesson[data-role=phone] :is(.dock, .picture) { display: none; } .lesson[data-role=phone] .right { display: contents; }
+.lesson[data-role=phone] { display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; --stage: 280px; } .lesson[data-role=phone] > :is(.crumbs, .more, .bar) { display: none; } .lesson[data-role=phone] :is(.dock, .picture, .end) { display: none; } .lesson[data-role=phone] .right { display: contents; }
+.lesson[data-role=phone][data-picture=arms] .picture { display: flex; order: 1; flex: none; height: var(--stage); padding: 8px 16px; }
 .lesson[data-role=phone] .stage { order: 1; height: var(--stage); flex: none; } .lesson[data-role=phone] :is(.phone-head, .phone-foot) { display: flex; align-items: center; gap: 12px; padding: 8px 16px; }
 .lesson[data-role=phone] .phone-head { order: 0; } .lesson[data-role=phone] .question { order: 2; font-size: 20px; padding: 0 16px; } .lesson[data-role=phone] .side { display: flex; order: 3; padding: 0 16px; } .lesson[data-role=phone] .side > * { padding: 0; }
 .lesson[data-role=phone] .phone-foot { order: 4; flex-direction: column; align-items: stretch; } .phone-foot a { color: var(--accent); } .phone-head .round { margin-left: auto; width: 44px; height: 44px; font-size: 20px; }
@@ -88,10 +95,12 @@ const small = `
   .right, .side { display: contents; } .lesson > :not(.stage), .side > *, .picture { padding: 0 16px; } .crumbs { justify-content: flex-end; gap: 0 4px; padding: 4px 12px !important; } .crumbs span { display: none; } .crumbs button { min-height: 40px; min-width: 32px; justify-content: center; }
   .stage { order: 1; height: var(--stage) !important; flex: none; border-radius: 0; position: sticky !important; top: var(--head) !important; z-index: 2; } .crumbs { order: 0; }
   .bar { order: 2; position: relative; grid-template-columns: minmax(0, 1fr); } .bar .plot { height: 76px; } .bar .round { position: absolute; right: 12px; top: -60px; z-index: 3; }
-  .picture { order: 6; flex: none; } .picture .plot { flex: none; height: 132px; min-height: 0; } .question { order: 3; font-size: 20px; } .side > * { order: 4; } .side > .dock { order: 8; } .more { order: 7; }
+  .lesson[data-picture=arms]:not(.present) .stage { display: none; }
+  .lesson[data-picture=arms]:not(.present) .bar .round { top: calc(-4px - var(--stage)); }
+  .picture { order: 6; flex: none; } [data-picture=arms] .picture { order: 1; position: sticky; top: var(--head); z-index: 2; background: var(--ground); } [data-picture=arms] .picture .plot { height: calc(var(--stage) - 28px); } .picture .plot { flex: none; height: 132px; min-height: 0; } .question { order: 3; font-size: 20px; } .side > * { order: 4; } .side > .dock { order: 8; } .more { order: 7; }
   .side :is(input, button) { scroll-margin: calc(var(--head) + var(--stage) + 16px) 0 84px; }
   .side > .dock { position: sticky; bottom: 0; z-index: 5; background: var(--ground); border-top: 1px solid var(--line); padding: 8px 16px; } .primary { min-height: 44px; }
-  .caption { bottom: 4px; font-size: var(--t-s); padding: 0 4px; } .bar .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
+  .caption { bottom: auto; top: 4px; font-size: var(--t-s); padding: 0 4px; line-height: 1.2; } .cover { top: 52%; font-size: var(--t-s); } .ways { top: 6px; left: 6px; right: 6px; display: flex; justify-content: space-between; } .ways figure { width: 84px; } .ways svg { width: 60px; height: 60px; } .ways figcaption { line-height: 1; } .bar .head { width: 28px; height: 28px; left: -14px; bottom: 8px; border-width: 6px; }
 }
 `;
 

@@ -3,12 +3,14 @@ import { fill, local } from "../data.js";
 
 // One control: its name, a slider, a number to type, words below. What a person does goes to Python as a numbered
 // request, and what Python tells is taken only if it had heard the last of them: nothing late moves a hand back.
+// On a narrow page what the keyboard reaches comes to rest below the stage, which stays in sight, and above the tabs.
 const style = `
 :host { display: block; font: calc(13px * var(--type, 1))/1.35 system-ui, sans-serif; color: var(--ink, #22303c); }
 .head { display: flex; align-items: center; gap: 8px; }
 .name { flex: 1; font-size: 1.08em; } .name[title], .words [title] { cursor: help; }
 i, sub, sup { font-family: Georgia, serif; } .name i { font-size: 1.2em; } sub, sup { font-size: 0.75em; line-height: 0; }
 input { font: inherit; color: inherit; box-sizing: border-box; margin: 0; }
+@media (max-width: 999px) { input { scroll-margin: calc(82px * var(--type, 1) + 24px + min(50vh, 400px)) 0 72px; } }
 input[type=text] { width: calc(100px * var(--type, 1)); flex: none; height: calc(28px * var(--type, 1)); padding: 2px 8px; text-align: right;
   background: transparent; border: 1px solid var(--edge, #7b8794); border-radius: 4px; font-variant-numeric: tabular-nums; }
 input[type=text][aria-invalid=true] { border-color: var(--alert, #b3261e); }
