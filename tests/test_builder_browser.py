@@ -1,11 +1,13 @@
 """The builder in Chromium: handles, presets, files and STL, as a person uses them."""
 
 import json
+import re
 import struct
 
 import numpy as np
 import pytest
-from visiting import Visit, go_to, wait
+from playwright.sync_api import expect
+from visiting import PATIENCE, Visit, go_to, wait
 
 from tippe_core import PRESETS, TruncatedSphere, load_top, save_top
 
@@ -36,6 +38,15 @@ DRAWN = """() => {
   const profile = top.data.profile
   const rows = new Float32Array(profile.buffer ?? profile)
   return Math.max(...rows.filter((_, i) => i % 2))
+}"""
+
+
+# The words that are seen.
+SEEN = """() => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
+  const seen = (e) => !e.matches("script, style") && e.checkVisibility({ visibilityProperty: true })
+  const texts = all(document).filter(seen).flatMap((e) => [...e.childNodes].filter(({ nodeType }) => nodeType == 3))
+  return texts.map(({ data }) => data).join(" ")
 }"""
 
 
@@ -175,3 +186,24 @@ def test_a_point_of_a_free_profile_is_dragged_and_another_added(bench):
     points = load_top(download(bench, "Save this top")).points
     assert len(points) == len(preset.shape.points) + 1
     assert max(points)[0] == pytest.approx(0.028, abs=1e-3)
+
+
+def test_who_explores_sees_the_top_beside_its_section_without_greek(server, chromium):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    page.goto(server + "?v=2&tab=build-a-top&level=explore", timeout=PATIENCE)
+    section, top = (
+        page.get_by_role("heading", name=name) for name in ("The body, cut along its axis", "The top, as it will spin")
+    )
+    top.wait_for()
+    page.get_by_role("button", name="Save this top").wait_for()
+    page.wait_for_function("Bokeh.documents[0].is_idle")
+    assert section.bounding_box()["y"] == pytest.approx(top.bounding_box()["y"], abs=1)
+    before = top.bounding_box()["y"]
+    page.mouse.move(300, 700)
+    page.mouse.wheel(0, 30)
+    page.wait_for_function("([top, y]) => top.getBoundingClientRect().top < y", arg=[section.element_handle(), before])
+    assert top.bounding_box()["y"] == pytest.approx(before, abs=1)  # it stays where it was
+    assert not set(re.findall("[Α-Ωα-ω]", page.evaluate(SEEN))) - {"θ"}
+    page.get_by_role("radio", name="Research").click()
+    expect(page.get_by_text("2π").first).to_be_visible()
+    page.close()

@@ -5,6 +5,7 @@ from contextlib import ExitStack
 from html import unescape
 
 import pytest
+from playwright.sync_api import expect
 from visiting import Visit
 from wire import served
 
@@ -85,6 +86,8 @@ def test_the_derivation_is_live(browser, server):
     page.locator(".line").nth(4).locator("[data-symbol=omega]").first.hover()
     page.locator(".tip").get_by_text(listed("derivation.symbols.omega")).wait_for()
     page.wait_for_function("__tippe.tops('learn').some((top) => top.highlight == 'ω')")
+    page.locator(".line").last.scroll_into_view_if_needed()
+    expect(page.get_by_role("button", name=say("browser.Top3D.forward"), exact=True)).to_be_in_viewport()
     closed(visit)
 
 

@@ -47,6 +47,7 @@ TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"
 
 # The top that is built, alone: what it goes with is a matter of the Lab.
 BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
+DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}
 HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
 PLAIN = ".tippe :is(.verdict, .scales, .time, .shows) { display: none !important }"
 
@@ -139,7 +140,7 @@ class House:
         self.pacer.shows(partial(show_top, top), "rest")
         told = VerdictWords(self.runs)
         self.pacer.shows(told.show, "rest")
-        spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0), variant="contained", color="default")
+        spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0), variant="contained", sx=DARK)
         parts = {"section": bench.section_view, "built": (top, told.view, spin), "bench": bench.bench_view}
         section, built, measures = (
             card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()

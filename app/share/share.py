@@ -223,7 +223,18 @@ def _row(says, *buttons):
 
 def plain(lines):
     """Lines without their mathtext."""
-    marks = {"$": "", r"\mu": "μ", r"\theta": "θ", "^2": "²", "^{1/2}": "½", "{": "", "}": "", "_": ""}
+    marks = {
+        "$": "",
+        r"\mu": "μ",
+        r"\theta": "θ",
+        r"\gamma": "γ",
+        r"\epsilon": "ε",
+        "^2": "²",
+        "^{1/2}": "½",
+        "{": "",
+        "}": "",
+        "_": "",
+    }
     for line in lines:
         for mark, sign in marks.items():
             line = line.replace(mark, sign)

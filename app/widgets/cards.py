@@ -41,7 +41,7 @@ FIRST = """
 :host { position: sticky; top: HEAD; z-index: 5; height: min(50vh, 400px) !important }
 @media (max-width: 700px) { :host { height: 330px !important } }
 @media (min-width: 1000px) { :host { position: static; height: HIGH !important } }
-""".replace("HIGH", "clamp(390px, 100vh - HEAD - var(--below) - 24px, 52vw)").replace("HEAD", HEAD)
+""".replace("HIGH", "clamp(390px, 100vh - HEAD - var(--below) - 24px, 52vw)")
 # A name, a note, and what is wrong, wherever they stand.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
@@ -147,10 +147,11 @@ def grid(*cards, narrowest=480):
     )
 
 
-def first(made, below=0):
-    """A card as the first of a stage; below: px that the others of the stage are high, with what is between."""
+def first(made, below=0, head=HEAD):
+    """A card as the first of a stage; below: px that the others of the stage are high, with what is between; head: how
+    high the head of the page is."""
     made.styles = made.styles | {"--below": f"{below}px"}
-    made.stylesheets = [FIRST]
+    made.stylesheets = [FIRST.replace("HEAD", head)]
     return made
 
 

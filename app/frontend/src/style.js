@@ -58,7 +58,7 @@ export const style = `
 .key sub { font-size: 70%; line-height: 0; }
 @media (max-width: 700px) {
   .scales { display: none; }
-  .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { min-width: 40px; } .bar .view { display: none; }
+  .tippe { min-height: 0; } .picture { min-height: 140px; } .bar { flex-wrap: nowrap; } .bar .scrub { flex: 1 1 40px; min-width: 40px; } .bar .speed { max-width: 104px; } .bar .view { display: none; }
   .bar :is(button, select, .scrub) { height: 44px; } .bar .shows label { height: 36px; }
   .bar:has(.shows) { flex-wrap: wrap; } .bar .shows { flex: 1 0 100%; flex-wrap: nowrap; overflow-x: auto; }
 }

@@ -15,7 +15,7 @@ from app.tabs.learn.present import Teacher
 from app.tabs.learn.teach import history_view, teach_view
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
-from app.widgets.cards import PLAIN, card, grid, words
+from app.widgets.cards import ONE_ROW, PLAIN, card, first, later, staged, words
 from app.widgets.top3d import Top3D, show_top
 
 CLOCK, SPEED = "learn", 1 / 16
@@ -39,7 +39,7 @@ class Learn(param.Parameterized):
         self._lab = lab or (lambda: None)
         self.lesson = LessonView(sizing_mode="stretch_width", margin=0, worksheet=worksheet())
         self.lesson.param.watch(asked.heard(self._heard), "asked")
-        self.top = Top3D(clock=CLOCK, height=360, sizing_mode="stretch_width")
+        self.top = Top3D(clock=CLOCK, sizing_mode="stretch_both")
         self.derivation = Derivation(CLOCK)
         self.sections = pmui.RadioButtonGroup.from_param(
             self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
@@ -57,13 +57,12 @@ class Learn(param.Parameterized):
     def _build(self):
         intro = words("".join(f"<p style='margin: 0 0 6px'>{say(f'derivation.page.{key}')}</p>"
                               for key in ("intro", "smooth", "vectors")))  # fmt: skip
-        lines = card(say("derivation.page.title"), intro, self.derivation.place, height="max-content")
-        beside = pn.Column(
-            card(say("learn.page.top"), self.top, height="max-content"), sizing_mode="stretch_width", margin=0,
-            styles={"position": "sticky", "top": "12px", "align-self": "start"},
-        )  # fmt: skip
+        lines = later(card(say("derivation.page.title"), intro, self.derivation.place, height="max-content"), 1)
+        top = first(card(say("learn.page.top"), self.top), head=ONE_ROW)
         # a hidden Column inside, since a grid that is told how to be laid out cannot be hidden
-        self.pair = pn.Column(grid(lines, beside), sizing_mode="stretch_width", margin=0)
+        self.pair = pn.Column(
+            staged([top], [lines], mirrored=True, head=ONE_ROW), sizing_mode="stretch_width", margin=0
+        )
         self.others = pn.Column(sizing_mode="stretch_width", margin=0)
         self._made = {}
         return pn.Column(self.sections, self.lesson, self.pair, self.others, sizing_mode="stretch_width", margin=0,
