@@ -7,6 +7,7 @@ import panel_material_ui as pmui
 
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
+from app.model.lab.run import PATCH
 from app.model.planes.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
@@ -29,7 +30,7 @@ from app.tabs.roll.roll import Roll
 from app.text import say
 from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
-from app.widgets.failure import attempt
+from app.widgets.failure import attempt, full, waits
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D, show_top
 
@@ -62,7 +63,7 @@ class House:
             self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
         )
         post = to_session(pn.state.curdoc)
-        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
+        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
         self.lab_of = Lab(self.runs, self.explorer)
         self.start = OneStart(self.explorer, self.lab_of)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
@@ -181,7 +182,7 @@ class House:
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):
-        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu)
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH)  # as the map has it
         if look:
             self._look_at("lab")
 

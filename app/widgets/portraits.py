@@ -4,13 +4,13 @@ One Portrait is drawn at a time in each card; the beads go with the browser's cl
 """
 
 import numpy as np
-from bokeh.models import ColumnDataSource, DataRange1d, Range1d, Span
+from bokeh.models import ColumnDataSource, DataRange1d, Line, MultiLine, Patch, Range1d, Scatter, Span
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.roll import portraits
 from app.text import say
-from app.widgets.plots import PAPER, plain
+from app.widgets.plots import PAPER, draw, plain
 
 POINTS_OF_A_TRACK = 480  # on a screen
 
@@ -30,16 +30,16 @@ class Portrait:
         self.curve = ColumnDataSource({"t": np.zeros(2), "x": np.zeros(2), "y": np.zeros(2)})
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
         self.below()
-        line = fig.line("x", "y", source=self.curve, line_color=colour, line_width=2.5)
-        fig.scatter(
-            "x", "y", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK, line_width=2
-        )
+        line = draw(fig, Line, "x", "y", source=self.curve, line_color=colour, line_width=2.5)
+        draw(fig, Scatter, "x", "y", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK,
+             line_width=2)  # fmt: skip
         if self.aspect:
             fig.x_range.renderers = fig.y_range.renderers = [line]
         self.above()
         fig.js_on_change("inner_width", call("followCurve", curve=self.curve, bead=self.bead, fig=fig))
+        seek = call("seekOnCurve", curve=self.curve, fig=fig, whole=self.whole)
         for event in ("tap", "panstart", "pan", "panend"):
-            fig.js_on_event(event, call("seekOnCurve", curve=self.curve, fig=fig, whole=self.whole))
+            fig.js_on_event(event, seek)
         self._shown = None
 
     def below(self):
@@ -94,9 +94,8 @@ class Phase(Portrait):
         super().__init__(COLOURS["theta"])
 
     def below(self):
-        self.figure.multi_line(
-            "x", "y", source=self.levels, line_color="colour", line_dash="dash", line_width=1.3, line_alpha=0.8
-        )
+        draw(self.figure, MultiLine, xs="x", ys="y", source=self.levels, line_color="colour", line_dash="dash",
+             line_width=1.3, line_alpha=0.8)  # fmt: skip
 
     def draw(self, scene):
         motion, loops = scene.nutation, scene.levels
@@ -124,7 +123,7 @@ class Potential(Portrait):
         super().__init__(COLOURS["energy"])
 
     def below(self):
-        self.figure.line("theta", "E", source=self.potential, line_color=INK, line_width=2)
+        draw(self.figure, Line, "theta", "E", source=self.potential, line_color=INK, line_width=2)
         marks = {"line_dash": [6, 4], "line_width": 1.5, "dimension": "width"}
         self.slip = Span(location=0, line_color=COLOURS["friction"], **marks)
         self.lift = Span(location=0, line_color=COLOURS["normal"], **marks)
@@ -155,7 +154,8 @@ class Track(Portrait):
         super().__init__(COLOURS["theta"])
 
     def below(self):
-        self.figure.multi_line("x", "y", source=self.circles, line_color=FAINT, line_dash=[6, 4], line_width=1.5)
+        draw(self.figure, MultiLine, xs="x", ys="y", source=self.circles, line_color=FAINT, line_dash=[6, 4],
+             line_width=1.5)  # fmt: skip
 
     def draw(self, scene):
         seen = portraits.track(scene, POINTS_OF_A_TRACK)
@@ -208,9 +208,8 @@ class Force(Portrait):
 
     def below(self):
         self.figure.background_fill_color, self.figure.background_fill_alpha = COLOURS["friction"], 0.12
-        self.edge = self.figure.patch(
-            "x", "y", source=self.disc, fill_color=PAPER, line_color=INK, line_dash=[6, 4], line_width=1.5
-        )
+        self.edge = draw(self.figure, Patch, "x", "y", source=self.disc, fill_color=PAPER, line_color=INK,
+                         line_dash=[6, 4], line_width=1.5)  # fmt: skip
 
     def above(self):
         self.figure.x_range.renderers = self.figure.y_range.renderers = [

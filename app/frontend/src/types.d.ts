@@ -168,10 +168,20 @@ interface AddressModel extends Model {
 interface FailureModel extends Model {
   words: string;
   close: string;
+  waits: string;
 }
 
 interface ConnectionModel extends Model {
   words: string;
+}
+
+interface MomentsModel extends Model {
+  clock: string;
+  rows: [t: number, when: string, word: string, more: string][];
+}
+
+interface NearModel extends Model {
+  near: boolean;
 }
 
 interface PaintedModel extends Model {
