@@ -25,7 +25,7 @@ class Preset:
 PRESETS = (
     Preset(
         "The paper's tippe top", TruncatedSphere.paper(),
-        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7: a = 0.070, I1 = 0.399, I3 = 0.408, "
+        "Gray and Nickel, Am. J. Phys. 68, 821 (2000), appendix A and Fig. 7: a = 0.070, I₁ = 0.399, I₃ = 0.408, "
         "in the body whose lengths are given there.", Top.paper()),
     Preset(
         "Top S", BareSphere(R=0.02, M=0.02, a=0.3, I1=131 / 350, I3=2 / 5),
@@ -43,7 +43,7 @@ PRESETS = (
         "Dimensions our own: a turned wooden top on a blunt peg."),
     Preset(
         "Uniform ball", Ball(R=0.02, M=0.040),
-        "a = 0 and I1 = I3 = 2/5; dimensions our own, an acrylic ball 40 mm across."),
+        "a = 0 and I₁ = I₃ = 2/5; dimensions our own, an acrylic ball 40 mm across."),
     Preset(
         "Hollow tippe top", TruncatedSphere.paper() - TruncatedSphere.paper().density * ball(0.005, 0.002),
         "The paper's top with a ball of 5 mm radius taken away about 2 mm above O; the cavity is our own."),
@@ -54,11 +54,11 @@ PRESETS = (
         "Dimensions our own: a turned wooden top whose points can be dragged."),
     Preset(
         "Appendix A's shape, a = 0.0698", TruncatedSphere.paper(),
-        "The same body with what its lengths give, not rounded: a = 0.0698, I1 = 0.3991, I3 = 0.4081. Where the stem "
+        "The same body with what its lengths give, not rounded: a = 0.0698, I₁ = 0.3991, I₃ = 0.4081. Where the stem "
         "touches, so small a difference may decide where a motion ends."),
     Preset(
         "Leine and Glocker's toy", StemmedSphere(R=0.015, M=0.006, a=1 / 5, I1=16 / 27, I3=14 / 27, r=0.005, h=0.013),
         "R. I. Leine and Ch. Glocker, Eur. J. Mech. A/Solids 22, 193 (2003): 6 g, a ball of 15 mm radius 3 mm above G "
-        "and a stem that ends in one of 5 mm, 16 mm above G; I1 = 8e-7, I3 = 7e-7 kg m^2. They let it slide with "
-        "mu = 0.3 on a patch of 0.5 mm, Contensou(0.3, 1/30)."),
+        "and a stem that ends in one of 5 mm, 16 mm above G; I₁ = 8·10⁻⁷, I₃ = 7·10⁻⁷ kg m². They let it slide with "
+        "a friction of 0.3 on a patch of 0.5 mm radius."),
 )  # fmt: skip
