@@ -3,7 +3,7 @@ something puts it back or needs it moved."""
 
 import numpy as np
 import pytest
-from visiting import wait
+from visiting import Visit, wait
 
 from app.model.scene import solve
 from tippe_core import Top
@@ -130,3 +130,26 @@ def test_nothing_is_wider_than_a_phone(visit):
     visit.page.wait_for_function("document.documentElement.scrollWidth <= innerWidth")
     box = visit.page.locator("canvas").first.bounding_box()
     assert 0 <= box["x"] and box["x"] + box["width"] <= 390
+
+
+def test_what_is_out_of_sight_is_drawn_when_it_comes_into_sight(chromium, server):
+    """And Fig. 5 is in sight from the first, with all that sets a motion."""
+    page = chromium.new_page(viewport={"width": 1400, "height": 900})
+    visit = Visit(page, server, near=True)
+    shown = "m => m.near === false"
+    page.wait_for_function(f"[...Bokeh.documents[0]._all_models.values()].filter({shown}).length == 3")
+    for seen in ("canvas[aria-label^='Figure 5']", "[data-figure=plane]", *(
+            f"input[data-input={name}]" for name in ("K_J", "K_R", "energy", "mu_s"))):  # fmt: skip
+        box = page.locator(seen).first.bounding_box()
+        assert box["y"] + min(box["height"], 30) < 900, seen
+    field = page.locator(FIELDS).nth(K_J_FIELD)
+    field.fill("6.7")
+    field.press("Enter")
+    expected = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
+    page.wait_for_function("n => __tippe.top3d.count == n", arg=len(expected.trajectory.t))
+    page.wait_for_function("/KJ=6.7/.test(location.search)")  # all is at rest
+    assert visit.column("constants", 0, "K_J")[0] == pytest.approx(7.0)
+    page.locator("[data-figure=constants]").first.evaluate("e => e.scrollIntoView()")
+    visit.until_column("constants", 0, "K_J", expected.K_J[0])
+    page.close()
+    assert not visit.errors

@@ -41,7 +41,7 @@ def frames(tilt=0.4, regime=0):
     contact = np.column_stack([np.cos(T), np.sin(T)])
     com = np.column_stack([contact, np.full(N, 0.93)])
     up = np.tile([0.1, 0.2, 1.0], (N, 1))
-    packed = pack_frames(T, quaternion, contact, com, up, 8 * up, 3 * up, np.full(N, regime))
+    packed = pack_frames(T, quaternion, contact, com, np.full(N, tilt), up, 8 * up, 3 * up, np.full(N, regime))
     return packed, quaternion, contact
 
 

@@ -2,7 +2,7 @@
 
 import base64
 import zlib
-from dataclasses import fields
+from dataclasses import fields, replace
 from urllib.parse import urlencode
 
 import numpy as np
@@ -265,3 +265,10 @@ def test_what_was_paused_plays_on_when_it_is_played():
         top.playing = playing
         keep.at_rest()
         assert top.playing is playing and ("t=" in keep.query) is not playing
+
+
+def test_a_rounded_stem_is_said_in_a_link_and_a_sharp_one_goes_without_saying():
+    sharp = TruncatedSphere.paper()
+    rounded = replace(sharp, rounding=0.002)
+    assert Body.text(sharp) == "TruncatedSphere_.016_.0082_.0192_.0032_.0115"
+    assert Body.text(rounded) == Body.text(sharp) + "_.002" and Body.value(Body.text(rounded)) == rounded

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from app.model import arrival
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
-from app.model.lab import ends, run
+from app.model.lab import ends, life, run
 from app.model.lab.ends import SPINS, Ends, ends_of, mixed
 from app.model.lab.lab import LIMITS, Lab, scene_of
 from app.model.lab.life import FAR, LIFE, SECONDS, lived
-from app.model.lab.run import TABLES, TOYS, motion_on, start_of, whole_on
+from app.model.lab.run import PATCH, TABLES, TOYS, motion_on, start_of, whole_on
 from app.model.regimes import ENDS
 from app.model.runs import Runs
 from app.model.story import marks, story
@@ -363,9 +363,45 @@ def test_what_cannot_be_is_told_and_all_else_stays(lab, name, value, says):
     assert dict(lab.scene.messages) == {name: says} and lab.inputs == before and lab.scene.motions is motions
     lab.ask(spin=28.65)
     assert not lab.scene.messages
-    if name in LIMITS and isinstance(value, float | int):
-        lab.start.param.update(**{name: value})  # as a link does
-        assert dict(lab.scene.messages) == {name: says} and lab.inputs == before
+
+
+@pytest.mark.parametrize(("name", "value"), [("tilt", 185.0), ("spin", 1e9), ("mu", -1.0), ("patch", np.inf)])
+def test_a_link_of_what_nobody_can_show_leaves_all_as_it_was(lab, name, value):
+    before = lab.inputs
+    lab.start.param.update(**{name: value})
+    assert [*lab.scene.messages] == [name] and lab.inputs == before
+
+
+@pytest.mark.parametrize(("name", "value"), [("spin", 150.0), ("spin", -2000.0), ("mu", 2.0), ("patch", 8.0)])
+def test_what_research_has_set_is_kept_and_shown_also_past_what_a_hand_can_set_here(lab, name, value):
+    assert not LIMITS[name][0] <= value <= LIMITS[name][1]
+    lab.start.param.update(**{name: value})
+    assert getattr(lab.start, name) == getattr(lab.scene, name) == value and not lab.scene.messages
+    motion, spins = lab.scene.motions["ordinary"], TOYS[TOY].shape.scales.angular_velocity / (2 * np.pi)
+    assert motion.trajectory.omega[0, 2] * spins == pytest.approx(lab.start.spin)
+    assert motion.curves[-1, 0] > 0.05 and not lab.scene.refused
+    lab.ask(tilt=8.0)  # and what it is not asked for stays as it is
+    assert getattr(lab.scene, name) == value
+
+
+def test_the_patch_is_the_tables(lab):
+    lab.ask(patch=0.15)
+    assert lab.scene.motions["ordinary"].start.friction == Contensou(0.3, 0.01)
+    # of a smaller patch the toy stands longer: physics by another body, 4.50 s and 10.38 s
+    falls = [mark.t for mark in marks(whole_on("ordinary", *ARRIVAL[1:], None, 0.15)) if mark.code == "falls"]
+    assert falls[-1] == pytest.approx(10.38, abs=0.05)
+
+
+def test_a_life_that_is_longer_than_what_is_computed_says_so(monkeypatch):
+    whole = whole_on("ordinary", *ARRIVAL[1:])
+    assert not whole.is_cut and "Only so much" not in story(whole).stages[-1].why
+    monkeypatch.setattr(life, "MOST_ROWS", 300)
+    whole_on.cache_clear()
+    cut = whole_on("ordinary", TOY, 30.0, TILT, MU)
+    whole_on.cache_clear()
+    assert cut.is_cut and len(cut.trajectory.t) == 300
+    assert story(cut).stages[-1].why.endswith(
+        f"Only so much of its life is computed: to {cut.start.seconds:.3g} s. The top goes on.")  # fmt: skip
 
 
 def test_a_body_that_would_be_in_the_table_is_told_at_the_tilt(lab):
@@ -375,7 +411,7 @@ def test_a_body_that_would_be_in_the_table_is_told_at_the_tilt(lab):
     lab.ask(tilt=80.0)
     assert lab.scene.tilt == 80 and not lab.scene.messages
     lab.ask(tilt=120.0)
-    assert lab.scene.messages and lab.inputs == (ARRIVAL[0], "Disc on a peg", SPIN, 80.0, 0.3, None)
+    assert lab.scene.messages and lab.inputs == (ARRIVAL[0], "Disc on a peg", SPIN, 80.0, 0.3, None, PATCH)
 
 
 def test_a_table_on_which_it_cannot_begin_says_so_in_its_place(lab):
@@ -423,4 +459,4 @@ def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):
         assert lab.ends is found  # of all spins
         lab.ask(mu=0.6)
         assert lab.ends is None
-    assert asked == [(TOY, TILT, 0.5)]
+    assert asked == [(TOY, TILT, 0.5, PATCH)]

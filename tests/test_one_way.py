@@ -97,7 +97,7 @@ def with_motion(kind):
     def make(scene):
         motion = Motion()
         figure = kind(motion)
-        shows = [figure.show] if kind is TimeFigures else [figure.show_plane, figure.show_selected]
+        shows = [figure.show_plane, figure.show_selected]
         return (motion, figure), lambda scene: [show(scene) for show in (motion.show, *shows)]
 
     return make
@@ -213,7 +213,7 @@ def measure(scene):
 
 VIEWS = {
     **{kind.__name__: of_scenes(kind) for kind in (Curve, Phase, Potential, Track, Ring, Force, Guide)},
-    "PlaneFigure": with_motion(PlaneFigure), "TimeFigures": with_motion(TimeFigures),
+    "PlaneFigure": with_motion(PlaneFigure), "TimeFigures": of_scenes(TimeFigures),
     "Top3D": in_three_dimensions(Top3D, show_top), "Surface3D": in_three_dimensions(Surface3D, show_surface),
     "Derivation": lambda scene: (lambda view: (view, view.show))(Derivation("a")),
     "Controls": controls, "Roll": roll, "Learn, the lesson": learn("lesson"), "Learn, the lines": learn("derivation"),
@@ -445,7 +445,7 @@ def followers(pacer):
 def test_every_one_that_scenes_are_shown_to_is_a_station(walk):
     made, _, _ = walk("?v=1&tab=roll")
     stations = {getattr(owner, name).__qualname__ for owner, name in (*STATIONS, *FUNCTIONS)}
-    turned = {"Roll._show_hand", "Switch.show"}  # the first calls PlaneFigure's, the other only turns a picture
+    turned = {"Roll._show_hand", "WhenNear.show"}  # the first calls PlaneFigure's, the other what can be seen
     assert {*followers(made[House].pacer)} - stations == turned
 
 

@@ -490,7 +490,7 @@ def test_the_arrows_of_the_force_obey_newton(explorer, planes, plane):
     start = State(1.0, 0.0, 3.0, 2.0, vx=1.0, vy=0.5)
     settings = replace(planes.picture.settings, stem=False, rolling=start, law="viscous", gamma=0.5, seconds=0.1)
     motion = solve(settings).motions[plane]
-    t, _, _, com, force, *_ = motion.frames
+    t, _, _, com, _, force, *_ = motion.frames
     step = t[1]
     acceleration = (com[2:] - 2 * com[1:-1] + com[:-2]) / step**2
     assert np.ptp(motion.trajectory.phi) > 1

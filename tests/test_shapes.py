@@ -308,6 +308,26 @@ def lowest(points, theta):
     return (points * [sin(theta), -cos(theta)]).sum(axis=1).max()
 
 
+@pytest.mark.parametrize("share", [0.1, 0.5, 1.0])
+def test_a_rounded_stem(share):
+    """Its mass by Pappus, its touch by the lowest point of all of its outline, and what is kept of it."""
+    b = share * PAPER.r
+    shape, q = replace(PAPER, rounding=b), PAPER.r - b
+    taken = pi * b * PAPER.r**2 - pi * (q * q * b + q * pi * b * b / 2 + 2 * b**3 / 3)
+    assert PAPER.form.volume - shape.form.volume == pytest.approx(taken, rel=0.01)
+    assert shape.mass == pytest.approx(PAPER.M, rel=1e-12)
+    angle, points = shape.touch_angle, shape.profile(1000)
+    assert lowest(points, angle - 1e-3) == pytest.approx(shape.R, rel=1e-5)
+    if share < 1:  # else the cut's rim is the first
+        assert lowest(points, angle + 1e-2) > shape.R * (1 + 1e-4)
+        assert shape.edge == pytest.approx((q / shape.R, (shape.c + shape.l - b) / shape.R, b / shape.R))
+    assert load_top(save_top(shape)) == shape
+    assert "rounding" not in save_top(PAPER)  # as before there was one
+    for bad in (-1e-4, 1.01 * PAPER.r, float("nan")):
+        with pytest.raises(TopError, match="rounding"):
+            replace(PAPER, rounding=bad)
+
+
 def test_round_end_touches():
     """A ball of radius b on a ball of radius R, centres e apart: both touch where the table is tangent to both."""
     R, b, e = 0.02, 0.015, 0.03

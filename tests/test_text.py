@@ -29,6 +29,7 @@ SAME = (
     "browser.Dial.entry",
     "controls.notes.energy",
     "lab.keeps.millimetres",
+    "lab_view.view.inputs.patch.unit",
     "lab_view.view.number.*.1",
     "measure.heads.*",
     "measure.units.*",

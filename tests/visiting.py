@@ -35,6 +35,15 @@ PIXEL = """
 """
 
 
+# What waits with its drawing until it is nearly in sight takes all of the page to be.
+ALL_IS_NEAR = """
+const Seen = window.IntersectionObserver
+window.IntersectionObserver = class extends Seen {
+  constructor(tell, options) { super(tell, options?.rootMargin ? { ...options, rootMargin: "10000px" } : options) }
+}
+"""
+
+
 # In the middle of the window, and there since the picture before.
 IN_SIGHT = """
 part => new Promise((done) => {
@@ -59,7 +68,6 @@ WHOLE = """
 
 
 # Whether the top is drawn.
-# Fig. 5 stands below the first 900 px, and is drawn when it is seen.
 DRAWN = "window.__tippe?.top3d?.pictures > 0"
 
 
@@ -121,8 +129,9 @@ def wait(page, ready):
 class Visit:
     """A page that is open, and what it asked for, said and sent."""
 
-    def __init__(self, page, url, whole=True):
-        """An address without a query is Roll's here. whole: wait for all of the tab."""
+    def __init__(self, page, url, whole=True, near=False):
+        """An address without a query is Roll's here. whole: wait for all of the tab. near: draw only what is, as for
+        anybody; else all is, and can be read wherever it stands."""
         self.page, self.requests, self.errors, self.sent = page, [], [], []
         page.set_default_timeout(PATIENCE)
         page.on("request", lambda request: self.requests.append(request.url))
@@ -134,6 +143,8 @@ class Visit:
                 socket.on(kind, lambda frame: self.sent.append(frame)) for kind in ("framesent", "framereceived")
             ],
         )
+        if not near:
+            page.add_init_script(ALL_IS_NEAR)
         page.goto(of_roll(url))
         if not whole:
             return

@@ -7,6 +7,7 @@ something else. A page has one piece of each kind of work: a newer one takes the
 
 import logging
 import os
+import random
 import sys
 import threading
 import time
@@ -17,15 +18,18 @@ from contextlib import suppress
 from contextvars import ContextVar
 from typing import Any, TypeAlias
 
+from app.model.cores import cores
 from app.text import speaking, spoken
 
 NICE = 5  # how far a map stands back behind whoever moves something
 # A run rests for NAP after each TURN, s, so that the server gets to its other visitors.
 TURN, NAP = 0.01, 0.001
+SAY = 0.5  # s: who waits for longer is told his place in the queue, and so often
 
 _NOW: ContextVar["Run | None"] = ContextVar("run", default=None)
 Piece: TypeAlias = Callable[[], None]
 Post: TypeAlias = Callable[[Piece], None]  # calls it on a session's own thread
+Place: TypeAlias = Callable[[int], None]  # told a place in a queue; 0: in none any more
 Result: TypeAlias = Any  # whatever a work returns, or the exception that it raised: who began it knows which
 Document: TypeAlias = Any  # Bokeh's, which is not known here
 log = logging.getLogger("tippe")
@@ -35,33 +39,50 @@ class Stopped(Exception):
     """Raised within a run that is to end."""
 
 
+class Full(Stopped):
+    """What becomes of a run that is not begun and does not wait either, as too many do: so many."""
+
+
 def stand_back() -> None:
-    """Gives this thread, and all that it begins, a lower priority: where a thread has one of its own."""
+    """Gives this thread, and all that it begins, a lower priority, and no more cores than there is time for: where a
+    thread has them of its own."""
     if sys.platform == "linux":
+        usable, most = os.sched_getaffinity(0), cores()
+        if most < len(usable):
+            os.sched_setaffinity(0, random.sample(sorted(usable), most))
         first = os.getpriority(os.PRIO_PROCESS, os.getpid())  # of the thread that answers
         os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), min(first + NICE, 19))
 
 
 class Pool:
     """A few threads, and who waits for one. Visitors take turns: next is who has the fewest pieces of work under way,
-    of these the one whose turn was longest ago. The last free thread is for who has none under way. begin: called in
-    each thread first."""
+    of these the one whose turn was longest ago. The last free thread is for who has none under way. most: pieces that
+    may wait; begin: called in each thread first."""
 
-    def __init__(self, threads: int, name: str, begin: Piece | None = None) -> None:
-        self.threads = threads
+    def __init__(self, threads: int, name: str, most: int = 400, begin: Piece | None = None) -> None:
+        self.threads, self.most = threads, most
         self._executor = ThreadPoolExecutor(threads, thread_name_prefix=name, initializer=begin)
         self._waiting: dict[Hashable, list[Piece]] = {}  # visitor -> his pieces that wait
         self._working: Counter[Hashable] = Counter()  # how many are under way
         self._since: dict[Piece, float] = {}  # of those that wait
         self.turns, self.waited = 0, 0.0  # how many were begun, and s that these waited
+        self._places: dict[Hashable, Place] = {}  # visitor who waits -> what tells him his place
+        self._told: dict[Hashable, int] = {}  # those who know it
+        self._telling = False  # whether _tell() is to be called
         self._changing = threading.Lock()
 
-    def add(self, visitor: Hashable, piece: Piece) -> None:
-        """Has it called in a thread, when it is its turn."""
+    def add(self, visitor: Hashable, piece: Piece, place: Place = lambda place: None) -> None:
+        """Has it called in a thread, when it is its turn. place: told where in the queue he is who waits for long, on
+        another thread, and 0 when his turn has come. Raises Full."""
         with self._changing:
+            if len(self._since) >= self.most:
+                raise Full(len(self._since))
             self._waiting.setdefault(visitor, []).append(piece)
             self._since[piece] = time.monotonic()
             self._fill()
+            if piece in self._since:
+                self._places[visitor] = place
+                self._tell_later()
 
     def remove(self, visitor: Hashable, piece: Piece) -> bool:
         """Whether it still waited; then it is not called."""
@@ -78,11 +99,28 @@ class Pool:
         """How many pieces wait for a thread."""
         return len(self._since)
 
-    def before(self, visitor: Hashable) -> int:
-        """How many others wait for a thread before a visitor who waits; 0 where he does not."""
+    def _tell_later(self) -> None:
+        if not self._telling:
+            self._telling = True
+            timer = threading.Timer(SAY, self._tell)
+            timer.daemon = True
+            timer.start()
+
+    def _tell(self) -> None:
+        """Whoever has waited for so long, and has nothing under way, hears of each change of his place."""
         with self._changing:
-            waiting = list(self._waiting)
-            return waiting.index(visitor) if visitor in waiting else 0
+            now, before = time.monotonic(), self._told
+            queue = [each for each in self._waiting if not self._working[each]]
+            self._told = {each: place for place, each in enumerate(queue, 1)
+                          if each in before or now - self._since[self._waiting[each][0]] >= SAY}  # fmt: skip
+            news = [(self._places[each], self._told.get(each, 0)) for each in before | self._told
+                    if before.get(each) != self._told.get(each)]  # fmt: skip
+            self._places = {each: place for each, place in self._places.items() if each in self._waiting}
+            self._telling = False
+            if self._since or self._told:
+                self._tell_later()
+        for tell, place in news:
+            tell(place)
 
     def rest(self, visitor: Hashable) -> float:
         """s for which a piece of this visitor's rests after each turn: he has one share, however many his pieces."""
@@ -119,9 +157,10 @@ class Pool:
 
 
 # Who asks while all are busy waits, and sees that nothing is done yet.
-WORK = Pool(4, "run")
-FILES = Pool(1, "file")  # matplotlib draws one figure at a time
-MAPS = Pool(2, "map", stand_back)  # each piece of a map takes all cores, so that more at a time would only all be later
+WORK = Pool(max(2, min(cores() + 1, 4)), "run")
+FILES = Pool(1, "file", 100)  # matplotlib draws one figure at a time
+# Each piece of a map takes all cores, and some seconds, so that more at a time would only all be later.
+MAPS = Pool(2, "map", 40, stand_back)
 
 
 class Run:
@@ -206,11 +245,19 @@ class Runs:
     """What one page has under way: one piece of each kind of work.
 
     post: takes a function and calls it on the session's own thread. None: what is begun is done at once, without a
-    thread. here: whether the page is still there; nothing is begun for one that is not, and what it has ends.
+    thread. here: whether the page is still there; nothing is begun for one that is not, and what it has ends. waits: is
+    told the page's place in a queue, 0 when it is in none any more; full: how many wait where no more may.
     """
 
-    def __init__(self, post: Post | None = None, here: Callable[[], bool] = lambda: True) -> None:
+    def __init__(
+        self,
+        post: Post | None = None,
+        here: Callable[[], bool] = lambda: True,
+        waits: Place = lambda place: None,
+        full: Callable[[int], None] = lambda waiting: None,
+    ) -> None:
         self._post, self._here, self._left = post, here, False
+        self._waits, self._full = waits, full
         self._under_way: dict[Run, str] = {}
 
     @property
@@ -250,7 +297,12 @@ class Runs:
                 before.forget()
         self._under_way[run] = kind
         run._drop, run._here, run._rest = drop, self._here, lambda: pool.rest(self)
-        pool.add(self, worked)
+        try:
+            pool.add(self, worked, lambda place: self.post(lambda: self._waits(place)))
+        except Full as full:
+            waiting = full.args[0]
+            tell(full)
+            self.post(lambda: self._full(waiting))
 
     def post(self, function: Piece) -> None:
         """Calls it on the session's thread, unless the page has gone."""

@@ -59,7 +59,7 @@ class Start(param.Parameterized):
     )
     gamma = param.Number(0.3, doc="viscous friction, in (gR)^-1/2")
     eps = param.Number(0.1, doc="slip at which smoothed friction is 0.7 of its full size, in (gR)^1/2")
-    patch = param.Number(1e3 * PATCH, doc="radius of the patch of a real contact, mm")
+    patch = param.Number(PATCH, doc="radius of the patch of a real contact, mm")
     # a run on it
     landing: param.Selector[str] = param.Selector(
         default="plastic", objects=["stop", "plastic"], doc="what follows where it lifts off"
@@ -79,7 +79,7 @@ class Start(param.Parameterized):
     @property
     def set(self) -> dict[str, Any]:
         """{input: value} of the top, how its motion is given, and the Lab's table: what puts it back."""
-        names = ("shape", "a", "I1", "I3", "given", *self.GIVEN[self.given], "table", "mu")
+        names = ("shape", "a", "I1", "I3", "given", *self.GIVEN[self.given], "table", "mu", "patch")
         return {name: getattr(self, name) for name in names}
 
     def later(self, **inputs: Any) -> None:

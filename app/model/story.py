@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.lab.run import TableMotion
+from app.model.lab.run import TableMotion, Watched
 from app.model.regimes import WOULD_LIFT
 from app.text import listed, say
 from tippe_core.types import Array, Number
@@ -88,7 +88,7 @@ def story(motion: TableMotion) -> Story:
 # ---- what happened ----
 
 
-def marks(motion: TableMotion) -> tuple[Mark, ...]:
+def marks(motion: Watched) -> tuple[Mark, ...]:
     """The marks of a motion in turn; at its very start only that it ends."""
     t, ended = motion.seconds, _ended(motion)
     found = [*_over(motion), *_touches(motion)]
@@ -103,7 +103,7 @@ def marks(motion: TableMotion) -> tuple[Mark, ...]:
     return tuple(sorted(mark for mark in found if mark is ended or t[0] < mark.t < t[-1]))
 
 
-def _over(motion: TableMotion) -> list[Mark]:
+def _over(motion: Watched) -> list[Mark]:
     """It passes a right angle for the first time; or comes back for the last time, for good."""
     theta, times, a = motion.tilt, motion.crossings * motion.start.scales.time, motion.start.top.a
     found: list[Mark] = []
@@ -116,7 +116,7 @@ def _over(motion: TableMotion) -> list[Mark]:
     return found
 
 
-def _touches(motion: TableMotion) -> list[Mark]:
+def _touches(motion: Watched) -> list[Mark]:
     """The stem touches for the first time; the table is left for longer than a hop; the stem comes off it for good."""
     scale, stretches = motion.start.scales.time, motion.ending.stretches if motion.ending else ()
     touch = next((each.start for each in stretches if each.on in ("stem", "both")), None)
@@ -132,7 +132,7 @@ def _touches(motion: TableMotion) -> list[Mark]:
     return found
 
 
-def _stands(motion: TableMotion) -> list[Mark]:
+def _stands(motion: Watched) -> list[Mark]:
     """It comes to stand, past STANDS, for a while; and falls again."""
     t, theta, found = motion.seconds, motion.tilt, list[Mark]()
     if not motion.start.top.a:
@@ -160,7 +160,7 @@ def lasting(t: Array, theta: Array, level: float) -> list[tuple[float, float]]:
     return [spell for spell in spells if spell[1] - spell[0] > WHILE]
 
 
-def _settles(motion: TableMotion) -> list[Mark]:
+def _settles(motion: Watched) -> list[Mark]:
     """It comes to lean at a tilt that it keeps, or upright."""
     t, theta = motion.seconds, motion.tilt
     last = theta[-1]
@@ -170,7 +170,7 @@ def _settles(motion: TableMotion) -> list[Mark]:
     return [Mark(float(t[away[-1] + 1]), "upright" if last < UPRIGHT else "leans")]
 
 
-def _ended(motion: TableMotion) -> Mark | None:
+def _ended(motion: Watched) -> Mark | None:
     """What ended it before its time."""
     if not motion.ended or len(motion.trajectory.t) == len(motion.t):
         return None
@@ -235,6 +235,8 @@ class _Ordinary:
             why += " " + say("lab.next.tilt", **numbers)
         elif mark.code == "rolls":
             why += " " + say("lab.next.forever")
+        if not then and self.motion.is_cut:
+            why += " " + say("lab.next.cut", **numbers)
         short = say(f"lab.stages.{code}.short", **numbers)
         return Stage(mark.t, say(f"lab.stages.{code}.headline", **numbers), why.strip(), short[:1].upper() + short[1:])
 

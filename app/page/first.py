@@ -32,7 +32,7 @@ from app.text import LANGUAGES, speaking
 PAGE = Path(__file__).with_name("first.html")
 BORROWED = Path(__file__).parents[1].joinpath("borrowed.js").read_text(encoding="utf-8")
 FILE = Path(__file__).with_name("arrival.gz")
-FRAME, POSE, CURVE = 20, 10, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
+FRAME, POSE, CURVE = 21, 11, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
 NUMBERS = {"profile": (2, 2, 2**20), "frames_ordinary": (FRAME, POSE, 2**12), "curves_ordinary": (CURVE, CURVE, 2**7)}
 """{what a LabView says in bytes: (columns, those that are needed at first, steps in one)}."""
 

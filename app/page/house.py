@@ -7,6 +7,7 @@ import panel_material_ui as pmui
 
 from app.model.build.builder import Builder
 from app.model.lab.lab import Lab
+from app.model.lab.run import PATCH
 from app.model.planes.planes import Planes
 from app.model.playing import Playing
 from app.model.runs import Runs, connected_to, to_session
@@ -29,7 +30,7 @@ from app.tabs.roll.roll import Roll
 from app.text import say
 from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
-from app.widgets.failure import attempt
+from app.widgets.failure import attempt, full, waits
 from app.widgets.pacing import Pacer
 from app.widgets.top3d import Top3D, show_top
 
@@ -62,11 +63,23 @@ class House:
             self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
         )
         post = to_session(pn.state.curdoc)
-        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc))
+        self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
         self.lab_of = Lab(self.runs, self.explorer)
         self.start = OneStart(self.explorer, self.lab_of)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
         pn.state.onload(self.pacer.begin)
+
+    def take(self, name, looked_at):
+        """A top that has a name, in the room that is looked at and so everywhere."""
+        if looked_at == room.FIRST:
+            self.lab_of.ask(toy=name)
+            self.lab_of.rest()
+        else:
+            self.builder.choose(name)
+
+    def toy(self, looked_at):
+        """What the top of this room is called; another name than any where it has none."""
+        return self.explorer.toy if looked_at == room.FIRST else self.builder.draft.name
 
     def _explores(self):
         return self.level == LEVELS[0]
@@ -169,7 +182,7 @@ class House:
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):
-        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu)
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH)  # as the map has it
         if look:
             self._look_at("lab")
 

@@ -16,7 +16,7 @@ from app.state.names import LANGUAGE, VOTE
 from app.tabs.lab import room
 from app.tabs.learn.student import student_page
 from app.text import say
-from app.widgets.choices import Choices
+from app.widgets import choices
 from app.widgets.connection import Connection
 from app.widgets.failure import failure
 from app.widgets.guide import Guide
@@ -61,9 +61,8 @@ def page():
     rooms.param.watch(lambda event: house.start.moved(event.old, event.new), "room")
     house.level = rooms.level
     house.start.moved("", rooms.room)
-    choices = Choices(rooms, house, tongue, share)
-    head = HeadBar(rooms, keep, look, choices.does, room.USUAL)
-    choices.shown_in(head)
+    head = HeadBar(rooms, keep, look, chosen(rooms, house, tongue, share), room.USUAL)
+    tells(head, rooms, house)
     rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
     guide.tour = rooms.room == room.USUAL
     pn.state.curdoc.template_variables.update(first.variables() | {"language": text.spoken()})
@@ -72,6 +71,36 @@ def page():
     return pmui.Page(template=first.PAGE, title=say("main.title"), theme_config={"light": THEME, "dark": THEME},
                      main=[head.view, *share.main, *around, *rooms.columns], stylesheets=[*STYLE, *HEADLESS],
                      **BARE)  # fmt: skip
+
+
+def chosen(rooms, house, tongue, share):
+    """What the head asks for, and whom."""
+
+    def table(name):
+        rooms.room = house.start.table(name)
+
+    def language(name):
+        tongue.lang = name
+        share.reload()
+
+    def take_home():
+        house.explorer.settle()
+        share.open()
+
+    return choices.asks(toy=lambda name: house.take(name, rooms.room), table=table, language=language, share=take_home)
+
+
+def tells(head, rooms, house):
+    """Has the head say which top and which table there is, now and whenever it is another."""
+
+    def tell(*events):
+        head.tops(*choices.tops(house.toy(rooms.room)))
+        head.tables(*choices.tables(rooms.room, house.explorer.table))
+
+    rooms.param.watch(tell, "room")
+    house.explorer.param.watch(tell, ["shape", "a", "I1", "I3", "table"])
+    house.builder.param.watch(tell, "draft")
+    tell()
 
 
 def show():

@@ -179,6 +179,7 @@ CHANGES = {
     "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
     "LabView": {"asked": row(COUNT, SHORT, NUMBER | SHORT)},
     "Look": {"dark": FLAG, "large": FLAG},
+    "Near": {"near": FLAG},
     "Painted": {"painted": COUNT},
     "Phone": {"mark": text(32)},
     "Surface3D": POINT,

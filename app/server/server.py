@@ -56,6 +56,7 @@ def serve(settings, sockets, show, board, parent=None):
     page into the document that is being served."""
     compile_beside()  # before anything is computed
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
+    bokeh_settings.perform_document_validation = False  # every page has the same parts: the tests look at them
     silence(EMPTY_LAYOUT)  # a tab that nobody looked at yet
     pn.config.exception_handler = note
     tornado = prepared(settings, show)

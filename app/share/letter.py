@@ -56,7 +56,7 @@ def letter(scene, link="", look=None):
     In the language of text.spoken(): in a thread of its own, inside text.speaking().
     """
     motion = Motion()
-    plane, times = PlaneFigure(motion), TimeFigures(motion)
+    plane, times = PlaneFigure(motion), TimeFigures()
     motion.show(scene)
     plane.show_selected(scene)
     plane.show_plane(scene)

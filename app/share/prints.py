@@ -9,6 +9,7 @@ import io
 import numpy as np
 
 from app.model.colours import COLOURS, FAINT, INK
+from app.model.roll import portraits
 from app.text import listed, say
 
 # 89 and 183 mm are what journals print: one column and two. 600 dpi is what they ask of lines.
@@ -182,7 +183,7 @@ def _phase(scene):
 def _f(scene):
     square = r"$\dot\theta^2 = f(\theta)$ $(g/R)$"
     figure, axes, _ = _portrait(scene, "f", r"$\theta$ (rad)", square)
-    axes.plot(scene.nutation.theta, scene.nutation.omega[:, 0] ** 2, color=COLOURS["theta"], linewidth=2)
+    axes.plot(scene.nutation.theta, portraits.square(scene), color=COLOURS["theta"], linewidth=2)
     axes.axhline(0, color=FAINT, linewidth=0.8)
     return figure
 
@@ -206,27 +207,19 @@ def _potential(scene):
 
 def _track(scene):
     figure, axes, _ = _portrait(scene, "track", "$x$ ($R$)", "$y$ ($R$)", equal=True)
-    x, y = scene.trajectory.contact.T
-    axes.plot(x, y, color=COLOURS["theta"], linewidth=1.2)
-    if scene.rosette:
-        centre_x, centre_y, *radii = scene.rosette
-        angle = np.unwrap(np.arctan2(y - centre_y, x - centre_x))
-        margin = 0.06 * np.ptp(angle)
-        around = np.linspace(angle.min() - margin, min(angle.max() + margin, angle.min() + 2 * np.pi), 400)
-        for radius in radii:
-            axes.plot(centre_x + radius * np.cos(around), centre_y + radius * np.sin(around), "--", color=FAINT,
-                      linewidth=0.8)  # fmt: skip
+    seen = portraits.track(scene)
+    axes.plot(seen.x, seen.y, color=COLOURS["theta"], linewidth=1.2)
+    for ring in seen.rings:
+        axes.plot(*ring, "--", color=FAINT, linewidth=0.8)
     return figure
 
 
 def _force(scene):
     figure, axes, named = _portrait(scene, "force", "$F_x/F_z$", "$F_y/F_z$", equal=True)
-    F_x, F_y, F_z = np.where(scene.nutation.force[:, 2:] > 1e-3, scene.nutation.force, np.nan).T
-    around = np.linspace(0, 2 * np.pi, 361)
-    disc = scene.mu_s * np.cos(around), scene.mu_s * np.sin(around)
+    disc = portraits.circle(scene.mu_s)
     axes.fill(*disc, color=COLOURS["friction"], alpha=0.1, linewidth=0)
     axes.plot(*disc, "--", color=INK, linewidth=1, label=r"$F_h = \mu_s F_z$")
-    axes.plot(F_x / F_z, F_y / F_z, color=COLOURS["friction"], linewidth=2, label=named["motion"])
+    axes.plot(*portraits.pushes(scene), color=COLOURS["friction"], linewidth=2, label=named["motion"])
     axes.legend(fontsize=8, loc="upper right")
     return figure
 

@@ -7,14 +7,13 @@ import base64
 import binascii
 import re
 import zlib
-from dataclasses import fields
 
 from app.model.measured import film
 from app.model.votes.classroom import KEY
 from app.state import asked
 from app.text import say
 from tippe_core import load_top, save_top
-from tippe_core.bodies.files import LONGEST
+from tippe_core.bodies.files import LONGEST, given, names_of
 from tippe_core.bodies.shapes import KINDS
 
 LONGEST_NUMBER = 32
@@ -86,7 +85,7 @@ class Body:
     @classmethod
     def text(cls, shape):
         """Of any Shape."""
-        dimensions = [getattr(shape, field.name) for field in fields(shape)]
+        dimensions = list(given(shape).values())
         if all(isinstance(value, float) for value in dimensions):
             return "_".join([type(shape).__name__, *map(Number.text, dimensions)])
         return cls.PACKED + base64.urlsafe_b64encode(zlib.compress(save_top(shape).encode(), 9)).decode().rstrip("=")
@@ -99,10 +98,10 @@ class Body:
         else:
             name, *dimensions = text.split("_")
             kind = KINDS.get(name)
-            if kind is None or len(dimensions) != len(fields(kind)):
+            names, silent = names_of(kind) if kind else ([], [])
+            if kind is None or not len(names) - len(silent) <= len(dimensions) <= len(names):
                 raise ValueError(say("share.link.body"))
-            names = (field.name for field in fields(kind))
-            shape = kind(**{name: Number.value(size) for name, size in zip(names, dimensions, strict=True)})
+            shape = kind(**{name: Number.value(size) for name, size in zip(names, dimensions, strict=False)})
         shape.top  # noqa: B018  (a body may be sound and still stand on no peg)
         return shape
 

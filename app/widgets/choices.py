@@ -3,69 +3,37 @@
 from app.model.lab.run import TOYS
 from app.model.start import TABLES
 from app.state import asked
-from app.state.start import PLANES, ROLLING, TOY
+from app.state.start import PLANES, ROLLING
 from app.text import LANGUAGES, listed, say
 
 OWN = ""  # a body that is none of those with a name
 
 
-class Choices:
-    """does: what a HeadBar asks for. shown_in(head) tells a HeadBar which tops and tables there are, now and whenever
-    that changes.
+def asks(**does):
+    """What a HeadBar asks for. does: {"toy", "table", "language": a function of a name that is one of those here, each;
+    "share": a function}."""
 
-    rooms: the page's Rooms; house: its House; tongue: has lang; share: has open() and reload().
-    """
+    def one_of(known, act):
+        def chosen(name):
+            if name not in known:
+                raise asked.Unasked(name)
+            act(name)
 
-    def __init__(self, rooms, house, tongue, share):
-        self._rooms, self._house, self._tongue, self._share = rooms, house, tongue, share
-        self.does = {"toy": self._toy, "table": self._table, "language": self._language,
-                     "share": lambda value: self._open()}  # fmt: skip
+        return chosen
 
-    def _toy(self, name):
-        if name not in TOYS:
-            raise asked.Unasked(name)
-        if self._rooms.room == TOY:
-            self._house.lab_of.ask(toy=name)
-            self._house.lab_of.rest()
-        else:
-            self._house.builder.choose(name)
+    names = {"toy": TOYS, "table": TABLES, "language": LANGUAGES}
+    known = {each: one_of(names[each], act) for each, act in does.items() if each in names}
+    return known | {"share": lambda value: does["share"]()}
 
-    def _open(self):
-        self._house.explorer.settle()
-        self._share.open()
 
-    def _table(self, name):
-        if name not in TABLES:
-            raise asked.Unasked(name)
-        self._rooms.room = self._house.start.table(name)
+def tops(toy):
+    """The arguments of HeadBar.tops where this is the name of the page's top."""
+    names = listed("build.presets")
+    known = [[name, names[name]["name"]] for name in TOYS]
+    return (toy, known) if toy in TOYS else (OWN, [[OWN, say("main.own")], *known])
 
-    def _language(self, name):
-        if name not in LANGUAGES:
-            raise asked.Unasked(name)
-        self._tongue.lang = name
-        self._share.reload()
 
-    def shown_in(self, head):
-        """From now on."""
-        start, builder = self._house.explorer, self._house.builder
-
-        def tops(*events):
-            names = listed("build.presets")
-            toy = start.toy if self._rooms.room == TOY else builder.draft.name
-            known = [[name, names[name]["name"]] for name in TOYS]
-            own = toy not in TOYS
-            head.tops(OWN if own else toy, [[OWN, say("main.own")], *known] if own else known)
-
-        def tables(*events):
-            room = self._rooms.room
-            known = [[name, word, ROLLING if name == "rough" else PLANES]
-                     for name, word in listed("main.tables").items()]  # fmt: skip
-            head.tables("rough" if room == ROLLING else start.table, known if room in (ROLLING, PLANES) else [])
-
-        self._rooms.param.watch(tops, "room")
-        self._rooms.param.watch(tables, "room")
-        start.param.watch(tops, ["shape", "a", "I1", "I3"])
-        builder.param.watch(tops, "draft")
-        start.param.watch(tables, "table")
-        tops()
-        tables()
+def tables(room, table):
+    """Those of HeadBar.tables in this room, where the page's start is on this table."""
+    known = [[name, word, ROLLING if name == "rough" else PLANES] for name, word in listed("main.tables").items()]
+    return "rough" if room == ROLLING else table, known if room in (ROLLING, PLANES) else []

@@ -16,23 +16,42 @@ PAGES = WeakKeyDictionary()  # document -> a weak reference to its Failure, whic
 
 
 class Failure(Bundled):
-    """One sentence, until it is closed or the page is loaded anew."""
+    """One sentence, until it is closed or the page is loaded anew; and another while the page waits for others."""
 
-    words = param.String(constant=True, doc="What it says.")
+    words = param.String(doc="What it says.")
     close = param.String(constant=True, doc="Of the button that closes it.")
     times = param.Integer(default=0, doc="How often something has failed so far.")
+    waits = param.String(doc="Where in the queue the page is; empty where it is in none.")
 
     def __init__(self):
         super().__init__(words=say("main.failed"), close=say("main.close"), width=0, height=0, margin=0)
         PAGES[pn.state.curdoc] = ref(self)
 
 
+def _page(document):
+    return PAGES.get(document, lambda: None)() if document else None
+
+
 def tell(document=None):
     """Has the page of a Bokeh document say it; of the one that is being served, where none is given."""
     document = document or pn.state.curdoc
-    page = PAGES.get(document, lambda: None)() if document else None
+    page = _page(document)
     if page:
-        to_session(document)(lambda: page.param.update(times=page.times + 1))
+        to_session(document)(lambda: page.param.update(words=say("main.failed"), times=page.times + 1))
+
+
+def waits(place):
+    """Has the page that is being served say its place in a queue; 0: it is in none any more."""
+    page = _page(pn.state.curdoc)
+    if page:
+        page.waits = say("main.queue.waits", count=place) if place else ""
+
+
+def full(waiting):
+    """Has it say that what was asked for is not done, as so many wait already."""
+    page = _page(pn.state.curdoc)
+    if page:
+        page.param.update(words=say("main.queue.full", count=waiting), times=page.times + 1)
 
 
 def failure():

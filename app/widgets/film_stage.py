@@ -27,12 +27,12 @@ class FilmStage(Bundled):
 
 def put_motion(stage, t, motion, outline, start, **others):
     """Puts a Trajectory onto a FilmStage. t: its times, s; outline: (k, 2), of the body."""
-    none = np.zeros((len(t), 3))
+    none, code = np.zeros((len(t), 3)), np.zeros(len(t))
     stage.param.update(
         profile=pack(outline),
         a=float(motion.top.a),
         tilts=pack(np.degrees(motion.theta)),
         start=float(start),
-        frames=pack_frames(t, motion.quaternion, motion.contact, motion.com, none, none, none, np.zeros(len(t))),
+        frames=pack_frames(t, motion.quaternion, motion.contact, motion.com, motion.theta, none, none, none, code),
         **others,
     )

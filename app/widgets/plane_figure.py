@@ -1,14 +1,14 @@
 """Fig. 6 in Bokeh: the tielines in the (K_J, theta) plane, what friction costs there, and the motion in it."""
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Range1d, Span
+from bokeh.models import ColumnDataSource, HArea, Line, Range1d, Scatter, Segment, Span, Text
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
 from app.model.regimes import COLOUR, ROLLS
 from app.text import listed
 from app.widgets.controls import SPIN, SYMBOLS
-from app.widgets.plots import plain
+from app.widgets.plots import draw, plain
 
 
 class PlaneFigure:
@@ -58,48 +58,30 @@ class PlaneFigure:
     def _draw_limits(self):
         fig = self.figure
         for left, right in (("lift_in", "slip_in"), ("slip_out", "lift_out")):
-            fig.harea(y="K_J", x1=left, x2=right, source=self.limits, fill_color=COLOURS["friction"], fill_alpha=0.16)
-        fig.segment(
-            x0="slip_in",
-            x1="slip_out",
-            y0="K_J",
-            y1="K_J",
-            source=self.limits,
-            line_color=INK,
-            line_alpha=0.55,
-            line_width=1,
-        )
-        fig.line("lift_in", "K_J", source=self.limits, line_color=FAINT, line_width=1)
-        fig.line("lift_verge", "K_J", source=self.limits, line_color=COLOURS["normal"], line_width=2)
-        fig.line("verge", "K_J", source=self.limits, line_color=COLOURS["friction"], line_width=2)
-        fig.line("steady", "K_J", source=self.limits, line_color=INK, line_width=1.5, line_dash=[6, 4])
+            draw(fig, HArea, y="K_J", x1=left, x2=right, source=self.limits, fill_color=COLOURS["friction"],
+                 fill_alpha=0.16)  # fmt: skip
+        draw(fig, Segment, x0="slip_in", x1="slip_out", y0="K_J", y1="K_J", source=self.limits, line_color=INK,
+             line_alpha=0.55, line_width=1)  # fmt: skip
+        draw(fig, Line, "lift_in", "K_J", source=self.limits, line_color=FAINT, line_width=1)
+        draw(fig, Line, "lift_verge", "K_J", source=self.limits, line_color=COLOURS["normal"], line_width=2)
+        draw(fig, Line, "verge", "K_J", source=self.limits, line_color=COLOURS["friction"], line_width=2)
+        draw(fig, Line, "steady", "K_J", source=self.limits, line_color=INK, line_width=1.5, line_dash=[6, 4])
         fig.add_layout(Span(location=np.pi / 2, dimension="height", line_color=FAINT, line_dash=[2, 4]))
-        fig.scatter("theta", "K_J", source=self.pole, size=8, color=INK)
-        fig.text(
-            "theta",
-            "K_J",
-            text={"value": "P"},
-            source=self.pole,
-            x_offset=6,
-            y_offset=-4,
-            text_font_style="italic",
-            text_font_size="15px",
-            text_color=INK,
-        )
+        draw(fig, Scatter, "theta", "K_J", source=self.pole, size=8, fill_color=INK, line_color=INK)
+        draw(fig, Text, "theta", "K_J", text={"value": "P"}, source=self.pole, x_offset=6, y_offset=-4,
+             text_font_style="italic", text_font_size="15px", text_color=INK)  # fmt: skip
 
     def _draw_selected(self):
         """The motion, above all others, and why it does not roll."""
         fig = self.figure
         on_top = {"source": self.selected, "level": "overlay"}
-        fig.segment(
-            x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5, line_cap="round", **on_top
-        )
-        fig.scatter(
-            "steady", "K_J", marker="dash", angle=np.pi / 2, size=14, line_color="colour", line_width=2, **on_top
-        )
-        fig.scatter("inner", "K_J", size=9, fill_color="colour", line_color="white", line_width=1, **on_top)
-        fig.scatter("outer", "K_J", size=9, fill_color="colour", line_color="white", line_width=1, **on_top)
-        fig.scatter("theta", "K_J", size=13, fill_color="white", line_color=INK, line_width=2, **on_top)
+        draw(fig, Segment, x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5,
+             line_cap="round", **on_top)  # fmt: skip
+        draw(fig, Scatter, "steady", "K_J", marker="dash", angle=np.pi / 2, size=14, line_color="colour", line_width=2,
+             **on_top)  # fmt: skip
+        draw(fig, Scatter, "inner", "K_J", size=9, fill_color="colour", line_color="white", line_width=1, **on_top)
+        draw(fig, Scatter, "outer", "K_J", size=9, fill_color="colour", line_color="white", line_width=1, **on_top)
+        draw(fig, Scatter, "theta", "K_J", size=13, fill_color="white", line_color=INK, line_width=2, **on_top)
 
     def _listen(self, motion):
         """To the browser's own clock, which moves the bead, and to hands."""

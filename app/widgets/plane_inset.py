@@ -3,12 +3,12 @@ nods by a few degrees, which is some pixels of all tilts."""
 
 import numpy as np
 import panel as pn
-from bokeh.models import Range1d
+from bokeh.models import Line, Range1d, Scatter, Segment
 
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import say
 from app.widgets.cards import words
-from app.widgets.plots import plain
+from app.widgets.plots import draw, plain
 
 SHORT = 0.06  # of the theta axis: a shorter tieline is shown from near as well
 ROUND = 0.7  # of the tieline's length, that is seen beyond either end
@@ -24,15 +24,15 @@ class PlaneInset:
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane-near")
         fig.update(sizing_mode="stretch_width", height=88)
         fig.xaxis.ticker.desired_num_ticks, fig.yaxis.ticker.desired_num_ticks = 4, 3
-        fig.segment(x0="slip_in", x1="slip_out", y0="K_J", y1="K_J", source=plane.limits, line_color=INK,
-                    line_alpha=0.55)  # fmt: skip
-        fig.line("lift_verge", "K_J", source=plane.limits, line_color=COLOURS["normal"], line_width=2)
-        fig.line("verge", "K_J", source=plane.limits, line_color=COLOURS["friction"], line_width=2)
-        fig.line("steady", "K_J", source=plane.limits, line_color=INK, line_width=1.5, line_dash=[6, 4])
+        draw(fig, Segment, x0="slip_in", x1="slip_out", y0="K_J", y1="K_J", source=plane.limits, line_color=INK,
+             line_alpha=0.55)  # fmt: skip
+        draw(fig, Line, "lift_verge", "K_J", source=plane.limits, line_color=COLOURS["normal"], line_width=2)
+        draw(fig, Line, "verge", "K_J", source=plane.limits, line_color=COLOURS["friction"], line_width=2)
+        draw(fig, Line, "steady", "K_J", source=plane.limits, line_color=INK, line_width=1.5, line_dash=[6, 4])
         on_top = {"source": plane.selected, "level": "overlay"}
-        fig.segment(x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5, line_cap="round",
-                    **on_top)  # fmt: skip
-        fig.scatter("theta", "K_J", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
+        draw(fig, Segment, x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5,
+             line_cap="round", **on_top)  # fmt: skip
+        draw(fig, Scatter, "theta", "K_J", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
         self._says = words()
         self.view = pn.Column(self._says, pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=88, margin=0),
                               visible=False, margin=0, styles=LOOK)  # fmt: skip

@@ -5,12 +5,7 @@ tieline, the line at the clock's time) lies on Bokeh's overlay level, which repa
 """
 
 import numpy as np
-from bokeh.models import (
-    BoxAnnotation,
-    ColumnDataSource,
-    Range1d,
-    Span,
-)
+from bokeh.models import AllIndices, AllLabels, BoxAnnotation, CDSView, ColumnDataSource, Line, Range1d, Span
 from bokeh.plotting import figure
 
 from app.bundle import call
@@ -25,6 +20,7 @@ def plain(**options):
     """A figure without a frame, in the page's own type; nothing on it is logged or asks the server."""
     fig = figure(
         sizing_mode="stretch_both",
+        title=None,
         toolbar_location=None,
         tools="",
         outline_line_color=None,
@@ -40,36 +36,38 @@ def plain(**options):
     fig.axis.major_label_text_color = INK
     fig.axis.major_label_text_font_size = "12px"
     fig.axis.major_tick_in = 0
+    fig.axis.major_label_policy = AllLabels()  # one for both
     if fig.name:
         label = say(f"roll.figures.{fig.name}")
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
 
 
+def draw(fig, kind, *xy, source, level="glyph", **looks):
+    """Draws a glyph of Bokeh in the figure; xy: its first two places. The figure's own methods make three of each, for
+    selections that there are none of here: a page had half as many parts again, each to be made, counted and sent."""
+    glyph = kind(**dict(zip(("x", "y"), xy, strict=False)), **looks)
+    of_all = fig.renderers[0].view.filter if fig.renderers else AllIndices()
+    return fig.add_glyph(source, glyph, level=level, view=CDSView(filter=of_all))
+
+
 class Motion:
-    """The motion on display over time, for all figures that follow it."""
+    """The tilt of the motion on display over time, for the figures that follow the clock with it."""
 
     def __init__(self):
-        names = ("t", "theta", "normal", "ratio", "K_J", "K_R", "E")
-        self.source = ColumnDataSource({name: np.zeros(2) for name in names})
+        self.source = ColumnDataSource({"t": np.zeros(2), "theta": np.zeros(2)})
         self._shown = None
 
     def show(self, scene):
-        if scene.trajectory is self._shown:
-            return
-        self._shown = scene.trajectory
-        t = scene.trajectory.t
-        every = max(1, len(t) // POINTS_A_CURVE)
-        curves = {
-            "t": t,
-            "theta": scene.trajectory.theta,
-            "normal": scene.normal,
-            "ratio": scene.ratio,
-            "K_J": scene.K_J,
-            "K_R": scene.K_R,
-            "E": scene.E,
-        }
-        self.source.data = {name: curve[::every] for name, curve in curves.items()}
+        if scene.trajectory is not self._shown:
+            self._shown = scene.trajectory
+            self.source.data = thinned(t=scene.trajectory.t, theta=scene.trajectory.theta)
+
+
+def thinned(**curves):
+    """Some of the rows of curves, enough to draw."""
+    every = max(1, len(curves["t"]) // POINTS_A_CURVE)
+    return {name: curve[::every] for name, curve in curves.items()}
 
 
 class TimeFigures:
@@ -77,8 +75,10 @@ class TimeFigures:
 
     NAMES = ("theta", "normal", "ratio", "constants")
 
-    def __init__(self, motion):
+    def __init__(self):
         x_range = Range1d(0, 1)
+        names = ("t", "theta", "normal", "ratio", "K_J", "K_R", "E")
+        self.source = ColumnDataSource({name: np.zeros(2) for name in names})
         self.figures = {name: plain(x_range=x_range, y_range=Range1d(0, 1), name=name) for name in self.NAMES}
         curves = {
             "theta": {"theta": COLOURS["theta"]},
@@ -86,14 +86,14 @@ class TimeFigures:
             "ratio": {"ratio": COLOURS["friction"]},
             "constants": {"K_J": COLOURS["jellett"], "K_R": COLOURS["omega"], "E": COLOURS["energy"]},
         }
-        self.spans = []
+        self.spans, seek = [], call("seekAlong")
         for name, fig in self.figures.items():
             for column, colour in curves[name].items():
-                fig.line("t", column, source=motion.source, line_color=colour, line_width=2)
+                draw(fig, Line, "t", column, source=self.source, line_color=colour, line_width=2)
             self.spans.append(Span(location=0, dimension="height", level="overlay", line_color=INK, line_width=1.5))
             fig.add_layout(self.spans[-1])
             for event in ("tap", "panstart", "pan", "panend"):
-                fig.js_on_event(event, call("seekAlong"))
+                fig.js_on_event(event, seek)
             fig.min_border_left = 44
             fig.ygrid.ticker = fig.yaxis.ticker
             fig.yaxis.ticker.desired_num_ticks = 2
@@ -114,6 +114,8 @@ class TimeFigures:
             return
         self._shown = (scene.trajectory, scene.mu_s)
         t = scene.trajectory.t
+        self.source.data = thinned(t=t, theta=scene.trajectory.theta, normal=scene.normal, ratio=scene.ratio,
+                                   K_J=scene.K_J, K_R=scene.K_R, E=scene.E)  # fmt: skip
         self.figures["theta"].x_range.update(start=t[0], end=t[-1])
         self.slips.location = self.beyond.bottom = scene.mu_s
         bounds = {

@@ -4,17 +4,15 @@ One Portrait is drawn at a time in each card; the beads go with the browser's cl
 """
 
 import numpy as np
-from bokeh.models import ColumnDataSource, DataRange1d, Range1d, Span
+from bokeh.models import ColumnDataSource, DataRange1d, Line, MultiLine, Patch, Range1d, Scatter, Span
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
+from app.model.roll import portraits
 from app.text import say
-from app.widgets.plots import PAPER, plain
+from app.widgets.plots import PAPER, draw, plain
 
-POINTS_OF_A_TRACK = 480
-POINTS_OF_A_CIRCLE = 73
-# A circle so much larger than the track is a straight line to the eye.
-STRAIGHT = 300
+POINTS_OF_A_TRACK = 480  # on a screen
 
 
 class Portrait:
@@ -32,16 +30,16 @@ class Portrait:
         self.curve = ColumnDataSource({"t": np.zeros(2), "x": np.zeros(2), "y": np.zeros(2)})
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
         self.below()
-        line = fig.line("x", "y", source=self.curve, line_color=colour, line_width=2.5)
-        fig.scatter(
-            "x", "y", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK, line_width=2
-        )
+        line = draw(fig, Line, "x", "y", source=self.curve, line_color=colour, line_width=2.5)
+        draw(fig, Scatter, "x", "y", source=self.bead, level="overlay", size=13, fill_color="white", line_color=INK,
+             line_width=2)  # fmt: skip
         if self.aspect:
             fig.x_range.renderers = fig.y_range.renderers = [line]
         self.above()
         fig.js_on_change("inner_width", call("followCurve", curve=self.curve, bead=self.bead, fig=fig))
+        seek = call("seekOnCurve", curve=self.curve, fig=fig, whole=self.whole)
         for event in ("tap", "panstart", "pan", "panend"):
-            fig.js_on_event(event, call("seekOnCurve", curve=self.curve, fig=fig, whole=self.whole))
+            fig.js_on_event(event, seek)
         self._shown = None
 
     def below(self):
@@ -82,7 +80,7 @@ class Curve(Portrait):
 
     def draw(self, scene):
         motion = scene.nutation
-        square = motion.omega[:, 0] ** 2
+        square = portraits.square(scene)
         self.put(motion, motion.theta, square)
         self.frame(motion.theta, [0, square.max()])
 
@@ -96,9 +94,8 @@ class Phase(Portrait):
         super().__init__(COLOURS["theta"])
 
     def below(self):
-        self.figure.multi_line(
-            "x", "y", source=self.levels, line_color="colour", line_dash="dash", line_width=1.3, line_alpha=0.8
-        )
+        draw(self.figure, MultiLine, xs="x", ys="y", source=self.levels, line_color="colour", line_dash="dash",
+             line_width=1.3, line_alpha=0.8)  # fmt: skip
 
     def draw(self, scene):
         motion, loops = scene.nutation, scene.levels
@@ -126,7 +123,7 @@ class Potential(Portrait):
         super().__init__(COLOURS["energy"])
 
     def below(self):
-        self.figure.line("theta", "E", source=self.potential, line_color=INK, line_width=2)
+        draw(self.figure, Line, "theta", "E", source=self.potential, line_color=INK, line_width=2)
         marks = {"line_dash": [6, 4], "line_width": 1.5, "dimension": "width"}
         self.slip = Span(location=0, line_color=COLOURS["friction"], **marks)
         self.lift = Span(location=0, line_color=COLOURS["normal"], **marks)
@@ -157,27 +154,13 @@ class Track(Portrait):
         super().__init__(COLOURS["theta"])
 
     def below(self):
-        self.figure.multi_line("x", "y", source=self.circles, line_color=FAINT, line_dash=[6, 4], line_width=1.5)
+        draw(self.figure, MultiLine, xs="x", ys="y", source=self.circles, line_color=FAINT, line_dash=[6, 4],
+             line_width=1.5)  # fmt: skip
 
     def draw(self, scene):
-        motion = scene.trajectory
-        every = max(1, len(motion.t) // POINTS_OF_A_TRACK)
-        x, y = motion.contact[::every].T
-        self.curve.data = {"t": motion.t[::every], "x": x, "y": y}
-        arcs = {"x": [], "y": []}
-        rosette = scene.rosette
-        if rosette:
-            centre_x, centre_y, nearest, farthest = rosette
-            angle = np.unwrap(np.arctan2(y - centre_y, x - centre_x))
-            low, high = angle.min(), angle.max()
-            margin = 0.06 * (high - low)
-            if farthest < STRAIGHT:
-                low, high = (0, 2 * np.pi) if high - low > np.pi else (low - margin, high + margin)
-            around = np.linspace(low, high, POINTS_OF_A_CIRCLE)
-            for radius in (nearest, farthest):
-                arcs["x"].append(centre_x + radius * np.cos(around))
-                arcs["y"].append(centre_y + radius * np.sin(around))
-        self.circles.data = arcs
+        seen = portraits.track(scene, POINTS_OF_A_TRACK)
+        self.put(seen, seen.x, seen.y)
+        self.circles.data = {"x": [x for x, _ in seen.rings], "y": [y for _, y in seen.rings]}
 
     def words(self, scene):
         if scene.rosette is None:
@@ -207,20 +190,11 @@ class Ring(Portrait):
             self.figure.add_layout(edge)
 
     def draw(self, scene):
-        motion = scene.trajectory
-        every = max(1, len(motion.t) // POINTS_OF_A_TRACK)
-        x, y = motion.contact[::every].T
-        if scene.rosette is None:
-            along, across, width = np.hypot(x, y), np.zeros(len(x)), 0.0
-        else:
-            centre_x, centre_y, nearest, farthest = scene.rosette
-            x, y, width = x - centre_x, y - centre_y, farthest - nearest
-            along = (nearest + farthest) / 2 * np.abs(np.unwrap(np.arctan2(y, x)) - np.arctan2(y[0], x[0]))
-            across = np.hypot(x, y) - nearest
-        for edge, location in zip(self.edges, (0.0, width), strict=True):
+        seen = portraits.track(scene, POINTS_OF_A_TRACK)
+        for edge, location in zip(self.edges, (0.0, seen.width), strict=True):
             edge.location = location
-        self.curve.data = {"t": motion.t[::every], "x": along, "y": across}
-        self.frame(along, [0, width])
+        self.put(seen, seen.along, seen.across)
+        self.frame(seen.along, [0, seen.width])
 
 
 class Force(Portrait):
@@ -234,9 +208,8 @@ class Force(Portrait):
 
     def below(self):
         self.figure.background_fill_color, self.figure.background_fill_alpha = COLOURS["friction"], 0.12
-        self.edge = self.figure.patch(
-            "x", "y", source=self.disc, fill_color=PAPER, line_color=INK, line_dash=[6, 4], line_width=1.5
-        )
+        self.edge = draw(self.figure, Patch, "x", "y", source=self.disc, fill_color=PAPER, line_color=INK,
+                         line_dash=[6, 4], line_width=1.5)  # fmt: skip
 
     def above(self):
         self.figure.x_range.renderers = self.figure.y_range.renderers = [
@@ -245,11 +218,5 @@ class Force(Portrait):
         ]
 
     def draw(self, scene):
-        motion = scene.nutation
-        F_x, F_y, F_z = motion.force.T
-        there = F_z > 1e-3
-        # Beyond lift-off there is no table to push: the locus has a gap.
-        x, y = (np.where(there, F / np.where(there, F_z, 1), np.nan) for F in (F_x, F_y))
-        around = np.linspace(0, 2 * np.pi, POINTS_OF_A_CIRCLE)
-        self.disc.data = {"x": scene.mu_s * np.cos(around), "y": scene.mu_s * np.sin(around)}
-        self.put(motion, x, y)
+        self.disc.data = dict(zip("xy", portraits.circle(scene.mu_s), strict=True))
+        self.put(scene.nutation, *portraits.pushes(scene))

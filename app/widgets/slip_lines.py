@@ -2,11 +2,11 @@
 same theta axis. Rolling, a motion is its tieline; slipping, it keeps K_J nearly, and its K_R goes through zero."""
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Label, Range1d, Span
+from bokeh.models import ColumnDataSource, HArea, Label, Line, Range1d, Scatter, Segment, Span
 
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import say
-from app.widgets.plots import plain
+from app.widgets.plots import draw, plain
 
 HIGH = 96  # px
 LEFT = 44  # px, of both figures, so that one tilt stands under the other
@@ -34,9 +34,9 @@ class SlipLines:
         for fig, row in ((above, "K_J"), (self.below, "K_R")):
             self._draw(fig, row)
         on_top = {"source": plane.selected, "level": "overlay"}
-        self.below.segment(x0="inner", x1="outer", y0="K_R", y1="K_R", line_color="colour", line_width=5,
-                           line_cap="round", **on_top)  # fmt: skip
-        self.below.scatter("theta", "K_R", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
+        draw(self.below, Segment, x0="inner", x1="outer", y0="K_R", y1="K_R", line_color="colour", line_width=5,
+             line_cap="round", **on_top)  # fmt: skip
+        draw(self.below, Scatter, "theta", "K_R", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
         self.touch = Span(location=np.pi, dimension="height", line_color=FAINT, line_dash=[2, 3], visible=False)
         above.add_layout(self.touch)
         self.words = {"keeps": Label(x=0, y=0, y_offset=12, text_align="right", **BESIDE),
@@ -49,9 +49,10 @@ class SlipLines:
 
     def _draw(self, fig, row):
         for source, alpha, dash in ((self.own, 0.25, "solid"), (self.beyond, 0.12, [5, 4])):
-            fig.harea(y=row, x1="low", x2="high", source=source, fill_color=ROWS[row], fill_alpha=alpha)
-            fig.line("theta", row, source=source, line_color=ROWS[row], line_width=3, line_dash=dash)
-        fig.scatter("theta", row, source=self.end, size=10, fill_color="white", line_color=ROWS[row], line_width=3)
+            draw(fig, HArea, y=row, x1="low", x2="high", source=source, fill_color=ROWS[row], fill_alpha=alpha)
+            draw(fig, Line, "theta", row, source=source, line_color=ROWS[row], line_width=3, line_dash=dash)
+        draw(fig, Scatter, "theta", row, source=self.end, size=10, fill_color="white", line_color=ROWS[row],
+             line_width=3)  # fmt: skip
 
     def clear(self):
         """The path of another motion is not this one's."""

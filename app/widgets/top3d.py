@@ -6,7 +6,7 @@ import param
 from app.bundle import Bundled, pack
 
 
-def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
+def pack_frames(t, quaternion, contact, com, theta, force, omega, momentum, regime):
     """Put a trajectory into the bytes that `Top3D.frames` takes.
 
     All vectors in the space axes x, y, z (z up); units R, M, g.
@@ -17,12 +17,13 @@ def pack_frames(t, quaternion, contact, com, force, omega, momentum, regime):
     quaternion : (n, 4) x, y, z, w, body to space
     contact : (n, 2) the point of contact
     com : (n, 3) G
+    theta : (n,) the tilt
     force : (n, 3) the table's force on the top, in Mg
     omega : (n, 3) angular velocity
     momentum : (n, 3) angular momentum about G
     regime : (n,) codes of app/model/regimes.py
     """
-    return np.column_stack((t, quaternion, contact, com, force, omega, momentum, regime)).astype("<f4").tobytes()
+    return np.column_stack((t, quaternion, contact, com, theta, force, omega, momentum, regime)).astype("<f4").tobytes()
 
 
 class Top3D(Bundled):
@@ -91,6 +92,7 @@ def show_top(top, scene):
             motion.quaternion,
             motion.contact,
             motion.com,
+            motion.theta,
             scene.force,
             scene.omega,
             scene.momentum,

@@ -14,15 +14,15 @@ test("a time's place is the row, and as a fraction how far it is to the next", (
 });
 
 const row = {
-  t: 3, quaternion: [0.5, -0.5, 0.5, 0.5], contact: [1, 2], com: [3, 4, 5], force: [3, 4, 12], omega: [-2, 3, 6], momentum: [1, 2, 2], regime: 2,
+  t: 3, quaternion: [0.5, -0.5, 0.5, 0.5], contact: [1, 2], com: [3, 4, 5], theta: 2.5, force: [3, 4, 12], omega: [-2, 3, 6], momentum: [1, 2, 2], regime: 2,
 };
-const arrays = ({ quaternion, contact, com, force, omega, momentum }) =>
-  [quaternion.toArray(), ...[contact, com, force, omega, momentum].map((vector) => vector.toArray())];
+const arrays = ({ quaternion, contact, com, theta, force, omega, momentum }) =>
+  [quaternion.toArray(), contact.toArray(), com.toArray(), [theta], ...[force, omega, momentum].map((vector) => vector.toArray())];
 
 test("on a row the pose is that row", () => {
   const two = new Frames(motion([{ t: 0 }, row])), pose = emptyPose();
   two.read(1, pose);
-  assert.deepEqual(arrays(pose), [row.quaternion, [...row.contact, 0], row.com, row.force, row.omega, row.momentum]);
+  assert.deepEqual(arrays(pose), [row.quaternion, [...row.contact, 0], row.com, [row.theta], row.force, row.omega, row.momentum]);
   assert.equal(pose.regime, 2);
   assert.deepEqual(two.contact(1), row.contact);
   two.com(1, (...at) => assert.deepEqual(at, row.com));
@@ -32,10 +32,10 @@ test("on a row the pose is that row", () => {
 test("between two rows it is the turn in equal steps, the shorter way, and the straight line", () => {
   const turned = (angle, sign = 1) => [0, 0, sign * Math.sin(angle / 2), sign * Math.cos(angle / 2)]; // about z
   for (const sign of [1, -1]) { // both are the same turn
-    const other = { ...row, contact: [-1, 6], com: [1, 1, 1], force: [0, 2, 0], omega: [5, 5, 5], momentum: [-3, 0, 1], regime: 1 };
+    const other = { ...row, contact: [-1, 6], com: [1, 1, 1], theta: 0.5, force: [0, 2, 0], omega: [5, 5, 5], momentum: [-3, 0, 1], regime: 1 };
     const rows = [row, { ...other, quaternion: turned(0.4) }, { ...row, quaternion: turned(2.4, sign) }, other];
     const four = new Frames(motion(rows)), pose = emptyPose();
-    const vectors = ({ contact, com, force, omega, momentum }) => [...contact, 0, ...com, ...force, ...omega, ...momentum];
+    const vectors = ({ contact, com, theta, force, omega, momentum }) => [...contact, 0, ...com, theta, ...force, ...omega, ...momentum];
     for (const share of [0.25, 0.5, 0.9]) {
       four.read(1 + share, pose);
       near(pose.quaternion.toArray(), turned(0.4 + 2 * share));

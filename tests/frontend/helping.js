@@ -8,8 +8,8 @@ export function near(found, wanted, within = 1e-6) {
 
 // Bytes of a motion as Python packs them: of each row what is given, the rest 0.
 export function motion(rows) {
-  const filled = rows.map(({ t, quaternion = [0, 0, 0, 1], contact = [0, 0], com = [0, 0, 0], force = [0, 0, 0], omega = [0, 0, 0], momentum = [0, 0, 0], regime = 0 }) =>
-    [t, ...quaternion, ...contact, ...com, ...force, ...omega, ...momentum, regime]);
+  const filled = rows.map(({ t, quaternion = [0, 0, 0, 1], contact = [0, 0], com = [0, 0, 0], theta = 0, force = [0, 0, 0], omega = [0, 0, 0], momentum = [0, 0, 0], regime = 0 }) =>
+    [t, ...quaternion, ...contact, ...com, theta, ...force, ...omega, ...momentum, regime]);
   return new Float32Array(filled.flat()).buffer;
 }
 

@@ -46,8 +46,8 @@ test("the handle asks for the tilt that is under the pointer, in the plane of th
   body.position.set(0.3, 0.2, 1);
   const lean = (tilt, towards) => {
     body.quaternion.setFromAxisAngle(new Vector3(-Math.sin(towards), Math.cos(towards), 0), tilt); // of z towards there
-    handle.follow(body, true);
-    near([handle.theta, handle.axis.x], [tilt, Math.sin(tilt) * Math.cos(towards)]);
+    handle.follow(body, tilt, true);
+    near([handle.theta, handle.axis.x, handle.axis.z], [tilt, Math.sin(tilt) * Math.cos(towards), Math.cos(tilt)]);
     labels.place();
     return placeOf(handle.label);
   };

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Collection
-from dataclasses import fields
+from dataclasses import MISSING, fields
 from typing import Any, TypeAlias
 
 from ..errors import TopError
@@ -16,9 +16,20 @@ SCHEMA, VERSION, LONGEST = "tippe-top-explorer/top", 1, 65_536  # bytes
 Json: TypeAlias = Any  # whatever a stranger wrote
 
 
+def names_of(kind: type[Shape]) -> tuple[list[str], list[str]]:
+    """The dimensions of a kind of shape; and those, the last of them, that go without saying."""
+    found = fields(kind)
+    return [field.name for field in found], [field.name for field in found if field.default is not MISSING]
+
+
+def given(shape: Shape) -> dict[str, Json]:
+    """{dimension: its value, SI} of a shape, without what goes without saying."""
+    return {field.name: value for field in fields(shape) if (value := getattr(shape, field.name)) != field.default}
+
+
 def save_top(shape: Shape) -> str:
     """The shape as the text of a small JSON document: its kind, and its dimensions in SI."""
-    dimensions = {field.name: getattr(shape, field.name) for field in fields(shape)}
+    dimensions = given(shape)
     if isinstance(shape, Turned):
         dimensions["solid"] = [
             {"piece": type(piece).__name__, **{field.name: getattr(piece, field.name) for field in fields(piece)}}
@@ -54,7 +65,7 @@ def load_top(text: str | bytes) -> Shape:
     if kind is None:
         raise TopError("kind", _short(document["kind"]), " | ".join(KINDS), code="wrong-kind")
     dimensions = document["dimensions"]
-    _fields("dimensions", dimensions, [field.name for field in fields(kind)])
+    _fields("dimensions", dimensions, *names_of(kind))
     for name, value in dimensions.items():
         if name == "points" or (name == "density" and isinstance(value, list)):
             _numbers(name, value)
@@ -97,7 +108,7 @@ def _without_repeats(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
     return dict(pairs)
 
 
-def _fields(name: str, record: Json, wanted: Collection[str]) -> None:
+def _fields(name: str, record: Json, wanted: Collection[str], optional: Collection[str] = ()) -> None:
     if not isinstance(record, dict):
         raise TopError(name, _short(record), "an object with {fields}", code="no-object", fields=", ".join(wanted))
     for field in record:
@@ -105,7 +116,7 @@ def _fields(name: str, record: Json, wanted: Collection[str]) -> None:
             raise TopError(_short(field), "unknown field", "{fields}", "Remove it from {record}.",
                            code="unknown-field", fields=", ".join(wanted), record=name)  # fmt: skip
     for field in wanted:
-        if field not in record:
+        if field not in record and field not in optional:
             raise TopError(field, "missing", "{fields}", "Add it to {record}.", code="missing-field",
                            fields=", ".join(wanted), record=name)  # fmt: skip
 

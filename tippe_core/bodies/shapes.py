@@ -2,18 +2,20 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import sqrt
+from math import acos, atan2, hypot, sqrt
 from typing import Self
 
 import numpy as np
 
 from ..errors import TopError, finite
 from ..paper.top import Top
-from ..types import Number
+from ..types import Number, Rim
 from .ranges import LONG, MOST_POINTS, SMALLEST, THINNEST, check_stem, in_range, rows_of, weight
 from .shape import OneMaterial, Shape, Turned, check_one_piece
 from .slices import DENSEST, LARGEST
 from .solids import Solid, ball, cylinder, frustum, zone
+
+FACETS = 16  # of a rounded edge
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,6 +23,8 @@ class TruncatedSphere(OneMaterial):
     """Fig. 7: a sphere of radius R cut off by a plane at height c, and on the cut a cylinder, the stem.
 
     The stem has the radius r and the length l. All in m, M in kg. r = l = 0: no stem. c = R: the whole sphere.
+    rounding: the radius to which the edge of its end is rounded, 0 sharp, r half a ball. It is weighed in FACETS, which
+    take away half a hundredth more than the rounding does; where it touches it is round.
     """
 
     R: float
@@ -28,6 +32,7 @@ class TruncatedSphere(OneMaterial):
     l: float
     r: float
     M: float
+    rounding: float = 0.0
 
     @classmethod
     def paper(cls) -> Self:
@@ -42,11 +47,32 @@ class TruncatedSphere(OneMaterial):
                  remedy="Make it thinner, or the face wider.")  # fmt: skip
         in_range("l", self.l, 0, LONG, "m")
         check_stem(self.r, self.l)
+        in_range("rounding", self.rounding, SMALLEST if self.rounding > 0 else 0, min(self.r, self.l), "m")
 
     @cached_property
     def form(self) -> Solid:
-        sphere = zone(self.R, -self.R, self.c)
-        return sphere + cylinder(self.r, self.c, self.c + self.l) if self.l else sphere
+        form, top, b = zone(self.R, -self.R, self.c), self.c + self.l, self.rounding
+        if self.l > b:
+            form += cylinder(self.r, self.c, top - b)
+        if not b:
+            return form
+        angle = np.linspace(0, np.pi / 2, FACETS + 1)
+        radii, heights = (self.r - b + b * np.cos(angle)).tolist(), (top - b + b * np.sin(angle)).tolist()
+        radii[-1] = self.r - b
+        for r_low, r_high, low, high in zip(radii, radii[1:], heights, heights[1:], strict=False):
+            form += frustum(r_low, r_high, low, high)
+        return form
+
+    @cached_property
+    def _touch(self) -> tuple[float | None, Rim | None]:
+        angle, edge = super()._touch
+        b = self.rounding / self.R
+        q, h = self.r / self.R - b, (self.c + self.l) / self.R - b
+        D = hypot(q, h)
+        if not b or D <= 1 - b:
+            return angle, edge
+        rounded = atan2(q, -h) - acos((1 - b) / D)
+        return (rounded, (q, h, b)) if angle is None or rounded <= angle else (angle, edge)
 
 
 @dataclass(frozen=True, kw_only=True)

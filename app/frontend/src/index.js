@@ -17,6 +17,8 @@ import { renderLines } from "./widgets/lines.js";
 import { renderLook } from "./widgets/look.js";
 import { renderConnection } from "./widgets/notices.js";
 import { renderFailure } from "./widgets/notices.js";
+import { renderMoments } from "./widgets/moments.js";
+import { renderNear } from "./widgets/near.js";
 import { renderPainted } from "./widgets/painted.js";
 import { renderPhone } from "./widgets/phone.js";
 import { renderSymbols } from "./widgets/symbols.js";
@@ -41,6 +43,8 @@ export default {
   LabView: { render: renderFirst },
   Lines: { render: renderLines },
   Look: { render: renderLook },
+  Moments: { render: renderMoments },
+  Near: { render: renderNear },
   Painted: { render: renderPainted },
   Phone: { render: renderPhone },
   Photo: { render: renderPhoto },

@@ -9,6 +9,7 @@ type Later = { (): void; cancel(): void };
 // The top at one moment, in the axes of space; app/widgets/top3d.py says what each is.
 type Pose = Record<"contact" | "com" | "force" | "omega" | "momentum", import("three").Vector3> & {
   quaternion: import("three").Quaternion;
+  theta: number;
   regime: number;
 };
 
@@ -167,10 +168,20 @@ interface AddressModel extends Model {
 interface FailureModel extends Model {
   words: string;
   close: string;
+  waits: string;
 }
 
 interface ConnectionModel extends Model {
   words: string;
+}
+
+interface MomentsModel extends Model {
+  clock: string;
+  rows: [t: number, when: string, word: string, more: string][];
+}
+
+interface NearModel extends Model {
+  near: boolean;
 }
 
 interface PaintedModel extends Model {

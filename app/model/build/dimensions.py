@@ -65,7 +65,8 @@ FAMILIES: dict[type[Shape], tuple[str, tuple[Dimension, ...]]]
 FAMILIES = {
     TruncatedSphere: ("truncated sphere with a stem", (
         _length("R", "sphere", 2, 40), _length("c", "cut", -20, 40),
-        _length("l", "stem", 0, 60), _length("r", "stem_radius", 0, 15), *_WEIGHT)),
+        _length("l", "stem", 0, 60), _length("r", "stem_radius", 0, 15),
+        _length("rounding", "rounding", 0, 15), *_WEIGHT)),
     LoadedSphere: ("loaded sphere", (
         _length("R", "sphere", 2, 40), _length("b", "core", 0.5, 30), _length("d", "depth", -30, 30),
         density_dimension("density", "sphere_density"), density_dimension("core_density", "core_density"), MASS)),

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.model import arrival
-from app.model.lab.run import Toy, start_of
+from app.model.lab.run import PATCH, Toy, start_of
 from app.text import say
 from tippe_core import Many, slide_many
 from tippe_core.types import Array
@@ -18,7 +18,7 @@ TIMES = np.arange(1.0, 6.01, 0.5)  # s: whether it stands is looked at then, for
 STANDS, LEANS = np.radians(170), np.radians(20)
 CLOSE = 2  # cells: where the end changes as soon again, ends are mixed
 MOST = 64  # that are kept
-Key = tuple[Toy, float, float]  # toy, tilt, mu
+Key = tuple[Toy, float, float, float]  # toy, tilt, mu, patch
 
 
 class Segment(NamedTuple):
@@ -52,23 +52,26 @@ class Ends(NamedTuple):
 _kept: OrderedDict[Key, Ends] = OrderedDict()
 
 
-def known_ends(toy: Toy, tilt: float, mu: float) -> Ends | None:
+def known_ends(toy: Toy, tilt: float, mu: float, patch: float = PATCH) -> Ends | None:
     """What ends_of() has found before, or ships with the arrival; None if it has to be asked."""
-    found = _kept.get((toy, tilt, mu))
-    if found is None and (toy, tilt, mu) == (arrival.TOY, arrival.TILT, arrival.MU):
-        found = _kept[toy, tilt, mu] = Ends(SPINS, arrival.read_ends(), start_of(toy, 0.0, tilt, mu).part)
+    key = toy, tilt, mu, patch
+    found = _kept.get(key)
+    if found is None and key == (arrival.TOY, arrival.TILT, arrival.MU, PATCH):
+        found = _kept[key] = Ends(SPINS, arrival.read_ends(), start_of(toy, 0.0, tilt, mu).part)
     if found is not None:
-        _kept.move_to_end((toy, tilt, mu))
+        _kept.move_to_end(key)
     return found
 
 
-def ends_of(toy: Toy, tilt: float, mu: float, look: Callable[[float], object] | None = None) -> Ends:
+def ends_of(
+    toy: Toy, tilt: float, mu: float, patch: float = PATCH, look: Callable[[float], object] | None = None
+) -> Ends:
     """The Ends of a toy. look: called with the share that is done; what it raises ends it. Raises TopError."""
-    starts = [start_of(toy, float(spin), tilt, mu) for spin in SPINS]
+    starts = [start_of(toy, float(spin), tilt, mu, patch=patch) for spin in SPINS]
     start, states = starts[0], np.array([[each.state] for each in starts], dtype=object)
     times = TIMES / start.scales.time
     many = slide_many(start.top, states, start.friction, times, edge=start.edge, progress=look)
-    found = _kept[toy, tilt, mu] = Ends(SPINS, codes_of(many), start.part)
+    found = _kept[toy, tilt, mu, patch] = Ends(SPINS, codes_of(many), start.part)
     while len(_kept) > MOST:
         _kept.popitem(last=False)
     return found

@@ -12,11 +12,23 @@ from typing import Any, TypeAlias
 
 import param
 
-from app.model.arrival import ARRIVAL, TABLE, TILT
+from app.model.arrival import TABLE, TILT
 from app.model.lab.ends import Ends, Key, ends_of, known_ends
 from app.model.lab.keeps import Row, keeps
 from app.model.lab.life import SECONDS
-from app.model.lab.run import TABLES, TOYS, TableMotion, TooLong, Toy, motion_on, shape_of, start_of, whole_on
+from app.model.lab.run import (
+    PATCH,
+    SHIPS,
+    TABLES,
+    TOYS,
+    TableMotion,
+    TooLong,
+    Toy,
+    motion_on,
+    shape_of,
+    start_of,
+    whole_on,
+)
 from app.model.runs import Result, Run, Runs, Stopped
 from app.model.start import Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, story
@@ -24,20 +36,23 @@ from app.text import say, told
 from tippe_core import Shape, State, TopError
 from tippe_core.types import Array
 
-LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5)})
-"""{input: what it may be}, in rev/s and degrees; the sliders show less."""
+LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5), "patch": (0.01, 5.0)})
+"""{input: what a hand in the Lab may give it}, in rev/s, degrees and mm; the sliders show less."""
+POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0), "mu": (0.0, 1e3), "patch": (0.0, 1e3)})
+"""The same of a start that comes from elsewhere, as from a link: that is kept and shown."""
 CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
+Limits: TypeAlias = MappingProxyType[str, tuple[float, float]]
 SHOWN = 30  # characters of what is no number, in a sentence
 PATIENCE = 0.5  # s: a run that a newer one replaces may still finish within this
-Inputs: TypeAlias = tuple[str, Toy, float, float, float, State | None]
-"""table, toy, spin, tilt, mu; and the State of a start that is not let go by a hand, with G at rest."""
-WATCHED = "table", "shape", "a", "I1", "I3", "given", "spin", "tilt", "slip", "theta_dot", "omega2", "mu"
-FIRST: Inputs = *ARRIVAL, None
+Inputs: TypeAlias = tuple[str, Toy, float, float, float, State | None, float]
+"""table, toy, spin, tilt, mu; the State of a start that is not let go by a hand, with G at rest; and the patch."""
+WATCHED = "table", "shape", "a", "I1", "I3", "given", "spin", "tilt", "slip", "theta_dot", "omega2", "mu", "patch"
+FIRST: Inputs = SHIPS
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LabScene:
-    """All that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu, given: what it is of.
+    """All that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu, given, patch: what it is of.
 
     motions: {table: TableMotion or None}; None where it is not watched, or cannot be: then refused has a sentence why.
     stories: {table: Story}, of the motions. said: headline and explanation of all three together. keeps: {table: Rows},
@@ -52,6 +67,7 @@ class LabScene:
     tilt: float
     mu: float
     given: State | None
+    patch: float
     motions: MappingProxyType[str, TableMotion | None]
     stories: MappingProxyType[str, Story]
     refused: MappingProxyType[str, str]
@@ -82,7 +98,15 @@ class LabScene:
 
 
 def scene_of(
-    table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, *, whole: bool = False
+    table: str,
+    toy: Toy,
+    spin: float,
+    tilt: float,
+    mu: float,
+    given: State | None = None,
+    patch: float = PATCH,
+    *,
+    whole: bool = False,
 ) -> LabScene:
     """The LabScene of a start, in the page's language; whole: to the end of the toy's life. Raises TopError, whose name
     is an input, where none of the tables can have it because of that input's value."""
@@ -91,7 +115,7 @@ def scene_of(
     refused: dict[str, str] = {}
     for each in watched:
         try:
-            motions[each] = seen(each, toy, spin, tilt, mu, given)
+            motions[each] = seen(each, toy, spin, tilt, mu, given, patch)
         except TopError as error:
             if error.code == "body-below-table":
                 raise
@@ -102,7 +126,7 @@ def scene_of(
     start, stories = start_of(toy, spin, tilt, mu), {name: story(motion) for name, motion in found.items()}
     turned = "ordinary" in found and any(event.code == "over" for event in stories["ordinary"].events)
     return LabScene(
-        table=table, toy=toy, spin=spin, tilt=tilt, mu=mu, given=given, motions=MappingProxyType(motions),
+        table=table, toy=toy, spin=spin, tilt=tilt, mu=mu, given=given, patch=patch, motions=MappingProxyType(motions),
         stories=MappingProxyType(stories), refused=MappingProxyType(refused),
         said=(say(f"lab.three.{'turned' if turned else 'headline'}"), say("lab.three.why")),
         keeps=MappingProxyType({name: keeps(motion) for name, motion in found.items()} if table == "three" else {}),
@@ -118,13 +142,13 @@ def _sentence(error: TopError) -> str:
     return told(error)
 
 
-def fault(name: str, value: object) -> str:
+def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
     """Why an input cannot have a value, in a sentence; "" where it can."""
     if name == "toy" and isinstance(value, Shape):
         return ""
     if name in CHOICES:
         return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])
-    least, most = LIMITS[name]
+    least, most = limits[name]
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         typed = str(value).strip()[:SHOWN] or say("lab.inputs.nothing")
         return say("lab.inputs.number", value=typed, least=least, most=most)
@@ -143,7 +167,7 @@ class Lab(param.Parameterized):
     scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last answer; None before show()")
     ends = param.Parameter(None, constant=True, doc="Ends over the slider's spins; None until they are there")
 
-    INPUTS = ("table", "toy", "spin", "tilt", "mu")
+    INPUTS = ("table", "toy", "spin", "tilt", "mu", "patch")
 
     def __init__(self, runs: Runs | None = None, start: Start | None = None) -> None:
         self.start = start or Start(**arrives())  # type: ignore[no-untyped-call]  # of param
@@ -160,7 +184,8 @@ class Lab(param.Parameterized):
     def inputs(self) -> Inputs:
         """What is set."""
         start = self.start
-        return start.table, start.toy, start.spin, start.tilt, start.mu, None if start.at_rest else start.let_go
+        given = None if start.at_rest else start.let_go
+        return start.table, start.toy, start.spin, start.tilt, start.mu, given, start.patch
 
     def show(self) -> None:
         """Computes from now on what is set: before somebody looks nothing is."""
@@ -206,7 +231,7 @@ class Lab(param.Parameterized):
     def _key(self) -> Key | None:
         """Of the Ends; None where they are of no start such as this."""
         start = self.start
-        return (start.toy, start.tilt, start.mu) if start.at_rest else None
+        return (start.toy, start.tilt, start.mu, start.patch) if start.at_rest else None
 
     def rest(self) -> None:
         """To be called when no hand moves: where the runs of all spins end is looked up, or computed beside."""
@@ -247,7 +272,7 @@ class Lab(param.Parameterized):
         """Computes what is set, now or when the present run is done."""
         if not self._shown:
             return
-        faults = {name: said for name in self.INPUTS if (said := fault(name, getattr(self.start, name)))}
+        faults = {name: said for name in self.INPUTS if (said := fault(name, getattr(self.start, name), POSSIBLE))}
         if faults:  # of a link
             self._messages |= faults
             self.start.later(**self._back)
@@ -292,12 +317,14 @@ class Lab(param.Parameterized):
             raise result
 
     def _refused(self, inputs: Inputs, error: TopError) -> None:
-        """A tilt that this body cannot have: it goes back, of another body to the first one's."""
-        self._messages["tilt"] = _sentence(error)
+        """What cannot be goes back; a tilt that this body cannot have, of another body to the first one's."""
+        name = error.name if error.name in LIMITS else "tilt"
+        self._messages[name] = _sentence(error)
         if self.inputs != inputs:
             return  # something else is asked for by now
         known = self._good[1] == self.start.toy and self.scene
-        self.start.later(**{"tilt": self._good[3] if known else TILT} if self.start.at_rest else self._back)
+        is_tilt = name == "tilt" and self.start.at_rest
+        self.start.later(**{"tilt": self._good[3] if known else TILT} if is_tilt else self._back)
         self._tell()
 
     def _tell(self) -> None:

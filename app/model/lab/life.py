@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import fields, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -17,17 +18,27 @@ NEAR, FAR = (0.5, 0.01), (1.0, 0.02)  # from row to row at most so many rad and 
 MOST_ROWS = 6000
 
 
+T = TypeVar("T", bound=Setup)
+
+
+def within(start: T) -> T:
+    """A Setup of no more seconds than its turns can be shown."""
+    try:
+        start.times  # noqa: B018  (it is computed, or refused)
+    except TopError as error:
+        if error.code != "too-many-turns":
+            raise
+        return replace(start, seconds=float(error.numbers["most"]))
+    return start
+
+
 def lived(start: Setup, look: Callable[[float], object]) -> tuple[float, Trajectory]:
     """How long a start is to be seen, s, and its Trajectory until then, thinned. look: as progress of slide()."""
     time, seconds, most = start.scales.time, 2 * SECONDS, LIFE
     while True:
-        try:
-            times = replace(start, seconds=seconds).times
-        except TopError as error:  # too many turns to be shown: as long as it can be
-            if error.code != "too-many-turns":
-                raise
-            seconds = most = float(error.numbers["most"])
-            times = replace(start, seconds=seconds).times
+        wanted, seconds = seconds, within(replace(start, seconds=seconds)).seconds
+        most = seconds if seconds < wanted else most
+        times = replace(start, seconds=seconds).times
         moved = slid(start, start.state, times, look)
         end = _end(moved, time, ended=len(moved.t) < len(times))
         if end <= seconds or seconds >= most:

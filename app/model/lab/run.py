@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.model import arrival
 from app.model.bodies import body
-from app.model.lab.life import SECONDS, lived, thinned
+from app.model.lab.life import SECONDS, lived, thinned, within
 from app.model.planes.picture import Motion, Setup, by_hand
 from app.model.planes.run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
@@ -25,10 +25,11 @@ from tippe_core.types import Array
 TABLES = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth"})
 """{table: what planes/run.py calls it}."""
 TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
-PATCH = 0.5e-3  # m, the radius of the patch of contact
+PATCH = 0.5  # mm, the radius of the patch of contact, where nobody sets another
 MOST_LOOKS = 20_000  # of slide() at its page: some seconds; a toy that flips needs a hundred
 STEP = 2  # a row of the curves for so many frames: 200 rows in a second of a fast top
 NEARLY = 1e-5  # of its time: as float32 has it
+SHIPS = *arrival.ARRIVAL, None, PATCH
 
 
 Toy: TypeAlias = str | Shape
@@ -63,10 +64,11 @@ class Start(Setup):
     tilt: float
     mu: float
     given: State | None = None
+    patch: float = PATCH  # mm
 
     @property
     def friction(self) -> Friction:
-        return Contensou(self.mu, PATCH / self.scales.R)
+        return Contensou(self.mu, 1e-3 * self.patch / self.scales.R)
 
     @property
     def state(self) -> State:
@@ -76,18 +78,11 @@ class Start(Setup):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class TableMotion(Motion):
-    """A Motion of a Start on a table. lost: the energy that the rough table took when it gripped, MgR; heat counts it.
+class Watched(Motion):
+    """A Motion of a Setup on a table, a name of TABLES."""
 
-    curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
-    (mm), heat so far in the same, spin about its own axis and turning seen from above (rev/s), and the code of
-    regimes.py."""
-
-    start: Start
+    start: Setup
     table: str
-    lost: float
-    whole: bool
-    curves: Array
 
     @property
     def seconds(self) -> Array:
@@ -114,36 +109,60 @@ class TableMotion(Motion):
         return float(self.seconds[slips[-1] + 1]) if slips[-1] + 1 < len(self.seconds) else np.nan
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TableMotion(Watched):
+    """A Watched motion of the Lab. lost: the energy that the rough table took when it gripped, MgR; heat counts it.
+
+    curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
+    (mm), heat so far in the same, spin about its own axis and turning seen from above (rev/s), and the code of
+    regimes.py."""
+
+    start: Start
+    lost: float
+    whole: bool
+    curves: Array
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether it is seen as far as it was computed, and goes on there."""
+        ended = bool(self.ended) and len(self.trajectory.t) < len(self.t)
+        return self.whole and self.table == "ordinary" and not ended and bool(np.isnan(self.rolls_since))
+
+
 def shape_of(toy: Toy) -> Shape:
     """The body of a toy."""
     return TOYS[toy].shape if isinstance(toy, str) else toy
 
 
-def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> Start:
+def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH) -> Start:
     """The Start of a toy."""
     shape, top = shape_of(toy), TOYS[toy].top if isinstance(toy, str) else toy.top
-    return Start(toy=toy, top=top, scales=shape.scales, shape=shape, profile=body(shape),
-                 landing="plastic", stem=True, seconds=SECONDS, spin=spin, tilt=tilt, mu=mu, given=given)  # fmt: skip
+    return Start(toy=toy, top=top, scales=shape.scales, shape=shape, profile=body(shape), landing="plastic", stem=True,
+                 seconds=SECONDS, spin=spin, tilt=tilt, mu=mu, given=given, patch=patch)  # fmt: skip
 
 
 @lru_cache(12)
-def motion_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
+def motion_on(
+    table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH
+) -> TableMotion:
     """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
     units of the controls."""
-    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
-        return whole_on(table, toy, spin, tilt, mu)
-    return on(start_of(toy, spin, tilt, mu, given), table)
+    if (table, toy, spin, tilt, mu, given, patch) == SHIPS:
+        return whole_on(*SHIPS)
+    return on(start_of(toy, spin, tilt, mu, given, patch), table)
 
 
 @lru_cache(12)
-def whole_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None) -> TableMotion:
+def whole_on(
+    table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH
+) -> TableMotion:
     """As motion_on(), to the end of the toy's life; where a table knows no end, as long as on the ordinary one."""
-    start = start_of(toy, spin, tilt, mu, given)
-    if (table, toy, spin, tilt, mu) == arrival.ARRIVAL and given is None:
+    start = start_of(toy, spin, tilt, mu, given, patch)
+    if (table, toy, spin, tilt, mu, given, patch) == SHIPS:
         kept = arrival.read(start.top)
         return moved(replace(start, seconds=start.scales.time * float(kept.t[-1])), table, kept, 0.0, whole=True)
     if table != "ordinary":
-        seconds = whole_on("ordinary", toy, spin, tilt, mu, given).start.seconds
+        seconds = whole_on("ordinary", toy, spin, tilt, mu, given, patch).start.seconds
         return on(replace(start, seconds=seconds), table)
     try:
         seconds, kept = lived(start, Patience())
@@ -153,8 +172,10 @@ def whole_on(table: str, toy: Toy, spin: float, tilt: float, mu: float, given: S
 
 
 def on(start: Start, table: str) -> TableMotion:
-    """The TableMotion of a Start on a table. Raises TopError in the units of the controls."""
+    """The TableMotion of a Start on a table, as long as its turns can be shown. Raises TopError in the units of the
+    controls."""
     try:
+        start = within(start)
         return moved(start, table, *computed(start, table))
     except TopError as error:
         raise for_reader(error, start.scales) from None

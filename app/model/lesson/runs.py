@@ -11,16 +11,19 @@ import numpy as np
 
 from app.model.arrival import MU, SPIN, TILT, TOY
 from app.model.bodies import outline
+from app.model.frames import in_space
 from app.model.lab.run import TOYS, Start, TableMotion, computed, motion_on, moved, start_of
 from app.model.lesson.parts import K_R
 from app.model.lesson.parts import TILT as THROWN_TILT
+from app.model.regimes import OF_CORE
 from app.model.scene import Scene
 from tippe_core import Constants, Contensou, Coulomb, SmoothedCoulomb, State, Top, Trajectory, omega3, roll, slide
 from tippe_core.motion.friction import Friction
-from tippe_core.types import Array
+from tippe_core.types import Array, Indices
 
 SMALL_PATCH = 1e-4  # m: of a hard toy
 HEAD_SECONDS = 1.2  # s for which a top on its head is shown
+A_NUTATION = 96  # frames
 LAW = SmoothedCoulomb(0.3, 1.0)
 
 
@@ -117,6 +120,16 @@ def named(name: str) -> TableMotion:
     if name in ("by_jellett", "by_routh"):
         return rolled(np.pi, found.jellett if name == "by_jellett" else found.routh)
     return on_table(name)
+
+
+def nutations(scene: Scene, count: float) -> tuple[tuple[Array | Indices, ...], Array]:
+    """Some nutations of a Scene's motion: the arguments of top3d.pack_frames, and rows of curves as a TableMotion has
+    them, with the time, the tilt and the regime alone."""
+    moved = scene.rolling(np.linspace(0.0, count * scene.rolling.period, int(count * A_NUTATION) + 1))
+    codes = np.array([OF_CORE[regime] for regime in moved.regime])
+    rows = np.zeros((len(moved.t), 8))
+    rows[:, 0], rows[:, 1], rows[:, 7] = moved.t * scene.scales.time, np.degrees(moved.theta), codes
+    return (moved.t, moved.quaternion, moved.contact, moved.com, moved.theta, *in_space(moved), codes), rows
 
 
 @lru_cache(1)

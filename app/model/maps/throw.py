@@ -9,7 +9,7 @@ CHANGED = {"a", "ratio", "R", "stem", "rounding"}
 def throw_of(asked: Map, across: float, up: float) -> tuple[str, float, float, float] | None:
     """(toy, spin in rev/s, tilt in degrees, mu); None where the Lab has no such run."""
     x = asked.start | {asked.across: across, asked.up: up}
-    same = asked.law == "contensou" and abs(x["second"] - 1e3 * PATCH) < 1e-9 and x["slip"] == 1.0
+    same = asked.law == "contensou" and abs(x["second"] - PATCH) < 1e-9 and x["slip"] == 1.0
     if asked.body == OWN or asked.body not in TOYS or {asked.across, asked.up} & CHANGED or not same:
         return None
     return asked.body, x["spin"], x["tilt"], x["mu"]

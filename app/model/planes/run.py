@@ -159,7 +159,8 @@ def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str)
         code[trajectory.force[:, 2] < 0] = WOULD_LIFT
     elif plane == "smooth":
         code[code == SLIPS] = GLIDES  # where nothing rubs
-    frames = [trajectory.t, trajectory.quaternion, trajectory.contact, trajectory.com, *in_space(trajectory), code]
+    frames = [trajectory.t, trajectory.quaternion, trajectory.contact, trajectory.com, trajectory.theta,
+              *in_space(trajectory), code]  # fmt: skip
     ended = n < len(times)
     if ended:
         frames = [np.concatenate([rows, rows[-1:]]) for rows in frames]

@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from bokeh.models import ColumnDataSource, HoverTool, Range1d, Span
+from bokeh.models import ColumnDataSource, HoverTool, MultiLine, Patch, Range1d, Scatter, Span, Text
 
 from app.bundle import call
 from app.model.bodies import body
@@ -11,7 +11,7 @@ from app.model.build.dimensions import handles, pulled, value_of
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import say
 from app.widgets.controls import number
-from app.widgets.plots import PAPER, plain
+from app.widgets.plots import PAPER, draw, plain
 from tippe_core import LoadedSphere, Turned
 
 PARTS = {"body": "#d9b98c", "hollow": PAPER, "core": "#8a96a3"}  # of the section, in the order they are drawn
@@ -35,16 +35,17 @@ class Section:
         self.letters = ColumnDataSource({"x": [], "z": [], "text": [], "dx": [], "dy": [], "style": []})
         self.handles = ColumnDataSource({"x": [], "z": [], "name": [], "says": []})
         for part, colour in PARTS.items():
-            fig.patch("x", "z", source=self.parts[part], fill_color=colour, line_color=INK, line_width=1.5)
+            draw(fig, Patch, "x", "z", source=self.parts[part], fill_color=colour, line_color=INK, line_width=1.5)
         self.table = Span(dimension="width", line_color=INK, line_width=2)
         fig.add_layout(self.table)
-        fig.multi_line("x", "z", source=self.lines, line_color="colour", line_dash="dash", line_width="width")
-        fig.scatter("x", "z", source=self.points, size=8, fill_color="colour", line_color="white")
-        fig.text("x", "z", text="text", source=self.letters, x_offset="dx", y_offset="dy", text_color=INK,
-                 text_font_size="15px", text_font_style="style", text_font={"value": "Georgia, serif"},
-                 text_align="center", text_baseline="middle")  # fmt: skip
-        knobs = fig.scatter("x", "z", source=self.handles, size=14, fill_color="white", line_color=COLOURS["theta"],
-                            line_width=3)  # fmt: skip
+        draw(fig, MultiLine, xs="x", ys="z", source=self.lines, line_color="colour", line_dash="dash",
+             line_width="width")  # fmt: skip
+        draw(fig, Scatter, "x", "z", source=self.points, size=8, fill_color="colour", line_color="white")
+        draw(fig, Text, "x", "z", text="text", source=self.letters, x_offset="dx", y_offset="dy", text_color=INK,
+             text_font_size="15px", text_font_style="style", text_font={"value": "Georgia, serif"},
+             text_align="center", text_baseline="middle")  # fmt: skip
+        knobs = draw(fig, Scatter, "x", "z", source=self.handles, size=14, fill_color="white",
+                     line_color=COLOURS["theta"], line_width=3)  # fmt: skip
         fig.add_tools(HoverTool(renderers=[knobs], tooltips="@says", point_policy="snap_to_data"))
         self.pressed = ColumnDataSource({"x": [], "z": []})
         fig.js_on_change("inner_width", call("pressSection", fig=fig, pressed=self.pressed))

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 import panel as pn
 import panel_material_ui as pmui
-from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d
+from bokeh.models import ColorBar, ColumnDataSource, HoverTool, LinearColorMapper, Range1d, Scatter
 from bokeh.palettes import Viridis256
 
 from app.model.build.builder import thrown
@@ -16,7 +16,7 @@ from app.model.runs import Run, Runs, Stopped
 from app.text import listed, say, told, written
 from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, progress, words
 from app.widgets.controls import typed_number
-from app.widgets.plots import plain
+from app.widgets.plots import draw, plain
 from tippe_core import TopError, TruncatedSphere
 
 PICTURE_EVERY = 0.5  # s
@@ -48,7 +48,7 @@ class Compare:
         bottom, top = _sides(RATIOS)
         picture = fig.image("share", x="x", dw="w", y=bottom, dh=top - bottom, source=self.shares,
                             color_mapper=colours)  # fmt: skip
-        fig.scatter("a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
+        draw(fig, Scatter, "a", "ratio", source=self.here, size=9, fill_color="white", line_color=INK, line_width=2)
         fig.add_layout(ColorBar(color_mapper=colours, width=10, major_label_text_color=INK,
                                 major_tick_line_color=FAINT), "right")  # fmt: skip
         fig.add_tools(HoverTool(renderers=[picture], tooltips="a/R $x{0.000}, I₃/I₁ $y{0.00}: @share{0.00}"))

@@ -22,8 +22,8 @@ from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 from tippe_core import TopError
 
-INPUTS = ("spin", "tilt", "mu")
-SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2)}
+INPUTS = ("spin", "tilt", "mu", "patch")
+SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2)}
 """{input: (least, most, step, digits) of its slider}; more can be typed."""
 LOOKS = 0.3  # s between two looks at how far a run is
 RESTS = 0.4  # s after its last wish a hand is taken to rest
@@ -197,7 +197,11 @@ class LabTab:
             "sliders": SLIDERS
             | {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()},
             "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
+            "rubs": [["patch", view["inputs"]["patch"]["typed"], "mm"]] if scene.table in ("ordinary", "three") else [],
             "messages": messages,
+            "law": ""
+            if start.law == "contact"
+            else spelled(say("lab.inputs.law", law=listed("planes.law")[start.law])),
             "refused": {name: self._tried.get(name) for name in messages},
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
             "was": self._differ(scene, scene, start),

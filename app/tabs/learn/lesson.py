@@ -11,13 +11,11 @@ import param
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
 from app.model.arrival import SPIN, TILT
-from app.model.frames import in_space
 from app.model.lab.run import TableMotion
 from app.model.lesson import lesson
 from app.model.lesson.parts import Choice
-from app.model.lesson.runs import named, own
+from app.model.lesson.runs import named, nutations, own
 from app.model.lesson.six import UNSURE
-from app.model.regimes import OF_CORE
 from app.model.roll.levers import levers
 from app.model.story import story
 from app.text import listed, say, told
@@ -25,7 +23,6 @@ from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 from tippe_core import TopError
 
-A_NUTATION = 96  # frames
 SLOW = 8.0  # s in which a nutation is watched, which takes some hundredths
 FIRST = "ordinary"
 
@@ -75,17 +72,6 @@ def played(start, frames, rows, arms=None, times=()):
     return found
 
 
-def nutations(plan, count):
-    """A rolling motion of the page's own top over some nutations, as a run."""
-    moved = plan.rolling(np.linspace(0.0, count * plan.rolling.period, int(count * A_NUTATION) + 1))
-    codes = [OF_CORE[regime] for regime in moved.regime]
-    frames = (moved.t, moved.quaternion, moved.contact, moved.com, *in_space(moved), codes)
-    rows = np.zeros((len(moved.t), 8))
-    rows[:, 0], rows[:, 1], rows[:, 7] = moved.t * plan.scales.time, np.degrees(moved.theta), codes
-    return {"frames": pack_frames(*frames), "curves": pack(rows), "profile": pack(plan.profile), "a": plan.top.a,
-            "seconds": plan.scales.time, "arms": b""}  # fmt: skip
-
-
 def runs_of(steps, scene, hidden=False):
     """{name: run} of some steps, the page's own top and theory by this scene; hidden: as far as before the answer."""
     ends, found = {}, {}
@@ -98,7 +84,8 @@ def runs_of(steps, scene, hidden=False):
     for step in steps:
         if step.inputs:
             with suppress(TopError):
-                found[step.name] = nutations(lesson.planned(step, scene), step.before if hidden else step.end)
+                plan = lesson.planned(step, scene)
+                found[step.name] = played(plan, *nutations(plan, step.before if hidden else step.end))
     return found
 
 

@@ -14,6 +14,7 @@ from app.tabs.learn.lesson import LessonView, runs_of, said
 from app.tabs.learn.poll import Counter, refusal, scene_of
 from app.text import say
 from app.widgets.connection import Connection
+from app.widgets.failure import full, waits
 
 
 class Phone(Bundled):
@@ -127,6 +128,6 @@ class Ballot:
 def student_page(code):
     """The page behind a student's link."""
     document = pn.state.curdoc
-    runs = Runs(to_session(document), connected_to(document))
+    runs = Runs(to_session(document), connected_to(document), waits, full)
     document.on_session_destroyed(lambda context: runs.leave())
     return Ballot(code, runs).view

@@ -157,8 +157,6 @@ class Maps:
         if known is not None:
             self._show(known)
         self._runs.begin(self._run, "maps", MAPS)
-        if self.level is None and (first := MAPS.before(self._runs)):
-            self.said.object = note(say("maps.waits", count=first))
         place = self._within(asked, before)
         if place == self.choice.place:
             self._show_place()

@@ -1,7 +1,7 @@
 """A Level of a map -> Bokeh: one picture of cells, a hatch on those that are mixed, closed-form lines, the bead."""
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Range1d, Span
+from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Line, MultiLine, Quad, Range1d, Scatter, Span
 from bokeh.palettes import Viridis256
 
 from app.bundle import call
@@ -10,7 +10,7 @@ from app.model.maps.lines import lines
 from app.model.maps.maps import ENDINGS
 from app.tabs.maps.stage import CLOCK
 from app.text import listed, say
-from app.widgets.plots import plain
+from app.widgets.plots import draw, plain
 
 # One hue, light to dark by tilt, always with the word; what rolls or changes stands between.
 END_COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2", "moving": "#cdb88f",
@@ -35,14 +35,15 @@ class MapFigure:
         for source in (self.coarse, self.fine):
             fig.image_rgba("image", x="x", y="y", dw="w", dh="h", source=source)
         self.mixed = ColumnDataSource({"left": [], "right": [], "bottom": [], "top": []})
-        self._hatch = fig.quad("left", "right", "bottom", "top", source=self.mixed, fill_alpha=0, line_color=None,
-                 hatch_pattern="right_diagonal_line", hatch_color=DARK, hatch_alpha=0.55, hatch_scale=7)  # fmt: skip
+        self._hatch = draw(fig, Quad, left="left", right="right", bottom="bottom", top="top", source=self.mixed,
+                           fill_alpha=0, line_color=None, hatch_pattern="right_diagonal_line", hatch_color=DARK,
+                           hatch_alpha=0.55, hatch_scale=7)  # fmt: skip
         self.lines = ColumnDataSource({"xs": [], "ys": [], "dash": []})
-        fig.multi_line("xs", "ys", source=self.lines, line_color="#fefefe", line_width=5)
-        fig.multi_line("xs", "ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
+        draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color="#fefefe", line_width=5)
+        draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
-        fig.scatter("x", "y", source=self.bead, level="overlay", size=17, fill_color="#fefefe", line_color="#1558c0",
-                    line_width=5)  # fmt: skip
+        draw(fig, Scatter, "x", "y", source=self.bead, level="overlay", size=17, fill_color="#fefefe",
+             line_color="#1558c0", line_width=5)  # fmt: skip
         self.words = []
         for _ in ENDINGS:
             self.words.append(Label(x=0, y=0, text=" ", visible=False, text_align="center", text_baseline="middle",
@@ -110,7 +111,7 @@ class RunFigure:
         fig.update(sizing_mode="stretch_width", height=200, min_border_left=44)
         fig.yaxis.ticker.desired_num_ticks = 4
         self.source = ColumnDataSource({"t": [], "theta": []})
-        fig.line("t", "theta", source=self.source, line_color=INK, line_width=2)
+        draw(fig, Line, "t", "theta", source=self.source, line_color=INK, line_width=2)
         now = Span(location=0, dimension="height", line_color="#1558c0", line_width=1.5)
         fig.add_layout(now)
         fig.js_on_change("inner_width", call("moveLines", spans=[now], clock=CLOCK))

@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 import panel as pn
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource, Line, MultiLine, Range1d, Scatter
 
 from app.bundle import call
 from app.model.colours import INK
@@ -16,7 +16,7 @@ from app.tabs.maps.picture import DARK
 from app.tabs.maps.words import unit_of
 from app.text import listed, say, told
 from app.widgets.cards import alert, note, words
-from app.widgets.plots import plain
+from app.widgets.plots import draw, plain
 from tippe_core import TopError
 
 COLOURS = {"upright": "#1558c0", "tumbling": "#80632f", "inverted": "#9b2d20"}
@@ -37,21 +37,21 @@ class Steady:
         self.sweeps = [ColumnDataSource({"x": [], "y": []}) for _ in ("up", "down")]
         self.life = ColumnDataSource({"x": [], "y": []})
         self.here = ColumnDataSource({"x": [0.0, 0.0], "y": [0.0, 184.0]})
-        fig.line("x", "y", source=self.life, line_color="#c77d2b", line_width=1.5)
-        fig.multi_line("xs", "ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
+        draw(fig, Line, "x", "y", source=self.life, line_color="#c77d2b", line_width=1.5)
+        draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
         for source, shade in zip(self.dots, SHADES, strict=True):
-            fig.scatter("x", "y", source=source, size=6, fill_color=shade, line_color=DARK, line_width=0.8)
+            draw(fig, Scatter, "x", "y", source=source, size=6, fill_color=shade, line_color=DARK, line_width=0.8)
         for source, marker in zip(self.sweeps, ("triangle", "inverted_triangle"), strict=True):
-            fig.line("x", "y", source=source, line_color="#1558c0", line_width=1, line_alpha=0.6)
-            fig.scatter("x", "y", source=source, marker=marker, size=7, fill_color=None, line_color="#1558c0")
-        fig.line("x", "y", source=self.here, line_color="#1558c0", line_width=1.5)
+            draw(fig, Line, "x", "y", source=source, line_color="#1558c0", line_width=1, line_alpha=0.6)
+            draw(fig, Scatter, "x", "y", source=source, marker=marker, size=7, fill_color=None, line_color="#1558c0")
+        draw(fig, Line, "x", "y", source=self.here, line_color="#1558c0", line_width=1.5)
         self.grow, self.turn = _figure("maps-growth", 170, None), _figure("maps-turning", 170, None)
         self.branches = {}
         for name, colour in COLOURS.items():
             line, runs = ColumnDataSource({"x": [], "growth": [], "turning": []}), ColumnDataSource({"x": [], "y": []})
-            self.grow.line("x", "growth", source=line, line_color=colour, line_width=2)
-            self.turn.line("x", "turning", source=line, line_color=colour, line_width=2)
-            self.grow.scatter("x", "y", source=runs, size=6, fill_color=colour, line_color=DARK)
+            draw(self.grow, Line, "x", "growth", source=line, line_color=colour, line_width=2)
+            draw(self.turn, Line, "x", "turning", source=line, line_color=colour, line_width=2)
+            draw(self.grow, Scatter, "x", "y", source=runs, size=6, fill_color=colour, line_color=DARK)
             self.branches[name] = line, runs
 
     @property

@@ -4,13 +4,13 @@ from functools import partial
 
 import numpy as np
 import panel as pn
-from bokeh.models import BoxAnnotation, ColumnDataSource, FixedTicker, Label, Range1d, Span, Whisker
+from bokeh.models import BoxAnnotation, ColumnDataSource, FixedTicker, Label, Line, Range1d, Scatter, Span, Whisker
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, GREY, INK
 from app.text import say
 from app.widgets.cards import words
-from app.widgets.plots import plain
+from app.widgets.plots import draw, plain
 
 SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
 """{quantity: how many of its unit on the axis one of the data is}; of lengths 1000, mm."""
@@ -96,7 +96,7 @@ class _Picture:
             fig.yaxis.update(axis_line_color=None, major_tick_line_color=None)
         self._dots(series)
         self.rest.add_layout(BoxAnnotation(bottom=-1, top=1, fill_color=GREY, fill_alpha=0.18, line_color=None))
-        self.rest.scatter("t", "y", source=self.left, size=3.5, color=FAINT)
+        draw(self.rest, Scatter, "t", "y", source=self.left, size=3.5, fill_color=FAINT, line_color=FAINT)
         self.rest.yaxis.ticker = FixedTicker(ticks=[0])
         self.rest.ygrid.ticker = self.rest.yaxis.ticker
         self.head = words(self._head())
@@ -114,8 +114,8 @@ class _Picture:
         self.fig.add_layout(Whisker(base="t", lower="low", upper="high", source=dots, line_color=GREY,
                                     upper_head=None, lower_head=None))  # fmt: skip
         colour = COLOURS[COLOUR[self.name]] if self.name in COLOUR else INK
-        self.fig.line("t", "y", source=self.curve, line_color=colour, line_width=2)
-        self.fig.scatter("t", "y", source=dots, size=5.5, fill_color="#ffffff", line_color=INK)
+        draw(self.fig, Line, "t", "y", source=self.curve, line_color=colour, line_width=2)
+        draw(self.fig, Scatter, "t", "y", source=dots, size=5.5, fill_color="#ffffff", line_color=INK)
 
     def show(self, shown, name, fit):
         if shown is None or name not in shown.curves:

@@ -1,7 +1,7 @@
 """The pictures of the three planes: the motion over time, the well that the top is a bead in, the map of all tops."""
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Range1d, Span
+from bokeh.models import BoxAnnotation, ColumnDataSource, Label, MultiLine, Range1d, Scatter, Segment, Span, Text
 
 from app.bundle import call
 from app.model.build.dimensions import named
@@ -13,7 +13,7 @@ from app.model.planes.wells import wells
 from app.model.regimes import COLOUR, ENDS, FLIES, GLIDES, ROLLS, SLIPS, WOULD_LIFT
 from app.tabs.planes.words import LOOKS
 from app.text import listed, say, written
-from app.widgets.plots import plain
+from app.widgets.plots import draw, plain
 from tippe_core import PRESETS as BODIES
 
 CLOCK = "planes"
@@ -124,15 +124,15 @@ class Well:
         # what the browser's clock reads, and what it moves; well: which one, -1 for none
         self.path = ColumnDataSource({name: [] for name in ("t", "theta", "V", "E", "well")}, tags=[1.0])
         self.bead = ColumnDataSource({"theta": [], "V": [], "E": []})
-        fig.multi_line("theta", "V", source=self.wells, line_color=COLOURS["theta"], line_alpha="alpha", line_width=2.5)
-        fig.scatter(
-            "theta", "V", source=self.steady, size=8, fill_color=INK, fill_alpha="fill", line_color=INK, line_width=1.5,
-            line_alpha="alpha",
-        )  # fmt: skip
+        draw(fig, MultiLine, xs="theta", ys="V", source=self.wells, line_color=COLOURS["theta"], line_alpha="alpha",
+             line_width=2.5)  # fmt: skip
+        draw(fig, Scatter, "theta", "V", source=self.steady, size=8, fill_color=INK, fill_alpha="fill", line_color=INK,
+             line_width=1.5, line_alpha="alpha")  # fmt: skip
         on_top = {"source": self.bead, "level": "overlay"}
-        fig.segment("theta", "V", "theta", "E", line_color=COLOURS["energy"], line_width=2, **on_top)
-        fig.scatter("theta", "E", marker="dash", size=16, line_color=COLOURS["energy"], line_width=3, **on_top)
-        fig.scatter("theta", "V", size=15, fill_color=COLOURS["friction"], line_color="white", line_width=2, **on_top)
+        draw(fig, Segment, x0="theta", y0="V", x1="theta", y1="E", line_color=COLOURS["energy"], line_width=2, **on_top)
+        draw(fig, Scatter, "theta", "E", marker="dash", size=16, line_color=COLOURS["energy"], line_width=3, **on_top)
+        draw(fig, Scatter, "theta", "V", size=15, fill_color=COLOURS["friction"], line_color="white", line_width=2,
+             **on_top)  # fmt: skip
         self.none = Label(x=90, y=0, y_offset=60, text=say("planes.keys.no_well"), text_align="center",
                           text_color=COLOURS["friction"], text_font_size="14px", visible=False)  # fmt: skip
         fig.add_layout(self.none)
@@ -212,12 +212,13 @@ class Map:
             marks.append((*place, name, "circle" if inside else "triangle", *beside(place, name, taken)))
         names = ("x", "y", "name", "marker", "dx", "dy", "align")
         known = ColumnDataSource(dict(zip(names, zip(*marks, strict=True), strict=True)))
-        fig.scatter("x", "y", source=known, size=9, marker="marker", fill_color="white", line_color=INK, line_width=1.5)
-        fig.text("x", "y", text="name", x_offset="dx", y_offset="dy", text_align="align", source=known,
-                 text_font_size="12px", text_color=INK, text_baseline="middle")  # fmt: skip
+        draw(fig, Scatter, "x", "y", source=known, size=9, marker="marker", fill_color="white", line_color=INK,
+             line_width=1.5)  # fmt: skip
+        draw(fig, Text, "x", "y", text="name", x_offset="dx", y_offset="dy", text_align="align", source=known,
+             text_font_size="12px", text_color=INK, text_baseline="middle")  # fmt: skip
         self.here = ColumnDataSource({"x": [], "y": []})
-        fig.scatter("x", "y", source=self.here, size=13, fill_color=COLOURS["friction"], line_color="white",
-                    line_width=2, level="overlay")  # fmt: skip
+        draw(fig, Scatter, "x", "y", source=self.here, size=13, fill_color=COLOURS["friction"], line_color="white",
+             line_width=2, level="overlay")  # fmt: skip
         fig.on_event("tap", self._tapped)
 
     def _tapped(self, event):

@@ -1,28 +1,29 @@
 """The tab of the three planes: why a tippe top turns over, and that it takes sliding friction."""
 
-import numpy as np
 import panel as pn
-import panel_material_ui as pmui
 
 from app.bundle import pack
 from app.model.colours import COLOURS
+from app.model.planes.moments import moments
 from app.model.planes.picture import PLANES
-from app.model.planes.planes import PATIENCE, PRESETS, preset
+from app.model.planes.planes import PATIENCE, preset
 from app.model.playing import Playing, together
 from app.model.regimes import COLOUR, NAMES
 from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures, Map, Well, follow_clock
-from app.tabs.planes.words import LOOKS, degrees, in_force, stem_words, table_words, verdict_words
-from app.text import listed, say
-from app.widgets.cards import BUTTON, PLAIN, alert, card, first, flow, note, on_click, progress, staged, swatch, words
-from app.widgets.controls import Control, Wish
+from app.tabs.planes.start_card import StartCard
+from app.tabs.planes.words import LOOKS, in_force, table_words, verdict_words
+from app.text import say, written
+from app.widgets.cards import card, first, later, note, staged, swatch, words
+from app.widgets.moments import Moments
 from app.widgets.top3d import Top3D, pack_frames
 
-NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
-NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
-SWITCHES = ("by", "law", "landing")
+BELOW = 270  # px: what stands under the stage
+BESIDE = """
+:host { display: grid; gap: 12px } .scroll-button { display: none !important }
+@media (min-width: 700px) { :host { grid-template-columns: minmax(0, 5fr) minmax(0, 3fr) } }
+"""
 SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
 POLL = 200  # ms between looks at a run under way
-NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
 # Three bars side by side have room for what matters only.
 SMALL_BAR = [":host .bar .shows, :host .bar .view, :host .bar .back, :host .bar .forward { display: none }"]
 TABLE = (
@@ -60,20 +61,12 @@ class ThreePlanes:
         self._figures, self._well = Figures(), Well()
         self._map = Map(self.pick, choose)
         follow_clock(self._figures, self._well)
-        self._controls = {name: Control(name, inputs[name], self._set) for name in NUMBERS_SET}
-        self._switches = {name: self._switch(name, inputs[name]) for name in SWITCHES}
-        box = pmui.Checkbox(value=inputs["stem"], label=say("planes.stem.can"), description="", size="small",
-                            margin=(0, 14, 0, 6))  # fmt: skip
-        self._switches["stem"] = Wish(box, "stem", ask)
-        self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
+        self._start = StartCard(inputs, ask, self._choose, lambda: work.stop())
         self._verdict, self._table = words(note(say("planes.run.first")), style=TABLE), words(style=TABLE)
         self._force = words(styles={"min-height": "36px"})
         self._build()
 
     # ---- what a person asks ----
-
-    def _set(self, name, value, typed=False):
-        self._ask(**{name: value})
 
     def pick(self, a, ratio):
         """Asks for the top of this a and I1/I3, with I3 as it is."""
@@ -95,13 +88,10 @@ class ThreePlanes:
 
     # ---- the parts ----
 
-    def _switch(self, name, value):
-        options = {says: value for value, says in listed(f"planes.{name}").items()}
-        buttons = pmui.RadioButtonGroup(value=value, label="", size="small", sx=PLAIN, options=options,
-                                        margin=(2, 14, 6, 16))  # fmt: skip
-        return Wish(buttons, name, self._ask)
-
     def _build(self):
+        self._happened = Moments(clock=CLOCK, sizing_mode="stretch_width", margin=(4, 0, 0, 0))
+        happened = card(say("planes.moments.title"), self._happened, height=f"{BELOW}px")
+        happened.styles = happened.styles | {"overflow": "auto"}
         well, tops = (
             card(
                 say(f"planes.cards.{name}"),
@@ -109,17 +99,12 @@ class ThreePlanes:
                 pn.pane.Bokeh(shown.figure, sizing_mode="stretch_both", margin=0),
                 height=height,
             )
-            for name, shown, height in (("well", self._well, "370px"), ("map", self._map, "440px"))
+            for name, shown, height in (("well", self._well, f"{BELOW}px"), ("map", self._map, "440px"))
         )
+        below = pn.Column(happened, well, sizing_mode="stretch_width", margin=0, stylesheets=[BESIDE])
         became = card(say("planes.cards.became"), self._verdict, self._table, height="max-content")
-        self.main = staged([self._stage_card()], [became, self._start_card(), self._times_card(), well, tops])
-
-    def _presets(self):
-        buttons = []
-        for name in PRESETS:
-            buttons.append(pmui.Button(label=listed("planes.presets")[name], **NARROW))
-            on_click(buttons[-1], lambda event, name=name: self._choose(name))
-        return flow(*buttons, margin=(6, 14, 8, 16))
+        self.main = staged([self._stage_card(), later(below, 1)], [became, self._start.view, later(
+            self._times_card(), 1), later(tops, 1)])  # fmt: skip
 
     def _stage_card(self):
         self._row = pn.Column(
@@ -127,37 +112,7 @@ class ThreePlanes:
             styles={"display": "grid", "gap": "10px"},
             stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
         )  # fmt: skip
-        return first(card(say("planes.cards.stage"), self._force, self._row))
-
-    def _start_card(self):
-        views = {name: control.view for name, control in self._controls.items()}
-        self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
-        own = NUMBERS[self._switches["law"].view.value]
-        self._numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0, visible=name in own)
-                         for name in dict.fromkeys(name for names in NUMBERS.values() for name in names)}  # fmt: skip
-        self._bar = words(margin=(10, 8))
-        self._show_progress(0)
-        stop = pmui.Button(label=say("planes.run.stop"), **NARROW)
-        on_click(stop, lambda event: self._work.stop())
-        self._progress = pn.Row(self._bar, stop, sizing_mode="stretch_width", margin=(0, 14, 0, 16), visible=False)
-        return card(
-            say("planes.cards.start"),
-            self._presets(),
-            self._progress,
-            self._said["run"],
-            self._switches["by"].view,
-            self._said["by"],
-            self._starts,
-            views["seconds"],
-            self._switches["law"].view,
-            self._said["law"],
-            *self._numbers.values(),
-            words(say("planes.keys.lands"), margin=(6, 14, 0, 16)),
-            self._switches["landing"].view,
-            self._switches["stem"].view,
-            self._said["stem"],
-            height="max-content",
-        )
+        return first(card(say("planes.cards.stage"), self._force, self._row), below=BELOW + 12)
 
     def _times_card(self):
         def row(label, figure, height):
@@ -195,32 +150,33 @@ class ThreePlanes:
         elif not self._work.busy and self._poll is not None:
             self._poll.stop()
             self._poll = None
-            self._progress.visible = False
+            self._start.show_progress(None)
+            self._age(False)
 
     def _look_at_run(self):
-        if self._work.elapsed > PATIENCE or self._progress.visible:
-            self._show_progress(100 * self._work.share)
-            self._progress.visible = True
+        if self._work.elapsed > PATIENCE or self._is_old:
+            self._start.show_progress(100 * self._work.share)
+            self._age(True)
 
-    def _show_progress(self, percent):
-        self._bar.object = progress(percent, say("planes.run.progress"))
+    def _age(self, old):
+        """What is still of the run before is pale, and said to be."""
+        if old == self._is_old:
+            return
+        self._is_old = old
+        with pn.io.hold():
+            for part in (self._row, self._verdict, self._table, self._happened):
+                part.styles = part.styles | {"opacity": "0.4" if old else "1"}
+            self._say_force()
+
+    def _say_force(self):
+        if self._picture is not None:
+            said = say("planes.force.said", law=in_force(self._picture, self._plane))
+            self._force.object = f"{note(say('planes.run.old'))}{said}" if self._is_old else said
 
     def show(self, picture):
-        self._picture, inputs = picture, picture.inputs
-        settings, messages = picture.settings, picture.messages
+        self._picture, settings = picture, picture.settings
         with pn.io.hold():
-            self._starts.visible = inputs["by"] == "spin"
-            for name, number in self._numbers.items():
-                number.visible = name in NUMBERS[inputs["law"]]
-            if not self._work.busy:
-                for name, control in self._controls.items():
-                    control.show(inputs[name], inputs[name], self._note(name, picture), messages.get(name))
-                for name in ("by", "law", "landing", "stem"):
-                    self._switches[name].show(inputs[name])
-            for name, said in self._said.items():
-                said.object = alert(messages.get(name, "")) or {
-                    "stem": stem_words(settings), "by": self._start_words(picture)}.get(name, "")  # fmt: skip
-            self._switches["stem"].view.disabled = settings.shape is None or settings.shape.touch_angle is None
+            self._start.show(picture, busy=self._work.busy)
             self._verdict.object = verdict_words(picture)
             if self._shown is not settings:
                 self._figures.show(picture)
@@ -231,6 +187,7 @@ class ThreePlanes:
                 self.look(self._plane)
 
     _shown = _paced = _speed = None
+    _is_old = False
 
     def _tempo(self, settings):
         """The speed that somebody chose; else one at which the motion can be watched, when its length is new."""
@@ -250,6 +207,7 @@ class ThreePlanes:
         compare = plane == "compare"
         with pn.io.hold():
             self._spread(compare)
+            self._start.look(plane)
             for name, top in self._tops.items():
                 top.visible = plane in (name, "compare")
                 top.stylesheets = SMALL_BAR if compare else []
@@ -259,10 +217,15 @@ class ThreePlanes:
             row = [top for top in self._tops.values() if top.visible or top in self._row.objects]
             if row != self._row.objects:
                 self._row.objects = row
-            self._force.object = say("planes.force.said", law=in_force(picture, plane))
+            self._say_force()
             self._table.visible = compare
             self._figures.look(picture, plane)
             self._well.show(picture, plane)
+            which = "sliding" if compare else plane
+            self._happened.rows = [
+                [t, f"{written(seconds, '.2f')} s", word, more]
+                for t, seconds, word, more in moments(picture.motions[which], picture.settings, which)
+            ]
 
     def _spread(self, compare):
         """Three tops need the width of the page: what answers them then stands below, side by side."""
@@ -284,24 +247,3 @@ class ThreePlanes:
             a=settings.top.a,
             frames=pack_frames(*motion.frames) if motion else b"",
         )
-
-    def _start_words(self, picture):
-        if picture.settings.rolling is None:
-            return ""
-        return note(say("planes.notes.start", tilt=degrees(picture.state.theta), spin=picture.turns))
-
-    @staticmethod
-    def _note(name, picture):
-        settings, limits = picture.settings, picture.outcome.thresholds
-        if name == "spin":
-            holds = {f"upright_{limits.upright.stable}": limits.upright.spin, "inverted_above": limits.launch}
-            says = [say(f"planes.notes.{which}", spin=spin * settings.turns) for which, spin in holds.items()
-                    if np.isfinite(spin)]  # fmt: skip
-            return say("planes.notes.spins", stable="; ".join(says)) if says else ""
-        if name == "slip":
-            return say("planes.notes.slip", speed=100 * picture.slip)
-        if name == "eps":
-            return say("planes.notes.eps", speed=100 * settings.scales.velocity * settings.eps)
-        if name == "gamma":
-            return say("planes.notes.gamma", gamma=settings.gamma / settings.scales.velocity)
-        return ""

@@ -13,6 +13,7 @@ from app.state import asked
 from app.text import say
 from app.widgets.cards import PLAIN, TALL, WIDE, card, first, later, section, staged, words
 from app.widgets.controls import named
+from app.widgets.near import WhenNear
 from app.widgets.plane_card import PlaneCard
 from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
@@ -20,7 +21,8 @@ from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top
 from app.widgets.typeset import power
 
-CURVES = 300  # px: the motion over time, below the top
+BELOW = 300  # px: Fig. 5, below the top
+BESIDE = ":host { display: contents } .scroll-button { display: none !important }"  # its parts stand in the grid around
 
 
 def plane_symbols():
@@ -109,21 +111,24 @@ class Switch:
 
 
 def controls_card(controls):
-    """What sets the motion, the top, and what Figs. 5 and 6 show."""
-    side = {"sizing_mode": "stretch_width", "margin": 0, "styles": {"flex": "1 1 220px", "min-width": "0"}}
-    styles = {"display": "flex", "flex-flow": "row wrap", "gap": "0 12px"}
-    return card(
-        say("roll.sections.motion"),
-        pn.Column(
-            pn.Column(*controls.motion, **side),
-            pn.Column(
-                section(say("roll.sections.table")), *controls.views("mu_s"),
-                section(say("roll.sections.top")), *controls.views("a", "I1", "I3"),
-                section(say("roll.sections.pictures")), *controls.pictures, **side,
-            ),
-            sizing_mode="stretch_width", margin=(0, -14), styles=styles,
-        ), height="max-content",
-    )  # fmt: skip
+    """What sets the motion, with the friction of the table; the top, and what Figs. 5 and 6 show."""
+    switch, *faces, other = controls.motion
+    for face in faces:
+        face.stylesheets = [BESIDE]
+    parts = [
+        across(switch), *faces, *controls.views("mu_s"), across(other),
+        across(section(say("roll.sections.top"))), *controls.views("a", "I1", "I3"),
+        across(section(say("roll.sections.pictures"))), *map(across, controls.pictures),
+    ]  # fmt: skip
+    return card(say("roll.sections.motion"), pn.Column(*parts, sizing_mode="stretch_width", margin=(0, -14), styles={
+        "display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 220px), 1fr))", "gap": "0 12px",
+    }), height="max-content")  # fmt: skip
+
+
+def across(part):
+    """Over all columns."""
+    part.styles = part.styles | {"grid-column": "1 / -1"}
+    return part
 
 
 class Roll:
@@ -148,14 +153,15 @@ class Roll:
         self._tilt = Switch(say("roll.cards.tilt"), Phase, Curve, Potential, soon=soon)
         self._table = Switch(say("roll.cards.table"), Track, Ring, Force, soon=soon)
         self._floor = card(say("roll.cards.floor", height=named("height"), plane=plane_symbols()))
+        self._floor.stylesheets = [f"{WIDE} {{ :host {{ height: {BELOW}px !important }} }}"]
         self._over_time = card(say("roll.cards.times"))
-        self._over_time.stylesheets = [f"{WIDE} {{ :host {{ height: {CURVES}px !important }} }}"]
-        plane = card(say("roll.cards.plane", plane=plane_symbols()), *self._card.content, height=TALL)
-        stage = first(card(say("roll.cards.top"), self._top), below=CURVES + 12)
+        plane = card(say("roll.cards.plane", plane=plane_symbols()), *self._card.content, height=f"calc({TALL} - 28px)")
+        stage = first(card(say("roll.cards.top"), self._top), below=BELOW + 12)
         self.main = staged(
-            [stage, later(self._over_time, 1)],
-            [plane, controls_card(controls), self._floor, later(self._tilt.view, 2), later(self._table.view, 2)],
-        )
+            [stage, later(self._floor, 1)],
+            [plane, controls_card(controls), *(later(each, 2) for each in (
+                self._over_time, self._tilt.view, self._table.view))],
+        )  # fmt: skip
         pacer.shows(self._show_hand, "hand")
         for shows in (self._planes, self._times, self._portraits):
             pacer.shows(partial(self._draw, shows), "pictures")
@@ -168,24 +174,26 @@ class Roll:
     # ---- what is made later ----
 
     def _make_times(self):
-        figures = TimeFigures(self._motion)
-        self._add(self._times, figures.show)
+        figures = TimeFigures()
+        self._add(self._times, self._over_time, figures.show)
         self._over_time.extend([*times_rows(figures), self._unit, self._kept])
 
     def _make_surface(self):
-        surface = Surface3D(sizing_mode="stretch_both")
+        surface = Surface3D(sizing_mode="stretch_both", stylesheets=[":host .tippe { min-height: 0 }"])
         at_once(surface, "hand")
         surface.param.watch(asked.heard(self._on_surface), ["hand", "picked"])
-        self._add(self._planes, partial(show_surface, surface))
+        self._add(self._planes, self._floor, partial(show_surface, surface))
         self._floor.append(surface)
 
     def _make_portraits(self, switch):
-        self._add(self._portraits, switch.show)
+        self._add(self._portraits, switch.view, switch.show)
         switch.make()
 
-    def _add(self, shows, show):
-        show(self._scene)
-        shows.append(show)
+    def _add(self, shows, card, show):
+        """Of a card, from now on, where it can be seen."""
+        shown = WhenNear(card, self._pacer.soon, show)
+        shown.show(self._scene)
+        shows.append(shown.show)
 
     # ---- what a hand asks ----
 

@@ -105,7 +105,7 @@ class Flat {
     if (!player.frames.count) return;
     player.frames.read(player.place, pose);
     const { x, y, z, w } = pose.quaternion;
-    const tilt = Math.acos(Math.min(1, Math.max(-1, 1 - 2 * (x * x + y * y)))), psi = Math.atan2(z, w) - Math.atan2(y, x);
+    const tilt = pose.theta, psi = Math.atan2(z, w) - Math.atan2(y, x);
     // off the table, or on its stem, the sphere's centre is where G and the axis say
     const up = model.a === null ? 1 : pose.com.z + model.a * Math.cos(tilt);
     drawBody(pen, float32(model.profile), { x: width / 2, y: table - up * R, R, tilt, turn: psi, edge: hex(look.edge) });

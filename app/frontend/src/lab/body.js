@@ -1,26 +1,27 @@
-// The top itself, in a fold: its lengths and its ballast, as controls like those of the start.
+// In a fold, controls like those of the start: of the top itself, its lengths and its ballast; of the table, how it rubs.
 import { Control } from "./control.js";
 import { part } from "./parts.js";
 
 export class Body {
-  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask */
-  constructor(texts, ask) {
+  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {"body" | "rubs"} word @param {"dims" | "rubs"} of what the state has of them */
+  constructor(texts, ask, word, of) {
     this.texts = texts;
     this.ask = ask;
+    this.of = of;
     this.names = "";
     /** @type {Control[]} */
     this.parts = [];
     this.place = part("div");
-    this.element = part("details", { class: "body" }, part("summary", {}, texts.body), this.place);
+    this.element = part("details", { class: "body" }, part("summary", {}, texts[word]), this.place);
   }
 
   /** @param {any} state @param {boolean} ahead */
   show(state, ahead) {
-    const { texts } = this, names = JSON.stringify(state.dims);
-    this.element.hidden = !state.dims?.length;
+    const { texts } = this, wanted = state[this.of] ?? [], names = JSON.stringify(wanted);
+    this.element.hidden = !wanted.length;
     if (names !== this.names) {
       this.names = names;
-      this.parts = (state.dims ?? []).map(([name, word, unit]) => new Control(name, { name: word, typed: word, unit }, texts, this.ask));
+      this.parts = wanted.map(([name, word, unit]) => new Control(name, { name: word, typed: word, unit }, texts, this.ask));
       this.place.replaceChildren(...this.parts.map(({ element }) => element));
     }
     for (const control of this.parts) {

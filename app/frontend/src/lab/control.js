@@ -89,6 +89,12 @@ export class Control {
       part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, kept) }, back)));
   }
 
+  // What else there is to say of it.
+  /** @param {string} [said] */
+  note(said) {
+    this.below.replaceChildren(...(said ? [part("p", { class: "small" }, said)] : []));
+  }
+
   // As it was typed.
   typed(value) {
     return typeof value === "number" ? written(value, Number.isInteger(value) ? 0 : this.limits.digits, this.texts.decimal) : String(value);

@@ -1,5 +1,5 @@
-// The start, as a hand gives it: spin, tilt, friction, each a slider and a number to type; and "Spin it". In a fold, the
-// top itself.
+// The start, as a hand gives it: spin, tilt, friction, each a slider and a number to type; and "Spin it". In folds, the
+// table and the top itself.
 import { Body } from "./body.js";
 import { Control } from "./control.js";
 import { Launch } from "./launch.js";
@@ -13,7 +13,7 @@ export class Controls {
     this.texts = texts;
     this.parts = INPUTS.map((name) => new Control(name, texts.inputs[name], texts, ask));
     const [turns] = this.parts;
-    this.body = new Body(texts, ask);
+    this.folds = [new Body(texts, ask, "rubs", "rubs"), new Body(texts, ask, "body", "dims")];
     this.launch = new Launch(texts, {
       spin, launch: () => ask("spin", turns.value), stop: () => ask("stop", ""),
       strength: (share) => say(texts, texts.strength, { spin: [turns.putShare(share), 0] }),
@@ -23,7 +23,7 @@ export class Controls {
     // on a phone the dock stands at the foot of the window
     const dock = part("div", { class: "dock" }, part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks, this.launch.element),
       ...this.parts.map(({ element }) => element));
-    this.element = part("section", { class: "controls", "aria-label": texts.hand }, dock, this.body.element);
+    this.element = part("section", { class: "controls", "aria-label": texts.hand }, dock, ...this.folds.map(({ element }) => element));
     this.pick("spin");
   }
 
@@ -39,7 +39,8 @@ export class Controls {
   show(scene, ahead) {
     const { state, table, before } = scene, { texts } = this;
     this.launch.show(scene);
-    this.body.show(state, ahead);
+    for (const fold of this.folds) fold.show(state, ahead);
+    this.parts[2].note(state.law);
     for (const [i, control] of this.parts.entries()) {
       // ice has no friction to set, and on the rough table nothing slips; three tops have one slider
       const idle = table === "three" ? i > 0 : control.name === "mu" && (table === "rough" || table === "ice");

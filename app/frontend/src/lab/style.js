@@ -188,7 +188,7 @@ const controls = `
 .launch { min-width: 116px; text-align: right; } .launch .primary { touch-action: none; user-select: none; -webkit-user-select: none; } .wait { display: flex; align-items: center; gap: 12px; } .wait .small { min-width: 4ch; font-variant-numeric: tabular-nums; } .wait .outline { min-height: 40px; }
 .wait progress { width: 110px; height: 6px; accent-color: var(--ink); }
 :is(.numbers, .body) { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } :is(.numbers, .body) summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } :is(.numbers, .body) summary::after { content: "+"; } :is(.numbers, .body)[open] summary::after { content: "−"; }
-.body .ctl { margin-bottom: 8px; } .body + .numbers { border-top: 0; }
+.body .ctl { margin-bottom: 8px; } .body + :is(.body, .numbers) { border-top: 0; }
 .numbers th { font-weight: 400; color: var(--ink-2); } .numbers td { text-align: right; padding-right: 0; } .numbers :is(th, td) { padding-block: 2px; }
 .words { position: relative; display: flex; justify-content: space-between; gap: 16px; padding: 2px 10px 0; font-size: var(--t-s); color: var(--ink-2); min-height: 20px; }
 .words b { position: absolute; transform: translateX(-50%); color: var(--ink); font-weight: 400; }

@@ -6,6 +6,10 @@ const TELL_MS = 80; // how often a scrub is told to Python
 /** @type {Map<string, Place[]>} */
 const clocks = new Map(); // name -> the places on it
 
+// The views of the page's one start have one time: one that comes into sight goes on where the last in sight stood.
+const OF_THE_START = ["", "lab", "planes"];
+let last = { name: "", seconds: NaN }; // the clock of that view, and s of the real top
+
 const on = (name) => clocks.get(name) ?? [];
 
 // Of the tops of one clock, the one that moves the time: the first in view with something to show.
@@ -29,6 +33,7 @@ export class Place {
    */
   constructor({ model, picture, changed, inView, photo, report }) {
     this.model = model;
+    this.picture = picture;
     this.inView = inView;
     this.photo = photo;
     this.report = report;
@@ -111,9 +116,25 @@ export class Place {
     return (!leads && player.follow(this.leader.player.t)) || again;
   }
 
+  // Where it stands, for the view that comes next; once it comes itself, where the last one stood.
+  meet() {
+    const { name, model, player, picture, player: { frames } } = this;
+    if (!OF_THE_START.includes(name) || !this.leads || !picture.clientWidth || frames.count < 2) return;
+    if (last.name !== name && Number.isFinite(last.seconds)) {
+      const t = last.seconds / model.seconds;
+      last = { ...last, name };
+      player.seek(name ? Math.min(t, frames.end) : player.wrap(t)); // what rolls goes on for ever
+      this.met = player.t;
+    } else if (player.t !== this.met) {
+      last = { name, seconds: player.t * model.seconds };
+      this.met = NaN;
+    }
+  }
+
   // Says on the window what the picture shows now, where that is new.
   /** @param {string} verdict */
   say(verdict) {
+    this.meet();
     const { t, playing, index } = this.player;
     if (this.said?.t === t && this.said.playing === playing) return;
     this.said = { t, index, playing, verdict };

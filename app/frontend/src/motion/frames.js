@@ -3,8 +3,8 @@ import { Quaternion, Vector3 } from "three";
 import { float32 } from "../data.js";
 
 // Columns of a row; app/widgets/top3d.py packs them in the same order.
-const WIDTH = 20;
-const T = 0, QUATERNION = 1, CONTACT = 5, COM = 7, FORCE = 10, OMEGA = 13, MOMENTUM = 16, REGIME = 19;
+const WIDTH = 21;
+const T = 0, QUATERNION = 1, CONTACT = 5, COM = 7, THETA = 10, FORCE = 11, OMEGA = 14, MOMENTUM = 17, REGIME = 20;
 
 export class Frames {
   /** @param {Bytes} [bytes] */
@@ -82,6 +82,7 @@ export class Frames {
     const vector = (out, column) => out.set(mix(column), mix(column + 1), mix(column + 2));
     pose.contact.set(mix(CONTACT), mix(CONTACT + 1), 0);
     vector(pose.com, COM);
+    pose.theta = mix(THETA);
     vector(pose.force, FORCE);
     vector(pose.omega, OMEGA);
     vector(pose.momentum, MOMENTUM);
@@ -94,5 +95,5 @@ const other = new Quaternion();
 /** @returns {Pose} */
 export function emptyPose() {
   const [contact, com, force, omega, momentum] = Array.from({ length: 5 }, () => new Vector3());
-  return { quaternion: new Quaternion(), contact, com, force, omega, momentum, regime: 0 };
+  return { quaternion: new Quaternion(), contact, com, theta: 0, force, omega, momentum, regime: 0 };
 }

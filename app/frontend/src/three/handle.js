@@ -99,13 +99,13 @@ export class Handle {
     return mine;
   }
 
-  // Where the body is now.
-  /** @param {Body} body @param {boolean} shown */
-  follow(body, shown) {
+  // Where the body is now, and its tilt.
+  /** @param {Body} body @param {number} theta @param {boolean} shown */
+  follow(body, theta, shown) {
     this.label.visible = shown;
     this.from.copy(body.position);
     this.axis.set(0, 0, 1).applyQuaternion(body.quaternion);
-    this.theta = Math.acos(Math.min(Math.max(this.axis.z, -1), 1));
+    this.theta = theta;
     this.reach = (body.top ?? 1) + BEYOND;
     this.label.at.copy(this.axis).multiplyScalar(this.reach).add(this.from);
     this.label.element.setAttribute("aria-valuenow", this.said(this.theta));

@@ -102,8 +102,8 @@ class Top {
   pose() {
     const { model, scene, player: { frames, place, playing } } = this, some = frames.count > 0;
     scene.pose(frames, place, model, this.highlight);
-    const { regime } = scene.moment;
-    this.handle?.follow(scene.body, some && !playing);
+    const { regime, theta } = scene.moment;
+    this.handle?.follow(scene.body, theta, some && !playing);
     this.ghost?.follow(this.player.t, model.seconds);
     this.measured?.follow(scene.body, this.player.t);
     this.say(some ? wordOf(regime, model.texts.regimes) : model.texts.no_motion, some ? colourOf(regime) : colours.grey);

@@ -1,4 +1,4 @@
-// What the page says over everything: that the server could not do what was asked of it, and that it is gone.
+// What the page says over everything: that the server could not do what was asked of it, does it later, or is gone.
 import { colours } from "../colours.js";
 
 const ABOVE = { position: "fixed", margin: "auto", maxWidth: "560px", borderRadius: "8px", color: "white",
@@ -26,7 +26,17 @@ export function renderFailure({ model }) {
     words.replaceChildren(model.words, close);
     document.body.append(words);
   });
-  model.on("remove", () => words.remove());
+  const queue = notice({ inset: "auto 8px 8px", zIndex: 9997, padding: "8px 16px", background: colours.ink });
+  queue.setAttribute("role", "status");
+  model.on("waits", () => {
+    queue.textContent = model.waits;
+    if (model.waits) document.body.append(queue);
+    else queue.remove();
+  });
+  model.on("remove", () => {
+    words.remove();
+    queue.remove();
+  });
 }
 
 // Who goes on without a server says so, and is then not told over, nor loaded anew.

@@ -1,0 +1,41 @@
+// What happened in a run, and when: a click goes there, and the last that has happened is marked.
+import { seek } from "../figures/seeking.js";
+import { latest } from "../lab/curves.js";
+import { part } from "./parts.js";
+
+const style = `
+ol { list-style: none; margin: 0; padding: 0; font-size: calc(13px * var(--type, 1)); line-height: 1.35; color: var(--ink, #22303c); }
+button { display: grid; grid-template-columns: 4em 1fr 1.4fr; gap: 0 10px; width: 100%; padding: 3px 8px; border: 0;
+  border-radius: 6px; background: none; font: inherit; color: inherit; text-align: left; cursor: pointer; font-variant-numeric: tabular-nums; }
+button:hover { background: color-mix(in srgb, currentColor 8%, transparent); }
+button:focus-visible { outline: 2px solid var(--focus, #1565c0); outline-offset: -2px; }
+b { font-weight: 600; } span { color: var(--faint, #5b6875); } i { font-family: Georgia, serif; } sub { font-size: 0.75em; line-height: 0; }
+button[aria-current] { box-shadow: inset 3px 0 0 currentColor; }
+@media (max-width: 700px) { button { grid-template-columns: 4.2em 1fr; } span:last-child { grid-column: 2; } }
+`;
+
+/** @param {Pick<Rendering<MomentsModel>, "model" | "el">} rendering */
+export function renderMoments({ model, el }) {
+  const list = part("ol"), listening = new AbortController();
+  el.replaceChildren(part("style", {}, style), list);
+  const mark = (t) => {
+    const now = latest(model.rows, t);
+    for (const [i, { firstChild }] of [...list.children].entries()) {
+      if (model.rows[i] === now) firstChild.setAttribute("aria-current", "true");
+      else firstChild.removeAttribute("aria-current");
+    }
+  };
+  const show = () => {
+    list.replaceChildren(...model.rows.map(([t, when, word, more]) => {
+      const after = part("span");
+      after.innerHTML = more;
+      return part("li", {}, part("button", { type: "button", onclick: () => seek(t, false, model.clock) },
+        part("span", {}, when), part("b", {}, word), after));
+    }));
+    if (model.rows.length) mark(0);
+  };
+  model.on("rows", show);
+  window.addEventListener(`tippe:clock:${model.clock}`, ({ detail: { t } }) => model.rows.length && mark(t), { signal: listening.signal });
+  model.on("remove", () => listening.abort());
+  show();
+}

@@ -1,0 +1,82 @@
+"""What happened in a run of the three planes, and when, read from the run itself: marks in its tilt and its spin, and
+what became of its contact."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from app.model.lab.run import TABLES, Watched
+from app.model.planes.picture import SHORT, Motion, Settings
+from app.model.regimes import NAMES
+from app.model.story import marks
+from app.text import listed, say
+
+TOLD = ("over", "topples", "stands", "inverted", "falls", "back", "leans", "upright", "lies", "rolls")
+"""Of the marks, those that no event of the contact tells already."""
+MOST = 16
+ON = {"both": "both", "stem": "stem", "none": "air"}
+TABLE = {plane: table for table, plane in TABLES.items()}
+
+
+class Moment(NamedTuple):
+    """t in units of the run's time and in s, what happened in words, and how it was right after, as HTML."""
+
+    t: float
+    seconds: float
+    word: str
+    more: str
+
+
+def moments(motion: Motion | None, settings: Settings, plane: str) -> tuple[Moment, ...]:
+    """The Moments of a motion, in the page's language; MOST at most, and then the last."""
+    if motion is None:
+        return ()
+    watched = Watched(**vars(motion), start=settings, table=TABLE[plane])
+    unit, words, part = settings.scales.time, listed("lab.events"), say(f"planes.parts.{settings.part}")
+    found = [(mark.t, words[mark.code][0].format(part=part)) for mark in marks(watched) if mark.code in TOLD]
+    found += _turns(motion, unit) + _touches(motion, unit, part)
+    told = [(0.0, say("planes.moments.begins")), *sorted(each for each in found if each[0] > 0.0)]
+    if len(told) > MOST:
+        told = [*told[: MOST - 1], told[-1]]
+    return tuple(Moment(t / unit, t, word, _after(motion, t / unit, part)) for t, word in told)
+
+
+def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
+    """The first time that the spin about its own axis is zero, and K_R with it."""
+    spin, t = motion.trajectory.omega[:, 2], motion.trajectory.t
+    at = np.flatnonzero(spin[:-1] * spin[1:] < 0)
+    if not len(at):
+        return []
+    i = int(at[0])
+    zero = t[i] + (t[i + 1] - t[i]) * spin[i] / (spin[i] - spin[i + 1])
+    return [(unit * float(zero), say("planes.moments.turns"))]
+
+
+def _touches(motion: Motion, unit: float, part: str) -> list[tuple[float, str]]:
+    """The events of its contacts; of those that an eye does not follow the first, and how many more."""
+    events = [(unit * t, say(f"planes.events.{event}", part=part)) for t, event in motion.trajectory.events]
+    found: list[tuple[float, str]] = []
+    last, more = -np.inf, 0
+    for t, word in [*events, (np.inf, "")]:
+        if t - last < SHORT:
+            more += 1
+        else:
+            if more:
+                found[-1] = found[-1][0], say("planes.moments.more", word=found[-1][1], number=more, end=last)
+            more = 0
+            found.append((t, word))
+        last = t
+    return found[:-1]
+
+
+def _after(motion: Motion, t: float, part: str) -> str:
+    """How it is right after a time."""
+    moved = motion.trajectory
+    i = min(int(np.searchsorted(moved.t, t, side="right")), len(moved.t) - 1)
+    since, on = zip(*moved.supports, strict=True) if moved.supports else ((0.0,), ("ball",))
+    carried = on[max(int(np.searchsorted(since, t, side="right")) - 1, 0)]
+    does = say(f"regimes.stretch.{NAMES[int(motion.frames[-1][i])]}")
+    if carried != "none":
+        does += " " + say(f"planes.spells.on.{ON.get(carried, 'ball')}", part=part)
+    return say("planes.moments.after", does=does, tilt=float(np.degrees(moved.theta[i])),
+               K_J=float(moved.jellett[i] / moved.top.I1), K_R=float(moved.routh[i]))  # fmt: skip

@@ -1,0 +1,117 @@
+"""What is set of the start that the three planes have, of the friction and of a flight; and how far a run is."""
+
+import numpy as np
+import panel as pn
+import panel_material_ui as pmui
+
+from app.model.planes.planes import PRESETS
+from app.tabs.planes.words import degrees, stem_words
+from app.text import listed, say
+from app.widgets.cards import BUTTON, PLAIN, alert, card, flow, note, on_click, progress, words
+from app.widgets.controls import Control, Wish
+
+NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
+NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
+SWITCHES = ("by", "law", "landing")
+SLIDES = ("sliding", "compare")  # where there is friction to set, and it can fly
+NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
+
+
+class StartCard:
+    """view: a card.
+
+    inputs: of a Planes; ask: takes others; choose: takes the name of a preset; stop: ends the run under way.
+    """
+
+    def __init__(self, inputs, ask, choose, stop):
+        self._ask, self._choose, self._law, self._plane = ask, choose, inputs["law"], inputs["plane"]
+        self.controls = {name: Control(name, inputs[name], self._set) for name in NUMBERS_SET}
+        self.switches = {name: self._switch(name, inputs[name]) for name in SWITCHES}
+        box = pmui.Checkbox(value=inputs["stem"], label=say("planes.stem.can"), description="", size="small",
+                            margin=(0, 14, 0, 6))  # fmt: skip
+        self.switches["stem"] = Wish(box, "stem", ask)
+        self._said = {name: words(margin=(0, 14, 0, 16)) for name in ("law", "stem", "run", "by")}
+        self._lands = words(say("planes.keys.lands"), margin=(6, 14, 0, 16))
+        views = {name: control.view for name, control in self.controls.items()}
+        self._starts = pn.Column(views["spin"], views["tilt"], views["slip"], sizing_mode="stretch_width", margin=0)
+        self.numbers = {name: pn.Column(views[name], sizing_mode="stretch_width", margin=0)
+                        for name in dict.fromkeys(name for names in NUMBERS.values() for name in names)}  # fmt: skip
+        self._bar, end = words(margin=(10, 8)), pmui.Button(label=say("planes.run.stop"), **NARROW)
+        on_click(end, lambda event: stop())
+        # its place is kept free, so that nothing below moves when it comes
+        self.progress = pn.Row(self._bar, end, sizing_mode="stretch_width", margin=(0, 14, 0, 16))
+        self.show_progress(None)
+        self.view = card(
+            say("planes.cards.start"), self._presets(), self.progress, self._said["run"], self.switches["by"].view,
+            self._said["by"], self._starts, views["seconds"], self.switches["law"].view, self._said["law"],
+            *self.numbers.values(), self._lands, self.switches["landing"].view, self.switches["stem"].view,
+            self._said["stem"], height="max-content",
+        )  # fmt: skip
+        self.look(self._plane)
+
+    def _set(self, name, value, typed=False):
+        self._ask(**{name: value})
+
+    def _switch(self, name, value):
+        options = {says: value for value, says in listed(f"planes.{name}").items()}
+        buttons = pmui.RadioButtonGroup(value=value, label="", size="small", sx=PLAIN, options=options,
+                                        margin=(2, 14, 6, 16))  # fmt: skip
+        return Wish(buttons, name, self._ask)
+
+    def _presets(self):
+        buttons = []
+        for name in PRESETS:
+            buttons.append(pmui.Button(label=listed("planes.presets")[name], **NARROW))
+            on_click(buttons[-1], lambda event, name=name: self._choose(name))
+        return flow(*buttons, margin=(6, 14, 8, 16))
+
+    def show_progress(self, percent):
+        """How much of a run is done; None without one."""
+        self._bar.object = progress(percent or 0, say("planes.run.progress"))
+        self.progress.styles = {"visibility": "hidden" if percent is None else "visible"}
+
+    def look(self, plane):
+        """What is set of the friction and of a flight stands there where there is any."""
+        self._plane, slides = plane, plane in SLIDES
+        for part in (self.switches["law"].view, self._said["law"], self._lands, self.switches["landing"].view):
+            part.visible = slides
+        for name, number in self.numbers.items():
+            number.visible = slides and name in NUMBERS[self._law]
+
+    def show(self, picture, *, busy):
+        """What a Picture was made of, unless something newer is asked for, and what could not be."""
+        settings, inputs, messages = picture.settings, picture.inputs, picture.messages
+        self._law = inputs["law"]
+        self._starts.visible = inputs["by"] == "spin"
+        if not busy:
+            for name, control in self.controls.items():
+                control.show(inputs[name], inputs[name], _note(name, picture), messages.get(name))
+            for name in ("by", "law", "landing", "stem"):
+                self.switches[name].show(inputs[name])
+        for name, said in self._said.items():
+            said.object = alert(messages.get(name, "")) or {
+                "stem": stem_words(settings), "by": _start_words(picture)}.get(name, "")  # fmt: skip
+        self.switches["stem"].view.visible = settings.shape is not None and settings.shape.touch_angle is not None
+        self.look(self._plane)
+
+
+def _start_words(picture):
+    if picture.settings.rolling is None:
+        return ""
+    return note(say("planes.notes.start", tilt=degrees(picture.state.theta), spin=picture.turns))
+
+
+def _note(name, picture):
+    settings, limits = picture.settings, picture.outcome.thresholds
+    if name == "spin":
+        holds = {f"upright_{limits.upright.stable}": limits.upright.spin, "inverted_above": limits.launch}
+        says = [say(f"planes.notes.{which}", spin=spin * settings.turns) for which, spin in holds.items()
+                if np.isfinite(spin)]  # fmt: skip
+        return say("planes.notes.spins", stable="; ".join(says)) if says else ""
+    if name == "slip":
+        return say("planes.notes.slip", speed=100 * picture.slip)
+    if name == "eps":
+        return say("planes.notes.eps", speed=100 * settings.scales.velocity * settings.eps)
+    if name == "gamma":
+        return say("planes.notes.gamma", gamma=settings.gamma / settings.scales.velocity)
+    return ""

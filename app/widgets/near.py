@@ -1,0 +1,38 @@
+"""What need not be drawn while nobody can see it."""
+
+import param
+
+from app.bundle import Bundled
+
+OVER = {"position": "absolute", "inset": "0", "z-index": "-1", "pointer-events": "none", "visibility": "hidden"}
+
+
+class Near(Bundled):
+    """Whether the card that it lies in is near the screen."""
+
+    near = param.Boolean(default=True, doc="The browser writes it; until it has, everything is.")
+
+
+class WhenNear:
+    """A card whose pictures are drawn of a scene only where they can be seen; what was left out comes when they can.
+
+    card: a card; soon: of a Pacer; draw(scene).
+    """
+
+    def __init__(self, card, soon, draw):
+        self._soon, self._draw, self._scene, self._drawn = soon, draw, None, None
+        self._sight = Near(styles=OVER, width=0, height=0, margin=0)
+        card.styles = card.styles | {"position": "relative", "z-index": "0"}
+        card.append(self._sight)
+        self._sight.param.watch(lambda event: event.new and soon(self._catch_up), "near")
+
+    def show(self, scene):
+        """Draws it, now or later."""
+        self._scene = scene
+        if self._sight.near:
+            self._catch_up()
+
+    def _catch_up(self):
+        if self._scene is not self._drawn:
+            self._drawn = self._scene
+            self._draw(self._scene)

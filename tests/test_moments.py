@@ -1,0 +1,92 @@
+"""What happened in a run of the three planes is read from the run, and stands where it can be seen and clicked."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from house import planes_of
+
+from app.model.explorer import Explorer
+from app.model.planes.moments import MOST, moments
+from app.model.planes.planes import Planes
+from app.model.start import arrives
+from app.tabs.planes.three_planes import ThreePlanes
+from app.text import speaking
+from app.widgets.cards import card
+from app.widgets.near import WhenNear
+
+
+@pytest.fixture(scope="module")
+def toy():
+    """The Lab's toy on its three tables."""
+    planes = Planes(Explorer(**arrives(), seconds=6.0))
+    planes.show()
+    return planes.picture
+
+
+def told(picture, plane):
+    return moments(picture.motions[plane], picture.settings, plane)
+
+
+def test_the_toys_life_has_the_times_of_another_body_on_compliant_contacts(toy):
+    """Over at 0.98 s, its own spin zero there; the stem touches, it stands, falls, the ball touches, off its stem."""
+    found = told(toy, "sliding")
+    assert [moment.seconds for moment in found] == sorted(moment.seconds for moment in found)
+    times = {moment.word: moment.seconds for moment in found}
+    for word, time in (
+        ("turns over", 0.977),
+        ("its spin about its own axis passes zero", 0.98),
+        ("stands on its stem", 1.471),
+        ("starts to fall", 4.497),
+    ):
+        assert times[word] == pytest.approx(time, abs=0.01)
+    by_contact = {round(moment.seconds, 2) for moment in found}
+    assert {1.37, 4.75, 5.57} <= by_contact
+    assert found[0][:3] == (0.0, 0.0, "let go") and found[0].more.startswith("slips on its ball, 5.7°")
+    over = next(moment for moment in found if "passes zero" in moment.word)
+    moved = toy.motions["sliding"].trajectory
+    assert abs(np.interp(over.t, moved.t, moved.routh)) < 0.02 and "<i>K</i><sub>R</sub> \N{MINUS SIGN}0.0" in over.more
+    with speaking("de"):
+        assert told(toy, "sliding")[0].word == "losgelassen"
+
+
+def test_what_only_rolls_or_glides_has_little_to_tell(toy):
+    assert [moment.word for plane in ("rough", "smooth") for moment in told(toy, plane)] == ["let go", "let go"]
+    assert moments(None, toy.settings, "rough") == ()
+
+
+def test_a_stem_that_chatters_is_told_in_few_lines():
+    """The paper's top rattles on ball and stem."""
+    found = told(planes_of(Explorer()).picture, "sliding")
+    assert len(found) <= MOST and any("more until" in moment.word for moment in found)
+
+
+def test_friction_and_flight_are_set_only_where_there_are_any(toy):
+    view = ThreePlanes(dict(toy.inputs) | {"plane": "sliding"}, *(lambda *args, **inputs: None,) * 3,
+                       SimpleNamespace(busy=False, stop=None))  # fmt: skip
+    view.show(toy)
+    start = view._start
+    idle = [start.switches["law"].view, start.switches["landing"].view, start.numbers["mu"], start.numbers["patch"]]
+    for plane, there in (("sliding", True), ("smooth", False), ("rough", False), ("compare", True)):
+        view.look(plane)
+        assert {part.visible for part in idle} == {there}
+        assert start.controls["spin"].view.visible and start.controls["seconds"].view.visible
+
+
+def test_what_nobody_sees_is_drawn_when_somebody_does():
+    drawn, later = [], []
+    place = card("")
+    shown = WhenNear(place, later.append, drawn.append)
+    [sight] = place.objects[-1:]
+    shown.show(1)
+    sight.near = False
+    shown.show(2)
+    shown.show(3)
+    assert drawn == [1] and not later
+    sight.near = True
+    later.pop()()
+    assert drawn == [1, 3]
+    sight.near = False
+    sight.near = True
+    later.pop()()
+    assert drawn == [1, 3]  # nothing is new
