@@ -33,6 +33,18 @@ def awaited(selector):
     return lambda page: page.locator(selector).first.wait_for()
 
 
+def seen(role, name):
+    return lambda page: page.get_by_role(role, name=name, exact=True).locator("visible=true").first.wait_for()
+
+
+def click_seen(role, name):
+    return lambda page: page.get_by_role(role, name=name, exact=True).locator("visible=true").first.click()
+
+
+def crumb(place):
+    return lambda page: page.locator(".crumbs button").nth(place).click()
+
+
 def press(key):
     return lambda page: page.locator("body").press(key)
 
@@ -88,9 +100,17 @@ STEPS = {
     "a list": [lambda page: page.get_by_label("Presets").first.click(), awaited("[role=listbox]")],
     "Families": [escape, room("Families"), awaited("button:text-is('Compute the map')")],
     "Maps": [room("Maps"), awaited("h2:text-is('Where runs and formula disagree')")],
+    "Measure": [room("Measure"), seen("button", "Example: it rolls")],
+    "a film's data": [click("button", "Example: it rolls"), seen("button", "Fit")],
+    "the lab": [room("Lab"), seen("button", "Spin it")],
+    "the lab, all three": [click_seen("radio", "All three")],
     "Learn *": [room("Learn"), awaited(".covered")],
     "Learn, seen *": [click("radio", "It stays upright as long as it spins"), click("button", "Watch what it does"),
                       to_the_end],
+    "Learn, two arms": [crumb(4), awaited(".arm-own")],
+    "Learn, the end *": [crumb(6), click_seen("radio", "It turns over"),
+                         click_seen("button", "Watch what it does"), to_the_end, awaited(".end li")],
+    "For theorists": [click("button", "For theorists"), awaited(".crumbs :text('Caught, or creeping')")],
     "Derivation": [click("button", "The derivation"), awaited(".line .sides b"),
                    lambda page: page.locator(".line button").first.click()],
     "Teachers": [click("button", "For teachers"), awaited("button:text-is('Close the class and forget its votes')")],
@@ -132,6 +152,18 @@ def test_axe_finds_nothing_anywhere_in_any_look_and_no_other_machine_is_asked(ch
     assert [url for url in asked if not url.startswith((server.rsplit("/", 1)[0], "data:", "blob:"))] == []
 
 
+ON_A_PHONE = {
+    "Roll": "canvas",
+    "Three planes": "canvas:visible",
+    "Build a top": "button:text-is('Put on')",
+    "Families": "button:text-is('Compute the map')",
+    "Maps": "h2:text-is('Where runs and formula disagree')",
+    "Lab": "button:text-is('Spin it'):visible",
+    "Measure": "button:text-is('Example: it rolls')",
+    "Learn": "main .covered",
+}
+
+
 def test_axe_finds_nothing_on_a_phone(chromium, server):
     phone = chromium.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce", is_mobile=True,
                                  has_touch=True, user_agent="Mozilla/5.0 (Linux; Android 14) Mobile")  # fmt: skip
@@ -142,12 +174,18 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
     page.evaluate(AXE_SCRIPT)
     page.get_by_role("button", name="More", exact=True).click()
     assert violations(page) == [], "the menu"
-    for name, ready in {"Roll": "canvas", "Three planes": "canvas:visible", "Build a top": "button:text-is('Put on')",
-                        "Families": "button:text-is('Compute the map')", "Learn": "main"}.items():  # fmt: skip
+    for name, ready in ON_A_PHONE.items():
         go_to(page, name)
         awaited(ready)(page)
         page.wait_for_function("Bokeh.documents[0].is_idle")
         assert violations(page, but=["color-contrast"]) == [], name  # which does not go by the width
+    for place in (4, 6):  # the two arms in place of the top; the question about one's own
+        page.locator(".crumbs button").nth(place).click()
+        page.locator(".option:visible").first.wait_for()
+        assert violations(page) == [], place
+        page.evaluate(LOOK, DARK)
+        assert violations(page, CONTRAST) == [], place
+        page.evaluate(LOOK, LIGHT)
     phone.close()
 
 
