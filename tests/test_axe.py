@@ -33,18 +33,6 @@ def awaited(selector):
     return lambda page: page.locator(selector).first.wait_for()
 
 
-def seen(role, name):
-    return lambda page: page.get_by_role(role, name=name, exact=True).locator("visible=true").first.wait_for()
-
-
-def click_seen(role, name):
-    return lambda page: page.get_by_role(role, name=name, exact=True).locator("visible=true").first.click()
-
-
-def crumb(place):
-    return lambda page: page.locator(".crumbs button").nth(place).click()
-
-
 def press(key):
     return lambda page: page.locator("body").press(key)
 
@@ -100,17 +88,9 @@ STEPS = {
     "a list": [lambda page: page.get_by_label("Presets").first.click(), awaited("[role=listbox]")],
     "Families": [escape, room("Families"), awaited("button:text-is('Compute the map')")],
     "Maps": [room("Maps"), awaited("h2:text-is('Where runs and formula disagree')")],
-    "Measure": [room("Measure"), seen("button", "Example: it rolls")],
-    "a film's data": [click("button", "Example: it rolls"), seen("button", "Fit")],
-    "the lab": [room("Lab"), seen("button", "Spin it")],
-    "the lab, all three": [click_seen("radio", "All three")],
     "Learn *": [room("Learn"), awaited(".covered")],
     "Learn, seen *": [click("radio", "It stays upright as long as it spins"), click("button", "Watch what it does"),
                       to_the_end],
-    "Learn, two arms": [crumb(4), awaited(".arm-own")],
-    "Learn, the end *": [crumb(6), click_seen("radio", "It turns over"),
-                         click_seen("button", "Watch what it does"), to_the_end, awaited(".end li")],
-    "For theorists": [click("button", "For theorists"), awaited(".crumbs :text('Caught, or creeping')")],
     "Derivation": [click("button", "The derivation"), awaited(".line .sides b"),
                    lambda page: page.locator(".line button").first.click()],
     "Teachers": [click("button", "For teachers"), awaited("button:text-is('Close the class and forget its votes')")],
