@@ -1,5 +1,5 @@
-// What is borrowed of Bokeh's and Panel's scripts that has to be done before the bundle is there: first.html runs this, with
-// the addresses of the bundles. The rest, and what holds for all: frontend/src/borrowed.js.
+// What is borrowed of Bokeh's and Panel's scripts that has to be done before the bundle is there: it stands in the page
+// itself. The rest, and what holds for all: frontend/src/borrowed.js.
 
 // 1. Bokeh asks the style sheets for each colour and width of each stroke (--bk-...), and for the size of letters, and has the
 // browser work them out anew each time: nine tenths of a figure's painting. Here they say nothing of it. And where a label of
@@ -29,6 +29,8 @@ try {
 
 // 2. Panel fetches a component's bundle when the first of its components comes, reads through it and runs a copy. The browser
 // has ours by then: under its address (https://github.com/holoviz/panel/pull/7410) it is given out as it is.
+const { bundles } = JSON.parse(document.getElementById("early")?.textContent ?? "");
+/** @type {Set<string>} */
 const ours = new Set(bundles.map((path) => new URL(path, document.baseURI).href));
 const theirs = window.importShim;
 const load = (path, ...more) => {

@@ -30,6 +30,11 @@ def call(run, **given):
     return CustomJS(args={"run": run, "given": given}, code=CALL, module=False)
 
 
+def inlined(path):
+    """A script as it stands in a page, between <script> and its end; its names are its own."""
+    return f"{{\n{path.read_text(encoding='utf-8')}}}"
+
+
 class Bundled(JSComponent):
     """A component whose JavaScript is in the bundle; one base class, so that a page loads the bundle once."""
 

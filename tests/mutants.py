@@ -54,17 +54,17 @@ SLIDES = ["test_stem.py", "test_ending.py", "test_planes.py", "test_outcome.py",
 REST = dict.fromkeys(SLIDING, SLIDES)
 FIRST = {
     **{name: ["test_symbolic.py", "test_equations.py", "test_rolling.py"] for name in ROLLING},
-    **{name: ["test_contacts.py", "test_sliding.py"] for name in SLIDING},
+    **{name: ["test_contacts.py", "test_impacts.py", "test_sliding.py"] for name in SLIDING},
     "limits": ["test_tielines.py"],
     "smooth": ["test_equations.py", "test_smooth.py"],
     "friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py"],
-    "dynamics": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py", "test_contacts.py"],
-    "standing": ["test_contacts.py"],
-    **{name: ["test_many.py", "test_contacts.py"] for name in ("repeats", "many", "tally")},
+    "dynamics": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py", "test_contacts.py", "test_impacts.py"],
+    "standing": ["test_contacts.py", "test_impacts.py"],
+    **{name: ["test_many.py", "test_contacts.py", "test_impacts.py"] for name in ("repeats", "many", "tally")},
 }
 OF_APP = {
     **{
-        name: ["test_explorer.py", "test_keep.py", "test_derivation.py", "test_export.py"]
+        name: ["test_explorer.py", "test_pacing.py", "test_keep.py", "test_derivation.py", "test_export.py"]
         for name in ("explorer", "scene", "marks", "region", "frames", "bodies")
     },
     "hands": ["test_hands.py"],

@@ -110,6 +110,11 @@ def test_every_row_is_on_the_page_with_evidence():
                 assert f"def {name}(" in (HERE / file).read_text(encoding="utf-8")
 
 
+def test_the_house_names_files_that_are_there():
+    named = re.findall(r"`((?:app|tippe_core)/[\w/]+\.\w+)`", text("house"))
+    assert len(named) > 20 and [name for name in named if not (DOCS.parent / name).is_file()] == []
+
+
 def test_the_reference_has_each_public_name_once():
     named = re.findall(r"\.\. auto\w+:: tippe_core\.(\w+)", text("api"))
     assert sorted(named) == sorted(tippe_core.__all__)

@@ -54,8 +54,9 @@ def test_what_must_arrive_before_the_first_frame_is_small(server):
     """The page, the sheets in its head, the bundle with the needed part of three.js, and the run."""
     url = server.rstrip("/")
     page = urllib.request.urlopen(url).read()
+    early = json.loads(re.search(rb'id="early">(.*?)<', page)[1])
     head, text = page.partition(b"</head>")[0].decode(), page.decode()
-    files = [*re.findall(r'rel="stylesheet" href="([^"]+)"', head), re.search(r'fetch\("([^"]+)"\)', text)[1]]
+    files = [*re.findall(r'rel="stylesheet" href="([^"]+)"', head), early["numbers"]]
     files += [next(name for name in re.findall(r'rel="modulepreload" href="([^"]+)"', head) if "tippe" in name)]
     assert len(files) > 3
     assert not re.findall(r"<script[^>]* src=", text.partition('id="first"')[0])  # none holds it up

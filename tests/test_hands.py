@@ -123,9 +123,9 @@ def test_the_body_on_the_bench_is_the_scenes():
     shape = next(preset.shape for preset in PRESETS if preset.name == "Top S")
     top = shape.top
     explorer.param.update(shape=shape, a=top.a, I1=top.I1, I3=top.I3)
-    assert builder.draft.shape is shape and builder.draft.name == "Top S" and builder.attached
+    assert builder.draft.shape is shape and builder.draft.name == "Top S" and explorer.scene.shape is shape
     explorer.a = 0.1
-    assert builder.draft.shape is shape and not builder.attached
+    assert builder.draft.shape is shape and explorer.scene.shape is None
     builder.set("R", -1.0)
     assert builder.draft.messages and builder.draft.shape is shape
     builder.set("R", shape.R)

@@ -19,7 +19,7 @@ SOURCES = [path for kind in ("*.py", "*.js", "*.html", "*.toml") for path in APP
            if path not in (TABLE, OLDER) and not {"node_modules", "static"} & {*path.parts}]  # fmt: skip
 IN_A_LINK = re.compile(rf"[?&]({'|'.join(EVERY)})=")
 READ = re.compile(r"URLSearchParams|searchParams")
-BEFORE = ("first.html", "first.js")  # what the browser shows before Python is asked, in the language of the address
+BEFORE = ("early.js", "first.js")  # what the browser shows before Python is asked, in the language of the address
 
 
 def test_a_name_is_given_once():

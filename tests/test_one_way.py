@@ -1,19 +1,16 @@
 """One way, at run time too: a hand asks, the Explorer solves, one scene is shown.
 
-Every view is made alone, without Explorer, page or another view, and shows stored scenes; docs/house.md says through
-which stations three gestures go, and they go through those, each once.
+Every view is made alone, without Explorer, page or another view, and shows stored scenes; test_walks.py goes through
+the page.
 """
 
 import ast
 import importlib
-import re
-from functools import cache, partial, wraps
-from itertools import chain
+from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
-import panel as pn
 import param
 import pytest
 from bokeh.document import Document
@@ -23,19 +20,13 @@ from house import Shown
 from panel.custom import JSComponent
 from panel.io.state import set_curdoc
 
-import app.model.explorer
-import app.tabs.roll.roll
 from app.bundle import Bundled
 from app.model.build.builder import Builder
 from app.model.explorer import Explorer
 from app.model.planes import run
 from app.model.planes.picture import Settings
-from app.model.planes.planes import Planes
 from app.model.playing import Playing
-from app.model.runs import Runs
 from app.model.scene import Scene, solve
-from app.page.house import House
-from app.page.page import page
 from app.share.share import Share
 from app.state.keep import Keep
 from app.tabs.build.build import Build
@@ -48,10 +39,9 @@ from app.tabs.maps.maps import Maps
 from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
-from app.widgets.controls import FACES, Control, Controls
+from app.widgets.controls import FACES, Controls
 from app.widgets.guide import Guide
 from app.widgets.pacing import Pacer
-from app.widgets.plane_card import PlaneCard
 from app.widgets.plane_figure import PlaneFigure
 from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
@@ -349,143 +339,3 @@ def test_no_view_takes_a_function_of_the_core(path):
             taken |= {alias.name: getattr(module, alias.name) for alias in node.names}
         assert not (isinstance(node, ast.Import) and any(alias.name.startswith("tippe_core") for alias in node.names))
     assert [name for name, what in taken.items() if callable(what) and not isinstance(what, type)] == []
-
-
-# ---- three walks ----
-
-
-STATIONS = (
-    (Control, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
-    (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneFigure, "show_selected"),
-    (Motion, "show"), (PlaneFigure, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
-    (Planes, "ask"), (Planes, "follow"), (Planes, "_run_anew"), (Planes, "_publish"), (ThreePlanes, "show"),
-    (TimeFigures, "show"), (PlaneCard, "show_path"),
-)  # fmt: skip
-FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app.tabs.roll.roll, "show_top"),
-             (app.tabs.roll.roll, "show_surface"),
-             (app.model.planes.planes, "solve"))  # fmt: skip
-
-
-def station(owner, name):
-    """As docs/house.md calls it: file and name; of a function, where it is defined."""
-    function = getattr(owner, name)
-    return f"{function.__module__.removeprefix('app.').replace('.', '/')}.py {function.__qualname__}"
-
-
-@pytest.fixture
-def walk(monkeypatch):
-    """walk(query) makes the page of an address, as it is served, and returns (what it made, by class; its stations as
-    they are passed; rest()); after rest() the browser has painted all that came, and the hand rests."""
-    made, passed, timers = {}, [], []
-
-    def note(function, name):
-        @wraps(function)
-        def noted(*inputs, **named):
-            passed.append(name)
-            return function(*inputs, **named)
-
-        return noted
-
-    def kept(make):
-        @wraps(make)
-        def making(view, *inputs, **named):
-            made[type(view)] = view
-            make(view, *inputs, **named)
-
-        return making
-
-    for owner, name in (*STATIONS, *FUNCTIONS):
-        monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
-    for kind in (House, Roll, Controls, ThreePlanes):
-        monkeypatch.setattr(kind, "__init__", kept(kind.__init__))
-    monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
-    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
-    with set_curdoc(Document()):
-
-        def rest():
-            pacer = made[House].pacer
-            pacer._requested -= 1  # it is long ago
-            for _ in range(30):
-                pacer.painted.painted = pacer.painted.sent
-                if timers:
-                    timers.pop(0)()
-
-        def walked(query):
-            pn.state.location.search = query
-            page()
-            rest()
-            passed.clear()
-            return made, passed, rest
-
-        yield walked
-
-
-def told(title):
-    """The stations in docs/house.md below a heading."""
-    text = (DOCS / "house.md").read_text(encoding="utf-8")
-    part = re.search(rf"## {title}\n(.*?)(?=\n## |\Z)", text, re.S)[1]
-    return re.findall(r"^\d+\. `([^`]*)`", part, re.M)
-
-
-def test_the_walk_of_a_slider(walk):
-    made, passed, rest = walk("?v=1&tab=roll")
-    made[Controls]._controls["K_J"].view.asked = [1, 6.5, False]
-    rest()
-    assert made[Roll]._scene.constants.K_J == 6.5
-    assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
-
-
-def followers(pacer):
-    """The names of all that a Pacer shows scenes to; of what the rooms bundle, its parts."""
-    for show in chain.from_iterable(pacer._shows.values()):
-        bundled = show.args[0] if isinstance(show, partial) and show.func.__qualname__ == "Roll._draw" else [show]
-        yield from (getattr(part, "func", part).__qualname__ for part in bundled)
-
-
-def test_every_one_that_scenes_are_shown_to_is_a_station(walk):
-    made, _, _ = walk("?v=1&tab=roll")
-    stations = {getattr(owner, name).__qualname__ for owner, name in (*STATIONS, *FUNCTIONS)}
-    turned = {"Roll._show_hand", "WhenNear.show"}  # the first calls PlaneFigure's, the other what can be seen
-    assert {*followers(made[House].pacer)} - stations == turned
-
-
-def test_the_walk_of_a_tieline_that_is_pulled(walk):
-    made, passed, rest = walk("?v=1&tab=roll")
-    made[Roll]._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.5]}
-    rest()
-    assert made[Roll]._scene.constants.K_J == 6.5
-    assert passed == told("A tieline that is pulled") and len({*passed}) == len(passed)
-
-
-@pytest.mark.slow
-def test_the_walk_of_a_run_with_friction(walk):
-    made, passed, rest = walk("?v=1&tab=three-planes")
-    [dial] = [dial for dial in made[ThreePlanes].main.select(lambda part: getattr(part, "input", "") == "tilt")]
-    dial.asked = [1, 15.0, False]
-    rest()
-    assert passed == told("A run with friction") and len({*passed}) == len(passed)
-
-
-# ---- the first tab ----
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("query, first", [("", "lab"), ("?v=1&tab=roll", "roll")])
-def test_the_page_needs_no_tab_but_the_first_to_be_made(query, first, monkeypatch):
-    """Whichever that is: the others are made when they are looked at."""
-    made = []
-
-    def noted(make):
-        @wraps(make)
-        def making(house):
-            made.append(make.__name__)
-            return make(house)
-
-        return making
-
-    for name in ("lab", "roll", "planes", "build", "families", "learn", "measure"):
-        monkeypatch.setattr(House, name, noted(getattr(House, name)))
-    with set_curdoc(Document()):
-        pn.state.location.search = query
-        page()
-    assert made == [first]

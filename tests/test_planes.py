@@ -46,8 +46,9 @@ def chosen(explorer, planes, name):
 @pytest.mark.slow
 def test_the_first_look_is_a_flip_and_only_where_it_slides(explorer, planes):
     motions = planes.picture.motions
-    assert planes.plane == "sliding" and motions["sliding"].overturned < motions["sliding"].t[-1] / 2
-    assert all(np.isnan(motions[plane].overturned) for plane in ("rough", "smooth"))
+    sliding = motions["sliding"]
+    assert planes.plane == "sliding" and sliding.starts_below and sliding.crossings[0] < sliding.t[-1] / 2
+    assert not any(len(motions[plane].crossings) for plane in ("rough", "smooth"))
     assert planes.picture.settings.top == Top.paper()
 
 
@@ -519,7 +520,7 @@ def test_a_start_past_a_right_angle_has_not_overturned_where_it_falls_back(explo
     """Without spin, 100 degrees up: it falls to the other side of a right angle, which is no turning over."""
     settings = replace(planes.picture.settings, stem=False, tilt=100.0, spin=0.0, seconds=0.3)
     motion = solve(settings).motions["sliding"]
-    assert len(motion.crossings) and np.isnan(motion.overturned)
+    assert len(motion.crossings) and not motion.starts_below
 
 
 def test_a_run_is_done_to_the_share_of_its_seconds(explorer, planes):

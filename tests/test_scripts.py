@@ -8,12 +8,15 @@ import bokeh.server
 import pytest
 
 import app.page.page  # noqa: F401  all components
-from app.bundle import Bundled
+from app.bundle import Bundled, inlined
 
 FRONTEND = Path(__file__).parent.parent / "app/frontend"
 BORROWED = FRONTEND / "src/borrowed.js"
 BOKEH = Path(bokeh.server.__file__).parent / "static/js/bokeh.js"
 PYTHON = [path for path in FRONTEND.parent.rglob("*.py") if "node_modules" not in path.parts]
+PAGES = [path for path in FRONTEND.parent.rglob("*.html") if "node_modules" not in path.parts]
+INLINED = [path for path in FRONTEND.parent.rglob("*.js") if not {"frontend", "static"} & {*path.parts}
+           and path.name != "call.js"]  # fmt: skip
 OTHERS = [path for path in FRONTEND.glob("src/**/*.js") if path != BORROWED]
 
 # {name of ours: what it uses of Bokeh, as it stands in Bokeh's own script}
@@ -59,6 +62,21 @@ def test_no_javascript_stands_in_python(path):
         if re.search(r"=> ?\{|\b(const|let) [\w{\[]+.* = |addEventListener|document\.\w+\(", text)
     ]
     assert found == []
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
+def test_no_javascript_stands_in_html(path):
+    """A script in a page is a file of its own, which tsc and ESLint read; or data."""
+    text = path.read_text(encoding="utf-8")
+    scripts = re.findall(r"<script([^>]*)>(.*?)</script>", text, re.DOTALL)
+    assert [inside for _, inside in scripts if not re.fullmatch(r"\$\w+|\{\{ \w+ \}\}", inside)] == []
+    assert not re.search(r"""\son\w+=|javascript:""", text)
+
+
+@pytest.mark.parametrize("path", INLINED, ids=lambda path: path.name)
+def test_a_script_that_stands_in_a_page_ends_where_it_ends(path):
+    assert not re.search(r"</script|<!--", path.read_text(encoding="utf-8"), re.I)
+    assert inlined(path).startswith("{\n") and inlined(path).endswith("\n}")
 
 
 @pytest.mark.parametrize("kind", Bundled.__subclasses__(), ids=lambda kind: kind.__name__)

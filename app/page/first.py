@@ -1,8 +1,8 @@
 """The page around Bokeh's own: in it the arrival's top moves before the scripts, the session and the controls come.
 
 What the Lab of a session says on arrival is the same for all. Its words are written into the page, its numbers are a
-file that the browser keeps. first.js draws both, and hands the picture over to the session's component when that is
-made.
+file that the browser keeps. early.js asks for it, frontend/src/first.js draws both, and hands the picture over to the
+session's component when that is made.
 
     python -m app.page.first
 
@@ -21,7 +21,7 @@ import panel_material_ui as pmui
 from panel.custom import JSComponent
 
 from app.borrowed import address_of
-from app.bundle import Bundled
+from app.bundle import Bundled, inlined
 from app.model.lab.lab import Lab
 from app.state import names
 from app.state.keep import VERSION
@@ -30,7 +30,7 @@ from app.tabs.lab.lab import LabTab
 from app.text import LANGUAGES, speaking
 
 PAGE = Path(__file__).with_name("first.html")
-BORROWED = Path(__file__).parents[1].joinpath("borrowed.js").read_text(encoding="utf-8")
+EARLY, BORROWED = inlined(PAGE.with_name("early.js")), inlined(PAGE.parents[1] / "borrowed.js")
 FILE = Path(__file__).with_name("arrival.gz")
 FRAME, POSE, CURVE = 21, 11, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
 NUMBERS = {"profile": (2, 2, 2**20), "frames_ordinary": (FRAME, POSE, 2**12), "curves_ordinary": (CURVE, CURVE, 2**7)}
@@ -89,16 +89,14 @@ def version():
     return hashlib.sha256(FILE.read_bytes()).hexdigest()[:12]
 
 
-def variables():
-    """What PAGE needs."""
+def variables(language):
+    """What PAGE needs; language: of the page."""
     address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.name}"
-    return {
-        "borrowed": BORROWED,
-        "bundles": [address_of(kind) for kind in (Bundled, pmui.Page)],
-        "first": words(),
-        "searches": json.dumps(searches()),
-        "numbers": f"{address}?{urlencode({'v': version()})}",
-    }
+    bundles = [address_of(kind) for kind in (Bundled, pmui.Page)]
+    early = {"language": language, "bundles": bundles, "searches": searches(),
+             "numbers": f"{address}?{urlencode({'v': version()})}"}  # fmt: skip
+    return {"bundles": bundles, "first": words(), "early": json.dumps(early).replace("<", "\\u003c"),
+            "early_script": EARLY, "borrowed": BORROWED}  # fmt: skip
 
 
 if __name__ == "__main__":

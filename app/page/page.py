@@ -65,7 +65,7 @@ def page():
     tells(head, rooms, house)
     rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
     guide.tour = rooms.room == room.USUAL
-    pn.state.curdoc.template_variables.update(first.variables() | {"language": text.spoken()})
+    pn.state.curdoc.template_variables.update(first.variables(text.spoken()))
     unseen = {"width": 0, "height": 0, "margin": 0}
     around = [look, guide, pacer.painted, Connection(words=say("main.lost"), **unseen), Symbols(**unseen), failed]
     return pmui.Page(template=first.PAGE, title=say("main.title"), theme_config={"light": THEME, "dark": THEME},

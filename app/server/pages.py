@@ -13,12 +13,14 @@ from panel.io.resources import Resources
 from panel.io.server import server_html_page_for_session
 
 from app import text
+from app.bundle import inlined
 from app.server.answers import Handler, Root
 
 log = logging.getLogger("tippe")
 
 # While a page waits for its turn.
 WAITING = Template(Path(__file__).with_name("waiting.html").read_text(encoding="utf-8"))
+SCRIPT = inlined(Path(__file__).with_name("waiting.js"))
 
 
 class Sheet:
@@ -35,7 +37,7 @@ class Sheet:
         self._pages = {}
         for language in text.LANGUAGES:
             words = {name: escape(text.say(f"main.server.{name}", language)) for name in ("made", "busy")}
-            html = f"{before}{WAITING.substitute(words)}</body>{after}"
+            html = f"{before}{WAITING.substitute(words, script=SCRIPT)}</body>{after}"
             self._pages[language] = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', html)
 
     def page(self, language, token, nonce):

@@ -13,7 +13,7 @@ import numpy as np
 from bokeh.embed import components
 from bokeh.settings import settings
 
-from app.bundle import BUNDLE, Bundled
+from app.bundle import BUNDLE, Bundled, inlined
 from app.model.colours import COLOURS, ON_LIGHT
 from app.share.export import parameters
 from app.text import say, spoken
@@ -25,6 +25,7 @@ from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top
 
 PAGE = Template(Path(__file__).with_name("letter.html").read_text(encoding="utf-8"))
+SCRIPT = inlined(Path(__file__).with_name("letter.js"))
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
 PLANE = f"({SYMBOLS['K_J']}, {SYMBOLS['angle']})"
 TYPESET = {
@@ -105,6 +106,7 @@ def letter(scene, link="", look=None):
         link=f'<p>{say("share.letter.change")} <a href="{shown}">{shown}</a></p>' if link else "",
         bokeh=f"<script>{(settings.bokehjs_path() / 'js' / 'bokeh.min.js').read_text(encoding='utf-8')}</script>",
         figures=script,
+        script=SCRIPT,
         # no end of a script, and no comment, inside a script
         data=json.dumps(data).replace("<", "\\u003c"),
     ).encode()

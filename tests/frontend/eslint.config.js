@@ -45,12 +45,13 @@ export default [
   },
   // Bodies of functions, with the names that Bokeh calls them with.
   {
-    files: ["app/*.js"],
+    files: ["app/call.js"],
     languageOptions: {
       sourceType: "commonjs",
-      globals: Object.fromEntries(["run", "given", "cb_obj", "value", "format", "special_vars", "bundles"].map((name) => [name, "readonly"])),
+      globals: Object.fromEntries(["run", "given", "cb_obj"].map((name) => [name, "readonly"])),
     },
   },
+  { files: ["app/*.js", "app/{page,server,share}/*.js"], languageOptions: { sourceType: "commonjs" } }, // they stand in a page
   { files: ["app/frontend/src/**/*.js"], plugins: { ours: { rules: { typed } } }, rules: { "ours/typed": "error" } },
   { files: ["tests/frontend/*.js"], languageOptions: { globals: globals.node } },
 ];

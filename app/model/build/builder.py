@@ -208,11 +208,6 @@ class Builder(param.Parameterized):
         self._adopt(self._body, self._keep)
 
     @property
-    def attached(self) -> bool:
-        """Whether the scene's a, I1 and I3 are the body's."""
-        return self._scene.shape is not None
-
-    @property
     def _body(self) -> Shape:
         """What an edit begins with."""
         return self._coming or self.draft.shape

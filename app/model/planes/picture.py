@@ -216,12 +216,6 @@ class Motion:
         """Whether it starts below a right angle, or goes below it from there."""
         return bool(np.all(self._from_right_angle[0][:1] < 0))
 
-    @property
-    def overturned(self) -> float:
-        """The time at which theta first passes a right angle, nan if it never does, or started past it."""
-        found = self.crossings
-        return float(found[0]) if len(found) and self.trajectory.theta[0] < np.pi / 2 else np.nan
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Picture:

@@ -17,7 +17,7 @@ const hands = new WeakMap();
 
 // How far the bead is from a place, in px.
 /** @param {Pick<Source<"x" | "y">, "data">} bead @param {number[]} place @param {Record<"x" | "y", Pick<PixelScale, "compute">>} scales */
-export function awayFromBead({ data }, [px, py], { x, y }) {
+function awayFromBead({ data }, [px, py], { x, y }) {
   return Math.hypot(x.compute(data.x[0]) - px, y.compute(data.y[0]) - py);
 }
 

@@ -1,0 +1,114 @@
+"""The one thread that talks to the store of votes: what is new is told, and a store that hangs keeps nobody."""
+
+import threading
+
+import pytest
+from wire import until
+
+from app.model.votes import classroom
+from app.model.votes import desk as desks
+from app.model.votes.ballots import Away
+
+CHOICE = {"step": "flips", "asks": {"options": ["over", "between"]}, "top": {"a": ".07"}}
+
+
+HERE = "192.0.2.7"
+
+
+class Slow:
+    """A store in memory that counts how often it is read; deaf while `away`, and as slow as `gate` lets it."""
+
+    def __init__(self):
+        self.texts, self.reads, self.away, self.gate = {}, 0, False, threading.Event()
+        self.gate.set()
+
+    def read(self, keys):
+        self.gate.wait()
+        if self.away:
+            raise Away("nobody answers")
+        self.reads += 1
+        return {key: self.texts[key] for key in keys if key in self.texts}
+
+    def change(self, key, function):
+        self.gate.wait()
+        if self.away:
+            raise Away("nobody answers")
+        text = function(self.texts.get(key))
+        self.texts.pop(key, None)
+        if text is not None:
+            self.texts[key] = text
+
+
+@pytest.fixture
+def slow():
+    return Slow()
+
+
+@pytest.fixture
+def desk(slow, monkeypatch):
+    monkeypatch.setattr(desks, "store", lambda where, lasts: slow)
+    monkeypatch.setattr(desks, "LOOK_EVERY", 0.02)
+    monkeypatch.setattr(desks, "PAUSE", 0.1)
+    return desks.Desk("")
+
+
+def asked(desk, work):
+    """What comes of it."""
+    found, done = [], threading.Event()
+    desk.ask(work, lambda result: (found.append(result), done.set()))
+    assert done.wait(20)
+    return found[0]
+
+
+def test_who_looks_is_told_what_is_new_and_250_pages_cost_one_read(desk, slow):
+    room, key = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
+    teacher, students = [], [[] for _ in range(250)]
+    desk.watch(room.code, teacher.append)
+    ends = [desk.watch(room.code, student.append, votes=False) for student in students]
+    until(lambda: len(teacher) == 1)
+    before = slow.reads
+    until(lambda: slow.reads > before + 5)
+    assert len(teacher) == 1  # nothing is new
+    asked(desk, lambda rooms: rooms.vote(room.code, "phone", HERE, "over"))
+    until(lambda: len(teacher) == 2)
+    assert teacher[-1].votes == ("over",) and max(map(len, students)) <= 2
+    ends[0]()
+    seen = len(students[0])
+    asked(desk, lambda rooms: rooms.close(key))
+    until(lambda: all(student[-1] is None for student in students[1:]))
+    assert teacher[-1] is None and len(students[0]) == seen
+    # so often was it read in all, not 251 times as often
+    assert slow.reads < 2000
+
+
+def test_a_store_that_hangs_or_goes_keeps_no_page_waiting_and_is_asked_again(desk, slow):
+    room, _ = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
+    teacher = []
+    desk.watch(room.code, teacher.append)
+    until(lambda: len(teacher) == 1)
+    slow.gate.clear()
+    answers = []
+    for phone in range(20):  # each comes back at once
+        desk.ask(lambda rooms, phone=phone: rooms.vote(room.code, str(phone), HERE, "over"), answers.append)
+    slow.away = True
+    slow.gate.set()
+    until(lambda: len(answers) == 20 and len(teacher) == 2)
+    assert all(isinstance(answer, Away) for answer in answers) and isinstance(teacher[-1], Away)
+    slow.away = False
+    until(lambda: len(teacher) == 3)
+    assert teacher[-1] == room
+    assert asked(desk, lambda rooms: rooms.vote(room.code, "phone", HERE, "over")) is None
+    until(lambda: teacher[-1].votes == ("over",))
+
+
+def test_a_teacher_who_looks_keeps_his_room(desk, slow, monkeypatch):
+    for module in (classroom, desks):
+        monkeypatch.setattr(module, "USED", 0.0)
+    room, _ = asked(desk, lambda rooms: rooms.open(HERE, **CHOICE))
+    first = slow.texts[room.code]
+    desk.watch(room.code, lambda news: None, votes=False)
+    before = slow.reads
+    until(lambda: slow.reads > before + 3)
+    assert slow.texts[room.code] == first  # a student's phone that lies open does not
+    desk.watch(room.code, lambda news: None)
+    until(lambda: slow.texts[room.code] != first)

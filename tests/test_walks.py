@@ -1,0 +1,240 @@
+"""The way through the page as it is served: a hand asks, the Explorer solves, the Pacer shows, and nobody else follows.
+
+docs/house.md says through which stations three gestures go, and they go through those, each once.
+"""
+
+import importlib
+import re
+from functools import partial, wraps
+from itertools import chain
+from pathlib import Path
+
+import panel as pn
+import pytest
+from bokeh.document import Document
+from panel.io.state import set_curdoc
+
+import app.model.explorer
+import app.tabs.roll.roll
+from app.model.build.builder import Builder
+from app.model.explorer import Explorer
+from app.model.planes.planes import Planes
+from app.model.runs import Runs
+from app.page.house import House
+from app.page.page import page
+from app.share.share import Share
+from app.tabs.planes.three_planes import ThreePlanes
+from app.tabs.roll.roll import Roll
+from app.widgets.controls import Control, Controls
+from app.widgets.guide import Guide
+from app.widgets.pacing import Pacer
+from app.widgets.plane_card import PlaneCard
+from app.widgets.plane_figure import PlaneFigure
+from app.widgets.plots import Motion, TimeFigures
+
+DOCS = Path(__file__).parent.parent / "docs"
+APP = DOCS.parent / "app"
+SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room).rglob("*.py")]
+
+# ---- three walks ----
+
+
+STATIONS = (
+    (Control, "_asked"), (Roll, "_on_plane"), (Pacer, "ask"), (Pacer, "_ask_other"), (Explorer, "_solve"),
+    (Pacer, "_on_scene"), (Builder, "follow"), (Share, "show"), (Controls, "follow"), (PlaneFigure, "show_selected"),
+    (Motion, "show"), (PlaneFigure, "show_plane"), (Controls, "show"), (Guide, "show"), (Roll, "_show_words"),
+    (Planes, "ask"), (Planes, "follow"), (Planes, "_run_anew"), (Planes, "_publish"), (ThreePlanes, "show"),
+    (TimeFigures, "show"), (PlaneCard, "show_path"),
+)  # fmt: skip
+FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app.tabs.roll.roll, "show_top"),
+             (app.tabs.roll.roll, "show_surface"),
+             (app.model.planes.planes, "solve"))  # fmt: skip
+
+
+def station(owner, name):
+    """As docs/house.md calls it: file and name; of a function, where it is defined."""
+    function = getattr(owner, name)
+    return f"{function.__module__.removeprefix('app.').replace('.', '/')}.py {function.__qualname__}"
+
+
+@pytest.fixture
+def walk(monkeypatch):
+    """walk(query) makes the page of an address, as it is served, and returns (what it made, by class; its stations as
+    they are passed; rest()); after rest() the browser has painted all that came, and the hand rests."""
+    made, passed, timers = {}, [], []
+
+    def note(function, name):
+        @wraps(function)
+        def noted(*inputs, **named):
+            passed.append(name)
+            return function(*inputs, **named)
+
+        return noted
+
+    def kept(make):
+        @wraps(make)
+        def making(view, *inputs, **named):
+            made[type(view)] = view
+            make(view, *inputs, **named)
+
+        return making
+
+    for owner, name in (*STATIONS, *FUNCTIONS):
+        monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
+    for kind in (House, Roll, Controls, ThreePlanes):
+        monkeypatch.setattr(kind, "__init__", kept(kind.__init__))
+    monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
+    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
+    with set_curdoc(Document()):
+
+        def rest():
+            pacer = made[House].pacer
+            pacer._requested -= 1  # it is long ago
+            for _ in range(30):
+                pacer.painted.painted = pacer.painted.sent
+                if timers:
+                    timers.pop(0)()
+
+        def walked(query):
+            pn.state.location.search = query
+            page()
+            rest()
+            passed.clear()
+            return made, passed, rest
+
+        yield walked
+
+
+def told(title):
+    """The stations in docs/house.md below a heading."""
+    text = (DOCS / "house.md").read_text(encoding="utf-8")
+    part = re.search(rf"## {title}\n(.*?)(?=\n## |\Z)", text, re.S)[1]
+    return re.findall(r"^\d+\. `([^`]*)`", part, re.M)
+
+
+def test_the_walk_of_a_slider(walk):
+    made, passed, rest = walk("?v=1&tab=roll")
+    made[Controls]._controls["K_J"].view.asked = [1, 6.5, False]
+    rest()
+    assert made[Roll]._scene.constants.K_J == 6.5
+    assert passed == told("A slider, K_J") and len({*passed}) == len(passed)
+
+
+def followers(pacer):
+    """The names of all that a Pacer shows scenes to; of what the rooms bundle, its parts."""
+    for show in chain.from_iterable(pacer._shows.values()):
+        bundled = show.args[0] if isinstance(show, partial) and show.func.__qualname__ == "Roll._draw" else [show]
+        yield from (getattr(part, "func", part).__qualname__ for part in bundled)
+
+
+def test_every_one_that_scenes_are_shown_to_is_a_station(walk):
+    made, _, _ = walk("?v=1&tab=roll")
+    stations = {getattr(owner, name).__qualname__ for owner, name in (*STATIONS, *FUNCTIONS)}
+    turned = {"Roll._show_hand", "WhenNear.show"}  # the first calls PlaneFigure's, the other what can be seen
+    assert {*followers(made[House].pacer)} - stations == turned
+
+
+def test_the_walk_of_a_tieline_that_is_pulled(walk):
+    made, passed, rest = walk("?v=1&tab=roll")
+    made[Roll]._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.5]}
+    rest()
+    assert made[Roll]._scene.constants.K_J == 6.5
+    assert passed == told("A tieline that is pulled") and len({*passed}) == len(passed)
+
+
+@pytest.mark.slow
+def test_the_walk_of_a_run_with_friction(walk):
+    made, passed, rest = walk("?v=1&tab=three-planes")
+    [dial] = [dial for dial in made[ThreePlanes].main.select(lambda part: getattr(part, "input", "") == "tilt")]
+    dial.asked = [1, 15.0, False]
+    rest()
+    assert passed == told("A run with friction") and len({*passed}) == len(passed)
+
+
+# ---- nobody else follows what is solved ----
+
+# {room: what is shown scenes there, besides what is shown them on every page}
+FOLLOW = {
+    "lab": set(), "roll": None, "three-planes": {"Planes.follow"}, "families": {"Tops.show", "Compare.show"},
+    "build-a-top": {"Build.show", "VerdictWords.show"}, "learn": {"Learn.show"}, "maps": {"Maps.show"},
+    "measure": {"Measure.show"},
+}  # fmt: skip
+# And who hears besides that an input of the Explorer is another one: which of the planes is looked at.
+HEARS = {"three-planes": {("table", "House.planes")}}
+
+
+def hearers(explorer):
+    """(parameter, the function or the maker in which it stands) of all that an Explorer tells, but for what computes or
+    keeps."""
+    for kinds in explorer.param.watchers.values():
+        for watcher in kinds.get("value", ()):
+            fn = getattr(watcher.fn, "func", watcher.fn)
+            if not fn.__module__.startswith(("app.model.", "app.state.")):
+                yield from ((name, fn.__qualname__.partition(".<locals>")[0]) for name in watcher.parameter_names)
+
+
+@pytest.fixture
+def roomy(monkeypatch):
+    """(A House whose page is there, a list of what views are made with from now on, each with the view's name)."""
+    houses, given = [], []
+
+    def noted(make, note):
+        @wraps(make)
+        def making(made, *inputs, **named):
+            note(made, [*inputs, *named.values()])
+            make(made, *inputs, **named)
+
+        return making
+
+    for path in SHOWING:
+        module = importlib.import_module(".".join(path.relative_to(APP.parent).with_suffix("").parts))
+        for kind in vars(module).values():
+            if isinstance(kind, type) and kind.__module__ == module.__name__ and "__init__" in vars(kind):
+                taken = noted(kind.__init__, lambda view, inputs: given.extend((type(view), each) for each in inputs))
+                monkeypatch.setattr(kind, "__init__", taken)
+    monkeypatch.setattr(House, "__init__", noted(House.__init__, lambda house, inputs: houses.append(house)))
+    monkeypatch.setattr(Runs, "begin", lambda self, run, *name: run)  # nothing is computed
+    with set_curdoc(Document()):
+        pn.state.location.search = "?v=1&tab=roll"
+        page()
+        yield houses[0], given
+
+
+@pytest.mark.parametrize("name", FOLLOW)
+def test_a_room_is_told_of_scenes_by_the_pacer_alone(roomy, name):
+    """Whoever makes a view with the Explorer or with the House, or has it hear the Explorer, is noticed."""
+    house, given = roomy
+    before, heard = {*followers(house.pacer)}, {*hearers(house.explorer)}
+    if name != "roll":  # which is there
+        house.makers[name]()
+        assert {*followers(house.pacer)} - before == FOLLOW[name]
+    assert {*hearers(house.explorer)} - heard == HEARS.get(name, set())
+    assert {fn for parameter, fn in heard if parameter == "scene"} == {"Pacer._on_scene"}
+    assert {fn for _, fn in heard} == {"Pacer._on_scene", "tells"}  # the head says which top and which table
+    known = [(kind.__name__, type(each).__name__) for kind, each in given if isinstance(each, (Explorer, House))]
+    assert known == [("Pacer", "Explorer")]  # between the hands and it
+
+
+# ---- the first tab ----
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("query, first", [("", "lab"), ("?v=1&tab=roll", "roll")])
+def test_the_page_needs_no_tab_but_the_first_to_be_made(query, first, monkeypatch):
+    """Whichever that is: the others are made when they are looked at."""
+    made = []
+
+    def noted(make):
+        @wraps(make)
+        def making(house):
+            made.append(make.__name__)
+            return make(house)
+
+        return making
+
+    for name in ("lab", "roll", "planes", "build", "families", "learn", "measure"):
+        monkeypatch.setattr(House, name, noted(getattr(House, name)))
+    with set_curdoc(Document()):
+        pn.state.location.search = query
+        page()
+    assert made == [first]
