@@ -149,7 +149,7 @@ def test_what_is_out_of_sight_is_drawn_when_it_comes_into_sight(chromium, server
     page.wait_for_function("n => __tippe.top3d.count == n", arg=len(expected.trajectory.t))
     page.wait_for_function("/KJ=6.7/.test(location.search)")  # all is at rest
     assert visit.column("constants", 0, "K_J")[0] == pytest.approx(7.0)
-    page.locator("[data-figure=constants]").first.evaluate("e => e.scrollIntoView()")
+    page.locator("[data-figure=constants]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
     visit.until_column("constants", 0, "K_J", expected.K_J[0])
     page.close()
     assert not visit.errors

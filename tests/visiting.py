@@ -37,9 +37,9 @@ PIXEL = """
 
 # What waits with its drawing until it is nearly in sight takes all of the page to be.
 ALL_IS_NEAR = """
-const Seen = window.IntersectionObserver
+const Seen = window.IntersectionObserver, FAR = "10000px"
 window.IntersectionObserver = class extends Seen {
-  constructor(tell, options) { super(tell, options?.rootMargin ? { ...options, rootMargin: "10000px" } : options) }
+  constructor(tell, options) { super(tell, options?.rootMargin ? { rootMargin: FAR, scrollMargin: FAR } : options) }
 }
 """
 

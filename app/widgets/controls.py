@@ -71,6 +71,7 @@ RANGES = {
 }
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
+NO_SCROLLING = ".scroll-button { display: none !important }"
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
 PICTURES = {"upper": {"whole": True, "poles": False, "paper": PAPER}, "limit": {"lift": "lift-off", "slip": "slip"}}
 OF_A_MOTION = ("K_J", "K_R", "mu_s", "energy", "a", "I1", "I3", *FACES["state"])
@@ -241,7 +242,9 @@ class Controls(param.Parameterized):
             margin=(6, 16, 2, 16),
             sx=PLAIN,
         )
-        self._faces = {face: pn.Column(sizing_mode="stretch_width", margin=0) for face in FACES}
+        self._faces = {
+            face: pn.Column(sizing_mode="stretch_width", margin=0, stylesheets=[NO_SCROLLING]) for face in FACES
+        }
         self.param.watch(lambda event: soon(self._turn), "face")
         self._pictures = {name: Wish(pmui.RadioButtonGroup(
             label="", value=scene.inputs[name], size="small", sx=PLAIN,
@@ -253,8 +256,10 @@ class Controls(param.Parameterized):
 
     def _turn(self):
         for face, column in self._faces.items():
-            column.visible = face == self.face
-            if column.visible and not column.objects:
+            shown = face == self.face
+            # its parts stand in the grid around it, which a sheet could not say of one that is hidden
+            column.styles = {"display": "contents" if shown else "none"}
+            if shown and not column.objects:
                 column.objects = self.views(*FACES[face])
         self.show(self._scene)
 

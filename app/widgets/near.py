@@ -21,7 +21,7 @@ class WhenNear:
 
     def __init__(self, card, soon, draw):
         self._soon, self._draw, self._scene, self._drawn = soon, draw, None, None
-        self._sight = Near(styles=OVER, width=0, height=0, margin=0)
+        self._sight = Near(styles=OVER, sizing_mode="stretch_both", margin=0)
         card.styles = card.styles | {"position": "relative", "z-index": "0"}
         card.append(self._sight)
         self._sight.param.watch(lambda event: event.new and soon(self._catch_up), "near")

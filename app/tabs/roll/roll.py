@@ -22,7 +22,6 @@ from app.widgets.top3d import Top3D, show_top
 from app.widgets.typeset import power
 
 BELOW = 300  # px: Fig. 5, below the top
-BESIDE = ":host { display: contents } .scroll-button { display: none !important }"  # its parts stand in the grid around
 
 
 def plane_symbols():
@@ -113,8 +112,6 @@ class Switch:
 def controls_card(controls):
     """What sets the motion, with the friction of the table; the top, and what Figs. 5 and 6 show."""
     switch, *faces, other = controls.motion
-    for face in faces:
-        face.stylesheets = [BESIDE]
     parts = [
         across(switch), *faces, *controls.views("mu_s"), across(other),
         across(section(say("roll.sections.top"))), *controls.views("a", "I1", "I3"),

@@ -1,5 +1,5 @@
 // Whether the card that this lies in is on the screen, or so near that it soon may be.
-const NEAR = "200px";
+const NEAR = "200px"; // beyond the window, and beyond what scrolls in it
 
 /** @param {Pick<Rendering<NearModel>, "model" | "el">} rendering */
 export function renderNear({ model, el }) {
@@ -7,7 +7,7 @@ export function renderNear({ model, el }) {
   const seeing = new IntersectionObserver((entries) => {
     const near = entries[entries.length - 1].isIntersecting;
     if (model.near !== near) model.near = near;
-  }, { rootMargin: NEAR });
+  }, /** @type {any} */ ({ rootMargin: NEAR, scrollMargin: NEAR }));
   seeing.observe(el);
   model.on("remove", () => seeing.disconnect());
 }
