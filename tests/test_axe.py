@@ -132,22 +132,43 @@ def test_axe_finds_nothing_anywhere_in_any_look_and_no_other_machine_is_asked(ch
     assert [url for url in asked if not url.startswith((server.rsplit("/", 1)[0], "data:", "blob:"))] == []
 
 
+ON_A_PHONE = {
+    "Roll": "canvas",
+    "Three planes": "canvas:visible",
+    "Build a top": "button:text-is('Put on')",
+    "Families": "button:text-is('Compute the map')",
+    "Maps": "h2:text-is('Where runs and formula disagree')",
+    "Measure": "button:text-is('Example: it rolls')",
+    "Learn": "main .covered",
+}
+
+
 def test_axe_finds_nothing_on_a_phone(chromium, server):
     phone = chromium.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce", is_mobile=True,
                                  has_touch=True, user_agent="Mozilla/5.0 (Linux; Android 14) Mobile")  # fmt: skip
     page = phone.new_page()
     page.set_default_timeout(PATIENCE)
+    page.goto(server)  # the arrival
+    awaited("button:text-is('Spin it'):visible")(page)
+    page.evaluate(AXE_SCRIPT)
+    assert violations(page) == [], "the lab"
     page.goto(f"{server}?tab=roll")
     page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
     page.evaluate(AXE_SCRIPT)
     page.get_by_role("button", name="More", exact=True).click()
     assert violations(page) == [], "the menu"
-    for name, ready in {"Roll": "canvas", "Three planes": "canvas:visible", "Build a top": "button:text-is('Put on')",
-                        "Families": "button:text-is('Compute the map')", "Learn": "main"}.items():  # fmt: skip
+    for name, ready in ON_A_PHONE.items():
         go_to(page, name)
         awaited(ready)(page)
         page.wait_for_function("Bokeh.documents[0].is_idle")
         assert violations(page, but=["color-contrast"]) == [], name  # which does not go by the width
+    for place in (4, 6):  # the two arms in place of the top; the question about one's own
+        page.locator(".crumbs button").nth(place).click()
+        page.locator(".option:visible").first.wait_for()
+        assert violations(page) == [], place
+        page.evaluate(LOOK, DARK)
+        assert violations(page, CONTRAST) == [], place
+        page.evaluate(LOOK, LIGHT)
     phone.close()
 
 

@@ -211,6 +211,7 @@ def test_a_class_with_two_phones(browser, phones, server):
     page.keyboard.press("ArrowRight")
     for visiting, language in zip(students, languages, strict=True):
         visiting.page.get_by_role("heading", name=say("learn.way.question", language)).wait_for()
+        assert visiting.page.locator(".option :checked").count() == 0
     students[0].page.get_by_role("radio", name=listed("learn.way.options")["other"]).check(force=True)
     students[0].page.get_by_text(say("teach.room.sent")).wait_for()
     students[0].page.reload()

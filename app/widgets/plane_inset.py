@@ -18,9 +18,15 @@ LOOK = {"position": "absolute", "right": "10px", "bottom": "10px", "width": "200
 
 
 class PlaneInset:
-    """plane: a PlaneFigure, whose sources it draws again. view: what is laid over it."""
+    """plane: a PlaneFigure, whose sources it draws again. view: what is laid over it, empty where there is no need of
+    it: a figure is a tenth of what a page costs."""
 
     def __init__(self, plane):
+        self._plane, self.figure, self._says = plane, None, words()
+        self.view = pn.Column(visible=False, margin=0, styles=LOOK)
+
+    def _make(self):
+        plane = self._plane
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane-near")
         fig.update(sizing_mode="stretch_width", height=88)
         fig.xaxis.ticker.desired_num_ticks, fig.yaxis.ticker.desired_num_ticks = 4, 3
@@ -33,23 +39,24 @@ class PlaneInset:
         draw(fig, Segment, x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5,
              line_cap="round", **on_top)  # fmt: skip
         draw(fig, Scatter, "theta", "K_J", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
-        self._says = words()
-        self.view = pn.Column(self._says, pn.pane.Bokeh(fig, sizing_mode="stretch_width", height=88, margin=0),
-                              visible=False, margin=0, styles=LOOK)  # fmt: skip
 
     def show(self, scene):
         (inner, outer), plane = scene.turning, scene.plane
         length = outer - inner
-        short = length < SHORT * plane.theta_range[1]
-        if not short:
-            self.figure.x_range.update(start=0, end=1)
-            self.figure.y_range.update(start=0, end=1)
-            self._says.object = ""
-        else:
+        short = bool(length < SHORT * plane.theta_range[1])
+        if short:
+            made = self.figure is None
+            if made:
+                self._make()
             around = max(ROUND * length, 1e-3)
             self.figure.x_range.update(start=inner - around, end=outer + around)
             high = 0.06 * (plane.K_J_range[1] - plane.K_J_range[0])
             K_J = float(scene.constants.K_J)
             self.figure.y_range.update(start=K_J - high, end=K_J + high)
             self._says.object = say("roll.near.says", inner=np.degrees(inner), outer=np.degrees(outer))
-        self.view.visible = bool(short)
+            if made:
+                figure = pn.pane.Bokeh(self.figure, sizing_mode="stretch_width", height=88, margin=0)
+                self.view.objects = [self._says, figure]
+        elif self.figure is not None:
+            self.figure, self.view.objects, self._says.object = None, [], ""
+        self.view.visible = short

@@ -14,6 +14,7 @@ test("a number is right within what a good guess may be off, near within thrice 
   const asks = { low: 0, high: 180, step: 0.5, near: 3 };
   assert.deepEqual([60, 63, 57, 69, 70].map((guess) => verdictOf(asks, 60, guess)), ["right", "right", "right", "near", "off"]);
   assert.equal(verdictOf(asks, null, 60), "never");
+  assert.equal(verdictOf(asks, 60, NaN), "unsure"); // nobody guessed
 });
 
 test("words that would lie over each other are pushed apart, and stay within the picture", () => {

@@ -155,7 +155,7 @@ class Lesson {
   reveal() {
     const { record } = this;
     if (record.asked || !this.step.asks) return;
-    record.guess ??= this.step.asks.unsure ?? NaN;
+    record.guess ??= NaN;
     this.ask("reveal", "");
     this.watch();
   }
@@ -213,7 +213,7 @@ class Lesson {
     this.asked = step.name;
     if (mine !== undefined && mine !== null) this.record.guess = mine;
     if (room.asked === step.name && room.shown && step.told.length && !this.record.asked) {
-      this.record.guess ??= step.asks.unsure ?? NaN;
+      this.record.guess ??= NaN;
       this.watch();
     }
   }

@@ -4,6 +4,7 @@ import { part, say } from "../lab/parts.js";
 // How a guess stands to the truth.
 /** @param {any} asks @param {any} truth @param {any} guess */
 export function verdictOf(asks, truth, guess) {
+  if (Number.isNaN(guess)) return "unsure"; // nobody guessed: it was shown to all
   if (asks.options) return guess === asks.unsure ? "unsure" : guess === truth ? "right" : "off";
   if (truth === null) return "never";
   const apart = Math.abs(guess - truth);

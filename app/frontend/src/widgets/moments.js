@@ -5,7 +5,7 @@ import { part } from "./parts.js";
 
 const style = `
 ol { list-style: none; margin: 0; padding: 0; font-size: calc(13px * var(--type, 1)); line-height: 1.35; color: var(--ink, #22303c); }
-button { display: grid; grid-template-columns: 4em 1fr 1.4fr; gap: 0 10px; width: 100%; padding: 3px 8px; border: 0;
+button { display: grid; grid-template-columns: 4em 1fr 1.4fr; gap: 0 10px; width: 100%; min-height: 24px; padding: 3px 8px; border: 0;
   border-radius: 6px; background: none; font: inherit; color: inherit; text-align: left; cursor: pointer; font-variant-numeric: tabular-nums; }
 button:hover { background: color-mix(in srgb, currentColor 8%, transparent); }
 button:focus-visible { outline: 2px solid var(--focus, #1565c0); outline-offset: -2px; }
