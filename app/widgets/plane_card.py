@@ -16,7 +16,7 @@ from app.widgets.slip_lines import HIGH, SlipLines
 from tippe_core import Top, TruncatedSphere
 
 # As high without a button, so that nothing moves when one comes.
-ROADS = {"display": "flex", "gap": "8px", "align-items": "center", "min-height": "36px"}
+ROADS = {"display": "flex", "flex-direction": "row", "gap": "8px", "align-items": "center", "min-height": "36px"}
 
 
 class PlaneCard:

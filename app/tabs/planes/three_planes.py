@@ -17,7 +17,7 @@ from app.widgets.cards import card, first, later, note, staged, swatch, words
 from app.widgets.moments import Moments
 from app.widgets.top3d import Top3D, pack_frames
 
-BELOW = 270  # px: what stands under the stage
+BELOW = 310  # px: what stands under the stage
 BESIDE = """
 :host { display: grid; gap: 12px } .scroll-button { display: none !important }
 @media (min-width: 700px) { :host { grid-template-columns: minmax(0, 5fr) minmax(0, 3fr) } }
