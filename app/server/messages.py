@@ -174,6 +174,7 @@ CHANGES = {
     "Dial": {"asked": row(COUNT, NUMBER, FLAG) | row(COUNT, SHORT, FLAG)},
     "MeasuredFile": {"table": row(text(200_000), COUNT, COUNT)},
     "FilmStage": {},
+    "Moments": {},
     "Guide": {},
     "LessonView": {"asked": row(COUNT, one_of("vote"), NUMBER | SHORT) | row(COUNT, SHORT, SHORT)},
     "Head": {"asked": row(COUNT, SHORT, FLAG | SHORT)},
