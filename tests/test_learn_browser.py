@@ -69,13 +69,13 @@ def watched(page, language="en"):
 def test_the_derivation_is_live(browser, server):
     visit = opened(browser, server + "?tab=learn&learn=derivation")
     page = visit.page
-    sides = page.locator(".line .sides").first
+    sides = page.locator(".lines .line .sides").first
     sides.locator("b").first.wait_for()
     # the numbers go with the clock; at the turning point itself that of F_x would be the root of a rounding
     before = sides.inner_text()
     page.get_by_role("button", name=say("browser.Top3D.forward"), exact=True).click()
     page.wait_for_function("([node, text]) => node.innerText != text", arg=[sides.element_handle(), before])
-    lines = page.locator(".line").evaluate_all("""all => all.map((line) => [
+    lines = page.locator(".lines .line").evaluate_all("""all => all.map((line) => [
         Number(line.querySelector(".sides").dataset.apart),
         [...line.querySelectorAll("[data-symbol]")].map((node) => node.dataset.symbol)])""")
     assert len(lines) == len(derivation.LINES)
@@ -83,10 +83,10 @@ def test_the_derivation_is_live(browser, server):
     for (_, known), line in zip(lines, derivation.LINES, strict=True):
         assert set(line.symbols.split()) <= set(known), line.number
     # a symbol is seen beside the top, alone, and its value is said
-    page.locator(".line").nth(4).locator("[data-symbol=omega]").first.hover()
+    page.locator(".lines .line").nth(4).locator("[data-symbol=omega]").first.hover()
     page.locator(".tip").get_by_text(listed("derivation.symbols.omega")).wait_for()
     page.wait_for_function("__tippe.tops('learn').some((top) => top.highlight == 'ω')")
-    page.locator(".line").last.scroll_into_view_if_needed()
+    page.locator(".lines .line").last.scroll_into_view_if_needed()
     expect(page.get_by_role("button", name=say("browser.Top3D.forward"), exact=True)).to_be_in_viewport()
     closed(visit)
 
