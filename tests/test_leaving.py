@@ -187,7 +187,7 @@ async def flood(here, monkeypatch):
     await other.set(wanted, "clicks", 1)
     await other.set(wanted, "clicks", 2)
     await asyncio.to_thread(until, lambda: (6.5, 2) in heard)  # clicks are gathered for a moment before they are heard
-    assert other.now(wanted, "making")
+    await other.until(lambda: other.now(wanted, "making"))
     go.put(None)
     go.put(None)
     await other.until(lambda: other.now(wanted, "file", [0])[0] == 1)
