@@ -96,7 +96,7 @@ STEPS = {
     "Teachers": [click("button", "For teachers"), awaited("button:text-is('Close the class and forget its votes')")],
     "presented": [click("button", "Present to a class (P)"), awaited(".lesson.present"), press("ArrowRight"),
                   awaited(".link-said:has-text('?vote=')")],
-    "History": [press("Escape"), click("button", "History"), awaited("ol >> nth=0")],
+    "History": [press("Escape"), click("button", "History"), awaited("ol:visible >> nth=0")],
 }  # fmt: skip
 LIGHT, DARK, LARGE, DARK_LARGE = (False, False), (True, False), (False, True), (True, True)
 

@@ -67,12 +67,12 @@ def test_a_german_page_writes_decimal_commas_on_axes_in_fields_and_in_3d(opened)
 def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):
     page = opened("?v=1&tab=roll")
     page.wait_for_function(WHOLE)  # else there is nothing to scroll
-    top, figure = page.locator(TOP).first, page.locator("canvas[aria-label^='Figure 5']").element_handle()
+    top, slider = page.locator(TOP).first, page.get_by_role("slider", name="Jellett’s constant").element_handle()
     top.click()  # also once it was clicked
-    box, before = top.bounding_box(), figure.bounding_box()["y"]
+    box, before = top.bounding_box(), slider.bounding_box()["y"]
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.wheel(0, 100)
-    page.wait_for_function(HIGHER, arg=[figure, before])
+    page.wait_for_function(HIGHER, arg=[slider, before])
     assert top.bounding_box()["y"] > 0  # it stays in sight
     assert "view=" not in page.url
     page.keyboard.down("Control")

@@ -60,7 +60,7 @@ def test_a_link_with_a_fit_shows_it_without_fitting_anew(monkeypatch):
         for name, sides in before.sides.items():
             assert after.sides[name] == pytest.approx(sides, rel=1e-8)
         np.testing.assert_allclose(after.correlation, before.correlation, atol=1e-3)
-    assert "came with the film" in other.found.object and "came with" not in one.found.object
+    assert "was saved with the film" in other.found.object and "was saved with" not in one.found.object
 
 
 def fits_that_are_none():
