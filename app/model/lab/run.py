@@ -97,8 +97,12 @@ class Watched(Motion):
     @property
     def carried(self) -> NDArray[np.str_]:
         """On what it stands at these times: "ball", "stem", "both" or "none"."""
+        return self.carried_at(self.trajectory.t)
+
+    def carried_at(self, t: Array) -> NDArray[np.str_]:
+        """The same at these times of the trajectory."""
         since, on = zip(*self.trajectory.supports, strict=True)
-        return np.array(on)[np.searchsorted(since, self.trajectory.t, side="right") - 1]
+        return np.array(on)[np.searchsorted(since, t, side="right") - 1]
 
     @property
     def rolls_since(self) -> float:

@@ -38,7 +38,7 @@ def moments(motion: Motion | None, settings: Settings, plane: str) -> tuple[Mome
     told = [(0.0, say("planes.moments.begins")), *sorted(each for each in found if each[0] > 0.0)]
     if len(told) > MOST:
         told = [*told[: MOST - 1], told[-1]]
-    return tuple(Moment(t / unit, t, word, _after(motion, t / unit, part)) for t, word in told)
+    return tuple(Moment(t / unit, t, word, _after(watched, t / unit, part)) for t, word in told)
 
 
 def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
@@ -69,12 +69,11 @@ def _touches(motion: Motion, unit: float, part: str) -> list[tuple[float, str]]:
     return found[:-1]
 
 
-def _after(motion: Motion, t: float, part: str) -> str:
+def _after(motion: Watched, t: float, part: str) -> str:
     """How it is right after a time."""
     moved = motion.trajectory
     i = min(int(np.searchsorted(moved.t, t, side="right")), len(moved.t) - 1)
-    since, on = zip(*moved.supports, strict=True) if moved.supports else ((0.0,), ("ball",))
-    carried = on[max(int(np.searchsorted(since, t, side="right")) - 1, 0)]
+    carried = str(motion.carried_at(np.asarray(t))) if moved.supports else "ball"
     does = say(f"regimes.stretch.{NAMES[int(motion.frames[-1][i])]}")
     if carried != "none":
         does += " " + say(f"planes.spells.on.{ON.get(carried, 'ball')}", part=part)
