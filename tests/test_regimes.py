@@ -48,7 +48,7 @@ def test_every_end_has_its_colour_and_its_words(language):
 
 def test_what_the_core_calls_an_end_is_in_the_list():
     top = Top.paper()
-    many = slide_many(top, [State(theta=0.1, omega3=spin) for spin in (0.0, 20.0, 60.0)], Coulomb(0.3), [1.0, 9.0])
+    many = slide_many(top, [State(0.1, 0.0, 0.0, spin) for spin in (0.0, 20.0, 60.0)], Coulomb(0.3), 9.0)
     assert {*many.end.ravel()} <= {*ends.NAMES}
 
 
