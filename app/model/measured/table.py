@@ -64,6 +64,7 @@ _UNIT = {
     "grad/s": "deg/s", "rpm": "rpm", "rev/min": "rpm", "u/min": "rpm", "1/min": "rpm", "mm": "mm", "cm": "cm", "m": "m",
 }  # fmt: skip
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?", re.A)
+_UNIT_LAST = re.compile(r"(?:\s+in\s+|[/_ ]\s*)([^/_\s]+(?:/[^/_\s]+)?)\s*$")
 _GAP = {"", "-", "nan", "na", "n/a", "null", "none"}
 
 
@@ -255,7 +256,7 @@ def _understood(name: str) -> tuple[str, str, float | None]:
     """(quantity, unit, error) of a column's name; "" for what it does not tell."""
     name, _, error = name.partition("±")
     found = _NUMBER.fullmatch(error.strip())
-    unit = re.search(r"[(\[]([^)\]]*)[)\]]", name) or re.search(r"(?:\s+in\s+|[/_ ]\s*)([^/_\s]+(?:/[^/_\s]+)?)\s*$", name)
+    unit = re.search(r"[(\[]([^)\]]*)[)\]]", name) or _UNIT_LAST.search(name)
     known = _UNIT.get(unit[1].strip().lower(), "") if unit else ""
     called = name[: unit.start()] + name[unit.end() :] if unit and known else name
     bare = re.sub(r"[^a-zäöüßθφϕω0-9]", "", called.lower())
