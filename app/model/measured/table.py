@@ -19,6 +19,8 @@ LARGEST = 200_000
 """Bytes of a table: the server takes a message of 256 KiB, and text grows a little on its way."""
 FEWEST, MOST = 8, 5000
 """Rows of a table."""
+HEAD = 12
+"""First lines of a long table, of which the browser leaves none out."""
 USUAL = {"rev/s": 60.0, "rad/s": 600.0, "deg/s": math.inf}
 """{unit: the largest number that a top's spin is likely to have in it}."""
 
@@ -273,6 +275,13 @@ def _likely(quantity: str, values: Array, name: str) -> str:
     if UNITS[quantity] is RATES:
         return next(unit for unit, most in USUAL.items() if largest <= most)
     return "m" if largest < 2 else "mm"
+
+
+def line_in_file(line: int, each: int) -> int:
+    """Where a line of a table stands in its file, of which the browser kept the first lines, and of the others those
+    whose number from 0 is a multiple of each."""
+    beyond = line - 1 - HEAD
+    return line if each == 1 or beyond < 0 else each * (math.ceil(HEAD / each) + beyond) + 1
 
 
 def written(table: Table) -> str:
