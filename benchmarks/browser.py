@@ -222,7 +222,8 @@ def hands(playwright, servers):
     for _ in range(ROUNDS):
         for name in servers:
             handle = ".noUi-handle" if name == "bare" else "input[aria-label='Jellett’s constant']"
-            page = browser.new_page(viewport={"width": 1400, "height": 900}, locale="en")
+            # As high as the whole page of Research: what is out of sight is not sent.
+            page = browser.new_page(viewport={"width": 1400, "height": 2000}, locale="en")
             page.set_default_timeout(120_000)
             page.add_init_script("localStorage.setItem('tippe:tour', '1')")
             page.goto(servers[name][1] if name == "bare" else of_roll(servers[name][1]))

@@ -5,17 +5,13 @@ from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Line, MultiLine
 from bokeh.palettes import Viridis256
 
 from app.bundle import call
-from app.model.colours import INK
+from app.model import ends
+from app.model.colours import ACCENT, INK
 from app.model.maps.lines import lines
-from app.model.maps.maps import ENDINGS
 from app.tabs.maps.stage import CLOCK
 from app.text import listed, say
 from app.widgets.plots import draw, plain
 
-# One hue, light to dark by tilt, always with the word; what rolls or changes stands between.
-END_COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2", "moving": "#cdb88f",
-               "inverted": "#a88a55", "stem": "#80632f", "refused": "#9aa3ac"}  # fmt: skip
-ON_END = {"inverted": "white", "stem": "white"}  # words on these; else dark
 DARK = "#1b2430"
 DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
           "window_high": "dotdash"}  # fmt: skip
@@ -43,15 +39,15 @@ class MapFigure:
         draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
         draw(fig, Scatter, "x", "y", source=self.bead, level="overlay", size=17, fill_color="#fefefe",
-             line_color="#1558c0", line_width=5)  # fmt: skip
+             line_color=ACCENT, line_width=5)  # fmt: skip
         self.words = []
-        for _ in ENDINGS:
+        for _ in ends.NAMES:
             self.words.append(Label(x=0, y=0, text=" ", visible=False, text_align="center", text_baseline="middle",
                                     text_font_size="12px", text_font_style="bold"))  # fmt: skip
             fig.add_layout(self.words[-1])
         self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [0]})
-        box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color="#1558c0", fill_alpha=0.15,
-                            line_color="#1558c0", line_width=2)  # fmt: skip
+        box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color=ACCENT, fill_alpha=0.15,
+                            line_color=ACCENT, line_width=2)  # fmt: skip
         fig.add_layout(box)
         mine = {"fig": fig, "hand": self.hand, "bead": self.bead, "box": box}
         for event in ("tap", "panstart", "pan", "panend"):
@@ -93,13 +89,15 @@ class MapFigure:
 
     def _name_areas(self, level, colour):
         named = listed("maps.ends")
-        for word, end in zip(self.words, ENDINGS, strict=True):
+        for word, end in zip(self.words, ends.NAMES, strict=True):
             own = np.argwhere(level.end == end)
             if colour != "end" or len(own) < LEAST_AREA * level.end.size:
                 word.visible = False
                 continue
             i, j = own[np.argmin(np.sum((own - own.mean(axis=0)) ** 2, axis=1))]
-            word.update(x=level.x[j], y=level.y[i], text=named[end], text_color=ON_END.get(end, DARK), visible=True)
+            word.update(
+                x=level.x[j], y=level.y[i], text=named[end], text_color=ends.WORDS_ON.get(end, DARK), visible=True
+            )
 
 
 class RunFigure:
@@ -112,7 +110,7 @@ class RunFigure:
         fig.yaxis.ticker.desired_num_ticks = 4
         self.source = ColumnDataSource({"t": [], "theta": []})
         draw(fig, Line, "t", "theta", source=self.source, line_color=INK, line_width=2)
-        now = Span(location=0, dimension="height", line_color="#1558c0", line_width=1.5)
+        now = Span(location=0, dimension="height", line_color=ACCENT, line_width=1.5)
         fig.add_layout(now)
         fig.js_on_change("inner_width", call("moveLines", spans=[now], clock=CLOCK))
         for event in ("tap", "panstart", "pan", "panend"):
@@ -140,7 +138,7 @@ def cells(level, colour):
     """The colours as Bokeh takes them, (up, across) of uint32; transparent where no run was made or nothing is."""
     rgba = np.zeros((*level.end.shape, 4), np.uint8)
     if colour == "end":
-        for end, name in END_COLOURS.items():
+        for end, name in ends.COLOUR.items():
             rgba[level.end == end] = (*bytes.fromhex(name[1:]), 255)
     elif found := span(level, colour):
         low, high = found

@@ -3,15 +3,16 @@
 import numpy as np
 from bokeh.palettes import Viridis256
 
+from app.model import ends
 from app.model.maps.lines import lines
-from app.model.maps.maps import ENDINGS, QUANTITIES, UNITS
-from app.tabs.maps.picture import DASHES, END_COLOURS, span
+from app.model.maps.maps import QUANTITIES, UNITS
+from app.tabs.maps.picture import DASHES, span
 from app.text import listed, say, written
 from app.widgets.cards import note, px, swatch
 from app.widgets.typeset import power
 
 PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid #8a96a3; {}"
-HATCHED = "background: repeating-linear-gradient(135deg, #dccaa2 0 3px, #1b2430 3px 4px)"
+HATCHED = f"background: repeating-linear-gradient(135deg, {ends.COLOUR['rolling']} 0 3px, #1b2430 3px 4px)"
 LINE = {"solid": "solid", "dashed": "dashed", "dotted": "dotted", "dashdot": "dashed", "dotdash": "dotted"}
 
 
@@ -25,7 +26,9 @@ def colours_say(level, colour):
     said = [f"<h2>{say('maps.colours_say')}</h2>"]
     if colour == "end":
         named = listed("maps.ends")
-        said += [_patch(f"background: {END_COLOURS[end]}", named[end]) for end in ENDINGS if (level.end == end).any()]
+        said += [
+            _patch(f"background: {ends.COLOUR[end]}", named[end]) for end in ends.NAMES if (level.end == end).any()
+        ]
     elif found := span(level, colour):
         ramp = ", ".join(Viridis256[::51])
         unit = UNITS[colour]

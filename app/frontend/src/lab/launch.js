@@ -53,6 +53,7 @@ export class Launch {
 
   end() {
     cancelAnimationFrame(this.frame);
+    this.frame = 0;
     this.button.textContent = this.word;
   }
 
@@ -67,7 +68,7 @@ export class Launch {
     const { texts } = this;
     this.word = table === "three" ? texts.spin_all : texts.spin_it;
     if (!this.charged) this.button.textContent = this.word;
-    this.button.hidden = waits;
+    this.button.hidden = waits && !this.frame; // what is held stays under the hand
     this.wait.hidden = !waits;
     this.progress.value = state.reached ?? 0;
     this.share.textContent = say(texts, texts.percent, { share: [100 * (state.reached ?? 0), 0] });
