@@ -35,6 +35,31 @@ def tab():
     return made
 
 
+FRAMES = "\n".join(["frame\ttilt (deg)", *(f"{i}\t{5 + i}" for i in range(30))])
+
+
+def test_a_table_that_needs_a_word_more_is_not_there_before():
+    """What was there stays whole: its data, and the top of which they are."""
+    made = Measure(Explorer().scene)
+    made.take_example("rolls")
+    before = made._data, made._body
+    made.take(FRAMES)
+    assert "frames" in made.said.object and (made._data, made._body) == before and made._example == "rolls"
+    made.columns.rate.value = "240"
+    assert made._example == "" and made._data.t[-1] == pytest.approx(29 / 240)
+
+
+@pytest.mark.parametrize(("each", "line"), [(1, 24), (5, 71), (40, 441)])
+def test_a_line_is_that_of_the_file(each, line):
+    """Of which the browser left out rows: 12 lines are kept, and of the others those at multiples of each, from 0."""
+    file = ["t,tilt", *(f"{i / 100:.2f},5" for i in range(1, 12 + 30 * each))]
+    file[line - 1] = f"{(line - 1) / 100:.2f},five"
+    kept = [row for i, row in enumerate(file) if i < 12 or i % each == 0]
+    made = Measure(Explorer().scene)
+    made.take("\n".join(kept), each)
+    assert f"Line {line}, column tilt" in made.said.object
+
+
 @pytest.mark.slow
 def test_the_example_that_slips_is_told_so_and_recovered(tab):
     assert "This top slipped." in tab.found.object and "cannot have rolled" in tab.found.object

@@ -141,6 +141,7 @@ interface FilmStageModel extends Model {
 interface MeasuredFileModel extends Model {
   most: number;
   rows: number;
+  head: number;
   table: [text: string, each: number, count: number];
 }
 

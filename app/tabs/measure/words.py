@@ -5,6 +5,7 @@ import html
 import numpy as np
 
 from app.model.measured.fit import verdict
+from app.model.measured.table import line_in_file
 from app.text import listed, say, written
 from app.widgets.cards import note
 
@@ -114,10 +115,12 @@ def _state(fit):
     return "stands"
 
 
-def notes_words(notes):
-    """What was left out of a table."""
-    return "".join(f"<div>{say(f'measure.notes.{code}', **_escaped(numbers))}</div>" for code, numbers in notes)
+def notes_words(notes, each=1):
+    """What was left out of a table, of whose file it has every so-manieth row."""
+    return "".join(f"<div>{html.escape(say(f'measure.notes.{code}', **in_file(numbers, each)), quote=False)}</div>"
+                   for code, numbers in notes)  # fmt: skip
 
 
-def _escaped(numbers):
-    return {name: html.escape(value) if isinstance(value, str) else value for name, value in numbers.items()}
+def in_file(numbers, each):
+    """What stands in a sentence of a table; its line is that of the file."""
+    return numbers | {"line": line_in_file(numbers["line"], each)} if "line" in numbers else numbers
