@@ -67,9 +67,9 @@ const places = `
 .lab[data-table=three] .outline { display: none; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
-    --stage: clamp(390px, 100vh - 368px, 62cqw); }
+    --stage: clamp(390px, 100vh - 392px, 62cqw); }
 }
-@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; } }
+@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; --stage: clamp(390px, 100vh - 346px, 62cqw); } }
 @container (max-width: 900px) { .lab { --side: 300px; } }
 @container (min-width: 701px) and (max-width: 1499px) {
   .frame[data-large] .lab { --side: clamp(300px, 38cqw, 530px); --bar: 160px; --stage: clamp(440px, 100vh - 396px, 62cqw); }
