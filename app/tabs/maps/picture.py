@@ -1,8 +1,9 @@
 """A Level of a map -> Bokeh: one picture of cells, a hatch on those that are mixed, closed-form lines, the bead."""
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Line, MultiLine, Quad, Range1d, Scatter, Span
+from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Line, MultiLine, Quad, Range1d, Scatter, Segment, Span
 from bokeh.palettes import Viridis256
+from scipy.ndimage import distance_transform_edt
 
 from app.bundle import call
 from app.model import ends
@@ -15,7 +16,8 @@ from app.widgets.plots import draw, plain
 DARK = "#1b2430"
 DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
           "window_high": "dotdash"}  # fmt: skip
-LEAST_AREA = 0.06  # of the map: an end with less has its word in the key alone
+LEAST_AREA, LEAST_ROOM = 0.06, 0.05  # of the map, of its width to either side: an end with less is in the key alone
+WIDE = 4.0  # times as much room as above and below
 
 
 class MapFigure:
@@ -38,6 +40,9 @@ class MapFigure:
         draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color="#fefefe", line_width=5)
         draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
+        line = {"x1": "x", "y1": "y", "line_color": ACCENT, "line_width": 1.5}
+        self._to_axes = [draw(fig, Segment, source=self.bead, **line, **begin)
+                         for begin in ({"x0": 0.0, "y0": "y"}, {"x0": "x", "y0": 0.0})]  # fmt: skip
         draw(fig, Scatter, "x", "y", source=self.bead, level="overlay", size=17, fill_color="#fefefe",
              line_color=ACCENT, line_width=5)  # fmt: skip
         self.words = []
@@ -61,6 +66,7 @@ class MapFigure:
         """Another map: nothing of the one before is left."""
         self.figure.x_range.update(start=asked.across_range[0], end=asked.across_range[1])
         self.figure.y_range.update(start=asked.up_range[0], end=asked.up_range[1])
+        self._to_axes[0].glyph.x0, self._to_axes[1].glyph.y0 = asked.across_range[0], asked.up_range[0]
         for source in (self.coarse, self.fine, self.mixed, self.lines):
             source.data = {name: [] for name in source.data}
         for word in self.words:
@@ -90,11 +96,13 @@ class MapFigure:
     def _name_areas(self, level, colour):
         named = listed("maps.ends")
         for word, end in zip(self.words, ends.NAMES, strict=True):
-            own = np.argwhere(level.end == end)
-            if colour != "end" or len(own) < LEAST_AREA * level.end.size:
+            own = level.end == end
+            room = distance_transform_edt(np.pad(own, 1), sampling=(WIDE, 1))[1:-1, 1:-1]  # for a word, which is wide
+            room[[0, -1]] = 0  # a word there would be cut off
+            if colour != "end" or own.mean() < LEAST_AREA or room.max() < LEAST_ROOM * len(level.x):
                 word.visible = False
                 continue
-            i, j = own[np.argmin(np.sum((own - own.mean(axis=0)) ** 2, axis=1))]
+            i, j = np.unravel_index(np.argmax(room), room.shape)
             word.update(
                 x=level.x[j], y=level.y[i], text=named[end], text_color=ends.WORDS_ON.get(end, DARK), visible=True
             )

@@ -11,7 +11,7 @@ from app.bundle import call
 from app.model import ends
 from app.model.colours import ACCENT, INK
 from app.model.maps.rates import rates
-from app.model.maps.steady import at_place, bifurcation
+from app.model.maps.steady import at_place, bifurcation, spins_of
 from app.model.runs import MAPS, Run, Stopped
 from app.tabs.maps.picture import DARK
 from app.tabs.maps.words import unit_of
@@ -74,7 +74,11 @@ class Steady:
         if key == self._key:
             return
         self._key = key
-        self.title.object = f"<h2>{say('maps.steady.title', tilt=x['tilt'])}</h2>"
+        if not self.title.object:  # else what stands there is still of the place before
+            self.title.object = _title(x)
+            for fig in (self.bends, self.grow, self.turn):
+                fig.x_range.update(**dict(zip(("start", "end"), spins_of(asked), strict=True)))
+        self.says.object = note(say("maps.steady.waits"))
         work = Run(lambda run: (bifurcation(asked, place, run.look), rates(asked, place, run.look)),
                    partial(self._done, key, x))  # fmt: skip
         self._runs.begin(work, "maps-steady", MAPS)
@@ -89,6 +93,7 @@ class Steady:
             raise result
         found, small = result
         with pn.io.hold():
+            self.title.object = _title(x)
             self._draw(found)
             self._draw_rates(small)
             self.says.object = of_life(found)
@@ -119,6 +124,10 @@ class Steady:
             seen = seen[np.isfinite(seen)]
             room = 0.06 * (np.ptp(seen) or 1.0)
             fig.y_range.update(start=float(seen.min() - room), end=float(seen.max() + room))
+
+
+def _title(x):
+    return f"<h2>{say('maps.steady.title', tilt=x['tilt'])}</h2>"
 
 
 def of_life(found):

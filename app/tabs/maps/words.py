@@ -45,8 +45,7 @@ def colours_say(level, colour):
 
 def of_run(asked, across, up, found):
     """What became of one run."""
-    units = [unit_of(name) for name in (asked.across, asked.up)]
-    says = say("maps.run.says", across=across, across_unit=units[0], up=up, up_unit=units[1],
+    says = say("maps.run.says", across=_measured(across, asked.across), up=_measured(up, asked.up),
                end=listed("maps.ends")[found.end])  # fmt: skip
     times = [say("maps.run.passes", time=found.time_90) if np.isfinite(found.time_90) else say("maps.run.never")]
     if np.isfinite(found.time_stem):
@@ -67,10 +66,16 @@ def of_disagreement(found, asked, first):
     """Where runs do otherwise than the closed form says, and why; first: of the kinds that there may be."""
     if found is None:
         return note(say("maps.agree")) if first else ""
-    unit = unit_of(asked.across)
-    says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=found.low, high=found.high,
-               unit=unit) + say(f"maps.why.{found.why}")  # fmt: skip
+    low, high = written(found.low, ".3g"), _measured(found.high, asked.across)
+    says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=low, high=high)
+    says += say(f"maps.why.{found.why}")
     return (f"<h2>{say('maps.disagree')}</h2>" if first else "") + says
+
+
+def _measured(value, name):
+    """A value of a quantity with its unit."""
+    unit = unit_of(name)
+    return written(value, ".3g") + (f" {unit}" if unit not in ("", "°") else unit)
 
 
 def title(asked, colour):
