@@ -109,7 +109,7 @@ class Lab {
 
   // What Python sent, as what the parts draw.
   read() {
-    const { model } = this, { table } = this.state, state = { ...this.state, old: this.old() };
+    const { model } = this, { table, runs } = this.state, state = Object.assign({}, this.state, { old: this.old() });
     const each = (read) => Object.fromEntries(TABLES.map((name) => [name, read(name)]));
     for (const name of TABLES) {
       const bytes = model[`curves_${name}`];
@@ -117,7 +117,7 @@ class Lab {
     }
     const alone = table === "three" ? "ordinary" : table, curves = each((name) => this.bytes[name].curves);
     return {
-      state, texts: model.texts, table, curves, runs: state.runs, run: state.runs[alone], unit: model.seconds, a: model.a,
+      state, texts: model.texts, table, curves, runs, run: runs[alone], unit: model.seconds, a: model.a,
       frames: each((name) => model[`frames_${name}`]), profile: float32(model.profile),
       end: Math.max(...Object.values(curves).map(({ end }) => end)), waits: this.waits,
       track: (name) => trackOf(float32(model[`frames_${name}`]), model.seconds),
