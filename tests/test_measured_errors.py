@@ -9,6 +9,7 @@ import pytest
 from app.model.measured.data import Data, Series
 from app.model.measured.fit import Fit, Problem, verdict
 from app.model.measured.kept import kept
+from app.model.measured.known import known
 from app.model.measured.motion import Left, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import shown
@@ -56,6 +57,16 @@ def test_the_errors_of_a_fit_and_of_its_constants_are_the_scatter_of_many():
     assert np.abs(scatter - found.correlation).max() < 0.4
 
 
+def test_what_is_known_is_the_same_where_chi_square_is_a_parabola():
+    data = filmed(("tilt", "spin"), np.random.default_rng(11))
+    found = fitted(data)
+    x = np.array([found.model.values[name] for name in TRUE.free])
+    said, errors = known(Problem(TRUE, data), x), np.sqrt(np.diag(found.covariance))
+    np.testing.assert_allclose(np.sqrt(np.diag(said.covariance)), errors, rtol=1e-3)
+    for side in (said.below, said.above):
+        np.testing.assert_allclose(side, errors, rtol=0.15)
+
+
 @pytest.mark.parametrize("noisy", ["tilt", "spin", "precession", "azimuth"])
 def test_the_errors_of_the_constants_from_the_data_are_their_scatter(noisy):
     """Of each measured quantity alone: the others are exact, but for a billionth."""
@@ -98,6 +109,9 @@ def test_of_two_that_fit_the_better_is_said_where_it_is_clearly_better():
     assert verdict(good, good) == "either"
     # a number more has to earn 2 of chi-square (Akaike)
     assert alike(0.7, ("mu",)).aic - good.aic == pytest.approx(2) and alike(0.7, ("mu",)).freedom == good.freedom - 1
+    # and so has a number of where the film looks from
+    assert replace(good, hidden=1).aic - good.aic == pytest.approx(2)
+    assert replace(good, hidden=1).freedom == good.freedom - 1
 
 
 @pytest.mark.parametrize(("r", "says"), [(0.99, "larger if the other is,"), (-0.99, "larger if the other is smaller")])
