@@ -82,6 +82,23 @@ def test_the_errors_of_the_constants_from_the_data_are_their_scatter(noisy):
             assert scatter == pytest.approx(said, rel=0.15), name
 
 
+@pytest.mark.parametrize("noisy", ["tilt", "spin", "azimuth"])
+def test_without_nutation_the_error_of_K_J_by_an_azimuth_is_its_scatter(noisy):
+    """Of a top that precesses steadily, s w2 = s^2 phi_dot."""
+    rng, unit = np.random.default_rng(12), SCALES.angular_velocity
+    theta, spin, turn = 0.9, 8.0, 2.5  # in (g/R)^1/2
+    exact = {"tilt": theta + 0 * T, "spin": spin * unit + 0 * T, "azimuth": turn * unit * T}
+    found = []
+    for _ in range(2 * DRAWS):
+        sizes = {name: NOISE[name] * (0.01 if name == noisy else 1e-9) for name in exact}
+        rows = {name: Series(T, row + rng.normal(0, sizes[name], len(T)), sizes[name]) for name, row in exact.items()}
+        found.append(kept(Data(MappingProxyType(rows)), TOP, SCALES)["K_J"])
+    values, errors = (np.array([getattr(one, what) for one in found]) for what in ("values", "errors"))
+    true = np.sin(theta) ** 2 * turn + TOP.I3 / TOP.I1 * (np.cos(theta) - TOP.a) * spin
+    assert values.mean() == pytest.approx(true, rel=1e-4)
+    assert values.std(axis=0).mean() == pytest.approx(errors.mean(), rel=0.15)
+
+
 def test_the_mean_of_a_constant_has_the_error_of_a_mean():
     rng, noise = np.random.default_rng(8), NOISE | {"tilt": 1e-9}
     found = [kept(filmed(("tilt", "spin"), rng, noise=noise), TOP, SCALES)["K_R"] for _ in range(DRAWS)]
