@@ -53,7 +53,7 @@ def test_the_words_of_slipping_stand_in_the_figure_wherever_the_path_ends(card):
         card.explorer.param.update(given="hand", spin=spin, tilt=5.7)
         for word in (card.slips.words["keeps"], card.slips.words["goes"]):
             at = word.x / card.plane.figure.x_range.end
-            wide = 5.5 / 300 * len(word.text)  # px of a letter, and of the figure on a phone
+            wide = 5.5 / 300 * max(map(len, word.text.split("\n")))  # px of a letter, and of the figure on a phone
             assert word.visible
             assert (at >= wide) if word.text_align == "right" else (at == 0 or at + wide < 1)
             sides.add(word.text_align)

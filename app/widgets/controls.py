@@ -17,7 +17,7 @@ from app.widgets.cards import NOTES, PLAIN, alert, card, note, section
 from tippe_core import Top
 
 STYLE = """
-:host { font: calc(13px * var(--type, 1))/1.35 system-ui, sans-serif; color: var(--ink, #22303c); }
+:host { font: calc(13px * var(--type, 1))/1.35 var(--family, system-ui, sans-serif); color: var(--ink, #22303c); }
 """ + NOTES  # fmt: skip
 
 SYMBOLS = {

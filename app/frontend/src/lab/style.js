@@ -5,7 +5,6 @@ import { endRules, endsOnDark, endsOnLight } from "../ends.js";
 
 const tokens = `
 .frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
-  --family: Inter, Roboto, "Segoe UI", "Liberation Sans", Arial, system-ui, sans-serif;
   --ground: #fff; --floor: #f1efea; --ink: #1b2430; --ink-2: #55606c; --line: #d8dce0; --line-2: #8b949e;
   --accent: ${onLight.accent}; --q-spin: ${onLight.omega}; --q-energy: ${onLight.energy}; --q-energy-wash: ${onLight.energy_wash};
   ${endsOnLight} --shape: #55606c;
@@ -68,14 +67,18 @@ const places = `
 .lab[data-table=three] .outline { display: none; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
-    --stage: clamp(390px, 100vh - 368px, 62cqw); }
+    --stage: clamp(390px, 100vh - 392px, 62cqw); }
 }
-@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; } }
+@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; --stage: clamp(390px, 100vh - 346px, 62cqw); } }
 @container (max-width: 900px) { .lab { --side: 300px; } }
+@container (min-width: 701px) and (max-width: 1499px) {
+  .frame[data-large] .lab { --side: clamp(300px, 38cqw, 530px); --bar: 160px; --stage: clamp(440px, 100vh - 396px, 62cqw); }
+  .frame[data-large] .lab[data-table=three] { --stage: clamp(300px, 100vh - 540px, 40cqw); }
+}
 @container (max-width: 700px) {
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
-  .lab[data-table=three] .stage { height: 340px; position: relative; }
+  .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
   .strip, .say, .answer, .keeps { padding: 8px 16px 0; }
   .dock { order: 1; position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
