@@ -90,7 +90,7 @@ STEPS = {
     "Maps": [room("Maps"), awaited("h2:text-is('Where runs and formula disagree')")],
     "Measure *": [room("Measure"), awaited("button:text-is('Example: it rolls')")],
     "Lab *": [room("Lab"), click("radio", "Explore"), awaited("button:text-is('Spin it')")],
-    "Lab, its spin and its path": [click("tab", "Spin"), awaited(".answer .own"), click("tab", "Path"),
+    "Lab, its spin and its path": [click("tab", "Spin"), awaited("[aria-selected=true]:text-is('Spin')"), click("tab", "Path"),
                                    awaited(".answer .dot"), lambda page: page.get_by_text("Numbers").first.click()],
     "Lab, rough *": [click("tab", "Energy"), click("radio", "Rough"), awaited(".lab[data-table=rough]")],
     "Lab, ice": [click("radio", "Ice"), awaited(".lab[data-table=ice]")],
