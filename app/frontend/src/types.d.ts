@@ -213,7 +213,7 @@ type PixelScale = { compute(value: number): number; invert(px: number): number }
 type Tieline = { K_J: number; inner: number; outer: number };
 
 // app/tabs/lab/lab.py says what each holds.
-type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
+type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
   a: number;
   seconds: number;
   asked: [count: number, name: string, value: any] | [];
@@ -249,8 +249,8 @@ type Happened = { event_name: string; x: number; y: number; sx: number; sy: numb
 
 declare const Bokeh: { documents: any[]; index: any; require(path: string): any };
 
-// What app/call.js is given by Bokeh, which runs it.
-declare const run: string, given: any, cb_obj: any;
+// What app/call.js and app/ticks.js are given by Bokeh, which runs them.
+declare const run: string, given: any, cb_obj: any, tick: number, point: string;
 
 interface Window {
   // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.

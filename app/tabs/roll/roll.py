@@ -111,13 +111,14 @@ class Switch:
 
 class Roll:
     """main: the pictures and the controls. pacer: a Pacer, which shows them scenes and is asked; playing: what the top
-    goes with; controls: the card of what sets the motion; slip: shows this motion on a table where it slips."""
+    goes with; controls: the card of what sets the motion; slip: shows this motion on a table where it slips; runs: the
+    page's Runs."""
 
-    def __init__(self, pacer, playing, controls, slip=lambda: None):
+    def __init__(self, pacer, playing, controls, slip=lambda: None, runs=None):
         self._pacer, self._scene = pacer, None
         self._grasp, self._held = None, {}
         self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
-        self._card = PlaneCard(self._motion, pacer.ask, slip)
+        self._card = PlaneCard(self._motion, pacer.ask, slip, runs)
         self._plane = self._card.plane
         self._kept, self._unit = words(""), words("")
         # What each round of pictures draws; it grows as the cards are made.
