@@ -23,8 +23,9 @@ SPINS, TILTS, SECONDS = (15.0, 60.0), (2.0, 30.0), 60.0  # rev/s, degrees, s
 DISTANCES = 10.0 ** np.arange(-5, 0.5, 0.5)  # rev/s
 SCALES = {"1 to 0.03": (0.03, 1.0), "0.01 to 0.001": (0.001, 0.01)}
 STARTS, CELLS, PIECE = 800, 400, 400
-SPLIT = 40.0  # rev/s: below it they interleave
+SPLIT = 40.0  # rev/s: pairs are asked for below it and above
 DRAWS = 200  # of the bootstrap
+BANDS = 10, 20, 30  # degrees
 COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2", "moving": "#cdb88f",
            "inverted": "#a88a55", "stem": "#80632f", "refused": "#9aa3ac"}  # fmt: skip
 WORDS, NONE = [*COLOURS], 255
@@ -101,6 +102,14 @@ def exponent(other, use, rng):
     return slope(other[:, use].mean(axis=0)), float(np.std(draws))
 
 
+def last_borders(end):
+    """{tilt: the fastest spin below which, at smaller tilts than this, two neighbours end differently}."""
+    spins, tilts = (low + (high - low) * (np.arange(n) + 0.5) / n
+                    for n, (low, high) in zip(end.shape[::-1], (SPINS, TILTS), strict=True))  # fmt: skip
+    differ = end[:, 1:] != end[:, :-1]
+    return {tilt: float(spins[1:][differ[tilts < tilt].any(axis=0)].max()) for tilt in BANDS}
+
+
 def drawn(end):
     figure = Figure(figsize=(7.2, 4.8), layout="constrained")
     axes = figure.add_subplot(xlabel="spin, rev/s", ylabel="tilt at the start, degrees")
@@ -111,16 +120,18 @@ def drawn(end):
     figure.savefig(DOCS / "basins.png", dpi=150)
 
 
-def page(cells, starts, found, rtol=None):
-    """The lines of docs/basins.md. found: {(low, high): ends of pairs()}; rtol: the share of the same starts that end
-    otherwise where steps are a thousand times as exact, where that was asked."""
+def page(cells, starts, found, last, rtol=None):
+    """The lines of docs/basins.md. last: of last_borders(). found: {(low, high): ends of pairs()}; rtol: the share of
+    the same starts that end otherwise where steps are a thousand times as exact, where that was asked."""
     rng, others = np.random.default_rng(5), {spins: ends[:, 1:] != ends[:, :1] for spins, ends in found.items()}
     yield from ("# Where the paper’s top ends", "")
     yield (f"The paper’s top with its stem, `SmoothedCoulomb(0.3, 0.1)`, {SECONDS:g} s: {cells} × {cells} runs of "
-           f"`slide_many`, each cell one run. `make proof` makes {CELLS} × {CELLS}, hours; `python tests/basins.py "
-           f"{cells}` makes this one.")  # fmt: skip
+           f"`slide_many`, each cell one run. `python tests/basins.py {cells}` makes them. `make proof` makes "
+           f"{CELLS} × {CELLS}, 1.3 hours of one core, and goes on where it was stopped.")  # fmt: skip
     yield from ("", "![Ends over spin and tilt](basins.png)", "")
-    yield ("Below some 40 rev/s the ends interleave. Is the border between them a fractal? Of two starts at one tilt, "
+    fastest = ", ".join(f"{spin:.0f} rev/s below {tilt} degrees" for tilt, spin in last.items())
+    yield (f"Above some 28 rev/s the ends interleave. The fastest start beside which one ends otherwise has {fastest}; "
+           "all that are faster end on the stem. Is the border between the ends a fractal? Of two starts at one tilt, "
            "one of them faster by ε, the share that end differently goes like ε to the power α, and the border has the "
            f"dimension 2 − α: 1 where it is smooth, more where it is a fractal. {starts} starts at random in each "
            "range, each with its neighbours; errors are one standard error, those of α by the bootstrap over starts."
@@ -156,7 +167,9 @@ def main(cells=CELLS, folder=KEPT):
     exact = pairs(folder, SPINS[0], SPLIT, rtol=1e-9)
     drawn(end)
     other = (exact[:, 0] != found[SPINS[0], SPLIT][:, 0]).mean()
-    (DOCS / "basins.md").write_text("\n".join(page(cells, STARTS, found, other)) + "\n", encoding="utf-8")
+    (DOCS / "basins.md").write_text(
+        "\n".join(page(cells, STARTS, found, last_borders(end), other)) + "\n", encoding="utf-8"
+    )
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import pytest
 from app.model.measured.data import Data, Series
 from app.model.measured.fit import Fit, Problem, verdict
 from app.model.measured.kept import kept
+from app.model.measured.known import known
 from app.model.measured.motion import Left, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import shown
@@ -56,6 +57,16 @@ def test_the_errors_of_a_fit_and_of_its_constants_are_the_scatter_of_many():
     assert np.abs(scatter - found.correlation).max() < 0.4
 
 
+def test_what_is_known_is_the_same_where_chi_square_is_a_parabola():
+    data = filmed(("tilt", "spin"), np.random.default_rng(11))
+    found = fitted(data)
+    x = np.array([found.model.values[name] for name in TRUE.free])
+    said, errors = known(Problem(TRUE, data), x), np.sqrt(np.diag(found.covariance))
+    np.testing.assert_allclose(np.sqrt(np.diag(said.covariance)), errors, rtol=1e-3)
+    for side in (said.below, said.above):
+        np.testing.assert_allclose(side, errors, rtol=0.15)
+
+
 @pytest.mark.parametrize("noisy", ["tilt", "spin", "precession", "azimuth"])
 def test_the_errors_of_the_constants_from_the_data_are_their_scatter(noisy):
     """Of each measured quantity alone: the others are exact, but for a billionth."""
@@ -69,6 +80,23 @@ def test_the_errors_of_the_constants_from_the_data_are_their_scatter(noisy):
             assert scatter < 1.2 * said, (name, scatter / said)
         elif noisy in ("tilt", "spin") or name == "K_J":
             assert scatter == pytest.approx(said, rel=0.15), name
+
+
+@pytest.mark.parametrize("noisy", ["tilt", "spin", "azimuth"])
+def test_without_nutation_the_error_of_K_J_by_an_azimuth_is_its_scatter(noisy):
+    """Of a top that precesses steadily, s w2 = s^2 phi_dot."""
+    rng, unit = np.random.default_rng(12), SCALES.angular_velocity
+    theta, spin, turn = 0.9, 8.0, 2.5  # in (g/R)^1/2
+    exact = {"tilt": theta + 0 * T, "spin": spin * unit + 0 * T, "azimuth": turn * unit * T}
+    found = []
+    for _ in range(2 * DRAWS):
+        sizes = {name: NOISE[name] * (0.01 if name == noisy else 1e-9) for name in exact}
+        rows = {name: Series(T, row + rng.normal(0, sizes[name], len(T)), sizes[name]) for name, row in exact.items()}
+        found.append(kept(Data(MappingProxyType(rows)), TOP, SCALES)["K_J"])
+    values, errors = (np.array([getattr(one, what) for one in found]) for what in ("values", "errors"))
+    true = np.sin(theta) ** 2 * turn + TOP.I3 / TOP.I1 * (np.cos(theta) - TOP.a) * spin
+    assert values.mean() == pytest.approx(true, rel=1e-4)
+    assert values.std(axis=0).mean() == pytest.approx(errors.mean(), rel=0.15)
 
 
 def test_the_mean_of_a_constant_has_the_error_of_a_mean():
@@ -98,6 +126,9 @@ def test_of_two_that_fit_the_better_is_said_where_it_is_clearly_better():
     assert verdict(good, good) == "either"
     # a number more has to earn 2 of chi-square (Akaike)
     assert alike(0.7, ("mu",)).aic - good.aic == pytest.approx(2) and alike(0.7, ("mu",)).freedom == good.freedom - 1
+    # and so has a number of where the film looks from
+    assert replace(good, hidden=1).aic - good.aic == pytest.approx(2)
+    assert replace(good, hidden=1).freedom == good.freedom - 1
 
 
 @pytest.mark.parametrize(("r", "says"), [(0.99, "larger if the other is,"), (-0.99, "larger if the other is smaller")])

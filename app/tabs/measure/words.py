@@ -23,7 +23,7 @@ h3 { font-size: 18px; margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01
 def _number(value, error):
     """(value, error) with two digits of the error."""
     places = int(np.clip(1 - np.floor(np.log10(error)), 0, 6)) if 0 < error < np.inf else 3
-    return f"{value:.{places}f}".replace("-", "−"), f"{error:.{places}f}" if error < np.inf else "∞"
+    return written(value, f".{places}f"), written(error, f".{places}f") if error < np.inf else "∞"
 
 
 def _error(value, below, above):
@@ -37,7 +37,9 @@ def _error(value, below, above):
 def found_words(rolling, sliding, kept):
     """The sentence of what was found, and why."""
     found = verdict(rolling, sliding)
-    return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.why')}</p>"
+    other = {"rolled": sliding, "slipped": rolling}.get(found)
+    why = "out" if other is not None and other.refused else "why"
+    return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.{why}')}</p>"
             + kept_words(kept))  # fmt: skip
 
 
