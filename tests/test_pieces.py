@@ -32,7 +32,9 @@ def sent_and_received(data):
     return count, event["new"]
 
 
-@pytest.mark.parametrize("sizes, pieces", [((), 3), ((7, 300), 3), ((SMALL // 8, SMALL // 8 + 1), 5), ((9000, 9000), 7)])
+@pytest.mark.parametrize(
+    "sizes, pieces", [((), 3), ((7, 300), 3), ((SMALL // 8, SMALL // 8 + 1), 5), ((9000, 9000), 7)]
+)
 def test_small_arrays_go_among_the_words_and_come_out_the_same(sizes, pieces):
     dice = np.random.default_rng(1)
     data = {f"c{i}": dice.normal(size=size) for i, size in enumerate(sizes)} | {"words": ["a", '"data":{"id":"p1"}']}
