@@ -79,7 +79,7 @@ STEPS = {
     "the tour": [click("button", "Take the tour"), awaited(".stop")],
     "Share": [click("button", "Skip"), click("button", "Share"),
                 awaited("svg:has(title:text-is('QR code of the link'))")],
-    "an error": [escape, click("button", "initial state"), an_error],
+    "an error": [press("Escape"), click("button", "initial state"), an_error],
     "Three planes *": [high, room("Three planes"), click("radio", "All three"),
                        click("button", "viscous")],
     "Three planes otherwise": [click("radio", "Ice: no friction"), click("button", "smoothed"),

@@ -130,6 +130,7 @@ class Head {
     for (const levels of this.levels) levels.show(state.levels, state.level);
     this.below.hidden = !state.rooms.length;
     if (state.rooms.length) this.rooms.show(state.rooms, state.chosen);
+    for (const share of this.shares) share.setAttribute("aria-expanded", String(state.shares));
     this.tour.hidden = !state.tour;
     this.languages.show(state.languages, state.language);
     for (const { name, box } of this.switches) box.checked = state[name];

@@ -12,6 +12,7 @@ button, select, input { font: inherit; color: inherit; }
 button { min-height: calc(32px * var(--type, 1)); border: 0; background: none; border-radius: 6px; padding: 0 12px; cursor: pointer; white-space: nowrap; }
 button:hover { background: color-mix(in srgb, currentColor 8%, transparent); } button:disabled { opacity: .55; cursor: default; background: none; }
 :focus-visible { outline: 3px solid var(--accent); outline-offset: -2px; border-radius: 6px; }
+[aria-expanded=true]:not(.icon) { color: var(--accent); font-weight: 600; box-shadow: 0 0 0 1.5px var(--accent); }
 .icon { width: calc(32px * var(--type, 1)); padding: 0; }
 select { border: 0; background: var(--ground); min-height: calc(32px * var(--type, 1)); padding: 0 4px; border-radius: 6px; cursor: pointer; min-width: 0; max-width: 240px; text-overflow: ellipsis; }
 .tabs > div, .switch > div { display: flex; gap: 4px; } .tabs button { color: var(--faint, #5b6875); min-height: calc(48px * var(--type, 1)); border-radius: 0; position: relative; }
