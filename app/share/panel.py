@@ -32,7 +32,7 @@ ROLLING = {
 }
 """{kind of file: its bytes, of what is shown, its link, and how many times slower it is played}."""
 ROWS = {"pictures": ("png", "svg"), "data": ("csv", "npz"), "solid": ("glb",), "code": ("py",)}
-NAMES = {kind: kind.upper() for kind in RUN} | {"npz": "NumPy", "py": ".py"}
+NAMES = {kind: kind.upper() for kind in (*RUN, "stl", "html")} | {"npz": "NumPy", "py": ".py"}
 ROW = """
 :host { display: flex; flex-flow: row wrap; gap: 8px; align-items: center; padding: 6px 0; min-height: 47px;
   border-top: 1px solid var(--rule, #d8dce0); box-sizing: border-box } .scroll-button { display: none !important }
@@ -64,13 +64,15 @@ class Files:
         self._of = words("", margin=(4, 0))
         self._photo = Photo(margin=0, none=say("share.no_top"))
         self._saves = {kind: self._save(kind) for kinds in ROWS.values() for kind in kinds}
-        self._mesh = Download(runs, lambda: (body(),), lambda shape: shape.stl(), label="STL",
+        self._mesh = Download(runs, lambda: (body(),), lambda shape: shape.stl(), label=NAMES["stl"],
                               filename="tippe-top.stl", margin=0)  # fmt: skip
         rows = {name: [self._saves[kind] for kind in kinds] for name, kinds in ROWS.items()}
         rows["solid"].append(self._mesh)
         said = {name: _says(_titled(name)) for name in ("photo", *ROWS, "letter", "sheet")}
         self._solid = said["solid"]
-        mailed = self._of_scene("HTML", "tippe-top.html", lambda scene, link: letter(scene, link, playing.chosen))
+        mailed = self._of_scene(
+            NAMES["html"], "tippe-top.html", lambda scene, link: letter(scene, link, playing.chosen)
+        )
         paper = Paper(margin=0, page=sheet(), label=say("share.panel.print"))
         rows = {"photo": [self._photo]} | rows | {"letter": [mailed], "sheet": [paper]}
         self._python = Copy(label="Python", rows=13, button=listed("share.copy"), sizing_mode="stretch_width",
@@ -104,7 +106,7 @@ class Files:
                 self._of_scene(kind.upper(), f"tippe-top-{name}.{kind}", _print(name, kind)) for kind in ("png", "svg")
             )) for name in FIGURES
         ]  # fmt: skip
-        tielines = self._of_scene("CSV", "tippe-top-tielines.csv", export.tielines_csv)
+        tielines = self._of_scene(NAMES["csv"], "tippe-top-tielines.csv", export.tielines_csv)
         says = words(say("share.panel.python"), margin=(8, 0, 0, 0))
         return [*prints, _row(_says(say("share.panel.tielines")), tielines), says, self._which, self._python]
 
