@@ -82,7 +82,7 @@ STEPS = {
     "an error": [press("Escape"), click("button", "initial state"), an_error],
     "Three planes *": [high, room("Three planes"), click("radio", "All three"),
                        click("button", "viscous")],
-    "Three planes otherwise": [click("radio", "Ice: no friction"), click("button", "smoothed"),
+    "Three planes otherwise": [click("radio", "Ice"), click("button", "smoothed"),
                                click("button", "by its constants")],
     "Build a top": [room("Build a top"), awaited("button:text-is('Put on')")],
     "a list": [lambda page: page.get_by_label("Presets").first.click(), awaited("[role=listbox]")],

@@ -146,7 +146,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
 
     def button(says, label):
         """The one to the right of these words."""
-        words = visit.page.get_by_text(says, exact=True).bounding_box()
+        words = visit.page.get_by_text(says, exact=True).first.bounding_box()
         for found in visit.page.get_by_role("button", name=label, exact=True).all():
             box = found.bounding_box()
             if box and abs(box["y"] + box["height"] / 2 - words["y"] - words["height"] / 2) < 20:

@@ -118,19 +118,21 @@ async def fails(page, monkeypatch, part, act):
         await page.until(lambda: page.now(failure, "times", 0) == before + 1)
 
 
-def saves(page, filename):
+async def saves(page, filename):
     """The button that saves a file of this name."""
-    [found] = [each for each in page.visitor.find("Download") if page.now(each, "filename") == filename]
-    return found
+
+    def found():
+        return [each for each in page.visitor.find("Download") if page.now(each, "filename") == filename]
+
+    await page.until(found)
+    return found()[0]
 
 
 async def ask_of_a_broken_server(here, monkeypatch):
     page = await visitors.come(here.url, "de")
     await fails(page, monkeypatch, "app.share.share.segno.make", lambda: page.head("share"))
     await page.head("share")  # and can be asked for again
-    await page.until(lambda: page.visitor.find("Download"))
-
-    table = saves(page, "tippe-top-motion.csv")
+    table = await saves(page, "tippe-top-motion.csv")
     await fails(page, monkeypatch, "app.share.export.columns", lambda: page.set(table, "clicks", 1))
     await page.set(table, "clicks", 2)
     await page.until(lambda: page.now(table, "file", [0])[0] == 1)
@@ -181,14 +183,13 @@ async def flood(here, monkeypatch):
     for who, K_J in (("flood", 5.5), ("other", 6.5)):
         pages[who] = page = await visitors.come(f"{here.url}?KJ={K_J}")
         await page.head("share")
-        await page.until(lambda page=page: len(page.visitor.find("Download")) > 16)
     flooder, other = pages["flood"], pages["other"]
-    figures = [saves(flooder, f"tippe-top-{name}.png") for name in ("plane", "surface", "phase")]
+    figures = [await saves(flooder, f"tippe-top-{name}.png") for name in ("plane", "surface", "phase")]
     for clicks in range(1, 101):
         for figure in figures:
             await flooder.visitor.set(figure, "clicks", clicks)
     await flooder.set(figures[0], "clicks", 101)
-    wanted = saves(other, "tippe-top-plane.png")
+    wanted = await saves(other, "tippe-top-plane.png")
     await other.set(wanted, "clicks", 1)
     await other.set(wanted, "clicks", 2)
     await asyncio.to_thread(until, lambda: (6.5, 2) in heard)  # clicks are gathered for a moment before they are heard

@@ -28,7 +28,7 @@ from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
-from app.widgets.cards import BUTTON, ONE_ROW, card, flexible, later, on_click, staged
+from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt, full, waits
 from app.widgets.pacing import Pacer
@@ -145,7 +145,7 @@ class House:
         section, built, measures = (
             card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()
         )
-        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True, head=ONE_ROW)
+        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
 
     def _spin(self):
         self.lab_of.ask(table="ordinary")
