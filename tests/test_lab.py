@@ -1,6 +1,9 @@
 """The Lab without a browser: the arrival stands, the curves are energies, the words are what the run did."""
 
 import re
+import threading
+from collections import OrderedDict
+from concurrent.futures import ThreadPoolExecutor
 from queue import Queue
 
 import numpy as np
@@ -317,6 +320,22 @@ def test_the_strip_of_the_toy_leans_and_then_stands():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("toy", ["The paper's tippe top", "Top S"])
+def test_of_those_who_ask_for_the_same_ends_at_once_one_computes_them(monkeypatch):
+    asked, go, found = [], threading.Event(), object()
+
+    def slow(*key, look=None):
+        asked.append(key)
+        assert go.wait(60)
+        return ends._kept.setdefault(key, found)
+
+    monkeypatch.setattr(ends, "ends_of", slow)
+    monkeypatch.setattr(ends, "_kept", OrderedDict())
+    with ThreadPoolExecutor(3) as threads:
+        waits = [threads.submit(ends.ends_once, TOY, TILT, 0.77, look=lambda share: go.set()) for _ in range(3)]
+        assert [each.result() for each in waits] == [found] * 3
+    assert len(asked) == 1 and not ends._under_way
+
+
 def test_the_strip_is_what_single_runs_do(toy):
     found = ends_of(toy, 6.0, 0.3)
     for i in (0, 20, 50, 70, 95):
@@ -451,7 +470,7 @@ def test_beside_the_server_the_newest_is_computed_and_one_event_tells_it():
 def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):
     asked = []
     found = Ends(SPINS, ("leans",) * len(SPINS), "stem")
-    monkeypatch.setattr("app.model.lab.lab.ends_of", lambda *key, look: asked.append(key) or found)
+    monkeypatch.setattr("app.model.lab.lab.ends_once", lambda *key, look: asked.append(key) or found)
     monkeypatch.setattr("app.model.lab.lab.known_ends", lambda *key: found if key in asked else None)
     for _ in range(2):
         lab = Lab()
