@@ -1,11 +1,13 @@
 """Where the runs of the paper's top end, by spin and tilt, and whether the border between the ends is a fractal.
 
-    python tests/basins.py [cells a side]
+    python tests/basins.py [cells a side [folder of what was run]]
 
-400 a side unless told otherwise, hours on two cores; `make proof` runs it. Writes docs/basins.png and docs/basins.md.
+400 a side unless told otherwise, 1.3 hours of one core; `make proof` runs it. What was run is kept in tests/data/basins
+and goes on where that was stopped. Writes docs/basins.png and docs/basins.md.
 """
 
 import sys
+import zlib
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,30 +18,69 @@ from scipy.optimize import minimize
 
 from tippe_core import PRESETS, SmoothedCoulomb, slide_many
 
-DOCS = Path(__file__).parent.parent / "docs"
+DOCS, KEPT = Path(__file__).parent.parent / "docs", Path(__file__).parent / "data" / "basins"
 SPINS, TILTS, SECONDS = (15.0, 60.0), (2.0, 30.0), 60.0  # rev/s, degrees, s
 DISTANCES = 10.0 ** np.arange(-5, 0.5, 0.5)  # rev/s
 SCALES = {"1 to 0.03": (0.03, 1.0), "0.01 to 0.001": (0.001, 0.01)}
-STARTS, CELLS = 800, 400
-SPLIT = 40.0  # rev/s: below it they interleave
+STARTS, CELLS, PIECE = 800, 400, 400
+SPLIT = 40.0  # rev/s: pairs are asked for below it and above
 DRAWS = 200  # of the bootstrap
+BANDS = 10, 20, 30  # degrees
 COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2", "moving": "#cdb88f",
            "inverted": "#a88a55", "stem": "#80632f", "refused": "#9aa3ac"}  # fmt: skip
+WORDS, NONE = [*COLOURS], 255
 
 
-def ended(spins, tilts, say, rtol=1e-6):
-    """The ends of starts in rev/s and degrees, in the words of slide_many."""
+def ended(spins, tilts, rtol=1e-6, progress=None):
+    """(ends in the words of slide_many, how often it left the table) of starts in rev/s and degrees."""
     body, friction = PRESETS[0], SmoothedCoulomb(0.3, 0.1)
     w = 2 * np.pi * spins / body.shape.scales.angular_velocity
     state = SimpleNamespace(theta=np.radians(tilts), theta_dot=0.0, omega2=0.0, omega3=w)
     seconds = SECONDS / body.shape.scales.time
-    return slide_many(body.top, state, friction, seconds, body.shape.edge, rtol=rtol, progress=say).end
+    many = slide_many(body.top, state, friction, seconds, body.shape.edge, rtol=rtol, progress=progress)
+    return many.end, many.hops
 
 
-def pairs(low, high, count, rng, say, rtol=1e-6):
-    """(count, 1 + distances) ends: of starts between two spins, and of their neighbours, each DISTANCES faster."""
-    spins = rng.uniform(low, high, (count, 1)) + np.concatenate([[0.0], DISTANCES])
-    return ended(spins, rng.uniform(*TILTS, (count, 1)) + 0 * spins, say, rtol)
+def kept(file, spins, tilts, rtol=1e-6, wait=False):
+    """(codes of WORDS, hops) of starts, each (n,): what a file has of them, and the rest run and written, a piece at a
+    time; wait: only what the file has, NONE for the rest."""
+    spins, tilts = np.broadcast_arrays(spins, tilts)
+    shape, mark = spins.shape, zlib.crc32(np.array([spins, tilts, 0 * spins + rtol]).round(9).tobytes())
+    end, hops = np.full(spins.size, NONE, np.uint8), np.zeros(spins.size, np.uint8)
+    if file.exists():
+        with np.load(file) as old:
+            if old["mark"] == mark:
+                end, hops = old["end"], old["hops"]
+    for first in range(0, 0 if wait else spins.size, PIECE):
+        piece = slice(first, first + PIECE)
+        if (end[piece] != NONE).all():
+            continue
+        words, times = ended(spins.ravel()[piece], tilts.ravel()[piece], rtol)
+        end[piece], hops[piece] = [WORDS.index(word) for word in words], np.minimum(times, 255)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        np.savez_compressed(file.with_suffix(".part.npz"), end=end, hops=hops, mark=mark)
+        file.with_suffix(".part.npz").replace(file)
+        print(f"{file.stem}: {(end != NONE).mean():.1%}", flush=True)
+    return end.reshape(shape), hops.reshape(shape)
+
+
+def mapped(folder, cells, wait=False):
+    """(codes of WORDS, hops), each (cells, cells), tilt up and spin across: each second start across and up first, so
+    that what was stopped is a coarser map."""
+    spins, tilts = (low + (high - low) * (np.arange(cells) + 0.5) / cells for low, high in (SPINS, TILTS))
+    rows, columns = np.divmod(np.arange(cells * cells), cells)
+    order = np.lexsort((columns, rows, columns % 2, rows % 2))
+    found = kept(folder / f"map-{cells}.npz", spins[columns[order]], tilts[rows[order]], wait=wait)
+    return [part[np.argsort(order)].reshape(cells, cells) for part in found]
+
+
+def pairs(folder, low, high, rtol=1e-6, wait=False):
+    """(STARTS, 1 + distances) codes of ends: of starts between two spins, and of their neighbours, each DISTANCES
+    faster."""
+    rng = np.random.default_rng(4)
+    spins = rng.uniform(low, high, (STARTS, 1)) + np.concatenate([[0.0], DISTANCES])
+    tilts = rng.uniform(*TILTS, (STARTS, 1))
+    return kept(folder / f"pairs-{low:g}-{high:g}-{rtol:.0e}.npz", spins, tilts, rtol, wait)[0]
 
 
 def exponent(other, use, rng):
@@ -61,27 +102,36 @@ def exponent(other, use, rng):
     return slope(other[:, use].mean(axis=0)), float(np.std(draws))
 
 
-def drawn(spins, tilts, end):
+def last_borders(end):
+    """{tilt: the fastest spin below which, at smaller tilts than this, two neighbours end differently}."""
+    spins, tilts = (low + (high - low) * (np.arange(n) + 0.5) / n
+                    for n, (low, high) in zip(end.shape[::-1], (SPINS, TILTS), strict=True))  # fmt: skip
+    differ = end[:, 1:] != end[:, :-1]
+    return {tilt: float(spins[1:][differ[tilts < tilt].any(axis=0)].max()) for tilt in BANDS}
+
+
+def drawn(end):
     figure = Figure(figsize=(7.2, 4.8), layout="constrained")
     axes = figure.add_subplot(xlabel="spin, rev/s", ylabel="tilt at the start, degrees")
-    rgb = np.array([[int(COLOURS[one][i : i + 2], 16) for i in (1, 3, 5)] for one in end.ravel()], np.uint8)
-    axes.imshow(rgb.reshape(*end.shape, 3), origin="lower", aspect="auto", extent=(*SPINS, *TILTS),
-                interpolation="nearest")  # fmt: skip
-    there = [one for one in COLOURS if (end == one).any()]
+    rgb = np.array([[int(COLOURS[one][i : i + 2], 16) for i in (1, 3, 5)] for one in WORDS], np.uint8)
+    axes.imshow(rgb[end], origin="lower", aspect="auto", extent=(*SPINS, *TILTS), interpolation="nearest")
+    there = [one for code, one in enumerate(WORDS) if (end == code).any()]
     axes.legend(handles=[Patch(facecolor=COLOURS[one], edgecolor="black", label=one) for one in there], fontsize=7)
     figure.savefig(DOCS / "basins.png", dpi=150)
 
 
-def page(cells, starts, found, rtol=None):
-    """The lines of docs/basins.md. found: {(low, high): ends of pairs()}; rtol: the share of the same starts that end
-    otherwise where steps are a thousand times as exact, where that was asked."""
+def page(cells, starts, found, last, rtol=None):
+    """The lines of docs/basins.md. last: of last_borders(). found: {(low, high): ends of pairs()}; rtol: the share of
+    the same starts that end otherwise where steps are a thousand times as exact, where that was asked."""
     rng, others = np.random.default_rng(5), {spins: ends[:, 1:] != ends[:, :1] for spins, ends in found.items()}
     yield from ("# Where the paper’s top ends", "")
     yield (f"The paper’s top with its stem, `SmoothedCoulomb(0.3, 0.1)`, {SECONDS:g} s: {cells} × {cells} runs of "
-           f"`slide_many`, each cell one run. `make proof` makes {CELLS} × {CELLS}, hours; `python tests/basins.py "
-           f"{cells}` makes this one.")  # fmt: skip
+           f"`slide_many`, each cell one run. `python tests/basins.py {cells}` makes them. `make proof` makes "
+           f"{CELLS} × {CELLS}, 1.3 hours of one core, and goes on where it was stopped.")  # fmt: skip
     yield from ("", "![Ends over spin and tilt](basins.png)", "")
-    yield ("Below some 40 rev/s the ends interleave. Is the border between them a fractal? Of two starts at one tilt, "
+    fastest = ", ".join(f"{spin:.0f} rev/s below {tilt} degrees" for tilt, spin in last.items())
+    yield (f"Above some 28 rev/s the ends interleave. The fastest start beside which one ends otherwise has {fastest}; "
+           "all that are faster end on the stem. Is the border between the ends a fractal? Of two starts at one tilt, "
            "one of them faster by ε, the share that end differently goes like ε to the power α, and the border has the "
            f"dimension 2 − α: 1 where it is smooth, more where it is a fractal. {starts} starts at random in each "
            "range, each with its neighbours; errors are one standard error, those of α by the bootstrap over starts."
@@ -111,17 +161,16 @@ def page(cells, starts, found, rtol=None):
                "neighbours differ, among runs all made in one way, is.")  # fmt: skip
 
 
-def main(cells):
-    say = lambda share: print(f"\r{share:.0%}", end="", flush=True)  # noqa: E731
-    part = (np.arange(cells) + 0.5) / cells
-    spins, tilts = (low + (high - low) * part for low, high in (SPINS, TILTS))
-    drawn(spins, tilts, ended(spins[None], tilts[:, None], say))
-    found = {(low, high): pairs(low, high, STARTS, np.random.default_rng(4), say)
-             for low, high in ((SPINS[0], SPLIT), (SPLIT, SPINS[1]))}  # fmt: skip
-    exact = pairs(SPINS[0], SPLIT, STARTS, np.random.default_rng(4), say, rtol=1e-9)
+def main(cells=CELLS, folder=KEPT):
+    end, _ = mapped(folder, cells)
+    found = {between: pairs(folder, *between) for between in ((SPINS[0], SPLIT), (SPLIT, SPINS[1]))}
+    exact = pairs(folder, SPINS[0], SPLIT, rtol=1e-9)
+    drawn(end)
     other = (exact[:, 0] != found[SPINS[0], SPLIT][:, 0]).mean()
-    (DOCS / "basins.md").write_text("\n".join(page(cells, STARTS, found, other)) + "\n", encoding="utf-8")
+    (DOCS / "basins.md").write_text(
+        "\n".join(page(cells, STARTS, found, last_borders(end), other)) + "\n", encoding="utf-8"
+    )
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else CELLS)
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else CELLS, Path(sys.argv[2]) if len(sys.argv) > 2 else KEPT)

@@ -71,7 +71,7 @@ def test_a_dial_passes_over_what_it_never_sends(explorer, pacer, value, one_line
 
 @pytest.mark.slow
 def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, pacer, value, one_line):
-    roll = Roll(pacer, Playing(), Controls(explorer.scene, pacer.ask, pacer.soon))
+    roll = Roll(pacer, Playing(), Controls(explorer.scene, pacer.ask, pacer.soon).card())
     while not roll.main.select(Surface3D):
         pacer._later.pop(0)()
     [surface], [top] = roll.main.select(Surface3D), roll.main.select(Top3D)
@@ -101,7 +101,7 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
 def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line):
     keep, playing = Keep(), Playing()
     controls = Controls(pacer._explorer.scene, pacer.ask, pacer.soon)
-    roll = Roll(pacer, playing, controls)
+    roll = Roll(pacer, playing, controls.card())
     keep.add(playing)
     [top] = roll.main.select(Top3D)
     keep.add(controls)

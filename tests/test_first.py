@@ -40,8 +40,10 @@ def test_each_language_has_its_words_and_nothing_else():
     words = json.loads(first.words())
     english, german = words["en"], words["de"]
     assert english["texts"]["spin_it"] != german["texts"]["spin_it"]
-    assert english["state"]["runs"]["ordinary"]["stages"] != german["state"]["runs"]["ordinary"]["stages"]
-    assert english["state"]["values"] == german["state"]["values"]
+    stages = [json.loads(each["told"])["runs"]["ordinary"]["stages"] for each in (english, german)]
+    assert stages[0] != stages[1]
+    values = [json.loads(each["state"])["values"] for each in (english, german)]
+    assert values[0] == values[1]
 
 
 def test_it_is_drawn_only_where_the_session_opens_the_same():

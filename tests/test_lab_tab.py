@@ -1,5 +1,7 @@
 """The Lab's tab without a browser: what a wish of the browser does, and what a link keeps."""
 
+import json
+
 import pytest
 
 from app.model.arrival import TILT
@@ -23,7 +25,11 @@ def tab(monkeypatch):
 
 def wish(tab, *asked):
     tab.view.asked = list(asked)
-    return tab.view.state
+    return shown(tab)
+
+
+def shown(tab):
+    return json.loads(tab.view.told) | json.loads(tab.view.state)
 
 
 def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
@@ -50,7 +56,7 @@ def test_a_wish_is_answered_with_its_count(tab):
 
 def test_the_stem_and_the_ballast_are_ordinary_controls(tab):
     """A rounder, longer stem: another body, whose own runs end otherwise."""
-    state = tab.view.state
+    state = shown(tab)
     assert [name for name, *_ in state["dims"]] == ["dim:R", "dim:r", "dim:h", "dim:a"]
     assert state["values"]["dim:r"] == 5.0 and state["sliders"]["dim:r"][3] == 1
     state = wish(tab, 1, "dim:r", 3.0)
@@ -102,7 +108,7 @@ def test_the_papers_figures_are_asked_for(tab):
 
 @pytest.mark.parametrize("asked", [[1, "runs", 2], [1, "tilt"], ["1", "tilt", 3], []])
 def test_what_a_page_never_sends_changes_nothing(tab, asked):
-    before = tab.view.state
+    before = shown(tab)
     assert wish(tab, *asked) == before
 
 

@@ -79,3 +79,15 @@ def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):
     page.mouse.wheel(0, 100)
     page.keyboard.up("Control")
     page.wait_for_function("() => location.search.includes('view=')")
+
+
+def test_the_height_is_read_on_its_own_area_where_the_energy_leaves_no_room_over_it(opened):
+    for look in ("light", "dark"):
+        page = opened("?v=2&tab=lab&level=explore&by=hand&spin=4&tilt=5.7", color_scheme=look)
+        word = page.locator(".answer .word.inside")
+        word.wait_for()
+        like = "part => [getComputedStyle(part).fill, getComputedStyle(part.closest('.frame')).backgroundColor]"
+        text, ground = word.evaluate(like)
+        assert text == ground
+        area, line = page.locator(".answer .lifts").bounding_box(), word.bounding_box()
+        assert area["y"] < line["y"] and line["y"] + line["height"] < area["y"] + area["height"]

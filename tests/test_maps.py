@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.model import ends
 from app.model.maps import kept
 from app.model.maps.lines import disagreements, lines
-from app.model.maps.maps import ENDINGS, OWN, UNITS, Map
+from app.model.maps.maps import OWN, UNITS, Map
 from app.model.maps.solving import Level, run, solve
 from app.model.runs import Runs
 from app.model.scene import solve as solve_scene
@@ -62,7 +63,7 @@ def test_coarse_first_and_what_was_run_is_kept():
     nine, finest = (next(each for each in seen if len(each.x) == n and each.whole) for n in (9, 27))
     np.testing.assert_allclose(finest.x[1::3], nine.x, rtol=1e-12)
     np.testing.assert_array_equal(finest.columns["heat"][1::3, 1::3], nine.columns["heat"])
-    assert finest.finest and not nine.finest and {*finest.end.ravel()} <= {*ENDINGS}
+    assert finest.finest and not nine.finest and {*finest.end.ravel()} <= {*ends.NAMES}
 
 
 def test_a_look_stops_it_and_knows_how_far_it_is():

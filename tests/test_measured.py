@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
@@ -12,6 +13,7 @@ from app.model.measured.examples import EXAMPLES, FOLDER, example
 from app.model.measured.table import read
 from app.tabs.measure.measure import Measure
 from app.tabs.measure.recipe import recipe
+from app.tabs.measure.words import numbers_table
 from app.text import LANGUAGES, speaking
 
 ROOT = Path(__file__).parent.parent
@@ -35,12 +37,42 @@ def tab():
     return made
 
 
+FRAMES = "\n".join(["frame\ttilt (deg)", *(f"{i}\t{5 + i}" for i in range(30))])
+
+
+def test_a_table_that_needs_a_word_more_is_not_there_before():
+    """What was there stays whole: its data, and the top of which they are."""
+    made = Measure(Explorer().scene)
+    made.take_example("rolls")
+    before = made._data, made._body
+    made.take(FRAMES)
+    assert "frames" in made.said.object and (made._data, made._body) == before and made._example == "rolls"
+    made.columns.rate.value = "240"
+    assert made._example == "" and made._data.t[-1] == pytest.approx(29 / 240)
+
+
+@pytest.mark.parametrize(("each", "line"), [(1, 24), (5, 71), (40, 441)])
+def test_a_line_is_that_of_the_file(each, line):
+    """Of which the browser left out rows: 12 lines are kept, and of the others those at multiples of each, from 0."""
+    file = ["t,tilt", *(f"{i / 100:.2f},5" for i in range(1, 12 + 30 * each))]
+    file[line - 1] = f"{(line - 1) / 100:.2f},five"
+    kept = [row for i, row in enumerate(file) if i < 12 or i % each == 0]
+    made = Measure(Explorer().scene)
+    made.take("\n".join(kept), each)
+    assert f"Line {line}, column tilt" in made.said.object
+
+
 @pytest.mark.slow
 def test_the_example_that_slips_is_told_so_and_recovered(tab):
     assert "This top slipped." in tab.found.object and "cannot have rolled" in tab.found.object
+    assert "rolling is ruled out" in tab.found.object
     sliding = tab._found.sliding
     for name, made in {"tilt": 0.2, "spin": 8.0, "mu": 0.35, "radius": 0.02}.items():
         assert abs(sliding.model.values[name] - made) < 3 * sliding.errors[name]
+    at = sliding.model.free.index
+    assert sliding.together
+    for one, other, r in sliding.together:
+        assert r == pytest.approx(sliding.correlation[at(one), at(other)])
 
 
 @pytest.mark.slow
@@ -65,9 +97,19 @@ def test_the_program_taken_home_repeats_the_fit(tab):
 def test_the_report_is_whole(tab):
     report = tab._report(*tab._home).decode()
     assert report.count("<svg") == 3
-    assert "This top slipped." in report
+    assert "This top slipped." in report and "432 measured values" in report
     assert "http" not in report
+    for each in re.findall(r"<svg.*?</svg>", report, re.DOTALL):
+        ElementTree.fromstring(each)
     assert len(tab._residuals(*tab._home).splitlines()) == 1 + 2 * 216
+
+
+@pytest.mark.slow
+def test_its_numbers_are_written_as_the_language_writes_them(tab):
+    with speaking("de"):
+        said, report = numbers_table(tab._found.better), tab._report(*tab._home).decode()
+    assert re.search(r"<td class=n>0,3\d+</td>", said) and not re.search(r"\d\.\d", said)
+    assert ">0,5<" in report and ">0.5<" not in report
 
 
 @pytest.mark.served

@@ -23,6 +23,9 @@ TRACKER = table("mass A\t\t\nt\tθ (°)\tspin (rev/s) ± 0.3", "\t", ",")
 PHYPHOX = table('"Time (s)","Gyroscope x (rad/s)","Gyroscope z (rad/s)"', ",")
 SHEET = table("Zeit/s;Neigung [Grad];Drehzahl (U/min)", ";", ",")
 NAMED = table("t_ms tilt_deg spin", " ")
+UNITS_BELOW = table("a wooden top\nt,tilt,spin\n(s),deg,rev/s", ",")
+IN_WORDS = table("Zeit in s;Neigung in Grad;Drehzahl in U/s", ";", ",")
+GERMAN_PHONE = table('"Zeit (s)"\t"Winkelgeschwindigkeit x (rad/s)"\t"Winkelgeschwindigkeit z (rad/s)"', "\t", ",")
 
 
 @pytest.mark.parametrize(
@@ -32,6 +35,9 @@ NAMED = table("t_ms tilt_deg spin", " ")
         (PHYPHOX, [("time", "s"), ("", ""), ("spin", "rad/s")]),
         (SHEET, [("time", "s"), ("tilt", "deg"), ("spin", "rpm")]),
         (NAMED, [("time", "ms"), ("tilt", "deg"), ("spin", "rev/s")]),
+        (UNITS_BELOW, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
+        (IN_WORDS, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
+        (GERMAN_PHONE, [("time", "s"), ("", ""), ("spin", "rad/s")]),
     ],
 )
 def test_columns_are_understood(text, expected):
@@ -39,6 +45,18 @@ def test_columns_are_understood(text, expected):
     assert [(column.quantity, column.unit) for column in found.columns] == expected
     got = np.array([column.values for column in found.columns]).T
     np.testing.assert_allclose(got, ROWS, atol=6e-5)
+
+
+def test_an_empty_column_is_taken_for_nothing():
+    found = read("\n".join(["t\ttilt\tspin", *(f"{i / 60:.4f}\t{5 + i}\t" for i in range(12))]))
+    assert [column.quantity for column in found.columns] == ["time", "tilt", ""]
+    assert set(settled(found).series) == {"tilt"}
+
+
+@pytest.mark.parametrize(("largest", "unit"), [(30, "rev/s"), (190, "rad/s"), (10800, "deg/s")])
+def test_a_spin_without_a_unit_is_one_that_a_top_can_have(largest, unit):
+    spin = read("\n".join(["t,spin", *(f"{i / 60:.4f},{largest - i}" for i in range(12))])).columns[1]
+    assert (spin.unit, spin.guessed) == (unit, True)
 
 
 def test_values_come_in_radians_and_seconds():

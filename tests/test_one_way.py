@@ -125,7 +125,7 @@ def roll(scene):
     pacer = Shown(scene)
     controls = Controls(scene, nothing, pacer.soon)
     pacer.shows(controls.show, "rest")
-    return Roll(pacer, Playing(), controls), pacer.show
+    return Roll(pacer, Playing(), controls.card()), pacer.show
 
 
 def learn(section):
@@ -314,7 +314,7 @@ def test_the_three_planes_work_alone(alone, plane):
 def test_what_a_view_asks_is_all_that_it_does(alone):
     """A hand on Fig. 6, and on the axis of the top: the scene stays, until another one is shown."""
     pacer = Shown(stored(TOPS[0]))
-    view = Roll(pacer, Playing(), Controls(pacer.scene, nothing, pacer.soon))
+    view = Roll(pacer, Playing(), Controls(pacer.scene, nothing, pacer.soon).card())
     view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.0]}
     [top] = view.main.select(Top3D)
     top.tilted = [0.6, 0.0, 1]

@@ -46,6 +46,20 @@ def test_the_path_leaves_the_tieline_by_its_end_and_is_that_motions_alone(card):
     assert len(card.slips.own.data["theta"])
 
 
+def test_the_words_of_slipping_stand_in_the_figure_wherever_the_path_ends(card):
+    """Left of its end, or right of that, or from the edge on."""
+    sides = set()
+    for spin in (20.0, 60.0, 150.0):
+        card.explorer.param.update(given="hand", spin=spin, tilt=5.7)
+        for word in (card.slips.words["keeps"], card.slips.words["goes"]):
+            at = word.x / card.plane.figure.x_range.end
+            wide = 5.5 / 300 * max(map(len, word.text.split("\n")))  # px of a letter, and of the figure on a phone
+            assert word.visible
+            assert (at >= wide) if word.text_align == "right" else (at == 0 or at + wide < 1)
+            sides.add(word.text_align)
+    assert sides == {"left", "right"}
+
+
 def test_where_it_would_slip_there_is_a_road(card):
     assert not card.slip.visible
     card.explorer.energy = 1.5

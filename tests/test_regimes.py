@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from app.model import regimes
+from app.model import arrival, ends, regimes
 from app.model.colours import COLOURS, FAINT, GREY, INK, ON_LIGHT
 from app.tabs.planes.plots import IN_RIBBON
 from app.text import LANGUAGES, listed
+from tippe_core import Coulomb, State, Top, slide_many
 
 APP = Path(__file__).parent.parent / "app"
 SOURCES = [path for kind in ("*.py", "*.js", "*.html", "*.css", "*.json", "*.toml", "*.svg") for path in APP.rglob(kind)
@@ -34,6 +35,28 @@ def test_python_has_the_one_list_of_colours():
     assert listed_ones == COLOURS and COLOURS | light == ON_LIGHT
     assert {*dark} - {*light} <= {*COLOURS}  # what a ground changes there is on the other
     assert (COLOURS["ink"], COLOURS["faint"], COLOURS["grey"]) == (INK, FAINT, GREY)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_end_has_its_colour_and_its_words(language):
+    listed_ones = read("ends.json")
+    assert [*ends.COLOUR.items()] == [(end["name"], end["colour"]) for end in listed_ones]
+    assert all("on_dark" in end for end in listed_ones if "in_lab" in end)
+    assert [*listed("maps.ends", language)] == [*ends.NAMES]
+    assert {*listed("lab.ends", language)} == {*ends.IN_LAB, "mixed"} and {*arrival.read_ends()} <= {*ends.IN_LAB}
+
+
+def test_what_the_core_calls_an_end_is_in_the_list():
+    top = Top.paper()
+    many = slide_many(top, [State(0.1, 0.0, 0.0, spin) for spin in (0.0, 20.0, 60.0)], Coulomb(0.3), 9.0)
+    assert {*many.end.ravel()} <= {*ends.NAMES}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.name)
+def test_there_is_no_second_table_of_ends(path):
+    if path.name != "ends.json":
+        own = {colour.lower() for colour in ends.COLOUR.values()}
+        assert not own & {f"#{digits}" for digits in colours_in(path.read_text(encoding="utf-8"))}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

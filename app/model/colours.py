@@ -13,3 +13,5 @@ ON_LIGHT: dict[str, str] = COLOURS | _LIST["on_light"]
 INK, FAINT = COLOURS["ink"], COLOURS["faint"]
 GREY = COLOURS["grey"]
 """Of what is no quantity, seen on a light and on a dark page."""
+ACCENT = COLOURS["accent"]
+"""Of what is selected in the Lab and on the maps, and of where one is."""

@@ -121,7 +121,7 @@ class House:
         for show, when in ((controls.follow, "hand"), (controls.show, "rest")):
             self.pacer.shows(show, when)
         slip = lambda: self._look_at(self.start.table("ordinary"))  # noqa: E731
-        return Roll(self.pacer, self.playing, controls, slip).main
+        return Roll(self.pacer, self.playing, controls.card(), slip, self.runs).main
 
     def _road(self, says, goes, **layout):
         """A button that leads on."""

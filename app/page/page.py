@@ -9,6 +9,7 @@ from panel.util import edit_readonly
 
 from app import text
 from app.page import first
+from app.page.design import Design
 from app.page.house import TABS, House
 from app.share.share import Share
 from app.state.keep import read
@@ -109,7 +110,7 @@ def tells(head, rooms, house):
 
 def show():
     """Puts the page into the document that is being served."""
-    pn.extension("katex", respect_explicit_sizing=True)
+    pn.extension("katex", design=Design, respect_explicit_sizing=True)
     shown = page()
     with edit_readonly(shown):
         # It would be told whether any page of this server is busy, which kept it and all it shares for ever.

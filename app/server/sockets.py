@@ -16,13 +16,13 @@ from bokeh.server.views.ws import WSHandler
 from bokeh.util.token import check_token_signature, get_session_id, get_token_payload
 from panel.io.resources import LOCAL_DIST, patch_model_css
 from tornado.ioloop import IOLoop
-from tornado.locks import Lock
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from app import text
 from app.server.answers import Answer
 from app.server.door import Budget, budget
 from app.server.messages import Refused, look_at
+from app.server.pieces import pieces_of
 from app.widgets.failure import tell
 
 log = logging.getLogger("tippe")
@@ -59,15 +59,6 @@ def prepare(document):
     document.template_variables["dist_url"] = LOCAL_DIST
     for root in document.roots:
         patch_model_css(root, dist_url=LOCAL_DIST)
-
-
-class Pieces(list):
-    """Of a message: what Bokeh would write to a socket."""
-
-    write_lock = Lock()
-
-    async def write_message(self, piece, binary=False, locked=True):
-        self.append((piece, binary))
 
 
 class Socket(Answer, WSHandler):
@@ -219,7 +210,6 @@ class Socket(Answer, WSHandler):
 
     async def send_message(self, message):
         """All pieces at once: Bokeh's waits for each to be out, and Panel's messages, meanwhile, for it."""
-        pieces = Pieces()
-        await message.send(pieces)
+        pieces = await pieces_of(message)
         with suppress(WebSocketClosedError):
             await asyncio.gather(*(WebSocketHandler.write_message(self, *piece) for piece in pieces))

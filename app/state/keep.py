@@ -63,12 +63,18 @@ def values(texts, known, skip=()):
     return found, say("share.link.unreadable", wrong=" ".join(wrong)) if wrong else ""
 
 
-def explorer_of(texts, explores=False):
-    """(Explorer, sentence): the start that texts ask for, else the default one of this level. Never raises."""
+def inputs_of(texts):
+    """(inputs, sentence): what texts ask of an Explorer, a body with its own numbers. Never raises."""
     inputs, sentence = values(texts, EXPLORER)
     if "shape" in inputs:
         top = inputs["shape"].top
         inputs = {"a": top.a, "I1": top.I1, "I3": top.I3} | inputs
+    return inputs, sentence
+
+
+def explorer_of(texts, explores=False):
+    """(Explorer, sentence): the start that texts ask for, else the default one of this level. Never raises."""
+    inputs, sentence = inputs_of(texts)
     first = arrives() if explores else {}
     try:
         return Explorer(**first | inputs), sentence

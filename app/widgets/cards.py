@@ -52,7 +52,7 @@ NOTES = """
 .name[title], .note [title] { cursor: help }
 """
 TYPE = """
-:host { font: calc(13px * var(--type, 1))/1.4 system-ui, sans-serif; color: var(--ink, #22303c) }
+:host { font: calc(13px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--ink, #22303c) }
 h2 { font-size: calc(15px * var(--type, 1)); margin: 0; font-weight: 600 }
 i, sub { font-family: Georgia, serif } sub, sup { font-size: 0.7em; line-height: 0 } i { font-size: 1.1em }
 .key { color: var(--faint, #5b6875) } .key span { white-space: nowrap } [title] { cursor: help }

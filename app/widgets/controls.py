@@ -13,11 +13,11 @@ from app.model.regimes import NAMES
 from app.model.roll.region import PAPER
 from app.state import asked
 from app.text import listed, say, written
-from app.widgets.cards import NOTES, PLAIN, alert, note
+from app.widgets.cards import NOTES, PLAIN, alert, card, note, section
 from tippe_core import Top
 
 STYLE = """
-:host { font: calc(13px * var(--type, 1))/1.35 system-ui, sans-serif; color: var(--ink, #22303c); }
+:host { font: calc(13px * var(--type, 1))/1.35 var(--family, system-ui, sans-serif); color: var(--ink, #22303c); }
 """ + NOTES  # fmt: skip
 
 SYMBOLS = {
@@ -71,6 +71,7 @@ RANGES = {
 }
 # Lines of words below, kept free so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
+GRID = {"display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 220px), 1fr))", "gap": "0 12px"}
 NO_SCROLLING = ".scroll-button { display: none !important }"
 FACES = {"constants": ("K_J", "K_R", "energy"), "state": ("theta", "theta_dot", "omega2", "omega3")}
 PICTURES = {"upper": {"whole": True, "poles": False, "paper": PAPER}, "limit": {"lift": "lift-off", "slip": "slip"}}
@@ -203,6 +204,12 @@ class Control:
         self.view.param.update(**wording(words, wrong))
 
 
+def across(part):
+    """Over all columns."""
+    part.styles = part.styles | {"grid-column": "1 / -1"}
+    return part
+
+
 class Wish:
     """A widget whose value is a wish for one input: a hand on it asks, and show() puts it where the input is."""
 
@@ -222,7 +229,7 @@ class Wish:
 
 class Controls(param.Parameterized):
     """All of them. ask: takes inputs of the Explorer; soon: of a Pacer. show() is for a hand at rest, follow() for each
-    scene. motion: the sliders of both faces of the motion, and their switch; pictures: what Figs. 5 and 6 show."""
+    scene. card() has them all."""
 
     face = param.Selector(default="constants", objects=list(FACES), doc="which face is shown; it changes nothing else")
 
@@ -234,7 +241,7 @@ class Controls(param.Parameterized):
         self._controls = {name: Control(name, scene.inputs[name], self._request) for name in OF_A_MOTION}
         self._other = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=(2, 14, 0, 16),
                                    styles={"min-height": "calc(35px * var(--type, 1))"})  # fmt: skip
-        switch = pmui.RadioButtonGroup.from_param(
+        self._switch = pmui.RadioButtonGroup.from_param(
             self.param.face,
             label="",
             options={say(f"controls.faces.{face}"): face for face in FACES},
@@ -242,17 +249,24 @@ class Controls(param.Parameterized):
             margin=(6, 16, 2, 16),
             sx=PLAIN,
         )
-        self._faces = {
-            face: pn.Column(sizing_mode="stretch_width", margin=0, stylesheets=[NO_SCROLLING]) for face in FACES
-        }
+        self._faces = {face: pn.Column(sizing_mode="stretch_width", margin=0, stylesheets=[NO_SCROLLING])
+                       for face in FACES}  # fmt: skip
         self.param.watch(lambda event: soon(self._turn), "face")
         self._pictures = {name: Wish(pmui.RadioButtonGroup(
             label="", value=scene.inputs[name], size="small", sx=PLAIN,
             options={say(f"roll.switches.{key}"): value for key, value in values.items()}), name, ask)
             for name, values in PICTURES.items()}  # fmt: skip
         self._turn()
-        self.motion = [switch, *self._faces.values(), self._other]
-        self.pictures = [wish.view for wish in self._pictures.values()]
+
+    def card(self):
+        """What sets the motion, with the friction of the table; the top, and what Figs. 5 and 6 show."""
+        parts = [
+            across(self._switch), *self._faces.values(), *self._views("mu_s"), across(self._other),
+            across(section(say("roll.sections.top"))), *self._views("a", "I1", "I3"),
+            across(section(say("roll.sections.pictures"))), *(across(wish.view) for wish in self._pictures.values()),
+        ]  # fmt: skip
+        return card(say("roll.sections.motion"), pn.Column(*parts, sizing_mode="stretch_width", margin=(0, -14),
+                                                           styles=GRID), height="max-content")  # fmt: skip
 
     def _turn(self):
         for face, column in self._faces.items():
@@ -260,7 +274,7 @@ class Controls(param.Parameterized):
             # its parts stand in the grid around it, which a sheet could not say of one that is hidden
             column.styles = {"display": "contents" if shown else "none"}
             if shown and not column.objects:
-                column.objects = self.views(*FACES[face])
+                column.objects = self._views(*FACES[face])
         self.show(self._scene)
 
     def _request(self, name, value, typed=False):
@@ -274,7 +288,7 @@ class Controls(param.Parameterized):
         else:
             self._ask(**{name: value})
 
-    def views(self, *names):
+    def _views(self, *names):
         return [self._controls[name].view for name in names]
 
     def show(self, scene):
@@ -315,8 +329,7 @@ class Controls(param.Parameterized):
 
     @staticmethod
     def _notes(scene):
-        marks = scene.marks
-        inner, outer = scene.turning
+        marks, (inner, outer) = scene.marks, scene.turning
         limits = " · ".join(
             say(f"controls.notes.{name}", E=number(round(E, 4)))
             for name, E in (("steady", marks.steady), ("slip", marks.slip), ("lift", marks.lift))

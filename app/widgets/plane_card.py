@@ -1,5 +1,7 @@
 """Fig. 6 with all that stands around it: what its lines are, K_R below, and roads out of it."""
 
+from functools import partial
+
 import panel as pn
 import panel_material_ui as pmui
 
@@ -7,6 +9,7 @@ from app.model.colours import COLOURS, FAINT
 from app.model.explorer import Explorer
 from app.model.regimes import WOULD_SLIP
 from app.model.roll.slipping import slipping
+from app.model.runs import Run, Runs, Stopped
 from app.text import say
 from app.widgets.cards import BUTTON, on_click, swatch, words
 from app.widgets.controls import SPIN, SYMBOLS, named
@@ -21,10 +24,11 @@ ROADS = {"display": "flex", "flex-direction": "row", "gap": "8px", "align-items"
 
 class PlaneCard:
     """content: what goes into a card. motion: a Motion; ask: takes inputs of the Explorer; slip: shows this motion on a
-    table where it slips. show_selected() is for each scene of a hand, plane.show_plane of the pictures, show_path() for
-    a hand at rest."""
+    table where it slips; runs: the page's Runs. show_selected() is for each scene of a hand, plane.show_plane of the
+    pictures, show_path() for a hand at rest."""
 
-    def __init__(self, motion, ask, slip):
+    def __init__(self, motion, ask, slip, runs=None):
+        self._runs = runs or Runs()
         self.plane = PlaneFigure(motion)
         self.slips, self.near = SlipLines(self.plane), PlaneInset(self.plane)
         self._trajectory = None
@@ -60,10 +64,19 @@ class PlaneCard:
 
     def show_path(self, scene):
         self._trajectory = scene.rolling
-        self.slips.show(slipping(scene), scene)
+        # as long as ten moves, so not in the thread that answers everybody
+        self._runs.begin(Run(lambda run: slipping(scene), partial(self._show_slipping, scene)), "slipping")
         self.near.show(scene)
         self.slip.visible = bool(scene.regime.max() == WOULD_SLIP)
         self.paper.visible = self.near.view.visible and scene.top != Top.paper()
+
+    def _show_slipping(self, scene, path):
+        if isinstance(path, Exception):
+            if not isinstance(path, Stopped):
+                raise path
+        elif scene.rolling is self._trajectory:
+            with pn.io.hold():
+                self.slips.show(path, scene)
 
 
 def papers():

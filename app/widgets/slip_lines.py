@@ -10,6 +10,7 @@ from app.widgets.plots import draw, plain
 
 HIGH = 96  # px
 LEFT = 44  # px, of both figures, so that one tilt stands under the other
+LETTER = 0.02  # of the width, in the narrowest figure
 ROWS = {"K_J": COLOURS["jellett"], "K_R": COLOURS["omega"]}
 BESIDE = {"text_color": INK, "text_font_size": "12px", "visible": False}
 
@@ -39,10 +40,10 @@ class SlipLines:
         draw(self.below, Scatter, "theta", "K_R", size=11, fill_color="white", line_color=INK, line_width=2, **on_top)
         self.touch = Span(location=np.pi, dimension="height", line_color=FAINT, line_dash=[2, 3], visible=False)
         above.add_layout(self.touch)
-        self.words = {"keeps": Label(x=0, y=0, y_offset=12, text_align="right", **BESIDE),
-                      "ends": Label(x=0, y=0, y_offset=-10, text_align="right", text_baseline="top", **BESIDE),
-                      "touches": Label(x=0, y=0, x_offset=-2, text_align="right", **BESIDE),
-                      "goes": Label(x=0, y=0, y_offset=-2, text_align="right", text_baseline="top",
+        self.words = {"keeps": Label(x=0, y=0, y_offset=12, **BESIDE),
+                      "ends": Label(x=0, y=0, y_offset=-10, text_baseline="top", **BESIDE),
+                      "touches": Label(x=0, y=0, **BESIDE),
+                      "goes": Label(x=0, y=0, y_offset=-2, text_baseline="top",
                                     **BESIDE)}  # fmt: skip
         for name, label in self.words.items():
             (self.below if name == "goes" else above).add_layout(label)
@@ -98,5 +99,15 @@ class SlipLines:
             self.touch.update(location=touch, visible=True)
             text = say("roll.slips.touches", degrees=np.degrees(touch))
             said["touches"] = self._plane.figure.x_range.end, high[0] + 0.55 * (high[1] - high[0]), text
+        end = self._plane.figure.x_range.end
         for name, (x, y, text) in said.items():
-            self.words[name].update(x=x, y=y, text=text, visible=True)
+            self.words[name].update(**_beside(x, text, end), y=y, text=text, visible=True)
+
+
+def _beside(x, text, end):
+    """Where words of a place stand: left of it, or where they would begin outside the figure, right of it, or else
+    from its edge on."""
+    wide = LETTER * end * max(map(len, text.split("\n")))
+    if x >= wide:
+        return {"x": x, "x_offset": -2, "text_align": "right"}
+    return {"x": x if x + wide < end else 0, "x_offset": 10, "text_align": "left"}

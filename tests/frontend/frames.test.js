@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Frames, emptyPose } from "../../app/frontend/src/motion/frames.js";
+import { Vector3 } from "three";
+import { centreOf, Frames, emptyPose } from "../../app/frontend/src/motion/frames.js";
 import { motion, near } from "./helping.js";
 
 const times = [1, 2, 4, 4.5, 8];
@@ -48,4 +49,13 @@ test("between two rows it is the turn in equal steps, the shorter way, and the s
 test("no motion has no rows", () => {
   const none = new Frames();
   assert.deepEqual([none.count, none.start, none.end, none.scales.force], [0, 0, 0, 0]);
+});
+
+test("the sphere's centre is over the contact, or where G and the axis say", () => {
+  const pose = emptyPose();
+  pose.contact.set(0.5, -0.25, 0);
+  pose.com.set(1, 2, 3);
+  pose.quaternion.set(Math.SQRT1_2, 0, 0, Math.SQRT1_2); // axis 3 along -y
+  near(centreOf(pose, null, new Vector3()).toArray(), [0.5, -0.25, 1]);
+  near(centreOf(pose, 0.25, new Vector3()).toArray(), [1, 1.75, 3]);
 });

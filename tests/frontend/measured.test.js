@@ -4,8 +4,7 @@ import { test } from "node:test";
 import { rowAt } from "../../app/frontend/src/three/measured.js";
 import { encodingOf, readFile, thinned } from "../../app/frontend/src/widgets/measured_file.js";
 
-const MOST = 10_000;
-const ROWS = 5000;
+const LIMITS = { most: 10_000, rows: 5000, head: 12 };
 const table = (rows, end = "\n") => ["# a film", "t (s)\ttilt (°)", ...Array.from({ length: rows }, (_, i) => `${(i / 240).toFixed(4)}\t${i}`)].join(end);
 
 test("a measured axis is shown between the frames that saw it, and nowhere else", () => {
@@ -23,18 +22,18 @@ test("a measured axis is shown between the frames that saw it, and nowhere else"
 
 test("a table of short rows is thinned to as many rows as are taken", () => {
   const rows = (count) => ["t,tilt", ...Array.from({ length: count }, (_, i) => `${i},1`), ""].join("\n");
-  assert.deepEqual(thinned(rows(5000), MOST * 10, ROWS), [rows(5000), 1]);
+  assert.deepEqual(thinned(rows(5000), { ...LIMITS, most: 100_000 }), [rows(5000), 1]);
   for (const count of [5100, 12_345, 100_000]) {
-    const [text, each] = thinned(rows(count), MOST * 10, ROWS), kept = text.split("\n").length;
-    assert.ok(kept <= ROWS && kept > ROWS / 2 - 20 && each >= Math.floor(count / ROWS), `${count}: ${kept}`);
+    const [text, each] = thinned(rows(count), { ...LIMITS, most: 100_000 }), kept = text.split("\n").length;
+    assert.ok(kept <= LIMITS.rows && kept > LIMITS.rows / 2 - 20 && each >= Math.floor(count / LIMITS.rows), `${count}: ${kept}`);
   }
 });
 
-test("a short table is left as it is", () => assert.deepEqual(thinned(table(20), MOST, ROWS), [table(20), 1]));
+test("a short table is left as it is", () => assert.deepEqual(thinned(table(20), LIMITS), [table(20), 1]));
 
 test("of a long one each so-manieth row is left, and its names", () => {
-  const [text, each] = thinned(table(5000), MOST, ROWS), lines = text.split("\n");
-  assert.ok(each > 1 && text.length <= MOST);
+  const [text, each] = thinned(table(5000), LIMITS), lines = text.split("\n");
+  assert.ok(each > 1 && text.length <= LIMITS.most);
   assert.equal(lines[1], "t (s)\ttilt (°)");
   const last = lines.slice(20).map((line) => Number(line.split("\t")[1]));
   last.slice(1).forEach((row, i) => assert.equal(row - last[i], each));
@@ -42,7 +41,7 @@ test("of a long one each so-manieth row is left, and its names", () => {
 
 test("digits that no film has go first", () => {
   const long = Array.from({ length: 400 }, (_, i) => `${i}.123456789012345,2.5E-3`).join("\n");
-  const [text, each] = thinned(long, MOST, ROWS);
+  const [text, each] = thinned(long, LIMITS);
   assert.equal(each, 1);
   assert.equal(text.split("\n")[399], "399.1234567,2.5E-3");
 });
@@ -71,18 +70,20 @@ function large(size, end) {
 for (const end of ["\n", "\r\n"]) {
   test(`a large file is read piece by piece (${JSON.stringify(end)})`, async () => {
     const shares = [];
-    const [text, each] = await readFile(/** @type {any} */ (large(250_000, end)), MOST, ROWS, (share) => shares.push(share));
+    const [text, each] = await readFile(/** @type {any} */ (large(250_000, end)), LIMITS, (share) => shares.push(share));
     const rows = text.split("\n").filter(Boolean), counts = rows.slice(20).map((row) => Number(row.split("\t")[1]));
     assert.ok(shares.length > 1 && shares.at(-1) === 1);
-    assert.ok(text.length <= MOST && counts.length > 100);
+    assert.ok(text.length <= LIMITS.most && counts.length > 100);
     assert.equal(rows[0], "t (s)\tµ count");
-    counts.slice(1).forEach((count, i) => assert.equal(count - counts[i], each));
+    // a row's number in the file is its count and one; Python says a line by this, app/model/measured/table.py
+    const after = text.split("\n").slice(LIMITS.head).filter(Boolean).map((row) => Number(row.split("\t")[1]) + 1);
+    after.forEach((number, i) => assert.equal(number, each * (Math.ceil(LIMITS.head / each) + i)));
   });
 }
 
 test("what is no text comes as its beginning, for which there is a sentence", async () => {
   const film = new Blob([new Uint8Array(5_000_000).fill(0).map((_, i) => i % 251)]);
-  const [text, each] = await readFile(film, MOST, ROWS, () => {});
-  assert.ok(text.includes("\0") && text.length < MOST);
+  const [text, each] = await readFile(film, LIMITS, () => {});
+  assert.ok(text.includes("\0") && text.length < LIMITS.most);
   assert.equal(each, 1);
 });

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { colours, onDark, onLight } from "../../app/frontend/src/colours.js";
+import { endRules, endsOnDark, endsOnLight } from "../../app/frontend/src/ends.js";
 import { colourOf, nameOf, ROLLS, wordOf } from "../../app/frontend/src/regimes.js";
 
 const listed = (name) => JSON.parse(readFileSync(new URL(`../../app/model/${name}.json`, import.meta.url), "utf8"));
@@ -21,4 +22,12 @@ test("the browser has the one list of colours", () => {
   const { on_light, on_dark, ...all } = listed("colours");
   assert.deepEqual(colours, all);
   assert.deepEqual([onLight, onDark], [{ ...all, ...on_light }, { ...all, ...on_dark }]);
+});
+
+test("the browser has the one list of ends", () => {
+  const inLab = listed("ends").filter((end) => end.in_lab);
+  for (const { in_lab: name, colour, on_dark } of inLab) {
+    assert.ok(endsOnLight.includes(`--end-${name}: ${colour};`) && endsOnDark.includes(`--end-${name}: ${on_dark};`));
+    assert.ok(endRules.includes(`.end.${name} { background: var(--end-${name}); }`));
+  }
 });

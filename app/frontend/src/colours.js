@@ -1,5 +1,5 @@
 // One colour a quantity: app/model/colours.json is the one list, for Python too. `chosen` is what is selected, or can be
-// clicked. Words and thin lines take those of the ground they stand on.
+// clicked; `accent` the page's blue; `wood` a top. Words and thin lines take those of the ground they stand on.
 import all from "../../model/colours.json" with { type: "json" };
 
 const { on_light, on_dark, ...colours } = all;

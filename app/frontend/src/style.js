@@ -4,7 +4,7 @@ import { colours } from "./colours.js";
 export const style = `
 :host { --line: color-mix(in srgb, currentColor 18%, transparent); }
 .tippe { display: flex; flex-direction: column; width: 100%; height: 100%; min-height: 300px; box-sizing: border-box;
-  font: calc(13px * var(--type, 1))/1.35 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif; }
+  font: calc(13px * var(--type, 1))/1.35 var(--family, system-ui, sans-serif); }
 .picture { position: relative; flex: 1 1 auto; min-height: 220px; overflow: hidden; border-radius: 10px; background: var(--scene, #f1efea); }
 .picture canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline: none; cursor: grab; }
 .picture canvas:active { cursor: grabbing; }
@@ -87,7 +87,7 @@ export function addText(picture, className) {
 }
 
 export const guideStyle = `
-:host { font: calc(14px * var(--type, 1))/1.45 system-ui, sans-serif; display: flex; gap: 4px; align-items: center; }
+:host { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); display: flex; gap: 4px; align-items: center; }
 [hidden] { display: none !important; }
 button { font: inherit; color: inherit; background: transparent; border: 1px solid currentColor; border-radius: 6px; cursor: pointer;
   min-width: 34px; height: calc(34px * var(--type, 1)); padding: 0 10px; }

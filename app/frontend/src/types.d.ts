@@ -141,6 +141,7 @@ interface FilmStageModel extends Model {
 interface MeasuredFileModel extends Model {
   most: number;
   rows: number;
+  head: number;
   table: [text: string, each: number, count: number];
 }
 
@@ -225,7 +226,7 @@ type PixelScale = { compute(value: number): number; invert(px: number): number }
 type Tieline = { K_J: number; inner: number; outer: number };
 
 // app/tabs/lab/lab.py says what each holds.
-type LabModel = Model & Record<"state", any> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
+type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
   a: number;
   seconds: number;
   asked: [count: number, name: string, value: any] | [];

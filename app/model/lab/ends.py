@@ -24,7 +24,7 @@ Key = tuple[Toy, float, float, float]  # toy, tilt, mu, patch
 
 
 class Segment(NamedTuple):
-    """From one spin to another (rev/s) runs end alike: a code of [ends] in lab.toml, and its word."""
+    """From one spin to another (rev/s) runs end alike: one of ends.IN_LAB or "mixed", and its word."""
 
     least: float
     most: float

@@ -304,15 +304,16 @@ class Lab(param.Parameterized):
         self._run = None
         if self._again:
             self._begin()
-        if self._run is None:
-            self._set(busy=False)
-        if isinstance(result, TopError):
-            self._refused(inputs, result)
-        elif isinstance(result, LabScene):
+        idle = {"busy": False} if self._run is None else {}
+        if isinstance(result, LabScene):
             self._good, self._back = inputs, back
-            self._set(scene=result)
+            self._set(scene=result, **idle)
             self._tell()
             self._live()
+            return
+        self._set(**idle)
+        if isinstance(result, TopError):
+            self._refused(inputs, result)
         elif not isinstance(result, Stopped):
             raise result
 

@@ -1,15 +1,14 @@
 """The whole life of a toy on the ordinary table: until the table has gripped it for good, and a moment more."""
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
 
 from app.model.planes.picture import Setup
-from app.model.planes.run import slid
+from app.model.planes.run import cut, slid
 from tippe_core import TopError, Trajectory
-from tippe_core.types import Number
 
 SECONDS = 6.0  # of a run while a hand moves, and of every other at least
 LIFE = 60.0  # s, at most
@@ -72,11 +71,6 @@ def thinned(moved: Trajectory, time: float, until: float = np.inf) -> Trajectory
     changes = moved.regime[1:] != moved.regime[:-1]
     kept = np.ones(len(moved.t), dtype=bool)
     kept[1:-1] = (np.diff(np.floor(rows[:-1]), prepend=0.0) > 0) | changes[:-1] | changes[1:]
-    within = time * moved.t <= until * (1 + 1e-9)
-    kept[np.flatnonzero(within)[-1]] = True
-    kept &= within
-    arrays: dict[str, Number]
-    arrays = {part.name: value[kept] for part in fields(moved)
-              if isinstance(value := getattr(moved, part.name), np.ndarray)}  # fmt: skip
-    events, supports = (tuple(x for x in each if time * x[0] <= until) for each in (moved.events, moved.supports))
-    return replace(moved, events=events, supports=supports, **arrays)
+    seen = time * moved.t <= until * (1 + 1e-9)
+    kept[np.flatnonzero(seen)[-1]] = True
+    return cut(moved, kept & seen, lambda t: time * t <= until)

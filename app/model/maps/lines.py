@@ -118,13 +118,15 @@ def _disagreement(level: Level, kind: str, says: Bools, otherwise: Bools) -> Dis
 def _why(level: Level, kind: str, i: int, j: int) -> str:
     """Why a run does otherwise, by what it did itself."""
     end = str(level.end[i, j])
-    if end == "rolling" or (kind == "stays" and level.asked.law == "coulomb"):
-        return "sticks"
     if kind == "beyond":
         return "carries" if end == "stem" else "high"
-    if np.isfinite(level.columns["time_stem"][i, j]):
+    if kind == "stays" and level.asked.law == "coulomb":
+        return "sticks"
+    if np.isfinite(level.columns["time_stem"][i, j]):  # it was over before it rolled or leaned
         pivots = "falls" if level.asked.law == "contensou" else "stem"
         return "lifts" if level.columns["hops"][i, j] > MANY else pivots
+    if end == "rolling":
+        return "sticks"
     if kind == "stays" or end == "moving":
         return "time"
     return "pivoting" if level.asked.law == "contensou" else "time"

@@ -18,7 +18,6 @@ from tippe_core.types import Array, Rim
 OWN = ""  # the name of a body that is none of tippe_core.PRESETS
 LAWS = ("coulomb", "viscous", "smoothed", "contensou")
 COLOURS_BY = ("end", "time_90", "theta_end", "F_z_least", "flew", "heat", "hops", "growth")
-ENDINGS = ("upright", "leaning", "rolling", "moving", "inverted", "stem", "refused")
 MOST_CELLS, MOST_SECONDS = 96, 60.0
 FIRST = 8  # cells a side of the first look
 NUDGE = 1e-6  # rad

@@ -18,6 +18,7 @@ from tippe_core.types import Array
 RUNS, SWEEP, TILTS, LONGER = 41, 17, 181, 4
 MOST_SECONDS = 60.0
 DRIFT = 600  # samples of the long run
+DIFFER = 5.0  # degrees: from here on going up and going down end at different tilts
 Look = Callable[[float], object]
 
 
@@ -56,6 +57,12 @@ class Bifurcation:
     up: Array
     down: Array
     life: Life
+
+    @property
+    def hysteresis(self) -> tuple[float, float] | None:
+        """The least and the largest of the spins where going up and going down end at different tilts."""
+        at = self.swept[np.abs(self.up - self.down) > DIFFER]
+        return (float(at.min()), float(at.max())) if at.size else None
 
 
 def spins_of(asked: Map) -> tuple[float, float]:

@@ -1,6 +1,7 @@
 """A table of what somebody measured of a top on film or with a phone: what was understood of each column.
 
-Tracker writes a tab or a comma between its columns, below a line or two of names; phyphox names and units in quotes;
+Tracker writes a tab or a comma between its columns, below a line or two of names; a sheet may have a line of units
+below its names; phyphox names and units in quotes;
 a spreadsheet semicolons, and decimal commas. What cannot be read is told with its line, as a MeasuredError; what
 could be read but was left out is a note of the Table.
 """
@@ -18,6 +19,10 @@ LARGEST = 200_000
 """Bytes of a table: the server takes a message of 256 KiB, and text grows a little on its way."""
 FEWEST, MOST = 8, 5000
 """Rows of a table."""
+HEAD = 12
+"""First lines of a long table, of which the browser leaves none out."""
+USUAL = {"rev/s": 60.0, "rad/s": 600.0, "deg/s": math.inf}
+"""{unit: the largest number that a top's spin is likely to have in it}."""
 
 ANGLES = {"deg": math.pi / 180, "rad": 1.0}
 RATES = {"rev/s": 2 * math.pi, "rad/s": 1.0, "deg/s": math.pi / 180, "rpm": math.pi / 30}
@@ -40,16 +45,17 @@ UNITS = {
 # The names by which tables call a quantity, in lower case and without what is no letter; the first that fits.
 NAMES = {
     "time": "t time zeit seconds frame frames bild bilder timestamp",
-    "tilt": "tilt theta θ neigung inclination nutation tiltangle neigungswinkel",
+    "tilt": "tilt theta θ thetar θr neigung inclination nutation tiltangle neigungswinkel",
     "azimuth": "azimuth azimut phi φ ϕ",
-    "spin": "spin omega3 ω3 w3 ω drehung drehzahl eigendrehung gyroscopez gyroskopz angularvelocityz",
+    "spin": "spin omega3 ω3 w3 ω drehung drehzahl eigendrehung gyroscopez gyroskopz "
+    "angularvelocityz winkelgeschwindigkeitz",
     "precession": "precession präzession phidot precessionrate präzessionsrate",
     "height": "height höhe heightofg h zg",
     "tip": "tip tipheight stemtip spitze stielende heightoftip",
     "x": "x contactx trackx",
     "y": "y contacty tracky",
-    "tip_x": "tipx stemtipx spitzex",
-    "tip_y": "tipy stemtipy spitzey",
+    "tip_x": "tipx xtip stemtipx spitzex",
+    "tip_y": "tipy ytip stemtipy spitzey",
 }
 _QUANTITY = {name: quantity for quantity, names in NAMES.items() for name in names.split()}
 _UNIT = {
@@ -60,6 +66,7 @@ _UNIT = {
     "grad/s": "deg/s", "rpm": "rpm", "rev/min": "rpm", "u/min": "rpm", "1/min": "rpm", "mm": "mm", "cm": "cm", "m": "m",
 }  # fmt: skip
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?", re.A)
+_UNIT_LAST = re.compile(r"(?:\s+in\s+|[/_ ]\s*)([^/_\s]+(?:/[^/_\s]+)?)\s*$")
 _GAP = {"", "-", "nan", "na", "n/a", "null", "none"}
 
 
@@ -112,8 +119,8 @@ def read(data: bytes | str) -> Table:
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, between)), None)
     if first is None:
         raise MeasuredError("no-numbers", line=rows[0][0], text=rows[0][1][0][:40])
-    names = next((cells for _, cells in reversed(rows[:first]) if len(cells) == len(rows[first][1])), None)
-    return _table(names, rows[first:], between)
+    heads = [cells for _, cells in rows[:first] if len(cells) == len(rows[first][1])]
+    return _table(_names(heads), rows[first:], between)
 
 
 def _decoded(data: bytes) -> str:
@@ -131,6 +138,17 @@ def _separator(lines: list[tuple[int, str]]) -> str:
         if sum(between in line for _, line in lines) > len(lines) / 2:
             return between
     return " "
+
+
+def _names(heads: list[list[str]]) -> list[str] | None:
+    """Of the lines above the numbers the last, with the units below them where that has nothing else."""
+    if len(heads) > 1 and all(not cell or _bare(cell) in _UNIT for cell in heads[-1]) and any(heads[-1]):
+        return [f"{name} ({_bare(unit)})" if unit else name for name, unit in zip(*heads[-2:], strict=True)]
+    return heads[-1] if heads else None
+
+
+def _bare(unit: str) -> str:
+    return unit.strip("()[] ").lower()
 
 
 def _cells(line: str, between: str) -> list[str]:
@@ -226,7 +244,7 @@ def _columns(names: list[str], values: Array) -> tuple[Column, ...]:
     taken = {""}
     for i, name in enumerate(names):
         quantity, unit, error = _understood(name)
-        if quantity in taken:
+        if quantity in taken or not np.isfinite(values[:, i]).any():
             quantity = ""
         taken.add(quantity)
         guessed = bool(quantity) and unit not in UNITS[quantity]
@@ -240,7 +258,7 @@ def _understood(name: str) -> tuple[str, str, float | None]:
     """(quantity, unit, error) of a column's name; "" for what it does not tell."""
     name, _, error = name.partition("±")
     found = _NUMBER.fullmatch(error.strip())
-    unit = re.search(r"[(\[]([^)\]]*)[)\]]", name) or re.search(r"[/_ ]\s*([^/_\s]+(?:/[^/_\s]+)?)\s*$", name)
+    unit = re.search(r"[(\[]([^)\]]*)[)\]]", name) or _UNIT_LAST.search(name)
     known = _UNIT.get(unit[1].strip().lower(), "") if unit else ""
     called = name[: unit.start()] + name[unit.end() :] if unit and known else name
     bare = re.sub(r"[^a-zäöüßθφϕω0-9]", "", called.lower())
@@ -255,8 +273,15 @@ def _likely(quantity: str, values: Array, name: str) -> str:
     if UNITS[quantity] is ANGLES:
         return "rad" if largest <= math.pi + 0.2 else "deg"
     if UNITS[quantity] is RATES:
-        return "rev/s"
+        return next(unit for unit, most in USUAL.items() if largest <= most)
     return "m" if largest < 2 else "mm"
+
+
+def line_in_file(line: int, each: int) -> int:
+    """Where a line of a table stands in its file, of which the browser kept the first lines, and of the others those
+    whose number from 0 is a multiple of each."""
+    beyond = line - 1 - HEAD
+    return line if each == 1 or beyond < 0 else each * (math.ceil(HEAD / each) + beyond) + 1
 
 
 def written(table: Table) -> str:

@@ -101,13 +101,19 @@ def _below(settings: Setup, theta: Array) -> Bools:
     return np.asarray(stands + lowest(body(settings.shape), theta) < -SUNK)
 
 
+def cut(trajectory: Trajectory, rows: slice | Bools, so_far: Callable[[float], bool]) -> Trajectory:
+    """These rows of a Trajectory, with the events and supports whose time is so_far."""
+    arrays: dict[str, Number]
+    arrays = {part.name: value[rows] for part in fields(trajectory)
+              if isinstance(value := getattr(trajectory, part.name), np.ndarray)}  # fmt: skip
+    events, supports = (tuple(x for x in each if so_far(x[0])) for each in (trajectory.events, trajectory.supports))
+    return replace(trajectory, events=events, supports=supports, **arrays)
+
+
 def _until(trajectory: Trajectory, count: int, time: float, event: str) -> Trajectory:
     """The first rows of a Trajectory, which ends at that time with that event."""
-    rows: dict[str, Number]
-    rows = {part.name: value[:count] for part in fields(trajectory)
-            if isinstance(value := getattr(trajectory, part.name), np.ndarray)}  # fmt: skip
-    events, supports = (tuple(x for x in each if x[0] < time) for each in (trajectory.events, trajectory.supports))
-    return replace(trajectory, events=(*events, (time, event)), supports=supports, **rows)
+    found = cut(trajectory, slice(count), lambda t: t < time)
+    return replace(found, events=(*found.events, (time, event)))
 
 
 def nudged(picture: Picture, progress: Progress | None = None) -> float:

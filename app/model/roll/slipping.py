@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from app.model.runs import look
 from app.model.scene import Scene
 from tippe_core import Contensou, State, Top, TopError, Trajectory, omega2, omega3, slide
 from tippe_core.types import Array, Indices
@@ -67,14 +68,15 @@ class TooLong(Exception):
 
 
 def _patient() -> Callable[[float], None]:
-    """A progress of slide() that ends it after MOST_LOOKS."""
+    """A progress of slide() that ends it after MOST_LOOKS, or with the run that it is part of."""
     left = iter(range(MOST_LOOKS))
 
-    def look(reached: float) -> None:
+    def patient(reached: float) -> None:
         if next(left, None) is None:
             raise TooLong
+        look(reached)
 
-    return look
+    return patient
 
 
 @lru_cache(maxsize=8)

@@ -4,6 +4,7 @@ The picture, its controls and its words are one component of the browser; here i
 Lab then has becomes what the component draws.
 """
 
+import json
 import math
 from functools import partial
 
@@ -16,7 +17,7 @@ from app.model.build.dimensions import FAMILIES, changed, sentence, value_of
 from app.model.lab.lab import FIRST, SHOWN, Lab
 from app.model.lab.run import shape_of
 from app.state import asked
-from app.text import listed, say
+from app.text import listed, say, speaking, spoken
 from app.widgets.failure import after
 from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
@@ -61,7 +62,9 @@ class LabView(Bundled):
     SAYS = ("Stage", "Top3D")
     REGIMES = "here"
 
-    state = param.Dict(default={}, doc="All that is no array: the inputs, the runs in words, what was refused.")
+    # JSON: Panel and Bokeh look at each part of a dict again and again, which was a quarter of a move.
+    state = param.String(default="{}", doc="The inputs, what was refused, how far a run is that is computed.")
+    told = param.String(default="{}", doc="Of what is shown: its inputs, and its runs in words.")
     profile = param.Bytes(default=b"", doc="As of a Top3D.")
     a = param.Number(default=0.0, doc="G's distance below O, in R.")
     seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
@@ -117,12 +120,11 @@ class LabTab:
 
     def __init__(self, lab, research, rests):
         self._lab, self._research, self._rests = lab, research, rests
-        self._answered, self._shown, self._tried, self._wrong = 0, None, {}, {}
+        self._answered, self._said, self._shown, self._tried, self._wrong = 0, None, None, {}, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
         self.view.param.watch(asked.heard(self._heard), "asked")
-        lab.param.watch(lambda event: self.show(), ["scene", "ends"])
-        lab.param.watch(self._waits, "busy")
+        lab.param.watch(self._changed, ["scene", "ends", "busy"])
         self.show()
 
     def _heard(self, event):
@@ -139,7 +141,8 @@ class LabTab:
         else:
             raise asked.Unasked(name)
         after(RESTS, partial(self._rest, self._answered))
-        self.show()
+        if self._said != self._answered:
+            self.show()
 
     def _of_body(self, name, value):
         """What the Lab is to be asked for by a dimension of the body, in its unit; nothing, and a sentence at it, where
@@ -157,10 +160,10 @@ class LabTab:
             self._wrong[name] = sentence(error)
             return {}
 
-    def _waits(self, event):
-        """Tells how far a run is, as long as one is computed."""
+    def _changed(self, *events):
+        """Tells how far a run is, too, as long as one is computed."""
         self.show()
-        if event.new:
+        if any(event.name == "busy" and event.new for event in events):
             after(LOOKS, self._look)
 
     def _look(self):
@@ -174,13 +177,17 @@ class LabTab:
 
     def show(self):
         """What the Lab has now."""
-        scene = self._lab.scene
-        if scene is None:
-            return
-        changes = {"state": self._state(scene)}
+        if self._lab.scene is not None:
+            self._said = self._answered
+            with speaking(spoken()):  # asked once, not for each word
+                self._show(self._lab.scene)
+
+    def _show(self, scene):
+        changes = {"state": json.dumps(self._state(scene), allow_nan=False)}
         if scene is not self._shown:
             self._shown = scene
-            changes |= {"profile": pack(scene.profile), "a": scene.a, "seconds": scene.seconds}
+            changes |= {"told": json.dumps(self._told(scene), allow_nan=False), "profile": pack(scene.profile),
+                        "a": scene.a, "seconds": scene.seconds}  # fmt: skip
             for table, motion in scene.motions.items():
                 changes[f"frames_{table}"] = pack_frames(*motion.frames) if motion else b""
                 changes[f"curves_{table}"] = pack(motion.curves) if motion else b""
@@ -188,16 +195,15 @@ class LabTab:
 
     def _state(self, scene):
         lab, start = self._lab, self._lab.start
+        toy = start.toy
         messages = {name: spelled(said) for name, said in (scene.messages | self._wrong).items()}
-        dims, view = dimensions(start.toy), listed("lab_view.view")
+        dims = dimensions(toy)
         return {
-            "table": scene.table,
-            "toy": start.toy if isinstance(start.toy, str) else "",
-            "values": {name: getattr(start, name) for name in INPUTS} | sizes(start.toy),
+            "toy": toy if isinstance(toy, str) else "",
+            "values": {name: getattr(start, name) for name in INPUTS} | sizes(toy),
             "sliders": SLIDERS
             | {name: (each.low, each.high, each.step, digits_of(each)) for name, each in dims.items()},
             "dims": [[name, _word(each), each.unit] for name, each in dims.items()],
-            "rubs": [["patch", view["inputs"]["patch"]["typed"], "mm"]] if scene.table in ("ordinary", "three") else [],
             "messages": messages,
             "law": ""
             if start.law == "contact"
@@ -206,6 +212,17 @@ class LabTab:
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
             "was": self._differ(scene, scene, start),
             "wants": self._differ(start, scene, start),
+            "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
+            "answered": self._answered,
+            "busy": lab.busy,
+            "reached": lab.reached,
+        }
+
+    def _told(self, scene):
+        view = listed("lab_view.view")
+        return {
+            "table": scene.table,
+            "rubs": [["patch", view["inputs"]["patch"]["typed"], "mm"]] if scene.table in ("ordinary", "three") else [],
             "of": {
                 **{name: [getattr(scene, name), self._named(scene, name)] for name in INPUTS},
                 "toy": [scene.toy, listed("build.presets")[scene.toy]["name"]]
@@ -219,12 +236,8 @@ class LabTab:
             },
             "runs": {table: self._run(scene, table) for table in scene.motions},
             "said": list(map(spelled, scene.said)),
-            "ends": [list(end) for end in lab.ends.segments] if lab.ends else None,
             "R": 1e3 * shape_of(scene.toy).R,
-            "answered": self._answered,
             "whole": scene.whole,
-            "busy": lab.busy,
-            "reached": lab.reached,
         }
 
     @staticmethod

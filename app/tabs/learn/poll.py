@@ -4,12 +4,13 @@ from dataclasses import asdict
 
 import panel as pn
 
+from app.model.explorer import solved
 from app.model.lesson import lesson
 from app.model.runs import to_session
 from app.model.votes.ballots import Away
 from app.model.votes.classroom import Refused
 from app.model.votes.desk import DESK
-from app.state.keep import EXPLORER, explorer_of
+from app.state.keep import EXPLORER, inputs_of
 from app.text import say
 
 MOST_ASKED = 4
@@ -31,7 +32,7 @@ def asked_of(step, scene):
 
 def scene_of(room):
     """The Scene of the top that a Room is about; None where there is no room, or it is of another version of this."""
-    return explorer_of(room.top)[0].scene if room is not None and room.step in lesson.OF_NAME else None
+    return solved(**inputs_of(room.top)[0]) if room is not None and room.step in lesson.OF_NAME else None
 
 
 class Counter:

@@ -7,9 +7,10 @@ from dataclasses import asdict
 
 import numpy as np
 
+from app.model import ends
 from app.model.maps.lines import lines
 from app.model.maps.maps import QUANTITIES, UNITS, Map
-from app.tabs.maps.picture import END_COLOURS, span
+from app.tabs.maps.picture import span
 from app.tabs.maps.words import title, with_unit
 from app.text import listed
 
@@ -67,12 +68,11 @@ def _drawn(level, colour, kind):
             xlabel=with_unit(asked.across), ylabel=with_unit(asked.up), title=title(asked, colour)
         )
         if colour == "end":
-            ends = list(END_COLOURS)
-            index = np.vectorize(lambda end: ends.index(end) if end else np.nan, otypes=[float])(level.end)
-            shown = ListedColormap(list(END_COLOURS.values()))
-            axes.pcolormesh(level.x, level.y, index, cmap=shown, vmin=-0.5, vmax=len(ends) - 0.5, rasterized=True)
-            patches = [Patch(color=END_COLOURS[end], label=listed("maps.ends")[end])
-                       for end in ends if (level.end == end).any()]  # fmt: skip
+            shown = ListedColormap(list(ends.COLOUR.values()))
+            index = np.vectorize(lambda end: ends.NAMES.index(end) if end else np.nan, otypes=[float])(level.end)
+            axes.pcolormesh(level.x, level.y, index, cmap=shown, vmin=-0.5, vmax=len(ends.NAMES) - 0.5, rasterized=True)
+            patches = [Patch(color=ends.COLOUR[end], label=listed("maps.ends")[end])
+                       for end in ends.NAMES if (level.end == end).any()]  # fmt: skip
             axes.legend(handles=patches, fontsize=7)
         elif span(level, colour):
             unit = f" ({UNITS[colour]})" if UNITS[colour] else ""

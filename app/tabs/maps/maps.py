@@ -61,7 +61,10 @@ class Maps:
         )
         shows = [pmui.Button(label=say("maps.show_one"), **BUTTON) for _ in range(WHY)]
         # rows come and go, not their buttons: a button that changes before its script has come breaks
-        self.thrown_row, *self.show_rows = rows = [flow(button) for button in (self.thrown, *shows)]
+        # and not what lays them out, whose own style would show it all the same
+        self.thrown_row, *self.show_rows = rows = [
+            pn.Column(flow(button), sizing_mode="stretch_width", margin=0) for button in (self.thrown, *shows)
+        ]
         for row in rows:
             row.visible = False
         on_click(self.stop, lambda event: self._run and self._run.stop())

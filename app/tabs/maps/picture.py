@@ -1,25 +1,23 @@
 """A Level of a map -> Bokeh: one picture of cells, a hatch on those that are mixed, closed-form lines, the bead."""
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Line, MultiLine, Quad, Range1d, Scatter, Span
+from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Line, MultiLine, Quad, Range1d, Scatter, Segment, Span
 from bokeh.palettes import Viridis256
+from scipy.ndimage import distance_transform_edt
 
 from app.bundle import call
-from app.model.colours import INK
+from app.model import ends
+from app.model.colours import ACCENT, INK
 from app.model.maps.lines import lines
-from app.model.maps.maps import ENDINGS
 from app.tabs.maps.stage import CLOCK
 from app.text import listed, say
 from app.widgets.plots import draw, plain
 
-# One hue, light to dark by tilt, always with the word; what rolls or changes stands between.
-END_COLOURS = {"upright": "#f6f1e6", "leaning": "#e8dcc2", "rolling": "#dccaa2", "moving": "#cdb88f",
-               "inverted": "#a88a55", "stem": "#80632f", "refused": "#9aa3ac"}  # fmt: skip
-ON_END = {"inverted": "white", "stem": "white"}  # words on these; else dark
 DARK = "#1b2430"
 DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
           "window_high": "dotdash"}  # fmt: skip
-LEAST_AREA = 0.06  # of the map: an end with less has its word in the key alone
+LEAST_AREA, LEAST_ROOM = 0.06, 0.05  # of the map, of its width to either side: an end with less is in the key alone
+WIDE = 4.0  # times as much room as above and below
 
 
 class MapFigure:
@@ -42,16 +40,19 @@ class MapFigure:
         draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color="#fefefe", line_width=5)
         draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
         self.bead = ColumnDataSource({"x": [0.0], "y": [0.0]})
+        line = {"x1": "x", "y1": "y", "line_color": ACCENT, "line_width": 1.5}
+        self._to_axes = [draw(fig, Segment, source=self.bead, **line, **begin)
+                         for begin in ({"x0": 0.0, "y0": "y"}, {"x0": "x", "y0": 0.0})]  # fmt: skip
         draw(fig, Scatter, "x", "y", source=self.bead, level="overlay", size=17, fill_color="#fefefe",
-             line_color="#1558c0", line_width=5)  # fmt: skip
+             line_color=ACCENT, line_width=5)  # fmt: skip
         self.words = []
-        for _ in ENDINGS:
+        for _ in ends.NAMES:
             self.words.append(Label(x=0, y=0, text=" ", visible=False, text_align="center", text_baseline="middle",
                                     text_font_size="12px", text_font_style="bold"))  # fmt: skip
             fig.add_layout(self.words[-1])
         self.hand = ColumnDataSource({"x": [0.0], "y": [0.0], "cell": [0]})
-        box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color="#1558c0", fill_alpha=0.15,
-                            line_color="#1558c0", line_width=2)  # fmt: skip
+        box = BoxAnnotation(left=0, right=0, bottom=0, top=0, visible=False, fill_color=ACCENT, fill_alpha=0.15,
+                            line_color=ACCENT, line_width=2)  # fmt: skip
         fig.add_layout(box)
         mine = {"fig": fig, "hand": self.hand, "bead": self.bead, "box": box}
         for event in ("tap", "panstart", "pan", "panend"):
@@ -65,6 +66,7 @@ class MapFigure:
         """Another map: nothing of the one before is left."""
         self.figure.x_range.update(start=asked.across_range[0], end=asked.across_range[1])
         self.figure.y_range.update(start=asked.up_range[0], end=asked.up_range[1])
+        self._to_axes[0].glyph.x0, self._to_axes[1].glyph.y0 = asked.across_range[0], asked.up_range[0]
         for source in (self.coarse, self.fine, self.mixed, self.lines):
             source.data = {name: [] for name in source.data}
         for word in self.words:
@@ -93,13 +95,17 @@ class MapFigure:
 
     def _name_areas(self, level, colour):
         named = listed("maps.ends")
-        for word, end in zip(self.words, ENDINGS, strict=True):
-            own = np.argwhere(level.end == end)
-            if colour != "end" or len(own) < LEAST_AREA * level.end.size:
+        for word, end in zip(self.words, ends.NAMES, strict=True):
+            own = level.end == end
+            room = distance_transform_edt(np.pad(own, 1), sampling=(WIDE, 1))[1:-1, 1:-1]  # for a word, which is wide
+            room[[0, -1]] = 0  # a word there would be cut off
+            if colour != "end" or own.mean() < LEAST_AREA or room.max() < LEAST_ROOM * len(level.x):
                 word.visible = False
                 continue
-            i, j = own[np.argmin(np.sum((own - own.mean(axis=0)) ** 2, axis=1))]
-            word.update(x=level.x[j], y=level.y[i], text=named[end], text_color=ON_END.get(end, DARK), visible=True)
+            i, j = np.unravel_index(np.argmax(room), room.shape)
+            word.update(
+                x=level.x[j], y=level.y[i], text=named[end], text_color=ends.WORDS_ON.get(end, DARK), visible=True
+            )
 
 
 class RunFigure:
@@ -112,7 +118,7 @@ class RunFigure:
         fig.yaxis.ticker.desired_num_ticks = 4
         self.source = ColumnDataSource({"t": [], "theta": []})
         draw(fig, Line, "t", "theta", source=self.source, line_color=INK, line_width=2)
-        now = Span(location=0, dimension="height", line_color="#1558c0", line_width=1.5)
+        now = Span(location=0, dimension="height", line_color=ACCENT, line_width=1.5)
         fig.add_layout(now)
         fig.js_on_change("inner_width", call("moveLines", spans=[now], clock=CLOCK))
         for event in ("tap", "panstart", "pan", "panend"):
@@ -140,7 +146,7 @@ def cells(level, colour):
     """The colours as Bokeh takes them, (up, across) of uint32; transparent where no run was made or nothing is."""
     rgba = np.zeros((*level.end.shape, 4), np.uint8)
     if colour == "end":
-        for end, name in END_COLOURS.items():
+        for end, name in ends.COLOUR.items():
             rgba[level.end == end] = (*bytes.fromhex(name[1:]), 255)
     elif found := span(level, colour):
         low, high = found

@@ -8,9 +8,10 @@ import panel as pn
 from bokeh.models import ColumnDataSource, Line, MultiLine, Range1d, Scatter
 
 from app.bundle import call
-from app.model.colours import INK
+from app.model import ends
+from app.model.colours import ACCENT, INK
 from app.model.maps.rates import rates
-from app.model.maps.steady import at_place, bifurcation
+from app.model.maps.steady import at_place, bifurcation, spins_of
 from app.model.runs import MAPS, Run, Stopped
 from app.tabs.maps.picture import DARK
 from app.tabs.maps.words import unit_of
@@ -19,9 +20,9 @@ from app.widgets.cards import alert, note, words
 from app.widgets.plots import draw, plain
 from tippe_core import TopError
 
-COLOURS = {"upright": "#1558c0", "tumbling": "#80632f", "inverted": "#9b2d20"}
+COLOURS = {"upright": ACCENT, "tumbling": ends.COLOUR["stem"], "inverted": "#9b2d20"}
 DASHES = {True: "solid", False: "dashed"}
-SHADES = ("#80632f", "#fefefe")  # of the dots after the first and the second time
+SHADES = (ends.COLOUR["stem"], "#fefefe")  # of the dots after the first and the second time
 
 
 class Steady:
@@ -42,9 +43,9 @@ class Steady:
         for source, shade in zip(self.dots, SHADES, strict=True):
             draw(fig, Scatter, "x", "y", source=source, size=6, fill_color=shade, line_color=DARK, line_width=0.8)
         for source, marker in zip(self.sweeps, ("triangle", "inverted_triangle"), strict=True):
-            draw(fig, Line, "x", "y", source=source, line_color="#1558c0", line_width=1, line_alpha=0.6)
-            draw(fig, Scatter, "x", "y", source=source, marker=marker, size=7, fill_color=None, line_color="#1558c0")
-        draw(fig, Line, "x", "y", source=self.here, line_color="#1558c0", line_width=1.5)
+            draw(fig, Line, "x", "y", source=source, line_color=ACCENT, line_width=1, line_alpha=0.6)
+            draw(fig, Scatter, "x", "y", source=source, marker=marker, size=7, fill_color=None, line_color=ACCENT)
+        draw(fig, Line, "x", "y", source=self.here, line_color=ACCENT, line_width=1.5)
         self.grow, self.turn = _figure("maps-growth", 170, None), _figure("maps-turning", 170, None)
         self.branches = {}
         for name, colour in COLOURS.items():
@@ -73,7 +74,11 @@ class Steady:
         if key == self._key:
             return
         self._key = key
-        self.title.object = f"<h2>{say('maps.steady.title', tilt=x['tilt'])}</h2>"
+        if not self.title.object:  # else what stands there is still of the place before
+            self.title.object = _title(x)
+            for fig in (self.bends, self.grow, self.turn):
+                fig.x_range.update(**dict(zip(("start", "end"), spins_of(asked), strict=True)))
+        self.says.object = note(say("maps.steady.waits"))
         work = Run(lambda run: (bifurcation(asked, place, run.look), rates(asked, place, run.look)),
                    partial(self._done, key, x))  # fmt: skip
         self._runs.begin(work, "maps-steady", MAPS)
@@ -88,6 +93,7 @@ class Steady:
             raise result
         found, small = result
         with pn.io.hold():
+            self.title.object = _title(x)
             self._draw(found)
             self._draw_rates(small)
             self.says.object = of_life(found)
@@ -120,6 +126,10 @@ class Steady:
             fig.y_range.update(start=float(seen.min() - room), end=float(seen.max() + room))
 
 
+def _title(x):
+    return f"<h2>{say('maps.steady.title', tilt=x['tilt'])}</h2>"
+
+
 def of_life(found):
     """What becomes of the bead's run in the long, and whether going up and down differ."""
     life, said = found.life, []
@@ -128,11 +138,8 @@ def of_life(found):
         said.append(say("maps.steady.leaves", time=life.leaves) if np.isfinite(life.leaves)
                     else say("maps.steady.stays", time=life.seconds))  # fmt: skip
     said.append(say("maps.steady.end", time=life.seconds, tilt=life.end))
-    both = np.isfinite(found.up) & np.isfinite(found.down)
-    differ = np.abs(found.up - found.down)[both]
-    if differ.size and differ.max() > 5:
-        at = found.swept[both][differ > 5]
-        said.append(say("maps.steady.hysteresis", low=at.min(), high=at.max()))
+    if differ := found.hysteresis:
+        said.append(say("maps.steady.hysteresis", low=differ[0], high=differ[1]))
     else:
         said.append(say("maps.steady.no_hysteresis"))
     return " ".join(said)

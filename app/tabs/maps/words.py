@@ -3,15 +3,16 @@
 import numpy as np
 from bokeh.palettes import Viridis256
 
+from app.model import ends
 from app.model.maps.lines import lines
-from app.model.maps.maps import ENDINGS, QUANTITIES, UNITS
-from app.tabs.maps.picture import DASHES, END_COLOURS, span
+from app.model.maps.maps import QUANTITIES, UNITS
+from app.tabs.maps.picture import DASHES, span
 from app.text import listed, say, written
 from app.widgets.cards import note, px, swatch
 from app.widgets.typeset import power
 
 PATCH = "display: inline-block; width: 22px; height: 13px; margin: 0 6px 0 0; border: 1px solid #8a96a3; {}"
-HATCHED = "background: repeating-linear-gradient(135deg, #dccaa2 0 3px, #1b2430 3px 4px)"
+HATCHED = f"background: repeating-linear-gradient(135deg, {ends.COLOUR['rolling']} 0 3px, #1b2430 3px 4px)"
 LINE = {"solid": "solid", "dashed": "dashed", "dotted": "dotted", "dashdot": "dashed", "dotdash": "dotted"}
 
 
@@ -25,7 +26,9 @@ def colours_say(level, colour):
     said = [f"<h2>{say('maps.colours_say')}</h2>"]
     if colour == "end":
         named = listed("maps.ends")
-        said += [_patch(f"background: {END_COLOURS[end]}", named[end]) for end in ENDINGS if (level.end == end).any()]
+        said += [
+            _patch(f"background: {ends.COLOUR[end]}", named[end]) for end in ends.NAMES if (level.end == end).any()
+        ]
     elif found := span(level, colour):
         ramp = ", ".join(Viridis256[::51])
         unit = UNITS[colour]
@@ -42,8 +45,7 @@ def colours_say(level, colour):
 
 def of_run(asked, across, up, found):
     """What became of one run."""
-    units = [unit_of(name) for name in (asked.across, asked.up)]
-    says = say("maps.run.says", across=across, across_unit=units[0], up=up, up_unit=units[1],
+    says = say("maps.run.says", across=_measured(across, asked.across), up=_measured(up, asked.up),
                end=listed("maps.ends")[found.end])  # fmt: skip
     times = [say("maps.run.passes", time=found.time_90) if np.isfinite(found.time_90) else say("maps.run.never")]
     if np.isfinite(found.time_stem):
@@ -64,10 +66,16 @@ def of_disagreement(found, asked, first):
     """Where runs do otherwise than the closed form says, and why; first: of the kinds that there may be."""
     if found is None:
         return note(say("maps.agree")) if first else ""
-    unit = unit_of(asked.across)
-    says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=found.low, high=found.high,
-               unit=unit) + say(f"maps.why.{found.why}")  # fmt: skip
+    low, high = written(found.low, ".3g"), _measured(found.high, asked.across)
+    says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, low=low, high=high)
+    says += say(f"maps.why.{found.why}")
     return (f"<h2>{say('maps.disagree')}</h2>" if first else "") + says
+
+
+def _measured(value, name):
+    """A value of a quantity with its unit."""
+    unit = unit_of(name)
+    return written(value, ".3g") + (f" {unit}" if unit not in ("", "°") else unit)
 
 
 def title(asked, colour):

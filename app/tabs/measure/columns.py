@@ -52,9 +52,9 @@ class Columns:
         shown = "; ".join(written(value, ".4g") for value in values)
         name = words(f"<b>{html.escape(column.name)}</b><br>{note(f'{shown} …')}", sizing_mode=None, width=170)
         quantity = pmui.Select(label=say("measure.column.quantity", name=column.name), value=column.quantity,
-                               options={says: key for key, says in _quantities().items()}, width=150,
+                               options={says: key for key, says in _quantities().items()}, width=215,
                                **SELECT)  # fmt: skip
-        unit = pmui.Select(label=say("measure.column.unit"), value=column.unit, width=88,
+        unit = pmui.Select(label=say("measure.column.unit"), value=column.unit, width=104,
                            options=[*UNITS.get(column.quantity, {"": 1})], **SELECT)  # fmt: skip
         error = field("" if column.error is None else written(column.error, "g"), say("measure.column.error"), width=56)
         guessed = words(_guessed(column), sizing_mode=None)

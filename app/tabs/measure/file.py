@@ -4,7 +4,7 @@ long."""
 import param
 
 from app.bundle import Bundled
-from app.model.measured.table import MOST
+from app.model.measured.table import HEAD, MOST
 
 
 class MeasuredFile(Bundled):
@@ -12,4 +12,5 @@ class MeasuredFile(Bundled):
 
     most = param.Integer(default=180_000, constant=True, doc="characters of a text; of a longer one rows are left out")
     rows = param.Integer(default=MOST, constant=True, doc="rows of a table; of a longer one rows are left out")
+    head = param.Integer(default=HEAD, constant=True, doc="first lines, of which none is left out")
     table = param.List(default=["", 1, 0], doc="[the text, each how-manieth row of the file it has, how many so far]")

@@ -23,7 +23,7 @@ from app.tabs.measure.file import MeasuredFile
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.report import report
 from app.tabs.measure.stage import film_stage, show_film
-from app.tabs.measure.words import TABLE, found_words, kept_words, models_table, notes_words, numbers_table
+from app.tabs.measure.words import TABLE, found_words, in_file, kept_words, models_table, notes_words, numbers_table
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from app.widgets.download import Download
@@ -55,7 +55,7 @@ class Measure:
         self._scene, self._runs, self._run = scene, runs or Runs(), None
         self._table, self._data, self._part, self._example = None, None, (0.0, 0.0), ""
         self._read, self._of_file, self._silent, self.filmed = None, None, False, Filmed()
-        self._found, self._kept, self._taken, self._thinned = None, {}, "", 1
+        self._found, self._kept, self._taken, self._thinned, self._coming = None, {}, "", 1, None
         self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
         at_once(self.file, "table")
         self.file.param.watch(asked.heard(self._brought), "table")
@@ -171,32 +171,39 @@ class Measure:
         try:
             film, table = opened(text), read(text)
         except MeasuredError as error:
-            self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
+            self._refused(error, each)
             return
-        self._thinned, self._example, self._read, self._of_file = each, example, table, film
-        self._say_top()
+        self._coming = each, example, table, film
         self.columns.show(table)
         if film is None:
-            self.filmed.film = ""
             self._corrected(table)
             return
         self._choose(film.law, film.loose)
         if self._corrected(table, film.part) and (film.fits or self._runs.beside):
             self.compute(fits=film.fits)
 
+    def _refused(self, error, each=1):
+        """each: every so-manieth row of the file is in the table."""
+        self._wrong(say(f"measure.wrong.{error.code}", **in_file(error.numbers, each)))
+
     def _corrected(self, table, part=None):
         """Whether there is something to fit: the data of the table as it is understood now. Where it makes none, what
         was there stays."""
-        self._table = table
+        self._table, coming = table, self._coming
         try:
             data = settled(table, self.columns.frames_a_second)
         except MeasuredError as error:
-            self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
+            self._refused(error, coming[0] if coming else self._thinned)
             self.start.disabled = True
             return False
+        if coming:  # the first data of another table
+            (self._thinned, self._example, self._read, self._of_file), self._coming = coming, None
+            self._say_top()
+            if self._of_file is None:
+                self.filmed.film = ""
         self._data = data
         thinned = note(say("measure.thinned", each=self._thinned)) if self._thinned > 1 else ""
-        self.said.object = note(notes_words(table.notes)) + thinned
+        self.said.object = note(notes_words(table.notes, self._thinned)) + thinned
         first, last = float(data.t[0]), float(data.t[-1])
         start, end = part or (first, last)
         self.part.param.update(start=first, end=last, value=(max(start, first), min(end, last)),
@@ -226,10 +233,10 @@ class Measure:
         try:
             data = self._data.between(*self._part)
         except MeasuredError as error:
-            self._wrong(say(f"measure.wrong.{error.code}", **error.numbers))
+            self._refused(error)
             self.start.disabled = True
             return
-        self.start.disabled = False
+        self.start.disabled, self.found.object = False, note(say("measure.ready"))
         top, scales, *_ = self._body
         model = self._models()[1]
         self._runs.begin(Run(lambda run: (placed(model, data), kept(data, top, scales)), self._drawn), "guess")

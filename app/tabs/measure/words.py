@@ -5,6 +5,7 @@ import html
 import numpy as np
 
 from app.model.measured.fit import verdict
+from app.model.measured.table import line_in_file
 from app.text import listed, say, written
 from app.widgets.cards import note
 
@@ -22,7 +23,7 @@ h3 { font-size: 18px; margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01
 def _number(value, error):
     """(value, error) with two digits of the error."""
     places = int(np.clip(1 - np.floor(np.log10(error)), 0, 6)) if 0 < error < np.inf else 3
-    return f"{value:.{places}f}".replace("-", "−"), f"{error:.{places}f}" if error < np.inf else "∞"
+    return written(value, f".{places}f"), written(error, f".{places}f") if error < np.inf else "∞"
 
 
 def _error(value, below, above):
@@ -36,7 +37,9 @@ def _error(value, below, above):
 def found_words(rolling, sliding, kept):
     """The sentence of what was found, and why."""
     found = verdict(rolling, sliding)
-    return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.why')}</p>"
+    other = {"rolled": sliding, "slipped": rolling}.get(found)
+    why = "out" if other is not None and other.refused else "why"
+    return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.{why}')}</p>"
             + kept_words(kept))  # fmt: skip
 
 
@@ -114,10 +117,12 @@ def _state(fit):
     return "stands"
 
 
-def notes_words(notes):
-    """What was left out of a table."""
-    return "".join(f"<div>{say(f'measure.notes.{code}', **_escaped(numbers))}</div>" for code, numbers in notes)
+def notes_words(notes, each=1):
+    """What was left out of a table, of whose file it has every so-manieth row."""
+    return "".join(f"<div>{html.escape(say(f'measure.notes.{code}', **in_file(numbers, each)), quote=False)}</div>"
+                   for code, numbers in notes)  # fmt: skip
 
 
-def _escaped(numbers):
-    return {name: html.escape(value) if isinstance(value, str) else value for name, value in numbers.items()}
+def in_file(numbers, each):
+    """What stands in a sentence of a table; its line is that of the file."""
+    return numbers | {"line": line_in_file(numbers["line"], each)} if "line" in numbers else numbers

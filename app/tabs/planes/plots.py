@@ -117,7 +117,7 @@ class Well:
 
     def __init__(self):
         self.figure = fig = plain(x_range=Range1d(-5, 185), y_range=Range1d(0, 1), name="planes-well")
-        fig.min_border_left = 50
+        fig.min_border_left, fig.min_height = 50, 130
         fig.xaxis.ticker = [0, 30, 60, 90, 120, 150, 180]
         self.wells = ColumnDataSource({name: [] for name in ("theta", "V", "alpha", "low", "high")})
         self.steady = ColumnDataSource({name: [] for name in ("theta", "V", "stable", "well", "fill", "alpha")})

@@ -91,7 +91,6 @@ class ThreePlanes:
     def _build(self):
         self._happened = Moments(clock=CLOCK, sizing_mode="stretch_width", margin=(4, 0, 0, 0))
         happened = card(say("planes.moments.title"), self._happened, height=f"{BELOW}px")
-        happened.styles = happened.styles | {"overflow": "auto"}
         well, tops = (
             card(
                 say(f"planes.cards.{name}"),
@@ -101,6 +100,8 @@ class ThreePlanes:
             )
             for name, shown, height in (("well", self._well, f"{BELOW}px"), ("map", self._map, "440px"))
         )
+        for part in (happened, well):  # where the type is large
+            part.styles = part.styles | {"overflow": "auto"}
         below = pn.Column(happened, well, sizing_mode="stretch_width", margin=0, stylesheets=[BESIDE])
         became = card(say("planes.cards.became"), self._verdict, self._table, height="max-content")
         self.main = staged([self._stage_card(), later(below, 1)], [became, self._start.view, later(

@@ -11,7 +11,7 @@ from app.model.hands import held, pulled
 from app.model.playing import together
 from app.state import asked
 from app.text import say
-from app.widgets.cards import PLAIN, TALL, WIDE, card, first, framed, later, section, staged, words
+from app.widgets.cards import PLAIN, TALL, WIDE, card, first, framed, later, staged, words
 from app.widgets.controls import named
 from app.widgets.near import WhenNear
 from app.widgets.plane_card import PlaneCard
@@ -109,34 +109,16 @@ class Switch:
         self._says.object = self._made[chosen].words(scene)
 
 
-def controls_card(controls):
-    """What sets the motion, with the friction of the table; the top, and what Figs. 5 and 6 show."""
-    switch, *faces, other = controls.motion
-    parts = [
-        across(switch), *faces, *controls.views("mu_s"), across(other),
-        across(section(say("roll.sections.top"))), *controls.views("a", "I1", "I3"),
-        across(section(say("roll.sections.pictures"))), *map(across, controls.pictures),
-    ]  # fmt: skip
-    return card(say("roll.sections.motion"), pn.Column(*parts, sizing_mode="stretch_width", margin=(0, -14), styles={
-        "display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 220px), 1fr))", "gap": "0 12px",
-    }), height="max-content")  # fmt: skip
-
-
-def across(part):
-    """Over all columns."""
-    part.styles = part.styles | {"grid-column": "1 / -1"}
-    return part
-
-
 class Roll:
     """main: the pictures and the controls. pacer: a Pacer, which shows them scenes and is asked; playing: what the top
-    goes with; controls: a Controls; slip: shows this motion on a table where it slips."""
+    goes with; controls: the card of what sets the motion; slip: shows this motion on a table where it slips; runs: the
+    page's Runs."""
 
-    def __init__(self, pacer, playing, controls, slip=lambda: None):
+    def __init__(self, pacer, playing, controls, slip=lambda: None, runs=None):
         self._pacer, self._scene = pacer, None
         self._grasp, self._held = None, {}
         self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
-        self._card = PlaneCard(self._motion, pacer.ask, slip)
+        self._card = PlaneCard(self._motion, pacer.ask, slip, runs)
         self._plane = self._card.plane
         self._kept, self._unit = words(""), words("")
         # What each round of pictures draws; it grows as the cards are made.
@@ -156,7 +138,7 @@ class Roll:
         stage = first(framed(say("roll.cards.top"), self._top), below=BELOW + 12)
         self.main = staged(
             [stage, later(self._floor, 1)],
-            [plane, controls_card(controls), *(later(each, 2) for each in (
+            [plane, controls, *(later(each, 2) for each in (
                 self._over_time, self._tilt.view, self._table.view))],
         )  # fmt: skip
         pacer.shows(self._show_hand, "hand")

@@ -1,14 +1,17 @@
 // The top without WebGL: seen from the side, so that its tilt is to scale, drawn in the plane; the same bar plays it.
+import { Vector3 } from "three";
 import { Bar } from "../widgets/bar.js";
 import { Place } from "../motion/clock.js";
 import { colours } from "../colours.js";
 import { coalesce, float32, local, penOf } from "../data.js";
-import { emptyPose } from "../motion/frames.js";
+import { centreOf, emptyPose } from "../motion/frames.js";
 import { wordOf } from "../regimes.js";
 import { followLook } from "../three/scene.js";
 
 const LEAST_REACH = 1.6, BELOW = 0.6; // from O upwards, and below the table, in R
 const WIDTH = 640; // px, of a picture for print whose place on the page has no size
+
+const centre = new Vector3();
 
 const hex = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
 
@@ -23,7 +26,7 @@ function drawBody(pen, profile, { x, y, R, tilt, turn, edge }) {
   for (let i = 0; i < n; i++) pen.lineTo(R * profile[2 * i], -R * profile[2 * i + 1]);
   for (let i = n - 1; i >= 0; i--) pen.lineTo(-R * profile[2 * i], -R * profile[2 * i + 1]);
   pen.closePath();
-  pen.fillStyle = "#e3b981";
+  pen.fillStyle = colours.wood;
   pen.strokeStyle = edge;
   pen.lineWidth = 2;
   pen.fill();
@@ -106,9 +109,8 @@ class Flat {
     player.frames.read(player.place, pose);
     const { x, y, z, w } = pose.quaternion;
     const tilt = pose.theta, psi = Math.atan2(z, w) - Math.atan2(y, x);
-    // off the table, or on its stem, the sphere's centre is where G and the axis say
-    const up = model.a === null ? 1 : pose.com.z + model.a * Math.cos(tilt);
-    drawBody(pen, float32(model.profile), { x: width / 2, y: table - up * R, R, tilt, turn: psi, edge: hex(look.edge) });
+    centreOf(pose, model.a, centre);
+    drawBody(pen, float32(model.profile), { x: width / 2, y: table - centre.z * R, R, tilt, turn: psi, edge: hex(look.edge) });
     pen.fillStyle = hex(look.ink);
     pen.font = "600 15px system-ui, sans-serif";
     pen.textAlign = "center";

@@ -4,7 +4,7 @@
 const GAP = 14, EDGE = 6; // px from the hand or from what is kept clear, and from the window's edge
 const STYLE = {
   position: "fixed", zIndex: "1500", pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px",
-  borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 system-ui, sans-serif", color: "var(--ink, #22303c)",
+  borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink, #22303c)",
   background: "var(--card, #fff)", border: "1px solid var(--faint, #8a96a3)",
 };
 

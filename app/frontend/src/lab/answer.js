@@ -141,8 +141,8 @@ export class Answer {
     const { y, found } = this.axes(0, 1.03 * this.range(ENERGY)[1], "mm");
     const line = (column) => curves.points(this.x, y, column), floor = `${this.x(curves.end)},${this.bottom} ${LEFT},${this.bottom}`;
     const heights = curves.range(HEIGHT), t = (share) => share * curves.end, at = (share, column) => y(curves.at(t(share), column));
-    const words = [], put = (share, height, text, more) => words.push(
-      drawn("text", { class: "word halo", x: this.x(t(share)), y: height }, text),
+    const words = [], put = (share, height, text, more, kind = "halo") => words.push(
+      drawn("text", { class: `word ${kind}`, x: this.x(t(share)), y: height }, text),
       ...(more ? [drawn("text", { class: "halo", x: this.x(t(share)), y: height, dy: "1.3em" }, more)] : []));
     if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin);
     const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
@@ -151,7 +151,11 @@ export class Answer {
     const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > ROOM);
     const free = [0.4, 0.3, 0.2, 0.08].find(isFree), stands = free ?? 0.4;
     const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
-    put(stands, free ? Math.min(at(stands, HEIGHT), at(stands + long, HEIGHT)) - 8 : this.bottom - 6, say(texts, text, { least: [least, 0], most: [most, 0] }));
+    const over = (column) => Math.min(...[0, 0.5, 1].map((of) => at(stands + of * long, column))) - 8;
+    const isHigh = this.bottom - at(stands, HEIGHT) > ROOM && this.bottom - at(stands + long, HEIGHT) > ROOM;
+    // over its area; where the energy leaves no room there, on it; where it is too low for that, over both
+    const [height, kind] = free ? [over(HEIGHT), "halo"] : isHigh ? [this.bottom - 10, "inside"] : [over(ENERGY), "halo"];
+    put(stands, height, say(texts, text, { least: [least, 0], most: [most, 0] }), "", kind);
     return [
       ...found,
       drawn("polygon", { class: "spins", points: `${line(ENERGY)} ${floor}` }), drawn("polygon", { class: "lifts", points: `${line(HEIGHT)} ${floor}` }),

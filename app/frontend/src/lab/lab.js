@@ -25,6 +25,8 @@ class Lab {
     this.anew = "";
     /** @type {Record<string, { bytes: Bytes, curves: Curves }>} */
     this.bytes = {}; // what was read, and as what
+    /** @type {Record<string, any>} */
+    this.state = {};
     this.time = new Time(coalesce(() => this.at()));
     this.asking = new Asking((...asked) => (model.asked = asked));
     const ask = (name, value) => this.ask(name, value);
@@ -66,7 +68,7 @@ class Lab {
 
   // What the old picture is of, where it is old, and is to be named so.
   old() {
-    const { state } = this.model, waits = this.asking.isAhead || state.busy;
+    const { state } = this, waits = this.asking.isAhead || state.busy;
     if (!waits) {
       clearTimeout(this.patience);
       this.patience = this.since = 0;
@@ -107,7 +109,7 @@ class Lab {
 
   // What Python sent, as what the parts draw.
   read() {
-    const { model } = this, { table } = model.state, state = { ...model.state, old: this.old() };
+    const { model } = this, { table, runs } = this.state, state = Object.assign({}, this.state, { old: this.old() });
     const each = (read) => Object.fromEntries(TABLES.map((name) => [name, read(name)]));
     for (const name of TABLES) {
       const bytes = model[`curves_${name}`];
@@ -115,7 +117,7 @@ class Lab {
     }
     const alone = table === "three" ? "ordinary" : table, curves = each((name) => this.bytes[name].curves);
     return {
-      state, texts: model.texts, table, curves, runs: state.runs, run: state.runs[alone], unit: model.seconds, a: model.a,
+      state, texts: model.texts, table, curves, runs, run: runs[alone], unit: model.seconds, a: model.a,
       frames: each((name) => model[`frames_${name}`]), profile: float32(model.profile),
       end: Math.max(...Object.values(curves).map(({ end }) => end)), waits: this.waits,
       track: (name) => trackOf(float32(model[`frames_${name}`]), model.seconds),
@@ -123,11 +125,12 @@ class Lab {
   }
 
   showNow() {
-    if (!this.model.state.runs) return; // Python has not got there
+    this.state = { ...JSON.parse(this.model.told), ...JSON.parse(this.model.state) };
+    if (!this.state.runs) return; // Python has not got there
     const scene = this.read(), { time, model } = this;
     scene.before = this.before.follow(this.scene, scene);
     this.scene = scene;
-    this.asking.hear(model.state.answered);
+    this.asking.hear(this.state.answered);
     Object.assign(time, { unit: model.seconds, end: scene.end, events: scene.run?.events ?? [], tops: this.stage.tops });
     time.span = scene.state.whole ? scene.end : Math.max(scene.end, time.span); // no axis changes under a hand
     this.element.dataset.table = scene.table;
@@ -161,7 +164,7 @@ class Lab {
 export function renderLab({ model, el, view }) {
   view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
   const lab = new Lab({ model, el, view });
-  for (const name of ["state", "profile", "a", "seconds", ...TABLES.flatMap((table) => [`frames_${table}`, `curves_${table}`])]) {
+  for (const name of ["state", "told", "profile", "a", "seconds", ...TABLES.flatMap((table) => [`frames_${table}`, `curves_${table}`])]) {
     model.on(name, lab.show);
   }
   window.addEventListener("tippe:look", lab.look);

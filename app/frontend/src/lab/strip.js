@@ -67,7 +67,12 @@ export class Strip {
   }
 
   get right() {
-    return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 190 : 0);
+    return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 15 * this.size : 0);
+  }
+
+  // px of the type
+  get size() {
+    return parseFloat(getComputedStyle(this.plot).fontSize);
   }
 
   x = (t) => LEFT + ((this.right - LEFT) * t) / (this.time.span || 1);
@@ -135,7 +140,7 @@ export class Strip {
   events() {
     const { scene, texts } = this;
     if (scene.table === "three") return [];
-    const size = parseFloat(getComputedStyle(this.plot).fontSize), events = scene.runs[scene.table]?.events ?? [];
+    const { size } = this, events = scene.runs[scene.table]?.events ?? [];
     const when = (t) => say(texts, "{t} s", { t: [t, 1] });
     const lines = events.map(([t, , word, short]) => [this.x(t), `${word} ${when(t)}`, `${short} ${when(t)}`]);
     const words = placed(lines, 0, this.width, (word) => LETTER * size * word.length);
@@ -184,7 +189,7 @@ export class Strip {
     if (scene.table !== "three" || this.width <= 700) return [];
     const ends = TABLES.filter((table) => scene.curves[table].count)
       .map((table) => ({ table, y: this.y(scene.curves[table].at(scene.end, TILT)) + 4 })).sort((a, b) => b.y - a.y);
-    ends.forEach((end, i) => (end.y = i ? Math.min(end.y, ends[i - 1].y - 15) : end.y));
+    ends.forEach((end, i) => (end.y = i ? Math.min(end.y, ends[i - 1].y - 1.25 * this.size) : end.y));
     return ends.map(({ table, y }) => drawn("text", { x: this.right + 8, y },
       drawn("tspan", { class: "word" }, texts.tables[table]), ` ${scene.runs[table].caption || (scene.runs[table].stages.at(-1)?.[3] ?? "")}`));
   }

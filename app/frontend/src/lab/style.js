@@ -1,18 +1,18 @@
 // How the Lab looks: four sizes of type, a grid of 8 px, one blue for what is selected, one colour a quantity. It goes by
 // the width of its own place, not of the window.
 import { onDark, onLight } from "../colours.js";
+import { endRules, endsOnDark, endsOnLight } from "../ends.js";
 
 const tokens = `
 .frame { --t-s: 12px; --t-m: 14px; --t-l: 18px; --touch: 32px; --side: 440px; --gap: 24px; --bar: 148px;
-  --family: Inter, Roboto, "Segoe UI", "Liberation Sans", Arial, system-ui, sans-serif;
   --ground: #fff; --floor: #f1efea; --ink: #1b2430; --ink-2: #55606c; --line: #d8dce0; --line-2: #8b949e;
-  --accent: #1558c0; --q-spin: ${onLight.omega}; --q-energy: ${onLight.energy}; --q-energy-wash: ${onLight.energy_wash};
-  --end-0: #f6f1e6; --end-1: #e8dcc2; --end-2: #cdb88f; --end-3: #80632f; --shape: #55606c;
+  --accent: ${onLight.accent}; --q-spin: ${onLight.omega}; --q-energy: ${onLight.energy}; --q-energy-wash: ${onLight.energy_wash};
+  ${endsOnLight} --shape: #55606c;
   container-type: inline-size; background: var(--ground); color: var(--ink); font: 400 var(--t-m)/1.45 var(--family);
   -webkit-font-smoothing: antialiased; }
 .frame[data-look=dark] { --ground: #0e1318; --floor: #191f25; --ink: #eef2f5; --ink-2: #a9b4bf; --line: #2d363f; --line-2: #75818d;
-  --accent: #86b6ff; --q-spin: ${onDark.omega}; --q-energy: ${onDark.energy}; --q-energy-wash: ${onDark.energy_wash};
-  --end-0: #262219; --end-1: #4a402c; --end-2: #7a6a47; --end-3: #c9ad74; --shape: #a9b4bf; color-scheme: dark; }
+  --accent: ${onDark.accent}; --q-spin: ${onDark.omega}; --q-energy: ${onDark.energy}; --q-energy-wash: ${onDark.energy_wash};
+  ${endsOnDark} --shape: #a9b4bf; color-scheme: dark; }
 .frame[data-large] { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --bar: 176px; }
 `;
 
@@ -67,14 +67,18 @@ const places = `
 .lab[data-table=three] .outline { display: none; }
 @container (min-width: 1500px) {
   .lab { --t-s: 16px; --t-m: 18px; --t-l: 24px; --touch: 44px; --side: 576px; --gap: 32px; --bar: 176px; font-size: var(--t-m);
-    --stage: clamp(390px, 100vh - 368px, 62cqw); }
+    --stage: clamp(390px, 100vh - 392px, 62cqw); }
 }
-@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; } }
+@container (max-width: 1180px) { .lab { --side: 360px; --gap: 16px; --bar: 132px; --stage: clamp(390px, 100vh - 346px, 62cqw); } }
 @container (max-width: 900px) { .lab { --side: 300px; } }
+@container (min-width: 701px) and (max-width: 1499px) {
+  .frame[data-large] .lab { --side: clamp(300px, 38cqw, 530px); --bar: 160px; --stage: clamp(440px, 100vh - 396px, 62cqw); }
+  .frame[data-large] .lab[data-table=three] { --stage: clamp(300px, 100vh - 540px, 40cqw); }
+}
 @container (max-width: 700px) {
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
-  .lab[data-table=three] .stage { height: 340px; position: relative; }
+  .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
   .strip, .say, .answer, .keeps { padding: 8px 16px 0; }
   .dock { order: 1; position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
@@ -144,7 +148,7 @@ const answer = `
 .answer { display: flex; flex-direction: column; } .answer .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; }
 .answer .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
 .spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .energy { stroke: var(--q-energy); stroke-width: 2; }
-.answer .halo { stroke: none; }
+.answer .halo { stroke: none; } svg .inside { fill: var(--ground); }
 .first { stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
 .own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); stroke: none; } .turning { stroke: var(--ink); stroke-width: 2; }
 .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
@@ -178,11 +182,9 @@ const controls = `
 .bad .num { border-bottom: 3px solid var(--ink); font-weight: 600; }
 .wrong { display: flex; gap: 8px; margin-top: 4px; line-height: 1.4; }
 .wrong .mark { flex: none; width: 20px; height: 20px; border-radius: 50%; background: var(--ink); color: var(--ground); display: grid; place-items: center; font-size: 13px; }
-.ends { position: relative; height: 10px; margin-top: -2px; } .ends.none { margin: -2px 10px 0; background: var(--end-0); }
-.end { position: absolute; top: 0; bottom: 0; background: var(--end-1); }
-.end:is(.upright, .rolls, .moves) { background: var(--end-0); } .end.falls { background: var(--end-2); } .end:is(.stands, .inverted) { background: var(--end-3); }
-.end.refused { background: var(--line); }
-.end.mixed { background: repeating-linear-gradient(45deg, var(--end-3) 0 3px, var(--end-1) 3px 6px); }
+.ends { position: relative; height: 10px; margin-top: -2px; } .ends.none { margin: -2px 10px 0; background: var(--end-upright); }
+.end { position: absolute; top: 0; bottom: 0; } ${endRules}
+.end.mixed { background: repeating-linear-gradient(45deg, var(--end-stands) 0 3px, var(--end-leans) 3px 6px); }
 .ends .mark { position: absolute; top: -6px; height: 20px; width: 2px; margin-left: -1px; background: var(--accent); }
 .ends .was { position: absolute; top: -4px; height: 18px; border-left: 2px dashed var(--ink); margin-left: -1px; }
 .launch { min-width: 116px; text-align: right; } .launch .primary { touch-action: none; user-select: none; -webkit-user-select: none; } .wait { display: flex; align-items: center; gap: 12px; } .wait .small { min-width: 4ch; font-variant-numeric: tabular-nums; } .wait .outline { min-height: 40px; }

@@ -92,6 +92,13 @@ export class Frames {
 
 const other = new Quaternion();
 
+// Where the sphere's centre O is: over the contact; off the table, or on its stem, where G and the axis say.
+/** @param {Pose} pose @param {number | null} a where O need not be over the contact: its distance from G @param {Vector3} out */
+export function centreOf(pose, a, out) {
+  if (a === null) return out.set(pose.contact.x, pose.contact.y, 1);
+  return out.set(0, 0, a).applyQuaternion(pose.quaternion).add(pose.com);
+}
+
 /** @returns {Pose} */
 export function emptyPose() {
   const [contact, com, force, omega, momentum] = Array.from({ length: 5 }, () => new Vector3());

@@ -1,5 +1,6 @@
 // The top: its outline turned round axis 3, painted so that every turn shows.
 import * as THREE from "three";
+import { colours } from "../colours.js";
 import { penOf } from "../data.js";
 
 const AROUND = 56;
@@ -85,7 +86,7 @@ function paint(firstCorner) {
   const edge = height * (1 - firstCorner); // y of the sphere's rim, y grows downwards
   const level = (share) => height - share * (height - edge); // share of the sphere's outline, from its bottom
 
-  pen.fillStyle = "#e3b981";
+  pen.fillStyle = colours.wood;
   pen.fillRect(0, 0, width, height);
   for (let i = 0; i < 420; i++) {
     // Grain along the axis, as in a top that was turned on a lathe.

@@ -1,6 +1,6 @@
 // The run before, pale, at the same moment: it has no shadow, and hides nothing.
 import { float32 } from "../data.js";
-import { emptyPose, Frames } from "../motion/frames.js";
+import { centreOf, emptyPose, Frames } from "../motion/frames.js";
 import { Body } from "./body.js";
 /** @import { Stage } from "./stage.js" */
 
@@ -16,6 +16,8 @@ export class Ghost {
     this.frames = new Frames();
     this.moment = emptyPose();
     this.seconds = 1;
+    /** @type {number | null} */
+    this.a = null;
     stage.scene.add(this.body);
   }
 
@@ -38,6 +40,6 @@ export class Ghost {
     const { moment, body, frames } = this;
     frames.read(frames.place((t * seconds) / this.seconds), moment);
     body.quaternion.copy(moment.quaternion);
-    body.position.set(0, 0, this.a).applyQuaternion(moment.quaternion).add(moment.com);
+    centreOf(moment, this.a, body.position);
   }
 }

@@ -5,7 +5,7 @@ import { Body } from "./body.js";
 import { frictionCone } from "./cone.js";
 import { colours } from "../colours.js";
 import { niceAbove } from "../data.js";
-import { emptyPose } from "../motion/frames.js";
+import { centreOf, emptyPose } from "../motion/frames.js";
 import { Labels } from "./labels.js";
 import { colourOf, ROLLS } from "../regimes.js";
 import { Ribbon, Thread } from "./ribbon.js";
@@ -160,9 +160,7 @@ export class TopScene {
     const { moment, stands, body } = this;
     stands.set(moment.contact.x, moment.contact.y, 1);
     body.quaternion.copy(moment.quaternion);
-    body.position.copy(stands);
-    // off the table, or on its stem, the sphere's centre is where G and the axis say
-    if (a !== null) body.position.set(0, 0, a).applyQuaternion(moment.quaternion).add(moment.com);
+    centreOf(moment, a, body.position);
     this.underneath.position.set(stands.x, stands.y, ABOVE_TABLE / 2);
     const { size, squares } = this, lattice = 5 * squares; // the grid repeats each 5 squares
     this.shade.position.set(stands.x + 1.2 * size, stands.y + 1.3 * size, ABOVE_TABLE / 3);

@@ -4,10 +4,10 @@ import { colours } from "../colours.js";
 const FRAME = `<style>
   :host > div { width: 100% }
   .copy { display: flex; width: 100%; gap: 8px; align-items: flex-start }
-  textarea { flex: 1 1 0; min-width: 0; font: 13px/1.5 ui-monospace, monospace; padding: 7px 9px;
+  textarea { flex: 1 1 0; min-width: 0; font: calc(13px * var(--type, 1))/1.5 ui-monospace, monospace; padding: 7px 9px;
     border: 1px solid #8a96a3; border-radius: 6px; color: inherit; background: transparent; resize: none;
     box-sizing: border-box }
-  button { font: 500 13px system-ui, sans-serif; padding: 7px 12px; border: 1px solid; border-radius: 6px;
+  button { font: 500 calc(13px * var(--type, 1)) var(--family, system-ui, sans-serif); padding: 7px 12px; border: 1px solid; border-radius: 6px;
     background: transparent; color: var(--link, ${colours.chosen}); cursor: pointer; white-space: nowrap; min-width: 72px }
   button:hover { background: ${colours.chosen}14 } :focus-visible { outline: 2px solid; outline-offset: 2px }
   </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button></button></div>`;

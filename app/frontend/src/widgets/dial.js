@@ -5,7 +5,7 @@ import { fill, local } from "../data.js";
 // request, and what Python tells is taken only if it had heard the last of them: nothing late moves a hand back.
 // On a narrow page what the keyboard reaches comes to rest below the stage, which stays in sight, and above the tabs.
 const style = `
-:host { display: block; font: calc(13px * var(--type, 1))/1.35 system-ui, sans-serif; color: var(--ink, #22303c); }
+:host { display: block; font: calc(13px * var(--type, 1))/1.35 var(--family, system-ui, sans-serif); color: var(--ink, #22303c); }
 .head { display: flex; align-items: center; gap: 8px; }
 .name { flex: 1; font-size: 1.08em; } .name[title], .words [title] { cursor: help; }
 i, sub, sup { font-family: Georgia, serif; } .name i { font-size: 1.2em; } sub, sup { font-size: 0.75em; line-height: 0; }

@@ -10,8 +10,8 @@ const STYLE = `<style>
   .film { position: relative; height: 100%; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene, #f1efea) }
   .top { position: absolute; inset: 0 }
   .pill { position: absolute; left: 16px; bottom: 12px; padding: 4px 12px; border-radius: 16px; background: var(--pill, #fff);
-    color: var(--scene-ink, #1b2430); font: 600 14px/1.45 system-ui, sans-serif; font-variant-numeric: tabular-nums; pointer-events: none }
-  .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: 14px/1.4 system-ui, sans-serif; color: var(--scene-faint, #55606c) }
+    color: var(--scene-ink, #1b2430); font: 600 calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); font-variant-numeric: tabular-nums; pointer-events: none }
+  .none { position: absolute; inset: auto 16px 16px 16px; margin: 0; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--scene-faint, #55606c) }
   button { position: absolute; right: 16px; bottom: 12px; width: 44px; height: 44px; border: 0; border-radius: 50%; cursor: pointer;
     display: grid; place-items: center; background: var(--scene-ink, #1b2430); color: var(--scene, #fff) }
   button:focus-visible { outline: 3px solid var(--focus, ${colours.chosen}); outline-offset: 2px }

@@ -1,10 +1,12 @@
 // How the head of the page looks: one row of 48 px, as quiet as the ground; what is chosen is blue.
+import { onDark, onLight } from "../colours.js";
+
 export const headStyle = `
 :host { position: sticky; top: 0; z-index: 20; } .all { width: 100%; }
 * { box-sizing: border-box; } [hidden] { display: none !important; }
-.row, .rooms { --accent: #1558c0; --ground: var(--mui-palette-background-default, #fff); color: var(--ink, #22303c); background: var(--ground);
-  font: calc(14px * var(--type, 1))/1.45 Inter, Roboto, "Segoe UI", "Liberation Sans", Arial, system-ui, sans-serif; }
-.row[data-look=dark], .rooms[data-look=dark] { --accent: #86b6ff; }
+.row, .rooms { --accent: ${onLight.accent}; --ground: var(--mui-palette-background-default, #fff); color: var(--ink, #22303c); background: var(--ground);
+  font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); }
+.row[data-look=dark], .rooms[data-look=dark] { --accent: ${onDark.accent}; }
 .row { display: flex; align-items: center; gap: 16px; height: calc(48px * var(--type, 1)); padding: 0 24px; border-bottom: 1px solid var(--rule, #d8dce0); }
 h1 { font-size: calc(18px * var(--type, 1)); font-weight: 600; margin: 0; letter-spacing: -.01em; white-space: nowrap; }
 .grow { flex: 1; } .wide { display: flex; align-items: center; gap: 16px; } .wide span { display: flex; }
@@ -37,7 +39,7 @@ select { border: 0; background: var(--ground); min-height: calc(32px * var(--typ
 @media (max-width: 700px) {
   .row { padding: 0 4px 0 16px; } .toy { flex: 1; max-width: none; } .row > .grow { display: none; } .icon, .menu button, .menu label { min-height: 44px; } .icon { width: 44px; }
   nav { position: fixed; inset: auto 0 0; z-index: 20; background: var(--ground); border-top: 1px solid var(--rule, #d8dce0); padding-bottom: env(safe-area-inset-bottom); }
-  .tabs > div { display: grid; grid-auto-flow: column; grid-auto-columns: 1fr; } .tabs button { padding: 0 2px; min-height: 52px; font-size: 12px; }
+  .tabs > div { display: grid; grid-auto-flow: column; grid-auto-columns: 1fr; } .tabs button { padding: 0 2px; min-height: 52px; font-size: calc(12px * var(--type, 1)); }
   .tabs [aria-selected=true]::after { inset: 0 4px auto; } .rooms { padding: 8px 12px 0; overflow-x: auto; }
   .table:not(.three) { left: 20px; top: calc(48px * var(--type, 1) + 8px); padding: 3px; } .table b { display: none; } .table button { padding: 0 9px; min-height: 44px; }
 }

@@ -1,6 +1,6 @@
 // The sheet of the derivation's lines.
 export const style = `
-.lines { font: calc(14px * var(--type, 1))/1.45 system-ui, sans-serif; color: var(--ink, #22303c);
+.lines { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #22303c);
   --link: color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c)) }
 .line { border-top: 1px solid var(--rule, #e7ebef); padding: 7px 0 }
 .line > .head { display: flex; gap: 8px; align-items: baseline; }

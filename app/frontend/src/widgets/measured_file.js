@@ -4,34 +4,44 @@ import { colours } from "../colours.js";
 import { fill } from "../data.js";
 
 const FRAME = `<style>
-  .row { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; font: 14px/1.4 system-ui, sans-serif; color: var(--ink, #1b2430) }
+  .row { display: flex; flex-wrap: wrap; gap: 8px; align-items: center; font: calc(14px * var(--type, 1))/1.4 var(--family, system-ui, sans-serif); color: var(--ink, #1b2430) }
   label { display: inline-flex; align-items: center; min-height: 40px; padding: 0 20px; border-radius: 6px; font-weight: 600; cursor: pointer;
     background: var(--ink, #1b2430); color: var(--card, #fff); white-space: nowrap }
   label:focus-within { outline: 3px solid var(--focus, ${colours.chosen}); outline-offset: 2px }
   input { position: absolute; opacity: 0; width: 1px; height: 1px }
-  textarea { flex: 1 1 150px; min-width: 0; height: 40px; font: inherit; color: inherit; background: transparent; resize: none;
+  textarea { flex: 1 1 150px; min-width: 0; height: calc(40px * var(--type, 1)); font: inherit; color: inherit; background: transparent; resize: none;
     border: 1px solid #8b949e; border-radius: 6px; padding: 9px 10px; box-sizing: border-box }
-  .says { flex: 1 0 100%; color: var(--faint, #55606c); font-size: 12px } .says:empty { display: none }
+  .says { flex: 1 0 100%; color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) } .says:empty { display: none }
   .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: ${colours.chosen}26; pointer-events: none;
-    border: 3px dashed var(--focus, ${colours.chosen}); box-sizing: border-box; font: 600 20px system-ui, sans-serif; color: var(--ink, #1b2430) }
+    border: 3px dashed var(--focus, ${colours.chosen}); box-sizing: border-box; font: 600 calc(20px * var(--type, 1)) var(--family, system-ui, sans-serif); color: var(--ink, #1b2430) }
   .over b { background: var(--card, #fff); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }</style>
   <div class="row"><label><input type="file" accept=".csv,.tsv,.txt,.json,text/*"></label><textarea rows="1"></textarea>
     <div class="says" role="status"></div></div><div class="over" hidden><b></b></div>`;
-const HEAD = 12; // first lines, which are always kept: names stand there
 const ABOVE = 3; // lines of a whole table that hold no values
 const SPARE = 1.05; // lines are not of one length
 const CHUNK = 1 << 22; // bytes that are read at a time
 const LOOK = 4096; // bytes by which it is seen what a file is
 const LONG = /(\d[.,]\d{7})\d+/g; // digits that no film has
 
+/** @typedef {{ most: number, rows: number, head: number }} Limits characters, rows, and the first lines that are always kept */
+
 /** @param {number} length @param {number} most @returns {number} each how-manieth row is kept */
 const everyOf = (length, most) => (length <= most ? 1 : Math.ceil(length / most * SPARE));
 
-/** @param {string} text @param {number} most letters @param {number} rows @returns {[string, number]} what is kept of it, and each how-manieth row */
-export function thinned(text, most, rows) {
+// The first lines are always kept: names stand there. Of the others it is those whose number in the file can be divided,
+// so that Python can tell where in the file a line stands.
+/**
+ * @param {string} text @param {Limits} limits
+ * @param {number[] | null} [numbers] of its lines in the file, from 0
+ * @param {number} [before] so many of its lines were one
+ * @returns {[string, number]} what is kept of it, and each how-manieth row of the file that is
+ */
+export function thinned(text, { most, rows, head }, numbers = null, before = 1) {
   const short = text.length <= most ? text : text.replace(LONG, "$1"), lines = short.split(/\r\n|\r|\n/);
-  const few = lines.length <= rows + ABOVE, each = Math.max(everyOf(short.length, most), few ? 1 : Math.ceil((lines.length - HEAD) / (rows - HEAD)));
-  return each === 1 ? [short, 1] : [lines.filter((_, i) => i < HEAD || i % each === 0).join("\n"), each];
+  const few = lines.length <= rows + ABOVE, more = Math.max(everyOf(short.length, most), few ? 1 : Math.ceil((lines.length - head) / (rows - head)));
+  if (more === 1) return [short, before];
+  const each = more * before, number = (i) => (numbers ? numbers[i] : i);
+  return [lines.filter((_, i) => number(i) < head || number(i) % each === 0).join("\n"), each];
 }
 
 /** @param {Uint8Array} bytes the first of a file @returns {string} how its text is written */
@@ -44,17 +54,18 @@ export function encodingOf(bytes) {
 // A file as thinned() has it, read piece by piece, so that it may be larger than the memory. What is no text comes as its
 // first bytes, which tell that.
 /**
- * @param {Blob} file @param {number} most @param {number} rows
+ * @param {Blob} file @param {Limits} limits
  * @param {(share: number) => void} reached
  * @returns {Promise<[string, number]>}
  */
-export async function readFile(file, most, rows, reached) {
+export async function readFile(file, limits, reached) {
+  const { most, head } = limits;
   const first = new Uint8Array(await file.slice(0, LOOK).arrayBuffer()), encoding = encodingOf(first);
   const decoder = new TextDecoder(encoding), wide = encoding.startsWith("utf-16");
   if (!wide && first.includes(0)) return [new TextDecoder("windows-1252").decode(first), 1];
-  if (file.size <= 2 * most) return thinned(decoder.decode(await file.arrayBuffer()), most, rows);
+  if (file.size <= 2 * most) return thinned(decoder.decode(await file.arrayBuffer()), limits);
   const sample = decoder.decode(first), shorter = sample.replace(LONG, "$1").length / first.length;
-  const each = everyOf(file.size * shorter, most), kept = [], stream = new TextDecoder(encoding);
+  const each = everyOf(file.size * shorter, most), kept = [], numbers = [], stream = new TextDecoder(encoding);
   let line = 0, rest = "";
   for (let at = 0; at < file.size; at += CHUNK) {
     const bytes = await file.slice(at, at + CHUNK).arrayBuffer(), last = at + CHUNK >= file.size;
@@ -62,13 +73,15 @@ export async function readFile(file, most, rows, reached) {
     rest = last ? "" : lines.pop() ?? "";
     if (rest.length > most) return [sample, 1]; // no table has such a line
     for (const each_line of lines) {
-      if (line < HEAD || line % each === 0) kept.push(each_line.replace(LONG, "$1"));
+      if (line < head || line % each === 0) {
+        kept.push(each_line.replace(LONG, "$1"));
+        numbers.push(line);
+      }
       line += 1;
     }
     reached(Math.min(1, (at + CHUNK) / file.size));
   }
-  const again = thinned(kept.join("\n"), most, rows);
-  return [String(again[0]), each * Number(again[1])];
+  return thinned(kept.join("\n"), limits, numbers, each);
 }
 
 /** @param {Rendering<MeasuredFileModel>} rendering */
@@ -94,7 +107,7 @@ export function renderMeasuredFile({ model, el, view }) {
   const read = async (file) => {
     if (!file) return;
     try {
-      send(await readFile(file, model.most, model.rows, (share) => (says.textContent = fill(texts.reading, { name: file.name, percent: Math.round(100 * share) }))));
+      send(await readFile(file, model, (share) => (says.textContent = fill(texts.reading, { name: file.name, percent: Math.round(100 * share) }))));
       says.textContent = "";
     } catch {
       says.textContent = fill(texts.unreadable, { name: file.name });
@@ -104,9 +117,9 @@ export function renderMeasuredFile({ model, el, view }) {
     await read(input.files?.[0]);
     input.value = "";
   };
-  area.onchange = () => area.value.trim() && send(thinned(area.value, model.most, model.rows));
+  area.onchange = () => area.value.trim() && send(thinned(area.value, model));
   area.onpaste = () => setTimeout(() => {
-    send(thinned(area.value, model.most, model.rows));
+    send(thinned(area.value, model));
     area.value = "";
   });
   const isSeen = () => el.isConnected && el.clientWidth > 0, brings = (event) => event.dataTransfer?.types.includes("Files");

@@ -1,7 +1,7 @@
 // A button that saves a file, and how one is saved.
 import { colours } from "../colours.js";
 
-const STYLE = `button { font: calc(14px * var(--type, 1)) Inter, Roboto, "Segoe UI", "Liberation Sans", Arial, system-ui, sans-serif;
+const STYLE = `button { font: calc(14px * var(--type, 1)) var(--family, system-ui, sans-serif);
   padding: 0 12px; min-width: 76px; min-height: calc(36px * var(--type, 1)); border: 1px solid var(--faint, #8b949e);
   border-radius: 6px; background: transparent; color: var(--ink, ${colours.ink}); cursor: pointer }
   button:hover { background: color-mix(in srgb, currentColor 8%, transparent) } button[aria-busy=true] { opacity: 0.5; cursor: progress }

@@ -12,7 +12,7 @@ const NARROW = 560, SIZE = 36, LETTER = 7.2, LINE = 15; // px: of a silhouette, 
 const TICKS = [0, 0.1, 0.2, 0.3, 0.4], FAR_TICKS = [-10, -5], RATIO_TICKS = [0.4, 0.6, 0.8, 1, 1.2, 1.4];
 
 const STYLE = `<style>
-  :host { display: block } svg { display: block; width: 100%; height: 100%; font: calc(12px * var(--type, 1)) system-ui, sans-serif;
+  :host { display: block } svg { display: block; width: 100%; height: 100%; font: calc(12px * var(--type, 1)) var(--family, system-ui, sans-serif);
     fill: var(--ink, #22303c); touch-action: pan-y } .area { --wood: #9a7434 } .axis { fill: var(--faint, #5b6875) }
   .turns { fill: color-mix(in srgb, var(--wood) 50%, var(--card, #fff)) } .part { fill: color-mix(in srgb, var(--wood) 26%, var(--card, #fff)) }
   .never { fill: color-mix(in srgb, var(--wood) 10%, var(--card, #fff)) } .line { stroke: var(--ink, #22303c); fill: none; stroke-width: 1.5 }
@@ -23,7 +23,7 @@ const STYLE = `<style>
   .here .grip { fill: transparent } .here .ring, .here .line { stroke: var(--link, ${colours.chosen}) } .chosen .ring.of { stroke: var(--ink, #22303c) }
   </style>`;
 
-/** @typedef {{ wide: number, high: number }} Size @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
+/** type: how much larger than usual. @typedef {{ wide: number, high: number, type: number }} Size @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
 
 /** Between px and a/R, I1/I3. @param {Size} size */
 export function scalesOf({ wide, high }) {
@@ -49,21 +49,21 @@ export function silhouette(outline) {
 // Where the names stand: each beside its silhouette, in one line, and whether it is free of the others there.
 /** @param {{ x: number, y: number, words: string }[]} tops @param {Size} size */
 export function placeNames(tops, size) {
-  const half = SIZE / 2 + 5, box = (x, y, wide, high) => ({ left: x, right: x + wide, top: y, bottom: y + high });
+  const half = SIZE / 2 + 5, letter = LETTER * size.type, line = LINE * size.type, box = (x, y, wide, high) => ({ left: x, right: x + wide, top: y, bottom: y + high });
   const taken = tops.map(({ x, y }) => box(x - half, y - half, 2 * half, 2 * half));
   const meets = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
   return tops.map(({ x, y, words }, own) => {
-    const wide = LETTER * words.length;
+    const wide = letter * words.length;
     /** @type {[dx: number, dy: number][]} */
-    const places = [[half, -LINE / 2], [-half - wide, -LINE / 2], [-wide / 2, half], [-wide / 2, -half - LINE], [half, half - LINE / 2], [half, -half],
-      [-half - wide, half - LINE / 2], [-half - wide, -half], [-wide / 2, half + LINE], [-wide / 2, -half - 2 * LINE]];
+    const places = [[half, -line / 2], [-half - wide, -line / 2], [-wide / 2, half], [-wide / 2, -half - line], [half, half - line / 2], [half, -half],
+      [-half - wide, half - line / 2], [-half - wide, -half], [-wide / 2, half + line], [-wide / 2, -half - 2 * line]];
     const free = ([dx, dy]) => {
-      const name = box(x + dx, y + dy, wide, LINE);
+      const name = box(x + dx, y + dy, wide, line);
       return name.left > LEFT && name.right < size.wide && !taken.some((each, k) => k !== own && meets(name, each));
     };
     const found = places.find(free), [dx, dy] = found ?? places[2];
-    if (found) taken.push(box(x + dx, y + dy, wide, LINE));
-    return { dx: dx + wide / 2, dy: dy + LINE / 2, free: Boolean(found) };
+    if (found) taken.push(box(x + dx, y + dy, wide, line));
+    return { dx: dx + wide / 2, dy: dy + line / 2, free: Boolean(found) };
   });
 }
 
@@ -78,19 +78,20 @@ function areas({ x, y, first, split, last, foot }) {
     <path class="line" d="M${zero} ${top}V${foot}M${last} ${y(1 + end)}L${zero} ${y(1)}L${last} ${y(1 - end)}"/></g>`;
 }
 
-function axes({ x, y, first, foot, last }, words) {
-  const across = [...FAR_TICKS, ...TICKS].map((a) => `<text x="${x(a)}" y="${foot + 16}" text-anchor="middle">${local(String(a))}</text>`);
+function axes({ x, y, first, foot, last }, words, type) {
+  const across = [...FAR_TICKS, ...TICKS].map((a) => `<text x="${x(a)}" y="${foot + 13 * type + 3}" text-anchor="middle">${local(String(a))}</text>`);
   const up = RATIO_TICKS.map((ratio) => `<text x="${first - 6}" y="${y(ratio) + 4}" text-anchor="end">${local(String(ratio))}</text>`);
-  return `<g class="axis">${across.join("")}${up.join("")}<text x="${first}" y="${foot + 36}">${words.far}</text>
-    <text x="${last}" y="${foot + 36}" text-anchor="end">${words.across}</text></g>`;
+  return `<g class="axis">${across.join("")}${up.join("")}<text x="${first}" y="${foot + 15 * type + 19}">${words.far}</text>
+    <text x="${last}" y="${foot + 15 * type + 19}" text-anchor="end">${words.across}</text></g>`;
 }
 
-function groups({ x, y, first, last }, words, narrow) {
+function groups({ x, y, first, last }, words, { wide, type }) {
+  const narrow = wide / type < NARROW;
   // narrow, the first two would run into one another on one line
   const places = [["ordinary", narrow ? 4 + first : 10 + first, TOP + (narrow ? 48 : 24), "start"], ["part", x(0) + 20, TOP + 24, "start"],
     ["turns", last - 14, y(1.04), "end"], ["never", x(0) + 20, y(0.46), "start"]];
   return places.map(([name, across, down, anchor]) => {
-    const [head, more] = words.groups[name], below = narrow ? "" : `<text x="${across}" y="${down + 18}" text-anchor="${anchor}">${more}</text>`;
+    const [head, more] = words.groups[name], below = narrow ? "" : `<text x="${across}" y="${down + 18 * type}" text-anchor="${anchor}">${more}</text>`;
     return `<text class="group${narrow ? " small" : ""}" x="${across}" y="${down}" text-anchor="${anchor}">${head}</text>${below}`;
   }).join("");
 }
@@ -110,7 +111,7 @@ export function drawn({ state: { tops, here, chosen }, texts }, size) {
   const ring = `<g class="here known" tabindex="0" role="slider" aria-label="${attribute(texts.here)}" aria-valuenow="${here.a}"
     aria-valuetext="${attribute(fill(texts.at, { a: local(here.a.toFixed(3)), ratio: local(here.ratio.toFixed(3)) }))}">${cross}
     <g transform="translate(${at[0]} ${at[1]})">${own}<circle class="grip" r="${r + 6}" pointer-events="stroke" stroke="transparent" stroke-width="14"/><circle class="ring" r="${r}"/></g></g>`;
-  return `<svg viewBox="0 0 ${size.wide} ${size.high}" role="group" aria-label="${attribute(texts.label)}">${areas(scales)}${axes(scales, texts)}${groups(scales, texts, size.wide < NARROW)}${ring}${marks}</svg>`;
+  return `<svg viewBox="0 0 ${size.wide} ${size.high}" role="group" aria-label="${attribute(texts.label)}">${areas(scales)}${axes(scales, texts, size.type)}${groups(scales, texts, size)}${ring}${marks}</svg>`;
 }
 
 const STEPS = { ArrowLeft: [-0.005, 0], ArrowRight: [0.005, 0], ArrowUp: [0, 0.01], ArrowDown: [0, -0.01] };
@@ -119,11 +120,11 @@ const STEPS = { ArrowLeft: [-0.005, 0], ArrowRight: [0.005, 0], ArrowUp: [0, 0.0
 export function renderTopsMap({ model, el }) {
   el.innerHTML = `${STYLE}<div style="height: 100%"></div>`;
   const place = /** @type {HTMLElement} */ (el.querySelector("div"));
-  let size = { wide: 0, high: 0 }, held = false;
+  let size = { wide: 0, high: 0, type: 1 }, held = false;
   const draw = () => {
     const [width, height] = [place.clientWidth, place.clientHeight];
     if (!width || !height) return;
-    size = { wide: width, high: height };
+    size = { wide: width, high: height, type: parseFloat(getComputedStyle(place).getPropertyValue("--type")) || 1 };
     const focused = /** @type {ShadowRoot} */ (place.getRootNode()).activeElement, name = focused?.getAttribute("data-name"), ring = focused?.matches(".here");
     place.innerHTML = drawn(model, size);
     const again = ring ? place.querySelector(".here") : name && [...place.querySelectorAll(".known")].find((each) => each.getAttribute("data-name") === name);
@@ -161,5 +162,9 @@ export function renderTopsMap({ model, el }) {
   const sizes = new ResizeObserver(draw);
   sizes.observe(place);
   model.on("state", draw);
-  model.on("remove", () => sizes.disconnect());
+  window.addEventListener("tippe:look", draw); // the type may be larger
+  model.on("remove", () => {
+    sizes.disconnect();
+    window.removeEventListener("tippe:look", draw);
+  });
 }

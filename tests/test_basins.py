@@ -1,0 +1,44 @@
+"""The picture of the basins goes on where it was stopped, and its power is that of a border whose power is known."""
+
+import basins
+import numpy as np
+import pytest
+
+
+@pytest.mark.parametrize("alpha", [0.3, 1.0])
+def test_the_power_of_a_known_border_is_found(alpha):
+    """Starts at random beside borders of which the share that is nearer than e goes like e^alpha."""
+    rng = np.random.default_rng(1)
+    distance = 3 * rng.random((4000, 1)) ** (1 / alpha)
+    other = distance < basins.DISTANCES
+    found, error = basins.exponent(other, basins.DISTANCES >= 0.01, rng)
+    assert found == pytest.approx(alpha, abs=4 * error) and error < 0.05
+
+
+def test_the_fastest_border_is_below_each_tilt():
+    end = np.full((28, 45), basins.WORDS.index("stem"))
+    end[2, 24], end[25, 34] = 0, 0  # at 4.5 degrees and 39.5 rev/s; at 27.5 and 49.5
+    assert basins.last_borders(end) == {10: 40.5, 20: 40.5, 30: 50.5}
+
+
+def test_what_was_run_is_not_run_again(monkeypatch, tmp_path):
+    """Stopped after the second piece of three; rows of the map come in their places."""
+    asked = []
+
+    def ended(spins, tilts, rtol=1e-6):
+        if len(asked) == 2:
+            raise KeyboardInterrupt
+        asked.append(spins)
+        return np.where(spins > 40, "stem", "upright"), np.round(tilts).astype(int)
+
+    monkeypatch.setattr(basins, "ended", ended)
+    monkeypatch.setattr(basins, "PIECE", 14)
+    with pytest.raises(KeyboardInterrupt):
+        basins.mapped(tmp_path, 6)
+    assert (basins.mapped(tmp_path, 6, wait=True)[0] == basins.NONE).sum() == 8
+    asked.append(None)
+    end, hops = basins.mapped(tmp_path, 6)
+    assert [len(each) for each in asked if each is not None] == [14, 14, 8]
+    spins, tilts = (low + (high - low) * (np.arange(6) + 0.5) / 6 for low, high in (basins.SPINS, basins.TILTS))
+    assert (end == np.where(spins > 40, *map(basins.WORDS.index, ("stem", "upright")))[None]).all()
+    assert (hops == np.round(tilts)[:, None]).all()

@@ -1,0 +1,68 @@
+"""Below a map: steady motions as lines, what becomes of runs in the long, and the powers of the time of inversion."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.model.maps.maps import Map
+from app.model.maps.rates import POINTS, REACH, powers
+from app.model.maps.solving import run
+from app.model.maps.steady import at_place, bifurcation, fixed, launch, steady_lines
+from app.tabs.maps.words import of_run
+from tippe_core import Scales, slide
+
+UNIT = Scales(R=0.02, M=0.02, g=9.82)
+TOP_S = Map(body="Top S", law="viscous", values=(("mu", UNIT.velocity),), across_range=(2.0, 16.0), seconds=25.0)
+HANGS = 60 / (2 * np.pi), np.degrees(0.1)  # rev/s, degrees
+AT = np.degrees(1.90888)  # the minimum of V_J of that start
+
+
+def test_a_steady_motion_is_where_V_J_has_its_minimum():
+    cell = TOP_S.at(*HANGS)
+    tumbling = [line for line in steady_lines(cell.top, launch(cell), 2.0, 16.0) if 0 < line.theta.min() < 180]
+    (stable,) = (line for line in tumbling if line.stable)
+    order = np.argsort(stable.spin)
+    spin = HANGS[0] * cell.scales.angular_velocity / UNIT.angular_velocity  # theirs has another g
+    assert np.interp(spin, stable.spin[order], stable.theta[order]) == pytest.approx(AT, abs=0.01)
+
+
+@pytest.mark.slow
+def test_runs_that_go_on_from_one_another_lie_there_too_and_a_point_takes_no_C_J():
+    found = bifurcation(TOP_S, HANGS)
+    np.testing.assert_allclose(found.life.spin, HANGS[0], rtol=1e-5)
+    assert found.life.end == pytest.approx(AT, abs=0.2) and np.isnan(found.life.stands)
+    stable = next(line for line in found.lines if line.stable and 0 < line.theta.min() < 180)
+    order, inside = np.argsort(stable.spin), (found.swept > 8) & (found.swept < 11)
+    line = np.interp(found.swept, stable.spin[order], stable.theta[order])
+    for swept in (found.up, found.down):
+        np.testing.assert_allclose(swept[inside], line[inside], atol=1.0)
+
+
+@pytest.mark.slow
+def test_a_power_is_the_slope_of_single_runs():
+    """By numpy's own regression of runs that were made one by one, and looked at closely."""
+    place = (40.0, 5.7)
+    own, x = fixed(Map(), place), at_place(Map(), place)
+    found = {(power.law, power.quantity): power for power in powers(own, x)}
+    by = np.geomspace(1 / REACH, REACH, POINTS)
+    for quantity in ("spin", "mu"):
+        times = []
+        for each in by:
+            values = tuple((name, x[name] * (each if name == quantity else 1)) for name in ("mu", "second", "slip"))
+            spin = x["spin"] * (each if quantity == "spin" else 1)
+            cell = replace(own, values=values).at(spin, x["tilt"])
+            t = np.linspace(0, cell.t_end, 40_001)
+            moved = slide(cell.top, cell.state, cell.friction, t, rtol=1e-9, landing="plastic", edge=cell.edge)
+            times.append(moved.t[np.argmax(moved.theta > np.pi / 2)])
+        (slope, _), covariance = np.polyfit(np.log(by), np.log(times), 1, cov=True)
+        power = found["contensou", quantity]
+        assert power.runs == POINTS
+        assert power.power == pytest.approx(slope, abs=2e-3)
+        assert power.error == pytest.approx(np.sqrt(covariance[0, 0]), rel=0.05)
+
+
+def test_a_place_is_said_with_its_units():
+    found = run(Map(seconds=0.1), 28.6, 5.7)
+    assert "28.6 rev/s, 5.7°: " in of_run(Map(), 28.6, 5.7, found)
+    assert "0.3, 5.7°: " in of_run(Map(across="mu", across_range=(0.1, 0.5)), 0.3, 5.7, found)
