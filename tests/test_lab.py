@@ -318,8 +318,6 @@ def test_the_strip_of_the_toy_leans_and_then_stands():
     assert ends.known_ends(TOY, TILT, 0.3) is found and ends.known_ends(TOY, TILT, 0.31) is None
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("toy", ["The paper's tippe top", "Top S"])
 def test_of_those_who_ask_for_the_same_ends_at_once_one_computes_them(monkeypatch):
     asked, go, found = [], threading.Event(), object()
 
@@ -336,6 +334,8 @@ def test_of_those_who_ask_for_the_same_ends_at_once_one_computes_them(monkeypatc
     assert len(asked) == 1 and not ends._under_way
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("toy", ["The paper's tippe top", "Top S"])
 def test_the_strip_is_what_single_runs_do(toy):
     found = ends_of(toy, 6.0, 0.3)
     for i in (0, 20, 50, 70, 95):
