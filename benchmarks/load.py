@@ -42,8 +42,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+from serving import answers, megabytes, served, until
 from visiting import free_port, of_roll
-from wire import Page, Visitor, answers, megabytes, served, until
+from wire import Page, Visitor
 
 BARE = """
 import numpy as np

@@ -15,8 +15,8 @@ import references
 from evidence import compare as compare
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import sync_playwright
+from serving import redis_serving
 from visiting import Visit, free_port, launch
-from wire import redis_serving
 
 settings.register_profile(
     "repeatable", derandomize=True, deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow]

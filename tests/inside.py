@@ -7,8 +7,8 @@ from pathlib import Path
 
 from bokeh.server.server import Server
 from panel.io.application import build_single_handler_application
+from serving import until
 from tornado.ioloop import IOLoop
-from wire import until
 
 APP = Path(__file__).parent.parent / "app"
 LINGER = 1  # ms that a session is kept after its page has gone

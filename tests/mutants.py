@@ -21,6 +21,14 @@ import time
 from collections import Counter
 from pathlib import Path
 
+from mutation import sites
+
+
+def files(names):
+    """Of tests."""
+    return [f"test_{name}.py" for name in names.split()]
+
+
 ROOT = Path(__file__).parent.parent
 LOG = ROOT / "tests" / "data" / "mutants.jsonl"
 PAGE = ROOT / "docs" / "mutants.md"
@@ -43,35 +51,34 @@ APP = [
     "family",
 ]
 FILES = [*CORE, *APP]
-# Iterations and tests of convergence: a wrong step there is slow or refused, and no formula of the motion.
-CONTROL = {"solve", "bisect", "zero", "least", "resolved", "harmonics", "length", "first_below", "accept", "error",
-           "factor"}  # fmt: skip
 QUICK = ["test_equations.py::test_functions_of_theta_at_random_states", "test_equations.py", "test_curve.py",
          "test_forces.py", "test_symbolic.py", "test_paper.py", "test_top.py"]  # fmt: skip
-ROLLS = ["test_smooth.py", "test_accuracy.py", "test_rolling.py", "test_sliding.py", "test_claims.py",
-         "test_tielines.py", "test_properties.py"]  # fmt: skip
-SLIDES = ["test_stem.py", "test_ending.py", "test_planes.py", "test_outcome.py", "test_properties.py"]
+ROLLS = files("smooth accuracy rolling rolling_long sliding stick_slip claims tielines properties")
+SLIDES = files("stem ending planes planes_said planes_asked outcome properties")
 REST = dict.fromkeys(SLIDING, SLIDES)
 FIRST = {
-    **{name: ["test_symbolic.py", "test_equations.py", "test_rolling.py"] for name in ROLLING},
-    **{name: ["test_contacts.py", "test_impacts.py", "test_sliding.py"] for name in SLIDING},
+    **{name: ["test_symbolic.py", "test_equations.py", "test_rolling.py", "test_rolling_long.py"] for name in ROLLING},
+    **{name: ["test_contacts.py", "test_impacts.py", "test_sliding.py", "test_stick_slip.py"] for name in SLIDING},
     "limits": ["test_tielines.py"],
     "smooth": ["test_equations.py", "test_smooth.py"],
-    "friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py"],
+    "friction": ["test_friction.py", "test_mujoco.py", "test_sliding.py", "test_stick_slip.py"],
     "dynamics": ["test_mujoco.py", "test_symbolic.py", "test_sliding.py", "test_contacts.py", "test_impacts.py"],
     "standing": ["test_contacts.py", "test_impacts.py"],
     **{name: ["test_many.py", "test_contacts.py", "test_impacts.py"] for name in ("repeats", "many", "tally")},
 }
 OF_APP = {
     **{
-        name: ["test_explorer.py", "test_pacing.py", "test_keep.py", "test_derivation.py", "test_export.py"]
+        name: files("scene explorer pacing keep derivation export")
         for name in ("explorer", "scene", "marks", "region", "frames", "bodies")
     },
     "hands": ["test_hands.py"],
-    **{name: ["test_planes.py", "test_ending.py"] for name in ("planes", "planes/picture", "planes/run")},
-    "family": ["test_builder.py", "test_explorer.py"],
+    **{
+        name: ["test_planes.py", "test_planes_said.py", "test_planes_asked.py", "test_ending.py"]
+        for name in ("planes", "planes/picture", "planes/run")
+    },
+    "family": ["test_family_map.py", "test_builder.py", "test_scene.py"],
 }
-REST_OF_APP = ["test_explorer.py", "test_planes.py", "test_lesson.py", "test_export.py", "test_builder.py"]
+REST_OF_APP = files("explorer scene planes planes_said lesson export builder family_map")
 
 
 def tests_of(name, slow, best):
@@ -114,38 +121,6 @@ EXPLAINED = {
         "return next((shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < +5))",
     ): "the first of the ordinary tops is that one",
 }
-
-
-def sites(tree):
-    """(statement, kind, change): change() alters the tree and returns what undoes it."""
-    for function in ast.walk(tree):
-        if not isinstance(function, ast.FunctionDef) or function.name in CONTROL or function.name.startswith("__"):
-            continue
-        for statement in function.body:
-            for inner in ast.walk(statement):
-                if isinstance(inner, ast.FunctionDef) or not isinstance(inner, ast.stmt):
-                    continue
-                yield from changes(inner)
-
-
-def changes(statement):
-    nodes = [statement]
-    while nodes:
-        node = nodes.pop()
-        nodes += [child for child in ast.iter_child_nodes(node) if not isinstance(child, ast.stmt)]
-        if isinstance(node, ast.Subscript):
-            nodes.remove(node.slice)  # an index is no factor
-        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("range", "TopError", "len"):
-            nodes = [n for n in nodes if n not in node.args]
-        if isinstance(node, ast.BinOp):
-            other = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}.get(type(node.op))
-            if other:
-                kind = "sign" if other in (ast.Add, ast.Sub) else "factor"
-                yield statement, kind, node, "op", other()
-            if isinstance(node.op, ast.Pow) and isinstance(node.right, ast.Constant):
-                yield statement, "factor", node.right, "value", node.right.value + 1
-        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-            yield statement, "sign", node, "op", ast.UAdd()
 
 
 def path_of(name):

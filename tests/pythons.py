@@ -16,8 +16,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import visitors
+from serving import serving
 from visiting import PATIENCE, Visit, go_to, launch
-from wire import serving
 
 ROOT = Path(__file__).parent.parent
 FIRST, LAST = 11, 14  # of Python 3; of these it is said where there is none

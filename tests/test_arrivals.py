@@ -10,10 +10,11 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from serving import served, serving, until
 from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 from tornado.web import Application
-from wire import Visitor, get, run, served, serving, until
+from wire import Visitor, get, run
 
 from app.server import arrivals
 

@@ -206,7 +206,7 @@ def test_style_sheets_of_a_part_without_a_document_stay_here(monkeypatch):
 
 
 def test_what_a_session_does_later_goes_through_the_method_that_is_counted(monkeypatch):
-    """5. What is counted is tested in test_server.py."""
+    """5. What is counted is tested in test_budget.py."""
     assert list(inspect.signature(ServerSession._wrap_document_callback).parameters)[:2] in (
         ["self", "callback"], ["session", "callback"])  # fmt: skip
     seen = []

@@ -262,11 +262,3 @@ def test_webgl_finds_what_three_has_drawn(space):
     """7."""
     found = space.evaluate("() => window.pixel(true)")
     assert found["buffer"] and found["same"] == found["bytes"] and found["same"][0] == 128
-
-
-def test_an_axis_has_the_numbers_of_the_pages_language(bare):
-    """8. By Bokeh's own way it has points."""
-    ticks = "() => fig.left[0].formatter.doFormat([-0.5, 0, 0.5], { loc: 0 })"
-    assert bare.evaluate(ticks) == ["−0.5", "0", "0.5"]  # else this may go
-    bare.evaluate("() => borrowed.writeTicks((text) => text.replace('.', ','))")
-    assert bare.evaluate(ticks) == ["−0,5", "0", "0,5"]

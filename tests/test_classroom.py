@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from serving import redis_serving
 from visiting import free_port
-from wire import redis_serving
 
 from app.model.votes import ballots, classroom
 from app.model.votes import desk as desks

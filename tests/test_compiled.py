@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import visitors
-from wire import serving, until
+from serving import serving, until
 
 import tippe_core
 from tippe_core import kept

@@ -3,7 +3,7 @@
 import threading
 
 import pytest
-from wire import until
+from serving import until
 
 from app.model.votes import classroom
 from app.model.votes import desk as desks

@@ -12,7 +12,7 @@ from cases import CASES, LOADED, ORDINARY, PAPER, TOPS
 from high_precision import Curve, mp, mpf
 from scipy.integrate import quad
 from scipy.optimize import brentq
-from test_rolling import differentiation, window
+from test_rolling_long import differentiation, window
 from test_sliding import first_instant
 
 from tippe_core import (

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 import visitors
+from serving import answers, served, until
 from visiting import Visit, free_port
-from wire import Visitor, answers, get, run, served, until
+from wire import Visitor, get, run
 
 pytestmark = pytest.mark.served
 

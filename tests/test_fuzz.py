@@ -14,10 +14,11 @@ from pathlib import Path
 
 import pytest
 import visitors
+from serving import megabytes, served
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
 from visiting import of_roll
-from wire import Closed, Visitor, megabytes, run, served
+from wire import Closed, Visitor, run
 
 import app.page.page  # noqa: F401  (all components)
 from app.server.messages import CHANGES

@@ -6,8 +6,8 @@ from html import unescape
 
 import pytest
 from playwright.sync_api import expect
+from serving import served
 from visiting import Visit
-from wire import served
 
 from app.model.explorer import Explorer
 from app.model.lesson import lesson, parts

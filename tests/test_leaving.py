@@ -13,7 +13,8 @@ import panel as pn
 import pytest
 import visitors
 from inside import inside
-from wire import run, until
+from serving import until
+from wire import run
 
 from app.text import say
 from app.widgets.download import Download

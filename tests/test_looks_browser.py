@@ -58,10 +58,10 @@ def test_a_german_page_writes_decimal_commas_on_axes_in_fields_and_in_3d(opened)
     field.press("Enter")
     page.wait_for_function("() => /KJ=6\\.5/.test(location.search)")
     ticks = """() => {
-      const figures = [...Bokeh.documents[0].all_models].filter(({ type }) => type === "BasicTickFormatter")
-      return figures[0].doFormat([0.5, 1], { loc: 0 })
+      const figures = [...Bokeh.documents[0].all_models].filter(({ type }) => type === "CustomJSTickFormatter")
+      return figures[0].doFormat([-0.5, 0.1 + 0.2, 1], { loc: 0 })
     }"""
-    assert page.evaluate(ticks) == ["0,5", "1"]
+    assert page.evaluate(ticks) == ["−0,5", "0,3", "1"]
 
 
 def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):

@@ -3,8 +3,6 @@
 import csv
 import io
 import json
-import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,21 +10,11 @@ import pytest
 from app.model import ends
 from app.model.maps import kept
 from app.model.maps.lines import disagreements, lines
-from app.model.maps.maps import OWN, UNITS, Map
+from app.model.maps.maps import UNITS, Map
 from app.model.maps.solving import Level, run, solve
-from app.model.runs import Runs
-from app.model.scene import solve as solve_scene
-from app.server.messages import CHANGES
-from app.state.keep import Keep, read
-from app.state.map_text import MapText
 from app.tabs.maps.export import made, python
-from app.tabs.maps.maps import Maps
-from app.tabs.maps.picture import MapFigure
-from app.tabs.maps.steady import Steady
 from app.text import speaking
-from tippe_core import PRESETS, Scales, Top, TopError, slide_many
-
-ROOT = Path(__file__).parent.parent
+from tippe_core import Scales, TopError
 
 
 def last(asked):
@@ -43,14 +31,6 @@ def level():
 def nothing_kept(monkeypatch):
     monkeypatch.setattr(kept, "_path", lambda asked: None)
     kept._memory.clear()
-
-
-def slide_many_of(asked, places):
-    cells = [asked.at(*place) for place in places]
-    first = cells[0]
-    return slide_many(
-        first.top, [cell.state for cell in cells], first.friction, first.t_end, first.edge, rtol=asked.rtol
-    )
 
 
 # ---- coarse to fine ----
@@ -231,138 +211,3 @@ def test_files_say_what_they_are_of(level):
         assert json.loads(str(file["parameters"]))["values"]["mu"] == 0.3
         np.testing.assert_array_equal(file["heat"], level.columns["heat"])
     assert made(level, "end", "png").startswith(b"\x89PNG") and b"<svg" in made(level, "heat", "svg")
-
-
-# ---- the tab ----
-
-
-@pytest.fixture(autouse=True)
-def nothing_below(request, monkeypatch):
-    """What stands below the map takes seconds for each place."""
-    if "below" not in request.node.name:
-        monkeypatch.setattr(Steady, "show", lambda *given: None)
-
-
-def test_what_stands_below_the_map():
-    """Leine and Glocker's toy: stands on its stem, and comes off it; the closed form of the steady motions as lines."""
-    below = Steady(Runs())
-    below.show(Map(seconds=2.0), (28.6, 5.7))
-    assert "1.4 s" in below.says.object or "1.37 s" in below.says.object
-    assert len(below.lines.data["xs"]) == 4 and np.isfinite(below.dots[0].data["y"]).sum() > 30
-    upright, runs = below.branches["upright"]
-    growth = np.interp(runs.data["x"], upright.data["x"], upright.data["growth"])
-    good = np.isfinite(runs.data["y"])
-    np.testing.assert_allclose(runs.data["y"][good], growth[good], rtol=0.05)
-    assert "<table>" in below.powers.object
-
-
-@pytest.fixture
-def tab():
-    fresh = Maps()
-    fresh.settings.entries["cells"].value = "9"
-    return fresh
-
-
-def test_what_cannot_be_leaves_the_last_map(tab):
-    before = tab.level
-    for entry, typed, name in (("across_to", "3", "spin_from"), ("up_to", "500", "tilt"), ("cells", "1e9", "cells"),
-                               ("seconds", "long", "seconds")):  # fmt: skip
-        good = tab.settings.entries[entry].value
-        tab.settings.entries[entry].value = typed
-        assert 'role="alert"' in tab.said.object and name in tab.said.object and tab.level is before
-        tab.settings.entries[entry].value = good
-        assert tab.said.object == ""
-
-
-def test_a_click_goes_to_the_run_of_a_cell(tab):
-    tab._by_hand({"x": [44.0], "y": [6.0], "cell": [1]})
-    i, j = tab.level.cell(44.0, 6.0)
-    assert tab.choice.place == [tab.level.x[j], tab.level.y[i]] and tab.level.end[i, j] == "stem"
-    assert "stands on its stem" in tab.run_says.object
-    tab._by_hand({"x": [44.0], "y": [6.0], "cell": [0]})
-    assert tab.choice.place == [44.0, 6.0] and tab.settings.entries["here_across"].value == "44"
-    for odd in ({}, {"x": ["a"], "y": [1], "cell": [1]}, {"x": 3, "y": [1], "cell": [1]}):
-        tab._by_hand(odd)
-    assert tab.choice.place == [44.0, 6.0]
-
-
-def test_another_axis_law_and_colour(tab):
-    tab.settings.choices["law"].value = "smoothed"
-    assert tab.asked.law == "smoothed" and tab.asked.start["second"] == 0.1
-    tab.settings.choices["up"].value = "mu"
-    assert (
-        tab.asked.up_range == (0.05, 0.6) and not tab.settings.rows["mu"].visible and tab.settings.rows["tilt"].visible
-    )
-    tab.settings.choices["colour"].value = "growth"
-    assert tab.asked.nudged and np.isfinite(tab.level.columns["growth"]).any()
-
-
-def test_a_box_looks_closer_and_the_whole_range_comes_back(tab):
-    tab._by_hand({"x": [30.0, 20.0], "y": [5.0, 10.0], "cell": [0, 0]})
-    assert (tab.asked.across_range, tab.asked.up_range) == ((20.0, 30.0), (5.0, 10.0))
-    assert tab.level.x[0] == pytest.approx(20 + 10 / 18) and 20 < tab.choice.place[0] < 30
-    tab.settings.look_at(*tab._usual_spans())
-    assert tab.asked.across_range == (5.0, 50.0)
-
-
-def test_the_map_is_in_the_address_and_undone():
-    tab = Maps()
-    keep = Keep()
-    keep.add(tab.choice)
-    tab.choice.param.watch(lambda *events: keep.at_rest(), [*tab.choice.INPUTS])
-    assert keep.query == ""
-    tab.settings.entries["cells"].value = "9"
-    tab.settings.choices["law"].value = "smoothed"
-    tab.settings.entries["mu"].value = "0.25"
-    asked = tab.choice.asked
-    texts, sentence = read(keep.query)
-    again = MapText.value(texts["map"])
-    assert not sentence and again == asked and dict(again.values) == {"mu": 0.25}
-    keep.undo()
-    assert tab.settings.entries["mu"].value == "0.3" and tab.asked.values == ()
-    keep.undo()
-    assert tab.asked.law == "contensou"
-    keep.redo()
-    keep.redo()
-    assert tab.choice.asked == asked
-    for odd in ("", "spin", "_".join(["spin"] * 10), MapText.text(asked) + "_mu", MapText.text(asked) + "_own_3"):
-        with pytest.raises(ValueError):
-            MapText.value(odd)
-
-
-def test_the_pages_top_slides():
-    assert Maps(scene=solve_scene(Top.paper(), 7.0, 10.0, 0.5, 0.9)).asked.body == "The paper's tippe top"
-    own = Top(0.1, 0.42, 0.41)
-    tab = Maps(scene=solve_scene(own, 7.0, 10.0, 0.5, 0.9, shape=None))
-    assert tab.asked.body == OWN and tab.asked.thing.top == own and tab.level.finest
-    toy = next(preset for preset in PRESETS if preset.name == "Leine and Glocker's toy")
-    tab.show(solve_scene(toy.top, 7.0, 10.0, 0.5, 0.5, shape=toy.shape))
-    assert tab.asked.body == toy.name and tab.asked.own is None
-
-
-def test_the_run_of_the_bead_goes_to_the_lab():
-    thrown = []
-    tab = Maps(throw=lambda *start: thrown.append(start))
-    tab.go(30.0, 8.0)
-    assert thrown[-1] == ("Leine and Glocker's toy", 30.0, 8.0, 0.3, False)
-    tab.settings.choices["law"].value = "viscous"
-    assert not tab.thrown_row.visible
-
-
-def test_the_map_that_ships_is_what_is_computed():
-    shipped = kept.recall(Map())
-    assert shipped.finest
-    i, j = np.array([3, 20, 40, 44]), np.array([44, 30, 10, 25])
-    fresh = slide_many_of(Map(), [(shipped.x[b], shipped.y[a]) for a, b in zip(i, j, strict=True)])
-    assert fresh.end.tolist() == shipped.end[i, j].tolist()
-    np.testing.assert_allclose(np.degrees(fresh.theta_end), shipped.columns["theta_end"][i, j], rtol=1e-4)
-
-
-def test_what_a_hand_on_the_map_sends_is_let_in():
-    """As frontend/src/figures/maps.js has it: a place, the middle of a cell, two corners of a box."""
-    source = MapFigure(lambda data: None).hand
-    for x, y, cell in (([30.5], [6.5], [0]), ([30.5], [6.5], [1]), ([5.0, 6.0], [1.0, 2.0], [0, 0])):
-        entries = [["x", x], ["y", y], ["cell", cell]]
-        assert CHANGES["ColumnDataSource"]["data"].fits({"type": "map", "entries": entries}, source)
-    sent = set(re.findall(r"cell: (\[.*?\]) }", (ROOT / "app/frontend/src/figures/maps.js").read_text("utf-8")))
-    assert sent == {"[0]", "[0, 0]", "[Number(clicked)]"}

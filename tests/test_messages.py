@@ -10,8 +10,9 @@ import pytest
 import visitors
 from bokeh.core.serialization import Serialized
 from bokeh.model import DataModel
+from serving import megabytes, served
 from visiting import Visit, go_to, of_roll
-from wire import Visitor, event, megabytes, run, served
+from wire import Visitor, event, run
 
 from app.model.build.builder import LARGEST_FILE
 from app.server.messages import CHANGES, MOST, Refused, look_at

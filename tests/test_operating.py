@@ -12,7 +12,8 @@ from types import SimpleNamespace
 
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
-from wire import Closed, Visitor, get, run, served, until
+from serving import served, until
+from wire import Closed, Visitor, get, run
 
 from app.model.runs import Pool
 from app.server import ending

@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 import yaml
 from packaging.requirements import Requirement
-from wire import Visitor, run, serving
+from serving import serving
+from wire import Visitor, run
 
 ROOT = Path(__file__).parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -154,7 +155,7 @@ def test_the_source_archive_has_all_that_git_has(unpacked):
 def test_the_source_archive_passes_its_tests_of_files(unpacked):
     """Those that read what is not a program: the proxy's and the cluster's settings, the docs, the readme."""
     done = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_readme.py",
-                           "tests/test_server.py", "tests/test_package.py", "-k",
+                           "tests/test_settings.py", "tests/test_package.py", "-k",
                            "(files or docs or readme or lock) and not archive"],
                           cwd=unpacked, capture_output=True, text=True)  # fmt: skip
     assert done.returncode == 0, done.stdout[-3000:]

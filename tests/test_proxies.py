@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import ClassVar
 
 import pytest
+from serving import listens, served, until
 from test_faults import LOST, has_come_back, set_K_J
 from visiting import Visit, free_port
-from wire import listens, served, until
 
 pytestmark = [pytest.mark.served, pytest.mark.slow]
 DEPLOY = Path(__file__).parent.parent / "deploy"

@@ -7,8 +7,8 @@ from queue import Queue
 import pytest
 import visitors
 from inside import inside
+from serving import until
 from wire import run as run_async
-from wire import until
 
 from app.model import cores, runs
 from app.model.runs import WORK, Full, Pool, Run, Runs, Stopped

@@ -2,11 +2,9 @@
 
 import asyncio
 import gc
-import os
 import sys
 import threading
 import weakref
-from collections import Counter
 from functools import partial
 from pathlib import Path
 from queue import Queue
@@ -16,17 +14,11 @@ import numpy as np
 import pytest
 from bokeh.document import Document
 from bokeh.server.tornado import BokehTornado
-from house import planes_of
 from panel.io.application import build_single_handler_application
+from serving import until
 from wire import run as run_async
-from wire import until
 
-from app.model.explorer import Explorer
-from app.model.families.family import share_map
-from app.model.lesson import lesson
-from app.model.runs import MAPS, NICE, TURN, WORK, Pool, Run, Runs, Stopped, look, to_session
-from app.tabs.families.compare import Compare
-from app.tabs.learn.learn import Learn
+from app.model.runs import WORK, Run, Runs, Stopped, look, to_session
 from app.text import speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
 
@@ -161,90 +153,6 @@ def test_an_error_is_told_too(page):
     assert isinstance(results[0], ZeroDivisionError)
 
 
-class Crowd:
-    """Visitors of a pool of their own: in which order their pieces are begun, and how many of each at a time."""
-
-    def __init__(self, threads):
-        self.pool, self.begun, self.go = Pool(threads, "crowd"), [], Queue()
-        self.working, self.most, self.changing = Counter(), Counter(), threading.Lock()
-
-    def piece(self, visitor, name):
-        def work():
-            with self.changing:
-                self.begun.append(name)
-                self.working[visitor] += 1
-                self.most[visitor] = max(self.most[visitor], self.working[visitor])
-            self.go.get(timeout=PATIENCE)
-            with self.changing:
-                self.working[visitor] -= 1
-
-        self.pool.add(visitor, work)
-        return work
-
-    def end(self, pieces):
-        """Lets so many end."""
-        for _ in range(pieces):
-            self.go.put(None)
-
-
-def test_visitors_take_turns_however_much_one_of_them_asks_for():
-    crowd = Crowd(threads=1)
-    for i in range(50):
-        crowd.piece("flood", f"flood {i}")
-    for visitor in ("a", "b"):
-        for i in range(2):
-            crowd.piece(visitor, f"{visitor} {i}")
-    crowd.end(54)
-    until(lambda: len(crowd.begun) == 54)
-    assert crowd.begun[:7] == ["flood 0", "a 0", "b 0", "flood 1", "a 1", "b 1", "flood 2"]
-    assert [name for name in crowd.begun if name.startswith("flood")] == [f"flood {i}" for i in range(50)]
-
-
-def test_a_thread_is_free_for_who_has_none_under_way():
-    """However much one asks for: who comes then need not wait for any of it."""
-    crowd = Crowd(threads=4)
-    for i in range(9):
-        crowd.piece("flood", f"flood {i}")
-    until(lambda: len(crowd.begun) == 3)
-    crowd.piece("other", "other")
-    until(lambda: "other" in crowd.begun)
-    assert sorted(crowd.begun) == ["flood 0", "flood 1", "flood 2", "other"]
-    assert crowd.pool.rest("flood") > 2 * crowd.pool.rest("other") + 2 * TURN * 0.9  # his three share one share
-    crowd.end(10)
-    until(lambda: len(crowd.begun) == 10)
-    assert crowd.most["flood"] == 3
-    until(lambda: not crowd.pool._working)
-
-
-def test_of_a_kind_a_page_has_one_piece_and_the_newest_answers(page, busy):
-    begun, results = [], []
-    for i in range(300):
-        page.runs.begin(Run(lambda run, i=i: begun.append(i) or i, told(results)), "a")
-    page.runs.begin(Run(lambda run: "other", told(results)), "another")
-    busy.end()
-    until(lambda: page.posted.qsize() == 301)
-    for _ in range(301):
-        page.next()
-    assert begun == [299] and sorted(results, key=str) == [299, "other"]
-
-
-def test_nothing_is_begun_for_who_has_left(busy):
-    """Left is also whose connection has ended: the session that it leaves lives for half a minute more."""
-    here, begun = [True], []
-    gone = Page()
-    gone.runs = Runs(gone.posted.put, lambda: bool(here))
-    leaving = Page()
-    for page in (gone, leaving):
-        for kind in "abc":
-            page.runs.begin(Run(lambda run: begun.append("piece"), lambda result: None), kind)
-    leaving.runs.leave()
-    here.clear()
-    busy.end()
-    for _ in "abc":
-        gone.next()
-    assert begun == [] and not WORK._waiting and leaving.posted.empty()
-
-
 def test_a_run_ends_when_its_connection_does(page):
     here, begun, results = [True], threading.Event(), []
     page.runs = Runs(page.posted.put, lambda: bool(here))
@@ -304,69 +212,3 @@ def test_sessions_work_in_the_servers_own_thread():
         return {*sent, await asyncio.to_thread(threading.get_ident), threading.get_ident()}
 
     assert len(run_async(where())) == 1
-
-
-@pytest.mark.slow
-def test_the_lesson_begins_before_its_runs_are_there(page):
-    """Its first step ships; the others are computed beside the server, and anew for another top."""
-    scene = Explorer().scene
-    learn = Learn(scene, page.runs)
-    assert [step["name"] for step in learn.lesson.steps] == ["flips"] and {*learn.lesson.runs} == {"ordinary"}
-    page.next()
-    assert tuple(step["name"] for step in learn.lesson.steps) == lesson.NAMES
-    assert {name for step in lesson.STEPS for name in step.tops} <= {*learn.lesson.runs, *learn.lesson.others}
-    before = learn.lesson.others["yours"]
-    learn.show(Explorer(a=0.3, I1=0.374, I3=0.4).scene)
-    page.next()
-    assert learn.lesson.others["yours"]["curves"] != before["curves"]
-
-
-@pytest.mark.slow
-def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy, monkeypatch):
-    monkeypatch.setattr("app.model.planes.planes.PATIENCE", 0.0)
-    explorer = Explorer()
-    planes = planes_of(explorer, page.runs)
-    planes.ask(spin=21.0)
-    planes.ask(spin=22.0)  # before the session hears that the first is not run
-    busy.end()
-    while planes.busy:
-        page.next()
-    assert planes.picture.settings.spin == 22.0
-
-
-def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
-    def slowly(*asked):
-        while True:
-            yield 10, nothing
-
-    nothing = next(share_map(0.4, 10.0, 0.5, np.array([0.07]), np.array([1.0, 1.1])))[1]
-    monkeypatch.setattr("app.tabs.families.compare.share_map", slowly)
-    compare = Compare(Explorer().scene, page.runs)
-    compare.compute()
-    first = compare._run
-    compare.compute()  # two clicks, before the button is seen to be taken away
-    assert first.stopped
-    compare.cancel.clicks += 1
-    while not compare.said.object:
-        assert not compare.cancel.disabled
-        page.next()
-    assert "Cancelled" in compare.said.object and not compare.start.disabled
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="a thread has no priority of its own here")
-def test_a_map_stands_back_with_all_threads_that_it_begins():
-    found, done = [], threading.Event()
-
-    def priority():
-        return os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
-
-    def piece():
-        found.append(priority())
-        beside = threading.Thread(target=lambda: found.append(priority()))
-        beside.start()
-        beside.join()
-        done.set()
-
-    MAPS.add(object(), piece)
-    assert done.wait(20)
-    assert found == 2 * [min(priority() + NICE, 19)]

@@ -16,7 +16,7 @@ BOKEH = Path(bokeh.server.__file__).parent / "static/js/bokeh.js"
 PYTHON = [path for path in FRONTEND.parent.rglob("*.py") if "node_modules" not in path.parts]
 PAGES = [path for path in FRONTEND.parent.rglob("*.html") if "node_modules" not in path.parts]
 INLINED = [path for path in FRONTEND.parent.rglob("*.js") if not {"frontend", "static"} & {*path.parts}
-           and path.name != "call.js"]  # fmt: skip
+           and path.name not in ("call.js", "ticks.js")]  # fmt: skip
 OTHERS = [path for path in FRONTEND.glob("src/**/*.js") if path != BORROWED]
 
 # {name of ours: what it uses of Bokeh, as it stands in Bokeh's own script}

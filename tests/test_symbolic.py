@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 from cases import TOPS
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
-from test_rolling import differentiation, window
+from test_rolling_long import differentiation, window
 
 from tippe_core import Constants, Rolling, State, Viscous, f, friction_force, glide, normal_force, slide
 

@@ -6,8 +6,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from serving import serving, until
 from visiting import Visit, go_to
-from wire import serving, until
 
 pytestmark = pytest.mark.served
 

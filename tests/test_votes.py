@@ -8,9 +8,10 @@ import signal
 from contextlib import ExitStack
 
 import pytest
+from serving import redis_serving, served, until
 from test_server import workers_of
 from visiting import free_port
-from wire import Page, Visitor, get, redis_serving, run, served, until
+from wire import Page, Visitor, get, run
 
 from app.model.votes.ballots import Sqlite
 from app.model.votes.classroom import Room

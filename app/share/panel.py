@@ -79,7 +79,7 @@ class Files:
                             margin=(4, 0))  # fmt: skip
         self._more = pmui.Accordion((say("share.panel.figures"), pn.Column(
             *self._figures(), sizing_mode="stretch_width", margin=0)), active=[], sizing_mode="stretch_width",
-            margin=(8, 0), title_variant="subtitle2", elevation=0)  # fmt: skip
+            margin=(8, 0), title_variant="h3", elevation=0, sx={"& .title": {"fontSize": px(14)}})  # fmt: skip
         self.view = [
             self._of, self._table,
             *(_row(said[name], *saves) for name, saves in rows.items()),

@@ -35,6 +35,11 @@ MARKS = {"en": str.maketrans("-", "−"), "de": str.maketrans("-.,", "−,\N{NAR
 """{language: what it writes for the sign, the point and the groups of three}."""
 
 
+def decimal_point() -> str:
+    """What the page's language writes for it."""
+    return ".".translate(MARKS[spoken()])
+
+
 class _Numbers(string.Formatter):
     def __init__(self, language: str) -> None:
         self._marks = MARKS[language]

@@ -4,14 +4,28 @@ A figure is built once; after that only the sources whose numbers changed are se
 tieline, the line at the clock's time) lies on Bokeh's overlay level, which repaints without the rest of its figure.
 """
 
+from pathlib import Path
+
 import numpy as np
-from bokeh.models import AllIndices, AllLabels, BoxAnnotation, CDSView, ColumnDataSource, Line, Range1d, Span
+from bokeh.models import (
+    AllIndices,
+    AllLabels,
+    BasicTickFormatter,
+    BoxAnnotation,
+    CDSView,
+    ColumnDataSource,
+    CustomJSTickFormatter,
+    Line,
+    Range1d,
+    Span,
+)
 from bokeh.plotting import figure
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, INK
-from app.text import say
+from app.text import decimal_point, say
 
+TICKS = Path(__file__).parents[1].joinpath("ticks.js").read_text(encoding="utf-8")
 GRID, PAPER = "#e7ebef", "#ffffff"
 POINTS_A_CURVE = 640
 
@@ -37,6 +51,10 @@ def plain(**options):
     fig.axis.major_label_text_font_size = "12px"
     fig.axis.major_tick_in = 0
     fig.axis.major_label_policy = AllLabels()  # one for both
+    if (point := decimal_point()) != ".":
+        for axis in fig.axis:
+            if isinstance(axis.formatter, BasicTickFormatter):
+                axis.formatter = CustomJSTickFormatter(args={"point": point}, code=TICKS)
     if fig.name:
         label = say(f"roll.figures.{fig.name}")
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))

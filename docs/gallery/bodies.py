@@ -1,6 +1,7 @@
 """Two bodies and their numbers
 
-All that the motion knows of a body are three numbers, $a$, $I_1$ and $I_3$: here of two that can be turned on a lathe.
+The motion depends on a body through three numbers, $a$, $I_1$ and $I_3$. Here they are for two bodies that can be
+turned on a lathe.
 """
 
 import matplotlib.pyplot as plt

@@ -1,4 +1,4 @@
-"""Which end is up, for how fast a spin
+"""Which end is up at which spin
 
 The least energy with a given $C_J$, over the angle (note 58 of the paper). For a slow spin it is least upright, for a
 fast one inverted, between the two at an angle.

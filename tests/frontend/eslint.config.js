@@ -51,6 +51,10 @@ export default [
       globals: Object.fromEntries(["run", "given", "cb_obj"].map((name) => [name, "readonly"])),
     },
   },
+  {
+    files: ["app/ticks.js"],
+    languageOptions: { sourceType: "commonjs", globals: { tick: "readonly", point: "readonly" } },
+  },
   { files: ["app/*.js", "app/{page,server,share}/*.js"], languageOptions: { sourceType: "commonjs" } }, // they stand in a page
   { files: ["app/frontend/src/**/*.js"], plugins: { ours: { rules: { typed } } }, rules: { "ours/typed": "error" } },
   { files: ["tests/frontend/*.js"], languageOptions: { globals: globals.node } },

@@ -37,12 +37,3 @@ export const likeAScreen = (target) => Object.assign(target, { isXRRenderTarget:
 // 7. What WebGL calls a target that three.js has drawn into. https://github.com/mrdoob/three.js/issues/33161
 /** @param {import("three").WebGLRenderer} renderer @param {import("three").WebGLRenderTarget} target */
 export const bufferOf = (renderer, target) => /** @type {any} */ (renderer.properties.get(target)).__webglFramebuffer;
-
-// 8. A figure's axis writes its numbers with a point in every language, and no option says another one. No issue that we found.
-/** @param {(text: string) => string} write */
-export function writeTicks(write) {
-  const ticks = Bokeh.require("models/formatters/basic_tick_formatter").BasicTickFormatter.prototype, theirs = ticks.doFormat;
-  ticks.doFormat = function (...given) {
-    return theirs.apply(this, given).map(write);
-  };
-}

@@ -1,8 +1,7 @@
 // How the page looks: light or dark, and large for a projector. The page's own type and the widgets follow by variables
 // of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
-import { writeTicks } from "../borrowed.js";
 import { colours, onDark } from "../colours.js";
-import { coalesce, local } from "../data.js";
+import { coalesce } from "../data.js";
 import { words } from "../three/scene.js";
 
 const LARGER = 1.35;
@@ -109,7 +108,6 @@ class Look {
 /** @param {Pick<Rendering<LookModel>, "model">} rendering */
 export function renderLook({ model }) {
   document.documentElement.lang = model.texts.language;
-  if (model.texts.language !== "en") writeTicks((text) => local(text));
   const look = new Look(model), again = coalesce(() => look.dressAll());
   const onChange = ({ attr = "" }) => look.isUndone(attr) && again();
   look.doc.on_change(onChange);

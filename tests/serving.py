@@ -1,0 +1,108 @@
+"""Servers for tests: `python -m app` with some settings, another command that serves the page, a Redis."""
+
+import os
+import socket
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from visiting import free_port
+from wire import get
+
+
+@dataclass
+class Served:
+    """A running server: its process, the page's address, and what it wrote."""
+
+    process: subprocess.Popen
+    url: str
+    output: Path
+
+    @property
+    def log(self):
+        """All lines so far."""
+        return self.output.read_text(encoding="utf-8")
+
+    @property
+    def root(self):
+        """The address without the page's path."""
+        return self.url.rsplit("/", 1)[0]
+
+
+@contextmanager
+def served(output, wait=True, before=(), arguments=(), **settings):
+    """`python -m app` with these settings, until the end of the block; output: the file that takes its log. It answers
+    by then, or, without wait, soon. before: a command that starts the rest of its arguments."""
+    settings = {"port": free_port(), "address": "127.0.0.1"} | settings
+    environment = {**os.environ, **{f"TIPPE_{name.upper()}": str(value) for name, value in settings.items()}}
+    with output.open("a") as file:
+        process = subprocess.Popen([*before, sys.executable, "-m", "app", *arguments], env=environment, stdout=file,
+                                   cwd=Path(__file__).parent.parent, stderr=subprocess.STDOUT)  # fmt: skip
+    root = f"http://127.0.0.1:{settings['port']}"
+    try:
+        if wait:
+            until(lambda: process.poll() is not None or answers(root + "/liveness"), 60)
+            assert process.poll() is None, output.read_text(encoding="utf-8")
+        yield Served(process, root + settings.get("prefix", "") + "/app", output)
+    finally:
+        process.terminate()
+        process.wait()
+
+
+@contextmanager
+def redis_serving(port):
+    """A Redis that keeps nothing on the disk, until the end of the block; its URL."""
+    process = subprocess.Popen(["redis-server", "--port", str(port), "--bind", "127.0.0.1", "--save", "",
+                                "--appendonly", "no"], stdout=subprocess.DEVNULL)  # fmt: skip
+    try:
+        until(lambda: listens(port))
+        yield f"redis://127.0.0.1:{port}/0"
+    finally:
+        process.kill()
+        process.wait()
+
+
+def listens(port):
+    """Whether somebody takes connections there."""
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
+
+
+@contextmanager
+def serving(command, output, folder):
+    """A command that serves the page, run in a folder until the end of the block; it answers by then, or has ended."""
+    port = free_port()
+    with output.open("w") as file:
+        process = subprocess.Popen([*command, "--port", str(port), "--address", "localhost"], cwd=folder, stdout=file,
+                                   stderr=subprocess.STDOUT)  # fmt: skip
+    url = f"http://localhost:{port}/app"
+    try:
+        until(lambda: process.poll() is not None or answers(url), 120)
+        yield Served(process, url, output)
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def megabytes(pid):
+    """Resident, of a process."""
+    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def answers(url):
+    """Whether anybody is there."""
+    try:
+        return get(url)[0] == 200
+    except OSError:
+        return False
+
+
+def until(condition, seconds=20):
+    """Waits for a condition."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited too long"
+        time.sleep(0.05)

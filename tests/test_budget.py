@@ -1,0 +1,174 @@
+"""A session's share of the processor, and whose turn it is."""
+
+import asyncio
+from contextlib import suppress
+from http.client import HTTPConnection
+from types import SimpleNamespace
+
+import pytest
+from bokeh.document import Document, without_document_lock
+from bokeh.server.session import ServerSession
+from serving import served
+from tornado.ioloop import IOLoop
+from wire import run
+
+from app.borrowed import counted, in_one_thread
+from app.server.door import Budget, Turns, budget
+from app.server.sockets import Socket
+
+pytestmark = pytest.mark.served
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    with served(tmp_path_factory.mktemp("server") / "log", sessions=3, sessions_per_address=2, linger=1) as server:
+        yield server
+
+
+class Clock:
+    """Stands in for the processor's: work() is the only thing that takes time."""
+
+    def __init__(self, monkeypatch):
+        self.now = 0.0
+        monkeypatch.setattr("app.server.door.time", self)
+
+    def thread_time(self):
+        return self.now
+
+    monotonic = thread_time
+
+    def work(self, seconds):
+        self.now += seconds
+
+
+def test_what_a_coroutine_does_itself_is_counted_and_not_what_others_do_while_it_waits(monkeypatch):
+    clock = Clock(monkeypatch)
+    budget = Budget()
+
+    async def mine():
+        clock.work(0.05)
+        with suppress(ZeroDivisionError):
+            await asyncio.gather(asyncio.sleep(0.05), others())
+        clock.work(0.05)
+        return "done"
+
+    async def others():
+        clock.work(0.2)
+        raise ZeroDivisionError
+
+    assert run(budget.steps(mine())) == "done"
+    assert budget.spent == pytest.approx(0.1)
+
+
+def test_what_is_done_for_another_in_the_midst_is_counted_to_him_and_nothing_twice(monkeypatch):
+    clock = Clock(monkeypatch)
+    mine, his = Budget(), Budget()
+    with mine.work():
+        clock.work(1)
+        with his.work():
+            clock.work(2)
+            with mine.work():
+                clock.work(4)
+        with mine.work():
+            clock.work(8)
+    clock.work(16)
+    assert mine.spent == pytest.approx(13) and his.spent == pytest.approx(2)
+
+
+@pytest.mark.parametrize("how", ["add_next_tick_callback", "add_timeout_callback"])
+def test_what_a_session_does_later_is_counted_with_the_lock_and_without(how, monkeypatch):
+    """Panel's answers to a changed slider wait for no lock."""
+    clock = Clock(monkeypatch)
+    monkeypatch.setattr(
+        ServerSession, "_wrap_document_callback", counted(ServerSession._wrap_document_callback, budget)
+    )
+
+    async def both():
+        in_one_thread(asyncio.get_running_loop(), None)
+        session, done = ServerSession("mine", document := Document(), io_loop=IOLoop.current()), []
+
+        @without_document_lock
+        async def at_once():
+            clock.work(0.1)
+            await asyncio.sleep(0)
+            clock.work(0.2)
+            done.append(1)
+
+        async def locked():
+            clock.work(0.4)
+            await asyncio.sleep(0)
+            clock.work(0.8)
+            done.append(1)
+
+        def plain():
+            clock.work(1.6)
+            done.append(1)
+
+        for each in (at_once, locked, plain):
+            getattr(document, how)(each, *([1] if "timeout" in how else []))
+        while len(done) < 3:
+            await asyncio.sleep(0.001)
+        return budget(session).spent
+
+    assert run(both()) == pytest.approx(3.1)
+
+
+def test_sessions_are_made_in_turn_among_addresses():
+    async def asked():
+        turns, order = Turns(0.25), []
+
+        async def one(address):
+            await turns.turn(address)
+            order.append(address)
+            turns.done(0)
+
+        await asyncio.gather(*(one(address) for address in ["flood"] * 5 + ["b", "c"]))
+        return order
+
+    assert run(asked()) == ["flood", "flood", "b", "c", "flood", "flood", "flood"]
+
+
+def test_who_spends_more_than_a_share_waits_and_not_for_ever():
+    budget = Budget()
+    budget.spend(1.0)
+    assert budget.wait() == 0
+    budget.spend(60.0)
+    assert budget.wait() == 60.25
+    budget.spend(0.01)
+    assert budget.wait() == pytest.approx(0.26)
+
+
+def ask(server, method, path):
+    """An answer to any method, and its text."""
+    connection = HTTPConnection(server.root.removeprefix("http://"), timeout=60)
+    connection.request(method, path)
+    answer = connection.getresponse()
+    return answer, answer.read().decode()
+
+
+def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):
+    """On a clock that stands still: a whole page counts 0.08 s, and 5 s are saved up."""
+    Clock(monkeypatch)
+    waited = []
+
+    async def asleep(seconds):
+        waited.append(seconds)
+
+    async def nothing(*_):
+        return SimpleNamespace(msgtype="PULL-DOC-REQ")
+
+    monkeypatch.setattr("app.server.sockets.asyncio", SimpleNamespace(sleep=asleep))
+    socket = Socket.__new__(Socket)
+    socket.connection = SimpleNamespace(session=SimpleNamespace())
+    socket.request, socket.receiver = SimpleNamespace(remote_ip="10.0.0.7"), SimpleNamespace(consume=nothing)
+    socket._answer = nothing
+
+    async def ask(times):
+        for _ in range(times):
+            await socket.on_message("")
+
+    run(ask(62))
+    assert waited == []
+    run(ask(3))
+    assert waited == pytest.approx([0.08, 0.24, 0.33], abs=1e-6)
+    assert "10.0.0.7 sends more than its share" in caplog.text

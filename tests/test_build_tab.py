@@ -1,0 +1,146 @@
+"""The tab that builds a body, without a browser: its fields, its sentences, and whether that body turns over."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+from house import builder_of
+
+from app.model.build.builder import Rocking
+from app.model.build.dimensions import FAMILIES, changed, sentence, value_of
+from app.model.build.verdict import verdict
+from app.model.explorer import Explorer
+from app.model.lab.run import TooLong
+from app.model.runs import Runs
+from app.tabs.build.build import KNOBS, Build
+from app.tabs.build.verdict import VerdictWords
+from tippe_core import (
+    PRESETS,
+    Ball,
+    Lathe,
+    Top,
+    TopError,
+    TruncatedSphere,
+    save_top,
+)
+
+
+@pytest.fixture
+def explorer():
+    return Explorer()
+
+
+@pytest.fixture
+def builder(explorer):
+    return builder_of(explorer)
+
+
+def test_every_dimension_is_a_field_within_its_slider():
+    for preset in PRESETS:
+        for dimension in FAMILIES[type(preset.shape)][1]:
+            shown = value_of(preset.shape, dimension.name) * dimension.factor
+            assert dimension.low <= shown <= dimension.high, (preset.name, dimension.name)
+
+
+@pytest.mark.parametrize(
+    "make, says",
+    [
+        (lambda: Top(1.5, 0.4, 0.4), "a = 1.5 is not possible: allowed is a < 1 (in units of R)."),
+        (lambda: Ball(R=-1.0, M=0.01), "R = -1000 mm is not possible"),
+        (lambda: replace(PRESETS[3].shape, l=5000.0), "0 <= l <= 250000 (mm)"),
+    ],
+)
+def test_sentences_are_in_the_units_of_the_sliders(make, says):
+    with pytest.raises(TopError) as error:
+        make()
+    assert says in sentence(error.value)
+
+
+def test_a_diameter_that_cannot_be_is_called_a_diameter():
+    with pytest.raises(TopError) as error:
+        Rocking(T=1.08, dT=0.01, D=0.0, dD=1e-4, M=0.0115).a(TruncatedSphere.paper())
+    assert sentence(error.value).startswith("the diameter = 0 mm is not possible")
+
+
+def test_the_bench_says_what_is_printed_and_goes_back_to_a_preset(builder, explorer):
+    bench = Build(builder)
+    bench.families.value = "loaded sphere"
+    assert bench.presets.value == "Loaded sphere" and "the core is not in it" in bench.derived.object
+    builder.set("core_density", 0.0)  # a cavity is
+    assert "STL" not in bench.derived.object and bench.families.value != "loaded sphere"
+    bench.families.value = "loaded sphere"
+    assert builder.draft.name == "Loaded sphere"
+
+
+def test_many_pieces_have_their_knobs_in_portions(builder, explorer):
+    """Hundreds of them would keep the server for seconds."""
+    many = 100
+    points = tuple((0.01 + 0.001 * (i % 2), -0.009 + 0.0005 * i) for i in range(many))
+    asked = []
+    bench = Build(builder, asked.append)
+    builder.load(save_top(Lathe(R=0.02, points=points, density=(700.0,) * many)))
+    assert len(bench._knobs) == KNOBS and len(asked) == 1
+    while asked:
+        asked.pop()()
+    assert list(bench._knobs) == [each.name for each in builder.draft.dimensions] and len(bench._knobs) > many
+    assert sum(len(part) for part in bench.dimensions) == len(bench._knobs)
+
+    builder.choose(PRESETS[0].name)
+    builder.load(save_top(Lathe(R=0.02, points=points, density=(700.0,) * many)))
+    [late] = asked
+    builder.choose(PRESETS[0].name)
+    late()  # another body is on the bench by now
+    assert list(bench._knobs) == [each.name for each in builder.draft.dimensions] and len(bench._knobs) < KNOBS
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("value", [5e-324, 1e-300, 1e-12, 1e3, 1e9, 1e300])
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_no_number_in_a_field_is_too_small_or_too_large_to_be_answered(builder, preset, value):
+    builder.choose(preset.name)
+    for name in [dimension.name for dimension in builder.draft.dimensions]:
+        builder.choose(preset.name)
+        builder.set(name, value)
+        if builder.draft.messages:
+            assert not builder.draft.messages[name].startswith(("high", "low"))  # no field is called so
+            assert builder.draft.shape == preset.shape
+
+
+@pytest.mark.parametrize("given", [{"T": 1e200}, {"D": 1e-300}, {"dT": 1e300}, {"dD": 1e300}])
+def test_a_period_or_diameter_out_of_this_world_is_refused(given):
+    rocking = Rocking(**({"T": 1.08, "dT": 0.01, "D": 0.032, "dD": 1e-4, "M": 0.0115} | given))
+    with pytest.raises(TopError):
+        rocking.a(TruncatedSphere.paper())
+
+
+# ---- whether it turns over ----
+
+
+def test_the_verdict_is_that_of_the_run():
+    """Leine and Glocker's toy stands; the same with its mass in the middle does not; a body that cannot be so."""
+    toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
+    found = verdict(toy)
+    assert (found.code, found.headline) == ("over", "Yes, it turns over.")
+    assert "past 90° after 1.0 s. It stands on its stem after 1.5 s. It starts to fall at 4.5 s." in found.why
+    round_ = verdict(changed(toy, "a", 0.0))
+    assert round_.code == "not" and "its tilt is between" in round_.why
+
+
+def test_a_body_that_cannot_be_let_go_so_has_a_verdict_that_says_so(monkeypatch):
+    def never(*start):
+        raise TooLong
+
+    monkeypatch.setattr("app.model.build.verdict.whole_on", never)
+    found = verdict(PRESETS[0].shape)
+    assert found.code == "refused" and "could not be computed" in found.headline and "chatters" in found.why
+
+
+def test_the_words_beside_the_body_are_of_that_body():
+    runs = Runs()
+    told = VerdictWords(runs)
+    assert "Working out" in told.view.object
+    toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
+    told.show(SimpleNamespace(shape=toy))
+    assert "Yes, it turns over." in told.view.object and "Working out" not in told.view.object
+    told.show(SimpleNamespace(shape=None))  # parted: nothing is known of it
+    assert "Yes, it turns over." in told.view.object

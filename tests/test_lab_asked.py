@@ -1,0 +1,149 @@
+"""What a hand asks of the Lab without a browser: what is computed then, what is kept, and what cannot be."""
+
+from queue import Queue
+
+import numpy as np
+import pytest
+
+from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
+from app.model.lab import life
+from app.model.lab.ends import SPINS, Ends
+from app.model.lab.lab import LIMITS, Lab
+from app.model.lab.run import PATCH, TOYS, whole_on
+from app.model.runs import Runs
+from app.model.story import marks, story
+from tippe_core import Contensou
+
+
+@pytest.fixture
+def lab():
+    found = Lab()
+    found.show()
+    return found
+
+
+# ---- the controls ----
+
+
+def test_before_somebody_looks_nothing_is_computed(monkeypatch):
+    monkeypatch.setattr("app.model.lab.lab.scene_of", None)
+    lab = Lab()
+    lab.ask(spin=20.0)
+    assert lab.scene is None and lab.start.spin == 20.0
+
+
+@pytest.mark.parametrize(("name", "value", "says"), [
+    ("tilt", 185, "Tilt goes from 0° (stem up) to 180° (stem down); 185° is out of range."),
+    ("tilt", float("nan"), "nan is not a number. Type a number from 0 to 180."),
+    ("spin", " ", "Nothing is not a number. Type a number from −100 to 100."),
+    ("spin", "fast", "fast is not a number. Type a number from −100 to 100."),
+    ("spin", 1e9, "Spin goes from −100 to 100 turns a second; 1e+09 is out of range. "
+                  "A negative number spins it the other way."),
+    ("mu", 0, "Friction goes from 0.01 (nearly ice) to 1.5 (rubber); 0 is out of range."),
+    ("mu", None, "None is not a number. Type a number from 0.01 to 1.5."),
+    ("toy", "a yo-yo", "a yo-yo is not one of the choices here. Choose one from the list."),
+    ("table", [], "[] is not one of the choices here. Choose one from the list."),
+])  # fmt: skip
+def test_what_cannot_be_is_told_and_all_else_stays(lab, name, value, says):
+    before, motions = lab.inputs, lab.scene.motions
+    lab.ask(**{name: value})
+    assert dict(lab.scene.messages) == {name: says} and lab.inputs == before and lab.scene.motions is motions
+    lab.ask(spin=28.65)
+    assert not lab.scene.messages
+
+
+@pytest.mark.parametrize(("name", "value"), [("tilt", 185.0), ("spin", 1e9), ("mu", -1.0), ("patch", np.inf)])
+def test_a_link_of_what_nobody_can_show_leaves_all_as_it_was(lab, name, value):
+    before = lab.inputs
+    lab.start.param.update(**{name: value})
+    assert [*lab.scene.messages] == [name] and lab.inputs == before
+
+
+@pytest.mark.parametrize(("name", "value"), [("spin", 150.0), ("spin", -2000.0), ("mu", 2.0), ("patch", 8.0)])
+def test_what_research_has_set_is_kept_and_shown_also_past_what_a_hand_can_set_here(lab, name, value):
+    assert not LIMITS[name][0] <= value <= LIMITS[name][1]
+    lab.start.param.update(**{name: value})
+    assert getattr(lab.start, name) == getattr(lab.scene, name) == value and not lab.scene.messages
+    motion, spins = lab.scene.motions["ordinary"], TOYS[TOY].shape.scales.angular_velocity / (2 * np.pi)
+    assert motion.trajectory.omega[0, 2] * spins == pytest.approx(lab.start.spin)
+    assert motion.curves[-1, 0] > 0.05 and not lab.scene.refused
+    lab.ask(tilt=8.0)  # and what it is not asked for stays as it is
+    assert getattr(lab.scene, name) == value
+
+
+def test_the_patch_is_the_tables(lab):
+    lab.ask(patch=0.15)
+    assert lab.scene.motions["ordinary"].start.friction == Contensou(0.3, 0.01)
+    # of a smaller patch the toy stands longer: physics by another body, 4.50 s and 10.38 s
+    falls = [mark.t for mark in marks(whole_on("ordinary", *ARRIVAL[1:], None, 0.15)) if mark.code == "falls"]
+    assert falls[-1] == pytest.approx(10.38, abs=0.05)
+
+
+def test_a_life_that_is_longer_than_what_is_computed_says_so(monkeypatch):
+    whole = whole_on("ordinary", *ARRIVAL[1:])
+    assert not whole.is_cut and "Only so much" not in story(whole).stages[-1].why
+    monkeypatch.setattr(life, "MOST_ROWS", 300)
+    whole_on.cache_clear()
+    cut = whole_on("ordinary", TOY, 30.0, TILT, MU)
+    whole_on.cache_clear()
+    assert cut.is_cut and len(cut.trajectory.t) == 300
+    assert story(cut).stages[-1].why.endswith(
+        f"Only so much of its life is computed: to {cut.start.seconds:.3g} s. The top goes on.")  # fmt: skip
+
+
+def test_a_body_that_would_be_in_the_table_is_told_at_the_tilt(lab):
+    lab.ask(toy="Disc on a peg", tilt=120.0)
+    assert lab.scene.messages["tilt"].startswith("At 120° a part of this body would be below the table.")
+    assert (lab.scene.toy, lab.start.tilt) == ("Disc on a peg", TILT)
+    lab.ask(tilt=80.0)
+    assert lab.scene.tilt == 80 and not lab.scene.messages
+    lab.ask(tilt=120.0)
+    assert lab.scene.messages and lab.inputs == (ARRIVAL[0], "Disc on a peg", SPIN, 80.0, 0.3, None, PATCH)
+
+
+def test_a_table_on_which_it_cannot_begin_says_so_in_its_place(lab):
+    lab.ask(tilt=150.0, table="rough")
+    assert lab.scene.motions["rough"] is None and not lab.scene.messages
+    assert lab.scene.stages[0].why.startswith("At 150° its stem or rim would be below this table")
+    lab.ask(table="three")
+    assert lab.scene.motions["ordinary"] is not None and lab.scene.refused.keys() == {"rough", "ice"}
+
+
+def test_changing_the_table_keeps_the_start_and_the_start_the_table(lab):
+    lab.ask(table="ice")
+    assert lab.scene.motions["ice"].start.spin == SPIN and lab.scene.motions["ordinary"] is None
+    lab.ask(spin=30.0)
+    assert lab.scene.table == "ice" and lab.scene.motions["ice"].start.spin == 30
+
+
+def test_beside_the_server_the_newest_is_computed_and_one_event_tells_it():
+    posted, scenes = Queue(), []
+    lab = Lab(Runs(posted.put))
+    lab.show()  # what ships is there at once
+    assert lab.scene.toy == TOY and posted.empty()
+    lab.param.watch(lambda event: scenes.append(event.new.spin), "scene")
+    for spin in (20.0, 21.0, 22.0):
+        lab.ask(spin=spin)
+    assert lab.busy and lab.scene.spin == SPIN
+    while lab.busy:
+        posted.get(timeout=60)()
+    assert scenes == [20.0, 22.0] and lab.scene.spin == 22
+
+
+def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):
+    asked = []
+    found = Ends(SPINS, ("leans",) * len(SPINS), "stem")
+    monkeypatch.setattr("app.model.lab.lab.ends_once", lambda *key, look: asked.append(key) or found)
+    monkeypatch.setattr("app.model.lab.lab.known_ends", lambda *key: found if key in asked else None)
+    for _ in range(2):
+        lab = Lab()
+        lab.show()
+        lab.ask(mu=0.5)
+        assert lab.ends is None
+        lab.rest()
+        assert lab.ends is found
+        lab.ask(spin=10.0)
+        assert lab.ends is found  # of all spins
+        lab.ask(mu=0.6)
+        assert lab.ends is None
+    assert asked == [(TOY, TILT, 0.5, PATCH)]

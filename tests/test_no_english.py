@@ -1,0 +1,175 @@
+"""No English stands beside the words of app/text/."""
+
+import ast
+import itertools
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from app.text import DEFAULT, listed
+
+APP = Path(__file__).parent.parent / "app"
+CORE = APP.parent / "tippe_core"
+SCRIPTS = sorted((APP / "frontend/src").rglob("*.js"))
+
+
+@cache
+def files(language):
+    return {path.stem for path in (APP / "text" / language).glob("*.toml")}
+
+
+def parts(found, path=()):
+    """What stands in a file: (path, words, a table or a list), the root too."""
+    yield ".".join(map(str, path)), found
+    if not isinstance(found, str):
+        for name, inner in found.items() if isinstance(found, dict) else enumerate(found):
+            yield from parts(inner, (*path, name))
+
+
+@cache
+def every(language):
+    """{key: words, a table or a list} of all files."""
+    return dict(itertools.chain.from_iterable(parts(listed(name, language), (name,)) for name in files(language)))
+
+
+# ---- what the code asks for ----
+
+
+@cache
+def tree(path):
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+MODULES = sorted(path for path in APP.rglob("*.py") if not {"node_modules", "text"} & {*path.parts})
+
+
+def name_of(call):
+    """Of a function called by itself or out of a module; a method's is another."""
+    if isinstance(call.func, ast.Attribute):
+        return call.func.attr if getattr(call.func.value, "id", "") == "text" else ""
+    return getattr(call.func, "id", "")
+
+
+# ---- no English beside the words ----
+
+TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|("(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*')|[`{}]""", re.DOTALL)
+TEMPLATE = re.compile(r"(?:\\.|\$(?!\{)|[^`$\\])*", re.DOTALL)
+
+# What looks like English in the code and is none that a visitor reads: {the end of a path: {its beginning: why}}.
+NOT_SAID = {
+    "answers.py": {"GET, HEAD": "a header"},
+    "asked.py": {"": "said to the log"},
+    "compare.py": {"I1 > 0 (in MR^2)": "the core's own"},
+    **{name: {"": "files of data and programs, which are the same in every language"}
+       for name in ("export.py", "measured/examples.py", "measured/report.py", "glb.py", "programs.py",
+                    "saved_runs.py")},
+    "measured/table.py": {"": "what tables call their columns"},
+    "codecs.py": {"not one of {}": "said to the log"},
+    **{name: {"": "said to who writes the page"} for name in ("keep.py", "names.py")},
+    "prints.py": {"tippe top": "never shown"},
+    **{name: {"": "said to the operator, or to a program that is no browser"}
+       for name in ("server.py", "arrivals.py", "ballots.py", "health.py", "logs.py", "messages.py", "settings.py",
+                    "sockets.py")},
+    "look.js": {"dark large": "a key"},
+}  # fmt: skip
+
+
+def bare(words):
+    """Without elements, rules of CSS, and calls."""
+    words = re.sub(r"<(style|script)\b.*?</\1>", " § ", words, flags=re.DOTALL)
+    for other in (r"<[^<>]*>?", *2 * [r"[^{}]*\{[^{}]*:[^{}]*\}"], *3 * [r"[\w-]+\([^()]*\)"]):
+        words = re.sub(other, " § ", words)
+    return words
+
+
+@cache
+def vocabulary():
+    """The words of the English files."""
+    words = [bare(words) for words in every(DEFAULT).values() if isinstance(words, str)]
+    return set(re.findall("[a-z]{2,}", " ".join(words).lower()))
+
+
+def is_english(words):
+    """Two words of the vocabulary, one after the other."""
+    pairs = re.findall(r"(?=\b([a-z]{2,})[,:;]? +([a-z]{2,})\b)", bare(words).lower())
+    return any(one in vocabulary() and other in vocabulary() for one, other in pairs)
+
+
+def literals(script):
+    """All strings and templates of a JavaScript, § for what is put into them."""
+    found, around, at = [], [], 0  # around: the templates here, each with its pieces and the braces open in it
+    while at < len(script):
+        if around and around[-1][1] == 0:
+            text = TEMPLATE.match(script, at)
+            around[-1][0].append(text[0])
+            if script[text.end()] == "`":
+                found.append("§".join(around.pop()[0]))
+            else:
+                around[-1][1] = 1
+            at = text.end() + (1 if script[text.end()] == "`" else 2)
+        elif token := TOKEN.search(script, at):
+            at = token.end()
+            if token[1]:
+                found.append(token[1][1:-1])
+            elif token[0] == "`":
+                around.append([[], 0])
+            elif token[0] in "{}" and around:
+                around[-1][1] += 1 if token[0] == "{" else -1
+        else:
+            break
+    return found
+
+
+def constants(module):
+    """Every string in a module, an f-string as a whole with {} for what is put in; not what only its readers see."""
+    passed = set()
+    for node in ast.walk(module):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            passed.add(id(node.value))
+        unseen = [node.value] if isinstance(node, ast.keyword) and node.arg == "doc" else []
+        if isinstance(node, ast.Call) and name_of(node) in ("TopError", "NoMotionError", "namedtuple"):
+            unseen = node.args
+        if isinstance(node, ast.Call) and getattr(getattr(node.func, "value", None), "id", "") in ("log", "logger"):
+            unseen = node.args
+        passed.update(id(inner) for each in unseen for inner in ast.walk(each))
+    for node in ast.walk(module):
+        if isinstance(node, ast.JoinedStr) and id(node) not in passed:
+            passed.update(map(id, node.values))
+            yield "".join(part.value if isinstance(part, ast.Constant) else "{}" for part in node.values)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in passed:
+            yield node.value
+
+
+def strings(path):
+    """What a file of the page could show."""
+    if path.suffix == ".js":
+        return literals(path.read_text(encoding="utf-8"))
+    found = []
+    for words in constants(tree(path)):
+        found += literals(words) if "const " in words else [words]
+    return found
+
+
+@cache
+def enumerated():
+    """What the core calls things, and the keys under which there are words for them."""
+    names = {key.rpartition(".")[2] for key in every(DEFAULT)}
+    return names.union(*(constants(tree(path)) for path in CORE.rglob("*.py")))
+
+
+@pytest.mark.parametrize("path", [*MODULES, *SCRIPTS], ids=lambda path: path.name)
+def test_no_english_is_left_in_the_code(path):
+    left = [words for words in strings(path) if words not in enumerated() and is_english(words)]
+    allowed = [start for name, starts in NOT_SAID.items() if path.as_posix().endswith(f"/{name}") for start in starts]
+    assert [words for words in left if not words.startswith(tuple(allowed))] == []
+    assert [start for start in allowed if not any(words.startswith(start) for words in left)] == []
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.name)
+def test_no_label_is_written_in_the_code(path):
+    for node in ast.walk(tree(path)):
+        if isinstance(node, ast.keyword) and node.arg in ("label", "title", "placeholder", "description"):
+            written = node.value.value if isinstance(node.value, ast.Constant) else ""
+            assert not re.fullmatch("[A-Za-z ]{2,}", written or "") or written == "Python", node.value.lineno
