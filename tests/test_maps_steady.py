@@ -5,11 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.model.maps.kept import SHIPPED, recall
 from app.model.maps.maps import Map
 from app.model.maps.rates import POINTS, REACH, powers
 from app.model.maps.solving import run
 from app.model.maps.steady import at_place, bifurcation, fixed, launch, steady_lines
+from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.words import of_run
+from app.text import listed
 from tippe_core import Scales, slide
 
 UNIT = Scales(R=0.02, M=0.02, g=9.82)
@@ -66,3 +69,17 @@ def test_a_place_is_said_with_its_units():
     found = run(Map(seconds=0.1), 28.6, 5.7)
     assert "28.6 rev/s, 5.7°: " in of_run(Map(), 28.6, 5.7, found)
     assert "0.3, 5.7°: " in of_run(Map(across="mu", across_range=(0.1, 0.5)), 0.3, 5.7, found)
+
+
+def test_a_word_on_the_map_stands_on_its_own_colour_and_is_not_cut_off():
+    for asked in SHIPPED:
+        level, figure = recall(asked), MapFigure(lambda data: None)
+        figure.begin(asked)
+        figure.show(level, "end")
+        shown = [word for word in figure.words if word.visible]
+        assert shown
+        for word in shown:
+            i, j = level.cell(word.x, word.y)
+            assert listed("maps.ends")[level.end[i, j]] == word.text and 0 < i < len(level.y) - 1
+            share = j / len(level.x)
+            assert word.text_align == ("left" if share < 0.2 else "right" if share > 0.8 else word.text_align)

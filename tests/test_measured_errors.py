@@ -99,6 +99,15 @@ def test_without_nutation_the_error_of_K_J_by_an_azimuth_is_its_scatter(noisy):
     assert values.std(axis=0).mean() == pytest.approx(errors.mean(), rel=0.15)
 
 
+@pytest.mark.parametrize("fps", [60, 120])
+def test_what_nutates_between_two_frames_is_an_error_of_K_J_by_an_azimuth(fps):
+    rng, t = np.random.default_rng(3), np.arange(150) / fps
+    noise = {name: 1e-3 * size for name, size in NOISE.items()}
+    found = kept(filmed(("tilt", "spin", "azimuth"), rng, t=t, noise=noise), TOP, SCALES)["K_J"]
+    off = (found.values - Constants.from_state(TOP, *START.values()).K_J) / found.errors
+    assert np.sqrt(np.mean(off**2)) < 2
+
+
 def test_the_mean_of_a_constant_has_the_error_of_a_mean():
     rng, noise = np.random.default_rng(8), NOISE | {"tilt": 1e-9}
     found = [kept(filmed(("tilt", "spin"), rng, noise=noise), TOP, SCALES)["K_R"] for _ in range(DRAWS)]

@@ -17,6 +17,7 @@ DARK = "#1b2430"
 DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
           "window_high": "dotdash"}  # fmt: skip
 LEAST_AREA, LEAST_ROOM = 0.06, 0.05  # of the map, of its width to either side: an end with less is in the key alone
+EDGE = 0.25  # of the width
 WIDE = 4.0  # times as much room as above and below
 
 
@@ -103,9 +104,9 @@ class MapFigure:
                 word.visible = False
                 continue
             i, j = np.unravel_index(np.argmax(room), room.shape)
-            word.update(
-                x=level.x[j], y=level.y[i], text=named[end], text_color=ends.WORDS_ON.get(end, DARK), visible=True
-            )
+            x, align = _beside_edge(level, j, room[i, j] - 1)
+            word.update(x=x, y=level.y[i], text=named[end], text_align=align,
+                        text_color=ends.WORDS_ON.get(end, DARK), visible=True)  # fmt: skip
 
 
 class RunFigure:
@@ -128,6 +129,15 @@ class RunFigure:
     def show(self, t, theta, seconds):
         self.source.data = {"t": t, "theta": theta}
         self.figure.x_range.end = seconds
+
+
+def _beside_edge(level, j, room):
+    """Where a word stands, and which end of it is there: near a side of the map it would be cut off in its middle."""
+    x, n = level.x, len(level.x)
+    left, right = j < EDGE * n, n - 1 - j < EDGE * n
+    if right:
+        return x[min(j + int(room), n - 1)], "right"
+    return (x[max(j - int(room), 0)], "left") if left else (x[j], "center")
 
 
 def half_step(x):

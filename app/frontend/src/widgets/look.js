@@ -29,7 +29,7 @@ function setVariables(model, name, dark) {
   const values = {
     "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper, "--alert": dark ? "#ffb4ab" : "#b3261e",
     "--focus": (dark ? onDark : colours).chosen, "--link": dark ? "#8ec7f5" : "#0b5cad",
-    "--type": model.large ? LARGER : 1, ...words[dark ? "dark" : "light"],
+    "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
   };
   for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));
   for (const [property, value] of Object.entries(model.on_dark)) {
