@@ -5,6 +5,7 @@ from functools import partial
 
 from app.model.arrival import MU, SPIN, TILT
 from app.model.build.verdict import verdict
+from app.model.ends import COLOUR_IN_LAB
 from app.model.lab.ends import SPINS, TIMES, Ends, ends_once, known_ends
 from app.model.runs import Run, Stopped
 from app.text import say, written
@@ -18,15 +19,10 @@ h3 { margin: 8px 0 4px; font-size: calc(26px * var(--type, 1)); line-height: 1.2
 """
 
 
-# The colours of the ends, of the page's own ground and ink.
 STRIP = """
-.ends { position: relative; height: 20px; margin: 4px 0 0;
-  background: color-mix(in srgb, #a5894f 12%, var(--card, #fff)) }
-.end { position: absolute; top: 0; bottom: 0; background: color-mix(in srgb, #a5894f 35%, var(--card, #fff)) }
-.end.upright { background: color-mix(in srgb, #a5894f 12%, var(--card, #fff)) }
-.end:is(.stands, .inverted) { background: #80632f }
-.end.mixed { background: repeating-linear-gradient(45deg, #80632f 0 3px, #cdb88f 3px 6px) }
-.end.refused { background: var(--rule, #d8dce0) }
+.ends { position: relative; height: 20px; margin: 4px 0 0 }
+.end { position: absolute; top: 0; bottom: 0; background: var(--of) }
+.end.mixed { background: repeating-linear-gradient(45deg, HIGH 0 3px, LOW 3px 6px) }
 .mark { position: absolute; top: -5px; height: 30px; width: 3px; margin-left: -1px; background: #1558c0;
   outline: 1px solid var(--card, #fff) }
 .under { position: relative; display: flex; justify-content: space-between; min-height: 1.5em; padding-top: 5px }
@@ -36,7 +32,7 @@ STRIP = """
 .kinds .end { position: static; display: inline-block; width: 12px;
   height: 12px; margin-right: 6px; vertical-align: -1px; outline: 1px solid var(--rule, #d8dce0) }
 .strip { min-height: calc(92px * var(--type, 1)) }
-"""
+""".replace("HIGH", COLOUR_IN_LAB["stands"]).replace("LOW", COLOUR_IN_LAB["leans"])
 
 
 class VerdictWords:
@@ -97,14 +93,20 @@ def strip_of(ends):
     parts = ends.segments if ends else ()
     told = "; ".join(say("build.verdict.stretch", low=each.least, high=each.most, word=each.word) for each in parts)
     drawn = "".join(
-        f'<span class="end {each.code}" style="left: {100 * (each.least - low) / (high - low):.2f}%; '
+        f'<span class="end {each.code}" style="{_colour(each.code)}left: {100 * (each.least - low) / (high - low):.2f}%; '
         f'right: {100 * (high - each.most) / (high - low):.2f}%"></span>' for each in parts
     )  # fmt: skip
     kinds = {each.code: html.escape(spelled(each.word)) for each in parts}
-    key = "".join(f'<span><i class="end {code}"></i>{word}</span>' for code, word in kinds.items())
+    key = "".join(
+        f'<span><i class="end {code}" style="{_colour(code)}"></i>{word}</span>' for code, word in kinds.items()
+    )
     axis = f'<span>{low:.0f}</span><b style="left: {at}">{written(SPIN, ".1f")}</b><span>{high:.0f} {unit}</span>'
     return (
         f'<div class="strip"><div>{html.escape(spelled(says))}</div><div class="ends" role="img" '
         f'aria-label="{html.escape(spelled(told) or waits)}">{drawn}{mark}</div>'
         f'<div class="under">{axis}</div><div class="kinds">{key or waits}</div></div>'
     )
+
+
+def _colour(code):
+    return f"--of: {COLOUR_IN_LAB[code]}; " if code in COLOUR_IN_LAB else ""
