@@ -75,7 +75,14 @@ class Component(Files, ComponentResourceHandler):
 
 
 class Handler(Answer, RequestHandler):
-    """Of this project's few plain answers."""
+    """Of this project's few plain answers, each of which holds for its moment alone."""
+
+    def set_default_headers(self):
+        super().set_default_headers()
+        self.set_header("Cache-Control", "no-store")
+
+    def head(self):
+        return self.get()
 
     @property
     def language(self):
@@ -90,7 +97,6 @@ class Handler(Answer, RequestHandler):
         """A page with one sentence."""
         self.set_status(status)
         self.set_header("Content-Type", "text/html; charset=utf-8")
-        self.set_header("Cache-Control", "no-store")
         if again:
             self.set_header("Retry-After", str(again))
         refresh = f'<meta http-equiv="refresh" content="{again}">' if again else ""
@@ -104,8 +110,6 @@ class Root(Handler):
     def get(self):
         prefix = self.application.tippe.prefix
         self.redirect(f"{prefix}/app" + (f"?{self.request.query}" if self.request.query else ""))
-
-    head = get
 
 
 def routes(application):

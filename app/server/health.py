@@ -8,10 +8,7 @@ class Liveness(Handler):
     """Whether this worker answers, and how full it is. Who gets no answer here for long may start it again."""
 
     def get(self):
-        self.set_header("Cache-Control", "no-store")
         self.write({"live": True, "sessions": len(self.application.door.sessions)})
-
-    head = get
 
 
 class Readiness(Handler):
@@ -20,12 +17,9 @@ class Readiness(Handler):
     def get(self):
         workers = self.application.watch.now()
         why = [state for state in STATES if any(row[state] for row in workers.values())]
-        self.set_header("Cache-Control", "no-store")
         self.set_status(503 if why else 200)
         sessions = {str(worker): int(row["sessions"]) for worker, row in workers.items()}
         self.write({"ready": not why, "why": why, "sessions": sessions})
-
-    head = get
 
 
 class Metrics(Handler):
@@ -34,11 +28,8 @@ class Metrics(Handler):
     def get(self):
         from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
-        self.set_header("Cache-Control", "no-store")
         self.set_header("Content-Type", CONTENT_TYPE_LATEST)
         self.finish(generate_latest(self))
-
-    head = get
 
     GAUGES = (  # name, field, what it says
         ("tippe_sessions", "sessions", "Pages open, and those that are kept for a while after"),

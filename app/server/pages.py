@@ -70,14 +70,11 @@ class Page(Handler):
         start = time.monotonic()
         try:
             nonce = secrets.token_urlsafe(16)
-            self.set_header("Cache-Control", "no-store")  # it holds the token of one session
             self.set_header("Content-Type", "text/html; charset=utf-8")
             self.set_policy(nonce)
             self.finish(app.sheet.page(self.language, self._token(), nonce))
         finally:
             app.door.pages.done(time.monotonic() - start)
-
-    head = get
 
     def _token(self):
         """What opens a session, with what its page is made of."""
