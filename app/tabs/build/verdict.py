@@ -23,11 +23,11 @@ STRIP = """
 .ends { position: relative; height: 20px; margin: 4px 0 0 }
 .end { position: absolute; top: 0; bottom: 0; background: var(--of) }
 .end.mixed { background: repeating-linear-gradient(45deg, HIGH 0 3px, LOW 3px 6px) }
-.mark { position: absolute; top: -5px; height: 30px; width: 3px; margin-left: -1px; background: #1558c0;
+.mark { position: absolute; top: -5px; height: 30px; width: 3px; margin-left: -1px; background: var(--accent);
   outline: 1px solid var(--card, #fff) }
 .under { position: relative; display: flex; justify-content: space-between; min-height: 1.5em; padding-top: 5px }
 .under b { position: absolute; transform: translateX(-50%); background: var(--card, #fff);
-  color: color-mix(in srgb, #1558c0 60%, var(--ink, #22303c)) }
+  color: color-mix(in srgb, var(--accent) 60%, var(--ink, #22303c)) }
 .kinds { display: flex; flex-wrap: wrap; gap: 0 16px }
 .kinds .end { position: static; display: inline-block; width: 12px;
   height: 12px; margin-right: 6px; vertical-align: -1px; outline: 1px solid var(--rule, #d8dce0) }
@@ -93,7 +93,8 @@ def strip_of(ends):
     parts = ends.segments if ends else ()
     told = "; ".join(say("build.verdict.stretch", low=each.least, high=each.most, word=each.word) for each in parts)
     drawn = "".join(
-        f'<span class="end {each.code}" style="{_colour(each.code)}left: {100 * (each.least - low) / (high - low):.2f}%; '
+        f'<span class="end {each.code}" style="{_colour(each.code)}'
+        f'left: {100 * (each.least - low) / (high - low):.2f}%; '
         f'right: {100 * (high - each.most) / (high - low):.2f}%"></span>' for each in parts
     )  # fmt: skip
     kinds = {each.code: html.escape(spelled(each.word)) for each in parts}

@@ -6,8 +6,7 @@ const SAID_MS = 1500;
 const CODE = "background: white; padding: 0; line-height: 0";
 const STYLE = `
 :host { display: block; } * { box-sizing: border-box; } [hidden] { display: none !important; }
-.all { --accent: #1558c0; font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #1b2430); }
-:host-context([data-look^=dark]) .all { --accent: #86b6ff; }
+.all { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #1b2430); }
 .line { display: flex; align-items: center; gap: 8px; } h2 { flex: 1; margin: 0; font-size: calc(18px * var(--type, 1)); font-weight: 600; letter-spacing: -.01em; }
 button { font: inherit; color: inherit; border: 0; background: none; border-radius: 6px; min-height: calc(32px * var(--type, 1)); padding: 0 10px; cursor: pointer; white-space: nowrap; }
 button:hover { background: color-mix(in srgb, currentColor 8%, transparent); } :focus-visible { outline: 3px solid var(--accent); outline-offset: 2px; }
