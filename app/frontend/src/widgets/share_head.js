@@ -9,7 +9,7 @@ const STYLE = `
 .all { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #1b2430); }
 .line { display: flex; align-items: center; gap: 8px; } h2 { flex: 1; margin: 0; font-size: calc(18px * var(--type, 1)); font-weight: 600; letter-spacing: -.01em; }
 button { font: inherit; color: inherit; border: 0; background: none; border-radius: 6px; min-height: calc(32px * var(--type, 1)); padding: 0 10px; cursor: pointer; white-space: nowrap; }
-button:hover { background: color-mix(in srgb, currentColor 8%, transparent); } :focus-visible { outline: 3px solid var(--accent); outline-offset: 2px; }
+button:hover { background: color-mix(in srgb, currentColor 8%, transparent); } :focus-visible { outline: 3px solid; outline-offset: 2px; }
 input { flex: 1; min-width: 0; font: inherit; color: inherit; background: none; border: 0; border-bottom: 1px solid var(--faint, #8b949e); border-radius: 0; height: 40px; padding: 0 2px; text-overflow: ellipsis; }
 .copy { background: var(--ink, #1b2430); color: var(--card, #fff); font-weight: 600; min-height: 40px; padding: 0 20px; min-width: 150px; }
 .copy:hover { background: color-mix(in srgb, var(--ink, #1b2430) 85%, var(--card, #fff)); }
