@@ -133,9 +133,8 @@ def test_png_saves_the_top_as_it_is_drawn(flat):
     visit = flat()
     stop(visit)
     visit.page.get_by_role("button", name="Share").click()
-    visit.page.get_by_role("button", name="Figures for print").click()
     with visit.page.expect_download() as waiting:
-        visit.page.get_by_role("button", name="PNG").last.click()
+        visit.page.get_by_role("button", name="PNG").first.click()
     picture = np.array(Image.open(io.BytesIO(open(waiting.value.path(), "rb").read())).convert("RGB"))
     assert picture.shape[1] == 2400
     body = (picture == (0xE3, 0xB9, 0x81)).all(axis=2)  # the colour of its wood

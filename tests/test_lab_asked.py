@@ -133,7 +133,7 @@ def test_beside_the_server_the_newest_is_computed_and_one_event_tells_it():
 def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):
     asked = []
     found = Ends(SPINS, ("leans",) * len(SPINS), "stem")
-    monkeypatch.setattr("app.model.lab.lab.ends_of", lambda *key, look: asked.append(key) or found)
+    monkeypatch.setattr("app.model.lab.lab.ends_once", lambda *key, look: asked.append(key) or found)
     monkeypatch.setattr("app.model.lab.lab.known_ends", lambda *key: found if key in asked else None)
     for _ in range(2):
         lab = Lab()

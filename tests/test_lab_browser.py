@@ -275,8 +275,7 @@ def test_a_photo_has_the_tops_that_are_in_sight(chromium, server, tmp_path):
     come(page, f"{server}?v=2&tab=lab&table=three")
     page.wait_for_function(f"{TOPS}.filter((top) => top.pictures && top.count).length == 3")
     page.get_by_role("button", name="Share", exact=True).click()
-    page.get_by_role("button", name="Figures for print").click()
-    button = page.get_by_role("button", name="PNG", exact=True).last  # of the photo
+    button = page.get_by_role("button", name="PNG", exact=True).first  # of the photo
     with page.expect_download() as download:
         button.click()
     picture = Image.open(download.value.path()).convert("RGB")

@@ -1,6 +1,9 @@
 """What the Lab says of a run is what the run did; where the runs of all spins end."""
 
 import re
+import threading
+from collections import OrderedDict
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -128,6 +131,22 @@ def test_the_strip_of_the_toy_leans_and_then_stands():
     assert found.segments[0].least == 0 and found.segments[-1].most == 50
     assert all(a.most == b.least for a, b in zip(found.segments, found.segments[1:], strict=False))
     assert ends.known_ends(TOY, TILT, 0.3) is found and ends.known_ends(TOY, TILT, 0.31) is None
+
+
+def test_of_those_who_ask_for_the_same_ends_at_once_one_computes_them(monkeypatch):
+    asked, go, found = [], threading.Event(), object()
+
+    def slow(*key, look=None):
+        asked.append(key)
+        assert go.wait(60)
+        return ends._kept.setdefault(key, found)
+
+    monkeypatch.setattr(ends, "ends_of", slow)
+    monkeypatch.setattr(ends, "_kept", OrderedDict())
+    with ThreadPoolExecutor(3) as threads:
+        waits = [threads.submit(ends.ends_once, TOY, TILT, 0.77, look=lambda share: go.set()) for _ in range(3)]
+        assert [each.result() for each in waits] == [found] * 3
+    assert len(asked) == 1 and not ends._under_way
 
 
 @pytest.mark.slow

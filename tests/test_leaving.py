@@ -62,7 +62,7 @@ ORDERS = {" ".join(f"{'+' if comes else '-'}{page}" for page, comes in order): (
 async def opens(page, language, part):
     """One part that it has not shown yet comes, and in this language: Share for 0, else the tab of this number."""
     other = "en" if language == "de" else "de"
-    known, key = page.visitor.models, ("share.dialog.motion", *TABS)[part]
+    known, key = page.visitor.models, ("share.panel.of_rolling", *TABS)[part]
     before = set(known)
     if part:
         await page.head("room", visitors.ROOMS[part - 1])
@@ -119,14 +119,21 @@ async def fails(page, monkeypatch, part, act):
         await page.until(lambda: page.now(failure, "times", 0) == before + 1)
 
 
+async def saves(page, filename):
+    """The button that saves a file of this name."""
+
+    def found():
+        return [each for each in page.visitor.find("Download") if page.now(each, "filename") == filename]
+
+    await page.until(found)
+    return found()[0]
+
+
 async def ask_of_a_broken_server(here, monkeypatch):
     page = await visitors.come(here.url, "de")
     await fails(page, monkeypatch, "app.share.share.segno.make", lambda: page.head("share"))
     await page.head("share")  # and can be asked for again
-    await page.until(lambda: page.visitor.find("Download"))
-
-    table = page.visitor.find("Download")[16]
-    assert page.now(table, "filename") == "tippe-top-motion.csv"
+    table = await saves(page, "tippe-top-motion.csv")
     await fails(page, monkeypatch, "app.share.export.columns", lambda: page.set(table, "clicks", 1))
     await page.set(table, "clicks", 2)
     await page.until(lambda: page.now(table, "file", [0])[0] == 1)
@@ -172,19 +179,18 @@ async def flood(here, monkeypatch):
 
     click, heard = Download._clicked, []
     monkeypatch.setattr(Download, "_clicked", clicked)
-    monkeypatch.setattr("app.share.share.draw", draw)
+    monkeypatch.setattr("app.share.panel.draw", draw)
     pages = {}
     for who, K_J in (("flood", 5.5), ("other", 6.5)):
         pages[who] = page = await visitors.come(f"{here.url}?KJ={K_J}")
         await page.head("share")
-        await page.until(lambda page=page: len(page.visitor.find("Download")) > 16)
     flooder, other = pages["flood"], pages["other"]
-    figures = flooder.visitor.find("Download")[:3]
+    figures = [await saves(flooder, f"tippe-top-{name}.png") for name in ("plane", "surface", "phase")]
     for clicks in range(1, 101):
         for figure in figures:
             await flooder.visitor.set(figure, "clicks", clicks)
     await flooder.set(figures[0], "clicks", 101)
-    wanted = other.visitor.find("Download")[0]
+    wanted = await saves(other, "tippe-top-plane.png")
     await other.set(wanted, "clicks", 1)
     await other.set(wanted, "clicks", 2)
     await asyncio.to_thread(until, lambda: (6.5, 2) in heard)  # clicks are gathered for a moment before they are heard

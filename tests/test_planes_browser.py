@@ -102,14 +102,14 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
     page.wait_for_function("!__tippe.top3d.playing")  # what rolls stands too
     table = page.locator("table").first.inner_text()
     assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
-    put_on(page, "Ice: no friction")
+    put_on(page, "Ice")
     page.get_by_text(re.compile("Friction in force: smooth plane")).wait_for()
-    put_on(page, "Ordinary: it slips")
+    put_on(page, "Ordinary")
 
 
 def test_there_is_no_well_while_the_stem_touches(page, first):
     """And the bead is gone with it; before that both are there."""
-    put_on(page, "Ordinary: it slips")
+    put_on(page, "Ordinary")
     well = f"{MODELS}.find((m) => m.name == 'planes-well' && m.renderers)"
     hidden = f"t => {well}.center.some((m) => m.type == 'Label' && m.visible) == (t > 2.6)"
     for t, beads in ((4.0, 0), (1.0, 1)):

@@ -79,8 +79,8 @@ def of_roll(url):
 # Where in the head a room of the page is.
 ROOMS = {
     "Lab": ("Lab", "Explore", None),
-    "Roll": ("Lab", "Research", "Rough: it rolls, the paper"),
-    "Three planes": ("Lab", "Research", "Ordinary: it slips"),
+    "Roll": ("Lab", "Research", "Rough"),
+    "Three planes": ("Lab", "Research", "Ordinary"),
     "Build a top": ("Build", None, None),
     "Families": ("Maps", None, "Which tops can turn over"),
     "Maps": ("Maps", None, "Maps of many runs"),

@@ -17,3 +17,5 @@ WORDS_ON = {end["name"]: end["words"] for end in _LIST if "words" in end}
 """{name: colour of words on it, where they are not dark}"""
 IN_LAB = tuple(end["in_lab"] for end in _LIST if "in_lab" in end)
 """As the Lab's strip has them."""
+COLOUR_IN_LAB = {end["in_lab"]: end["colour"] for end in _LIST if "in_lab" in end}
+"""{as the Lab's strip has it: colour on a light ground}"""

@@ -28,7 +28,7 @@ from app.tabs.measure.measure import Measure
 from app.tabs.planes.three_planes import ThreePlanes
 from app.tabs.roll.roll import Roll
 from app.text import say
-from app.widgets.cards import BUTTON, ONE_ROW, card, flexible, later, on_click, staged
+from app.widgets.cards import BUTTON, card, flexible, later, on_click, staged
 from app.widgets.controls import Controls
 from app.widgets.failure import attempt, full, waits
 from app.widgets.pacing import Pacer
@@ -138,14 +138,14 @@ class House:
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"), **BARE)
         self._at_levels(lambda explores: setattr(top, "stylesheets", [HIGH, PLAIN] if explores else [HIGH]))
         self.pacer.shows(partial(show_top, top), "rest")
-        told = VerdictWords(self.runs)
+        told = VerdictWords(self.runs, lambda: self.explorer.toy)
         self.pacer.shows(told.show, "rest")
         spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0), variant="contained", sx=DARK)
-        parts = {"section": bench.section_view, "built": (top, told.view, spin), "bench": bench.bench_view}
+        parts = {"section": bench.section_view, "built": (top, told.view, told.strip, spin), "bench": bench.bench_view}
         section, built, measures = (
             card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()
         )
-        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True, head=ONE_ROW)
+        return staged([built, later(rocking, 2)], [section, later(measures, 1)], mirrored=True)
 
     def _spin(self):
         self.lab_of.ask(table="ordinary")

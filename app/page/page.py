@@ -16,6 +16,7 @@ from app.state.keep import read
 from app.state.names import LANGUAGE, VOTE
 from app.tabs.lab import room
 from app.tabs.learn.student import student_page
+from app.tabs.learn.worksheet import worksheet
 from app.text import say
 from app.widgets import choices
 from app.widgets.connection import Connection
@@ -51,7 +52,8 @@ def page():
     house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts, search))
     pacer, keep = house.pacer, house.keep
     look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()
-    share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room))
+    share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
+                  lambda: house.explorer.shape, worksheet)  # fmt: skip
     for owner in (look, tongue):
         keep.add(owner)
     for show, when in ((share.show, "hand"), (guide.show, "rest")):
@@ -62,7 +64,9 @@ def page():
     rooms.param.watch(lambda event: house.start.moved(event.old, event.new), "room")
     house.level = rooms.level
     house.start.moved("", rooms.room)
+    house.lab_of.param.watch(share.refresh, "scene")
     head = HeadBar(rooms, keep, look, chosen(rooms, house, tongue, share), room.USUAL)
+    share.param.watch(lambda event: head.opened(event.new), "is_open")
     tells(head, rooms, house)
     rooms.param.watch(lambda event: setattr(guide, "tour", event.new == room.USUAL), "room")
     guide.tour = rooms.room == room.USUAL
@@ -86,7 +90,7 @@ def chosen(rooms, house, tongue, share):
 
     def take_home():
         house.explorer.settle()
-        share.open()
+        share.toggle()
 
     return choices.asks(toy=lambda name: house.take(name, rooms.room), table=table, language=language, share=take_home)
 

@@ -1,4 +1,4 @@
-"""What the page's head and its dialog are made of: the address and keys, a photo, the time."""
+"""What is shared is made of these: the address and keys, the link and its code, a photo, the time."""
 
 import param
 
@@ -16,6 +16,22 @@ class Address(Bundled):
     undone = param.Integer(default=0, doc="how often Ctrl+Z was pressed")
     redone = param.Integer(default=0, doc="how often Ctrl+Shift+Z or Ctrl+Y was pressed")
     reloads = param.Integer(default=0, doc="one more: the page is loaded anew, from its address")
+
+
+class ShareHead(Bundled):
+    """The link, a button that copies it, and its QR code, which can fill the screen."""
+
+    link = param.String(default="", doc="the address of what is shown")
+    picture = param.String(default="", doc="its QR code as an SVG; none where it is too long for one")
+    said = param.List(default=[], doc="sentences about it")
+    closed = param.Integer(default=0, doc="how often it was closed; the browser writes it")
+
+
+class Paper(Bundled):
+    """A button that has a page of its own printed."""
+
+    label = param.String(default="")
+    page = param.String(default="", doc="in HTML")
 
 
 class Photo(Bundled):

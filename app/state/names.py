@@ -3,6 +3,7 @@
 A view keeps nothing that has no row here; a Keep finds the rows by the owner's class.
 """
 
+import ipaddress
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import quote
@@ -111,6 +112,14 @@ NAMES = {row.key: row for row in ROWS}
 def of(owner):
     """{parameter: Name} of a class."""
     return {row.parameter: row for row in ROWS if row.owner == owner}
+
+
+def is_local(host):
+    """Whether an address is of this machine alone, so that no phone gets there."""
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return host == "localhost" or host.endswith(".localhost")
 
 
 def link(**texts):

@@ -21,13 +21,14 @@ HEIGHT_OF_A_CARD = (
 )
 TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # of two figures, one above the other
 # The stage beside what answers it. On a narrow page both give their cards to one column.
-HEAD = "calc(82px * var(--type, 1) + 12px)"  # with its second row
-ONE_ROW = "calc(48px * var(--type, 1))"
+HEAD = "calc(48px * var(--type, 1))"
 WIDE = "@media (min-width: 1000px)"
 STAGED = """
-:host { display: flex; flex-direction: column; gap: 12px; padding: 12px; min-height: max-content }
+:host { display: flex; flex-direction: column; gap: 12px; padding: 0 12px 12px; min-height: max-content }
 @media (min-width: 1000px) {
-  :host { display: grid; align-items: start; grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) } }
+  :host { display: grid; align-items: start; padding: 12px 24px;
+    grid-template-columns: minmax(0, 57fr) minmax(0, 43fr) }
+}
 """
 MIRRORED = "@media (min-width: 1000px) { :host { grid-template-columns: minmax(0, 43fr) minmax(0, 57fr) } }"
 SIDE = """
@@ -42,6 +43,7 @@ FIRST = """
 @media (max-width: 700px) { :host { height: 330px !important } }
 @media (min-width: 1000px) { :host { position: static; height: HIGH !important } }
 """.replace("HIGH", "clamp(390px, 100vh - HEAD - var(--below) - 24px, 52vw)")
+UNSEEN = ":host { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%) }"
 # A name, a note, and what is wrong, wherever they stand.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
@@ -147,20 +149,28 @@ def grid(*cards, narrowest=480):
     )
 
 
-def first(made, below=0, head=HEAD):
-    """A card as the first of a stage; below: px that the others of the stage are high, with what is between; head: how
-    high the head of the page is."""
+def first(made, below=0):
+    """A card as the first of a stage; below: px that the others of the stage are high, with what is between."""
     made.styles = made.styles | {"--below": f"{below}px"}
-    made.stylesheets = [FIRST.replace("HEAD", head)]
+    made.stylesheets = [*made.stylesheets, FIRST.replace("HEAD", HEAD)]
     return made
 
 
-def staged(stage, others, mirrored=False, head=HEAD):
+def framed(title, *content):
+    """A card whose picture is all that is seen of it: the switch of the table lies on it. title: for the ear."""
+    made = card(title, *content)
+    made[0].stylesheets = [*made[0].stylesheets, UNSEEN]
+    made.styles = made.styles | {"padding": "0", "border-radius": "6px", "box-shadow": "none",
+                                 "background": "var(--mui-palette-background-default, white)"}  # fmt: skip
+    return made
+
+
+def staged(stage, others, mirrored=False):
     """What is looked at and what answers it, lists of cards: side by side where there is room, the stage then 57 % wide
     and in sight while the others scroll; else in one column, by their `order`, the first in sight. mirrored: the stage
-    is on the right, and in one column after the others. head: how high the head of the page is."""
+    is on the right, and in one column after the others."""
     sides = [
-        pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", head)]),
+        pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)]),
         pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
     ]
     sheets = [STAGED, MIRRORED] if mirrored else [STAGED]

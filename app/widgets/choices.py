@@ -35,5 +35,7 @@ def tops(toy):
 
 def tables(room, table):
     """Those of HeadBar.tables in this room, where the page's start is on this table."""
-    known = [[name, word, ROLLING if name == "rough" else PLANES] for name, word in listed("main.tables").items()]
+    view = listed("lab_view.view")  # as Explore has it
+    known = [[name, word, ROLLING if name == "rough" else PLANES, view["hints"][name]]
+             for name, word in view["tables"].items()]  # fmt: skip
     return "rough" if room == ROLLING else table, known if room in (ROLLING, PLANES) else []

@@ -15,7 +15,7 @@ class Download(Bundled):
     """
 
     label = param.String(constant=True)
-    filename = param.String(constant=True)
+    filename = param.String()
     clicks = param.Integer(default=0, doc="the browser's")
     file = param.List(default=[0, ""], doc="[how many so far, the newest in base64]")
     making = param.Boolean(default=False)

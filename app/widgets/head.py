@@ -29,7 +29,7 @@ class HeadBar:
 
     def __init__(self, rooms, keep, look, does, toured=""):
         self._rooms, self._keep, self._look, self._toured, self._answered = rooms, keep, look, toured, 0
-        self._toy, self._toys, self._table, self._tables = "", [], "", []
+        self._toy, self._toys, self._table, self._tables, self._shares = "", [], "", [], False
         steps = {"undo": lambda value: keep.undo(), "redo": lambda value: keep.redo()}
         switches = {name: lambda value, name=name: setattr(look, name, bool(value)) for name in self.SWITCHES}
         goes = {name: lambda value, name=name: self._go(name, value) for name in ("room", "level")}
@@ -68,6 +68,11 @@ class HeadBar:
         self._table, self._tables = chosen, known
         self._say()
 
+    def opened(self, shares):
+        """Whether what Share opens is there."""
+        self._shares = shares
+        self._say()
+
     def _say(self, *events):
         rooms, keep = self._rooms, self._keep
         names, here = listed("main.rooms"), () if self._tables else rooms.tabs[rooms.tab][rooms.level]
@@ -84,6 +89,7 @@ class HeadBar:
             "chosen": self._table if self._tables else rooms.room,
             "places": {room: rooms.place(room) for room in rooms.param.room.objects},
             "toy": self._toy, "toys": self._toys, "undo": keep.can_undo, "redo": keep.can_redo,
+            "shares": self._shares,
             "language": spoken(), "languages": [list(each) for each in LANGUAGES.items()],
             **{name: getattr(self._look, name) for name in self.SWITCHES}, "answered": self._answered,
         }  # fmt: skip

@@ -20,7 +20,9 @@ import { renderFailure } from "./widgets/notices.js";
 import { renderMoments } from "./widgets/moments.js";
 import { renderNear } from "./widgets/near.js";
 import { renderPainted } from "./widgets/painted.js";
+import { renderPaper } from "./widgets/paper.js";
 import { renderPhone } from "./widgets/phone.js";
+import { renderShareHead } from "./widgets/share_head.js";
 import { renderSymbols } from "./widgets/symbols.js";
 import { renderTopsMap } from "./widgets/tops_map.js";
 import { renderPhoto } from "./widgets/photo.js";
@@ -46,8 +48,10 @@ export default {
   Moments: { render: renderMoments },
   Near: { render: renderNear },
   Painted: { render: renderPainted },
+  Paper: { render: renderPaper },
   Phone: { render: renderPhone },
   Photo: { render: renderPhoto },
+  ShareHead: { render: renderShareHead },
   Surface3D: { render: renderSurface3D },
   Top3D: { render: renderTop3D },
   Symbols: { render: renderSymbols },

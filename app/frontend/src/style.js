@@ -24,7 +24,7 @@ export const style = `
 .labels .handle:focus-visible { outline: 3px solid var(--scene-ink, #1d2733); outline-offset: 2px; }
 .note { position: absolute; inset: auto 12px 12px; margin: 0; padding: 8px 12px; border-radius: 8px; background: #fff4e5;
   color: #5c3b00; box-shadow: 0 1px 4px #0003; }
-.verdict { position: absolute; left: 12px; top: 12px; display: flex; align-items: center; gap: 7px; padding: 5px 12px 5px 9px;
+.verdict { position: absolute; left: 12px; bottom: 44px; display: flex; align-items: center; gap: 7px; padding: 5px 12px 5px 9px;
   border-radius: 999px; font-weight: 600; background: var(--pill, #ffffffe6); color: var(--scene-ink, #1d2733); box-shadow: 0 1px 3px #0002; pointer-events: none; }
 .verdict::before { content: ""; width: 10px; height: 10px; border-radius: 50%; background: var(--verdict); }
 .scales { position: absolute; right: 12px; top: 12px; text-align: right; line-height: 1.5; font-size: calc(11px * var(--type, 1)); color: var(--scene-faint, #4a5563); pointer-events: none; }

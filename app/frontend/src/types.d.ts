@@ -151,6 +151,19 @@ interface PhotoModel extends Model {
   none: string;
 }
 
+interface ShareHeadModel extends Model {
+  texts: Record<string, any>;
+  link: string;
+  picture: string;
+  said: string[];
+  closed: number;
+}
+
+interface PaperModel extends Model {
+  label: string;
+  page: string;
+}
+
 interface CopyModel extends Model {
   text: string;
   label: string;

@@ -1,5 +1,6 @@
 """Where the runs of all spins end, for the strip below the slider: of a toy, tilt and friction, for all visitors."""
 
+import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from itertools import groupby, pairwise
@@ -18,6 +19,7 @@ TIMES = np.arange(1.0, 6.01, 0.5)  # s: whether it stands is looked at then, for
 STANDS, LEANS = np.radians(170), np.radians(20)
 CLOSE = 2  # cells: where the end changes as soon again, ends are mixed
 MOST = 64  # that are kept
+LOOKS = 0.2  # s between two looks of who waits for another's
 Key = tuple[Toy, float, float, float]  # toy, tilt, mu, patch
 
 
@@ -50,6 +52,7 @@ class Ends(NamedTuple):
 
 
 _kept: OrderedDict[Key, Ends] = OrderedDict()
+_under_way: dict[Key, threading.Lock] = {}
 
 
 def known_ends(toy: Toy, tilt: float, mu: float, patch: float = PATCH) -> Ends | None:
@@ -75,6 +78,22 @@ def ends_of(
     while len(_kept) > MOST:
         _kept.popitem(last=False)
     return found
+
+
+def ends_once(
+    toy: Toy, tilt: float, mu: float, patch: float = PATCH, look: Callable[[float], object] | None = None
+) -> Ends:
+    """ends_of(), which of those who ask for the same at once only one computes."""
+    key = toy, tilt, mu, patch
+    turn = _under_way.setdefault(key, threading.Lock())
+    while not turn.acquire(timeout=LOOKS):
+        if look is not None:
+            look(0.0)
+    try:
+        return known_ends(*key) or ends_of(*key, look=look)
+    finally:
+        _under_way.pop(key, None)
+        turn.release()
 
 
 def codes_of(many: Many) -> tuple[str, ...]:

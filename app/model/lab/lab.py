@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import param
 
 from app.model.arrival import TABLE, TILT
-from app.model.lab.ends import Ends, Key, ends_of, known_ends
+from app.model.lab.ends import Ends, Key, ends_once, known_ends
 from app.model.lab.keeps import Row, keeps
 from app.model.lab.life import SECONDS
 from app.model.lab.run import (
@@ -238,7 +238,7 @@ class Lab(param.Parameterized):
         key = self._strip = self._key
         self._set(ends=key and known_ends(*key))
         if key and self.ends is None:
-            self._runs.begin(Run(lambda run: ends_of(*key, look=run.look), partial(self._ended, key)), "ends")
+            self._runs.begin(Run(lambda run: ends_once(*key, look=run.look), partial(self._ended, key)), "ends")
         self.rests = True
         self._live()
 

@@ -9,6 +9,7 @@ from app.bundle import call
 from app.model.bodies import body
 from app.model.build.dimensions import handles, pulled, value_of
 from app.model.colours import COLOURS, FAINT, INK
+from app.tabs.build.dimensioned import Dimensioned
 from app.text import say
 from app.widgets.controls import number
 from app.widgets.plots import PAPER, draw, plain
@@ -17,6 +18,7 @@ from tippe_core import LoadedSphere, Turned
 PARTS = {"body": "#d9b98c", "hollow": PAPER, "core": "#8a96a3"}  # of the section, in the order they are drawn
 FRAME = 276  # px, where the browser has not said how large it is; square, so that both axes have one scale
 BORDERS = {"left": 40, "right": 10, "above": 20, "below": 30}  # px; the same both ways, for the figure is square, too
+ROOM = 1.9  # widths of a body, its dimensions beside it included
 REACH = 16  # px from a handle that still take hold of it
 
 
@@ -49,6 +51,7 @@ class Section:
         draw(fig, Text, "x", "z", text="text", source=self.letters, x_offset="dx", y_offset="dy", text_color=INK,
              text_font_size="15px", text_font_style="style", text_font={"value": "Georgia, serif"},
              text_align="center", text_baseline="middle")  # fmt: skip
+        self.measured = Dimensioned(fig)
         knobs = draw(fig, Scatter, "x", "z", source=self.handles, size=14, fill_color="white",
                      line_color=COLOURS["theta"], line_width=3)  # fmt: skip
         fig.add_tools(HoverTool(renderers=[knobs], tooltips="@says", point_policy="snap_to_data"))
@@ -100,7 +103,6 @@ class Section:
         straight = [
             ((0, 0), (low, high + 0.06 * span), FAINT, [8, 4], 1.5),
             ((-wide - 0.03 * span, wide + 0.03 * span), (height, height), FAINT, [8, 4], 1.5),
-            ((0, -R * 0.8), (0, -R * 0.6), COLOURS["normal"], [], 2),
             ((aside, aside), (0, height), COLOURS["friction"], [], 3),
             ((0, aside), (0, 0), COLOURS["friction"], [2, 3], 1),
             ((0, aside), (height, height), COLOURS["friction"], [2, 3], 1),
@@ -111,11 +113,12 @@ class Section:
         self.points.data = {"x": [0, 0, 0], "z": [0, height, -R], "colour": [INK, COLOURS["friction"], INK]}
         letters = [
             (0, 0, "O", -12, -10, "italic"), (0, height, "G", 14, 10 if height <= 0 else -10, "italic"),
-            (0, -R, "C", 0, 14, "italic"), (-0.4 * R, -0.3 * R, "R", -8 if R > span / 12 else -26, -8, "italic"),
+            (0, -R, "C", 0, 14, "italic"),
             (aside, height / 2, "a", 10, 0, "italic"), (0, high + 0.06 * span, "3", 0, -10, "normal"),
             (-wide - 0.03 * span, height, "1", -10, 0, "normal"),
         ]  # fmt: skip
         self.letters.data = dict(zip(("x", "z", "text", "dx", "dy", "style"), zip(*letters, strict=True), strict=True))
+        self.measured.show(shape, draft.dimensions, self._held, wide, span)
         said = {dimension.name: dimension for dimension in draft.dimensions}
         at = handles(shape)
         self.handles.data = {
@@ -131,7 +134,7 @@ class Section:
         """All of the body in view; in coarse steps, so that it does not swim."""
         profile = 1e3 * self._shape.R * body(self._shape)
         low, high = profile[:, 1].min(), profile[:, 1].max()
-        needed = 1.3 * max(2 * profile[:, 0].max(), high - low)
+        needed = max(ROOM * 2 * profile[:, 0].max(), 1.3 * (high - low))
         self._span = span = 1.25 ** math.ceil(math.log(needed, 1.25))
         middle = (low + high) / 2
         for axis, centre in ((self.figure.x_range, 0.0), (self.figure.y_range, middle)):

@@ -1,13 +1,18 @@
-"""Whether the body on the bench turns over, in words beside it."""
+"""Whether the body on the bench turns over, in words beside it, and how far it gets at each spin."""
 
 import html
 from functools import partial
 
+from app.model.arrival import MU, SPIN, TILT
 from app.model.build.verdict import verdict
+from app.model.colours import COLOURS
+from app.model.ends import COLOUR_IN_LAB
+from app.model.lab.ends import SPINS, TIMES, Ends, ends_once, known_ends
 from app.model.runs import Run, Stopped
-from app.text import say
+from app.text import say, written
 from app.widgets.cards import words
 from app.widgets.spelling import spelled
+from tippe_core import TopError
 
 OLD = """
 .old { opacity: .45 } .verdict { min-height: calc(110px * var(--type, 1)) }
@@ -15,21 +20,59 @@ h3 { margin: 8px 0 4px; font-size: calc(26px * var(--type, 1)); line-height: 1.2
 """
 
 
-class VerdictWords:
-    """view: the words; runs: the page's Runs. show() is for each scene of a hand at rest."""
+STRIP = (
+    """
+.ends { position: relative; height: 20px; margin: 4px 0 0 }
+.end { position: absolute; top: 0; bottom: 0; background: var(--of) }
+.end.mixed { background: repeating-linear-gradient(45deg, HIGH 0 3px, LOW 3px 6px) }
+.mark { position: absolute; top: -5px; height: 30px; width: 3px; margin-left: -1px; background: ACCENT;
+  outline: 1px solid var(--card, #fff) }
+.under { position: relative; display: flex; justify-content: space-between; min-height: 1.5em; padding-top: 5px }
+.under b { position: absolute; transform: translateX(-50%); background: var(--card, #fff);
+  color: color-mix(in srgb, ACCENT 60%, var(--ink, #22303c)) }
+.kinds { display: flex; flex-wrap: wrap; gap: 0 16px }
+.kinds .end { position: static; display: inline-block; width: 12px;
+  height: 12px; margin-right: 6px; vertical-align: -1px; outline: 1px solid var(--rule, #d8dce0) }
+.strip { min-height: calc(92px * var(--type, 1)) }
+""".replace("HIGH", COLOUR_IN_LAB["stands"])
+    .replace("LOW", COLOUR_IN_LAB["leans"])
+    .replace("ACCENT", COLOURS["accent"])
+)
 
-    def __init__(self, runs):
-        self._runs, self._shape, self._said = runs, None, ""
+
+class VerdictWords:
+    """view: the words; strip: the ends of its runs over spin; runs: the page's Runs; toy: gives the page's top, as the
+    Lab has it. show() is for each scene of a hand at rest."""
+
+    def __init__(self, runs, toy=lambda: None):
+        self._runs, self._shape, self._said, self._toy = runs, None, "", toy
         self.view = words(self._written(), style=OLD)
+        self.strip = words(strip_of(None), style=STRIP)
 
     def show(self, scene):
         """Computes it, where the body is another; until then what is there is old."""
         shape = scene.shape
         if shape is None or shape == self._shape:
             return
+        self._ends(self._toy() or shape)
         self._shape = shape
         self.view.object = self._written("old")
         self._runs.begin(Run(lambda run: verdict(shape), partial(self._done, shape)), "verdict")
+
+    def _ends(self, toy):
+        """Where the runs of all spins end: known, or computed beside; the Lab's are the same."""
+        self._asked = key = toy, TILT, MU
+        found = known_ends(*key)
+        self.strip.object = strip_of(found)
+        if found is None:
+            work = Run(lambda run: ends_once(*key, look=run.look), partial(self._ended, key))
+            self._runs.begin(work, "verdict-ends")
+
+    def _ended(self, key, result):
+        if key == self._asked and isinstance(result, Ends):
+            self.strip.object = strip_of(result)
+        elif isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
+            raise result
 
     def _done(self, shape, result):
         if isinstance(result, Stopped) or shape != self._shape:
@@ -43,3 +86,33 @@ class VerdictWords:
     def _written(self, kind=""):
         waits = f'<div role="status">{say("build.verdict.waits")}</div>' if kind or not self._said else ""
         return f'<div class="verdict">{waits}<div class="{kind}">{self._said}</div></div>'
+
+
+def strip_of(ends):
+    """The ends of runs over the spin, with the spin of the verdict on it; None: they are still to come."""
+    low, high = float(SPINS[0]), float(SPINS[-1])
+    says = say("build.verdict.strip", count=len(SPINS), seconds=float(TIMES[-1]), tilt=TILT, mu=MU)
+    waits, unit = say("build.verdict.strip_waits"), say("build.verdict.strip_unit")
+    at = f"{100 * (SPIN - low) / (high - low):.2f}%"
+    mark = f'<i class="mark" style="left: {at}"></i>'
+    parts = ends.segments if ends else ()
+    told = "; ".join(say("build.verdict.stretch", low=each.least, high=each.most, word=each.word) for each in parts)
+    drawn = "".join(
+        f'<span class="end {each.code}" style="{_colour(each.code)}'
+        f'left: {100 * (each.least - low) / (high - low):.2f}%; '
+        f'right: {100 * (high - each.most) / (high - low):.2f}%"></span>' for each in parts
+    )  # fmt: skip
+    kinds = {each.code: html.escape(spelled(each.word)) for each in parts}
+    key = "".join(
+        f'<span><i class="end {code}" style="{_colour(code)}"></i>{word}</span>' for code, word in kinds.items()
+    )
+    axis = f'<span>{low:.0f}</span><b style="left: {at}">{written(SPIN, ".1f")}</b><span>{high:.0f} {unit}</span>'
+    return (
+        f'<div class="strip"><div>{html.escape(spelled(says))}</div><div class="ends" role="img" '
+        f'aria-label="{html.escape(spelled(told) or waits)}">{drawn}{mark}</div>'
+        f'<div class="under">{axis}</div><div class="kinds">{key or waits}</div></div>'
+    )
+
+
+def _colour(code):
+    return f"--of: {COLOUR_IN_LAB[code]}; " if code in COLOUR_IN_LAB else ""

@@ -15,7 +15,7 @@ from app.tabs.learn.present import Teacher
 from app.tabs.learn.teach import history_view, teach_view
 from app.tabs.learn.worksheet import worksheet
 from app.text import say
-from app.widgets.cards import ONE_ROW, PLAIN, card, first, later, staged, words
+from app.widgets.cards import PLAIN, card, first, later, staged, words
 from app.widgets.top3d import Top3D, show_top
 
 CLOCK, SPEED = "learn", 1 / 16
@@ -58,11 +58,9 @@ class Learn(param.Parameterized):
         intro = words("".join(f"<p style='margin: 0 0 6px'>{say(f'derivation.page.{key}')}</p>"
                               for key in ("intro", "smooth", "vectors")))  # fmt: skip
         lines = later(card(say("derivation.page.title"), intro, self.derivation.place, height="max-content"), 1)
-        top = first(card(say("learn.page.top"), self.top), head=ONE_ROW)
+        top = first(card(say("learn.page.top"), self.top))
         # a hidden Column inside, since a grid that is told how to be laid out cannot be hidden
-        self.pair = pn.Column(
-            staged([top], [lines], mirrored=True, head=ONE_ROW), sizing_mode="stretch_width", margin=0
-        )
+        self.pair = pn.Column(staged([top], [lines], mirrored=True), sizing_mode="stretch_width", margin=0)
         self.others = pn.Column(sizing_mode="stretch_width", margin=0)
         self._made = {}
         return pn.Column(self.sections, self.lesson, self.pair, self.others, sizing_mode="stretch_width", margin=0,

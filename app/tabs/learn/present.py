@@ -1,6 +1,5 @@
 """The teacher's side of a class: a room that asks the step which is on the big screen, and what this may show of it."""
 
-import ipaddress
 from itertools import pairwise
 
 import numpy as np
@@ -11,7 +10,7 @@ from app.model.lesson import lesson
 from app.model.lesson.parts import Choice
 from app.model.votes.ballots import Away
 from app.model.votes.classroom import Refused
-from app.state.names import VOTE, link
+from app.state.names import VOTE, is_local, link
 from app.tabs.learn.poll import Counter, asked_of, page_address, refusal
 
 BINS = 12
@@ -25,14 +24,6 @@ def counts(step, votes):
     return [
         [f"{low:.4g} \N{EN DASH} {high:.4g}", int(n)] for (low, high), n in zip(pairwise(edges), found, strict=True)
     ]
-
-
-def is_local(host):
-    """Whether an address is of this machine alone, so that no phone gets there."""
-    try:
-        return ipaddress.ip_address(host.strip("[]")).is_loopback
-    except ValueError:
-        return host == "localhost" or host.endswith(".localhost")
 
 
 class Teacher:

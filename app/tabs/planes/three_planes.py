@@ -13,7 +13,7 @@ from app.tabs.planes.plots import CLOCK, IN_RIBBON, LEDGER, QUANTITIES, Figures,
 from app.tabs.planes.start_card import StartCard
 from app.tabs.planes.words import LOOKS, in_force, table_words, verdict_words
 from app.text import say, written
-from app.widgets.cards import card, first, later, note, staged, swatch, words
+from app.widgets.cards import card, first, framed, later, note, staged, swatch, words
 from app.widgets.moments import Moments
 from app.widgets.top3d import Top3D, pack_frames
 
@@ -109,11 +109,11 @@ class ThreePlanes:
 
     def _stage_card(self):
         self._row = pn.Column(
-            sizing_mode="stretch_both", margin=(6, 0, 0, 0),
+            sizing_mode="stretch_both", margin=0,
             styles={"display": "grid", "gap": "10px"},
             stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
         )  # fmt: skip
-        return first(card(say("planes.cards.stage"), self._force, self._row), below=BELOW + 12)
+        return first(framed(say("planes.cards.stage"), self._row, self._force), below=BELOW + 12)
 
     def _times_card(self):
         def row(label, figure, height):

@@ -11,7 +11,7 @@ from app.model.hands import held, pulled
 from app.model.playing import together
 from app.state import asked
 from app.text import say
-from app.widgets.cards import PLAIN, TALL, WIDE, card, first, later, staged, words
+from app.widgets.cards import PLAIN, TALL, WIDE, card, first, framed, later, staged, words
 from app.widgets.controls import named
 from app.widgets.near import WhenNear
 from app.widgets.plane_card import PlaneCard
@@ -135,7 +135,7 @@ class Roll:
         self._floor.stylesheets = [f"{WIDE} {{ :host {{ height: {BELOW}px !important }} }}"]
         self._over_time = card(say("roll.cards.times"))
         plane = card(say("roll.cards.plane", plane=plane_symbols()), *self._card.content, height=f"calc({TALL} - 28px)")
-        stage = first(card(say("roll.cards.top"), self._top), below=BELOW + 12)
+        stage = first(framed(say("roll.cards.top"), self._top), below=BELOW + 12)
         self.main = staged(
             [stage, later(self._floor, 1)],
             [plane, controls, *(later(each, 2) for each in (

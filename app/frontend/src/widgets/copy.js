@@ -13,6 +13,16 @@ const FRAME = `<style>
   </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button></button></div>`;
 const SAID_MS = 1500;
 
+/** @param {string} text @param {HTMLInputElement | HTMLTextAreaElement} field that shows it */
+export async function copyText(text, field) {
+  field.select();
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    document.execCommand("copy");
+  }
+}
+
 /** @param {Rendering<CopyModel>} rendering */
 export function renderCopy({ model, el }) {
   el.innerHTML = FRAME;
@@ -29,12 +39,7 @@ export function renderCopy({ model, el }) {
   };
   area.onfocus = () => area.select();
   button.onclick = async () => {
-    area.select();
-    try {
-      await navigator.clipboard.writeText(model.text);
-    } catch {
-      document.execCommand("copy");
-    }
+    await copyText(model.text, area);
     button.textContent = copied;
     setTimeout(() => (button.textContent = copy), SAID_MS);
   };

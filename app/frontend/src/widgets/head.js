@@ -18,7 +18,7 @@ class Several {
     const known = JSON.stringify(options.map(([name, word]) => [name, word]));
     if (known !== this.known) {
       this.known = known;
-      this.choice = this.make(options.map(([name, word]) => [name, word, ""]));
+      this.choice = this.make(options.map(([name, word, , hint]) => [name, word, hint]));
       this.element.replaceChildren(this.choice.element);
     }
     this.choice.show(chosen);
@@ -48,7 +48,7 @@ class Head {
     this.row = part("header", { class: "row" }, part("h1", {}, texts.title), this.toy, part("nav", { "aria-label": texts.tabs }, this.tabs.element),
       part("span", { class: "grow" }), part("span", { class: "wide" }, this.levels[0].element, part("span", {}, ...this.steps[0]), this.shares[0]),
       this.more, this.menu);
-    this.below = part("div", { class: "rooms" }, this.rooms.element);
+    this.below = part("div", { class: "rooms" }, part("b", { "aria-hidden": "true" }, texts.table), this.rooms.element);
     el.replaceChildren(part("style", {}, headStyle), part("div", { class: "all" }, this.row, this.below));
   }
 
@@ -130,6 +130,9 @@ class Head {
     for (const levels of this.levels) levels.show(state.levels, state.level);
     this.below.hidden = !state.rooms.length;
     if (state.rooms.length) this.rooms.show(state.rooms, state.chosen);
+    this.below.className = state.below === "table" ? `rooms table ${state.chosen}` : "rooms";
+    this.rooms.choice?.element.setAttribute("aria-label", state.below === "table" ? this.texts.table : this.texts.rooms);
+    for (const share of this.shares) share.setAttribute("aria-expanded", String(state.shares));
     this.tour.hidden = !state.tour;
     this.languages.show(state.languages, state.language);
     for (const { name, box } of this.switches) box.checked = state[name];

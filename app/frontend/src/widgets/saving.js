@@ -1,10 +1,11 @@
 // A button that saves a file, and how one is saved.
 import { colours } from "../colours.js";
 
-const STYLE = `button { font: 500 calc(13px * var(--type, 1)) var(--family, system-ui, sans-serif); padding: 4px 10px; min-height: 31px;
-  border: 1px solid; border-radius: 4px; background: transparent; color: var(--link, ${colours.chosen}); cursor: pointer }
-  button:hover { background: ${colours.chosen}14 } button[aria-busy=true] { opacity: 0.5; cursor: progress }
-  :focus-visible { outline: 2px solid; outline-offset: 2px }`;
+const STYLE = `button { font: calc(14px * var(--type, 1)) var(--family, system-ui, sans-serif);
+  padding: 0 12px; min-width: 76px; min-height: calc(36px * var(--type, 1)); border: 1px solid var(--faint, #8b949e);
+  border-radius: 6px; background: transparent; color: var(--ink, ${colours.ink}); cursor: pointer }
+  button:hover { background: color-mix(in srgb, currentColor 8%, transparent) } button[aria-busy=true] { opacity: 0.5; cursor: progress }
+  :focus-visible { outline: 2px solid; outline-offset: 2px } @media (max-width: 700px) { button { min-height: 44px } }`;
 const KEPT_MS = 60000;
 
 /** @param {HTMLElement} el @param {string} label */

@@ -1,0 +1,63 @@
+// What is first of what is shared: the link, its copy, and its QR code, which can fill the screen of a room.
+import { copyText } from "./copy.js";
+import { part } from "./parts.js";
+
+const SAID_MS = 1500;
+const CODE = "background: white; padding: 0; line-height: 0";
+const STYLE = `
+:host { display: block; } * { box-sizing: border-box; } [hidden] { display: none !important; }
+.all { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #1b2430); }
+.line { display: flex; align-items: center; gap: 8px; } h2 { flex: 1; margin: 0; font-size: calc(18px * var(--type, 1)); font-weight: 600; letter-spacing: -.01em; }
+button { font: inherit; color: inherit; border: 0; background: none; border-radius: 6px; min-height: calc(32px * var(--type, 1)); padding: 0 10px; cursor: pointer; white-space: nowrap; }
+button:hover { background: color-mix(in srgb, currentColor 8%, transparent); } :focus-visible { outline: 3px solid; outline-offset: 2px; }
+input { flex: 1; min-width: 0; font: inherit; color: inherit; background: none; border: 0; border-bottom: 1px solid var(--faint, #8b949e); border-radius: 0; height: 40px; padding: 0 2px; text-overflow: ellipsis; }
+.copy { background: var(--ink, #1b2430); color: var(--card, #fff); font-weight: 600; min-height: 40px; padding: 0 20px; min-width: 150px; }
+.copy:hover { background: color-mix(in srgb, var(--ink, #1b2430) 85%, var(--card, #fff)); }
+.code { width: min(100%, clamp(260px, 100vh - 560px, 440px)); margin: 12px auto; ${CODE}; } .code svg, .room svg { width: 100%; height: auto; display: block; shape-rendering: crispEdges; }
+p { margin: 0; flex: 1; font-size: calc(12px * var(--type, 1)); color: var(--faint, #5b6875); } .line button { font-size: calc(12px * var(--type, 1)); font-weight: 600; } .line .close { font-size: calc(14px * var(--type, 1)); width: 32px; padding: 0; } .line .copy { font-size: calc(14px * var(--type, 1)); }
+.room { border: 0; padding: 0; width: 100vw; height: 100vh; max-width: none; max-height: none; background: white; color: black; }
+.room[open] { display: grid; grid-template-rows: 1fr auto; justify-items: center; } .room div { width: min(96vw, 100vh - 96px); ${CODE}; }
+.room p { font: 600 min(28px, 4vw)/1.3 system-ui, sans-serif; color: black; padding: 0 24px 16px; overflow-wrap: anywhere; text-align: center; } .room button { position: fixed; top: 8px; right: 8px; font-size: 18px; color: black; }
+@media (max-width: 700px) { button { min-height: 44px; } .line .close { width: 44px; } .copy { min-width: 120px; padding: 0 12px; } .line .copy { min-height: 44px; } }
+`;
+
+// A key that is meant for what lies above the page, a list or a dialog, is not for this.
+const elsewhere = (event) => event.composedPath().some((each) => each instanceof Element && each.matches("dialog, [role=dialog], [role=listbox], .menu"));
+
+/** @param {Rendering<ShareHeadModel>} rendering */
+export function renderShareHead({ model, el }) {
+  const { texts } = model, listening = new AbortController(), before = document.activeElement?.shadowRoot?.activeElement;
+  const close = () => {
+    model.closed += 1;
+    if (before instanceof HTMLElement) before.focus();
+  };
+  const link = part("input", { readonly: true, spellcheck: "false", "aria-label": texts.link, onfocus: () => link.select() });
+  const copy = part("button", { type: "button", class: "copy", onclick: async () => {
+    await copyText(model.link, link);
+    copy.textContent = texts.copied;
+    setTimeout(() => (copy.textContent = texts.copy), SAID_MS);
+  } }, texts.copy);
+  const code = part("div", { class: "code" }), [first, rest] = [0, 1].map(() => part("p", { role: "status" }));
+  const room = part("dialog", { class: "room", "aria-label": texts.code, onclose: () => room.replaceChildren() });
+  const fill = part("button", { type: "button", onclick: () => {
+    const large = part("div");
+    large.innerHTML = model.picture;
+    room.replaceChildren(large, part("p", {}, model.link.replace(/^https?:\/\//, "")), part("button", { type: "button", "aria-label": texts.close, onclick: () => room.close() }, "✕"));
+    room.showModal();
+  } }, texts.fill);
+  el.replaceChildren(part("style", {}, STYLE), part("section", { class: "all", "aria-label": texts.title },
+    part("div", { class: "line" }, part("h2", {}, texts.title), part("button", { type: "button", class: "close", "aria-label": texts.close, title: texts.close, onclick: close }, "✕")),
+    part("div", { class: "line" }, link, copy), code, part("div", { class: "line" }, first, fill), rest), room);
+  const show = () => {
+    link.value = model.link;
+    code.innerHTML = model.picture;
+    code.hidden = fill.hidden = !model.picture;
+    [first.textContent, rest.textContent] = [model.said[0] ?? "", model.said.slice(1).join(" ")];
+  };
+  for (const name of ["link", "picture", "said"]) model.on(name, show);
+  window.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !event.defaultPrevented && el.getClientRects().length && !elsewhere(event)) close();
+  }, { signal: listening.signal });
+  model.on("remove", () => listening.abort());
+  show();
+}

@@ -1,0 +1,63 @@
+"""Where a body's dimensions stand in its section: from where to where each is measured."""
+
+import math
+from typing import NamedTuple, TypeAlias
+
+from tippe_core import BareSphere, Lathe, LoadedSphere, OrdinaryTop, Shape, StemmedSphere, TruncatedSphere, Turned
+
+Point: TypeAlias = tuple[float, float]
+LOWER_LEFT = (-math.sqrt(0.5), -math.sqrt(0.5))
+
+
+class Measure(NamedTuple):
+    """A dimension by its name, measured from one point of the section to another, (x, z) in m. Of heights both points
+    are on the body: the line that says it stands beside that."""
+
+    name: str
+    start: Point
+    end: Point
+
+    @property
+    def is_height(self) -> bool:
+        """Whether it is measured along axis 3, beside the body."""
+        return self.name in HEIGHTS
+
+
+HEIGHTS = ("a", "c", "d", "h", "l", "t")
+
+
+def measures(shape: Shape) -> list[Measure]:
+    """Of a body those that can be drawn, from below."""
+    R = shape.R
+    found = [] if isinstance(shape, Lathe | Turned) else [Measure("R", (0.0, 0.0), _along(R, LOWER_LEFT))]
+    if isinstance(shape, TruncatedSphere):
+        rim = math.sqrt((R - shape.c) * (R + shape.c))
+        found.append(Measure("c", (0.0, 0.0), (rim, shape.c)))
+        if shape.l:
+            found += _stem(shape.r, shape.c, shape.l, rim)
+    elif isinstance(shape, LoadedSphere):
+        core = (0.0, -shape.d)
+        found += [Measure("d", (0.0, 0.0), core), Measure("b", core, (shape.b, -shape.d))]
+    elif isinstance(shape, OrdinaryTop):
+        face = shape.h + shape.t
+        found += [Measure("h", (0.0, 0.0), (shape.r1, shape.h)), Measure("t", (shape.r1, shape.h), (shape.r2, face)),
+                  Measure("r1", (0.0, shape.h), (-shape.r1, shape.h)),
+                  Measure("r2", (0.0, face), (-shape.r2, face))]  # fmt: skip
+        if shape.l:
+            found += _stem(shape.r, face, shape.l, shape.r2)
+    elif isinstance(shape, BareSphere):
+        found.append(Measure("a", (0.0, 0.0), (0.0, -shape.a * R)))
+        if isinstance(shape, StemmedSphere):
+            end = (0.0, shape.h)
+            found += [Measure("h", (0.0, 0.0), end), Measure("r", end, (end[0] - shape.r, end[1]))]
+    return found
+
+
+def _along(length: float, way: Point) -> Point:
+    return length * way[0], length * way[1]
+
+
+def _stem(r: float, foot: float, length: float, rim: float) -> list[Measure]:
+    """Of a stem that begins at a foot, on a face of this radius."""
+    return [Measure("l", (rim, foot), (r, foot + length)),
+            Measure("r", (0.0, foot + length / 2), (-r, foot + length / 2))]  # fmt: skip

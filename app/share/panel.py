@@ -1,0 +1,189 @@
+"""What is saved of what is shown: a row for each kind of file, and the paper's figures folded away."""
+
+import panel as pn
+import panel_material_ui as pmui
+
+from app.share import export, glb, programs, saved_runs
+from app.share.letter import letter
+from app.share.parts import Paper, Photo
+from app.share.prints import FIGURES, caption, draw
+from app.share.saved_runs import Shown
+from app.text import listed, say
+from app.widgets.cards import PLAIN, px, words
+from app.widgets.copy import Copy
+from app.widgets.download import Download
+from tippe_core import BareSphere
+
+RUN = {
+    "png": lambda run, link, slower: saved_runs.run_print(run, "png"),
+    "svg": lambda run, link, slower: saved_runs.run_print(run, "svg"),
+    "csv": lambda run, link, slower: saved_runs.run_csv(run, link),
+    "npz": lambda run, link, slower: saved_runs.run_npz(run, link),
+    "glb": lambda run, link, slower: saved_runs.run_glb(run, slower),
+    "py": lambda run, link, slower: _program(saved_runs.run_python(run), link),
+}
+ROLLING = {
+    "png": lambda scene, link, slower: draw(scene, "motion", "png"),
+    "svg": lambda scene, link, slower: draw(scene, "motion", "svg"),
+    "csv": lambda scene, link, slower: export.motion_csv(scene, link),
+    "npz": lambda scene, link, slower: export.arrays_npz(scene, link),
+    "glb": lambda scene, link, slower: glb.animation_glb(scene, slower),
+    "py": lambda scene, link, slower: _program(programs.PYTHON["The motion"](scene), link),
+}
+"""{kind of file: its bytes, of what is shown, its link, and how many times slower it is played}."""
+ROWS = {"pictures": ("png", "svg"), "data": ("csv", "npz"), "solid": ("glb",), "code": ("py",)}
+NAMES = {kind: kind.upper() for kind in (*RUN, "stl", "html")} | {"npz": "NumPy", "py": ".py"}
+ROW = """
+:host { display: flex; flex-flow: row wrap; gap: 8px; align-items: center; padding: 6px 0; min-height: 47px;
+  border-top: 1px solid var(--rule, #d8dce0); box-sizing: border-box } .scroll-button { display: none !important }
+"""
+SAYS = f"b {{ font-size: {px(14)} }} small {{ display: block; font-size: {px(12)}; color: var(--faint, #5b6875) }}"
+
+
+def made(kind, what, link, slower):
+    """The bytes of a file of a Shown or of a Scene."""
+    return (RUN if isinstance(what, Shown) else ROLLING)[kind](what, link, slower)
+
+
+def _program(text, link):
+    return f"# {link}\n{text}".encode()
+
+
+class Files:
+    """view: the rows. runs: the page's Runs; link: gives the page's address; playing: its Playing; body: gives the body
+    that can be printed, or None; sheet: gives the page of a class to print. show(scene, shown) is for what is on the
+    page now; shown: {table: Shown}, none where what rolls is looked at."""
+
+    def __init__(self, runs, link, playing, body, sheet):
+        self._runs, self._link, self._playing, self._body = runs, link, playing, body
+        self._scene, self._shown = None, {}
+        tables = listed("share.tables")
+        self._table = pmui.RadioButtonGroup(options={tables[name]: name for name in tables}, value=next(iter(tables)),
+                                            label="", size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
+        self._table.param.watch(lambda event: self._name(), "value")
+        self._of = words("", margin=(4, 0))
+        self._photo = Photo(margin=0, none=say("share.no_top"))
+        self._saves = {kind: self._save(kind) for kinds in ROWS.values() for kind in kinds}
+        self._mesh = Download(runs, lambda: (body(),), lambda shape: shape.stl(), label=NAMES["stl"],
+                              filename="tippe-top.stl", margin=0)  # fmt: skip
+        rows = {name: [self._saves[kind] for kind in kinds] for name, kinds in ROWS.items()}
+        rows["solid"].append(self._mesh)
+        said = {name: _says(_titled(name)) for name in ("photo", *ROWS, "letter", "sheet")}
+        self._solid = said["solid"]
+        mailed = self._of_scene(
+            NAMES["html"], "tippe-top.html", lambda scene, link: letter(scene, link, playing.chosen)
+        )
+        paper = Paper(margin=0, page=sheet(), label=say("share.panel.print"))
+        rows = {"photo": [self._photo]} | rows | {"letter": [mailed], "sheet": [paper]}
+        self._python = Copy(label="Python", rows=13, button=listed("share.copy"), sizing_mode="stretch_width",
+                            margin=(4, 0))  # fmt: skip
+        self._more = pmui.Accordion((say("share.panel.figures"), pn.Column(
+            *self._figures(), sizing_mode="stretch_width", margin=0)), active=[], sizing_mode="stretch_width",
+            margin=(8, 0), title_variant="h3", elevation=0, sx={"& .title": {"fontSize": px(14)}})  # fmt: skip
+        self.view = [
+            self._of, self._table,
+            *(_row(said[name], *saves) for name, saves in rows.items()),
+            self._more,
+        ]  # fmt: skip
+
+    def _save(self, kind):
+        return Download(self._runs, lambda: (self._what, self._link(), 1 / self._playing.speed),
+                        lambda *what: made(kind, *what), label=NAMES[kind], filename=kind,
+                        margin=0)  # fmt: skip
+
+    def _of_scene(self, label, filename, make):
+        return Download(self._runs, lambda: (self._scene, self._link()), make, label=label, filename=filename,
+                        margin=0)  # fmt: skip
+
+    def _figures(self):
+        shown = listed("share.python")
+        codes = {shown[name]: name for name in programs.PYTHON}
+        self._which = pmui.RadioButtonGroup(options=codes, value=next(iter(programs.PYTHON)), label="",
+                                            size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
+        self._which.param.watch(lambda event: self._show_python(), "value")
+        prints = [
+            _row(_says(say(f"prints.figures.{name}")), *(
+                self._of_scene(kind.upper(), f"tippe-top-{name}.{kind}", _print(name, kind)) for kind in ("png", "svg")
+            )) for name in FIGURES
+        ]  # fmt: skip
+        tielines = self._of_scene(NAMES["csv"], "tippe-top-tielines.csv", export.tielines_csv)
+        says = words(say("share.panel.python"), margin=(8, 0, 0, 0))
+        return [*prints, _row(_says(say("share.panel.tielines")), tielines), says, self._which, self._python]
+
+    @property
+    def _what(self):
+        """What is shown of which the files are."""
+        return self._shown.get(self._table.value, self._scene) if self._shown else self._scene
+
+    def show(self, scene, shown):
+        self._scene, self._shown = scene, shown
+        if shown and self._table.value not in shown:
+            self._table.value = next(iter(shown))
+        self._table.visible = len(shown) > 1
+        shape = self._body()
+        self._mesh.visible = shape is not None and not isinstance(shape, BareSphere)
+        self._solid.object = _titled("solid", "print" if self._mesh.visible else "says")
+        self._photo.caption = self._caption()
+        self._name()
+        self._show_python()
+
+    def _name(self):
+        """Says which motion they are of, and calls them so."""
+        table = self._table.value if self._shown else ""
+        said = (
+            say("share.panel.of_table", table=say(f"share.tables.{table}")) if table else say("share.panel.of_rolling")
+        )
+        self._of.object = f"<b>{said}</b>"
+        for kind, save in self._saves.items():
+            save.filename = f"tippe-top-{table or 'motion'}.{kind}"
+
+    def _caption(self):
+        """Of what is in sight: of three tops the words that all have."""
+        shown = list(self._shown.values())
+        lines = saved_runs.caption(shown[0])[: 1 if len(shown) > 1 else 2] if shown else caption(self._scene)
+        return list(plain(lines))
+
+    def _show_python(self):
+        self._python.text = programs.PYTHON[self._which.value](self._scene)
+
+
+def _print(name, kind):
+    return lambda scene, link: draw(scene, name, kind)
+
+
+def _titled(name, says="says"):
+    return f"<b>{say(f'share.panel.{name}.title')}</b><small>{say(f'share.panel.{name}.{says}')}</small>"
+
+
+def _says(text):
+    return words(text, sizing_mode=None, style=SAYS, styles={"flex": "1 1 150px"})
+
+
+def _row(says, *buttons):
+    return pn.Column(
+        says,
+        *buttons,
+        sizing_mode="stretch_width",
+        margin=0,
+        stylesheets=[ROW],
+    )
+
+
+def plain(lines):
+    """Lines without their mathtext."""
+    marks = {
+        "$": "",
+        r"\mu": "μ",
+        r"\theta": "θ",
+        r"\gamma": "γ",
+        r"\epsilon": "ε",
+        "^2": "²",
+        "^{1/2}": "½",
+        "{": "",
+        "}": "",
+        "_": "",
+    }
+    for line in lines:
+        for mark, sign in marks.items():
+            line = line.replace(mark, sign)
+        yield line

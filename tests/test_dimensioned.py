@@ -1,0 +1,54 @@
+"""The numbers beside the section are those of the body: what is measured in the drawing is the dimension."""
+
+import math
+
+import pytest
+
+from app.model.arrival import TOY, read_ends
+from app.model.build.builder import Builder
+from app.model.build.dimensions import FAMILIES, value_of
+from app.model.build.measures import measures
+from app.model.explorer import Explorer
+from app.model.lab.ends import SPINS, Ends
+from app.tabs.build.section import Section
+from app.tabs.build.verdict import strip_of
+from app.text import written
+from tippe_core import PRESETS
+
+BODIES = {preset.name: preset.shape for preset in PRESETS}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_what_is_measured_is_as_long_as_the_dimension_says(name):
+    shape = BODIES[name]
+    for measure in measures(shape):
+        (x, z), (x1, z1) = measure.start, measure.end
+        said = value_of(shape, measure.name) * (shape.R if measure.name == "a" else 1.0)
+        drawn = abs(z1 - z) if measure.is_height else math.hypot(x1 - x, z1 - z)
+        assert drawn == pytest.approx(abs(said), abs=1e-9), measure
+
+
+def test_the_section_says_each_in_its_unit_and_what_is_held_in_the_colour_of_what_is_chosen():
+    builder = Builder(Explorer().scene, lambda **inputs: None)
+    section = Section(lambda *wish: None)
+    section.show(builder.draft)
+    said = [text.replace("\n", " ") for text in section.measured.said.data["text"]]
+    shape, lengths = builder.draft.shape, {each.name: each for each in FAMILIES[type(builder.draft.shape)][1]}
+    drawn = {measure.name for measure in measures(shape)}
+    assert len(said) == len(drawn) >= 4
+    for name in drawn:
+        size = written(1e3 * value_of(shape, name), ".4g")
+        assert any(text.endswith(f"{size} {lengths[name].unit}") for text in said), name
+    before = section.measured.said.data["colour"]
+    section._held = "l"
+    section.show(builder.draft)
+    assert sum(a != b for a, b in zip(before, section.measured.said.data["colour"], strict=True)) == 1
+
+
+def test_the_strip_of_ends_has_each_of_them_and_the_spin_of_the_verdict():
+    ends = Ends(SPINS, read_ends(), "stem")
+    drawn = strip_of(ends)
+    assert drawn.count('class="end ') == len(ends.segments) + len({each.code for each in ends.segments})
+    assert "left: 57.30%" in drawn and TOY not in drawn  # 28.65 of 50 rev/s
+    assert all(each.word in drawn for each in ends.segments)
+    assert 'class="end ' not in strip_of(None)
