@@ -130,6 +130,17 @@ def test_beside_the_server_the_newest_is_computed_and_one_event_tells_it():
     assert scenes == [20.0, 22.0] and lab.scene.spin == 22
 
 
+def test_an_older_run_never_takes_the_place_of_the_arrival_that_was_asked_for_since():
+    posted = Queue()
+    lab = Lab(Runs(posted.put))
+    lab.show()
+    for spin in (5.0, SPIN):  # of which the second ships, and is there at once
+        lab.ask(spin=spin)
+    while lab.busy:
+        posted.get(timeout=60)()
+    assert lab.scene.spin == lab.start.spin == SPIN
+
+
 def test_at_rest_the_strip_is_made_once_for_all_visitors(monkeypatch):
     asked = []
     found = Ends(SPINS, ("leans",) * len(SPINS), "stem")

@@ -2,10 +2,12 @@
 
 import gzip
 import json
+import re
 from base64 import b64encode
 
 from tornado.locks import Lock
 
+REFERENCE = re.compile(r'"data":\{"id":"([^"\\]*)"\}')  # in a text it would have backslashes
 SMALL = 4096  # bytes of an array that costs more as two pieces of its own than among the words
 
 
@@ -24,13 +26,14 @@ async def pieces_of(message):
     written = Pieces()
     await message.send(written)
     (header, _), metadata, (content, _), *arrays = written
-    kept = []
+    kept, small, named = [], {}, set(REFERENCE.findall(content))
     for (name, _), (data, _) in zip(arrays[::2], arrays[1::2], strict=True):
-        reference = '"data":' + name.replace(" ", "")
-        if len(data) > SMALL or reference not in content:
+        key = json.loads(name)["id"]
+        if len(data) > SMALL or key not in named:
             kept += (name, False), (data, True)
         else:
-            content = content.replace(reference, f'"data":"{b64encode(gzip.compress(data, 0, mtime=0)).decode()}"')
+            small[key] = b64encode(gzip.compress(data, 0, mtime=0)).decode()
+    content = REFERENCE.sub(lambda found: f'"data":"{small[found[1]]}"' if found[1] in small else found[0], content)
     if len(kept) < len(arrays):
         header = json.dumps(json.loads(header) | {"num_buffers": len(kept) // 2})
     return [(header, False), metadata, (content, False), *kept]

@@ -304,6 +304,8 @@ class Lab(param.Parameterized):
         self._run = None
         if self._again:
             self._begin()
+            if self._run is None:  # it is answered already, and newer than this
+                return
         idle = {"busy": False} if self._run is None else {}
         if isinstance(result, LabScene):
             self._good, self._back = inputs, back
