@@ -24,6 +24,7 @@ from bokeh.server.session import ServerSession
 from panel.io.resources import LOCAL_DIST
 
 FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that have Panel's freeze_doc
+MADE = WeakKeyDictionary()  # of an event, the message that begins with it
 WAITING = WeakKeyDictionary()  # of a connection, the messages that are made and not out
 
 
@@ -97,8 +98,12 @@ def to_the_last(dispatch):
 
 
 def put(connection, events):
-    """One message of these, behind what the connection has waiting."""
-    WAITING.setdefault(connection, deque()).append(connection.protocol.create("PATCH-DOC", events))
+    """One message of these, behind what the connection has waiting: for a session's second connection the same one, since
+    of what the first of two brings another would only tell the name. A page that comes back has two for a while."""
+    first = events[0]
+    if first not in MADE:
+        MADE[first] = connection.protocol.create("PATCH-DOC", events)
+    WAITING.setdefault(connection, deque()).append(MADE[first])
 
 
 async def send(connection):

@@ -17,6 +17,7 @@ import panel_material_ui as pmui
 import param
 import pytest
 from bokeh.document import Document
+from bokeh.document.events import ModelChangedEvent
 from bokeh.document.models import DocumentModelManager
 from bokeh.models import ColumnDataSource, Div, ImportedStyleSheet, Row
 from bokeh.protocol import Protocol
@@ -179,6 +180,21 @@ def test_what_fills_a_figure_comes_behind_the_figure(monkeypatch):
             monkeypatch.setattr(panel.io.document, name, getattr(panel.io.document, name))
         borrowed.in_order()
     assert asyncio.run(show_and_fill()) == [(True, False), (False, True)]
+
+
+def test_each_connection_of_a_session_is_brought_what_is_new():
+    """3. Bokeh's own messages, one for each, bring it to the first alone."""
+
+    class Connection:
+        protocol = Protocol()
+
+    document, row = Document(), Row()
+    document.add_root(row)
+    row.children = [Div(text="new")]
+    event, both = ModelChangedEvent(document, row, "children", row.children), (Connection(), Connection())
+    for connection in both:
+        borrowed.put(connection, [event])
+    assert all("new" in borrowed.WAITING[connection][0].content_json for connection in both)
 
 
 def test_what_writes_to_a_page_waits_under_these_names():

@@ -138,9 +138,9 @@ def test_a_term_is_explained_where_the_mouse_rests_and_hidden_when_it_goes(page)
     page.set_viewport_size({"width": 1400, "height": 1000})
     box = page.locator(".tippe-readout:visible", has_text=listed("glossary.terms.nudge.is", "en"))
 
-    page.evaluate(WORD, "nudge")  # brings it into the window
+    page.wait_for_function(WORD, arg="nudge")  # brings it into the window
     page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-    page.mouse.move(*page.evaluate(WORD, "nudge"))
+    page.mouse.move(*page.wait_for_function(WORD, arg="nudge").json_value())
     box.wait_for()
     page.mouse.move(0, 0)
     box.wait_for(state="detached")
