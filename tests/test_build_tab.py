@@ -8,10 +8,10 @@ from house import builder_of
 
 from app.model.build.builder import Rocking
 from app.model.build.dimensions import FAMILIES, changed, sentence, value_of
-from app.model.build.verdict import verdict
+from app.model.build.verdict import Verdict, verdict
 from app.model.explorer import Explorer
-from app.model.lab.run import TooLong
-from app.model.runs import Runs
+from app.model.lab.run import TooLong, shape_of
+from app.model.runs import Full, Runs, Stopped
 from app.tabs.build.build import KNOBS, Build
 from app.tabs.build.verdict import VerdictWords
 from tippe_core import (
@@ -140,7 +140,59 @@ def test_the_words_beside_the_body_are_of_that_body():
     told = VerdictWords(runs)
     assert "Working out" in told.view.object
     toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
-    told.show(SimpleNamespace(shape=toy))
+    told.show(SimpleNamespace(shape=toy, top=toy.top))
     assert "Yes, it turns over." in told.view.object and "Working out" not in told.view.object
-    told.show(SimpleNamespace(shape=None))  # parted: nothing is known of it
+    told.show(SimpleNamespace(shape=None, top=toy.top))  # parted: nothing is known of it
     assert "Yes, it turns over." in told.view.object
+
+
+def ending_in(monkeypatch, error):
+    """The keys asked for, of VerdictWords whose every run of all spins ends in this."""
+    asked = []
+
+    def never(*key, look):
+        asked.append(key)
+        raise error
+
+    monkeypatch.setattr("app.tabs.build.verdict.ends_once", never)
+    monkeypatch.setattr("app.tabs.build.verdict.known_ends", lambda *key: None)
+    monkeypatch.setattr("app.tabs.build.verdict.verdict", lambda shape: Verdict("over", "Yes", "so"))
+    return asked
+
+
+@pytest.mark.parametrize(
+    "error, says, again",
+    [
+        (Full(17), "17 computations wait", True),
+        (Stopped(), "was stopped before it was done", True),
+        (TopError("a", 1.5, "a < 1"), "it could not be computed: a = 1.5 is not possible: allowed is a &lt; 1", False),
+    ],
+)
+def test_the_strip_says_what_came_of_it_and_is_asked_for_again(monkeypatch, error, says, again):
+    asked = ending_in(monkeypatch, error)
+    told, preset = VerdictWords(Runs()), PRESETS[0]
+    scene = SimpleNamespace(shape=preset.shape, top=preset.top)
+    for times in (1, 2):
+        told.show(scene)
+        assert says in told.strip.object and "Working it out" not in told.strip.object
+        assert len(asked) == (times if again else 1)
+
+
+def test_the_strip_is_of_the_scene_that_is_shown(monkeypatch):
+    asked = ending_in(monkeypatch, Stopped())
+    told, preset = VerdictWords(Runs()), PRESETS[0]
+    own = changed(preset.shape, "a", 0.0) if hasattr(preset.shape, "a") else PRESETS[1].shape
+    told.show(SimpleNamespace(shape=preset.shape, top=preset.top))
+    told.show(SimpleNamespace(shape=own, top=own.top))
+    assert asked[0][0] == preset.name and shape_of(asked[1][0]) == own
+
+
+def test_a_verdict_that_nobody_computed_says_so(monkeypatch):
+    def never(shape):
+        raise Full(17)
+
+    ending_in(monkeypatch, Stopped())
+    monkeypatch.setattr("app.tabs.build.verdict.verdict", never)
+    told = VerdictWords(Runs())
+    told.show(SimpleNamespace(shape=PRESETS[0].shape, top=PRESETS[0].top))
+    assert "17 computations wait" in told.view.object and "Working out" not in told.view.object

@@ -4,6 +4,7 @@ import re
 import threading
 from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from app.model.lab.lab import scene_of
 from app.model.lab.life import SECONDS
 from app.model.lab.run import TABLES, TOYS, motion_on
 from app.model.regimes import ENDS
+from app.model.runs import Stopped
 from app.model.story import marks, story
 from app.text import LANGUAGES, speaking
 from tippe_core import PRESETS, Contensou, State, TopError, slide
@@ -147,6 +149,55 @@ def test_of_those_who_ask_for_the_same_ends_at_once_one_computes_them(monkeypatc
         waits = [threads.submit(ends.ends_once, TOY, TILT, 0.77, look=lambda share: go.set()) for _ in range(3)]
         assert [each.result() for each in waits] == [found] * 3
     assert len(asked) == 1 and not ends._under_way
+
+
+def test_after_one_who_stops_only_one_of_the_others_computes(monkeypatch):
+    """The first stops once a second waits; that one then computes, until a third waits or computes too."""
+    asked, second_waits, third_came, found = [], threading.Event(), threading.Event(), object()
+
+    def slow(*key, look=None):
+        asked.append(key)
+        if len(asked) == 1:
+            assert second_waits.wait(60)
+            raise Stopped
+        if len(asked) == 2:
+            second_computes.set()
+            assert third_came.wait(60)
+            return ends._kept.setdefault(key, found)
+        third_came.set()
+        return found
+
+    second_computes = threading.Event()
+    monkeypatch.setattr(ends, "ends_of", slow)
+    monkeypatch.setattr(ends, "_kept", OrderedDict())
+    with ThreadPoolExecutor(3) as threads:
+        one = threads.submit(ends.ends_once, TOY, TILT, 0.77)
+        two = threads.submit(ends.ends_once, TOY, TILT, 0.77, look=lambda share: second_waits.set())
+        assert second_computes.wait(60)
+        three = threads.submit(ends.ends_once, TOY, TILT, 0.77, look=lambda share: third_came.set())
+        assert isinstance(one.exception(), Stopped) and two.result() is three.result() is found
+    assert len(asked) == 2 and not ends._under_way
+
+
+def test_what_another_thread_throws_away_is_found_whole_or_not_at_all(monkeypatch):
+    """The oldest goes while it is looked up: as a slow thread would have it."""
+
+    class Slow(OrderedDict):
+        def get(self, key):
+            found = super().get(key)
+            other = threads.submit(ends.ends_of, TOY, TILT, 0.78)
+            with suppress(TimeoutError):
+                other.result(1)
+            return found
+
+    monkeypatch.setattr(ends, "slide_many", lambda *given, **how: None)
+    monkeypatch.setattr(ends, "codes_of", lambda many: ())
+    monkeypatch.setattr(ends, "MOST", 1)
+    monkeypatch.setattr(ends, "_kept", Slow())
+    found = ends.ends_of(TOY, TILT, 0.77)
+    with ThreadPoolExecutor(1) as threads:
+        assert ends.known_ends(TOY, TILT, 0.77) is found
+    assert [key[2] for key in ends._kept] == [0.78]
 
 
 @pytest.mark.slow

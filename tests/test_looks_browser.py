@@ -57,11 +57,16 @@ def test_a_german_page_writes_decimal_commas_on_axes_in_fields_and_in_3d(opened)
     field.fill("6,5")
     field.press("Enter")
     page.wait_for_function("() => /KJ=6\\.5/.test(location.search)")
-    ticks = """() => {
-      const figures = [...Bokeh.documents[0].all_models].filter(({ type }) => type === "CustomJSTickFormatter")
-      return figures[0].doFormat([-0.5, 0.1 + 0.2, 1], { loc: 0 })
+    ticks = """ticks => {
+      const [ours] = [...Bokeh.documents[0].all_models].filter(({ type }) => type === "CustomJSTickFormatter")
+      const theirs = new (Bokeh.Models.get("BasicTickFormatter"))()
+      return [ours, theirs].map(each => each.doFormat(ticks, { loc: 0 }))
     }"""
-    assert page.evaluate(ticks) == ["−0,5", "0,3", "1"]
+    for given in ([-0.5, 0.1 + 0.2, 1], [0, 0.5, 1], [-2e-7, -1e-7, 0], [0, 50000, 100000], [1.0001, 1.0002], []):
+        ours, theirs = page.evaluate(ticks, given)
+        assert ours == [each.replace(".", ",") for each in theirs], given
+    assert page.evaluate(ticks, [-0.5, 0.1 + 0.2, 1])[0] == ["−0,5", "0,3", "1"]
+    assert page.evaluate(ticks, [-2.5e-7, -1e-7])[0] == ["−2,500e−7", "−1,000e−7"]
 
 
 def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):

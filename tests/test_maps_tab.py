@@ -8,7 +8,7 @@ import pytest
 
 from app.model.maps import kept
 from app.model.maps.maps import OWN, Map
-from app.model.runs import Runs
+from app.model.runs import Full, Runs, Stopped
 from app.model.scene import solve as solve_scene
 from app.server.messages import CHANGES
 from app.state.keep import Keep, read
@@ -16,7 +16,7 @@ from app.state.map_text import MapText
 from app.tabs.maps.maps import Maps
 from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import Steady
-from tippe_core import PRESETS, Top, slide_many
+from tippe_core import PRESETS, Top, TopError, slide_many
 
 ROOT = Path(__file__).parent.parent
 
@@ -56,6 +56,44 @@ def test_what_stands_below_the_map():
     good = np.isfinite(runs.data["y"])
     np.testing.assert_allclose(runs.data["y"][good], growth[good], rtol=0.05)
     assert "<table>" in below.powers.object
+
+
+@pytest.mark.parametrize("error, says", [(Full(17), "17 computations wait"), (Stopped(), "was stopped before")])
+def test_what_stands_below_says_that_it_ended_and_is_asked_for_again(monkeypatch, error, says):
+    asked = []
+
+    def never(*given):
+        asked.append(given)
+        raise error
+
+    monkeypatch.setattr("app.tabs.maps.steady.bifurcation", never)
+    below = Steady(Runs())
+    for times in (1, 2):
+        below.show(Map(), (28.6, 5.7))
+        assert says in below.says.object and "under way" not in below.says.object and len(asked) == times
+
+
+def test_below_a_place_that_cannot_be_nothing_of_the_one_before_is_left(monkeypatch):
+    below = Steady(Runs())
+    below.show(Map(seconds=2.0), (28.6, 5.7))
+
+    def never(*given):
+        raise TopError("a", 1.5, "a < 1")
+
+    monkeypatch.setattr("app.tabs.maps.steady.bifurcation", never)
+    below.show(Map(seconds=2.0), (28.6, 8.0))
+    assert 'role="alert"' in below.says.object and "tilt of 8°" in below.title.object
+    assert not below.rates_title.object and not below.powers.object
+    pictures = below.lines, below.life, *below.dots, *below.sweeps, *sum(below.branches.values(), ())
+    assert not any(len(column) for source in pictures for column in source.data.values())
+
+
+def test_another_click_on_the_same_place_asks_again(tab, monkeypatch):
+    shown = []
+    monkeypatch.setattr(Steady, "show", lambda *given: shown.append(given))
+    tab.go(30.0, 8.0)
+    tab.go(30.0, 8.0)
+    assert len(shown) == 2
 
 
 @pytest.fixture

@@ -135,6 +135,35 @@ def test_students_at_another_worker_are_counted_and_the_room_outlives_all_worker
     assert (tmp_path / "state" / "tippe-top-explorer" / "votes.sqlite").exists()
 
 
+async def walks(page, first, second):
+    """On to another question, and back to the first, which has its votes still; then another class comes in."""
+    await wishes(page, "step", "way")
+    for phone in (first, second):
+        await comes(phone, "way")
+        assert room(phone)["mine"] is None
+    await votes(second, "other")
+    await counted(page, 1)
+    await wishes(page, "step", "flips")
+    await comes(first)
+    await counted(page, 2)
+    assert room(first)["mine"] == "over"
+
+    # another class comes in
+    await wishes(page, "reset")
+    await counted(page, 0)
+    await first.until(lambda: room(first).get("mine") is None)
+
+
+async def closes(page, first, second):
+    """The teacher closes the class, and both phones, of which the first is German, hear of it."""
+    await wishes(page, "section", "teach")
+    label = say("teach.vote.close")
+    await page.until(lambda: any(each.get("label") == label for _, each in page.visitor.models.values()))
+    await page.visitor.click(label)
+    await hears(first, say("teach.student.closed", "de"))
+    await hears(second, say("teach.student.closed"))
+
+
 @pytest.mark.parametrize("kind", ["a file", "a Redis"])
 def test_two_servers_are_one_class(kind, tmp_path, request):
     """Phones at one, the teacher at the other: they follow from question to question, see no answer before it is shown,
@@ -166,33 +195,13 @@ def test_two_servers_are_one_class(kind, tmp_path, request):
         await wishes(second, "vote", "falls")
         await hears(second, say("teach.student.shown"))
 
-        # on to another question, and back to the first, which has its votes still
-        await wishes(page, "step", "way")
-        for phone in (first, second):
-            await comes(phone, "way")
-            assert room(phone)["mine"] is None
-        await votes(second, "other")
-        await counted(page, 1)
-        await wishes(page, "step", "flips")
-        await comes(first)
-        await counted(page, 2)
-        assert room(first)["mine"] == "over"
-
-        # another class comes in
-        await wishes(page, "reset")
-        await counted(page, 0)
-        await first.until(lambda: room(first).get("mine") is None)
+        await walks(page, first, second)
 
         # whoever has another key has another room
         stranger = await teacher(other.url, f"{code}.{'x' * 22}")
         await hears(stranger, say("teach.vote.over"))
 
-        await wishes(page, "section", "teach")
-        closes = say("teach.vote.close")
-        await page.until(lambda: any(each.get("label") == closes for _, each in page.visitor.models.values()))
-        await page.visitor.click(say("teach.vote.close"))
-        await hears(first, say("teach.student.closed", "de"))
-        await hears(second, say("teach.student.closed"))
+        await closes(page, first, second)
         late = await student(other.url, code, "3")
         await hears(late, say("teach.student.gone"))
         again = await teacher(other.url, key)

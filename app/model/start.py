@@ -13,7 +13,7 @@ import param
 
 from app.model import arrival
 from app.model.bodies import fits
-from app.model.lab.run import PATCH, TOYS, Toy
+from app.model.lab.run import PATCH, TOYS, Toy, toy_of
 from app.model.planes.picture import LAWS, by_hand
 from tippe_core import BareSphere, Shape, State, Top, TopError, TruncatedSphere
 from tippe_core.paper.equations import rolling_velocity
@@ -93,11 +93,9 @@ class Start(param.Parameterized):
             top = Top(self.a, self.I1, self.I3)
         except TopError:  # said at the control that was given it
             top = self.shape.top
-        for name, preset in TOYS.items():
-            if preset.shape == self.shape and preset.top == top:
-                return name
-        if fits(self.shape, top):
-            return self.shape
+        toy = toy_of(self.shape, top)
+        if isinstance(toy, str) or fits(self.shape, top):
+            return toy
         return BareSphere(R=self.shape.scales.R, M=self.shape.scales.M, a=top.a, I1=top.I1, I3=top.I3)
 
     @property

@@ -141,7 +141,7 @@ class House:
         top = Top3D(sizing_mode="stretch_width", height=380, clock="build", label=say("build.spin.top"), **BARE)
         self._at_levels(lambda explores: setattr(top, "stylesheets", [HIGH, PLAIN] if explores else [HIGH]))
         self.pacer.shows(partial(show_top, top), "rest")
-        told = VerdictWords(self.runs, lambda: self.explorer.toy)
+        told = VerdictWords(self.runs)
         self.pacer.shows(told.show, "rest")
         spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0), variant="contained", sx=DARK)
         parts = {"section": bench.section_view, "built": (top, told.view, told.strip, spin), "bench": bench.bench_view}

@@ -8,7 +8,7 @@ import panel as pn
 import param
 
 from app.bundle import Bundled
-from app.model.runs import to_session
+from app.model.runs import Full, Stopped, to_session
 from app.text import say
 
 log = logging.getLogger("tippe")
@@ -52,6 +52,13 @@ def full(waiting):
     page = _page(pn.state.curdoc)
     if page:
         page.param.update(words=say("main.queue.full", count=waiting), times=page.times + 1)
+
+
+def ended(error):
+    """What a view says where its own work has ended with this and nothing is under way any more."""
+    if isinstance(error, Full):
+        return say("main.queue.full", count=error.args[0])
+    return say("main.queue.stopped" if isinstance(error, Stopped) else "main.failed")
 
 
 def failure():

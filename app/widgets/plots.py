@@ -54,7 +54,7 @@ def plain(**options):
     if (point := decimal_point()) != ".":
         for axis in fig.axis:
             if isinstance(axis.formatter, BasicTickFormatter):
-                axis.formatter = CustomJSTickFormatter(args={"point": point}, code=TICKS)
+                axis.formatter = CustomJSTickFormatter(args={"basic": axis.formatter, "point": point}, code=TICKS)
     if fig.name:
         label = say(f"roll.figures.{fig.name}")
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))

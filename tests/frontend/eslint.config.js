@@ -53,7 +53,10 @@ export default [
   },
   {
     files: ["app/ticks.js"],
-    languageOptions: { sourceType: "commonjs", globals: { tick: "readonly", point: "readonly" } },
+    languageOptions: {
+      sourceType: "commonjs",
+      globals: Object.fromEntries(["basic", "ticks", "index", "point"].map((name) => [name, "readonly"])),
+    },
   },
   { files: ["app/*.js", "app/{page,server,share}/*.js"], languageOptions: { sourceType: "commonjs" } }, // they stand in a page
   { files: ["app/frontend/src/**/*.js"], plugins: { ours: { rules: { typed } } }, rules: { "ours/typed": "error" } },

@@ -264,7 +264,7 @@ type Happened = { event_name: string; x: number; y: number; sx: number; sy: numb
 declare const Bokeh: { documents: any[]; index: any; require(path: string): any };
 
 // What app/call.js and app/ticks.js are given by Bokeh, which runs them.
-declare const run: string, given: any, cb_obj: any, tick: number, point: string;
+declare const run: string, given: any, cb_obj: any, basic: any, ticks: number[], index: number, point: string;
 
 interface Window {
   // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.

@@ -52,17 +52,19 @@ class Ends(NamedTuple):
 
 
 _kept: OrderedDict[Key, Ends] = OrderedDict()
-_under_way: dict[Key, threading.Lock] = {}
+_under_way: set[Key] = set()
+_changing = threading.Condition()  # of these two; who waits for another's hears of it
 
 
 def known_ends(toy: Toy, tilt: float, mu: float, patch: float = PATCH) -> Ends | None:
     """What ends_of() has found before, or ships with the arrival; None if it has to be asked."""
     key = toy, tilt, mu, patch
-    found = _kept.get(key)
-    if found is None and key == (arrival.TOY, arrival.TILT, arrival.MU, PATCH):
-        found = _kept[key] = Ends(SPINS, arrival.read_ends(), start_of(toy, 0.0, tilt, mu).part)
-    if found is not None:
-        _kept.move_to_end(key)
+    with _changing:
+        found = _kept.get(key)
+        if found is None and key == (arrival.TOY, arrival.TILT, arrival.MU, PATCH):
+            found = _kept[key] = Ends(SPINS, arrival.read_ends(), start_of(toy, 0.0, tilt, mu).part)
+        if found is not None:
+            _kept.move_to_end(key)
     return found
 
 
@@ -74,9 +76,11 @@ def ends_of(
     start, states = starts[0], np.array([[each.state] for each in starts], dtype=object)
     times = TIMES / start.scales.time
     many = slide_many(start.top, states, start.friction, times, edge=start.edge, progress=look)
-    found = _kept[toy, tilt, mu, patch] = Ends(SPINS, codes_of(many), start.part)
-    while len(_kept) > MOST:
-        _kept.popitem(last=False)
+    found = Ends(SPINS, codes_of(many), start.part)
+    with _changing:
+        _kept[toy, tilt, mu, patch] = found
+        while len(_kept) > MOST:
+            _kept.popitem(last=False)
     return found
 
 
@@ -85,15 +89,24 @@ def ends_once(
 ) -> Ends:
     """ends_of(), which of those who ask for the same at once only one computes."""
     key = toy, tilt, mu, patch
-    turn = _under_way.setdefault(key, threading.Lock())
-    while not turn.acquire(timeout=LOOKS):
+    while not _taken(key):
         if look is not None:
             look(0.0)
     try:
         return known_ends(*key) or ends_of(*key, look=look)
     finally:
-        _under_way.pop(key, None)
-        turn.release()
+        with _changing:
+            _under_way.discard(key)
+            _changing.notify_all()
+
+
+def _taken(key: Key) -> bool:
+    """Whether it is now who asks that computes it; waits for a while where another does."""
+    with _changing:
+        free = _changing.wait_for(lambda: key not in _under_way, LOOKS)
+        if free:
+            _under_way.add(key)
+    return free
 
 
 def codes_of(many: Many) -> tuple[str, ...]:

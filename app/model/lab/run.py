@@ -18,7 +18,7 @@ from app.model.lab.life import SECONDS, lived, thinned, within
 from app.model.planes.picture import Motion, Setup, by_hand
 from app.model.planes.run import check_room, clear, for_reader, motion_of, slid
 from app.model.runs import look
-from tippe_core import PRESETS, Contensou, Preset, Shape, State, TopError, Trajectory, glide, grip, roll
+from tippe_core import PRESETS, Contensou, Preset, Shape, State, Top, TopError, Trajectory, glide, grip, roll
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array
 
@@ -136,6 +136,11 @@ class TableMotion(Watched):
 def shape_of(toy: Toy) -> Shape:
     """The body of a toy."""
     return TOYS[toy].shape if isinstance(toy, str) else toy
+
+
+def toy_of(shape: Shape, top: Top) -> Toy:
+    """The name in TOYS of what has this body and this top; else the body."""
+    return next((name for name, preset in TOYS.items() if preset.shape == shape and preset.top == top), shape)
 
 
 def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH) -> Start:

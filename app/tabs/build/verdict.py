@@ -8,9 +8,11 @@ from app.model.build.verdict import verdict
 from app.model.colours import COLOURS
 from app.model.ends import COLOUR_IN_LAB
 from app.model.lab.ends import SPINS, TIMES, Ends, ends_once, known_ends
+from app.model.lab.run import toy_of
 from app.model.runs import Run, Stopped
-from app.text import say, written
+from app.text import say, told, written
 from app.widgets.cards import words
+from app.widgets.failure import ended
 from app.widgets.spelling import spelled
 from tippe_core import TopError
 
@@ -41,27 +43,31 @@ STRIP = (
 
 
 class VerdictWords:
-    """view: the words; strip: the ends of its runs over spin; runs: the page's Runs; toy: gives the page's top, as the
-    Lab has it. show() is for each scene of a hand at rest."""
+    """view: the words; strip: the ends of its runs over spin; runs: the page's Runs. show() is for each scene of a
+    hand at rest; what has ended before it was done is asked for again then."""
 
-    def __init__(self, runs, toy=lambda: None):
-        self._runs, self._shape, self._said, self._toy = runs, None, "", toy
+    def __init__(self, runs):
+        self._runs, self._shape, self._said, self._asked = runs, None, "", None
         self.view = words(self._written(), style=OLD)
         self.strip = words(strip_of(None), style=STRIP)
 
     def show(self, scene):
         """Computes it, where the body is another; until then what is there is old."""
         shape = scene.shape
-        if shape is None or shape == self._shape:
+        if shape is None:
             return
-        self._ends(self._toy() or shape)
+        self._ends(toy_of(shape, scene.top), TILT, MU)
+        if shape == self._shape:
+            return
         self._shape = shape
         self.view.object = self._written("old")
         self._runs.begin(Run(lambda run: verdict(shape), partial(self._done, shape)), "verdict")
 
-    def _ends(self, toy):
+    def _ends(self, *key):
         """Where the runs of all spins end: known, or computed beside; the Lab's are the same."""
-        self._asked = key = toy, TILT, MU
+        if key == self._asked:
+            return
+        self._asked = key
         found = known_ends(*key)
         self.strip.object = strip_of(found)
         if found is None:
@@ -69,34 +75,47 @@ class VerdictWords:
             self._runs.begin(work, "verdict-ends")
 
     def _ended(self, key, result):
-        if key == self._asked and isinstance(result, Ends):
-            self.strip.object = strip_of(result)
-        elif isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
+        if key == self._asked:
+            if isinstance(result, Ends):
+                self.strip.object = strip_of(result)
+            elif isinstance(result, TopError):
+                self.strip.object = strip_of(None, say("build.verdict.strip_refused", why=told(result)))
+            else:
+                self._asked = None  # to be asked again
+                self.strip.object = strip_of(None, ended(result))
+        if isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
             raise result
 
     def _done(self, shape, result):
-        if isinstance(result, Stopped) or shape != self._shape:
-            self._shape = None if shape == self._shape else self._shape  # to be asked again
+        if shape != self._shape:
             return
         if isinstance(result, Exception):
-            raise result
+            self._shape = None  # to be asked again
+            self.view.object = self._written("old", ended(result))
+            if not isinstance(result, Stopped):
+                raise result
+            return
         self._said = f"<h3>{html.escape(spelled(result.headline))}</h3><div>{html.escape(spelled(result.why))}</div>"
         self.view.object = self._written()
 
-    def _written(self, kind=""):
-        waits = f'<div role="status">{say("build.verdict.waits")}</div>' if kind or not self._said else ""
+    def _written(self, kind="", why=""):
+        waits = f'<div role="status">{why or say("build.verdict.waits")}</div>' if kind or not self._said else ""
         return f'<div class="verdict">{waits}<div class="{kind}">{self._said}</div></div>'
 
 
-def strip_of(ends):
-    """The ends of runs over the spin, with the spin of the verdict on it; None: they are still to come."""
+def strip_of(ends, why=""):
+    """The ends of runs over the spin, with the spin of the verdict on it; None: they are still to come, or why they
+    will not."""
     low, high = float(SPINS[0]), float(SPINS[-1])
     says = say("build.verdict.strip", count=len(SPINS), seconds=float(TIMES[-1]), tilt=TILT, mu=MU)
-    waits, unit = say("build.verdict.strip_waits"), say("build.verdict.strip_unit")
+    waits = html.escape(spelled(why or say("build.verdict.strip_waits")))
+    unit = say("build.verdict.strip_unit")
     at = f"{100 * (SPIN - low) / (high - low):.2f}%"
     mark = f'<i class="mark" style="left: {at}"></i>'
     parts = ends.segments if ends else ()
-    told = "; ".join(say("build.verdict.stretch", low=each.least, high=each.most, word=each.word) for each in parts)
+    stretches = "; ".join(
+        say("build.verdict.stretch", low=each.least, high=each.most, word=each.word) for each in parts
+    )
     drawn = "".join(
         f'<span class="end {each.code}" style="{_colour(each.code)}'
         f'left: {100 * (each.least - low) / (high - low):.2f}%; '
@@ -109,7 +128,7 @@ def strip_of(ends):
     axis = f'<span>{low:.0f}</span><b style="left: {at}">{written(SPIN, ".1f")}</b><span>{high:.0f} {unit}</span>'
     return (
         f'<div class="strip"><div>{html.escape(spelled(says))}</div><div class="ends" role="img" '
-        f'aria-label="{html.escape(spelled(told) or waits)}">{drawn}{mark}</div>'
+        f'aria-label="{html.escape(spelled(stretches)) or waits}">{drawn}{mark}</div>'
         f'<div class="under">{axis}</div><div class="kinds">{key or waits}</div></div>'
     )
 

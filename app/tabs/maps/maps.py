@@ -160,11 +160,7 @@ class Maps:
         if known is not None:
             self._show(known)
         self._runs.begin(self._run, "maps", MAPS)
-        place = self._within(asked, before)
-        if place == self.choice.place:
-            self._show_place()
-        else:
-            self.choice.place = place
+        self._go(self._within(asked, before))
 
     def _within(self, asked, before):
         """The bead on the map: where it was, if that is on it, else in the middle."""
@@ -237,7 +233,13 @@ class Maps:
         if cell and self.level is not None:
             i, j = self.level.cell(across, up)
             across, up = float(self.level.x[j]), float(self.level.y[i])
-        self.choice.place = [across, up]
+        self._go([across, up])
+
+    def _go(self, place):
+        if place == self.choice.place:
+            self._show_place()  # what came to nothing before is asked for again
+        else:
+            self.choice.place = place
 
     def _show_place(self):
         asked, (across, up) = self.asked, self.choice.place

@@ -17,6 +17,7 @@ from app.tabs.maps.picture import DARK
 from app.tabs.maps.words import unit_of
 from app.text import listed, say, told
 from app.widgets.cards import alert, note, words
+from app.widgets.failure import ended
 from app.widgets.plots import draw, plain
 from tippe_core import TopError
 
@@ -29,7 +30,7 @@ class Steady:
     """view: its parts. show() computes what belongs to a place of a map, beside; the newest counts."""
 
     def __init__(self, runs):
-        self._runs, self._key = runs, None
+        self._runs, self._key, self._drawn = runs, None, False
         self.title, self.says, self.powers, self.rates_title = words(), words(), words(), words()
         self.bends = fig = _figure("maps-bends", 230, (0, 184))
         fig.yaxis.ticker = [0, 45, 90, 135, 180]
@@ -74,7 +75,7 @@ class Steady:
         if key == self._key:
             return
         self._key = key
-        if not self.title.object:  # else what stands there is still of the place before
+        if not self._drawn:  # else what stands there is still of the place before
             self.title.object = _title(x)
             for fig in (self.bends, self.grow, self.turn):
                 fig.x_range.update(**dict(zip(("start", "end"), spins_of(asked), strict=True)))
@@ -84,20 +85,33 @@ class Steady:
         self._runs.begin(work, "maps-steady", MAPS)
 
     def _done(self, key, x, result):
-        if isinstance(result, Stopped) or key != self._key:
+        if key != self._key:
             return
         if isinstance(result, TopError):
-            self.says.object = alert(told(result))
+            with pn.io.hold():
+                self.title.object = _title(x)
+                self._clear()
+                self.says.object = alert(told(result))
             return
         if isinstance(result, Exception):
-            raise result
+            self._key = None  # to be asked again
+            self.says.object = note(ended(result))
+            if not isinstance(result, Stopped):
+                raise result
+            return
         found, small = result
         with pn.io.hold():
-            self.title.object = _title(x)
+            self._drawn, self.title.object = True, _title(x)
             self._draw(found)
             self._draw_rates(small)
             self.says.object = of_life(found)
             self.powers.object = of_powers(small.powers, x)
+
+    def _clear(self):
+        """Nothing is drawn of the place before."""
+        self._drawn, self.rates_title.object, self.powers.object = False, "", ""
+        for source in (self.lines, *self.dots, *self.sweeps, self.life, *sum(self.branches.values(), ())):
+            source.data = {name: [] for name in source.data}
 
     def _draw(self, found):
         self.bends.x_range.update(start=float(found.spin[0]), end=float(found.spin[-1]))
