@@ -139,7 +139,7 @@ async def ask_of_a_broken_server(here, monkeypatch):
     await page.until(lambda: page.now(table, "file", [0])[0] == 1)
     before = page.now(table, "file")[1]
     await page.set(table, "clicks", 3)  # the same file once more
-    await page.until(lambda: page.now(table, "file") == [2, before])
+    await page.until(lambda: page.now(table, "file")[:2] == [2, before])
 
     dial, known = page.visitor.find("Dial")[0], len(page.visitor.models)
     await fails(

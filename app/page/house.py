@@ -56,7 +56,8 @@ class House:
     """The Explorer that solves, the Pacer that is asked and shows its scenes, the Builder of bodies, the Lab, how the
     top is played, what is kept, and what runs beside.
 
-    look_at(name of a room) shows it, and level is how much the page shows: the page sets where that leads.
+    look_at(name of a room) shows it, and level is how much the page shows: the page sets where that leads; and what is
+    told when runs_shown() may be others.
     """
 
     def __init__(self, texts, sentence, look_at, level):
@@ -71,7 +72,9 @@ class House:
         )
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
+        self.told = lambda: None
         self.lab_of = Lab(self.runs, self.explorer)
+        self.lab_of.param.watch(lambda *events: self.told(), ["scene", "busy"])
         self.start = OneStart(self.explorer, self.lab_of)
         pn.state.curdoc.on_session_destroyed(lambda context: self.runs.leave())
         pn.state.onload(self.pacer.begin)
@@ -160,6 +163,7 @@ class House:
         planes.param.watch(lambda event: view.show(event.new), "picture")
         self.explorer.param.watch(lambda event: view.look(planes.plane), "table")
         planes.param.watch(lambda event: view.wait(), "busy")
+        planes.param.watch(lambda *events: self.told(), ["picture", "busy"])
         planes.show()
         if planes.picture is not None:
             view.show(planes.picture)

@@ -53,18 +53,19 @@ def page():
     pacer, keep = house.pacer, house.keep
     look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()
     share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
-                  lambda: house.explorer.shape, worksheet)  # fmt: skip
+                  lambda: house.start.busy(rooms.room), house.explorer.settle, lambda: house.explorer.shape,
+                  worksheet)  # fmt: skip
+    house.told = share.refresh
     for owner in (look, tongue):
         keep.add(owner)
-    for show, when in ((share.show, "hand"), (guide.show, "rest")):
-        pacer.shows(show, when)
+    for show in (share.show, guide.show):
+        pacer.shows(show, "rest")
     rooms = Rooms(house.makers, TABS, keep, pacer.soon, room.AT_ONCE, room.opened(texts, search), room.USUAL,
                   house.level)  # fmt: skip
     rooms.param.watch(lambda event: setattr(house, "level", event.new), "level")
     rooms.param.watch(lambda event: house.start.moved(event.old, event.new), "room")
     house.level = rooms.level
     house.start.moved("", rooms.room)
-    house.lab_of.param.watch(share.refresh, "scene")
     head = HeadBar(rooms, keep, look, chosen(rooms, house, tongue, share), room.USUAL)
     share.param.watch(lambda event: head.opened(event.new), "is_open")
     tells(head, rooms, house)
@@ -88,11 +89,9 @@ def chosen(rooms, house, tongue, share):
         tongue.lang = name
         share.reload()
 
-    def take_home():
-        house.explorer.settle()
-        share.toggle()
-
-    return choices.asks(toy=lambda name: house.take(name, rooms.room), table=table, language=language, share=take_home)
+    return choices.asks(
+        toy=lambda name: house.take(name, rooms.room), table=table, language=language, share=share.toggle
+    )
 
 
 def tells(head, rooms, house):

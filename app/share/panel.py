@@ -50,13 +50,13 @@ def _program(text, link):
 
 
 class Files:
-    """view: the rows. runs: the page's Runs; link: gives the page's address; playing: its Playing; body: gives the body
-    that can be printed, or None; sheet: gives the page of a class to print. show(scene, shown) is for what is on the
-    page now; shown: {table: Shown}, none where what rolls is looked at."""
+    """view: the rows. runs: the page's Runs; playing: its Playing; body: gives the body that can be printed, or None;
+    sheet: gives the page of a class to print. show(scene, shown, link) is for what is on the page now, and the address
+    that opens it; shown: {table: Shown}, none where what rolls is looked at."""
 
-    def __init__(self, runs, link, playing, body, sheet):
-        self._runs, self._link, self._playing, self._body = runs, link, playing, body
-        self._scene, self._shown = None, {}
+    def __init__(self, runs, playing, body, sheet):
+        self._runs, self._playing, self._body = runs, playing, body
+        self._scene, self._shown, self._link = None, {}, ""
         tables = listed("share.tables")
         self._table = pmui.RadioButtonGroup(options={tables[name]: name for name in tables}, value=next(iter(tables)),
                                             label="", size="small", margin=(4, 0), sx=PLAIN)  # fmt: skip
@@ -87,12 +87,12 @@ class Files:
         ]  # fmt: skip
 
     def _save(self, kind):
-        return Download(self._runs, lambda: (self._what, self._link(), 1 / self._playing.speed),
+        return Download(self._runs, lambda: (self._what, self._link, 1 / self._playing.speed),
                         lambda *what: made(kind, *what), label=NAMES[kind], filename=kind,
                         margin=0)  # fmt: skip
 
     def _of_scene(self, label, filename, make):
-        return Download(self._runs, lambda: (self._scene, self._link()), make, label=label, filename=filename,
+        return Download(self._runs, lambda: (self._scene, self._link), make, label=label, filename=filename,
                         margin=0)  # fmt: skip
 
     def _figures(self):
@@ -115,8 +115,9 @@ class Files:
         """What is shown of which the files are."""
         return self._shown.get(self._table.value, self._scene) if self._shown else self._scene
 
-    def show(self, scene, shown):
-        self._scene, self._shown = scene, shown
+    def show(self, scene, shown, link):
+        another = scene is not self._scene
+        self._scene, self._shown, self._link = scene, shown, link
         if shown and self._table.value not in shown:
             self._table.value = next(iter(shown))
         self._table.visible = len(shown) > 1
@@ -125,7 +126,8 @@ class Files:
         self._solid.object = _titled("solid", "print" if self._mesh.visible else "says")
         self._photo.caption = self._caption()
         self._name()
-        self._show_python()
+        if another:
+            self._show_python()
 
     def _name(self):
         """Says which motion they are of, and calls them so."""

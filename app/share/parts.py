@@ -24,6 +24,7 @@ class ShareHead(Bundled):
     link = param.String(default="", doc="the address of what is shown")
     picture = param.String(default="", doc="its QR code as an SVG; none where it is too long for one")
     said = param.List(default=[], doc="sentences about it")
+    opened = param.Integer(default=0, doc="how often it was opened")
     closed = param.Integer(default=0, doc="how often it was closed; the browser writes it")
 
 

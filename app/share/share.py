@@ -30,22 +30,26 @@ PLACE = """
 @media (max-width: 1180px) { :host { width: 393px; padding: 12px 16px 24px } }
 @media (max-width: 700px) { :host { width: 100%; bottom: calc(53px + env(safe-area-inset-bottom)); border: 0 } }
 """
+UNROLLED = ".scroll-button { display: none !important }"
 
 
 class Share(param.Parameterized):
     """main: what was wrong with the link, and what is laid over the page.
 
     keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs; shown: gives the
-    saved_runs.Shown of the tables that are looked at; body: gives the body of the page's top; sheet: gives the page of
-    a class to print. show() is for each scene.
+    saved_runs.Shown of the tables that are looked at; busy: whether others are being computed; settle: solves the scene
+    of what is set, where that waits; body: gives the body of the page's top; sheet: gives the page of a class to print.
+    show() is for the scene of a hand at rest.
     """
 
     is_open = param.Boolean(default=False)
 
-    def __init__(self, keep, playing, scene, runs=None, shown=list, body=lambda: None, sheet=str):
+    def __init__(self, keep, playing, scene, runs=None, shown=list, busy=bool, settle=bool, body=lambda: None,
+                 sheet=str):  # fmt: skip
         super().__init__()
         self.keep, self._playing, self._scene, self._runs = keep, playing, scene, runs or Runs()
-        self._shown, self._body, self._sheet, self._files = shown, body, sheet, None
+        self._shown, self._busy, self._settle, self._body, self._sheet = shown, busy, settle, body, sheet
+        self._files = None
         self.keep.add(Clock(playing))
         self.keep.add(playing)
         self.address = Address(search=self.keep.query, width=0, height=0, margin=0)
@@ -98,6 +102,7 @@ class Share(param.Parameterized):
             return
         self._waiting = False
         self.keep.at_rest(self.address.gesture)
+        self.refresh()
 
     def _kept(self, *events):
         self.address.search = self.keep.query
@@ -105,31 +110,30 @@ class Share(param.Parameterized):
 
     # --- what is laid over the page, beside the stage ---
 
-    def toggle(self, opens=None):
-        """Opens it, of what is shown now, or closes it; opens: whether, else what it is not."""
-        self.open() if opens or (opens is None and not self.is_open) else self.close()
+    def toggle(self):
+        """Opens it, of what is shown now, or closes it."""
+        self.close() if self.is_open else self.open()
 
     def open(self):
         if self._files is None:
             self._make()
         self._show()
+        self._head.opened += 1
         self.panel.visible = self.is_open = True
 
     def close(self):
         self.panel.visible = self.is_open = False
 
     def refresh(self, *events):
-        """What is shown may be another."""
-        if self.is_open:
+        """What is shown may be another; while a hand is at it the link is not yet, and what it opens waits for that."""
+        if self.is_open and not self._waiting:
             self._show()
 
     def _show(self):
-        link = self.link
-        try:
-            code = segno.make(link, error="m", micro=False)
-            picture = code.svg_inline(omitsize=True, dark="black", light="white", title=say("share.panel.qr"))
-        except segno.DataOverflowError:
-            picture = ""
+        self._settle()
+        link, picture = self.link, self._head.picture
+        if link != self._head.link:
+            picture = _code(link)
         at = None if self._playing.playing else self._playing.time * self._scene.scales.time
         said = [
             say("share.panel.opens") if at is None or not self._rolls() else say("share.panel.opens_at", time=at),
@@ -137,7 +141,9 @@ class Share(param.Parameterized):
             say("share.panel.local") if is_local(urlsplit(link).hostname or "") else "",
         ]
         self._head.param.update(link=link, picture=picture, said=[each for each in said if each])
-        self._files.show(self._scene, {shown.name: shown for shown in self._shown()})
+        if not self._busy():  # else they are of what was, with its own link
+            self._files.show(self._scene, {shown.name: shown for shown in self._shown()}, link)
+            self._saves.visible = True
 
     def _rolls(self):
         return "t" in parse_qs(urlsplit(self.link).query)
@@ -146,5 +152,16 @@ class Share(param.Parameterized):
         self._head = ShareHead(margin=0, sizing_mode="stretch_width")
         at_once(self._head, "closed")
         self._head.param.watch(lambda event: self.close(), "closed")
-        self._files = Files(self._runs, lambda: self.link, self._playing, self._body, self._sheet)
-        self.panel.objects = [self._head, *self._files.view]
+        self._files = Files(self._runs, self._playing, self._body, self._sheet)
+        self._saves = pn.Column(*self._files.view, sizing_mode="stretch_width", margin=0, visible=False,
+                                stylesheets=[UNROLLED])  # fmt: skip
+        self.panel.objects = [self._head, self._saves]
+
+
+def _code(link):
+    """The link's QR code as an SVG; none where it is too long for one."""
+    try:
+        code = segno.make(link, error="m", micro=False)
+    except segno.DataOverflowError:
+        return ""
+    return code.svg_inline(omitsize=True, dark="black", light="white", title=say("share.panel.qr"))

@@ -29,6 +29,11 @@ class OneStart:
         self._explorer.table = name
         return ROLLING if name == "rough" else PLANES
 
+    def busy(self, room):
+        """Whether this room is about to show other runs."""
+        model = {TOY: self._lab, PLANES: self._planes}.get(room)
+        return model is not None and model.busy
+
     def lab_runs(self):
         """(table, its motion, what it began with) of the tables that the Lab shows."""
         scene = self._lab.scene

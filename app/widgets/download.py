@@ -1,6 +1,7 @@
 """A button that saves a file, which is made beside the server when it is clicked."""
 
 import base64
+from functools import partial
 
 import param
 
@@ -11,13 +12,13 @@ from app.model.runs import FILES, Run, Stopped
 class Download(Bundled):
     """runs: the page's Runs. state: gives the arguments of make, as of the click; make: gives the file's bytes.
 
-    Clicks while a file is made are answered by one file, of what is set at the last of them.
+    Clicks while a file is made are answered by one file, of what is set at the last of them, and called as it was then.
     """
 
     label = param.String(constant=True)
     filename = param.String()
     clicks = param.Integer(default=0, doc="the browser's")
-    file = param.List(default=[0, ""], doc="[how many so far, the newest in base64]")
+    file = param.List(default=[0, "", ""], doc="[how many so far, the newest in base64, its name]")
     making = param.Boolean(default=False)
 
     def __init__(self, runs, state, make, **params):
@@ -26,15 +27,16 @@ class Download(Bundled):
         self.param.watch(self._clicked, "clicks")
 
     def _clicked(self, event):
-        asked = self._state()
+        asked = self.filename, self._state()
         if self.making and asked == self._asked:
             return
         self._asked, self.making = asked, True
-        self._runs.begin(Run(lambda run: self._make(*asked), self._made), self.filename, FILES)
+        name, state = asked
+        self._runs.begin(Run(lambda run: self._make(*state), partial(self._made, name)), f"file {id(self)}", FILES)
 
-    def _made(self, result):
+    def _made(self, name, result):
         self.making = False
         if not isinstance(result, Exception):
-            self.file = [self.file[0] + 1, base64.b64encode(result).decode()]
+            self.file = [self.file[0] + 1, base64.b64encode(result).decode(), name]
         elif not isinstance(result, Stopped):
             raise result

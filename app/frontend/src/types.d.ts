@@ -121,7 +121,7 @@ interface DownloadModel extends Model {
   label: string;
   filename: string;
   clicks: number;
-  file: [count: number, base64: string];
+  file: [count: number, base64: string, name: string];
   making: boolean;
 }
 
@@ -156,6 +156,7 @@ interface ShareHeadModel extends Model {
   link: string;
   picture: string;
   said: string[];
+  opened: number;
   closed: number;
 }
 

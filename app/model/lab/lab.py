@@ -177,6 +177,7 @@ class Lab(param.Parameterized):
         self._messages: dict[str, str] = {}
         self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and what puts the Start back to it
         self._strip: Key | None = None
+        self._seen: Inputs | None = None  # what was set when it was last looked at
         super().__init__()  # type: ignore[no-untyped-call]  # of param
         self.start.param.watch(self._follow, list(WATCHED))
 
@@ -278,6 +279,9 @@ class Lab(param.Parameterized):
             self.start.later(**self._back)
             self._tell()
             return
+        if events and self.inputs == self._seen:
+            return  # what rolls follows what is set
+        self._seen = self.inputs
         if self._strip != self._key:
             self._set(ends=None)
         self.rests = False

@@ -8,5 +8,5 @@ export function renderDownload({ model, el }) {
   const show = () => button.setAttribute("aria-busy", String(model.making));
   model.on("making", show);
   show();
-  model.on("file", () => save(new Blob([bytesOf(model.file[1])]), model.filename));
+  model.on("file", () => save(new Blob([bytesOf(model.file[1])]), model.file[2]));
 }

@@ -4,7 +4,11 @@ import { addButton } from "./saving.js";
 /** @param {Rendering<PaperModel>} rendering */
 export function renderPaper({ model, el }) {
   addButton(el, model.label).onclick = () => {
-    const paper = window.open(URL.createObjectURL(new Blob([model.page], { type: "text/html" })), "_blank");
-    paper?.addEventListener("load", () => paper.print());
+    const paper = window.open("", "_blank");
+    if (!paper) return;
+    paper.document.open(); // which ends what listened before
+    paper.addEventListener("load", () => paper.print());
+    paper.document.write(model.page);
+    paper.document.close();
   };
 }

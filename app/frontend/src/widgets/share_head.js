@@ -26,7 +26,10 @@ const elsewhere = (event) => event.composedPath().some((each) => each instanceof
 
 /** @param {Rendering<ShareHeadModel>} rendering */
 export function renderShareHead({ model, el }) {
-  const { texts } = model, listening = new AbortController(), before = document.activeElement?.shadowRoot?.activeElement;
+  const { texts } = model, listening = new AbortController();
+  /** @type {Element | null | undefined} */
+  let before;
+  const opened = () => (before = document.activeElement?.shadowRoot?.activeElement);
   const close = () => {
     model.closed += 1;
     if (before instanceof HTMLElement) before.focus();
@@ -55,6 +58,8 @@ export function renderShareHead({ model, el }) {
     [first.textContent, rest.textContent] = [model.said[0] ?? "", model.said.slice(1).join(" ")];
   };
   for (const name of ["link", "picture", "said"]) model.on(name, show);
+  model.on("opened", opened);
+  opened();
   window.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !event.defaultPrevented && el.getClientRects().length && !elsewhere(event)) close();
   }, { signal: listening.signal });

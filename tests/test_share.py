@@ -1,0 +1,190 @@
+"""Share stays open beside the stage, and what it gives to take home is what its link opens."""
+
+import base64
+import re
+from functools import wraps
+from types import SimpleNamespace
+
+import panel as pn
+import pytest
+from bokeh.document import Document
+from panel.io.state import set_curdoc
+
+import app.share.share
+from app.model.lab.lab import Lab
+from app.model.runs import Run, Runs
+from app.page.house import House
+from app.page.page import page
+from app.share.panel import Files
+from app.share.share import Share
+from app.widgets.download import Download
+from app.widgets.pacing import Pacer
+
+# ---- a page whose clock the test has ----
+
+
+@pytest.fixture
+def opened(monkeypatch):
+    """opened(query): a page with Share open; its house, share, and rest(), after which no hand moves and all is
+    painted."""
+    made, timers = {}, []
+
+    def kept(make):
+        @wraps(make)
+        def making(view, *inputs, **named):
+            made[type(view)] = view
+            make(view, *inputs, **named)
+
+        return making
+
+    for kind in (House, Share, Pacer):
+        monkeypatch.setattr(kind, "__init__", kept(kind.__init__))
+    for where in ("app.widgets.pacing", "app.share.share"):
+        monkeypatch.setattr(f"{where}.after", lambda seconds, then: timers.append(then))
+    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
+
+    def rest():
+        for _ in range(40):
+            made[Pacer]._requested -= 9  # it is long ago
+            made[Share]._changed_at -= 9
+            made[Pacer].painted.painted = made[Pacer].painted.sent
+            if timers:
+                timers.pop(0)()
+
+    with set_curdoc(Document()):
+
+        def opens(query):
+            pn.state.location.search = query
+            page()
+            made[Pacer]._begun = True
+            rest()
+            made[Share].toggle()
+            return SimpleNamespace(house=made[House], share=made[Share], rest=rest)
+
+        yield opens
+
+
+def told(share):
+    """(the spin in its link, of the motion that its figures and its letter are of, of the run that is saved)."""
+    in_link = re.search(r"spin=([^&]*)", share._head.link)
+    [run] = share._files._shown.values()
+    turns = run.setup.state.omega3 * run.setup.scales.angular_velocity / 6.283185307179586
+    return float(in_link[1]), share._files._scene.inputs["spin"], pytest.approx(turns)
+
+
+@pytest.mark.parametrize("tab", ["lab", "three-planes"])
+def test_while_it_is_open_it_is_of_the_start_that_its_link_opens(opened, tab):
+    seen = opened(f"?v=2&tab={tab}&by=hand&spin=15")
+    assert told(seen.share) == (15, 15, 15)
+    if tab == "lab":
+        seen.house.lab_of.ask(spin=12.0)
+    else:
+        seen.house.explorer.later(spin=12.0)
+    seen.rest()
+    assert told(seen.share) == (12, 12, 12)
+    assert seen.share._files._link == seen.share._head.link
+    assert seen.share._files._saves["csv"]._state()[:2] == (seen.share._files._what, seen.share.link)
+
+
+def test_a_hand_that_moves_has_nothing_solved_for_it_and_nothing_drawn(opened, monkeypatch):
+    seen = opened("?v=2&tab=lab")
+    codes, solved, explorer = [], [], seen.house.explorer
+    real = app.share.share.segno.make
+    monkeypatch.setattr(app.share.share.segno, "make", lambda *a, **b: codes.append(a[0]) or real(*a, **b))
+    explorer.param.watch(lambda event: solved.append(event.new), "scene")
+    for spin in (12.0, 13.0, 14.0):
+        seen.house.lab_of.ask(spin=spin)
+    assert solved == codes == []
+    seen.rest()
+    assert len(solved) == 1 and codes == [seen.share.link]
+    seen.share.refresh()
+    assert len(codes) == 1
+
+
+def test_a_scene_that_no_link_has_yet_is_not_shown(opened):
+    seen = opened("?v=2&tab=roll&KJ=6")
+    seen.house.pacer.ask(K_J=6.5)
+    assert "KJ=6" in seen.share._head.link and seen.share._files._scene.constants.K_J == 6
+    seen.rest()
+    assert "KJ=6.5" in seen.share._head.link and seen.share._files._scene.constants.K_J == 6.5
+
+
+def test_a_run_is_saved_with_its_own_link_until_the_next_has_come(opened, monkeypatch):
+    seen = opened("?v=2&tab=lab&by=hand&spin=15")
+    held = []
+    runs = seen.house.runs
+    monkeypatch.setattr(Runs, "beside", True)
+    monkeypatch.setattr(runs, "begin", lambda run, kind, *pool: held.append(run))
+    seen.house.lab_of.ask(spin=12.0)
+    seen.rest()
+    what, link, _ = seen.share._files._saves["csv"]._state()
+    assert seen.house.lab_of.busy and "spin=12" in seen.share._head.link
+    assert "spin=15" in link and f"{what.setup.state.omega3:.6g}" == f"{15 * _turn(what):.6g}"
+    assert len(held) == 1  # that it is solved how this rolls has not had it begun again
+    held[0].done(held[0].result())
+    what, link, _ = seen.share._files._saves["csv"]._state()
+    assert "spin=12" in link and f"{what.setup.state.omega3:.6g}" == f"{12 * _turn(what):.6g}"
+
+
+def _turn(what):
+    return 6.283185307179586 / what.setup.scales.angular_velocity
+
+
+def test_a_lab_whose_run_is_under_way_is_not_disturbed_by_how_its_start_rolls(opened):
+    lab = opened("?v=2&tab=lab").house.lab_of
+    lab.ask(spin=12.0)
+    lab.rest()
+    assert isinstance(lab, Lab) and lab.rests
+    lab.start.settle()
+    assert lab.rests
+
+
+# ---- files ----
+
+
+class Beside(Runs):
+    """Does what it is given when it is told to, and forgets as a Runs with threads does."""
+
+    def __init__(self):
+        super().__init__()
+        self.begun = []
+
+    def begin(self, run, kind, *pool):
+        for before, its_kind in self.begun:
+            if its_kind == kind:
+                before.forget()
+        self.begun.append((run, kind))
+
+    def work(self):
+        while self.begun:
+            run: Run = self.begun.pop(0)[0]
+            run.done(run.result())
+
+
+def test_two_buttons_whose_files_have_one_name_answer_both():
+    runs = Beside()
+    buttons = [Download(runs, tuple, lambda text=text: text, label="PNG", filename="one.png") for text in (b"a", b"b")]
+    for button in buttons:
+        button.clicks += 1
+    runs.work()
+    assert [button.making for button in buttons] == [False, False]
+    assert [base64.b64decode(button.file[1]) for button in buttons] == [b"a", b"b"]
+
+
+def test_a_file_is_called_as_what_was_asked_for():
+    runs = Beside()
+    button = Download(runs, tuple, lambda: b"ordinary", label="CSV", filename="tippe-top-ordinary.csv")
+    button.clicks += 1
+    button.filename = "tippe-top-ice.csv"
+    runs.work()
+    assert button.file[2] == "tippe-top-ordinary.csv"
+
+
+def test_figures_in_python_are_written_anew_for_another_scene_alone(opened, monkeypatch):
+    seen, written = opened("?v=2&tab=roll"), []
+    monkeypatch.setattr(Files, "_show_python", lambda files: written.append(files._scene))
+    seen.share.refresh()
+    assert written == []
+    seen.house.pacer.ask(K_J=6.5)
+    seen.rest()
+    assert [scene.constants.K_J for scene in written] == [6.5]
