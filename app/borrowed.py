@@ -98,8 +98,8 @@ def to_the_last(dispatch):
 
 
 def put(connection, events):
-    """One message of these, behind what the connection has waiting: for a session's second connection the same one, since
-    of what the first of two brings another would only tell the name. A page that comes back has two for a while."""
+    """One message of these, behind what the connection has waiting. A second connection of the session, as a page has
+    that comes back, gets the same one: another would only tell the name of what the first one brings."""
     first = events[0]
     if first not in MADE:
         MADE[first] = connection.protocol.create("PATCH-DOC", events)
