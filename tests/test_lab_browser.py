@@ -141,19 +141,22 @@ def test_what_cannot_be_is_said_beside_it_and_the_motion_stays(page):
     page.get_by_role("alert").filter(has_text="half").wait_for(state="hidden")
 
 
-def test_the_run_before_stays_pale_until_it_is_dismissed(page):
+def test_the_run_before_stays_pale_until_it_is_dismissed(chromium, server):
+    page = chromium.new_page(viewport={"width": 1400, "height": 900}, locale="en")
+    come(page, f"{server}?")
     put(page, "Spin, in turns a second", 22)
     page.get_by_text("Spin: 28.6 rev/s → 22.0 rev/s").wait_for()
     page.get_by_text("Before: Spin 28.6 rev/s").wait_for()
     assert page.locator(".strip .then").count() == 1
     assert page.locator(".answer .then").count() == 1
     page.get_by_role("button", name="Go back to before").click()
-    page.wait_for_function("!location.search.includes('spin=')")
+    page.wait_for_function("!location.search.includes('spin=22')")
     expect(page.locator(".strip .then")).to_have_count(0)
     put(page, "Spin, in turns a second", 30)
     page.get_by_role("button", name="Forget the run before").click()
     page.get_by_text("Before: Spin").wait_for(state="hidden")
     expect(page.locator(".strip .then")).to_have_count(0)
+    page.close()
 
 
 def test_numbers_are_in_a_fold_and_where_the_pointer_is(page):
