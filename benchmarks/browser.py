@@ -352,6 +352,6 @@ if __name__ == "__main__":
 # here), one round, this run first in turn, load 5: p95 in times bare's, steps figure 1.08, page 2.46; drag figure 1.33,
 # page 3.69.
 #
-# 2026-11-25, 21:40, nothing else running, six visits and three rounds, Research in a window of 1400 x 2000 px, so that all
-# of it is sent: first page 2.86 times bare (python -m app), cpu 2.67; p95 in times bare's: steps figure 0.78, page 2.84;
-# drag figure 1.84, page 6.43 (panel serve: 1.26, 3.95; 1.93, 6.49).
+# 2026-11-25, 21:40, nothing else running, six visits and three rounds, Research in a window of 1400 x 2000 px, so
+# that all of it is sent: first page 2.86 times bare (python -m app), cpu 2.67; p95 in times bare's: steps figure
+# 0.78, page 2.84; drag figure 1.84, page 6.43 (panel serve: 1.26, 3.95; 1.93, 6.49).

@@ -394,8 +394,9 @@ if __name__ == "__main__":
 # parted from the move yet.
 #
 # 2026-11-25, 23:15, arrive, --quick, nothing else running, after the Lab said once a run what belongs to a run, small
-# arrays went among the words, and Fig. 6's slipping was computed beside: who comes costs 46 ms (bare), 144 (Explore, 3.1
-# times), 1010 (Research, 22.0 times); a move of a hand that goes on 2.2, 25.5 (11.6 times), 29.5 (13.4 times); a move and
-# the rest after it 2.8, 59.6 (21.3 times), 48.0 (17.1 times). Thirty at once are live after 1.2, 2.2 and 12.9 s. The same
-# day before it, also quiet: a move and its rest 2.0, 61.2 (30.6 times) and 59.6 (29.8 times). --quick, one worker: 10 come
-# together 3279 5621 ms, 20 of 20 move 16 49 ms, 4.3 and 6.1 MB a session; two workers 1788 3253 ms, 14 29 ms.
+# arrays went among the words, and Fig. 6's slipping was computed beside: who comes costs 46 ms (bare), 144 (Explore,
+# 3.1 times), 1010 (Research, 22.0 times); a move of a hand that goes on 2.2, 25.5 (11.6 times), 29.5 (13.4 times); a
+# move and the rest after it 2.8, 59.6 (21.3 times), 48.0 (17.1 times). Thirty at once are live after 1.2, 2.2 and
+# 12.9 s. The same day before it, also quiet: a move and its rest 2.0, 61.2 (30.6 times) and 59.6 (29.8 times).
+# --quick, one worker: 10 come together 3279 5621 ms, 20 of 20 move 16 49 ms, 4.3 and 6.1 MB a session; two workers
+# 1788 3253 ms, 14 29 ms.
