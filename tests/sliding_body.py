@@ -13,6 +13,7 @@ k (horizontal) is friction over N, opposite in sign; the law k(u) of the slip u 
 from dataclasses import dataclass
 
 import numpy as np
+from rigid_body import euler_quaternion
 from scipy.integrate import solve_ivp
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -147,3 +148,25 @@ def linearised(top, law, pole, spin):
     steps = 1e-4 * np.eye(6)
     columns = [(8 * (rates(h) - rates(-h)) - (rates(2 * h) - rates(-2 * h))) / (12 * 1e-4) for h in steps]
     return np.linalg.eigvals(np.array(columns).T)
+
+
+def in_space(phi, theta, along_1, along_2, along_3):
+    """Components along 1', 2', 3 (arrays) turned into space components (n, 3)."""
+    s, c, y = np.sin(theta), np.cos(theta), np.stack([-np.sin(phi), np.cos(phi), 0 * phi])
+    x, z = np.stack([np.cos(phi), np.sin(phi), 0 * phi]), np.array([[0.0], [0.0], [1.0]])
+    return (along_1 * x + along_2 * (c * y + s * z) + along_3 * (c * z - s * y)).T
+
+
+def rotated(phi, horizontal):
+    turn = np.exp(1j * phi) * (horizontal[:, 0] + 1j * horizontal[:, 1])
+    return np.stack([turn.real, turn.imag], axis=1)
+
+
+def first_instant(top, state):
+    phi, theta = np.array([state.phi]), np.array([state.theta])
+    omega = in_space(phi, theta, state.theta_dot, state.omega2, state.omega3)[0]
+    q = euler_quaternion(state.phi, state.theta, state.psi).astype(float)
+    flat = rotated(phi, np.array([[state.vx or 0.0, state.vy or 0.0]]))[0]
+    axis = matrix(q)[:, 2]
+    velocity = np.append(flat, np.cross(omega, UP - top.a * axis)[2])
+    return q, omega, velocity, np.array([state.x or 0.0, state.y or 0.0, 1 - top.a * axis[2]])

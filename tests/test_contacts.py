@@ -8,7 +8,6 @@ import sliding_body as sb
 import stem_body
 from cases import PAPER
 from references import kept
-from test_sliding import in_space
 
 from tippe_core import (
     PRESETS,
@@ -58,11 +57,11 @@ def momenta(moved):
     top, L = moved.top, moved.omega * [moved.top.I1, moved.top.I1, moved.top.I3]
     turn = np.exp(1j * moved.phi) * (moved.velocity[:, 0] + 1j * moved.velocity[:, 1])
     assert top is moved.top
-    return in_space(moved.phi, moved.theta, *L.T), np.stack([turn.real, turn.imag, moved.velocity[:, 2]], axis=1)
+    return sb.in_space(moved.phi, moved.theta, *L.T), np.stack([turn.real, turn.imag, moved.velocity[:, 2]], axis=1)
 
 
 def first_instant(moved):
-    i = in_space(moved.phi, moved.theta, *moved.omega.T)[0]
+    i = sb.in_space(moved.phi, moved.theta, *moved.omega.T)[0]
     return moved.quaternion[0], i, momenta(moved)[1][0], moved.com[0]
 
 
@@ -141,7 +140,7 @@ def test_rolling_on_the_stem():
     assert 100 < rolls.sum() < 300
     assert np.ptp(moved.energy[rolls]) < 1e-10
     axes, (_, v) = matrices(moved)[:, :, 2], momenta(moved)
-    w = in_space(moved.phi, moved.theta, *moved.omega.T)
+    w = sb.in_space(moved.phi, moved.theta, *moved.omega.T)
     for i in np.flatnonzero(rolls)[::20]:
         np.testing.assert_allclose(v[i] + np.cross(w[i], sb.edge(PAPER, *EDGE[:2])(axes[i])), 0, atol=1e-10)
     F_h = np.hypot(*moved.force[:, :2].T)

@@ -13,7 +13,6 @@ from high_precision import Curve, mp, mpf
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from test_rolling_long import differentiation, window
-from test_sliding import first_instant
 
 from tippe_core import (
     Constants,
@@ -317,7 +316,7 @@ FROM_REST = [(LOADED, State(0.49, 0.0, -0.8, 0.3)), (Top(-2.0, 3.0, 1.0), State(
 @pytest.mark.parametrize(("top", "state"), GLIDES + FROM_REST)
 def test_smooth_plane_in_space(top, state, compare):
     times = np.linspace(0, 8, 9)
-    body = sb.integrate(top, lambda u: 0 * u, *first_instant(top, state), times, rtol=1e-13)
+    body = sb.integrate(top, lambda u: 0 * u, *sb.first_instant(top, state), times, rtol=1e-13)
     found = Gliding(top, state)(times)
     q = body.quaternion / np.linalg.norm(body.quaternion, axis=1)[:, None]
     q *= np.sign((q * found.quaternion).sum(axis=1))[:, None]

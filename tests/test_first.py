@@ -8,7 +8,7 @@ from urllib.parse import urljoin
 
 import numpy as np
 import pytest
-from test_lab_browser import DRAWN, TIME, TOPS, come
+from lab_page import DRAWN, TIME, TOPS, come
 from visiting import PATIENCE
 
 from app.page import first

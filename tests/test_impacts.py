@@ -10,8 +10,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
+from sliding_body import in_space
 from test_contacts import EDGE, GREASED, VISCOUS, first_instant, gap, impact, law, matrices, momenta
-from test_sliding import in_space
 
 from tippe_core import (
     Coulomb,

@@ -5,32 +5,22 @@ from urllib.parse import parse_qs, urlsplit
 import numpy as np
 import pytest
 from axe_playwright_python.base import AXE_SCRIPT
+from lab_page import TIME, TOPS, UNIT, come, entry, line, one_visit, pause, put
 from PIL import Image
 from playwright.sync_api import expect
 from test_axe import CONTRAST, DARK, LIGHT, LOOK, violations
-from visiting import PATIENCE, Visit, is_seen
+from visiting import PATIENCE, is_seen
 
-from app.model.lab.run import TOYS, start_of
+from app.model.lab.run import start_of
 from tippe_core import Constants, grip
 
 pytestmark = pytest.mark.served
 
-TOPS = "__tippe.tops('lab')"
-TIME = "Number(window.__tippe.time('lab'))"
 # The tilt of the top that is looked at, in degrees, of its pose alone.
 TILT = f"""(() => {{
     const [x, y] = {TOPS}[0].quaternion
     return 180 / Math.PI * Math.acos(1 - 2 * (x * x + y * y))
 }})()"""
-DRAWN = "window.__tippe?.tops?.('lab').some((top) => top.pictures && top.count)"
-UNIT = TOYS["Leine and Glocker's toy"].shape.scales.time  # s
-
-
-def come(page, url):
-    """A page at this address, once its top is drawn."""
-    visit = Visit(page, url, whole=False)
-    page.wait_for_function(DRAWN)
-    return visit
 
 
 # What of the Lab a finger may touch that is less than 44 px high.
@@ -42,13 +32,7 @@ SMALL = """() => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def visit(server, chromium):
-    """The page as it comes, the same for all tests here, in this order; they fail on an error in it."""
-    visit = come(chromium.new_page(viewport={"width": 1400, "height": 900}), f"{server}?")
-    yield visit
-    visit.page.close()
-    assert not visit.errors
+visit = pytest.fixture(one_visit, scope="module")
 
 
 @pytest.fixture
@@ -56,29 +40,9 @@ def page(visit):
     return visit.page
 
 
-def pause(page):
-    if page.get_by_role("button", name="Pause").count():
-        page.get_by_role("button", name="Pause").click()
-    page.get_by_role("button", name="Play", exact=True).wait_for()
-
-
-def entry(page, name):
-    return page.get_by_role("textbox", name=name)
-
-
-def put(page, name, value):
-    entry(page, name).fill(str(value))
-    entry(page, name).press("Enter")
-
-
 def choose(page, table):
     page.get_by_role("radio", name=table).click()
     page.locator(f".lab[data-table={table.lower()}]").wait_for()
-
-
-def line(page):
-    """The points of the tilt over time."""
-    return page.locator(".strip .rest").first.get_attribute("points")
 
 
 def test_it_flips_on_arrival_with_nothing_clicked(page):

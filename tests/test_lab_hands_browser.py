@@ -4,58 +4,18 @@ import re
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
+from lab_page import TIME, TOPS, UNIT, entry, line, one_visit, pause, put
 from playwright.sync_api import expect
-from visiting import Visit
-
-from app.model.lab.run import TOYS
 
 pytestmark = pytest.mark.served
 
-TOPS = "__tippe.tops('lab')"
-TIME = "Number(window.__tippe.time('lab'))"
-DRAWN = "window.__tippe?.tops?.('lab').some((top) => top.pictures && top.count)"
-UNIT = TOYS["Leine and Glocker's toy"].shape.scales.time  # s
 
-
-def come(page, url):
-    """A page at this address, once its top is drawn."""
-    visit = Visit(page, url, whole=False)
-    page.wait_for_function(DRAWN)
-    return visit
-
-
-@pytest.fixture(scope="module")
-def visit(server, chromium):
-    """The page as it comes, the same for all tests here, in this order; they fail on an error in it."""
-    visit = come(chromium.new_page(viewport={"width": 1400, "height": 900}), f"{server}?")
-    yield visit
-    visit.page.close()
-    assert not visit.errors
+visit = pytest.fixture(one_visit, scope="module")
 
 
 @pytest.fixture
 def page(visit):
     return visit.page
-
-
-def pause(page):
-    if page.get_by_role("button", name="Pause").count():
-        page.get_by_role("button", name="Pause").click()
-    page.get_by_role("button", name="Play", exact=True).wait_for()
-
-
-def entry(page, name):
-    return page.get_by_role("textbox", name=name)
-
-
-def put(page, name, value):
-    entry(page, name).fill(str(value))
-    entry(page, name).press("Enter")
-
-
-def line(page):
-    """The points of the tilt over time."""
-    return page.locator(".strip .rest").first.get_attribute("points")
 
 
 def test_the_head_of_the_bar_is_dragged_from_a_rest(page):

@@ -1,55 +1,16 @@
 """No English stands beside the words of app/text/."""
 
 import ast
-import itertools
 import re
 from functools import cache
-from pathlib import Path
 
 import pytest
+from text_files import APP, MODULES, every, name_of, tree
 
-from app.text import DEFAULT, listed
+from app.text import DEFAULT
 
-APP = Path(__file__).parent.parent / "app"
 CORE = APP.parent / "tippe_core"
 SCRIPTS = sorted((APP / "frontend/src").rglob("*.js"))
-
-
-@cache
-def files(language):
-    return {path.stem for path in (APP / "text" / language).glob("*.toml")}
-
-
-def parts(found, path=()):
-    """What stands in a file: (path, words, a table or a list), the root too."""
-    yield ".".join(map(str, path)), found
-    if not isinstance(found, str):
-        for name, inner in found.items() if isinstance(found, dict) else enumerate(found):
-            yield from parts(inner, (*path, name))
-
-
-@cache
-def every(language):
-    """{key: words, a table or a list} of all files."""
-    return dict(itertools.chain.from_iterable(parts(listed(name, language), (name,)) for name in files(language)))
-
-
-# ---- what the code asks for ----
-
-
-@cache
-def tree(path):
-    return ast.parse(path.read_text(encoding="utf-8"))
-
-
-MODULES = sorted(path for path in APP.rglob("*.py") if not {"node_modules", "text"} & {*path.parts})
-
-
-def name_of(call):
-    """Of a function called by itself or out of a module; a method's is another."""
-    if isinstance(call.func, ast.Attribute):
-        return call.func.attr if getattr(call.func.value, "id", "") == "text" else ""
-    return getattr(call.func, "id", "")
 
 
 # ---- no English beside the words ----

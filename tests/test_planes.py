@@ -1,12 +1,11 @@
 """The three planes without a browser: the motions are tippe_core's, and do what physics.md and the paper say."""
 
-import re
 from dataclasses import replace
 from queue import Queue
 
 import numpy as np
 import pytest
-from house import choose, planes_of
+from house import chosen, planes_of, ran
 
 from app.model.explorer import Explorer
 from app.model.planes.picture import LEAST_FRAMES, MOST_TURN, PLANES
@@ -29,12 +28,6 @@ def explorer():
 @pytest.fixture
 def planes(explorer):
     return planes_of(explorer)
-
-
-def chosen(explorer, planes, name):
-    choose(name, explorer, planes)
-    assert not planes.picture.messages
-    return planes.picture
 
 
 @pytest.mark.slow
@@ -179,12 +172,6 @@ def test_a_stem_that_throws_the_top_up_is_not_the_table_that_lets_it_go(explorer
 def usual():
     """The first look's picture."""
     return planes_of(Explorer()).picture
-
-
-def ran(usual, **settings):
-    """A Picture with other settings than the first look's, and what is said of it, without its marks."""
-    picture = solve(replace(usual.settings, **settings))
-    return picture, re.sub(r"<[^>]*>", "", fate(picture, "sliding"))
 
 
 def test_rough_and_smooth_end_where_the_stem_touches(usual):

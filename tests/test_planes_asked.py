@@ -2,12 +2,11 @@
 
 import re
 from dataclasses import replace
-from functools import cache
 from queue import Queue
 
 import numpy as np
 import pytest
-from house import builder_of, choose, planes_of
+from house import builder_of, chosen, of, planes_of, ran
 
 from app.model.explorer import Explorer
 from app.model.planes.picture import MOST_FRAMES, MOST_SECONDS
@@ -31,12 +30,6 @@ def planes(explorer):
     return planes_of(explorer)
 
 
-def chosen(explorer, planes, name):
-    choose(name, explorer, planes)
-    assert not planes.picture.messages
-    return planes.picture
-
-
 # ---- what is said of a run is what the run does ----
 
 
@@ -44,25 +37,6 @@ def chosen(explorer, planes, name):
 def usual():
     """The first look's picture."""
     return planes_of(Explorer()).picture
-
-
-def ran(usual, **settings):
-    """A Picture with other settings than the first look's, and what is said of it, without its marks."""
-    picture = solve(replace(usual.settings, **settings))
-    return picture, re.sub(r"<[^>]*>", "", fate(picture, "sliding"))
-
-
-@cache
-def first_of(body):
-    explorer = Explorer()
-    builder = builder_of(explorer)
-    builder.choose(body)
-    return planes_of(explorer).picture.settings
-
-
-def of(body, **settings):
-    """The Settings of the first look with another body."""
-    return replace(first_of(body), **settings)
 
 
 DISC, CONE, PAPERS = "Disc on a peg", "Wooden cone", "The paper's tippe top"

@@ -1,12 +1,10 @@
 """What is said of a run on the three planes is what the run does."""
 
 import re
-from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
-from house import builder_of, planes_of
+from house import of, planes_of, ran
 
 from app.model.explorer import Explorer
 from app.model.planes.run import THROWN, solve
@@ -30,12 +28,6 @@ def explorer():
 def usual():
     """The first look's picture."""
     return planes_of(Explorer()).picture
-
-
-def ran(usual, **settings):
-    """A Picture with other settings than the first look's, and what is said of it, without its marks."""
-    picture = solve(replace(usual.settings, **settings))
-    return picture, re.sub(r"<[^>]*>", "", fate(picture, "sliding"))
 
 
 def heights(picture):
@@ -153,19 +145,6 @@ def test_tracks_are_in_the_units_of_the_page(usual):
     assert found["theta"].t[-1] == pytest.approx(1.0, abs=1e-3)
     metres = np.sqrt(scales.R * 9.81)  # R and (R/g)^1/2 in a second
     assert found["slip"].value.max() == pytest.approx(100 * metres * motion.slip.max(), rel=2e-3)
-
-
-@cache
-def first_of(body):
-    explorer = Explorer()
-    builder = builder_of(explorer)
-    builder.choose(body)
-    return planes_of(explorer).picture.settings
-
-
-def of(body, **settings):
-    """The Settings of the first look with another body."""
-    return replace(first_of(body), **settings)
 
 
 def all_said(settings):

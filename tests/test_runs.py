@@ -7,7 +7,6 @@ import threading
 import weakref
 from functools import partial
 from pathlib import Path
-from queue import Queue
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,55 +14,15 @@ import pytest
 from bokeh.document import Document
 from bokeh.server.tornado import BokehTornado
 from panel.io.application import build_single_handler_application
+from run_pages import PATIENCE, Page, all_busy, one_page, told
 from serving import until
 from wire import run as run_async
 
-from app.model.runs import WORK, Run, Runs, Stopped, look, to_session
+from app.model.runs import Run, Runs, Stopped, look, to_session
 from app.text import speaking, spoken
 from tippe_core import SmoothedCoulomb, State, Top, slide
 
-PATIENCE = 60  # s
-
-
-class Page:
-    """A page's Runs, and what they have posted to its session."""
-
-    def __init__(self):
-        self.posted = Queue()
-        self.runs = Runs(self.posted.put)
-
-    def next(self):
-        """Does what was posted first, as a session does."""
-        self.posted.get(timeout=PATIENCE)()
-
-
-@pytest.fixture
-def page():
-    page = Page()
-    yield page
-    page.runs.leave()
-
-
-@pytest.fixture
-def busy():
-    """All threads are, each with another visitor's work, until end()."""
-    go, pages = threading.Event(), [Page() for _ in range(WORK.threads)]
-    for page in pages:
-        page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None), "a")
-    until(lambda: WORK._working.total() == WORK.threads)
-
-    def end():
-        go.set()
-        for page in pages:
-            page.next()
-
-    yield SimpleNamespace(end=end)
-    go.set()
-
-
-def told(results):
-    """What is called when a run is done."""
-    return results.append
+page, busy = pytest.fixture(one_page), pytest.fixture(all_busy)
 
 
 def test_a_run_is_done_elsewhere_in_the_language_of_its_page_and_told_to_its_session(page):

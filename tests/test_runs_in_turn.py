@@ -5,11 +5,11 @@ import sys
 import threading
 from collections import Counter
 from queue import Queue
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from house import planes_of
+from run_pages import PATIENCE, Page, all_busy, one_page, told
 from serving import until
 
 from app.model.explorer import Explorer
@@ -19,48 +19,7 @@ from app.model.runs import MAPS, NICE, TURN, WORK, Pool, Run, Runs
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn
 
-PATIENCE = 60  # s
-
-
-class Page:
-    """A page's Runs, and what they have posted to its session."""
-
-    def __init__(self):
-        self.posted = Queue()
-        self.runs = Runs(self.posted.put)
-
-    def next(self):
-        """Does what was posted first, as a session does."""
-        self.posted.get(timeout=PATIENCE)()
-
-
-@pytest.fixture
-def page():
-    page = Page()
-    yield page
-    page.runs.leave()
-
-
-@pytest.fixture
-def busy():
-    """All threads are, each with another visitor's work, until end()."""
-    go, pages = threading.Event(), [Page() for _ in range(WORK.threads)]
-    for page in pages:
-        page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None), "a")
-    until(lambda: WORK._working.total() == WORK.threads)
-
-    def end():
-        go.set()
-        for page in pages:
-            page.next()
-
-    yield SimpleNamespace(end=end)
-    go.set()
-
-
-def told(results):
-    """What is called when a run is done."""
-    return results.append
+page, busy = pytest.fixture(one_page), pytest.fixture(all_busy)
 
 
 class Crowd:

@@ -2,12 +2,12 @@
 
 import base64
 import re
-from functools import wraps
 from types import SimpleNamespace
 
 import panel as pn
 import pytest
 from bokeh.document import Document
+from house import keeping
 from panel.io.state import set_curdoc
 
 import app.share.share
@@ -29,16 +29,8 @@ def opened(monkeypatch):
     painted."""
     made, timers = {}, []
 
-    def kept(make):
-        @wraps(make)
-        def making(view, *inputs, **named):
-            made[type(view)] = view
-            make(view, *inputs, **named)
-
-        return making
-
     for kind in (House, Share, Pacer):
-        monkeypatch.setattr(kind, "__init__", kept(kind.__init__))
+        monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
     for where in ("app.widgets.pacing", "app.share.share"):
         monkeypatch.setattr(f"{where}.after", lambda seconds, then: timers.append(then))
     monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once

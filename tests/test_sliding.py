@@ -32,28 +32,6 @@ S_SCALES = Scales(R=0.02, M=0.02, g=9.82)
 REFERENCE = State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0)
 
 
-def in_space(phi, theta, along_1, along_2, along_3):
-    """Components along 1', 2', 3 (arrays) turned into space components (n, 3)."""
-    s, c, y = np.sin(theta), np.cos(theta), np.stack([-np.sin(phi), np.cos(phi), 0 * phi])
-    x, z = np.stack([np.cos(phi), np.sin(phi), 0 * phi]), np.array([[0.0], [0.0], [1.0]])
-    return (along_1 * x + along_2 * (c * y + s * z) + along_3 * (c * z - s * y)).T
-
-
-def rotated(phi, horizontal):
-    turn = np.exp(1j * phi) * (horizontal[:, 0] + 1j * horizontal[:, 1])
-    return np.stack([turn.real, turn.imag], axis=1)
-
-
-def first_instant(top, state):
-    phi, theta = np.array([state.phi]), np.array([state.theta])
-    omega = in_space(phi, theta, state.theta_dot, state.omega2, state.omega3)[0]
-    q = euler_quaternion(state.phi, state.theta, state.psi).astype(float)
-    flat = rotated(phi, np.array([[state.vx or 0.0, state.vy or 0.0]]))[0]
-    axis = sb.matrix(q)[:, 2]
-    velocity = np.append(flat, np.cross(omega, sb.UP - top.a * axis)[2])
-    return q, omega, velocity, np.array([state.x or 0.0, state.y or 0.0, 1 - top.a * axis[2]])
-
-
 MOTIONS = {
     "viscous": (LOADED, State(0.1, 0, 0, 4.0), Viscous(0.443)),
     "smoothed": (PAPER, *REFERENCE),
@@ -71,19 +49,19 @@ MOTIONS = {
 def test_against_the_rigid_body(name):
     top, state, friction = MOTIONS[name]
     times = np.linspace(2.0, 12.0, 101)
-    motion = sb.integrate(top, lambda u: friction.k(u @ u) * u, *first_instant(top, state), times)
+    motion = sb.integrate(top, lambda u: friction.k(u @ u) * u, *sb.first_instant(top, state), times)
     moved = slide(top, state, friction, times, rtol=1e-12)
     assert moved.events == () and set(moved.regime) == {"slip"}
     q = motion.quaternion / np.linalg.norm(motion.quaternion, axis=1)[:, None]
     q *= np.sign((q * moved.quaternion).sum(axis=1))[:, None]
     np.testing.assert_allclose(moved.quaternion, q, rtol=0, atol=1e-8)
     np.testing.assert_allclose(moved.com, motion.com, rtol=0, atol=1e-8 * max(1, abs(top.a)))
-    omega = in_space(moved.phi, moved.theta, *moved.omega.T)
+    omega = sb.in_space(moved.phi, moved.theta, *moved.omega.T)
     np.testing.assert_allclose(omega, motion.omega, rtol=0, atol=1e-8)
     axes = np.array([sb.matrix(x)[:, 2] for x in q])
     body = list(zip(axes, motion.omega, motion.velocity, strict=True))
     slips = np.array([sb.slip(top, *row) for row in body])[:, :2]
-    np.testing.assert_allclose(rotated(moved.phi, moved.slip), slips, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(sb.rotated(moved.phi, moved.slip), slips, rtol=0, atol=1e-8)
     N = np.array([sb.accelerations(top, lambda u: friction.k(u @ u) * u, *row)[2] for row in body])
     np.testing.assert_allclose(moved.force[:, 2], N, rtol=0, atol=1e-7)
     O = moved.com[:, :2] + top.a * axes[:, :2]
@@ -166,7 +144,7 @@ def test_lift_off_ends_the_motion(state):
     ((t, what),) = moved.events
     assert what == "lifts off" and moved.t[-1] <= t < moved.t[-1] + 1.001e-3
     assert moved.force[:, 2].min() > 0 and moved.force[-1, 2] < 0.02
-    motion = sb.integrate(PAPER, lambda u: 0.3 * u, *first_instant(PAPER, state), np.array([0.0, t]))
+    motion = sb.integrate(PAPER, lambda u: 0.3 * u, *sb.first_instant(PAPER, state), np.array([0.0, t]))
     axis = sb.matrix(motion.quaternion[-1])[:, 2]
     N = sb.accelerations(PAPER, lambda u: 0.3 * u, axis, motion.omega[-1], motion.velocity[-1])[2]
     assert abs(N) < 1e-7

@@ -5,7 +5,7 @@ import pytest
 import sliding_body as sb
 from cases import BALL, LOADED, ORDINARY, PAPER
 from scipy.integrate import quad
-from test_sliding import first_instant, in_space, rotated
+from sliding_body import first_instant, in_space, rotated
 
 from tippe_core import Gliding, State, Top, TopError, Viscous, glide, slide
 

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 import sliding_body as sb
 from cases import PAPER
-from rigid_body import euler_quaternion
 
 from tippe_core import (
     Constants,
@@ -24,28 +23,6 @@ from tippe_core import (
 from tippe_core.motion import sliding
 
 REFERENCE = State(0.1, 0, 0, 8.8), SmoothedCoulomb(0.3, 1.0)
-
-
-def in_space(phi, theta, along_1, along_2, along_3):
-    """Components along 1', 2', 3 (arrays) turned into space components (n, 3)."""
-    s, c, y = np.sin(theta), np.cos(theta), np.stack([-np.sin(phi), np.cos(phi), 0 * phi])
-    x, z = np.stack([np.cos(phi), np.sin(phi), 0 * phi]), np.array([[0.0], [0.0], [1.0]])
-    return (along_1 * x + along_2 * (c * y + s * z) + along_3 * (c * z - s * y)).T
-
-
-def rotated(phi, horizontal):
-    turn = np.exp(1j * phi) * (horizontal[:, 0] + 1j * horizontal[:, 1])
-    return np.stack([turn.real, turn.imag], axis=1)
-
-
-def first_instant(top, state):
-    phi, theta = np.array([state.phi]), np.array([state.theta])
-    omega = in_space(phi, theta, state.theta_dot, state.omega2, state.omega3)[0]
-    q = euler_quaternion(state.phi, state.theta, state.psi).astype(float)
-    flat = rotated(phi, np.array([[state.vx or 0.0, state.vy or 0.0]]))[0]
-    axis = sb.matrix(q)[:, 2]
-    velocity = np.append(flat, np.cross(omega, sb.UP - top.a * axis)[2])
-    return q, omega, velocity, np.array([state.x or 0.0, state.y or 0.0, 1 - top.a * axis[2]])
 
 
 # ---- stick and slip ----
@@ -189,7 +166,7 @@ def test_events_are_located_to_1e_9():
     # lift-off: N of the rigid body changes sign within 1e-9
     state, law = State(0.8, 9.0, 0, 3.0), Viscous(0.3)
     ((t, _),) = slide(PAPER, state, law, [0, 5.0], rtol=1e-12).events
-    motion = sb.integrate(PAPER, lambda u: 0.3 * u, *first_instant(PAPER, state), np.array([0, t - 1e-9, t + 1e-9]))
+    motion = sb.integrate(PAPER, lambda u: 0.3 * u, *sb.first_instant(PAPER, state), np.array([0, t - 1e-9, t + 1e-9]))
     N = [sb.accelerations(PAPER, lambda u: 0.3 * u, sb.matrix(motion.quaternion[i])[:, 2], motion.omega[i],
                           motion.velocity[i])[2] for i in (1, 2)]  # fmt: skip
     assert N[0] > 0 > N[1]

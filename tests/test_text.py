@@ -2,21 +2,18 @@
 
 import ast
 import importlib
-import itertools
 import re
 from fnmatch import fnmatch
-from functools import cache
-from pathlib import Path
 from string import Formatter
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from text_files import APP, MODULES, every, files, name_of, tree
 
 from app.bundle import Bundled
-from app.text import DEFAULT, LANGUAGES, listed, preferred, say, written
+from app.text import DEFAULT, LANGUAGES, preferred, say, written
 
-APP = Path(__file__).parent.parent / "app"
 OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 
 # Values that are one in every language, by file.table.key: names, and keys of other tables.
@@ -35,25 +32,6 @@ SAME = (
 )
 NUMBERS = r"\{[^{}]*\}"
 SHORT_ELEMENT = r"<(i|b|sub|sup)>[^<]{0,4}</\1>"
-
-
-@cache
-def files(language):
-    return {path.stem for path in (APP / "text" / language).glob("*.toml")}
-
-
-def parts(found, path=()):
-    """What stands in a file: (path, words, a table or a list), the root too."""
-    yield ".".join(map(str, path)), found
-    if not isinstance(found, str):
-        for name, inner in found.items() if isinstance(found, dict) else enumerate(found):
-            yield from parts(inner, (*path, name))
-
-
-@cache
-def every(language):
-    """{key: words, a table or a list} of all files."""
-    return dict(itertools.chain.from_iterable(parts(listed(name, language), (name,)) for name in files(language)))
 
 
 def numbers(words):
@@ -87,21 +65,6 @@ def test_a_language_is_not_english(language):
 
 
 # ---- what the code asks for ----
-
-
-@cache
-def tree(path):
-    return ast.parse(path.read_text(encoding="utf-8"))
-
-
-MODULES = sorted(path for path in APP.rglob("*.py") if not {"node_modules", "text"} & {*path.parts})
-
-
-def name_of(call):
-    """Of a function called by itself or out of a module; a method's is another."""
-    if isinstance(call.func, ast.Attribute):
-        return call.func.attr if getattr(call.func.value, "id", "") == "text" else ""
-    return getattr(call.func, "id", "")
 
 
 def pattern(node):

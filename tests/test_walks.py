@@ -12,6 +12,7 @@ from pathlib import Path
 import panel as pn
 import pytest
 from bokeh.document import Document
+from house import keeping
 from panel.io.state import set_curdoc
 
 import app.model.explorer
@@ -71,18 +72,10 @@ def walk(monkeypatch):
 
         return noted
 
-    def kept(make):
-        @wraps(make)
-        def making(view, *inputs, **named):
-            made[type(view)] = view
-            make(view, *inputs, **named)
-
-        return making
-
     for owner, name in (*STATIONS, *FUNCTIONS):
         monkeypatch.setattr(owner, name, note(getattr(owner, name), station(owner, name)))
     for kind in (House, Roll, Controls, ThreePlanes):
-        monkeypatch.setattr(kind, "__init__", kept(kind.__init__))
+        monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
     monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
     with set_curdoc(Document()):
