@@ -9,6 +9,9 @@ pytestmark = pytest.mark.served
 
 LOOKS = "name => document.documentElement.dataset.look === name"
 TOP = "canvas[aria-label^='The top'], canvas[aria-label^='Der Kreisel']"
+# The views that were chosen, of all the tops of the page.
+VIEWS = """() => [...Bokeh.documents[0]._all_models.values()].map((m) => m.data?.attributes?.camera)
+    .filter((view) => view?.length)"""
 HIGHER = "([part, before]) => part.getBoundingClientRect().top < before"
 
 
@@ -73,7 +76,8 @@ def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):
     page = opened("?v=1&tab=roll")
     page.wait_for_function(WHOLE)  # else there is nothing to scroll
     top, slider = page.locator(TOP).first, page.get_by_role("slider", name="Jellett’s constant").element_handle()
-    top.click()  # also once it was clicked
+    top.click()  # also once it was clicked, which turns nothing
+    assert page.evaluate(VIEWS) == []
     box, before = top.bounding_box(), slider.bounding_box()["y"]
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.wheel(0, 100)
@@ -84,6 +88,7 @@ def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):
     page.mouse.wheel(0, 100)
     page.keyboard.up("Control")
     page.wait_for_function("() => location.search.includes('view=')")
+    assert len(page.evaluate(VIEWS)) == 1
 
 
 def test_the_height_is_read_on_its_own_area_where_the_energy_leaves_no_room_over_it(opened):

@@ -1,7 +1,5 @@
 """The pieces of a message: few, and Bokeh's own receiver reads from them what was sent."""
 
-import asyncio
-
 import numpy as np
 import pytest
 from bokeh.core.serialization import Deserializer
@@ -10,6 +8,7 @@ from bokeh.document.events import ModelChangedEvent
 from bokeh.models import ColumnDataSource
 from bokeh.protocol import Protocol
 from bokeh.protocol.receiver import Receiver
+from wire import run
 
 from app.server.pieces import SMALL, pieces_of
 
@@ -27,7 +26,7 @@ def sent_and_received(data):
             got = await receiver.consume(piece if is_bytes else str(piece))
         return len(pieces), got
 
-    count, got = asyncio.run(way())
+    count, got = run(way())
     [event] = Deserializer([source], setter=None).deserialize(got.payload)["events"]
     return count, event["new"]
 

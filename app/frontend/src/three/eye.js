@@ -83,10 +83,11 @@ export class Eye {
     camera.lookAt(seen);
   }
 
-  // A person has turned or zoomed: as seen from what the camera looks at.
+  // A person has turned or zoomed, or only clicked: as seen from what the camera looks at.
   tell() {
-    const { x, y, z } = this.camera.position.clone().sub(this.seen), far = Math.hypot(x, y, z);
-    this.model.camera = [Math.atan2(y, x), Math.asin(z / far), far / this.distance()].map((value) => Number(value.toFixed(3)));
+    const { model } = this, { x, y, z } = this.camera.position.clone().sub(this.seen), far = Math.hypot(x, y, z);
+    const view = [Math.atan2(y, x), Math.asin(z / far), far / this.distance()].map((value) => Number(value.toFixed(3)));
+    if (String(view) !== String(model.camera.length ? model.camera : FIRST_VIEW)) model.camera = view;
   }
 
   // A new shape of the window. A person's own zoom is kept: only what the shape takes away is given back.
