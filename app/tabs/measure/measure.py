@@ -3,7 +3,6 @@
 import panel as pn
 import panel_material_ui as pmui
 import param
-from bokeh.models import NumeralTickFormatter
 
 from app.borrowed import at_once
 from app.model.bodies import body, outline
@@ -19,13 +18,13 @@ from app.model.measured.work import LONGEST, LOOSE, found, found_again, found_of
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.measure.columns import Columns
-from app.tabs.measure.figures import Pictures, constants
+from app.tabs.measure.figures import Pictures, constants, part_of_time
 from app.tabs.measure.file import MeasuredFile
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.report import report
 from app.tabs.measure.stage import film_stage, show_film
 from app.tabs.measure.words import TABLE, found_words, in_file, kept_words, models_table, notes_words, numbers_table
-from app.text import listed, say, spoken, told
+from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from app.widgets.download import Download
 from tippe_core import Top, TopError
@@ -73,9 +72,7 @@ class Measure:
                               margin=0, visible=False)  # fmt: skip
 
     def _make_controls(self):
-        form = NumeralTickFormatter(format="0.000", language=spoken())
-        self.part = pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01, format=form,
-                                     margin=(6, 12), sizing_mode="stretch_width")  # fmt: skip
+        self.part = part_of_time()
         self.part.param.watch(lambda event: self._draw(), "value_throttled")
         self.law = pmui.RadioButtonGroup(label="", options={says: law for law, says in listed("measure.laws").items()},
                                          value="contensou", size="small", margin=0, sx=PLAIN)  # fmt: skip
@@ -215,7 +212,8 @@ class Measure:
         return not self.start.disabled
 
     def _begin(self):
-        source = listed("measure.examples")[self._example] if self._example else say("measure.own")
+        whose = say("measure.saved" if self._of_file else "measure.own")
+        source = listed("measure.examples")[self._example] if self._example else whose
         self.pictures.begin(self._data, self.part.value[0], source)
         self._draw()
 
