@@ -119,7 +119,8 @@ class Scene:
         for E in energies:
             wells = turning_points(self.top, replace(self.constants, E=E))
             ends.append(wells[int(np.argmin(np.abs(wells - self.marks.theta_steady).min(axis=1)))])
-        theta = between(*np.transpose(ends), LEVEL_COLUMNS)
+        inner, outer = np.transpose(ends)
+        theta = between(inner, outer, LEVEL_COLUMNS)
         at_all = replace(self.constants, E=np.array(energies)[:, None])
         theta_dot = np.sqrt(np.maximum(rounded_f(theta, self.top, at_all), 0))
         theta_dot[:, [0, -1]] = 0
