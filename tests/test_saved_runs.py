@@ -9,7 +9,8 @@ import pandas as pd
 import pytest
 
 from app.model.lab.run import motion_on, start_of, whole_on
-from app.share.saved_runs import Shown, caption, run_csv, run_glb, run_npz, run_print, run_python
+from app.share.saved_runs import NODS, Shown, caption, drawn, run_csv, run_glb, run_npz, run_print, run_python
+from tippe_core import glide, grip, roll
 
 TOY = "The paper's tippe top"
 START = TOY, 12.0, 25.0, 0.3
@@ -84,6 +85,23 @@ def test_the_animation_stands_on_its_ball_where_the_ball_is(shown):
 def test_the_picture_is_one(shown, kind, begins):
     picture = run_print(shown, kind)
     assert picture.startswith(begins) and len(picture) > 10_000
+
+
+def test_the_picture_shows_single_nods_where_all_would_be_one_black_area(shown):
+    seconds, rows, words = drawn(shown)
+    tilt, force, _ = rows.values()
+    setup = shown.setup
+    whole = shown.trajectory.t * setup.scales.time
+    if shown.table == "ordinary":
+        assert np.array_equal(seconds, whole) and "the first" not in words[1]
+        return
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(tilt))))
+    assert len(turns) == 2 * NODS - 1 and f"the first {seconds[-1]:.2g} s of {whole[-1]:.3g} s" in words[1]
+    t = seconds / setup.scales.time
+    motion = roll(setup.top, None, t, grip(setup.top, setup.state)[0]) if shown.table == "rough" else glide(
+        setup.top, setup.state, t)  # fmt: skip
+    assert np.allclose(tilt, np.degrees(motion.theta), atol=0.01 * np.ptp(tilt))  # the width of the line
+    assert np.allclose(force, motion.force[:, 2], atol=0.01 * np.ptp(force))
 
 
 def test_what_stands_below_the_picture_is_said_in_words(shown):

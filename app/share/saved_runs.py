@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from app.model.planes.picture import Setup
 from app.share import export, glb, prints
@@ -25,8 +26,10 @@ UNITS = {
 }  # fmt: skip
 """{array of a Trajectory: (what it is, unit, the scale that makes it SI)}."""
 ORDINARY, ROUGH, ICE = "ordinary", "rough", "ice"
+OF_ONE = "in units of M, R and g"
 PLANES = {"sliding": ORDINARY, "smooth": ICE}
 """What the three planes call two of the tables."""
+NODS = 12  # drawn of a motion that nods alike for ever
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,10 +49,10 @@ class Shown:
     def parameters(self):
         """{name: (value, unit)} of what it is, every number to the last digit."""
         top, scales = self.setup.top, self.setup.scales
-        law = repr(self.setup.friction) if self.name == ORDINARY else self.name
+        law = (repr(self.setup.friction), OF_ONE) if self.name == ORDINARY else (self.name, "")
         return {
-            "table": (self.name, ""), "friction": (law, ""), "a": (top.a, "R"), "I1": (top.I1, "MR^2"),
-            "I3": (top.I3, "MR^2"), "start": (repr(self.setup.state), ""), "R": (scales.R, "m"),
+            "table": (self.name, ""), "friction": law, "a": (top.a, "R"), "I1": (top.I1, "MR^2"),
+            "I3": (top.I3, "MR^2"), "start": (repr(self.setup.state), OF_ONE), "R": (scales.R, "m"),
             "M": (scales.M, "kg"), "g": (scales.g, "m/s^2"),
         }  # fmt: skip
 
@@ -96,10 +99,27 @@ def run_glb(shown, slower):
 
 def run_print(shown, kind):
     """The tilt, the normal force and the energy of a run over time, as the bytes of a "png" or "svg" file."""
-    moved, scales = shown.trajectory, shown.setup.scales
-    rows = ((r"$\theta$ (°)", np.degrees(moved.theta)), (r"$F_z$ ($Mg$)", moved.force[:, 2]),
-            (r"$E$ ($MgR$)", moved.energy))  # fmt: skip
-    return prints.curves(moved.t * scales.time, rows, caption(shown), kind)
+    return prints.curves(*drawn(shown), kind)
+
+
+def drawn(shown):
+    """What run_print draws: (s, {what it is: values}, two lines of mathtext)."""
+    moved, words = shown.trajectory, caption(shown)
+    seconds = moved.t * shown.setup.scales.time
+    rows = {r"$\theta$ (°)": np.degrees(moved.theta), r"$F_z$ ($Mg$)": moved.force[:, 2], r"$E$ ($MgR$)": moved.energy}
+    count = _first_nods(shown)
+    if not count:
+        return seconds, rows, words
+    smooth = np.linspace(0, seconds[count - 1], 40 * NODS)
+    said = say("share.first", first=smooth[-1], whole=seconds[-1])
+    rows = {name: CubicSpline(seconds[:count], values[:count])(smooth) for name, values in rows.items()}
+    return smooth, rows, (words[0], words[1] + said)
+
+
+def _first_nods(shown):
+    """How many frames show the first NODS nods of such a motion, where all of them would be one black area; else 0."""
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(shown.trajectory.theta)))) + 2
+    return 0 if shown.name == ORDINARY or len(turns) <= 4 * NODS else int(turns[2 * NODS])
 
 
 def caption(shown):

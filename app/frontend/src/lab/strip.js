@@ -20,6 +20,8 @@ export class Strip {
     this.texts = texts;
     this.time = time;
     this.width = this.top = this.bottom = 0; // px; not known yet
+    /** @type {import("./curves.js").Curves | null} */
+    this.before = null;
     this.play = part("button", { class: "round", type: "button", onclick: () => time.play(!time.playing) });
     this.clock = part("span", { class: "clock" });
     this.speed = part("select", {
@@ -84,7 +86,9 @@ export class Strip {
   }
 
   show(scene) {
+    const { before } = scene, curves = before?.curves[before.table];
     this.scene = scene;
+    this.before = curves?.count ? curves : null; // of the run before
     this.range.max = (Math.ceil(100 * scene.end) / 100).toFixed(2); // a whole number of its steps
     this.draw();
   }
@@ -109,7 +113,7 @@ export class Strip {
     this.drawing.replaceChildren(
       drawn("clipPath", { id: "played" }, this.clip), drawn("clipPath", { id: "all" }, drawn("rect", { x: 0, y: 0, width: this.right + 1, height })), ...this.axes(), ...this.events(), ...this.shapes(),
       ...this.then(), ...lines.map((line) => line("rest")), drawn("g", { "clip-path": "url(#played)" }, ...lines.map((line) => line("past"))),
-      ...this.names(), ...this.comes(),
+      ...this.names(), ...this.comes(), ...this.nameThen(),
     );
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.at(this.time.t);
@@ -117,11 +121,15 @@ export class Strip {
 
   // The run before.
   then() {
-    const { scene: { before }, texts } = this, curves = before?.curves[before.table];
-    if (!curves?.count) return [];
+    const { before: curves } = this;
+    return curves ? [drawn("polyline", { class: "then", "clip-path": "url(#all)", points: curves.points(this.x, this.y, TILT) })] : [];
+  }
+
+  nameThen() {
+    const { before: curves, texts } = this;
+    if (!curves) return [];
     const t = 0.62 * Math.min(curves.end, this.time.end), y = this.y(curves.at(t, TILT));
-    return [drawn("polyline", { class: "then", "clip-path": "url(#all)", points: curves.points(this.x, this.y, TILT) }),
-      drawn("text", { class: "halo", x: this.x(t), y: y > (this.top + this.bottom) / 2 ? y - 7 : y + 16 }, texts.then)];
+    return [drawn("text", { class: "halo", x: this.x(t), y: y > (this.top + this.bottom) / 2 ? y - 7 : y + 16 }, texts.then)];
   }
 
   axes() {
@@ -180,7 +188,7 @@ export class Strip {
   comes() {
     const { scene, texts, time } = this, from = this.x(time.end);
     if (scene.state.whole || this.right - from < NEED) return [];
-    return [drawn("text", { x: (from + this.right) / 2, y: this.y(90) - 5, "text-anchor": "middle" }, texts.comes)];
+    return [drawn("text", { class: "halo", x: (from + this.right) / 2, y: this.y(90) - 5, "text-anchor": "middle" }, texts.comes)];
   }
 
   // Of three curves, at their ends, each where there is room.
