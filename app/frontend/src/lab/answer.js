@@ -22,6 +22,8 @@ export class Answer {
     /** @type {((t: number) => void)[]} */
     this.moves = []; // of a picture that moves otherwise than by its line
     this.name = "energy";
+    /** @type {((share: number) => [x: number, y: number, ground?: string]) | null} */
+    this.unnamed = null; // where the run before may have its name, by a share of it
     /** @type {import("./curves.js").Curves | null} */
     this.before = null;
     this.title = part("h2");
@@ -102,7 +104,7 @@ export class Answer {
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
     this.moves = [];
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    this.unnamed = /** @type {((share: number) => [x: number, y: number]) | null} */ (null);
+    this.unnamed = null;
     this.drawing.replaceChildren(...(this.curves.count ? this[name]() : []));
     this.nameThen();
     this.at(this.time.t);
@@ -111,10 +113,11 @@ export class Answer {
   // The run before has its name beside its line, where that leaves room for it.
   nameThen() {
     if (!this.unnamed) return;
-    const name = drawn("text", { class: "halo" }, this.texts.then), others = [...this.drawing.querySelectorAll(".halo, .word")].map((word) => word.getBBox());
+    const name = drawn("text", {}, this.texts.then), others = [...this.drawing.querySelectorAll(".halo, .word")].map((word) => word.getBBox());
     this.drawing.append(name);
     for (const share of [...NAMED, NAMED[0]]) { // where it is nowhere free, at the first
-      const [x, y] = this.unnamed(share);
+      const [x, y, ground = ""] = this.unnamed(share);
+      name.setAttribute("class", `halo ${ground}`);
       name.setAttribute("x", x.toFixed(1));
       name.setAttribute("y", y.toFixed(1));
       const box = name.getBBox();
@@ -143,7 +146,10 @@ export class Answer {
     const curves = this.before;
     if (!curves) return [];
     const end = Math.min(curves.end, this.time.end);
-    this.unnamed = (share) => [this.x(share * end) + 4, y(curves.at(share * end, column)) - 5];
+    this.unnamed = (share) => {
+      const t = share * end, value = curves.at(t, column);
+      return [this.x(t) + 4, y(value) - 5, column === ENERGY && value < this.curves.at(t, column) ? "washed" : ""];
+    };
     return [drawn("polyline", { class: "then", points: curves.points((at) => Math.min(this.x(at), this.right), y, column) })];
   }
 

@@ -5,6 +5,7 @@ import { TABLES } from "./stage.js";
 import { SPEEDS } from "./time.js";
 
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
+const GAP = 6; // px left of it
 const LETTER = 0.56; // how wide a letter is, in its size
 const NARROW = 400; // px of a strip
 const NEED = 100; // px of a stage in which the top is drawn as it then stands
@@ -151,12 +152,12 @@ export class Strip {
     const { size } = this, events = scene.runs[scene.table]?.events ?? [];
     const when = (t) => say(texts, "{t} s", { t: [t, 1] });
     const lines = events.map(([t, , word, short]) => [this.x(t), `${word} ${when(t)}`, `${short} ${when(t)}`]);
-    const words = placed(lines, 0, this.width, (word) => LETTER * size * word.length);
-    return words.flatMap(({ x, word, side }) => {
-      const cut = word.lastIndexOf(" ", word.length - 3);
+    const words = placed(lines, -GAP, this.width, (word) => LETTER * size * word.length);
+    return words.flatMap(({ x, word, side, row }) => {
+      const cut = word.lastIndexOf(" ", word.length - 3), down = 1.2 * size * row;
       return [
-        drawn("line", { class: "event", x1: x, x2: x, y1: 4, y2: this.bottom }),
-        drawn("text", { x: side === "start" ? x + 5 : x - 5, y: 14, "text-anchor": side },
+        drawn("line", { class: "event", x1: x, x2: x, y1: 4 + down, y2: this.bottom }),
+        drawn("text", { x: side === "start" ? x + 5 : x - 5, y: 14 + down, "text-anchor": side },
           drawn("tspan", { class: "word" }, word.slice(0, cut)), word.slice(cut)),
       ];
     });
