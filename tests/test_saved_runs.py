@@ -69,7 +69,13 @@ def test_the_animation_stands_on_its_ball_where_the_ball_is(shown):
     document = run_glb(shown, 4.0)
     length = struct.unpack("<I", document[12:16])[0]
     said = json.loads(document[20 : 20 + length])
-    assert said["asset"]["extras"]["parameters"]["table"].strip(" '") == shown.table
+    assert said["asset"]["extras"]["parameters"]["table"] == shown.table
+    slower = said["asset"]["extras"]["slower than the real top by"]
+    words = {"ordinary": "on an ordinary table", "rough": "rolling", "ice": "on ice"}[shown.table]
+    assert said["animations"][0]["name"] == f"{words}, {slower:.3g} times slower"
+    [times] = {sampler["input"] for sampler in said["animations"][0]["samplers"]}
+    longest = said["accessors"][times]["max"][0]
+    assert longest == pytest.approx(slower * shown.trajectory.t[-1] * shown.setup.scales.time) and longest < 60.1
     channel = next(each for each in said["animations"][0]["channels"] if each["target"]["path"] == "translation")
     place = said["accessors"][said["animations"][0]["samplers"][channel["sampler"]]["output"]]
     view = said["bufferViews"][place["bufferView"]]

@@ -29,6 +29,7 @@ ORDINARY, ROUGH, ICE = "ordinary", "rough", "ice"
 OF_ONE = "in units of M, R and g"
 PLANES = {"sliding": ORDINARY, "smooth": ICE}
 """What the three planes call two of the tables."""
+LONGEST = 60.0  # s that an animation takes
 NODS = 12  # drawn of a motion that nods alike for ever
 
 
@@ -93,8 +94,11 @@ def run_npz(shown, link=""):
 
 
 def run_glb(shown, slower):
-    """A run as a glTF animation (bytes)."""
-    return glb.animation_glb(shown, slower, shown.parameters)
+    """A run as a glTF animation (bytes), so many times slower than it was, but not longer than LONGEST."""
+    seconds = shown.trajectory.t[-1] * shown.setup.scales.time
+    slower = max(1.0, min(slower, LONGEST / seconds))
+    name = {ORDINARY: "on an ordinary table", ROUGH: "rolling", ICE: "on ice"}[shown.name]
+    return glb.animation_glb(shown, slower, shown.parameters, name)
 
 
 def run_print(shown, kind):
