@@ -84,7 +84,7 @@ STEPS = {
                        click("button", "viscous")],
     "Three planes otherwise": [click("button", "smoothed"), click("radio", "Ice"),
                                click("button", "by its constants")],
-    "Build a top": [room("Build a top"), awaited("button:text-is('Put on')")],
+    "Build a top": [room("Build a top"), awaited("button:text-is('Add')")],
     "a list": [lambda page: page.get_by_label("Presets").first.click(), awaited("[role=listbox]")],
     "Families": [escape, room("Families"), awaited("button:text-is('Compute the map')")],
     "Maps": [room("Maps"), awaited("h2:text-is('Where runs and formula disagree')")],
@@ -144,7 +144,7 @@ def test_axe_finds_nothing_anywhere_in_any_look_and_no_other_machine_is_asked(ch
 ON_A_PHONE = {
     "Roll": "canvas",
     "Three planes": "canvas:visible",
-    "Build a top": "button:text-is('Put on')",
+    "Build a top": "button:text-is('Add')",
     "Families": "button:text-is('Compute the map')",
     "Maps": "h2:text-is('Where runs and formula disagree')",
     "Measure": "button:text-is('Example: it rolls')",

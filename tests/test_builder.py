@@ -130,11 +130,11 @@ def test_a_bad_dimension_is_said_at_its_field_and_changes_nothing(explorer, buil
 def test_moving_a_I1_I3_parts_them_from_the_body_and_says_so(explorer, builder):
     explorer.I1 = 0.42
     assert explorer.scene.shape is None
-    assert any("set apart from the body" in note for note in explorer.scene.notes)
+    assert any("set independently of the body" in note for note in explorer.scene.notes)
     assert explorer.scene.profile[-1] == pytest.approx([0, 1])
     builder.attach()
     assert explorer.scene.shape == TruncatedSphere.paper()
-    assert not any("set apart" in note for note in explorer.scene.notes)
+    assert not any("set independently" in note for note in explorer.scene.notes)
 
 
 def test_the_stem_touches_the_table_where_physics_md_has_it(explorer, builder):

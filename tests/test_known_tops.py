@@ -30,7 +30,7 @@ def test_every_preset_has_a_place_and_no_two_share_one():
         # Leine and Glocker's: standing is allowed from 19 turns a second on
         ("Leine and Glocker's toy", "not below 19.0 "),
         ("Loaded sphere", "148° at most"),
-        ("Uniform ball", "no tilt suits it better"),
+        ("Uniform ball", "it prefers no tilt"),
     ],
 )
 def test_what_is_said_of_a_top_is_what_its_numbers_decide(name, said):

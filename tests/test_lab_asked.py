@@ -88,7 +88,7 @@ def test_a_life_that_is_longer_than_what_is_computed_says_so(monkeypatch):
     whole_on.cache_clear()
     assert cut.is_cut and len(cut.trajectory.t) == 300
     assert story(cut).stages[-1].why.endswith(
-        f"Only so much of its life is computed: to {cut.start.seconds:.3g} s. The top goes on.")  # fmt: skip
+        f"Its motion is computed only up to {cut.start.seconds:.3g} s. The top goes on.")  # fmt: skip
 
 
 def test_a_body_that_would_be_in_the_table_is_told_at_the_tilt(lab):

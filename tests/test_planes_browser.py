@@ -31,7 +31,7 @@ def page(server, chromium):
     page.set_default_timeout(PATIENCE)
     go_to(page, "Three planes")
     choose(page, "spin, tilt and slip")
-    page.get_by_text(re.compile("Friction in force: smoothed Coulomb")).wait_for()
+    page.get_by_text(re.compile("Friction law in use: smoothed Coulomb")).wait_for()
     put(page, "spin", 20)
     put(page, "tilt", 10)
     page.wait_for_function("/by=hand/.test(location.search) && !/spin=|tilt=/.test(location.search)")
@@ -68,10 +68,10 @@ def put_on(page, table):
 
 
 def test_the_first_look_says_that_only_sliding_turns_it_over(page, first):
-    page.get_by_text(re.compile(r"^rough: never turns over: rolling keeps the sign")).wait_for()
+    page.get_by_text(re.compile(r"^rough: never turns over: in rolling")).wait_for()
     page.get_by_text(re.compile(r"^smooth: never turns over")).wait_for()
     page.get_by_text(re.compile(r"^sliding: leans on ball and stem: 118\.8° at 5 s; past 90° at 2\.\d+ s")).wait_for()
-    page.get_by_text(re.compile("Friction in force: smoothed Coulomb")).wait_for()
+    page.get_by_text(re.compile("Friction law in use: smoothed Coulomb")).wait_for()
     page.wait_for_function(f"n => {TOPS}.length == 1 && {TOPS}[0].count == n", arg=len(first.motions["sliding"].t))
     shown = page.evaluate(COLUMN, ["planes-theta", "theta"])
     for values, motion in zip(shown, first.motions.values(), strict=True):
@@ -103,7 +103,7 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
     table = page.locator("table").first.inner_text()
     assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
     put_on(page, "Ice")
-    page.get_by_text(re.compile("Friction in force: smooth plane")).wait_for()
+    page.get_by_text(re.compile("Friction law in use: smooth plane")).wait_for()
     put_on(page, "Ordinary")
 
 
@@ -124,13 +124,13 @@ def test_there_is_no_well_while_the_stem_touches(page, first):
 def test_a_preset_sets_the_top_the_start_and_the_law(page):
     choose(page, "Hangs halfway")
     page.get_by_text(re.compile(r"^sliding: leans: 109\.\d° at 25 s.*; past 90° at 1\.99 s")).wait_for()
-    page.get_by_text(re.compile("Friction in force: viscous")).wait_for()
+    page.get_by_text(re.compile("Friction law in use: viscous")).wait_for()
     page.wait_for_function("field => field.value == '9.5493'", arg=field(page, "spin").element_handle())
     # and the address follows without another gesture
     page.wait_for_function("/spin=9.5493&.*law=viscous/.test(location.search)")
     page.keyboard.press("Control+z")
     page.wait_for_function("!location.search.includes('law=')")
-    page.get_by_text(re.compile("Friction in force: smoothed Coulomb")).wait_for()
+    page.get_by_text(re.compile("Friction law in use: smoothed Coulomb")).wait_for()
     choose(page, "The paper’s top by hand")
     page.get_by_text(re.compile("^sliding: leans on ball and stem")).wait_for()
 

@@ -1,6 +1,6 @@
 """Tippe tops and other tops with round pegs, after C. G. Gray and B. G. Nickel, Am. J. Phys. 68, 821 (2000).
 
-Lengths in R, masses in M, accelerations in g. The names below are the public ones.
+Units: lengths in R, masses in M, accelerations in g, so times in (R/g)^1/2. The names in __all__ are the public ones.
 """
 
 from .bodies.files import load_top, save_top

@@ -1,4 +1,4 @@
-"""`python -m tippe_core`: compiles the kernels ahead, so that nobody waits for a compiler later."""
+"""`python -m tippe_core`: compiles the kernels ahead of time, so that nobody waits for the compiler later."""
 
 import sys
 from contextlib import nullcontext
@@ -10,7 +10,7 @@ from .compiled import why_not
 
 
 def main() -> int:
-    """Prints what it does; returns the exit code, 1 where what it compiled cannot be kept."""
+    """Prints what it does; returns the exit code: 1 if the compiled kernels cannot be stored."""
     reason = why_not()
     if reason:
         print(f"tippe_core computes in Python, some hundred times slower than compiled: {reason}.")
@@ -21,7 +21,7 @@ def main() -> int:
         return 0
     print("Compiling the kernels of tippe_core, once for these sources and this processor, so that nobody has to wait "
           "for it later:", flush=True)  # fmt: skip
-    with kept.locked(folder, "ahead") if folder else nullcontext():  # one compiles, the others wait and find all
+    with kept.locked(folder, "ahead") if folder else nullcontext():  # one process compiles, the others wait
         reason = compile_all(partial(print, end="", flush=True))
     if reason:
         print(f"They could not be kept: {reason}.", file=sys.stderr)

@@ -1,6 +1,7 @@
-"""Compiling ahead: one small call of everything public that uses kernels, so that what is compiled is what is called.
+"""Compiling ahead of time: one small call of every public function that uses kernels, so that exactly the kernels that
+are called get compiled.
 
-Whoever adds a public function, or another type of argument that reaches a kernel, adds it to CALLS.
+A new public function, or a new type of argument that reaches a kernel, needs an entry in CALLS.
 """
 
 import time
@@ -77,7 +78,8 @@ def smooth() -> None:
 
 
 def sliding() -> None:
-    """With each law, as a whole sphere and with the stem's edge, over a landing, and on the stem."""
+    """With each friction law, as a whole sphere and with the edge of the stem, with a landing, and standing on the
+    stem."""
     top, edge = TruncatedSphere.paper().top, TruncatedSphere.paper().edge
     on_the_stem = State(theta=3.0, theta_dot=0.0, omega2=0.0, omega3=-9.0)
     for law in LAWS:
@@ -87,7 +89,7 @@ def sliding() -> None:
     slide_many(top, START, LAWS[0], 1.0, edge, nudge=1e-6)
 
 
-# In the order in which the page's visitors come to need them.
+# In the order in which visitors of the page first need them.
 CALLS: tuple[tuple[str, Callable[[], None]], ...] = (
     ("f, the spins and the forces", curve),
     ("tielines", lines),
@@ -99,8 +101,8 @@ CALLS: tuple[tuple[str, Callable[[], None]], ...] = (
 
 
 def compile_all(say: Callable[[str], object] = lambda text: None) -> str:
-    """Compiles what is not kept yet, and keeps it. say: told how far it is, in pieces of lines. Returns why it is not
-    kept; empty where it is."""
+    """Compiles whatever is not stored yet, and stores it. say: is called with the progress, in pieces of lines. Returns
+    the reason why the kernels could not be stored; empty if they were."""
     for number, (name, call) in enumerate(CALLS, 1):
         say(f"  {number} of {len(CALLS)}  {name}: ")
         start = time.monotonic()

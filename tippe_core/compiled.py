@@ -1,5 +1,5 @@
-"""Kernels: plain functions that numba compiles at their first call, and keeps (kept.py). They run as Python where numba
-is not installed or is told not to compile (NUMBA_DISABLE_JIT=1), and while another thread compiles ahead.
+"""Kernels: plain functions that numba compiles at their first call and stores on disk (kept.py). They run as ordinary
+Python if numba is not installed or switched off (NUMBA_DISABLE_JIT=1), and while another thread compiles ahead of time.
 """
 
 import functools
@@ -15,35 +15,36 @@ from typing import Any, TypeAlias, TypeVar, cast
 from . import kept
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-Numba: TypeAlias = Any  # a module, a dispatcher or a type of numba's, which has no types of its own
+Numba: TypeAlias = Any  # a module, a dispatcher or a type of numba, which ships no annotations
 
-_INSTALLED = importlib.util.find_spec("numba") is not None  # which does not import it
+_INSTALLED = importlib.util.find_spec("numba") is not None  # without importing it
 _making = threading.RLock()
-_shared: list[Callable[..., Any]] = []  # of which numba has not been told yet
-_compiler: int | None = None  # the thread that compiles ahead, while there is one
+_shared: list[Callable[..., Any]] = []  # not yet registered with numba
+_compiler: int | None = None  # the thread that compiles ahead of time, while there is one
 made: list[str] = []  # kernels that this process had to compile, each with the types of its arguments
-_unwritten = ""  # why the last kernel that could not be written could not
+_unwritten = ""  # why the last kernel that failed to be stored failed
 
 
 def compiled(function: Function) -> Function:
-    """function, compiled at its first call and kept on disk. It takes numbers, arrays and named tuples of them, holds
-    no lock of Python's while it runs, and divides by 0 as numpy does."""
+    """Decorator: compiles function at its first call and stores the result on disk. The arguments are numbers, arrays
+    and named tuples of them; it runs without the GIL, and dividing by 0 gives inf or nan as in numpy."""
     return cast(Function, Kernel(function)) if _INSTALLED else function
 
 
 def shared_with_kernels(function: Function) -> Function:
-    """function as it is, for floats, arrays and Decimals; kernels may call it too, and it is compiled into them."""
+    """Decorator: leaves function as it is, for floats, arrays and Decimals. Kernels may call it; it is compiled into
+    them."""
     _shared.append(function)
     return function
 
 
 class Kernel:
-    """A function that stands in for its compiled self, from Python and from other kernels. numba is not imported
-    before one is called: with its types it takes 0.3 s and 100 MB."""
+    """A stand-in for the compiled function, callable from Python and from other kernels. numba is imported only when
+    the first one is called: the import takes 0.3 s and 100 MB."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         functools.update_wrapper(self, function)
-        self.py_func = function  # as numba's own are called
+        self.py_func = function  # the name that numba uses
 
     def __call__(self, *arguments: Any, **named: Any) -> Any:
         if _compiler is not None and _compiler != threading.get_ident():
@@ -52,20 +53,20 @@ class Kernel:
 
     @functools.cached_property
     def dispatcher(self) -> Numba:
-        """numba's; where it cannot compile, the function itself."""
+        """numba's dispatcher, or the plain function if numba cannot compile."""
         with _making:
-            if "dispatcher" not in self.__dict__:  # that another thread has made meanwhile
+            if "dispatcher" not in self.__dict__:  # another thread may have made it meanwhile
                 self.__dict__["dispatcher"] = _dispatcher(self.py_func)
             return self.__dict__["dispatcher"]
 
     @property
     def _numba_type_(self) -> Numba:
-        """What numba asks an object for, to know how to call it."""
+        """The attribute by which numba learns how to call an object."""
         return self.dispatcher._numba_type_
 
 
 def why_not() -> str:
-    """Why kernels run as Python; empty where they are compiled."""
+    """Why the kernels run as plain Python; empty if they are compiled."""
     numba = _numba()
     if isinstance(numba, ImportError):
         return f"numba cannot be imported ({numba})"
@@ -73,7 +74,7 @@ def why_not() -> str:
 
 
 def not_kept() -> str:
-    """Why kernels of this process are compiled again by the next one; empty where they are kept."""
+    """Why the next process will have to compile this process's kernels again; empty if they are stored."""
     if kept.folder() is None:
         return "no folder can be written to: " + ", ".join(map(str, kept.places()))
     return _unwritten
@@ -81,7 +82,7 @@ def not_kept() -> str:
 
 @contextmanager
 def ahead() -> Iterator[None]:
-    """While it lasts this thread compiles, and all others run kernels as Python: nobody waits for a compiler."""
+    """Context in which this thread compiles while all others run kernels as plain Python, so that nobody waits."""
     global _compiler
     _compiler = threading.get_ident()
     try:
@@ -92,7 +93,7 @@ def ahead() -> Iterator[None]:
 
 @functools.cache
 def _numba() -> Numba:
-    """The module, or the ImportError that it raises: with a numpy too new for it, say."""
+    """The module numba, or the ImportError that it raises, for example when numpy is too new for it."""
     try:
         return importlib.import_module("numba")
     except ImportError as error:
@@ -106,7 +107,7 @@ def _dispatcher(function: Callable[..., Any]) -> Numba:
         importlib.import_module("numba.extending").register_jitable(error_model="numpy")(_shared.pop())
     dispatcher = _numba().njit(nogil=True, error_model="numpy")(function)
     if kept.folder() is not None and Path(function.__code__.co_filename).is_file():
-        # Private: where another numba has none of these, kernels are compiled anew by each process.
+        # Private parts of numba. If another version lacks them, each process compiles the kernels anew.
         with suppress(ImportError, AttributeError):
             dispatcher._cache = _cache()(function)
     with suppress(ImportError, AttributeError):
@@ -115,8 +116,8 @@ def _dispatcher(function: Callable[..., Any]) -> Numba:
 
 
 def _once(dispatcher: Numba) -> None:
-    """One kernel for all numbers of a type that other kernels call it with: numba would make its own for each literal,
-    and with it its own of all that it calls."""
+    """Makes one version of a kernel serve all numbers of a type. Otherwise numba compiles a separate version for each
+    literal argument in a calling kernel, and separate versions of everything that it calls."""
     from numba.types import unliteral
 
     resolved = dispatcher.get_call_template
@@ -129,10 +130,10 @@ def _once(dispatcher: Numba) -> None:
 
 @functools.cache
 def _cache() -> Numba:
-    """numba's cache in the folder of kept.py.
+    """numba's cache, in the folder of kept.py.
 
-    numba's own wants to write wherever it reads, so on a read-only system it raises at import; and what it cannot read
-    or write it raises in the call that happened to need it.
+    The standard cache needs to write wherever it reads, so on a read-only system it raises at import; and a file that
+    it cannot read or write makes the call fail that happened to need it.
     """
     from numba.core.caching import CompileResultCacheImpl, FunctionCache
 
@@ -145,13 +146,13 @@ def _cache() -> Numba:
         def load_overload(self, signature: Numba, context: Numba) -> Numba:
             try:
                 found = super().load_overload(signature, context)
-            except Exception:  # a file cut short raises anything; the list of files is begun anew
+            except Exception:  # a truncated file may raise anything; start a new index
                 with suppress(OSError):
                     self.flush()
                 return None
             if found is None:
                 return None
-            # Two processes that write at once, without locks, may give one name to the code for two signatures.
+            # Two processes that write at the same time, without locks, may give the code of two signatures one name.
             asked: Numba = getattr(signature, "args", signature)
             return found if tuple(found.signature.args) == tuple(asked) else None
 
@@ -161,14 +162,14 @@ def _cache() -> Numba:
             try:
                 with kept.locked(Path(self.cache_path), "write"):
                     super().save_overload(signature, result)
-            except Exception as error:  # a read-only system, a full disk, a folder that somebody took away
+            except Exception as error:  # a read-only system, a full disk, a deleted folder
                 _unwritten = str(error)
 
     return Cache
 
 
 class _Locator:
-    """What numba asks where a function's files are, and whether they are of its source as it is."""
+    """Tells numba where a function's files are, and whether they match its present source."""
 
     def __init__(self, path: str, line: int) -> None:
         self._py_file, self._line = path, line
@@ -181,13 +182,13 @@ class _Locator:
         return str(kept.folder())
 
     def ensure_cache_path(self) -> None:
-        """Nothing: folder() has made it."""
+        """Nothing to do: folder() has created it."""
 
     def get_source_stamp(self) -> bytes:
-        """Of tippe_core the folder's name tells; of a kernel elsewhere, its file."""
+        """For tippe_core the folder's name is stamp enough; for a kernel elsewhere, its file's."""
         return hashlib.sha256(Path(self._py_file).read_bytes()).digest()
 
     def get_disambiguator(self) -> str:
-        """Two files of one name may have functions of one name."""
+        """Tells apart functions of the same name in files of the same name."""
         path = os.path.relpath(self._py_file, kept.PACKAGE)
         return f"{hashlib.sha256(path.encode()).hexdigest()[:8]}-{self._line}"

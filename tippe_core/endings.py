@@ -1,4 +1,4 @@
-"""What a motion of slide() did, read from it: on what it stood, for how long, where it is in the end, what follows."""
+"""Reads from a motion of slide() how it went: which contacts carried the top and for how long, and how it ended."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -24,7 +24,7 @@ STOPS = ("stands upright", "too many events", "too many turns", *REFUSED)
 
 
 class Stretch(NamedTuple):
-    """From start to end in (R/g)^1/2 on "ball", "stem" or "both", or in the "air"."""
+    """A time interval, start to end in (R/g)^1/2, on one support: "ball", "stem", "both" or "air"."""
 
     start: float
     end: float
@@ -33,22 +33,22 @@ class Stretch(NamedTuple):
 
 @dataclass(frozen=True)
 class Ending:
-    """What became of a motion.
+    """How a motion went, and how it ended.
 
-    stretches  Stretch after Stretch, neighbours different
-    end        by the last tenth of its time: "refused" (it came where nothing can be computed: ended says which),
-               "stem" (on its stem alone), "upright" (on its ball, theta < 0.2), "inverted" (on its ball,
-               theta > pi - 0.2), "leaning" (theta within 0.05 rad, on what `on` says), "rolling" (sticks, nutating),
-               "moving" (none of these)
-    on         on what it is all through that tenth; "" where that changes
+    stretches  the successive Stretches; neighbours differ
+    end        judged by the last tenth of the time: "refused" (it reached a state beyond which nothing can be
+               computed: ended says which), "stem" (on its stem alone), "upright" (on its ball, theta < 0.2),
+               "inverted" (on its ball, theta > pi - 0.2), "leaning" (theta constant within 0.05 rad, on the support
+               `on`), "rolling" (without slipping, nutating), "moving" (none of these)
+    on         the support throughout that tenth; "" if it changes
     since      when that tenth begins, (R/g)^1/2
-    least, most   theta in it, rad
-    ended      the event that ended it before its time, "" if none did
+    least, most   the range of theta in it, rad
+    ended      the event that ended the motion early, "" if none did
     flat       it stands flat on the end of its stem
-    settled    nothing more follows: it rolls and was seen to swing there and back, or friction takes nothing any more
-               and it is where it would come back to
-    cut        the end of the time is all that ended it, and it still changes
-    creeps     it is settled, and yet its mean tilt still goes on to where it will be
+    settled    nothing more will happen: it rolls and has completed a full nutation, or friction no longer dissipates
+               and the tilt is a stable one
+    cut        it was still changing when the time was over
+    creeps     it is settled, but its mean tilt still moves slowly to its final value
     """
 
     stretches: tuple[Stretch, ...]
@@ -65,7 +65,7 @@ class Ending:
 
 
 def ending(trajectory: Trajectory) -> Ending:
-    """The Ending of a Trajectory of slide()."""
+    """The Ending of a Trajectory from slide()."""
     if not isinstance(trajectory, Trajectory):
         raise TopError("trajectory", trajectory, "Trajectory", code="wrong-kind")
     moved, found, ended = trajectory, stretches(trajectory), _ended(trajectory)
@@ -95,7 +95,7 @@ def ending(trajectory: Trajectory) -> Ending:
 
 
 def _ended(moved: Trajectory) -> str:
-    """The event that ended it: the Trajectory has no sample there."""
+    """The event that ended the motion; the Trajectory has no sample there."""
     if not moved.events:
         return ""
     time, event = moved.events[-1]
@@ -103,7 +103,7 @@ def _ended(moved: Trajectory) -> str:
 
 
 def _swings(moved: Trajectory) -> bool:
-    """Whether it has rolled long enough to come back: through two turning points of theta since it last slipped."""
+    """Whether it has rolled for a full nutation: through two turning points of theta since it last slipped."""
     slipped = moved.t[moved.regime != "roll"][-1:]
     event = max([moved.t[0], *slipped, *(time for time, _ in moved.events[-1:])])
     since = min(int(np.searchsorted(moved.t, event)), len(moved.t) - 1)
@@ -112,7 +112,8 @@ def _swings(moved: Trajectory) -> bool:
 
 
 def _quiet(moved: Trajectory, last: Bools, on: str) -> bool:
-    """Whether friction takes nothing any more, and on the ball alone whether that is at a stable steady state."""
+    """Whether friction no longer dissipates and, if only the ball carries, whether the top is at a stable steady
+    state."""
     t, heat, kinetic = moved.t[last], moved.heat[last], moved.ledger.kinetic[-1]
     first, second = np.diff(np.interp([t[0], (t[0] + t[-1]) / 2, t[-1]], t, heat))
     if on in ("air", "") or first + second > QUIET * kinetic + 1e-9 or second > first + 1e-9:
@@ -123,28 +124,34 @@ def _quiet(moved: Trajectory, last: Bools, on: str) -> bool:
 
 
 def _from_stable(moved: Trajectory, last: Bools) -> float:
-    """How far the mean of theta is from a stable steady state of the ball; 0 for a uniform ball, which has none."""
+    """Distance (rad) of the mean theta from a stable steady state on the ball; 0 for a uniform ball, which has none."""
     steady, theta = steady_states(moved.top, moved.jellett[-1]), moved.theta[last].mean()
     return float(np.abs(steady.theta[steady.stable] - theta).min()) if any(steady.stable) else 0.0
 
 
 def lowest(profile: Array, theta: Array) -> Array:
-    """How far the lowest point of a profile, (k, 2) of radius and height above O in R, is above O at theta (n,)."""
+    """Height (n,) above O, in R, of the lowest point of the body at the tilts theta (n,), rad.
+
+    profile: (k, 2), radius and height above O in R, as from Shape.profile.
+    """
     radius, z = profile.T[:, :, None]
-    parts = np.array_split(theta, len(theta) // ANGLES + 1)  # so that a long motion takes no more memory
+    parts = np.array_split(theta, len(theta) // ANGLES + 1)  # so that a long motion needs no more memory
     return np.concatenate([(z * np.cos(part) - radius * np.sin(part)).min(axis=0) for part in parts])
 
 
 def sunk(trajectory: Trajectory, profile: Array) -> int:
-    """The first row at which a part of the profile that slide() does not know of is in the table, or how many there
-    are: it knows the sphere and one edge, and an upper rim or another corner may come to the table past these. The
-    profile as in lowest()."""
+    """The first row at which some part of the body is below the table; the number of rows if there is none.
+
+    slide() knows only the sphere and one edge, so another corner of the body may sink into the table. profile as in
+    lowest().
+    """
     height = trajectory.com[:, 2] + trajectory.top.a * np.cos(trajectory.theta) + lowest(profile, trajectory.theta)
     return int(np.argmax(np.append(height < -SUNK, True)))
 
 
 def _creeps(moved: Trajectory, last: Bools) -> bool:
-    """Whether the mean of theta still changes over the last two fifths of the time, and is not where it goes."""
+    """Whether the mean of theta still changes over the last two fifths of the time, and has not reached its final
+    value."""
     if _from_stable(moved, last) < THERE:
         return False
     last = moved.theta[moved.t >= moved.t[-1] - 4 * LAST * (moved.t[-1] - moved.t[0])]
@@ -153,7 +160,7 @@ def _creeps(moved: Trajectory, last: Bools) -> bool:
 
 
 def stretches(trajectory: Trajectory) -> tuple[Stretch, ...]:
-    """(Stretch, ...) of a Trajectory: its supports."""
+    """The supports of a Trajectory as a tuple of Stretches."""
     times = [*(time for time, _ in trajectory.supports), float(trajectory.t[-1])]
     return tuple(
         Stretch(start, max(start, end), {"none": "air"}.get(on, on))

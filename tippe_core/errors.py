@@ -1,4 +1,4 @@
-"""What is said when a value cannot be used: a code, its name, the value, the allowed range, what to do."""
+"""Errors for values that cannot be used: a code, the quantity's name, its value, the allowed range, and a remedy."""
 
 import math
 from typing import Any, Self, SupportsFloat
@@ -62,17 +62,15 @@ CODES = {
     "missing-field": "a field that is not there",
     "repeated-field": "a field that is there more than once",
 }
-"""{code: what is wrong}: every code that a TopError of this package has."""
+"""{code: what is wrong}: every code that a TopError of this package can have."""
 
 
 class TopError(ValueError):
-    """A quantity outside the range in which it means anything.
+    """A quantity is outside its allowed range.
 
-    Attributes: code, a key of CODES, for a program that chooses words of its own; name, value, allowed and remedy, the
-    parts of the sentence, and numbers, what stands in them, {name: value}; str() is the sentence. allowed is a formula
-    or Python's notation where the code says the rest.
-
-    Where numbers are given, allowed and remedy are formats of them, such as "at most {most:g}".
+    str() is the whole sentence; its parts are the attributes name, value, allowed and remedy. code is a key of CODES,
+    for programs that choose their own words. numbers, {name: value}, are the numbers in the sentence: if there are any,
+    allowed and remedy are format strings for them, such as "at most {most:g}".
     """
 
     def __init__(
@@ -85,16 +83,17 @@ class TopError(ValueError):
         super().__init__(f"{said} {self.remedy}" if self.remedy else said)
 
     def replaced(self, name: str, value: object, **numbers: Any) -> Self:
-        """The same error of a quantity called, or measured, otherwise: with these numbers in place of its own."""
+        """The same error for a quantity with another name or in another unit: with these numbers in place of its
+        own."""
         return type(self)(name, value, *self._formats, code=self.code, **self.numbers | numbers)
 
 
 class NoMotionError(TopError):
-    """The energy is below the bottom of every well of f: no such motion exists. Its code is "no-motion"."""
+    """The energy is too low: f < 0 at every theta, so no such motion exists. Its code is "no-motion"."""
 
 
 def shown(value: object) -> str:
-    """A value as it stands in a sentence."""
+    """A value as it is printed in a sentence."""
     return f"{value:.10g}" if isinstance(value, float) else repr(value)
 
 
@@ -110,7 +109,7 @@ def finite(name: str, value: SupportsFloat) -> float:
 
 
 def numbers(name: str, values: ArrayLike, finite: bool = True) -> Array:
-    """values as a new float array, or a TopError that names them; finite: nan and infinity are refused."""
+    """values as a new float array, or a TopError that names them; finite: reject nan and infinity."""
     try:
         array = np.array(values)
     except (TypeError, ValueError, OverflowError):

@@ -1,7 +1,8 @@
-"""Where compiled kernels are kept between two starts: a folder for these sources, this Python, numba and processor.
+"""Where compiled kernels are stored between runs: one folder for each set of sources, Python, numba and processor.
 
-numba looks only at the file that a kernel stands in; of a callee in another file that changed it would not know, and
-call the old one. So a folder's name holds a hash of all sources of tippe_core, and what is found in it is never stale.
+numba checks only the file in which a kernel is defined: it would not notice that a function called from another file
+had changed, and would run the old one. So the folder's name contains a hash of all sources of tippe_core, and nothing
+in it is ever stale.
 """
 
 import hashlib
@@ -16,23 +17,23 @@ from pathlib import Path
 
 try:
     import fcntl
-except ImportError:  # Windows: there a folder has no lock, and whoever finds it changed compiles again
+except ImportError:  # Windows: no lock on folders; a process that finds the folder changed compiles again
     fcntl = None  # type: ignore[assignment]
 
 PACKAGE = Path(__file__).parent
-COMPLETE = "complete"  # a file that lists what is kept, each with its size, once nothing is missing
+COMPLETE = "complete"  # this file lists the stored files and their sizes, once nothing is missing
 
 
 @cache
 def name() -> str:
-    """Of the folder: kernels-<Python>-<processor>-<hash>."""
+    """The folder's name: kernels-<Python>-<processor>-<hash>."""
     import numba
     import numpy as np
     from numba.core.registry import cpu_target
 
     target = (
         cpu_target.target_context.codegen().magic_tuple()
-    )  # system, processor's name and abilities, as told or found
+    )  # system, processor's name and features, as set or detected
     known = hashlib.sha256(repr((sys.version, numba.__version__, np.__version__, target)).encode())
     for path in sorted(PACKAGE.rglob("*.py")):
         known.update(path.relative_to(PACKAGE).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
@@ -40,12 +41,12 @@ def name() -> str:
 
 
 def places() -> Iterator[Path]:
-    """Folders in which it may be: where numba is told to keep its own, else beside the sources and the user's cache."""
+    """Candidate folders: numba's cache directory if one is set, else next to the sources, then the user's cache."""
     if told := os.environ.get("NUMBA_CACHE_DIR"):
         yield Path(told)
         return
     yield PACKAGE / "__pycache__"
-    with suppress(RuntimeError):  # a user without a home
+    with suppress(RuntimeError):  # a user without a home directory
         yield _users_cache() / "tippe-top-explorer"
 
 
@@ -60,15 +61,15 @@ def _users_cache() -> Path:
 
 @cache
 def folder() -> Path | None:
-    """The first that is complete, written to or not; else the first that can be written to; None where none can."""
-    if not Path(__file__).is_file():  # in an archive, whose files cannot be listed
+    """The first candidate that is complete, writable or not; else the first writable one; None if there is none."""
+    if not Path(__file__).is_file():  # inside an archive, where files cannot be listed
         return None
     candidates = [place / name() for place in places()]
     return next((each for each in candidates if complete(each)), None) or next(filter(writable, candidates), None)
 
 
 def complete(path: Path | None) -> bool:
-    """Whether all that compiling ahead makes is there; lists may have become longer since."""
+    """Whether all that compiling ahead of time produces is there; more may have been added since."""
     if path is None:
         return False
     try:
@@ -79,7 +80,7 @@ def complete(path: Path | None) -> bool:
 
 
 def mark(path: Path) -> None:
-    """Says of a folder that nothing is missing."""
+    """Marks a folder as complete."""
     files = sorted(each for each in path.iterdir() if each.suffix in (".nbi", ".nbc"))
     new = path / f"{COMPLETE}.{os.getpid()}"
     new.write_text("".join(f"{each.stat().st_size} {each.name}\n" for each in files), encoding="utf-8")
@@ -87,7 +88,7 @@ def mark(path: Path) -> None:
 
 
 def writable(path: Path) -> bool:
-    """Whether files can be made in it. Where it is new, what was kept there for other sources or another numba goes."""
+    """Whether files can be created in it. A new folder replaces those for other sources or another numba."""
     try:
         new = not path.is_dir()
         path.mkdir(parents=True, exist_ok=True)
@@ -103,11 +104,12 @@ def writable(path: Path) -> bool:
 
 @contextmanager
 def locked(path: Path, what: str) -> Iterator[None]:
-    """For one process at a time, where the system has such locks; they end with the process that holds them."""
+    """Context for one process at a time, on systems that have such locks; a lock ends with the process that holds
+    it."""
     if fcntl is None:
         yield
         return
     with (path / f"{what}.lock").open("w") as lock:
-        with suppress(OSError):  # a network's disk that has none
+        with suppress(OSError):  # a network drive without locks
             fcntl.flock(lock, fcntl.LOCK_EX)
         yield

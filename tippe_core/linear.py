@@ -1,18 +1,19 @@
-"""How fast small motions about steady spinning grow, and how fast they turn: the linear picture of the sliding top.
+"""Linear stability of the sliding top: how fast small deviations from steady spinning grow, and how fast they rotate.
 
-About a pole, c = +1 upright or -1 inverted, with the top spinning about its own axis with omega. In complex numbers
-for horizontal vectors in space, xi of the axis, v of G's velocity, u of the contact's slip, F = -k u with F_z = 1,
-L = I1 e x e' + I3 omega e and the moment of the forces about G give
+Near a pole, c = +1 upright or -1 inverted, the top spins about its own axis with omega. Horizontal vectors in space are
+written as complex numbers: xi for the axis, v for the velocity of G, u for the slip at the contact, F = -k u with
+F_z = 1. L = I1 e x e' + I3 omega e and the torque of the forces about G give
 
     I1 c xi'' = i I3 omega xi' + (a c - 1) F - a xi ,     v' = F ,     u = v + i omega xi + (a - c) xi'
 
-so solutions go as exp(lambda t) with three complex lambda (divided by c = 1/c). Real part: growth; imaginary part:
-turning, seen from above. k is the law's at small slip: gamma, mu/eps, (3 pi/8) mu/(radius |omega_n|); Coulomb's law is
-not linear there, and holds: u = 0, rolling.
+so solutions vary as exp(lambda t) with three complex lambda (divide by c, which equals 1/c). The real part is the
+growth rate, the imaginary part the rate of rotation, seen from above. k is the slope of the friction law at small slip:
+gamma, mu/eps, or (3 pi/8) mu/(radius |omega_n|). Coulomb's law is not linear there: the contact sticks, u = 0, and the
+top rolls.
 
-About tumbling, a steady precession that neither slips nor needs friction, w2^2 [I1 c - I3 (c - a)] = a s^2 and
-w3 s = w2 (c - a): of the sliding equations (theta, w1, w2, w3, v) their derivative, by steps into the complex plane,
-which lose no digits. The spin is taken to stay as it is, which pivoting changes slowly.
+Tumbling is a steady precession that neither slips nor needs friction: w2^2 [I1 c - I3 (c - a)] = a s^2 and
+w3 s = w2 (c - a). Near it the Jacobian of the sliding equations in (theta, w1, w2, w3, v) is found by complex-step
+differentiation, which loses no digits. The spin is taken as constant; the pivoting torque changes it slowly.
 """
 
 from typing import Any
@@ -26,12 +27,15 @@ from .paper.top import Top
 from .types import Array
 
 Modes = NDArray[np.complex128]
-STEP = 1e-30  # into the complex plane: rounding knows no difference that small
+STEP = 1e-30  # of the complex-step derivative, whose truncation error is then below rounding
 
 
 def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = False) -> Modes:
-    """lambda, the largest growth first, in (g/R)^1/2: of a top that spins about its own axis, which stands upright or
-    inverted. spin in (g/R)^1/2. Three of them; two where friction holds (Coulomb)."""
+    """The eigenvalues lambda, in (g/R)^1/2, of a top that spins about its own vertical axis, upright or inverted.
+
+    spin: its angular velocity about axis 3, in (g/R)^1/2. Three complex numbers, or two where friction makes the
+    contact stick (Coulomb); the one that grows fastest comes first.
+    """
     a, I1, I3, c, w = top.a, top.I1, top.I3, -1.0 if inverted else 1.0, finite("spin", spin)
     if isinstance(friction, Coulomb):
         # F = v' = -(i omega xi' + (a - c) xi''), and c (a c - 1) = a - c
@@ -44,9 +48,12 @@ def spinning_modes(top: Top, friction: Friction, spin: float, inverted: bool = F
 
 
 def tumbling_modes(top: Top, friction: Friction, theta: float) -> Modes:
-    """lambda, the largest growth first, in (g/R)^1/2: of a steady precession at the tilt theta (rad) that neither slips
-    nor needs friction. One is 0, for a precession beside it is steady too. Four where friction holds (Coulomb).
-    Raises TopError where there is none at that tilt."""
+    """The eigenvalues lambda, in (g/R)^1/2, of tumbling: the steady precession at the tilt theta (rad) that neither
+    slips nor needs friction.
+
+    The one that grows fastest comes first. One is 0, because neighbouring precessions are steady too. Four numbers
+    where friction makes the contact stick (Coulomb). Raises TopError if there is no such precession at that tilt.
+    """
     y = tumbling(top, theta)
     holds = isinstance(friction, Coulomb)
     k = 0.0 if holds else float(friction.k(0.0, y[2] * np.sin(theta) + y[3] * np.cos(theta)))
@@ -69,7 +76,7 @@ def tumbling(top: Top, theta: float) -> Array:
 
 
 def _sliding(y: Modes, top: Top, k: float) -> Modes:
-    """The sliding equations, with F_h = -k F_z u."""
+    """Time derivative of the state by the sliding equations, with F_h = -k F_z u."""
     theta, w1, w2, w3, vx, vy = y
     a, s, c = top.a, np.sin(theta), np.cos(theta)
     phi_dot = w2 / s
@@ -85,12 +92,12 @@ def _sliding(y: Modes, top: Top, k: float) -> Modes:
 
 
 def _rolling(y: Modes, top: Top, k: float) -> Modes:
-    """The same with u = 0: v and v' follow from the spins, and F from v'."""
+    """The same for u = 0: v and v' follow from the angular velocity, and F from v'."""
     theta, w1, w2, w3 = y[:4]
     a, s, c, I1, I3 = top.a, np.sin(theta), np.cos(theta), top.I1, top.I3
     phi_dot, arm = w2 / s, 1 - a * c  # c (c - a) + s^2
     vx, vy = w2 * (c - a) - w3 * s, -w1 * arm
-    # unknown: w1', w2', w3', Fx, Fy, F_z
+    # unknowns: w1', w2', w3', Fx, Fy, F_z
     A = np.array([
         [I1, 0, 0, 0, -arm, a * s], [0, I1, 0, c - a, 0, 0], [0, 0, I3, -s, 0, 0],
         [0, c - a, -s, -1, 0, 0], [-arm, 0, 0, 0, -1, 0], [-a * s, 0, 0, 0, 0, 1]])  # fmt: skip

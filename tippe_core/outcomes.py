@@ -1,19 +1,19 @@
-"""Where friction takes a top: the steady states at a given Jellett constant, and the spins at which they turn stable.
+"""Where friction takes a top: the steady states at a given Jellett constant, and the spins at which their stability
+changes.
 
-Friction at a point, without a moment of pivoting and without losses: such a force keeps C_J = I1 s w2 + I3 (c - a) w3,
-and sliding friction only takes energy. (By Contensou's law, and with rolling resistance or air drag, C_J is lost
-slowly, and what follows holds only for as long as it is still about the same.) The least energy at a tilt theta is that
-of the top turning as a whole about the vertical through G,
+Friction at a point contact, without a pivoting torque and without other losses, conserves C_J = I1 s w2 + I3 (c - a) w3
+and only dissipates energy. (With Contensou's law, rolling resistance or air drag, C_J decreases slowly, and what
+follows holds only while it has hardly changed.) The least energy at a tilt theta is that of the top with G at rest and
+omega along r, the line from the contact point to G, so that it does not slip:
 
     V_J = a(1 - c) + C_J^2/(2 I_eff),     I_eff = I1 s^2 + I3 (c - a)^2 ,
 
-so the end is a minimum of V_J (Gallop; note 58 of the paper has its kinetic part, C_J^2/(2 I_eff)); it depends on the
-friction law only through the rate.
-With dV_J/dc = 0 written out, the steady states between the poles are zeros of a polynomial of degree four in c:
+so the final state is a minimum of V_J (Gallop; note 58 of the paper gives its kinetic part, C_J^2/(2 I_eff)). The
+friction law sets only the rate. From dV_J/dc = 0, the steady states between the poles are the zeros of a quartic in c:
 
     a I_eff^2 = C_J^2 [I1 c - I3 (c - a)] .
 
-At the poles C_J = I3 (1 - a) omega upright and -I3 (1 + a) Omega inverted, and V_J is least there where
+At the poles C_J = I3 (1 - a) omega (upright) and -I3 (1 + a) Omega (inverted), and V_J has a minimum there if
 
     upright    a (1 - a)^2 > omega^2 [I1 - I3 (1 - a)] ,        inverted    a (1 + a)^2 < Omega^2 [I3 (1 + a) - I1]
 
@@ -33,7 +33,7 @@ from .types import Array, Bools, Scalars
 
 
 class SteadyStates(NamedTuple):
-    """theta (k,) in rad, from 0 to pi, and stable (k,), whether V_J is least there."""
+    """The tilts theta (k,) of the steady states, in rad from 0 to pi, and stable (k,): True at minima of V_J."""
 
     theta: Array
     stable: Bools
@@ -43,27 +43,29 @@ class SteadyStates(NamedTuple):
 class Change:
     """How the stability of spinning about the vertical axis at a pole depends on the spin.
 
-    stable: "above" or "below" the spin, or "always" or "never"; spin in (g/R)^1/2, nan where no spin changes it.
+    stable: "above" or "below" the threshold spin, or "always" or "never"; spin: the threshold in (g/R)^1/2, nan if
+    there is none.
     """
 
     stable: str
     spin: float
 
     def holds(self, spin: float) -> bool:
-        """Whether it is stable with this spin (of either sign)."""
+        """Whether it is stable at this spin (of either sign)."""
         return {"always": True, "never": False}.get(self.stable, (abs(spin) > self.spin) == (self.stable == "above"))
 
 
 @dataclass(frozen=True)
 class Thresholds:
-    """The spins at which upright (theta = 0) and inverted spinning turn stable or unstable, in (g/R)^1/2.
+    """The spins at which upright (theta = 0) and inverted (theta = pi) spinning become stable or unstable, in
+    (g/R)^1/2.
 
     group     for a >= 0, by I1/I3: "never rises" below 1 - a, "can invert" up to 1 + a, "rises part of the way" above;
               for a < 0: "can stand upright" where I1/I3 < 1 - a, "never stands upright" above; "neutral" for a uniform
-              ball, which no tilt suits better than another
-    upright, inverted   Change: the top's own spin there
-    launch    the upright spin that has the C_J of the inverted threshold (nan where there is none)
-    rise      the tilt that a top which rises part of the way cannot exceed however it is spun: cos = -a/(I1/I3 - 1)
+              ball, for which all tilts are equivalent
+    upright, inverted   Change: the threshold of omega_3 at that pole
+    launch    the upright spin with the same C_J as the inverted threshold (nan if there is none)
+    rise      for a top that rises part of the way, the largest tilt it can reach at any spin: cos = -a/(I1/I3 - 1)
               (nan for the others)
     """
 
@@ -90,7 +92,7 @@ def thresholds(top: Top) -> Thresholds:
 
 
 def _change(height: float, inertia: float) -> Change:
-    """Stable where height + inertia spin^2 > 0."""
+    """The Change of a state that is stable if height + inertia spin^2 > 0."""
     if height * inertia < 0:
         return Change("above" if inertia > 0 else "below", float(np.sqrt(-height / inertia)))
     return Change("always" if height + inertia > 0 else "never", np.nan)
@@ -103,7 +105,7 @@ def jellett_potential(theta: Scalars, top: Top, C_J: Array) -> Array: ...
 @overload
 def jellett_potential(theta: Array, top: Top, C_J: Scalars) -> Array: ...
 def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
-    """V_J = a(1 - c) + C_J^2/(2 I_eff) in MgR. theta in rad and C_J broadcast; inf where I_eff = 0 and C_J is not."""
+    """V_J = a(1 - c) + C_J^2/(2 I_eff), in MgR. theta (rad) and C_J broadcast. inf where I_eff = 0 but C_J is not."""
     v, m = versines(theta)
     I_eff = eq.I_eff(1 - v, v * m, top)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -111,11 +113,11 @@ def jellett_potential(theta: Scalars, top: Top, C_J: Scalars) -> Scalars:
 
 
 def steady_states(top: Top, C_J: float) -> SteadyStates:
-    """The extrema of V_J at C_J (a number): SteadyStates(theta, stable), arrays from theta = 0 to pi, both included.
+    """The SteadyStates at C_J (a number): the extrema of V_J from theta = 0 to pi, both poles included.
 
-    With any law of sliding friction at a point, and no losses, a top comes to rest in them relative to its own
-    precession; stable where V_J is least. (For a uniform ball V_J is flat: every tilt is steady and none stable; only
-    the poles are listed.)
+    In each the top precesses steadily without slipping. For any friction law at a point contact, without other losses,
+    the minima of V_J are stable. (For a uniform ball V_J is flat: every tilt is steady and none is stable; only the
+    poles are listed.)
     """
     C_J = finite("C_J", C_J)
     if abs(C_J) > 1e50:
@@ -133,20 +135,21 @@ def steady_states(top: Top, C_J: float) -> SteadyStates:
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """Where friction at a point takes a start, as long as one contact carries and C_J stays.
+    """The final state to which friction at a point contact takes a top, while only its ball touches and C_J is
+    conserved.
 
-    It does not stay at a second contact, a stem's; and a moment of pivoting (Contensou's law) or a loss (rolling
-    resistance, air drag) takes of it slowly.
+    C_J changes when a second contact, the stem, touches; a pivoting torque (Contensou's law), rolling resistance and
+    air drag change it slowly.
 
     verdict   "turns over", "stays inverted" or, for a < 0, "falls over" (theta = pi); "goes upright" (0); "hangs" in
-              between; "stays as it is" (a uniform ball; or a start exactly in a steady state, be it an unstable one)
-    theta     the tilt of that end, rad; omega3 the spin about axis 3 there, (g/R)^1/2
-    nudged    where that state is unstable: the verdict after the least nudge; else ""
-    certain   False where the energy suffices to reach another minimum of V_J as well: then this is the one downhill;
-              True says that with this C_J it reaches no other
-    C_J, launch   the Jellett constant and the upright spin that has it
-    steady    SteadyStates at C_J; thresholds: Thresholds
-    sentence  all this in words, spins in rev/s where the scales of the top were given
+              between; "stays as it is" (a uniform ball, or a start exactly in a steady state, even an unstable one)
+    theta     the final tilt, rad; omega3: the spin about axis 3 there, (g/R)^1/2
+    nudged    if that state is unstable, the verdict after an arbitrarily small disturbance; else ""
+    certain   True if this is the only minimum of V_J that can be reached with this energy and C_J; False if there are
+              others, and this one is downhill from the start
+    C_J, launch   the Jellett constant, and the spin of an upright top with the same C_J, (g/R)^1/2
+    steady    the SteadyStates at C_J; thresholds: the Thresholds of the top
+    sentence  all this in words, with spins in rev/s if scales were given
     """
 
     verdict: str
@@ -162,10 +165,9 @@ class Outcome:
 
 
 def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
-    """The Outcome of a State on any plane with sliding friction at a point, of a top that touches it with its sphere
-    alone, without losses.
+    """The Outcome of a State for sliding friction at a point, without other losses, while only the sphere touches.
 
-    scales: Scales of the real top, for a sentence in rev/s. The state's vx, vy left None mean G at rest.
+    scales: the Scales of the real top, for a sentence in rev/s. vx, vy of the state: None means that G is at rest.
     """
     if not isinstance(state, State):
         raise TopError("state", state, "State", code="wrong-kind")
@@ -197,15 +199,15 @@ def outcome(top: Top, state: State, scales: Scales | None = None) -> Outcome:
 
 
 def _balances(theta: float, steady: SteadyStates, V: Array, E: float) -> bool:
-    """Whether it starts in an unstable steady state and has no energy beyond it: exactly at a pole, or in between as
-    near as the zeros of a polynomial are known."""
+    """Whether it starts in an unstable steady state with no energy to spare: exactly at a pole or, in between, to the
+    accuracy of the zeros of the polynomial."""
     at = int(np.argmin(np.abs(steady.theta - theta)))
     near = 0.0 if at in (0, len(V) - 1) else 1e-7
     return bool(not steady.stable[at] and abs(steady.theta[at] - theta) <= near and E - V[at] <= 1e-12 * (1 + abs(E)))
 
 
 def _reachable_minima(theta: float, steady: SteadyStates, V: Array, E: float) -> int:
-    """How many minima of V_J no barrier above E parts from theta."""
+    """How many minima of V_J can be reached from theta without crossing a barrier higher than E."""
     right = int(np.searchsorted(steady.theta, theta))
     below, count = V <= E, 0
     for side in (range(right - 1, -1, -1), range(right, len(V))):
@@ -217,7 +219,7 @@ def _reachable_minima(theta: float, steady: SteadyStates, V: Array, E: float) ->
 
 
 def _downhill(theta: float, steady: SteadyStates, V: Array, here: float) -> int:
-    """The index of the minimum of V_J below theta; a start on a maximum of it leaves to the lower neighbour."""
+    """The index of the minimum of V_J that lies downhill from theta; from a maximum, the lower neighbour."""
     right = int(np.searchsorted(steady.theta, theta))
     at = min(max(right, 0), len(V) - 1)
     if steady.theta[at] == theta:
@@ -227,7 +229,7 @@ def _downhill(theta: float, steady: SteadyStates, V: Array, here: float) -> int:
         return min(sides, key=lambda i: V[i])
     # V_J is monotone between neighbours
     end = right if V[right] < here else right - 1
-    while not steady.stable[end]:  # an inflexion
+    while not steady.stable[end]:  # a point of inflexion
         end += 1 if end == right else -1
     return end
 

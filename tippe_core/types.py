@@ -1,4 +1,4 @@
-"""The kinds of numbers that the signatures speak of."""
+"""The types of numbers used in the signatures."""
 
 from typing import Any, TypeAlias
 
@@ -10,7 +10,7 @@ Bools: TypeAlias = NDArray[np.bool_]
 Indices: TypeAlias = NDArray[np.intp]
 Complex: TypeAlias = NDArray[np.complexfloating]
 Scalars: TypeAlias = float | Array  # a number, or an array; several of them broadcast together
-# Any, for a formula is written once for floats, arrays (real, complex) and Decimals alike.
+# Any, because one formula serves floats, arrays (real or complex) and Decimals.
 Number: TypeAlias = Any
 Vector: TypeAlias = tuple[Number, Number, Number]
 Rim: TypeAlias = tuple[float, float, float]  # a circle about axis 3: radius, height above O, rounding, in R

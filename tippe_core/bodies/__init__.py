@@ -1,1 +1,1 @@
-"""Bodies that a person can make, and what they are as a Top."""
+"""Bodies that can be made, and their mass properties as a Top."""

@@ -1,4 +1,4 @@
-"""A shape as a small JSON document, and back from what a stranger wrote."""
+"""Shapes to and from small JSON documents, which may come from anyone."""
 
 import json
 from collections.abc import Collection
@@ -13,22 +13,22 @@ from .slices import Frustum, Zone
 from .solids import Solid
 
 SCHEMA, VERSION, LONGEST = "tippe-top-explorer/top", 1, 65_536  # bytes
-Json: TypeAlias = Any  # whatever a stranger wrote
+Json: TypeAlias = Any  # any JSON value
 
 
 def names_of(kind: type[Shape]) -> tuple[list[str], list[str]]:
-    """The dimensions of a kind of shape; and those, the last of them, that go without saying."""
+    """The names of the dimensions of a kind of shape, and those of the optional ones, which come last."""
     found = fields(kind)
     return [field.name for field in found], [field.name for field in found if field.default is not MISSING]
 
 
 def given(shape: Shape) -> dict[str, Json]:
-    """{dimension: its value, SI} of a shape, without what goes without saying."""
+    """{dimension: value in SI} of a shape, without optional ones that have their default."""
     return {field.name: value for field in fields(shape) if (value := getattr(shape, field.name)) != field.default}
 
 
 def save_top(shape: Shape) -> str:
-    """The shape as the text of a small JSON document: its kind, and its dimensions in SI."""
+    """The shape as a small JSON document (text): its kind, and its dimensions in SI units."""
     dimensions = given(shape)
     if isinstance(shape, Turned):
         dimensions["solid"] = [
@@ -40,7 +40,7 @@ def save_top(shape: Shape) -> str:
 
 
 def load_top(text: str | bytes) -> Shape:
-    """The shape in a document (str or bytes) that save_top wrote, or one like it. Raises TopError, naming the field."""
+    """The shape in a document (str or bytes) written by save_top, or one like it. Raises TopError, naming the field."""
     if not isinstance(text, (str, bytes)):
         raise TopError("file", type(text).__name__, "str | bytes", code="wrong-kind")
     if len(text) > LONGEST:
@@ -48,7 +48,7 @@ def load_top(text: str | bytes) -> Shape:
                        code="file-too-large", most=LONGEST)  # fmt: skip
     try:
         text = text.decode("utf-8-sig") if isinstance(text, bytes) else text
-        # every number a float: a whole number of a million digits is inf, and refused as such
+        # every number is read as a float: an integer of a million digits becomes inf, and is refused
         document = json.loads(text, parse_int=float, parse_constant=float, object_pairs_hook=_without_repeats)
     except TopError:
         raise
@@ -127,7 +127,7 @@ def _number(name: str, value: Json) -> None:
 
 
 def _numbers(name: str, values: Json) -> None:
-    """A list of numbers, or of lists of numbers."""
+    """values as a number, a list of numbers, or a list of lists of numbers."""
     if not isinstance(values, list) or not 1 <= len(values) <= MOST_POINTS:
         raise TopError(name, _short(values), "a list of {count}", code="wrong-count", count=f"1 - {MOST_POINTS}")
     for index, value in enumerate(values):
@@ -140,6 +140,6 @@ def _frozen(value: Json) -> Json:
 
 
 def _short(value: Json) -> Json:
-    """What is shown of something a stranger wrote."""
+    """An untrusted value, shortened for an error message."""
     shown = value if isinstance(value, (str, float, bool, type(None))) else type(value).__name__
     return shown[:40] if isinstance(shown, str) else shown

@@ -1,4 +1,4 @@
-"""Outlines of solids of revolution: edges, and how they follow each other."""
+"""Outlines of solids of revolution: edges, and how they join."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -11,8 +11,8 @@ from .slices import Slice, Zone
 
 @dataclass(frozen=True, eq=False)
 class Edge:
-    """A stretch of an outline from start to end, radius and height (2,), the solid on its left; slice is None on a
-    flat."""
+    """A part of an outline from start to end, (radius, height) each, with the solid on its left; slice is None for a
+    flat face."""
 
     slice: Slice | None
     start: Array
@@ -20,7 +20,7 @@ class Edge:
 
     @property
     def arc(self) -> Zone | None:
-        """The sphere's zone whose arc it is."""
+        """The spherical zone to which the edge belongs, if it is an arc."""
         return self.slice if isinstance(self.slice, Zone) else None
 
     def _angles(self, arc: Zone) -> tuple[float, float]:
@@ -34,7 +34,7 @@ class Edge:
         return float(np.hypot(*(self.end - self.start)))
 
     def points(self, n: int) -> Array:
-        """n steps of equal length, both ends as they are: (n + 1, 2)."""
+        """Points n equal steps apart, with both ends exact: (n + 1, 2)."""
         share = np.linspace(0, 1, n + 1)[:, None]
         if arc := self.arc:
             first, last = self._angles(arc)
@@ -47,7 +47,7 @@ class Edge:
 
 
 def flats(below: list[Array], above: list[Array], axis: Array) -> list[Edge]:
-    """Flat faces at one height: where there is something just below it and nothing above, or the reverse."""
+    """The flat faces at one height, where the solid is just below it but not above, or the reverse."""
     radii = sorted({id(point): point for point in [*below, *above, axis]}.values(), key=lambda point: -point[0])
     edges = []
     for outer, inner in pairwise(radii):
@@ -60,7 +60,7 @@ def flats(below: list[Array], above: list[Array], axis: Array) -> list[Edge]:
 
 
 def chains(edges: list[Edge]) -> list[tuple[Edge, ...]]:
-    """Edges that follow each other, put in order; neighbours on one surface become one."""
+    """The edges in order, as chains of adjoining ones; neighbours on the same surface are merged."""
     leaving: dict[int, list[Edge]] = {}
     for edge in edges:
         leaving.setdefault(id(edge.start), []).append(edge)
@@ -83,7 +83,7 @@ def chains(edges: list[Edge]) -> list[tuple[Edge, ...]]:
 
 
 def encloses(outline: tuple[Edge, ...]) -> bool:
-    """Whether the solid is on the inner side of the outline: 3 V/pi of the cones to its ends is then positive."""
+    """Whether the solid is inside the closed outline: then its signed volume, 3 V/pi from cones, is positive."""
     rows = np.vstack([edge.points(16) for edge in outline])
     (radius, z), (next_radius, next_z) = rows[:-1].T, rows[1:].T
     return np.sum((radius**2 + radius * next_radius + next_radius**2) * (next_z - z)) > 0

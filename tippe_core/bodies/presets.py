@@ -1,4 +1,4 @@
-"""Bodies with a name for a menu, and where they come from."""
+"""Bodies for a menu, with their names and sources."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,8 @@ from .solids import ball
 
 @dataclass(frozen=True)
 class Preset:
-    """A shape with a name for a menu and where it comes from; stated: its Top where that is told beside its lengths."""
+    """A shape with its name in a menu and its source. stated: its Top, if the source states that besides the
+    lengths."""
 
     name: str
     shape: Shape

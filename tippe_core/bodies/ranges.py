@@ -1,4 +1,4 @@
-"""What dimensions may be, and what is said where they are not."""
+"""The allowed ranges of dimensions, and the errors outside them."""
 
 from math import inf, isfinite
 
@@ -7,9 +7,9 @@ import numpy as np
 from ..errors import TopError, finite
 from .slices import LARGEST
 
-SMALLEST = 1e-6  # m: no peg is smaller, and no power of it is lost
-LONG = LARGEST / 4  # m: heights that are added stay below LARGEST
-LIGHTEST, THINNEST = 1e-30, 1e-9  # kg, kg/m^3: no product of them is lost
+SMALLEST = 1e-6  # m: smaller than any peg, and no power of it underflows
+LONG = LARGEST / 4  # m: sums of heights stay below LARGEST
+LIGHTEST, THINNEST = 1e-30, 1e-9  # kg, kg/m^3: no product of them underflows
 MOST_POINTS, MOST_PIECES = 400, 64
 
 
@@ -40,7 +40,7 @@ def in_range(
     why: str = "",
     remedy: str = "",
 ) -> float:
-    """value, or a TopError unless low <= value <= high (< where above, below). why: what the range is, in words."""
+    """value, or a TopError unless low <= value <= high (strictly if above or below). why: the reason for the range."""
     if (low < value if above else low <= value) and (value < high if below else value <= high) and isfinite(value):
         return value
     left = f"{low:g} {'<' if above else '<='} " if isfinite(low) else ""
@@ -50,7 +50,7 @@ def in_range(
 
 
 def rows_of(name: str, rows: object, columns: int, most: int) -> tuple[tuple[float, ...], ...]:
-    """A tuple of tuples of floats."""
+    """rows as a tuple of tuples of floats, or a TopError."""
     if not isinstance(rows, (list, tuple, np.ndarray)) or not 1 <= len(rows) <= most:
         raise TopError(name, rows, "{count} rows of numbers", code="wrong-count", count=f"1 - {most}")
     for index, row in enumerate(rows):

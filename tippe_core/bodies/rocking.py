@@ -1,4 +1,4 @@
-"""Rocking at rest: a from a stopwatch."""
+"""Rocking without spin: measuring a with a stopwatch."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -15,7 +15,7 @@ from .shape import Shape
 
 @dataclass(frozen=True)
 class Measured:
-    """A value with its standard uncertainty, and the share of each input in it, in the value's units."""
+    """A value with its standard uncertainty, and the contribution of each input to that, all in the same unit."""
 
     value: float
     uncertainty: float
@@ -23,7 +23,7 @@ class Measured:
 
 
 def rocking_period(top: Top) -> float:
-    """Period in (R/g)^1/2 of small rocking about theta = 0, without spin and without slipping; needs a > 0.
+    """Period, in (R/g)^1/2, of small oscillations about theta = 0 without spin and without slipping; needs a > 0.
 
     T = 2 pi [(I1 + (1 - a)^2)/a]^1/2
     """
@@ -44,12 +44,12 @@ def a_from_rocking(
     dI1: float = 0.0,
     dg: float = 0.0,
 ) -> Measured:
-    """a (in R) of a top that rocks with the period T (s): Measured, with the d.. as standard uncertainties.
+    """a (in R) of a top that rocks with the period T (s), as Measured; dT, dR, dI1, dg are standard uncertainties.
 
-    R in m, I1 in MR^2 (from the shape), g in m/s^2. With q = (T/2 pi)^2 g/R the period's formula is
+    R in m, I1 in MR^2 (from the shape), g in m/s^2. With q = (T/2 pi)^2 g/R the formula for the period becomes
         a^2 - (2 + q) a + 1 + I1 = 0,    a = 2 (1 + I1)/(2 + q + [(2 + q)^2 - 4 (1 + I1)]^1/2),
-    the other root being larger than 1; and (2 + q - 2a) da = dI1 - a dq.
-    Raises TopError where no a < 1 gives so short a period.
+    because the other root is larger than 1; and (2 + q - 2a) da = dI1 - a dq.
+    Raises TopError if no a < 1 gives so short a period.
     """
     given = {"T": T, "R": R, "I1": I1, "g": g}
     for name, value in given.items():
@@ -82,11 +82,12 @@ def dimension_from_rocking(
     dT: float = 0.0,
     dg: float = 0.0,
 ) -> Measured:
-    """The one unknown dimension of a body that rocks with the period T (s): Measured, in the dimension's unit.
+    """One unknown dimension of a body that rocks with the period T (s), as Measured, in the unit of that dimension.
 
-    family(x) is the shape for the dimension x, tried from low to high; where it is no body, or does not rock, x is
-    passed over. Example: lambda d: LoadedSphere(R=.02, b=.008, d=d, density=700, core_density=7800).
-    Raises TopError where none or more than one x in the range has this period.
+    family(x) is the shape with the dimension x, which is varied from low to high; values for which there is no body, or
+    one that does not rock, are skipped. Example: lambda d: LoadedSphere(R=.02, b=.008, d=d, density=700,
+    core_density=7800).
+    Raises TopError if no x in the range, or more than one, gives this period.
     """
     in_range("T", finite("T", T), 0, inf, "s", above=True)
     in_range("g", finite("g", g), 0, inf, "m/s^2", above=True)

@@ -1,13 +1,13 @@
-"""Tops as one would draw them: dimensions in SI -> mass properties, outline, Top and Scales. Fig. 7 and others.
+"""Tops given by their dimensions in SI units: mass properties, outline, Top and Scales. Fig. 7 and others.
 
-O, the centre of the sphere that rolls, is at height 0, and heights are counted along axis 3 (up when theta = 0), so the
-contact is at -R and a tippe top's G below 0. Every shape is a frozen record of its dimensions, keyword-only, and gives
+Heights are measured along axis 3 (upwards when theta = 0) from O, the centre of the sphere that rolls, so the contact
+point is at -R, and G of a tippe top is below 0. Every shape is a frozen record of its dimensions, keyword-only, and has
 
     .solid .mass .com .moments .volume      kg, m (height of G above O, -a), (I1, I3) in kg m^2, m^3
     .top .scales                            Top(a, I1, I3) and Scales(R, M): what the paper's equations need
     .profile(n) .touch_angle .edge .stl()   for drawing, for the limits of the round peg, for printing
 
-An impossible body is a TopError that names the dimension.
+An impossible body raises a TopError that names the dimension.
 """
 
 from dataclasses import dataclass, fields, replace
@@ -25,13 +25,13 @@ from .solids import Solid
 
 @dataclass(frozen=True, kw_only=True)
 class Shape:
-    """What all shapes share. R (m) is the radius of the sphere that rolls: the body, or its peg."""
+    """The properties that all shapes have. R (m) is the radius of the sphere that rolls: of the body, or of its peg."""
 
     R: float
 
-    _weights: ClassVar[tuple[str, ...]] = ("density",)  # the fields in proportion to which the mass is
+    _weights: ClassVar[tuple[str, ...]] = ("density",)  # the fields to which the mass is proportional
 
-    if TYPE_CHECKING:  # it is a field of Turned, which a property here would be in the way of
+    if TYPE_CHECKING:  # it is a field of Turned; a property here would be in its way
 
         @property
         def solid(self) -> Solid: ...
@@ -44,11 +44,11 @@ class Shape:
         self._check()
 
     def _check(self) -> None:
-        """Raises TopError where the dimensions do not make a body."""
+        """Raises TopError if the dimensions do not make a body."""
 
     @property
     def mass(self) -> float:
-        """M, kg."""
+        """Mass M, kg."""
         return self.solid.mass
 
     @property
@@ -63,7 +63,7 @@ class Shape:
 
     @property
     def volume(self) -> float:
-        """Of the material, m^3."""
+        """Volume of the material, m^3."""
         return self.solid.volume
 
     @property
@@ -73,13 +73,14 @@ class Shape:
 
     @property
     def top(self) -> Top:
-        """The Top this body is: a/R, I1/(M R^2), I3/(M R^2)."""
+        """The body as a Top: a/R, I1/(M R^2), I3/(M R^2)."""
         unit = self.mass * self.R**2
         I1, I3 = self.moments
         return Top(a=0.0 - self.com / self.R, I1=I1 / unit, I3=I3 / unit)
 
     def profile(self, n: int = 200) -> Array:
-        """Radius and height above O (m) from the contact point at (0, -R) to the body's top, corners exact: (n, 2).
+        """The outline from the contact point (0, -R) to the body's top: radius and height above O (m), (n, 2). The
+        corners are exact.
 
         Raises TopError where n is less than the number of corners.
         """
@@ -91,19 +92,22 @@ class Shape:
 
     @cached_property
     def touch_angle(self) -> float | None:
-        """theta in radians from which not only the sphere of radius R touches the table; None if that never happens.
+        """The smallest theta (rad) at which something other than the sphere of radius R touches the table; None if that
+        never happens.
 
-        At theta the table's plane is rho sin(theta) - z cos(theta) = R. A point at the distance D from O, at the angle
-        beta from the lower end of axis 3, comes to it when D cos(theta - beta) = R; the end of the sphere's surface is
-        such a point with D = R. A round part of radius b about a centre at height e does when R + e cos(theta) = b.
+        At theta the plane of the table is rho sin(theta) - z cos(theta) = R. A point at the distance D from O, at the
+        angle beta from the lower end of axis 3, reaches it when D cos(theta - beta) = R; the end of the sphere's
+        surface is such a point with D = R. A round part of radius b with its centre at the height e reaches it when R +
+        e cos(theta) = b.
         """
         return self._touch[0]
 
     @property
     def edge(self) -> Rim | None:
-        """What touches there, the edge of the stem's end as a rule: (radius, height above O, rounding) in R, or None.
+        """The part that touches there, usually the edge of the stem's end: (radius, height above O, rounding) in R, or
+        None.
 
-        A circle about axis 3, 0 where it is a point, rounded by a ball of that radius along it.
+        It is a circle about axis 3 (a point if the radius is 0), rounded with the given radius.
         """
         return self._touch[1]
 
@@ -124,25 +128,25 @@ class Shape:
         return (angle, edge) if angle < pi - 1e-9 else (None, None)
 
     def with_mass(self, M: float) -> Self:
-        """The same body of a material, or materials, so much denser that it weighs M (kg)."""
+        """The same body with its density, or densities, scaled so that its mass is M (kg)."""
         factor = weight(finite("M", M)) / self.mass
         return replace(self, **{name: _times(factor, getattr(self, name)) for name in self._weights})
 
     def __add__(self, other: "Solid | Shape") -> "Turned":
-        """With something put on: a Solid weighed in kg/m^3, or all of another shape."""
+        """The body with something added: a Solid with its density in kg/m^3, or another shape."""
         return Turned(R=self.R, solid=self.solid + (other.solid if isinstance(other, Shape) else other))
 
     def __sub__(self, other: "Solid | Shape") -> "Turned":
-        """With something taken away: `top - top.density * cylinder(r, low, high)` is bored."""
+        """The body with something removed: `top - top.density * cylinder(r, low, high)` has a hole."""
         return Turned(R=self.R, solid=self.solid - (other.solid if isinstance(other, Shape) else other))
 
 
 class OneMaterial(Shape):
-    """A shape of one density throughout, given by its mass M (kg)."""
+    """A shape of uniform density, given by its mass M (kg)."""
 
     _weights = ("M",)
 
-    if TYPE_CHECKING:  # M is a field of each kind, in its own place
+    if TYPE_CHECKING:  # each kind has M as a field, in its own position
 
         @property
         def M(self) -> float: ...
@@ -158,7 +162,7 @@ class OneMaterial(Shape):
 
     @classmethod
     def from_density(cls, density: float, **dimensions: float) -> Self:
-        """The shape of a material of that density (kg/m^3)."""
+        """The shape with this density (kg/m^3) instead of a mass."""
         in_range("density", finite("density", density), THINNEST, DENSEST, "kg/m^3")
         body = cls(M=1e-3, **dimensions)  # type: ignore[call-arg]  # a field of each kind
         return replace(body, M=density * body.form.mass)  # type: ignore[call-arg]
@@ -173,13 +177,13 @@ class OneMaterial(Shape):
 
     @property
     def density(self) -> float:
-        """kg/m^3."""
+        """Density, kg/m^3."""
         return self.M / self.form.mass
 
 
 @dataclass(frozen=True, kw_only=True)
 class Turned(Shape):
-    """Any Solid that stands on a sphere of radius R (m) about O: what `shape + solid` and `shape - solid` give."""
+    """Any Solid on a sphere of radius R (m) about O: the result of `shape + solid` and `shape - solid`."""
 
     R: float
     solid: Solid

@@ -1,4 +1,4 @@
-"""The kinds of bodies: the tippe top of Fig. 7, the loaded sphere of Fig. 2, ordinary tops, free outlines."""
+"""The kinds of bodies: the tippe top of Fig. 7, the loaded sphere of Fig. 2, ordinary tops, arbitrary outlines."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,16 +15,16 @@ from .shape import OneMaterial, Shape, Turned, check_one_piece
 from .slices import DENSEST, LARGEST
 from .solids import Solid, ball, cylinder, frustum, zone
 
-FACETS = 16  # of a rounded edge
+FACETS = 16  # frustums that stand for a rounded edge
 
 
 @dataclass(frozen=True, kw_only=True)
 class TruncatedSphere(OneMaterial):
-    """Fig. 7: a sphere of radius R cut off by a plane at height c, and on the cut a cylinder, the stem.
+    """Fig. 7: a sphere of radius R, cut off by a plane at height c, with a cylinder on the cut, the stem.
 
-    The stem has the radius r and the length l. All in m, M in kg. r = l = 0: no stem. c = R: the whole sphere.
-    rounding: the radius to which the edge of its end is rounded, 0 sharp, r half a ball. It is weighed in FACETS, which
-    take away half a hundredth more than the rounding does; where it touches it is round.
+    The stem has the radius r and the length l. All lengths in m, M in kg. r = l = 0: no stem. c = R: the whole sphere.
+    rounding: the radius of the edge of the stem's end, from 0 (sharp) to r (half a ball). For the mass it is replaced
+    by 16 facets, which remove half a percent more material than the rounding; for contact it is exactly round.
     """
 
     R: float
@@ -89,9 +89,9 @@ class Ball(OneMaterial):
 
 @dataclass(frozen=True, kw_only=True)
 class LoadedSphere(Shape):
-    """Fig. 2: a ball of radius R with a ball of radius b and another density in it, the distance d below O.
+    """Fig. 2: a ball of radius R that contains a ball of radius b and another density, at the distance d below O.
 
-    In m and kg/m^3. core_density = 0 is a cavity; d < 0 puts it above O, where a cavity makes a tippe top.
+    In m and kg/m^3. core_density = 0 is a cavity; d < 0 is above O, where a cavity makes a tippe top.
     """
 
     R: float
@@ -122,9 +122,9 @@ class LoadedSphere(Shape):
 class OrdinaryTop(OneMaterial):
     """A top with G above O: a peg, a disc or cone on it, and a stem.
 
-    The peg is a rod of radius R with a round end about O, h long above O. On it stands the body, t thick, of radius r1
-    at its lower face and r2 at its upper one (r1 = r2 is a disc), and on that a stem of radius r and length l
-    (r = l = 0: none). All in m, M in kg.
+    The peg is a rod of radius R with a hemispherical end about O and the length h above O. On it is the body, of
+    thickness t, with the radius r1 at its lower face and r2 at its upper one (r1 = r2 is a disc), and on that a stem of
+    radius r and length l (r = l = 0: none). All lengths in m, M in kg.
     """
 
     R: float
@@ -159,11 +159,11 @@ class OrdinaryTop(OneMaterial):
 
 @dataclass(frozen=True, kw_only=True)
 class Lathe(Shape):
-    """A free outline on a round peg: points (radius, height above O) in m, from the peg upwards.
+    """An arbitrary outline on a round peg: points (radius, height above O) in m, from the peg upwards.
 
-    The sphere of radius R about O reaches up to the first point's height; frustums join the points, and a step out or
-    in is two points of one height. density (kg/m^3) is one number, or one a point: the first for the peg up to
-    points[0], the others for the piece from the point before (that of a step counts for nothing).
+    The sphere of radius R about O ends at the height of the first point. Frustums join the points; a step in the radius
+    is given by two points at the same height. density (kg/m^3) is one number, or one for each point: the first for the
+    peg up to points[0], each of the others for the piece below its point (ignored at a step).
     """
 
     R: float
@@ -180,7 +180,7 @@ class Lathe(Shape):
                 code="falling", remedy="Each is at least as high as the one before.")  # fmt: skip
             last = height
         object.__setattr__(self, "points", points)
-        given: Number = self.density  # also of another sequence
+        given: Number = self.density  # or another sequence
         if np.ndim(given) == 0:
             density = in_range("density", finite("density", given), THINNEST, DENSEST, "kg/m^3")
         else:
@@ -205,7 +205,8 @@ class Lathe(Shape):
 
 @dataclass(frozen=True, kw_only=True)
 class BareSphere(Shape):
-    """A ball of radius R (m) and mass M (kg) of whose inside only a, I1, I3 are known (in R and MR^2, as in Top)."""
+    """A ball of radius R (m) and mass M (kg) with an unknown interior, given by a, I1, I3 (in R and MR^2, as in
+    Top)."""
 
     R: float
     M: float
@@ -228,7 +229,7 @@ class BareSphere(Shape):
 
     @property
     def _reach(self) -> float:
-        """How far its outside is from O at most, in R."""
+        """The largest distance of its surface from O, in R."""
         return 1.0
 
     @property
@@ -250,7 +251,7 @@ class BareSphere(Shape):
 
     @cached_property
     def solid(self) -> Solid:
-        """Its outside: where the mass is inside is not known."""
+        """Its outer surface; the distribution of mass inside is unknown."""
         return ball(self.R)
 
     def stl(self, sides: int = 128) -> bytes:
@@ -260,9 +261,10 @@ class BareSphere(Shape):
 
 @dataclass(frozen=True, kw_only=True)
 class StemmedSphere(BareSphere):
-    """A BareSphere with a stem that ends round: a ball of radius r about the height h above O sticks out of it (m).
+    """A BareSphere with a stem with a round end: a ball of radius r, centred at the height h above O, protrudes from it
+    (m).
 
-    The two surfaces meet in a circle, R - r < h < R + r. The measured a, I1, I3 are those of the whole.
+    The two surfaces meet in a circle, R - r < h < R + r. a, I1, I3 are those of the whole body.
     """
 
     r: float

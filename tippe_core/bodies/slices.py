@@ -1,12 +1,12 @@
-"""Slices of solids of revolution about axis 3: exact masses and moments. SI throughout.
+"""Slices of solids of revolution about axis 3: exact masses and moments of inertia, in SI units.
 
-Every piece is a slice between two heights z (above O, along axis 3) whose squared radius rho^2 is a quadratic in z:
-a zone of a sphere, rho^2 = R^2 - (z - centre)^2, or a frustum of a cone, with the cylinder among them. For a density D
+Every piece is a slice between two heights z (above O, along axis 3) whose squared radius rho^2 is a quadratic in z: a
+zone of a sphere, rho^2 = R^2 - (z - centre)^2, or a frustum of a cone, including cylinders. For a density D
 
     M = pi D int rho^2 dz,    M z_G = pi D int rho^2 z dz,    int z^2 dm = pi D int rho^2 z^2 dz,
     I3 = (pi/2) D int rho^4 dz,    I1 = I3/2 + int z^2 dm - M z_G^2,
 
-and all the integrands are polynomials of degree four at most, which three Gauss points integrate exactly.
+and all integrands are polynomials of degree four at most, which three-point Gauss quadrature integrates exactly.
 """
 
 from abc import ABC, abstractmethod
@@ -18,16 +18,16 @@ import numpy as np
 from ..errors import TopError, finite
 from ..types import Array, Scalars
 
-LARGEST = 1e3  # m; no top is larger, and no power of it overflows
+LARGEST = 1e3  # m: larger than any top, and no power of it overflows
 DENSEST = 1e9  # kg/m^3
-SAME = 1e-7  # of a solid's size: points that are closer are one point, also in the single precision of an STL file
-EMPTY = 1e-9  # of the largest density: less is rounding of a difference
-NODES, WEIGHTS = np.sqrt(0.6) * np.array([-1, 0, 1]), np.array([5, 8, 5]) / 9  # of Gauss, on (-1, 1)
+SAME = 1e-7  # relative to the solid's size: closer points count as one, also in the single precision of an STL file
+EMPTY = 1e-9  # relative to the largest density: less is a rounding error
+NODES, WEIGHTS = np.sqrt(0.6) * np.array([-1, 0, 1]), np.array([5, 8, 5]) / 9  # Gauss quadrature on (-1, 1)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Slice(ABC):
-    """What lies between the heights low and high (m), with a density (kg/m^3) that is negative where it takes away."""
+    """A solid between the heights low and high (m), with a density (kg/m^3), negative if it removes material."""
 
     low: float
     high: float
@@ -49,12 +49,12 @@ class Slice(ABC):
 
     @abstractmethod
     def radius(self, z: Scalars) -> Array:
-        """At the heights z, of any shape."""
+        """The radius (m) at the heights z, of any shape."""
 
     @property
     @abstractmethod
     def square(self) -> Array:
-        """rho^2 as coefficients (3,) of z^2, z, 1."""
+        """The coefficients (3,) of z^2, z, 1 in rho^2."""
 
     @cached_property
     def moments(self) -> Array:
@@ -64,14 +64,14 @@ class Slice(ABC):
         square = self.radius(z) ** 2
         weighed = np.pi * self.density * half * WEIGHTS * square
         mass = weighed.sum()
-        # about the middle first, so that of a ball G is O itself, whatever order a machine sums in
+        # first about the middle, so that G of a ball is O exactly, in whatever order the machine sums
         first = middle * mass + half * NODES[2] * (weighed[2] - weighed[0])
         return np.array([mass, first, (weighed * z**2).sum(), (weighed * square).sum() / 2])
 
 
 @dataclass(frozen=True, kw_only=True)
 class Zone(Slice):
-    """A zone (or cap, or all) of a sphere of radius R with its centre at a height above O."""
+    """A zone (or cap, or the whole) of a sphere of radius R, with its centre at the height `centre` above O."""
 
     R: float
     centre: float = 0.0
@@ -102,7 +102,7 @@ class Zone(Slice):
 
 @dataclass(frozen=True, kw_only=True)
 class Frustum(Slice):
-    """A cone's frustum with radius r_low at the bottom and r_high at the top."""
+    """A frustum of a cone with the radius r_low at the bottom and r_high at the top."""
 
     r_low: float
     r_high: float
@@ -129,11 +129,11 @@ class Frustum(Slice):
 
 
 def crossings(one: Slice, other: Slice, low: float, high: float) -> list[float]:
-    """Heights between low and high at which two surfaces meet."""
+    """The heights between low and high at which two surfaces intersect."""
     gap = np.polysub(one.square, other.square)
     if np.abs(np.polyval(gap, np.linspace(low, high, 3))).max() <= SAME * max(one.widest, other.widest) ** 2:
         return []
-    # a coefficient that is rounding next to the others only makes a root far away, which may overflow
+    # a coefficient that is only rounding gives a spurious root far away, which may overflow
     terms = np.abs(gap) * max(abs(low), abs(high)) ** np.arange(len(gap) - 1, -1, -1)
     roots = np.roots(np.where(terms > 1e-16 * terms.max(), gap, 0.0))
     return [float(z) for z in roots.real[np.abs(roots.imag) == 0] if low < z < high]

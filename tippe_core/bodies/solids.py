@@ -1,4 +1,4 @@
-"""Solids of revolution about axis 3: slices that add and subtract, a negative density takes away. SI throughout."""
+"""Solids of revolution about axis 3: sums of slices, where a negative density removes material. In SI units."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -18,7 +18,7 @@ Cell: TypeAlias = tuple[float, float, list[Slice]]
 
 @dataclass(frozen=True)
 class Solid:
-    """Slices taken together; `700 * solid` weighs it with a density, `+` and `-` put on and take away."""
+    """A sum of slices. `700 * solid` multiplies the density; `+` and `-` add and remove material."""
 
     slices: tuple[Slice, ...]
 
@@ -37,33 +37,34 @@ class Solid:
 
     @property
     def mass(self) -> float:
-        """kg."""
+        """Mass, kg."""
         return float(self._moments[0])
 
     @property
     def com(self) -> float:
-        """Height of G above O, m."""
+        """Height of the centre of mass G above O, m."""
         return float(self._moments[1] / self._moments[0])
 
     @property
     def I3(self) -> float:
-        """About axis 3, kg m^2."""
+        """Moment of inertia about axis 3, kg m^2."""
         return float(self._moments[3])
 
     @property
     def I1(self) -> float:
-        """At G about any axis across axis 3, kg m^2."""
+        """Moment of inertia about any axis through G perpendicular to axis 3, kg m^2."""
         _, first, second, axial = self._moments
         return float(axial / 2 + second - first * self.com)
 
     @property
     def size(self) -> float:
-        """A length, m, that nothing of it exceeds."""
+        """An upper bound of its dimensions, m."""
         return max(max(abs(piece.low), abs(piece.high), piece.widest) for piece in self.slices)
 
     @cached_property
     def _cells(self) -> list[Cell]:
-        """(low, high, curves) from the bottom up; curves, from outside inwards, part the solid from what is empty."""
+        """(low, high, curves) from the bottom up; curves, from the outside inwards, separate material from empty
+        space."""
         near, most = SAME * self.size, max(abs(piece.density) for piece in self.slices)
         heights = [z for piece in self.slices for z in (piece.low, piece.high)]
         for index, one in enumerate(self.slices):
@@ -84,7 +85,7 @@ class Solid:
             for place, (radius, piece) in enumerate(present):
                 density += piece.density
                 if place + 1 < len(present) and radius - present[place + 1][0] <= near:
-                    continue  # two surfaces in one
+                    continue  # two coincident surfaces
                 if radius <= near:
                     break
                 if density < -EMPTY * most:
@@ -100,7 +101,7 @@ class Solid:
 
     @property
     def volume(self) -> float:
-        """Of all that is not empty, m^3."""
+        """Volume of the material, m^3."""
         total = 0.0
         for low, high, curves in self._cells:
             for place, piece in enumerate(curves):
@@ -111,12 +112,12 @@ class Solid:
 
     @cached_property
     def outlines(self) -> list[tuple[Edge, ...]]:
-        """Tuples of Edges: first those from axis to axis, the lowest first; then closed ones."""
+        """The outlines as tuples of Edges: first those from axis to axis, lowest first, then closed ones."""
         near = SAME * self.size
         known: list[Array] = []
 
         def point(radius: Scalars, height: float) -> Array:
-            """One array a place, so that edges that meet share it."""
+            """One array for each position, so that adjoining edges share it."""
             for old in known:
                 if abs(old[0] - radius) <= near and abs(old[1] - height) <= near:
                     return old
@@ -136,18 +137,18 @@ class Solid:
 
     @property
     def outline(self) -> tuple[Edge, ...]:
-        """The outside: Edges from the lowest point of the axis to the highest."""
+        """The outer outline: Edges from the lowest point on the axis to the highest."""
         return self.outlines[0]
 
     @property
     def pieces(self) -> int:
-        """How many bodies it is that do not touch; one that is loose in a cavity counts."""
+        """The number of separate bodies, including any that are loose in a cavity."""
         return sum(encloses(outline) for outline in self.outlines)
 
     def profile(self, n: int) -> Array:
-        """(n, 2): radius and height above O (m) of the outside from the lowest point of the axis to the highest.
+        """(n, 2): radius and height above O (m) of the outer outline, from the lowest point on the axis to the highest.
 
-        Every corner is one of the points; the others are spread over the arcs by their length.
+        Every corner is one of the points; the others are distributed over the arcs in proportion to their lengths.
         """
         corners = len(self.outline) + 1
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or not corners <= n <= 1_000_000:
@@ -161,16 +162,16 @@ class Solid:
         return np.vstack([*rows, self.outline[-1].end])
 
     def stl(self, sides: int = 128) -> bytes:
-        """The surface, cavities too, as a binary STL file (bytes), `sides` flat faces to a turn.
+        """The surface, including cavities, as a binary STL file (bytes), with `sides` flat faces around the axis.
 
-        In mm, axis 3 along z, O at the origin. Closed: every edge belongs to two triangles, and the normals point out
-        of the solid.
+        In mm, with axis 3 along z and O at the origin. The surface is closed: every edge belongs to two triangles, and
+        the normals point out of the solid.
         """
         return mesh.stl(self.outlines, sides)
 
 
 def zone(R: float, low: float, high: float, centre: float = 0.0) -> Solid:
-    """The part of a ball between two heights, weighing 1 kg/m^3."""
+    """The part of a ball of radius R between the heights low and high (m), with the density 1 kg/m^3."""
     return Solid((Zone(R=R, low=low, high=high, centre=centre),))
 
 
@@ -179,7 +180,7 @@ def ball(R: float, centre: float = 0.0) -> Solid:
 
 
 def frustum(r_low: float, r_high: float, low: float, high: float) -> Solid:
-    """A frustum of a cone, or a whole one, weighing 1 kg/m^3."""
+    """A frustum of a cone, or a whole cone, with the density 1 kg/m^3. Lengths in m."""
     return Solid((Frustum(r_low=r_low, r_high=r_high, low=low, high=high),))
 
 

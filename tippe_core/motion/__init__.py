@@ -1,1 +1,1 @@
-"""What a top does in time, on the rough plane, on the smooth one, and where it slides."""
+"""Motions in time: on the rough plane, on the smooth plane, and with sliding friction."""

@@ -1,8 +1,9 @@
-"""Which contacts carry, and what changes that: guards that must not fall below 0, and what happens where one does.
+"""Which contacts carry the top, and what changes that: guards that must not fall below 0, and what follows when one
+does.
 
-Painleve's limit. N must make u_z' rise: alone, and where two contacts press, both (all principal minors of u_z' by the
-N are positive). Where friction is too strong for that no N balances it, or several do, and what comes then is not in
-these equations. Where nothing presses (without forces u_z' > 0) the contact parts instead.
+Painleve's limit: a normal force N must increase u_z'. For two loaded contacts all principal minors of the matrix of
+du_z'/dN must be positive. If friction is too strong for that, no N balances it, or several do, and these equations do
+not say what follows. If nothing presses the contact down (u_z' > 0 without contact forces), it opens instead.
 """
 
 import numpy as np
@@ -29,26 +30,27 @@ from .impulses import mobility, moving, pushed, rests
 from .records import Record
 from .standing import FLAT, STANDS, crossed, energy_above_rest, leaning, tipping_energy
 
-# What happens, at contact + i where two numbers lie between: a guard falls below 0, a contact comes to rest, the start.
+# Events; those with room for two numbers are counted as event + contact: a guard falls below 0, a contact comes to
+# rest, the start.
 BALANCES, LEAVES, SLIPS, TOUCHES, STANDS_UP, ROCKS, RIM, GUARDS = 0, 1, 3, 5, 7, 8, 9, 10
 HALTS, STARTS = 10, 12
 
-# STILL: the last of the slip, which takes far less time than the 1e-9 to which events are located. SLACK (Mg),
-# TOUCH (R): less than that is nothing. LEAST: what is left of u_z' by N, of 1 without friction. CLOSED (R): a contact
-# as near is closed.
+# STILL: slip below which the rest of the motion to a halt takes far less time than 1e-9, to which events are located.
+# SLACK (Mg), TOUCH (R): smaller values count as 0. LEAST: the smallest du_z'/dN allowed, relative to that without
+# friction. CLOSED (R): a contact closer to the table is closed.
 STILL, SLACK, TOUCH, LEAST, CLOSED = 1e-13, 1e-10, 1e-11, 1e-6, 1e-9
-FALLS = 1e-12  # ((gR)^1/2): a closed contact that falls more slowly is at rest
-NUDGE = 1e-9  # of slip, ((gR)^1/2), by which a patch lets go
-SINKS = 1e-6  # (g): a contact that is let go and sinks faster would have to carry
+FALLS = 1e-12  # ((gR)^1/2): a closed contact that moves down more slowly is at rest
+NUDGE = 1e-9  # ((gR)^1/2): the slip with which a patch starts to slide
+SINKS = 1e-6  # (g): an open contact that accelerates downwards faster than this would have to carry
 LOG_STILL = float(np.log(STILL))
 DIRECTIONS = 64
-# modes of (ball, stem), in the order in which they are tried: those that carry, and that stick, first
+# modes of (ball, stem), in the order in which they are tried: loaded and sticking ones first
 ORDER = np.array([[2, 2], [2, 1], [1, 2], [1, 1], [0, 2], [2, 0], [0, 1], [1, 0], [0, 0]])
 
 
 @compiled
 def spare(i: int, P: Record, C: Record, alone: bool) -> float:
-    """By how much what holds contact i at rest is below its limit: mu_s N - F_h, and of its moment alike."""
+    """How far static friction at contact i is below its limit: mu_s N - F_h, and the same for its torque."""
     most, twists = bounds(P.law)
     holds = most * C.F[i, 2] - np.sqrt(C.F[i, 0] ** 2 + C.F[i, 1] ** 2)
     if P.law.kind == CONTENSOU and alone:
@@ -58,7 +60,7 @@ def spare(i: int, P: Record, C: Record, alone: bool) -> float:
 
 @compiled
 def margin(y: Array, minor: float, ball: int, stem: int, P: Record, C: Record) -> float:
-    """How near any guard may be to 0, cheaply, after rates()."""
+    """A cheap estimate of how close the guards are to 0, after rates()."""
     least = minor
     for i in range(1 + P.stem):
         mode = ball if i == BALL else stem
@@ -78,7 +80,8 @@ def margin(y: Array, minor: float, ball: int, stem: int, P: Record, C: Record) -
 def guards(
     y: Array, slowest: int, ball: int, stem: int, floor: Array, P: Record, S: Record, C: Record, out: Array
 ) -> None:
-    """What must not be negative into out (GUARDS,). floor: heights that count as the table's."""
+    """Writes the guards, which must not become negative, into out (GUARDS,). floor: heights that count as the
+    table's."""
     e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
     out[:] = 1.0
     out[BALANCES] = forces(turn, ball, stem, P, C) - LEAST
@@ -102,13 +105,13 @@ def guards(
 
 @compiled
 def known(y: Array, C: Record) -> None:
-    """v and z into y, after arrange()."""
+    """Copies v and z into y, after arrange()."""
     y[8], y[9], y[14], y[15] = C.G[0], C.G[1], C.G[2], C.G[3]
 
 
 @compiled
 def first_negative(found: Array) -> int:
-    """The first guard below 0 (or nan), or NO_ONE."""
+    """The index of the first guard below 0 (or nan), or NO_ONE."""
     for i in range(GUARDS):
         if not found[i] >= 0.0:
             return i
@@ -120,7 +123,7 @@ def first_negative(found: Array) -> int:
 
 @compiled
 def may_stick(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -> bool:
-    """Whether contact i could stick here."""
+    """Whether contact i could stick in this state."""
     ball, stem = STICK if i == BALL else ball, STICK if i == STEM else stem
     forces(arrange(y, NO_ONE, ball, stem, P, C), ball, stem, P, C)
     return spare(i, P, C, ball == OPEN or stem == OPEN) >= 0.0
@@ -128,7 +131,7 @@ def may_stick(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -> b
 
 @compiled
 def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> None:
-    """y with the least slip where a contact at rest starts to slip, in the direction in which that grows."""
+    """y with a minimal slip at a contact that starts to slip, in the direction in which the slip grows."""
     for i in range(1 + P.stem):
         if (ball if i == BALL else stem) == SLIP and rests(y, i, P, C):
             if P.law.kind == CONTENSOU:
@@ -141,7 +144,7 @@ def let_go(y: Array, ball: int, stem: int, P: Record, S: Record, C: Record) -> N
 
 @compiled
 def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
-    """beta of a slip that begins: u' along u, outward, and the fastest."""
+    """The direction beta of a slip that begins: u' is parallel to u; if there are several, the fastest-growing one."""
     best, found, last = -np.inf, 0.0, 0.0
     for n in range(DIRECTIONS + 1):
         beta = 2 * np.pi * n / DIRECTIONS
@@ -163,7 +166,8 @@ def direction(y: Array, ball: int, stem: int, i: int, P: Record, S: Record, C: R
 
 @compiled
 def across(y: Array, beta: float, ball: int, stem: int, i: int, P: Record, S: Record, C: Record) -> float:
-    """u' across u, where u is as good as 0 in the direction beta; along it is S.K[0, 8]."""
+    """The component of u' perpendicular to u for an almost vanishing u in the direction beta; S.K[0, 8] is the parallel
+    one."""
     S.at[:] = y
     S.at[8], S.at[9] = LOG_STILL, beta
     rates(S.at, i, ball, stem, P, C, S.K[0])
@@ -172,7 +176,7 @@ def across(y: Array, beta: float, ball: int, stem: int, i: int, P: Record, S: Re
 
 @compiled
 def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -> None:
-    """y with the least slip and spin of a patch that let go: against the force and the moment that held it."""
+    """y with a minimal slip and spin at a patch that starts to slide, opposite to the force and torque that held it."""
     ball, stem = STICK if i == BALL else ball, STICK if i == STEM else stem
     forces(arrange(y, NO_ONE, ball, stem, P, C), ball, stem, P, C)
     most, twists = bounds(P.law)
@@ -188,7 +192,8 @@ def let_patch_go(y: Array, ball: int, stem: int, i: int, P: Record, C: Record) -
 
 @compiled
 def settle(y: Array, event: int, floor: Array, modes: Indices, P: Record, S: Record, C: Record) -> bool:
-    """y after the event, with any impact, and the modes in which it goes on; False beyond Painleve's limit."""
+    """y after the event, including any impact, and the modes in which the motion continues; False beyond Painleve's
+    limit."""
     if event == ROCKS:
         rocked(y, P, C)
     moving(y, BALL, P, C)
@@ -206,14 +211,14 @@ def settle(y: Array, event: int, floor: Array, modes: Indices, P: Record, S: Rec
                 break
             q = moving(y, i, P, C)
             pushed(y, i, impact(mobility(i, i, y, P, C), q, P.law), P, C)
-    options = np.zeros((2, 3), np.bool_)  # of each contact: open, slip, stick
+    options = np.zeros((2, 3), np.bool_)  # for each contact: open, slip, stick
     moving(y, BALL, P, C)
     for i in range(2):
         options[i, OPEN] = True
         options[i, SLIP] = closed[i] and C.u[i, 2] < CLOSED
     for i in range(1 + P.stem):
         options[i, STICK] = options[i, SLIP] and rests(y, i, P, C)
-        if options[i, SLIP] and event < STARTS:  # it is settled; elsewhere rounding may decide
+        if options[i, SLIP] and event < STARTS:  # this is decided; otherwise rounding might decide
             for kind, mode in ((LEAVES, OPEN), (SLIPS, SLIP), (HALTS, STICK)):
                 if event == kind + i:
                     options[i, :] = False
@@ -223,11 +228,11 @@ def settle(y: Array, event: int, floor: Array, modes: Indices, P: Record, S: Rec
 
 @compiled
 def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Record) -> bool:
-    """The contacts that carry from here on into modes: none pulls, none sinks in, none holds more than it can.
+    """Writes the contact modes from now on into modes: none pulls, none penetrates, none exceeds its static friction.
 
-    Where all fail, those that fail least; False beyond Painleve's limit.
+    If no combination qualifies, the one with the least violation; False beyond Painleve's limit.
     """
-    best, trial, kept, unbalanced = np.inf, S.z, S.new, False  # of a step that is over
+    best, trial, kept, unbalanced = np.inf, S.z, S.new, False  # of the finished step, reused as working space
     modes[0] = modes[1] = OPEN
     for n in range(len(ORDER)):
         ball, stem = ORDER[n, 0], ORDER[n, 1]
@@ -255,7 +260,7 @@ def choose(y: Array, options: Bools, modes: Indices, P: Record, S: Record, C: Re
 
 @compiled
 def lacks(w: tuple[float, float, float], ball: int, stem: int, options: Bools, P: Record, C: Record) -> float:
-    """By how much the worst of the contacts pulls, sinks in, or holds too much."""
+    """The largest violation at either contact: pulling, penetrating, or exceeding static friction."""
     worst = -np.inf
     for i in range(1 + P.stem):
         mode = ball if i == BALL else stem
@@ -271,10 +276,10 @@ def lacks(w: tuple[float, float, float], ball: int, stem: int, options: Bools, P
 
 @compiled
 def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
-    """y with both contacts closed for good, where they touch too softly to tell and both would carry.
+    """y with both contacts closed, if they meet so softly that it cannot be resolved and both would carry.
 
-    For else ever smaller bounces would follow without end, down to heights below the tolerance; the energy is its
-    square.
+    Otherwise ever smaller bounces would follow without end, down to heights below the tolerance. The energy that this
+    neglects is of the order of the tolerance squared.
     """
     moving(y, BALL, P, C)
     fast = max(abs(C.u[BALL, 2]), abs(C.u[STEM, 2]))
@@ -298,7 +303,7 @@ def soften(y: Array, closed: Bools, P: Record, C: Record) -> None:
 
 @compiled
 def rocked(y: Array, P: Record, C: Record) -> None:
-    """y leaning on the opposite point of the rim; what energy the small turn takes is heat."""
+    """y leaning on the opposite point of the rim; the energy lost in this small rotation is counted as heat."""
     e, _, L3 = turning(y, P)
     before = kinetic(y, L3, P) + y[15]
     y[:] = crossed(y, e)

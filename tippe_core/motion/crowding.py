@@ -1,11 +1,11 @@
-"""Midpoints in an angle eta that crowd where dt/dkappa has a peak, in kappa.
+"""A substitution kappa(eta) that puts more of the midpoints where dt/dkappa has a sharp peak.
 
-Where Q = (dt/dkappa)^-2 nearly vanishes in the well or at an end of it, wells are about to merge or a steady precession
-is unstable nearby. Seen from cos(kappa) = y0 its zeros are then eps away; with
+If Q = (dt/dkappa)^-2 nearly vanishes in the well or at one end of it, two wells are about to merge or there is an
+unstable steady precession nearby. Q then has zeros at a distance eps from a point cos(kappa) = y0. With
 
     cos(kappa) = y0 + eps sinh(alpha (cos(eta) - x0))
 
-they are 1/log(1/eps) away in eta.
+their distance in eta is of the order of 1/log(1/eps).
 """
 
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from ..types import Array
 
 
 class Crowding(NamedTuple):
-    """Of cos(kappa) = y0 + eps sinh(alpha (cos(eta) - x0))."""
+    """The parameters of cos(kappa) = y0 + eps sinh(alpha (cos(eta) - x0))."""
 
     y0: float
     eps: float
@@ -28,13 +28,14 @@ class Crowding(NamedTuple):
 
 @lru_cache(16)
 def midpoints(n: int) -> tuple[Array, Array, Array]:
-    """cos(eta/2), sin(eta/2) and 1 at the midpoints of n parts of 0 to pi: (n,), not to be written to."""
+    """cos(eta/2), sin(eta/2) and 1 at the midpoints of n equal parts of [0, pi]: (n,) each, read-only."""
     half = (np.arange(n) + 0.5) * (np.pi / (2 * n))
     return np.cos(half), np.sin(half), np.ones(n)
 
 
 def crowding(Q: Callable[[Array], Array], n: int) -> Crowding | None:
-    """What resolves the least of Q(cos(kappa)), sought from n midpoints and the ends on; None where it is not sharp."""
+    """The Crowding that resolves the minimum of Q(cos(kappa)), found from n midpoints and the ends; None if it is not
+    sharp."""
     cos, sin, _ = midpoints(n)
     y = np.concatenate([[1], cos**2 - sin**2, [-1]])
     values = Q(y)
@@ -57,7 +58,7 @@ def crowding(Q: Callable[[Array], Array], n: int) -> Crowding | None:
 
 
 def crowded(n: int, crowd: Crowding | None) -> tuple[Array, Array, Array]:
-    """cos(kappa/2), sin(kappa/2) and dkappa/deta at n midpoints of eta, (n,) each; kappa = eta where crowd is None."""
+    """cos(kappa/2), sin(kappa/2) and dkappa/deta at n midpoints of eta, (n,) each; kappa = eta if crowd is None."""
     cos, sin, dkappa_deta = midpoints(n)
     if not crowd:
         return cos, sin, dkappa_deta
@@ -70,14 +71,14 @@ def crowded(n: int, crowd: Crowding | None) -> tuple[Array, Array, Array]:
 
 
 def eta_halves(sine: float, cosine: float, crowd: Crowding | None) -> tuple[float, float]:
-    """What sin(eta/2) and cos(eta/2) are as, where sin(kappa/2) and cos(kappa/2) are as sine and cosine."""
+    """Two numbers in the ratio sin(eta/2) : cos(eta/2), from two in the ratio sin(kappa/2) : cos(kappa/2)."""
     if not crowd:
         return sine, cosine
     y0, eps, _, _ = crowd
     whole = sine**2 + cosine**2
 
     def part(share: float, end: float) -> float:
-        """alpha times the distance of cos(eta) to an end, from that of cos(kappa), 2 share."""
+        """alpha times the distance of cos(eta) from an end, where that of cos(kappa) is 2 share."""
         p = end / eps
         q = p - 2 * share / whole / eps
         if p * q > 0:

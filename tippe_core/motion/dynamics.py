@@ -1,6 +1,7 @@
-"""Newton and Euler for a top on a table: in the air, on its ball, on the edge of its stem's end, or on both.
+"""The Newton-Euler equations of a top on a table: in the air, on its ball, on the edge of its stem's end, or on both.
 
-In space axes, e along axis 3, L about G, v of G, contacts at rho_i from G, k = 1/I3 - 1/I1:
+In axes fixed in space, with the unit vector e along axis 3, the angular momentum L about G, the velocity v of G, the
+contacts at rho_i from G, and k = 1/I3 - 1/I1:
 
     v' = sum F_i - z ,   L' = sum (rho_i x F_i + M_i) - drag w ,   e' = w x e ,
     w = L/I1 + k (L . e) e ,   w' = L'/I1 + k [(L' . e) e + (L . e) e'] ,
@@ -9,22 +10,23 @@ In space axes, e along axis 3, L about G, v of G, contacts at rho_i from G, k = 
     ball     rho = a e - z ,
     stem     rho = (a + h) e - b n - q z ,   n = (z - e_z e)/s ,
 
-the stem's edge being a circle of radius b about axis 3 at the height h above O, rounded by a ball of radius q. A
-contact that slips pushes with F = N (z - k(u) u) and the moment of pivoting M = -N t(u, w_z) z, the law of friction;
-one that sticks with any F, and where its law has a moment of pivoting with any M along z. Rolling resistance adds
-M = -N delta w_h/|w_h|. There are as many unknowns as conditions: u_z' = 0, and where it sticks u' = 0 (and w_z' = 0).
-Two contacts that stick leave the friction along the line between them open: the least will do.
+where the stem's edge is a circle of radius b about axis 3 at the height h above O, rounded with the radius q. At a
+slipping contact the friction law gives the force F = N (z - k(u) u) and the pivoting torque M = -N t(u, w_z) z. At a
+sticking contact F is a constraint force, and so is M along z if the law has a pivoting torque. Rolling resistance adds
+M = -N delta w_h/|w_h|. There are as many unknowns as conditions: u_z' = 0, and for a sticking contact u' = 0 (and
+w_z' = 0). If two contacts stick, the friction along the line between them is undetermined; the smallest is chosen.
 
-No Euler angle: the orientation is that of a frame that has e as third axis and does not turn about it (quaternion p),
-and the angle chi by which the body has turned in it, chi' = w_3. Both are smooth through theta = 0 and pi. A state is
+Euler angles are avoided. The orientation is that of a frame whose third axis is e and which does not rotate about e
+(quaternion p), and the angle chi by which the body has rotated in that frame, chi' = w_3. Both are smooth through
+theta = 0 and pi. A state is
 
     y = (p_x, p_y, p_z, p_w, chi, L_x, L_y, L_z, v_x, v_y, x, y, t, heat, v_z, z) .
 
-v_z and z follow from the rest where a contact carries, v_x and v_y where the first that carries sticks.
+v_z and z follow from the rest while a contact is closed, v_x and v_y if the first closed contact sticks.
 
-Coulomb's friction has no direction at u = 0. So log|u| and the direction beta of the slowest contact's u take the
-place of v_x and v_y, and the motion is followed in tau, where dt = dtau |u|/(|u| + SLOW): on the way to sticking and
-out of it |u| falls or grows exponentially in tau and beta is smooth. That is a change of variables, not of the law.
+The direction of Coulomb friction is undefined at u = 0. So v_x and v_y are replaced by log|u| and the direction beta of
+the slip u at the slowest contact, and time by tau, dt = dtau |u|/(|u| + SLOW). Before sticking and after it |u| decays
+or grows exponentially in tau, and beta is smooth. This changes the variables, not the law.
 """
 
 from typing import TypeAlias
@@ -38,19 +40,19 @@ from .records import Record
 
 OPEN, SLIP, STICK = range(3)  # modes of a contact
 BALL, STEM = range(2)  # the contacts
-NO_ONE = -1  # the slowest contact, where none slips by Coulomb's law
+NO_ONE = -1  # the slowest contact if none slips by Coulomb's law
 SLOW = 0.01  # ((gR)^1/2)
-STEADY = 10.0  # ((g/R)^1/2): rate at which what the tolerance does to closed contacts is undone
-ROLLS = 1e-3  # ((g/R)^1/2): w_h below which rolling resistance falls to nothing
+STEADY = 10.0  # ((g/R)^1/2): rate at which numerical drift at closed contacts is damped
+ROLLS = 1e-3  # ((g/R)^1/2): w_h below which rolling resistance goes to zero
 POLE = 1e-12  # sin(theta) below which the stem's lowest point is anywhere on its rim
-LOG_FAST = 100.0  # a trial step with log|u| above that is too long anyway, and its exponential may overflow
+LOG_FAST = 100.0  # a trial step with a larger log|u| is too long anyway, and the exponential may overflow
 
 Turning: TypeAlias = tuple[Vector, Vector, float]  # e, w, L . e
 
 
 @compiled
 def carried(ball: int, stem: int) -> int:
-    """What carries in these modes: 0 nothing, 1 the ball, 2 the stem, 3 both."""
+    """The closed contacts in these modes: 0 none, 1 the ball, 2 the stem, 3 both."""
     return (1 if ball != OPEN else 0) + (2 if stem != OPEN else 0)
 
 
@@ -92,7 +94,8 @@ def place(e: Vector, w: Vector, P: Record, C: Record) -> None:
 
 @compiled
 def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) -> Turning:
-    """Into C where the contacts are and how they slip, and v and z of G, with those that carry on the table."""
+    """Writes into C the positions and slip velocities of the contacts, and v and z of G, with closed contacts on the
+    table."""
     e, w, L3 = turning(y, P)
     place(e, w, P, C)
     G = C.G
@@ -112,23 +115,23 @@ def arrange(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record) 
         carried = cross(w, row(C.rho, i))
         C.u[i, 0], C.u[i, 1], C.u[i, 2] = G[0] + carried[0], G[1] + carried[1], G[2] + carried[2]
         C.height[i] = G[3] + C.rho[i, 2]
-    if slowest != NO_ONE:  # with all its digits
+    if slowest != NO_ONE:  # with full precision
         C.u[slowest, 0], C.u[slowest, 1] = ux, uy
     return e, w, L3
 
 
 @compiled
 def angular(torque: Vector, e: Vector, P: Record) -> Vector:
-    """L'/I1 + k (L' . e) e: w' by a torque."""
+    """L'/I1 + k (L' . e) e: the part of w' due to a torque."""
     along = P.k * (torque[0] * e[0] + torque[1] * e[1] + torque[2] * e[2])
     return torque[0] / P.I1 + along * e[0], torque[1] / P.I1 + along * e[1], torque[2] / P.I1 + along * e[2]
 
 
 @compiled
 def column(C: Record, n: int, i: int, part: int, F: Vector, M: Vector) -> int:
-    """One more unknown, the size of the force F and the moment M beside rho x F at contact i; the next one's place.
+    """Adds an unknown: the magnitude of the force F, with the torque M in addition to rho x F, at contact i.
 
-    part: of u_i' (2: u_z'), or 3: w_z', what the unknown is to make 0.
+    part: the component of u_i' that must vanish (2: u_z'), or 3 for w_z'. Returns the next free column.
     """
     C.owner[n], C.part[n] = i, part
     torque = cross(row(C.rho, i), F)
@@ -139,7 +142,7 @@ def column(C: Record, n: int, i: int, part: int, F: Vector, M: Vector) -> int:
 
 @compiled
 def component(C: Record, F: Vector, w_dot: Vector, i: int, part: int) -> float:
-    """Of v' + w' x rho_i, or (3) w_z'."""
+    """The component `part` of v' + w' x rho_i, or w_z' (3)."""
     if part == 3:
         return w_dot[2]
     return F[part] + cross(w_dot, row(C.rho, i))[part]
@@ -147,7 +150,7 @@ def component(C: Record, F: Vector, w_dot: Vector, i: int, part: int) -> float:
 
 @compiled
 def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
-    """Their columns, and how many they are."""
+    """Sets up the columns of all unknowns and returns their number."""
     n, w_h = 0, np.sqrt(w[0] * w[0] + w[1] * w[1] + ROLLS * ROLLS)
     rolls = -P.delta * w[0] / w_h, -P.delta * w[1] / w_h
     for i in range(1 + P.stem):
@@ -167,9 +170,9 @@ def unknowns(w: Vector, ball: int, stem: int, P: Record, C: Record) -> int:
 
 @compiled
 def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
-    """Into C the forces and moments of the contacts and the accelerations, after arrange().
+    """Writes the contact forces and torques and the accelerations into C, after arrange().
 
-    Returns the least principal minor of u_z' by the N of the contacts that slip, not above 0 beyond Painleve's limit.
+    Returns the least principal minor of du_z'/dN for the slipping contacts; it is <= 0 beyond Painleve's limit.
     """
     e, w, L3 = turn
     e_dot, k = cross(w, e), P.k
@@ -218,7 +221,7 @@ def forces(turn: Turning, ball: int, stem: int, P: Record, C: Record) -> float:
 
 @compiled
 def alone(turn: Turning, drag: Vector, free: Vector, i: int, P: Record, C: Record) -> float:
-    """forces() where contact i alone carries, and slips: its N makes u_z' = 0, which is linear in it."""
+    """forces() if only contact i is closed, and slips: its N follows from u_z' = 0, which is linear in N."""
     (e, w, _), rho = turn, row(C.rho, i)
     ux, uy, w_h = C.u[i, 0], C.u[i, 1], np.sqrt(w[0] * w[0] + w[1] * w[1] + ROLLS * ROLLS)
     k, t = push(P.law, ux * ux + uy * uy, w[2])
@@ -240,8 +243,8 @@ def alone(turn: Turning, drag: Vector, free: Vector, i: int, P: Record, C: Recor
 
 @compiled
 def least_along_the_line(C: Record) -> None:
-    """Both contacts stick: forces d and -d along the line between them change nothing. M + n n^T for n = (d, -d) makes
-    the equations regular, and their solution the one without such a part."""
+    """If both contacts stick, a pair of forces d and -d along the line between them has no effect. M + n n^T with
+    n = (d, -d) makes the equations regular; their solution has no component along n."""
     dx, dy = C.rho[STEM, 0] - C.rho[BALL, 0], C.rho[STEM, 1] - C.rho[BALL, 1]
     far = np.sqrt(dx * dx + dy * dy)
     along = (0.0, dx / far, dy / far, 0.0, -dx / far, -dy / far)
@@ -252,7 +255,7 @@ def least_along_the_line(C: Record) -> None:
 
 @compiled
 def solve(matrix: Array, right: Array, n: int) -> float:
-    """matrix x = right for the first n, x into right, by elimination; returns the determinant."""
+    """Solves matrix x = right for the first n rows by Gaussian elimination, x into right; returns the determinant."""
     determinant = 1.0
     for j in range(n):
         best = j
@@ -287,8 +290,8 @@ def slip_rate(w: Vector, i: int, part: int, C: Record) -> float:
 
 @compiled
 def clock(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
-    """dt/dtau: the product of |u|/(|u| + SLOW) of the contacts that may come to stick; |u|^2 + (radius w_z)^2 in place
-    of |u|^2 where the patch also spins."""
+    """dt/dtau: the product of |u|/(|u| + SLOW) over the contacts that may come to stick. For a patch that also spins,
+    |u|^2 is replaced by |u|^2 + (radius w_z)^2."""
     g = 1.0
     if P.law.kind == COULOMB or P.law.kind == CONTENSOU:
         spin = P.law.width * w_z
@@ -301,11 +304,11 @@ def clock(ball: int, stem: int, w_z: float, P: Record, C: Record) -> float:
 
 @compiled
 def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, out: Array) -> float:
-    """dy/dtau into out; returns what forces() does."""
+    """Writes dy/dtau into out; returns what forces() returns."""
     e, w, L3 = turn = arrange(y, slowest, ball, stem, P, C)
     minor = forces(turn, ball, stem, P, C)
     px, py, pz, pw, w3 = y[0], y[1], y[2], y[3], L3 / P.I3
-    ox, oy, oz = (w[0] - w3 * e[0]) / 2, (w[1] - w3 * e[1]) / 2, (w[2] - w3 * e[2]) / 2  # half the frame's rate
+    ox, oy, oz = (w[0] - w3 * e[0]) / 2, (w[1] - w3 * e[1]) / 2, (w[2] - w3 * e[2]) / 2  # half that of the frame
     out[0], out[1] = ox * pw + oy * pz - oz * py, oy * pw + oz * px - ox * pz
     out[2], out[3] = oz * pw + ox * py - oy * px, -ox * px - oy * py - oz * pz
     heat = P.drag * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
@@ -319,7 +322,7 @@ def rates(y: Array, slowest: int, ball: int, stem: int, P: Record, C: Record, ou
     if g != 1.0:
         for j in range(16):
             out[j] *= g
-    if slowest != NO_ONE:  # log|u|' = |u|'/|u|, and beta' = u' across u over |u|
+    if slowest != NO_ONE:  # log|u|' = |u|'/|u|, and beta' = (u' perpendicular to u)/|u|
         speed, along, across = np.exp(min(y[8], LOG_FAST)), np.cos(y[9]), np.sin(y[9])
         x_dot, y_dot = slip_rate(w, slowest, 0, C), slip_rate(w, slowest, 1, C)
         out[8], out[9] = (x_dot * along + y_dot * across) * g / speed, (y_dot * along - x_dot * across) * g / speed

@@ -1,4 +1,5 @@
-"""A motion followed to its next event: steps of stepper.py with the dynamics of dynamics.py, watched on the way."""
+"""Integrates a motion to its next event: steps of stepper.py with the equations of dynamics.py, with a watch on the
+guards."""
 
 import numpy as np
 
@@ -14,22 +15,22 @@ from .stepper import STAGES, A, B, at_end, at_share, densely, error, factor, sta
 from .tally import tally, tally_tilt
 from .watching import first_event
 
-# How following ends for now: the times are over; more steps are needed; Coulomb's friction holds the ball; for good.
+# Why follow() returns: the times are over; more steps are needed; Coulomb friction makes the ball roll; it has ended.
 OVER, MORE, ROLLS, ENDED = -1, -2, -3, -4
 
-FIRST = 1e-3  # (R/g)^1/2: a first step; it grows fast
-SMALLEST = 1e-13  # (R/g)^1/2: no step is smaller
-NEAR = 0.1  # a guard as near to 0 is looked at along the step
-SLIPS_LITTLE = 1e-3  # relative precision of a slip at least
-LEAP = 2.0  # a slip grows by exp(LEAP) in a step at most: the polynomial through a step, whose error nobody looks at,
-# would be taken to that exponential
-STIFF = 10.0  # times faster than a slip changes its direction is attracted, where it is kept steady
-NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin of a patch at which it may come to rest, where the tolerance is below it
+FIRST = 1e-3  # (R/g)^1/2: the first step; the following ones grow fast
+SMALLEST = 1e-13  # (R/g)^1/2: the smallest step
+NEAR = 0.1  # a guard this close to 0 is examined along the step
+SLIPS_LITTLE = 1e-3  # the least relative accuracy of a slip
+LEAP = 2.0  # a slip grows by exp(LEAP) in one step at most: the error of the polynomial through the step is not
+# controlled, and the exponential would magnify it
+STIFF = 10.0  # if beta relaxes so many times faster than log|u| changes, it is kept at its steady value
+NEARLY_STILL = 1e-7  # (gR)^1/2: slip and spin at which a patch may come to rest, if the tolerance is smaller
 
 
 @compiled
 def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: int) -> int:
-    """On until the first event, whose number is returned, or OVER, or MORE. Samples at the times go into rows."""
+    """Integrates until the first event and returns its number, or OVER, or MORE. Samples at the times go into rows."""
     y, C, S = W.y, W.contacts, W.step
     ball, stem = W.modes[BALL], W.modes[STEM]
     if W.begins:
@@ -57,15 +58,15 @@ def follow(W: Record, P: Record, times: Array, rows: Array, end: float, limit: i
 
 @compiled
 def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
-    """One step, or its part before an event; the event or NO_ONE."""
+    """Takes one step, or the part of it before an event; returns the event or NO_ONE."""
     y, S, C = W.y, W.step, W.contacts
     slowest = change_variables(W, P)
-    if W.rated:  # the last stage of the step before
+    if W.rated:  # the last stage of the previous step
         S.K[0, :] = S.K[STAGES]
     scales(W, P, slowest)
     timed = P.law.kind != CONTENSOU and slowest == NO_ONE
     h, near = accept(W, P, slowest, end - y[12] if timed else np.inf)
-    if timed:  # without the rounding of its integration
+    if timed:  # free of rounding errors of the integration
         S.new[12] = end if h == end - y[12] else y[12] + h
     event, share, k, N = NO_ONE, 1.0, W.samples, C.F[BALL, 2] + C.F[STEM, 2]
     dense = near < NEAR or S.new[12] > end or (k < len(times) and times[k] <= S.new[12])
@@ -95,11 +96,13 @@ def advance(W: Record, P: Record, times: Array, rows: Array, end: float) -> int:
 
 @compiled
 def change_variables(W: Record, P: Record) -> int:
-    """y into step.z; with Coulomb's law log|u| and beta of the slowest contact in place of v. Which one that is.
+    """Writes y into step.z, with log|u| and beta of the slowest contact in place of v for Coulomb's law. Returns that
+    contact.
 
-    Kept from step to step as they are: v has not the digits of a slip that dies away. Where friction is at its limit,
-    so that a slow slip hardly changes, beta is attracted to its steady value so fast that the steps would shrink with
-    |u|: there it is kept at that value (W.steady), from which it is off by |u| beta'/c, c the rate at |u| = 1.
+    log|u| and beta are carried over from step to step, because v does not have the digits of a decaying slip. If
+    friction is near its limit, so that a slow slip hardly changes, beta relaxes to its steady value so fast that the
+    steps would shrink with |u|. Then it is kept at that value (W.steady); the error is |u| beta'/c, with the relaxation
+    rate c at |u| = 1.
     """
     y, S, C, slowest, least = W.y, W.step, W.contacts, NO_ONE, np.inf
     S.z[:] = y
@@ -125,7 +128,7 @@ def change_variables(W: Record, P: Record) -> int:
 
 @compiled
 def scales(W: Record, P: Record, slowest: int) -> None:
-    """What an error of each component of z is measured by: the tolerance times 1 rad, |L|, |v|, R, the energy."""
+    """The scale of the error of each component of z: the tolerance times 1 rad, |L|, |v|, R or the energy."""
     y, S, tolerance = W.y, W.step, P.tolerance
     L = max(P.I1, np.sqrt(y[5] * y[5] + y[6] * y[6] + y[7] * y[7]))
     v = max(1.0, np.sqrt(y[8] * y[8] + y[9] * y[9] + y[14] * y[14]))
@@ -140,7 +143,8 @@ def scales(W: Record, P: Record, slowest: int) -> None:
 
 @compiled
 def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, float]:
-    """A step from step.z to step.new within the tolerance, not longer than most: its length, and margin()'s least."""
+    """Finds a step from step.z to step.new within the tolerance, at most `most` long: its length, and the least
+    margin()."""
     S = W.step
     while True:
         h = min(W.h, most)
@@ -157,7 +161,7 @@ def accept(W: Record, P: Record, slowest: int, most: float) -> tuple[float, floa
 
 @compiled
 def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]:
-    """The stages of a step of length h and its end into step.new: its error, and the least of margin()."""
+    """Computes the stages of a step of length h, and its end into step.new: its error, and the least margin()."""
     S, C, ball, stem, near = W.step, W.contacts, W.modes[BALL], W.modes[STEM], np.inf
     for s in range(1 if W.rated else 0, STAGES + 1):
         if s == 0:
@@ -176,7 +180,8 @@ def attempt(W: Record, P: Record, slowest: int, h: float) -> tuple[float, float]
 
 @compiled
 def moved(W: Record, P: Record, slowest: int, t: float) -> float:
-    """y from step.at at the time t, angles followed, p of unit length; how fast the slowest contact slipped before."""
+    """Sets y from step.at at the time t, with continuous angles and p normalized; returns the earlier slip speed of the
+    slowest contact."""
     y, C, S = W.y, W.contacts, W.step
     ball, stem = W.modes[BALL], W.modes[STEM]
     before = np.exp(S.z[8]) if slowest != NO_ONE else np.inf
@@ -200,11 +205,11 @@ def moved(W: Record, P: Record, slowest: int, t: float) -> float:
 
 @compiled
 def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
-    """HALTS + i where friction stops the slowest contact i, SLIPS + i where its slip goes through 0, or NO_ONE."""
+    """HALTS + i if friction stops the slowest contact i, SLIPS + i if its slip goes through 0, or NO_ONE."""
     y, C, ball, stem = W.y, W.contacts, W.modes[BALL], W.modes[STEM]
     if slowest != NO_ONE:
         speed = W.step.new[8]
-        if speed < min(np.log(before), LOG_STILL):  # near the limit of friction it may hold yet
+        if speed < min(np.log(before), LOG_STILL):  # near the limit of friction it may still stick
             if may_stick(y, ball, stem, slowest, P, C):
                 halted(y, slowest, P, C)
                 return HALTS + slowest
@@ -217,7 +222,7 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
             if W.modes[i] == SLIP and speed < min(before, max(NEARLY_STILL, 10 * P.tolerance)):
                 if may_stick(y, ball, stem, i, P, C):
                     rates(y, NO_ONE, ball, stem, P, C, W.step.K[0])
-                    left = speed * (y[12] - W.step.z[12]) / (before - speed)  # to where nothing is left of it
+                    left = speed * (y[12] - W.step.z[12]) / (before - speed)  # time until it vanishes
                     for k in range(16):
                         y[k] += left * W.step.K[0, k] / W.step.K[0, 12]
                     halted(y, i, P, C)
@@ -227,7 +232,7 @@ def comes_to_rest(W: Record, P: Record, slowest: int, before: float) -> int:
 
 @compiled
 def sample(W: Record, P: Record, z: Array, slowest: int, t: float, rows: Array) -> None:
-    """One more row, at z."""
+    """Adds a row for z."""
     C, k = W.contacts, W.samples
     ball, stem = W.modes[BALL], W.modes[STEM]
     turn = arrange(z, slowest, ball, stem, P, C)

@@ -2,9 +2,9 @@
 
     F_h = -k F_z u ,     T = -t F_z
 
-u is the slip, omega_n the spin about the normal, k(u^2, omega_n) and t(u^2, omega_n) the law, T its torque about the
-normal. Only Contensou's law knows omega_n and has a torque: its contact is a small patch, not a point. Each law is a
-frozen record of its numbers, and `law` is what kernels take of it.
+u is the slip velocity, omega_n the angular velocity about the normal, and T the torque about the normal. A law is given
+by k(u^2, omega_n) and t(u^2, omega_n). Only Contensou's law depends on omega_n and has a torque: its contact is a small
+patch, not a point. Each law is a frozen record of its parameters; `law` is the form that kernels use.
 """
 
 from dataclasses import dataclass
@@ -17,12 +17,13 @@ from ..errors import TopError, finite
 from ..types import Number
 
 COULOMB, VISCOUS, SMOOTHED, CONTENSOU = range(4)
-SERIES = 9.0  # (u/(radius omega_n))^2 from which the closed forms lose more digits than the series in its inverse
-LEAST = 1e-300  # radius omega_n below which its inverse overflows: no spin at all
+SERIES = 9.0  # (u/(radius omega_n))^2 above which the closed forms lose more digits than the series in 1/q^2
+LEAST = 1e-300  # radius omega_n below which its inverse would overflow: counts as no spin
 
 
 class Law(NamedTuple):
-    """A law as kernels take it. mu_s: what holds a contact at rest, 0 where nothing does; width: eps, or the radius."""
+    """A law in the form that kernels use. mu_s: coefficient of static friction, 0 if there is none. width: eps, or the
+    radius."""
 
     kind: int
     mu: float
@@ -32,14 +33,14 @@ class Law(NamedTuple):
 
 @dataclass(frozen=True)
 class _Friction:
-    """What all laws share."""
+    """What all laws have in common."""
 
     @property
     def law(self) -> Law:
         raise NotImplementedError
 
     def k(self, square: Number, omega_n: float = 0.0) -> Number:
-        """k at u^2 = square, a number or an array."""
+        """k at u^2 = square (a number or an array), in (gR)^-1/2."""
         if np.ndim(square) == 0:
             return push(self.law, float(square), float(omega_n))[0]
         return np.array([self.k(one, omega_n) for one in square])
@@ -53,13 +54,13 @@ class _Friction:
 
 @dataclass(frozen=True)
 class Coulomb(_Friction):
-    """F_h = -mu_k F_z u/|u| where the top slips; where it does not, what keeps it rolling, up to mu_s F_z.
+    """F_h = -mu_k F_z u/|u| while the top slips; while it rolls, the force of the constraint, up to mu_s F_z.
 
-    mu_s >= mu_k > 0; mu_s = mu_k where it is not given. Raises TopError for anything else.
+    mu_s >= mu_k > 0; mu_s = mu_k if it is not given. Raises TopError for anything else.
     """
 
     mu_k: float
-    mu_s: float = None  # type: ignore[assignment]  # once made, it has one
+    mu_s: float = None  # type: ignore[assignment]  # never None after __post_init__
 
     def __post_init__(self) -> None:
         self._positive("mu_k")
@@ -77,10 +78,10 @@ class Coulomb(_Friction):
 
 @dataclass(frozen=True)
 class Viscous(_Friction):
-    """F_h = -gamma F_z u, gamma >= 0 in (gR)^-1/2: of F_h = -gamma_SI F_z v in SI, gamma_SI in s/m, it
-    is gamma = gamma_SI (gR)^1/2, with g the gravity.
+    """F_h = -gamma F_z u, gamma >= 0 in (gR)^-1/2.
 
-    gamma = 0 is the smooth plane. Raises TopError for anything else.
+    In SI units F_h = -gamma_SI F_z u with gamma_SI in s/m, and gamma = gamma_SI (gR)^1/2. gamma = 0 is the smooth
+    plane. Raises TopError for anything else.
     """
 
     gamma: float
@@ -95,7 +96,7 @@ class Viscous(_Friction):
 
 @dataclass(frozen=True)
 class SmoothedCoulomb(_Friction):
-    """F_h = -mu F_z u/(u^2 + eps^2)^1/2, mu > 0, eps > 0 in (gR)^1/2: Coulomb's law made smooth, so it never sticks.
+    """F_h = -mu F_z u/(u^2 + eps^2)^1/2, mu > 0, eps > 0 in (gR)^1/2: a smoothed Coulomb law, which never sticks.
 
     Raises TopError for anything else.
     """
@@ -114,16 +115,16 @@ class SmoothedCoulomb(_Friction):
 
 @dataclass(frozen=True)
 class Contensou(_Friction):
-    """Coulomb's law at each point of a round patch with Hertz's pressure, mu > 0, radius >= 0 in R.
+    """Coulomb's law at each point of a round contact patch with Hertzian pressure, mu > 0, radius >= 0 in R.
 
-    The patch slides and spins about its normal at once, so its points rub in different directions. The law is the
-    integral over the patch, with u + omega_n x r the slip at r:
+    The patch slides and spins about its normal at the same time, so the direction of friction varies over it. With the
+    slip velocity u + omega_n x r at the point r, the law is the integral over the patch
 
         F_h = -mu int p (u + omega_n x r)/|u + omega_n x r| dA ,   p = 3 F_z/(2 pi radius^2) (1 - r^2/radius^2)^1/2 ,
 
-    and T that of r x the same; contensou() gives their closed forms. Nothing holds while it spins. Where u and
-    radius omega_n both vanish it holds up to bounds(); with radius = 0 it is Coulomb(mu). Raises TopError for
-    anything else.
+    and T is the integral of r x the same; contensou() has the closed forms. The contact cannot stick while it spins. If
+    u and radius omega_n both vanish, it sticks up to bounds(). radius = 0 is Coulomb(mu). Raises TopError for anything
+    else.
 
     P. Contensou, in Kreiselprobleme (IUTAM, Springer 1963); for the tippe top R. I. Leine and Ch. Glocker, Eur. J.
     Mech. A/Solids 22, 193 (2003).
@@ -147,10 +148,10 @@ LAWS = Coulomb, Viscous, SmoothedCoulomb, Contensou
 
 @compiled
 def push(law: Law, square: float, omega_n: float) -> tuple[float, float]:
-    """(k, t) of a law at u^2 = square and the spin omega_n about the normal.
+    """(k, t) of a law at u^2 = square and the angular velocity omega_n about the normal.
 
-    Coulomb mu/|u|, viscous mu, smoothed mu/(u^2 + eps^2)^1/2, Contensou contensou(). Where the law is set-valued, at
-    u = 0 and radius omega_n = 0, both are 0: what it holds there is for bounds() to say.
+    k is mu/|u| (Coulomb), gamma (viscous), mu/(u^2 + eps^2)^1/2 (smoothed); for Contensou's law see contensou(). Where
+    the law is set-valued, at u = 0 and radius omega_n = 0, both are 0; bounds() gives its limits there.
     """
     if law.kind == VISCOUS:
         return law.mu, 0.0
@@ -163,21 +164,21 @@ def push(law: Law, square: float, omega_n: float) -> tuple[float, float]:
 
 @compiled
 def bounds(law: Law) -> tuple[float, float]:
-    """The largest |F_h| and |T|, per unit of F_z, of a law where the contact neither slips nor spins: mu_s and, of
-    Contensou's, (3 pi/16) mu radius."""
+    """The largest |F_h| and |T| per unit of F_z at a contact that neither slips nor spins: mu_s and, for Contensou's
+    law, (3 pi/16) mu radius."""
     return law.mu_s, (3 * np.pi / 16 * law.mu * law.width if law.kind == CONTENSOU else 0.0)
 
 
 @compiled
 def contensou(mu: float, radius: float, square: float, omega_n: float) -> tuple[float, float]:
-    """(k, t) of Contensou's law where radius omega_n is not 0. With q = |u|/(radius |omega_n|),
+    """(k, t) of Contensou's law for radius omega_n other than 0. With q = |u|/(radius |omega_n|),
 
         |F_h| = mu F_z (3/4) [q (1 - q^2/4) A + (1/2 + q^2/4) Q]
         |T| = mu F_z radius (3/8) [(1 - q^2 + 3 q^4/8) A + (3 q/4 - 3 q^3/8) Q]
-        A = asin(min(1, 1/q)) ,   Q = (1 - 1/q^2)^1/2 where q > 1, else 0 .
+        A = asin(min(1, 1/q)) ,   Q = (1 - 1/q^2)^1/2 if q > 1, else 0 .
 
-    Rearranged for q <= 1, where A = pi/2 and |F_h|/|u| has a limit at u = 0; and for large q, where the terms of
-    size q^3 cancel, to the hypergeometric series that the brackets are:
+    Rearranged for q <= 1, where A = pi/2 and |F_h|/|u| has a limit at u = 0. For large q, where terms of order q^3
+    cancel, the brackets are written as hypergeometric series:
 
         |F_h| = mu F_z 2F1(-1/2, 1/2; 5/2; 1/q^2) ,   |T| = mu F_z radius/(5 q) 2F1(1/2, 1/2; 7/2; 1/q^2) .
     """

@@ -1,16 +1,17 @@
-"""What the rough table does to a top that comes to it without rolling: it grips the contact point, in an instant.
+"""The impact by which a rough table stops the slip of a top that is not rolling yet.
 
-An impulse (J_x, J_y, J_z) at the contact stops the slip, and J_z keeps the ball on the table. No other acts, so the
-angular momentum about the contact point, and with it C_J (14), is what it was. With G's velocity on the table,
-(vx, vy, a s w1), and the slip u of dynamics.py the axes x and y come apart:
+An impulse (J_x, J_y, J_z) at the contact stops the slip, and J_z keeps the ball on the table. There is no other
+impulse, so the angular momentum about the contact point is conserved, and so is C_J (14). With the velocity
+(vx, vy, a s w1) of G and the slip u of dynamics.py, the equations for x and y decouple:
 
     J_x = -I3 u_x/f3^2 ,   I1 dw2 = -(c - a) J_x ,   I3 dw3 = s J_x ,   dvx = J_x ,
     J_y = -m u_y/f1^2 ,    m dw1 = (1 - a c) J_y ,   dvy = J_y ,   m = I1 + a^2 s^2 ,
 
     energy lost = (1/2) (I3 u_x^2/f3^2 + m u_y^2/f1^2) ,
 
-f1 and f3 those of (35) and (32). E. J. Routh, Dynamics of a System of Rigid Bodies, part I (impulses on perfectly rough
-bodies). The table of the paper holds with any force: J_z may be a pull, and |J_h| more than mu_s J_z.
+with f1 and f3 of (35) and (32). E. J. Routh, Dynamics of a System of Rigid Bodies, part I (impulses on perfectly rough
+bodies). The rough table of the paper exerts whatever force is needed: J_z may be negative, and |J_h| may be larger than
+mu_s J_z.
 """
 
 from dataclasses import replace
@@ -24,12 +25,11 @@ from ..paper.top import Top
 
 
 def grip(top: Top, state: State) -> tuple[State, float]:
-    """The State that rolls right after the rough table has gripped the ball of a top, and the energy that takes, in
-    MgR, never negative.
+    """The rolling State right after a rough table has stopped the slip at the ball, and the energy lost, in MgR (>= 0).
 
-    state: vx, vy left None mean G at rest, as for slide(). C_J stays, K_R and E do not; a State that rolls already
-    loses nothing. The angles and the place of G stay, but at a pole, where phi is turned so that 1' is along omega
-    (psi against it). Raises TopError for what is no Top or State.
+    state: vx, vy None mean that G is at rest, as for slide(). C_J is conserved, K_R and E are not. A State that rolls
+    already loses nothing. The position of G and the orientation do not change; at a pole phi is chosen so that 1' is
+    along the horizontal part of omega, and psi accordingly. Raises TopError for anything but a Top and a State.
     """
     for name, value, kind in (("top", top, Top), ("state", state, State)):
         if not isinstance(value, kind):

@@ -1,4 +1,4 @@
-"""From event to event: what each is called, and how the motion goes on after it."""
+"""From event to event: the name of each event, and how the motion continues after it."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ SUPPORTS = ("none", "ball", "stem", "both")  # by carried()
 def run(
     W: Record, P: Record, log: Array, times: Array, rows: Array, end: float, flies: bool, hands_over: bool, steps: int
 ) -> int:
-    """On over events: OVER, MORE after so many steps, ROLLS where asked to hand that over, or ENDED; see log."""
+    """Integrates across events: OVER, MORE after so many steps, ROLLS if hands_over, or ENDED. log lists the events."""
     limit = W.steps + steps
     while True:
         if hands_over and W.modes[BALL] == STICK and W.modes[STEM] == OPEN and P.law.kind == COULOMB:
@@ -39,7 +39,7 @@ def run(
 
 @compiled
 def happens(W: Record, P: Record, log: Array, event: int, flies: bool) -> bool:
-    """The event, into the log, and the modes after it; whether the motion ends there."""
+    """Records the event in the log and sets the modes after it; returns whether the motion ends there."""
     y, C, ball, stem = W.y, W.contacts, W.modes[BALL], W.modes[STEM]
     if event in (BALANCES, STANDS_UP, RIM):
         names = PAINLEVE if event == BALANCES else STANDS_UPRIGHT if event == STANDS_UP else RIM_TOUCHES
@@ -74,7 +74,7 @@ def happens(W: Record, P: Record, log: Array, event: int, flies: bool) -> bool:
 
 @compiled
 def noted(W: Record, log: Array, name: int, ball: int, stem: int) -> None:
-    """One more line of the log."""
+    """Adds a line to the log."""
     n = W.events
     log[n, 0], log[n, 1], log[n, 2] = W.y[12], name, carried(ball, stem)
     W.tally.hops += name == LIFTS_OFF
@@ -83,7 +83,7 @@ def noted(W: Record, log: Array, name: int, ball: int, stem: int) -> None:
 
 @compiled
 def change(ball_before: int, stem_before: int, ball: int, stem: int, event: int) -> int:
-    """What to call the change of modes after an event."""
+    """The name of the change of modes after an event."""
     before, after = carried(ball_before, stem_before), carried(ball, stem)
     if before == 0:
         return LANDS_ON_STEM if after >= 2 or (after == 0 and event == TOUCHES + STEM) else LANDS

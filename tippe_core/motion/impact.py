@@ -1,11 +1,11 @@
-"""What an impact does: a contact that closes at some speed, without a bounce.
+"""Plastic impacts: a contact closes with some velocity and does not bounce.
 
-Friction is in proportion to N, so while N is as good as infinite for an instant, the same law with the normal impulse P
-in place of time says what happens (Routh; Keller, J. Appl. Mech. 53, 1, 1986):
+Friction is proportional to N, so during the impact, while N is very large for a very short time, the same law holds
+with the normal impulse P in place of time (Routh; Keller, J. Appl. Mech. 53, 1, 1986):
 
-    d(impulse)/dP = z - k(u) u ,   d(moment)/dP = -t(u, w_z)   until u_z = 0 (plastic) ,
+    d(impulse)/dP = z - k(u) u ,   d(angular impulse)/dP = -t(u, w_z)   until u_z = 0 (plastic) .
 
-and where the law holds a contact at rest, it may stop the slip on the way. Rolling resistance and the air take no part.
+If the law has static friction, the slip may stop during the impact. Rolling resistance and air drag are negligible.
 """
 
 from typing import TypeAlias
@@ -19,15 +19,15 @@ from .friction import CONTENSOU, COULOMB, bounds, push
 from .records import Record
 from .stepper import STAGES, A, B, error, factor, stage
 
-STOPPED = 1e-9  # of the speed of the impact: a slip below that has come to rest
-DIGITS = 1e-12  # to which each step is kept, of the same
+STOPPED = 1e-9  # relative to the speed of the impact: a smaller slip counts as 0
+DIGITS = 1e-12  # the tolerance of a step, relative to the same
 MOST_STEPS = 10_000
 Slip: TypeAlias = tuple[float, float, float, float]  # u, w_z
 
 
 @compiled
 def impact(W: Array, start: Array, law: Record) -> Array:
-    """The impulse and the moment about z, (4,), for (u, w_z) = start + W impulse, W (4, 4), start (4,)."""
+    """The impulse and the angular impulse about z, (4,), for (u, w_z) = start + W impulse, W (4, 4), start (4,)."""
     scale, holds = np.sqrt(start[0] ** 2 + start[1] ** 2 + start[2] ** 2), law.mu_s > 0.0
     K, J, new, at = np.zeros((STAGES + 1, 4)), np.zeros(4), np.zeros(4), np.zeros(4)
     allowed, h = np.full(4, DIGITS * scale), 0.01 * scale
@@ -52,7 +52,7 @@ def impact(W: Array, start: Array, law: Record) -> Array:
 
 @compiled
 def after(W: Array, start: Array, J: Array) -> Slip:
-    """(u, w_z) = start + W J."""
+    """(u, w_z) = start + W J, (4,)."""
     return (
         start[0] + W[0, 0] * J[0] + W[0, 1] * J[1] + W[0, 2] * J[2] + W[0, 3] * J[3],
         start[1] + W[1, 0] * J[0] + W[1, 1] * J[1] + W[1, 2] * J[2] + W[1, 3] * J[3],
@@ -63,13 +63,13 @@ def after(W: Array, start: Array, J: Array) -> Slip:
 
 @compiled
 def spread(q: Slip, law: Record) -> float:
-    """The speed with which the contact slips, that of its patch's spin included."""
+    """The slip speed of the contact, including that of the spin of its patch."""
     return np.sqrt(q[0] * q[0] + q[1] * q[1] + (law.width * q[3]) ** 2)
 
 
 @compiled
 def held(W: Array, q: Slip, law: Record) -> Array:
-    """The impulse that brings (u, w_z) = q to rest; w_z only where the law has a moment."""
+    """The impulse that brings (u, w_z) = q to rest; w_z only if the law has a torque."""
     matrix, J = W.copy(), np.array([-q[0], -q[1], -q[2], -q[3]])
     if law.kind != CONTENSOU:
         J[3] = 0.0
@@ -79,7 +79,7 @@ def held(W: Array, q: Slip, law: Record) -> Array:
 
 @compiled
 def away(W: Array, q: Slip, rest: Array, scale: float) -> Array:
-    """The impulse by which it slips on: slowly, against the one that would have held it."""
+    """The impulse with which it goes on slipping: slowly, opposite to the one that would have held it."""
     size, matrix, J = np.hypot(rest[0], rest[1]), W.copy(), np.zeros(4)
     J[0], J[1] = -2 * STOPPED * scale * rest[0] / size - q[0], -2 * STOPPED * scale * rest[1] / size - q[1]
     solve(matrix, J, 3)
@@ -99,7 +99,7 @@ def attempt(
     new: Array,
     allowed: Array,
 ) -> float:
-    """J a step later into new; its error over what is allowed."""
+    """Writes J after one step into new; returns the ratio of its error to the allowed one."""
     grow(W, start, law, scale, J, K[0])
     for s in range(1, STAGES):
         stage(J, K, A[s], s, h, at)
@@ -111,7 +111,7 @@ def attempt(
 
 @compiled
 def grow(W: Array, start: Array, law: Record, scale: float, J: Array, out: Array) -> None:
-    """d(impulse)/dP into out; where the slip may stop, times |u|/(|u| + SLOW), as in dynamics.py."""
+    """Writes d(impulse)/dP into out, times |u|/(|u| + SLOW) if the slip may stop, as in dynamics.py."""
     q = after(W, start, J)
     k, t = push(law, q[0] * q[0] + q[1] * q[1], q[3])
     g = 1.0
@@ -134,7 +134,7 @@ def closing(
     new: Array,
     allowed: Array,
 ) -> Array:
-    """The impulse where u_z = 0 within the step of length h from J, by steps of other lengths (false position)."""
+    """The impulse at which u_z = 0, within the step of length h from J, found by varying the step (false position)."""
     low, high, f_low, f_high, side = 0.0, h, after(W, start, J)[2], after(W, start, new)[2], 0
     for _ in range(60):
         x = high - f_high * (high - low) / (f_high - f_low)

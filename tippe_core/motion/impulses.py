@@ -1,4 +1,4 @@
-"""What an impulse at a contact does, and the last of a slip that comes to rest."""
+"""The effect of an impulse at a contact, and the final halt of a slip."""
 
 import numpy as np
 
@@ -8,12 +8,12 @@ from .dynamics import NO_ONE, OPEN, angular, arrange, column, component, cross, 
 from .impact import held
 from .records import Record
 
-REST = 1e-11  # ((gR)^1/2): slip below which a law may hold
+REST = 1e-11  # ((gR)^1/2): slip below which a contact may stick
 
 
 @compiled
 def mobility(i: int, j: int, y: Array, P: Record, C: Record) -> Array:
-    """(4, 4): (u_i, w_z) by an impulse, and a moment about z, at contact j."""
+    """(4, 4): the change of (u_i, w_z) per unit of impulse, and of angular impulse about z, at contact j."""
     e, W, zero = turning(y, P)[0], np.zeros((4, 4)), (0.0, 0.0, 0.0)
     for axis in range(4):
         one = (1.0 if axis == 0 else 0.0, 1.0 if axis == 1 else 0.0, 1.0 if axis == 2 else 0.0)
@@ -26,7 +26,7 @@ def mobility(i: int, j: int, y: Array, P: Record, C: Record) -> Array:
 
 @compiled
 def pushed(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
-    """y after the impulse and the moment J (4,) at contact i; the energy that takes is heat."""
+    """y after the impulse and angular impulse J (4,) at contact i; the energy lost is added to the heat."""
     before, impulse = kinetic(y, turning(y, P)[2], P), (J[0], J[1], J[2])
     torque = cross(row(C.rho, i), impulse)
     y[5], y[6], y[7] = y[5] + torque[0], y[6] + torque[1], y[7] + torque[2] + J[3]
@@ -36,14 +36,14 @@ def pushed(y: Array, i: int, J: Array, P: Record, C: Record) -> None:
 
 @compiled
 def moving(y: Array, i: int, P: Record, C: Record) -> Array:
-    """(u, w_z) of contact i, and where the contacts are into C."""
+    """(u, w_z) of contact i; the positions of the contacts go into C."""
     _, w, _ = arrange(y, NO_ONE, OPEN, OPEN, P, C)
     return np.array([C.u[i, 0], C.u[i, 1], C.u[i, 2], w[2]])
 
 
 @compiled
 def rests(y: Array, i: int, P: Record, C: Record) -> bool:
-    """Whether friction may hold contact i."""
+    """Whether contact i may stick."""
     if P.law.mu_s == 0.0:
         return False
     q = moving(y, i, P, C)
@@ -52,6 +52,6 @@ def rests(y: Array, i: int, P: Record, C: Record) -> bool:
 
 @compiled
 def halted(y: Array, i: int, P: Record, C: Record) -> None:
-    """y with the last of the slip of contact i gone."""
+    """y with the rest of the slip of contact i removed."""
     q = moving(y, i, P, C)
     pushed(y, i, held(mobility(i, i, y, P, C), (q[0], q[1], q[2], q[3]), P.law), P, C)

@@ -1,4 +1,4 @@
-"""Many motions with friction at a time, on all cores: what maps stand on."""
+"""Many motions with friction at once, on all cores: the basis of the maps."""
 
 import os
 import threading
@@ -34,14 +34,14 @@ from .repeats import run_all
 from .sliding import beside, checked_nudge
 from .tally import LAST, LEANS, UPRIGHT, begin_tally, energy
 
-MOST_EVENTS, MOST_STEPS = 4000, 1_000_000  # of one motion
-EACH = 20_000  # steps after which a stop is looked for
+MOST_EVENTS, MOST_STEPS = 4000, 1_000_000  # in one motion
+EACH = 20_000  # steps between two checks for a stop
 KINDS = ("top", (Top,)), ("state", (State,)), ("friction", LAWS)
 CELLS = 16  # motions a thread takes at a time
 
 
 class States(NamedTuple):
-    """States as arrays, one for each field of State."""
+    """Many States, as one array for each field of State."""
 
     theta: Array
     theta_dot: Array
@@ -57,21 +57,22 @@ class States(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Many:
-    """What became of many motions: read-only arrays of the shape to which what was asked for broadcasts.
+    """The results of many motions: read-only arrays of the shape to which the arguments broadcast, in units of R, M, g.
 
-    theta_end, state_end  at t_end, or where the motion ended before: theta; States, as slide_many() takes them
+    theta_end, state_end  the final theta (rad), and the final States, in the form that slide_many() accepts: at t_end,
+                          or where the motion ended earlier
     time_90, time_stem    when theta first passes 90 degrees, when the stem first touches; nan if never
-    hops, flew            how many times it left the table; whether it ever did
-    F_z_least             the least load of the table while it touched, at the ends of steps
-    heat                  what friction, the losses and impacts took
-    energy_error          energy and heat at the end, less the energy at the start
-    C_J_drift             the largest change of C_J until the stem touches, over C_J; nan with a moment of
-                          pivoting (Contensou's law) or any loss
-    growth                how many times a nudge of the start's theta has grown by the end; nan without one
-    end                   by the last tenth of the time, in this order: "refused" (no such top, start or friction;
-                          Painleve's limit, the ball's surface ends, more events or turns than are followed), "stem"
-                          (on its stem alone), "upright" (on its ball, theta < 0.2), "inverted" (on its ball,
-                          theta > pi - 0.2), "leaning" (theta within 0.05 rad), "rolling" (sticks, nutating), "moving"
+    hops, flew            the number of times it left the table; whether it ever did
+    F_z_least             the least F_z while the top was on the table, at the ends of steps
+    heat                  the energy lost by friction, rolling resistance, air drag and impacts
+    energy_error          energy and heat at the end, minus the energy at the start
+    C_J_drift             the largest change of C_J until the stem touches, relative to C_J; nan with a pivoting torque
+                          (Contensou's law), rolling resistance or air drag
+    growth                the factor by which a disturbance of the initial theta has grown by the end; nan without nudge
+    end                   judged by the last tenth of the time, in this order: "refused" (no such top, start or
+                          friction; Painleve's limit; the ball's surface ends; too many events or steps), "stem" (on its
+                          stem alone), "upright" (on its ball, theta < 0.2), "inverted" (on its ball, theta > pi - 0.2),
+                          "leaning" (theta constant within 0.05 rad), "rolling" (without slipping, nutating), "moving"
     """
 
     theta_end: Array
@@ -96,16 +97,16 @@ def slide_many(
     nudge: float | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
     progress: Callable[[float], object] | None = None,
 ) -> Many:  # fmt: skip
-    """Many motions as slide() follows one with landing="plastic", from 0 to t_end, on all cores: Many.
+    """Many, the results of many motions like those of slide() with landing="plastic", from 0 to t_end, on all cores.
 
-    top, state, friction: each a Top, a State and a law of friction; or a list or an array of such; or anything with
-    their fields as arrays (types.SimpleNamespace(a=..., I1=..., I3=...); of a law mu_k and perhaps mu_s, gamma, mu and
-    eps, or mu and radius). t_end: a number or an array, in (R/g)^1/2. edge: (..., 2 or 3) as in slide(). All of these
-    broadcast together. A cell that slide() would raise a TopError for is "refused", and its numbers are nan.
-    rtol: 1e-13 to 1e-3. nudge: in rad, as in sensitivity(); each motion is then followed twice.
-    progress: called from time to time with the share that is done; what it raises stops all and passes through.
-    The numbers do not depend on how many cores there are. Raises TopError for what does not broadcast, and for a bad
-    rtol, nudge or loss.
+    top, state, friction: a Top, a State and a friction law; or lists or arrays of them; or any objects that have their
+    fields as arrays, such as types.SimpleNamespace(a=..., I1=..., I3=...). The fields that tell a law are mu_k (and
+    perhaps mu_s), gamma, mu and eps, or mu and radius. t_end: a number or an array, in (R/g)^1/2. edge: (..., 2 or 3)
+    as in slide(). All these broadcast together. A cell for which slide() would raise a TopError is "refused", and its
+    numbers are nan. rtol: 1e-13 to 1e-3. nudge: in rad, as in sensitivity(); each motion is then computed twice.
+    rolling_resistance, air_drag: as in slide(). progress: is called from time to time with the fraction done; an
+    exception that it raises stops everything and is passed on. The numbers do not depend on the number of cores. Raises
+    TopError for shapes that do not broadcast, and for a bad rtol, nudge, rolling_resistance or air_drag.
     """
     rtol, nudge = checked_rtol(rtol), None if nudge is None else checked_nudge(nudge)
     losses = checked_loss("rolling_resistance", rolling_resistance), checked_loss("air_drag", air_drag)
@@ -138,7 +139,7 @@ def _objects(items: list[Any], shape: tuple[int, ...]) -> NDArray[np.object_]:
 
 
 def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
-    """An array of what makes one of the kinds: an instance, or the kind and its arguments."""
+    """An array whose elements each give one of the kinds: an instance, or the kind and its arguments."""
     if isinstance(given, kinds):
         return _objects([given], ())
     if (isinstance(given, list | tuple) and not hasattr(given, "_fields")) or isinstance(given, np.ndarray):
@@ -164,7 +165,7 @@ def _cells(name: str, given: Any, *kinds: type) -> NDArray[np.object_]:
 def _all(
     cell: Callable[[int, threading.Event], Any], count: int, progress: Callable[[float], object] | None
 ) -> list[Any]:
-    """cell(i, stop) of each, in a thread for each core that the process may use."""
+    """cell(i, stop) for each i, in one thread for each core that the process may use."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     stop, found, done = threading.Event(), [None] * count, 0
 
@@ -191,7 +192,7 @@ def _all(
 
 
 def _made(name: str, cell: Any, *kinds: type) -> Any:
-    """What a cell of _cells() stands for, one of the kinds."""
+    """The instance that an element of _cells() stands for."""
     if isinstance(cell, tuple) and len(cell) == 2 and isinstance(cell[1], dict):
         return cell[0](**cell[1])
     if not isinstance(cell, kinds):
@@ -202,7 +203,7 @@ def _made(name: str, cell: Any, *kinds: type) -> Any:
 def _cell(
     parts: list[Any], rtol: float, nudge: float | None, losses: tuple[float, float], stop: threading.Event
 ) -> dict[str, Any]:
-    """One motion's part of Many, or that it is refused."""
+    """The results of one motion, or that it is refused."""
     try:
         top, state, friction = (_made(name, part, *kinds) for (name, kinds), part in zip(KINDS, parts, strict=False))
         t_end = finite("t_end", parts[3])
@@ -240,14 +241,15 @@ def _followed(state: State, P: Record, t_end: float, stop: threading.Event) -> d
 
 
 def _state(W: Record, P: Record) -> list[float]:
-    """The fields of State at the end."""
+    """The fields of the final State."""
     row, y = np.zeros(WIDTH), W.y
     row_at(W, P, OPEN, OPEN, row)
     return [row[1], *row[13:16], row[2], row[3], y[10], y[11], row[21], row[22]]
 
 
 def _end(T: Record) -> str:
-    """By the tilt and what carried in the last of the time: bits 1, 2, 4, 8 of seen for none, ball, stem, both."""
+    """The word for the end, from the tilt and the supports in the last part of the time: bits 1, 2, 4, 8 of T.seen for
+    none, ball, stem, both."""
     if T.seen == 4:
         return "stem"
     if T.seen == 2 and T.most < UPRIGHT:

@@ -1,21 +1,21 @@
 """One nutation as Fourier series: the motion between two turning points, exact for any length of time.
 
-With c = cos(theta), c_dot^2 = s^2 f is analytic between its zeros c1 (inner) and c2 (outer). On c = (c1 + c2)/2 +
-(c1 - c2)/2 cos(kappa) it becomes kappa_dot^2 = Q, where s^2 f = (c1 - c)(c - c2) Q, so dt/dkappa = Q^-1/2 is smooth and
-periodic. Where it has a peak, kappa is replaced by an angle eta (crowding.py), otherwise the same.
+With c = cos(theta), c_dot^2 = s^2 f is analytic between its zeros c1 (inner) and c2 (outer). Substituting
+c = (c1 + c2)/2 + (c1 - c2)/2 cos(kappa) gives kappa_dot^2 = Q, where s^2 f = (c1 - c)(c - c2) Q, so dt/dkappa = Q^-1/2
+is smooth and periodic. If it has a sharp peak, an angle eta takes the place of kappa (crowding.py).
 
 Integrals over eta by the midpoint rule converge geometrically, and so do the Fourier coefficients in the phase
-tau = 2 pi t/T, for which kappa need not be inverted: the coefficient of sin(k tau) in kappa - tau is
+tau = 2 pi t/T, for which kappa(tau) need not be inverted: the coefficient of sin(k tau) in kappa - tau is
 2/(pi k) times the integral of cos(k tau(kappa)) from 0 to pi (Bessel's solution of Kepler's equation).
 
-Near a pole phi and psi turn by nearly pi at once, and at the pole they mean nothing. With v = 1 - c, m = 1 + c,
+Near a pole phi and psi change abruptly by nearly pi, and at the pole they are undefined. With v = 1 - c, m = 1 + c,
 
     q_x + i q_y = sin(theta/2) exp i(phi - psi)/2 = (v1^1/2 cos(kappa/2) +- i v2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_-
     q_w + i q_z = cos(theta/2) exp i(phi + psi)/2 = (m1^1/2 cos(kappa/2) +- i m2^1/2 sin(kappa/2)) 2^-1/2 exp i sigma_+
 
-(the sign that of the pole offset d) take all of that turn into the first factor, exactly, because f1 = f2 at the poles;
-the rates of sigma_- and sigma_+ are smooth for every trajectory, also through a pole. So is the velocity of the contact
-point.
+(with the sign of the pole offset d) the first factor contains exactly that abrupt change, because f1 = f2 at the poles.
+The rates of sigma_- and sigma_+ are smooth for every trajectory, also through a pole, and so is the velocity of the
+contact point.
 """
 
 from abc import ABC, abstractmethod
@@ -34,14 +34,14 @@ from .phase import Ends, Pose, clock, pose, tilts, v_and_m
 from .series import cosine_coefficients, harmonics, integral, integral_to, of_time, resolved, sums
 from .trajectory import checked_times
 
-NODES_LEAST, NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that of a merging
-SHARP = 3.0  # dt/dkappa that varies more than so many times may have a peak
-Phases: TypeAlias = tuple[Array, Array, Array]  # whole periods, half periods (0 or 1), the rest of the phase; (n,) each
+NODES_LEAST, NODES_MOST = 32, 2**12  # enough for energies within 1e-9 of that at which two wells merge
+SHARP = 3.0  # dt/dkappa may have a peak if it varies by more than this factor
+Phases: TypeAlias = tuple[Array, Array, Array]  # whole periods, half periods (0 or 1), remaining phase; (n,) each
 NONE = np.zeros((0, 1))  # no series
 
 
 class Nodes(NamedTuple):
-    """At midpoints of eta, (n,) each: cos(kappa/2), sin(kappa/2), v, m, and the three rates."""
+    """Values at the midpoints of eta, (n,) each: cos(kappa/2), sin(kappa/2), v, m, and the three rates."""
 
     cos_half: Array
     sin_half: Array
@@ -53,8 +53,8 @@ class Nodes(NamedTuple):
 
 
 class Time(NamedTuple):
-    """How many midpoints resolve dt/deta, its cosine coefficients (n,), and the sine coefficients (1, K) in tau of
-    kappa - tau, where so many midpoints resolve them."""
+    """The number of midpoints that resolve dt/deta, its cosine coefficients (n,), and the sine coefficients (1, K) in
+    tau of kappa - tau, if that many midpoints resolve them."""
 
     n: int
     dt_deta: Array
@@ -62,9 +62,9 @@ class Time(NamedTuple):
 
 
 class Orientation(NamedTuple):
-    """In the phase: mean rates (2,) of sigma_- and sigma_+, sine coefficients (2, K) of what varies of them; and of the
-    contact's velocity, in axes that turn at the mean rate, the Fourier coefficients forward and backward (2, K) and the
-    constant one: none, where its point is not asked for."""
+    """As functions of the phase: the mean rates (2,) of sigma_- and sigma_+ and the sine coefficients (2, K) of their
+    periodic parts. For the velocity of the contact point, in axes that rotate at the mean rate, the Fourier
+    coefficients forward and backward (2, K) and the constant one; empty if the path is not needed."""
 
     mean: Array
     sigma: Array
@@ -73,13 +73,13 @@ class Orientation(NamedTuple):
 
 
 class Nutation(ABC):
-    """A motion whose c_dot^2 is analytic between two turning points, as a function of time since its start."""
+    """A motion whose c_dot^2 is analytic between two turning points, as a function of the time since its start."""
 
     top: Top
     start: State
     ends: Ends
-    _inward: bool  # whether theta falls at first
-    _place: tuple[float, float]  # as sin(kappa/2), cos(kappa/2) at the start
+    _inward: bool  # whether theta decreases at first
+    _place: tuple[float, float]  # in the ratio sin(kappa/2) : cos(kappa/2) at the start
 
     @abstractmethod
     def _dt_dkappa(self, v: Array, m: Array) -> Array:
@@ -87,7 +87,7 @@ class Nutation(ABC):
 
     @abstractmethod
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
-        """The same with all figures, at cos(kappa/2) and sin(kappa/2)."""
+        """The same to full precision, at cos(kappa/2) and sin(kappa/2)."""
 
     @abstractmethod
     def _sigma_rates(self, v: Array, m: Array, dt_dkappa: Array) -> Array:
@@ -99,10 +99,11 @@ class Nutation(ABC):
 
     @abstractmethod
     def _too_near(self) -> TopError:
-        """The error to raise where no number of nodes is enough."""
+        """The error to raise if no number of nodes is enough."""
 
     def _contact_velocity(self, nodes: Nodes) -> Complex | None:
-        """The contact point's velocity over exp i(sigma_- + sigma_+), (n,) complex, where its path follows from it."""
+        """The velocity of the contact point divided by exp i(sigma_- + sigma_+), (n,) complex, if its path is found by
+        integration."""
         return None
 
     @property
@@ -115,7 +116,7 @@ class Nutation(ABC):
 
     @cached_property
     def _plain(self) -> Nodes:
-        """The least midpoints of kappa itself."""
+        """The smallest set of midpoints in kappa itself."""
         cos_half, sin_half, dkappa_deta = crowded(NODES_LEAST, None)
         v, m = v_and_m(cos_half, sin_half, self.ends)
         dt_dkappa = self._dt_dkappa(v, m)
@@ -138,12 +139,12 @@ class Nutation(ABC):
         return {}
 
     def _nodes(self, n: int) -> Nodes:
-        """n midpoints of eta."""
+        """The Nodes at n midpoints of eta."""
         if n == NODES_LEAST and not self._crowding:
             return self._plain
-        if n not in self._known_nodes:  # time, kappa and orientation ask for the same ones, and exact ones are slow
+        if n not in self._known_nodes:  # time, kappa and orientation use the same ones, and the exact ones are slow
             cos_half, sin_half, dkappa_deta = crowded(n, self._crowding)
-            dt_dkappa = self._exact_dt_dkappa(cos_half, sin_half)  # where Q nearly vanishes its terms cancel after all
+            dt_dkappa = self._exact_dt_dkappa(cos_half, sin_half)  # the terms cancel if Q nearly vanishes
             self._known_nodes[n] = Nodes(
                 cos_half,
                 sin_half,
@@ -175,7 +176,7 @@ class Nutation(ABC):
     def _kappa(self) -> Array:
         """Sine coefficients (1, K) in tau of kappa - tau."""
         n, _, kappa = self._time
-        while not kappa.size:  # dt/deta needed fewer nodes
+        while not kappa.size:  # it needs more nodes than dt/deta
             n *= 2
             if n > NODES_MOST:
                 raise self._too_near()
@@ -192,7 +193,7 @@ class Nutation(ABC):
             if resolved(coefficients):
                 dt_deta, minus, plus = coefficients
                 tau = integral(dt_deta) * (2 / dt_deta[0])
-                mean = np.array([minus[0], plus[0]]) / 2  # over eta, and so over tau
+                mean = np.array([minus[0], plus[0]]) / 2  # over eta, hence over tau
                 even, odd = 2 / n * rates, np.zeros_like(rates)
                 velocity = self._contact_velocity(nodes)
                 if velocity is not None:
@@ -210,13 +211,13 @@ class Nutation(ABC):
 
     @property
     def phi_advance(self) -> float:
-        """Advance of phi in a period, rad."""
+        """Advance of phi in one period, rad."""
         upright, inverted = np.copysign(1, self.ends.upright), np.copysign(1, self.ends.inverted)
         return 2 * np.pi * self._orientation.mean.sum() + np.pi * (upright + inverted)
 
     @property
     def psi_advance(self) -> float:
-        """Advance of psi in a period, rad."""
+        """Advance of psi in one period, rad."""
         upright, inverted = np.copysign(1, self.ends.upright), np.copysign(1, self.ends.inverted)
         minus, plus = self._orientation.mean
         return 2 * np.pi * (plus - minus) + np.pi * (inverted - upright)
@@ -225,20 +226,20 @@ class Nutation(ABC):
 
     @cached_property
     def _start_phase(self) -> tuple[float, float]:
-        """Half period and the rest of the phase at the start, to full precision next to either turning point."""
+        """The half period and the remaining phase at the start, to full precision near either turning point."""
         sine, cosine = self._place
         if self.ends.width == 0:
             return 0.0, 0.0
         half = float(sine > cosine)
         s_eta, c_eta = eta_halves(sine, cosine, self._crowding)
         dt_deta = self._time.dt_deta
-        if half:  # seen from the outer turning point every other coefficient has the other sign
+        if half:  # seen from the outer turning point every other coefficient changes sign
             s_eta, c_eta, dt_deta = c_eta, s_eta, dt_deta * (-1.0) ** np.arange(len(dt_deta))
         tau = integral_to(2 * np.arctan2(s_eta, c_eta), dt_deta) * (2 / dt_deta[0])
         return half, -tau if self._inward != bool(half) else tau
 
     def _phases(self, times: ArrayLike) -> Phases:
-        """At the times, since the first of which the motion runs."""
+        """The Phases at the times; the motion starts at the first of them."""
         t = checked_times(times)
         return clock(t - t[0], self.period, *self._start_phase)
 
@@ -249,8 +250,8 @@ class Nutation(ABC):
 
     @cached_property
     def _series(self) -> tuple[Array, Array]:
-        """The sine series of kappa, sigma_- and sigma_+ and of what else poses need, (3 or more, K), and the cosine
-        series (q, K) of it."""
+        """The sine series of kappa, sigma_- and sigma_+ and whatever else poses need, (3 or more, K), and the cosine
+        series (q, K)."""
         more, cosines = self._more_series()
         parts = self._kappa, self._orientation.sigma, more
         length = max(part.shape[1] for part in (*parts, cosines))
@@ -263,11 +264,12 @@ class Nutation(ABC):
         return np.concatenate([longer(part) for part in parts]), longer(cosines)
 
     def _more_series(self) -> tuple[Array, Array]:
-        """Sine and cosine series of what a subclass has besides."""
+        """Further sine and cosine series of a subclass."""
         return NONE, NONE
 
     def _pose(self, phases: Phases, *turn: float) -> tuple[Pose, Array]:
-        """The Pose at the phases, with phi and psi further by turn = (d_phi, d_psi), and the sums of more series."""
+        """The Pose at the phases, with phi and psi increased by turn = (d_phi, d_psi), and the sums of further
+        series."""
         _, half, rest = phases
         series = sums(half, rest, *self._series)
         return pose(*phases, series, self._orientation.mean, self.ends, *turn), series[3:]
@@ -279,9 +281,9 @@ class Nutation(ABC):
 
     @cached_property
     def _turn_of_start(self) -> tuple[float, float]:
-        """What phi and psi are further by than phase 0 makes them, for the start to have its own."""
+        """The constants to add to phi and psi so that they have their initial values at the start."""
         first, _ = self._pose(self._at_start, 0.0, 0.0)
         d_phi, d_psi = self.start.phi - first.phi[0], self.start.psi - first.psi[0]
-        if self.start.theta_dot * self._omega(first)[0, 0] < 0:  # at a pole, where the motion goes on along -1'
+        if self.start.theta_dot * self._omega(first)[0, 0] < 0:  # at a pole, if the motion continues along -1'
             d_phi, d_psi = d_phi + np.pi, d_psi + (np.pi if first.m[0] < first.v[0] else -np.pi)
         return float(d_phi), float(d_psi)

@@ -1,4 +1,4 @@
-"""The pose at any phase of a nutation, from the sums of its series (nutation.py): the loops over times."""
+"""The pose at any phase of a nutation, from the sums of its series (nutation.py): the kernels that loop over times."""
 
 from typing import NamedTuple
 
@@ -10,10 +10,10 @@ from .series import BLOCK, part_turn, sine, sums
 
 
 class Ends(NamedTuple):
-    """The turning points of a nutation, and what becomes of it at the poles, as the loops take them.
+    """The turning points and the pole offsets of a nutation, in the form that kernels use.
 
-    v = 1 - c and m = 1 + c at the inner turning point (1) and the outer (2), width = c1 - c2, and the pole offsets:
-    what s w2 would be at theta = 0 (upright) and at theta = pi (inverted), were the motion to go there.
+    v = 1 - c and m = 1 + c at the inner turning point (1) and the outer one (2), width = c1 - c2, and the pole offsets:
+    the values of s w2 extrapolated to theta = 0 (upright) and theta = pi (inverted).
     """
 
     v1: float
@@ -26,8 +26,8 @@ class Ends(NamedTuple):
 
 
 class Pose(NamedTuple):
-    """At n instants, (n,) each: cos(kappa/2) and sin(kappa/2), v = 1 - c, m = 1 + c, the angles in rad, s exp(i phi);
-    and the quaternion (n, 4)."""
+    """Values at n instants, (n,) each: cos(kappa/2) and sin(kappa/2), v = 1 - c, m = 1 + c, the angles in rad,
+    s exp(i phi); and the quaternion (n, 4)."""
 
     cos_half: Array
     sin_half: Array
@@ -42,11 +42,11 @@ class Pose(NamedTuple):
 
 @compiled
 def clock(passed: Array, period: float, half: float, rest: float) -> tuple[Array, Array, Array]:
-    """Whole periods, half periods (0 or 1) and the rest of the phase, -pi/2 to pi/2, (n,) each, when times (n,) have
-    passed since the phase was pi half + rest."""
+    """Whole periods, half periods (0 or 1) and the remaining phase, -pi/2 to pi/2, (n,) each, at the times (n,) after
+    the instant at which the phase was pi half + rest."""
     n = len(passed)
     turns, halves, rests = np.empty(n), np.empty(n), np.empty(n)
-    # whole periods exactly: the phase is then as smooth in t after 10,000 periods as in the first
+    # whole periods are subtracted exactly: the phase is as smooth in t after 10,000 periods as in the first
     leading = np.float64(np.float32(period))
     for i in range(n):
         whole = np.floor(passed[i] / period)
@@ -60,7 +60,7 @@ def clock(passed: Array, period: float, half: float, rest: float) -> tuple[Array
 
 @compiled
 def v_and_m(cos_half: Number, sin_half: Number, ends: Ends) -> tuple[Number, Number]:
-    """v = 1 - c and m = 1 + c where cos(kappa/2), sin(kappa/2) are cos_half, sin_half; (n,) each, or numbers."""
+    """v = 1 - c and m = 1 + c from cos_half = cos(kappa/2) and sin_half = sin(kappa/2); (n,) each, or numbers."""
     return ends.v1 + ends.width * (sin_half * sin_half), ends.m2 + ends.width * (cos_half * cos_half)
 
 
@@ -74,7 +74,7 @@ def half_angle(half: float, rest: float, series: float) -> tuple[float, float]:
 
 @compiled
 def tilts(passed: Array, period: float, half: float, rest: float, kappa: Array, ends: Ends) -> tuple[Array, Array]:
-    """sin(theta) and cos(theta), (n,): arguments as in clock(), and the series (1, K) of kappa - tau."""
+    """sin(theta) and cos(theta), (n,) each. Arguments as in clock(), and the series (1, K) of kappa - tau."""
     s, c = np.empty(len(passed)), np.empty(len(passed))
     for first in range(0, len(passed), BLOCK):
         block = slice(first, min(first + BLOCK, len(passed)))
@@ -85,7 +85,8 @@ def tilts(passed: Array, period: float, half: float, rest: float, kappa: Array, 
 
 @compiled
 def tilt(half: Array, rest: Array, kappa: Array, ends: Ends, s: Array, c: Array) -> None:
-    """sin(theta) and cos(theta) into s and c, (n,), at the phases pi half + rest; kappa less the phase, (n,) each."""
+    """Writes sin(theta) and cos(theta) into s and c at the phases pi half + rest; kappa: kappa minus the phase. (n,)
+    each."""
     for i in range(len(rest)):
         small = sine((rest[i] + kappa[i]) / 2) ** 2  # sin(kappa/2)^2 in the inner half, cos(kappa/2)^2 in the outer
         up, down = (small, 1 - small) if half[i] else (1 - small, small)
@@ -101,19 +102,20 @@ def cis(angle: float) -> complex:
 
 @compiled
 def nearer_pole(v: float, m: float, ends: Ends) -> tuple[float, float, float]:
-    """cos(theta) of the nearer pole, the distance of c to it, and its offset."""
+    """cos(theta) of the nearer pole, the distance of c from it, and its offset."""
     return (1.0, v, ends.upright) if v <= m else (-1.0, m, ends.inverted)
 
 
 @compiled
 def pole_factor(cos_half: float, sin_half: float, x1: float, x2: float, offset: float) -> complex:
-    """x1^1/2 cos(kappa/2) +- i x2^1/2 sin(kappa/2), of x = v at theta = 0, of x = m at pi; the sign is the offset's."""
+    """x1^1/2 cos(kappa/2) +- i x2^1/2 sin(kappa/2), with x = v at theta = 0 and x = m at pi, and the sign of the
+    offset."""
     return complex(np.sqrt(x1) * cos_half, np.copysign(np.sqrt(x2), offset) * sin_half)
 
 
 @compiled
 def pole_angle(factor: complex, offset: float, at_pole: float, turns: float) -> float:
-    """The factor's argument after so many periods; where it is 0, at the pole itself, the one just after."""
+    """The argument of the factor after that many periods; if the factor is 0, at the pole itself, that just after."""
     angle = np.copysign(at_pole, offset) if factor == 0 else np.arctan2(factor.imag, factor.real)
     return angle + np.pi * turns * np.copysign(1.0, offset)
 
@@ -122,9 +124,10 @@ def pole_angle(factor: complex, offset: float, at_pole: float, turns: float) -> 
 def pose(
     turns: Array, half: Array, rest: Array, series: Array, mean: Array, ends: Ends, d_phi: float, d_psi: float
 ) -> Pose:
-    """The Pose at the phases 2 pi turns + pi half + rest (n,), with phi and psi d_phi and d_psi further.
+    """The Pose at the phases 2 pi turns + pi half + rest (n,), with d_phi and d_psi added to phi and psi.
 
-    series (3 or more, n): kappa, sigma_- and sigma_+ less their mean rates (mean (2,)) times the phase.
+    series (3 or more, n): kappa minus the phase, and sigma_- and sigma_+ minus their mean rates (mean (2,)) times the
+    phase.
     """
     n = len(rest)
     cos_halves, sin_halves, v, m = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
@@ -134,7 +137,7 @@ def pose(
     before, whole_minus, whole_plus, exp_minus, exp_plus = np.nan, 0.0, 0.0, 1.0 + 0.0j, 1.0 + 0.0j
     for i in range(n):
         if turns[i] != before:
-            # whole turns apart: rounded with them, the angles of late periods would not be smooth in time
+            # whole turns are kept apart: rounded with them, the angles of late periods would not be smooth in time
             before = turns[i]
             whole_minus = 2 * np.pi * part_turn(turns[i], mean[0])
             whole_plus = 2 * np.pi * part_turn(turns[i], mean[1])
@@ -163,7 +166,7 @@ def pose(
 
 @compiled
 def theta_dot(cos_half: float, sin_half: float, v: float, m: float, dt_dkappa: float, width: float) -> float:
-    """w1; where it turns its sign, at a pole, as just after it."""
+    """w1; where it changes sign, at a pole, the value just after it."""
     if width == 0:
         return 0.0
     if v == 0:
@@ -175,9 +178,9 @@ def theta_dot(cos_half: float, sin_half: float, v: float, m: float, dt_dkappa: f
 
 @compiled
 def half_sigma_rate(x: float, x1: float, x2: float, offset: float, dt_dkappa: float, slope: float) -> float:
-    """d sigma/dkappa, half of dt/dkappa (offset/x + slope) less the turn at the pole, +- (x1 x2)^1/2/(2x).
+    """d sigma/dkappa: half of dt/dkappa (offset/x + slope), minus the abrupt change at the pole, +- (x1 x2)^1/2/(2x).
 
-    x = v for sigma_-, where phi_dot (1 + c) - w3 = offset/v + slope; for sigma_+ x = m and
+    For sigma_- x = v and phi_dot (1 + c) - w3 = offset/v + slope; for sigma_+ x = m and
     phi_dot (1 - c) + w3 = offset/m + slope.
     """
     peak = 0.0 if x <= 0 else (dt_dkappa * offset - np.copysign(np.sqrt(x1 * x2), offset)) / x

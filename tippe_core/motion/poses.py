@@ -1,4 +1,4 @@
-"""What is said of a state: angles, quaternion, omega, forces, as a row of a Trajectory."""
+"""The derived quantities of a state (angles, quaternion, omega, forces) as one row of a Trajectory."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from ..types import Array
 from .dynamics import BALL, NO_ONE, OPEN, STICK, Turning, arrange
 from .records import Record
 
-PULLS = 2e-10  # (Mg): so little is rounding
+PULLS = 2e-10  # (Mg): smaller values are rounding
 AIR, SLIPPING, ROLLING = range(3)
 REGIMES = np.array(["air", "slip", "roll"])
 # columns of a row
@@ -20,7 +20,7 @@ WIDTH = 26
 
 @compiled
 def turned(y: Array, angles: Array) -> None:
-    """(phi + psi - chi)/2 and (phi - psi + chi)/2, half turns included, followed to y.
+    """(phi + psi - chi)/2 and (phi - psi + chi)/2 at y, continued from angles, half turns included.
 
     p_w + i p_z = cos(theta/2) exp i(phi + psi - chi)/2,  p_x + i p_y = sin(theta/2) exp i(phi - psi + chi)/2
     """
@@ -47,7 +47,7 @@ def record(
     out[6], out[7] = y[2] * c + y[3] * s, y[3] * c - y[2] * s
     out[8], out[9] = y[10] + P.a * e[0], y[11] + P.a * e[1]
     out[10], out[11], out[12] = y[10], y[11], C.G[3]
-    # of vectors in space along 1' and z cross 1'
+    # from axes fixed in space to 1' and z cross 1'
     c, s = np.cos(phi), np.sin(phi)
     across, cos_theta, sin_theta = w[1] * c - w[0] * s, np.cos(theta), np.sin(theta)
     out[13] = w[0] * c + w[1] * s
@@ -77,6 +77,6 @@ def record(
 
 @compiled
 def row_at(W: Record, P: Record, ball: int, stem: int, out: Array) -> None:
-    """The row at W.y in these modes, with the forces that are in W.contacts."""
+    """The row at W.y in these modes, with the forces in W.contacts."""
     turn = arrange(W.y, NO_ONE, ball, stem, P, W.contacts)
     record(W.y, W.y[12], turn, W.angles, ball, stem, P, W.contacts, out)

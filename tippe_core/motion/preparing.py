@@ -1,4 +1,4 @@
-"""What is asked of a motion with friction, checked, and as the kernels take it."""
+"""The arguments of a motion with friction: checked, and converted to the form that kernels use."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,11 +14,11 @@ from .friction import CONTENSOU, COULOMB, Friction, Law
 from .records import MOTION, PROBLEM, Record, new
 from .standing import leaned
 
-SHARE = 0.1  # of rtol, for a step
+SHARE = 0.1  # the tolerance of one step, in units of rtol
 
 
 def checked_rtol(rtol: float) -> float:
-    """rtol as a float in its range."""
+    """rtol as a float, or a TopError if it is out of range."""
     rtol = finite("rtol", rtol)
     if not 1e-13 <= rtol <= 1e-3:
         raise TopError("rtol", rtol, "1e-13 <= rtol <= 1e-3")
@@ -26,7 +26,7 @@ def checked_rtol(rtol: float) -> float:
 
 
 def checked_loss(name: str, loss: float) -> float:
-    """A loss as a float, not negative."""
+    """The coefficient of a loss as a float, or a TopError if it is negative."""
     loss = finite(name, loss)
     if loss < 0:
         raise TopError(name, loss, f"{name} >= 0")
@@ -47,15 +47,15 @@ def checked_edge(edge: ArrayLike | None) -> Rim | None:
 
 
 def strongest_friction(top: Top) -> float:
-    """The mu of sliding from which on no normal force balances the friction on the ball, for some tilt and direction of
-    slip (Painleve's paradox): the least (I1 + a^2 s^2)/(|a| (1 - a c) s)."""
+    """The coefficient of sliding friction above which, at some tilt and direction of slip, no normal force balances the
+    friction on the ball (Painleve's paradox): the minimum of (I1 + a^2 s^2)/(|a| (1 - a c) s)."""
     s, c = np.sin(theta := np.linspace(0, np.pi, 721)), np.cos(theta)
     with np.errstate(divide="ignore"):
         return float(np.min((top.I1 + (top.a * s) ** 2) / (abs(top.a * (1 - top.a * c)) * s)))
 
 
 def check_balance(top: Top, friction: Friction) -> None:
-    """A TopError for a friction that is too strong."""
+    """Raises TopError if the friction is too strong for that."""
     name, mu = next(((n, getattr(friction, n)) for n in ("mu_k", "mu") if hasattr(friction, n)), ("", 0.0))
     most = strongest_friction(top)
     if mu >= most:
@@ -65,7 +65,7 @@ def check_balance(top: Top, friction: Friction) -> None:
 
 
 def problem(top: Top, friction: Friction, edge: Rim | None, losses: tuple[float, float], rtol: float) -> Record:
-    """The record PROBLEM. An edge on the sphere itself is where its surface ends."""
+    """The record PROBLEM. An edge that lies on the sphere itself is the end of its surface."""
     (b, h, q), rim, law = edge or (0.0, 0.0, 0.0), -2.0, friction.law
     if edge and np.hypot(b, h) + q < 1 + 1e-6:
         edge, rim = None, float(-h / np.hypot(b, h))
@@ -80,7 +80,7 @@ def problem(top: Top, friction: Friction, edge: Rim | None, losses: tuple[float,
 
 
 def beginning(state: State, t: float, P: Record) -> tuple[Array, Array]:
-    """y at a State, on the ball or the stem, and the angles of poses.py."""
+    """y at a State, and the angles of poses.py."""
     if np.cos(state.theta) < P.rim:
         raise TopError("theta", state.theta, "less than {most:.6g} for this top",
                        "The sphere's surface ends there.", code="beyond-rim",
@@ -105,27 +105,27 @@ def y_of(
 
 
 def motion(y: Array, angles: Array) -> Record:
-    """Room for a motion that begins at y."""
+    """The record of a motion that begins at y."""
     W = new(MOTION)
     W.y[:], W.angles[:], W.begins = y, angles, 1
     return W
 
 
 def gap(P: Record, c: Number, s: Number) -> Number:
-    """Height of the stem's lowest point above the table while the ball stands on it."""
+    """Height (R) of the stem's lowest point above the table while the ball touches the table."""
     return 1 + P.h * c - P.b * s - P.q
 
 
 @compiled
 def on_table(W: Record, P: Record, i: int) -> None:
-    """v_z and z into W.y with contact i on the table."""
+    """Sets v_z and z in W.y so that contact i is on the table."""
     arrange(W.y, NO_ONE, SLIP if i == BALL else OPEN, SLIP if i == STEM else OPEN, P, W.contacts)
     W.y[14], W.y[15] = W.contacts.G[2], W.contacts.G[3]
 
 
 def start(W: Record, P: Record, theta: float) -> tuple[int, bool]:
-    """The contact on which W.y begins, with W.y there and the modes in which it goes on; False beyond Painleve's
-    limit."""
+    """Sets W.y on the contact that touches at the start, and the modes in which the motion continues. Returns that
+    contact; False beyond Painleve's limit."""
     i = STEM if P.stem and gap(P, np.cos(theta), np.sin(theta)) < 0 else BALL
     return i, bool(started(W, P, i))
 

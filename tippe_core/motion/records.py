@@ -1,5 +1,5 @@
-"""The records of numbers and small arrays that the kernels of a motion share: one piece of memory each, so that passing
-one costs nothing, and with named fields in compiled code and in Python alike."""
+"""The records of numbers and small arrays that the kernels of a motion share. Each is one block of memory, so that
+passing it costs nothing, and has named fields in compiled code and in Python alike."""
 
 from typing import Any, TypeAlias
 
@@ -9,7 +9,7 @@ Record: TypeAlias = Any  # an np.record of one of these types
 
 
 def kind(**fields: object) -> Any:
-    """A type of records: a float for each name, or an array of the given shape, or what the given type says."""
+    """A record type: each field is a float, an array of the given shape, or of the given type."""
     parts: list[tuple[Any, ...]] = []
     for name, what in fields.items():
         if isinstance(what, tuple):  # a shape, or a type and a shape
@@ -20,21 +20,21 @@ def kind(**fields: object) -> Any:
 
 
 def new(kind: Any) -> Record:
-    """One, all zeros."""
+    """A record of this type, all zeros."""
     return np.zeros(1, kind)[0]
 
 
 # A law of friction, friction.Law.
 LAW = kind(kind="i8", mu=float, mu_s=float, width=float)
 
-# What stays the same in a motion. k = 1/I3 - 1/I1; b, h, q: of the stem's edge, where stem is 1; rim: cos(theta) where
-# the ball's surface ends, -2 if it does not; delta, drag: of rolling resistance and of the air; tolerance: of a step.
+# The constants of one motion. k = 1/I3 - 1/I1; b, h, q: of the stem's edge, if stem is 1; rim: cos(theta) where the
+# ball's surface ends, -2 if it does not; delta, drag: of rolling resistance and of the air; tolerance: of a step.
 PROBLEM = kind(a=float, I1=float, I3=float, k=float, law=LAW, stem="i8", b=float, h=float, q=float, rim=float,
                delta=float, drag=float, tolerance=float)  # fmt: skip
 
-# What is found at an instant. Rows of ball and stem: rho, rho', u, u' but for the forces, F, M (moments beside
-# rho x F); heights above the table; G: v and z of G; v', L', w'. Then columns, the force and the moment about G of each
-# unknown; the contact, and the component of its u', that each is for; and the equations for them.
+# The values at one instant. For ball and stem: rho, rho', u, u' without the contact forces, F, M (torques in addition
+# to rho x F), heights above the table. G: v and z of G. Then v', L', w'; the columns, the force and the torque about G
+# of each unknown; the contact, and the component of its u', to which each belongs; and the equations for them.
 CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(2, 3), height=(2,), G=(4,), v_dot=(3,),
                 L_dot=(3,), w_dot=(3,), columns=(7, 6), owner=("i8", (7,)), part=("i8", (7,)), matrix=(7, 7),
                 right=(7,))  # fmt: skip
@@ -43,14 +43,14 @@ CONTACTS = kind(rho=(2, 3), rho_dot=(2, 3), u=(2, 3), free=(2, 3), F=(2, 3), M=(
 # of the polynomial.
 STEP = kind(K=(16, 16), z=(16,), new=(16,), at=(16,), scale=(16,), polynomial=(7, 16))
 
-# What is said of a motion as a whole, tally.py.
+# The summary of a motion, tally.py.
 TALLY = kind(since=float, C_J=float, drift=float, time_90=float, time_stem=float, hops="i8", F_z_least=float,
              least=float, most=float, seen="i8", slips="i8")  # fmt: skip
 
-# A motion: y, the modes of ball and stem, heights that count as the table's (what the tolerance took from those of
-# contacts that just parted), angles as poses.py has them, the next step, the guards; how many samples, events and steps
-# there are, whether a stretch begins, whether the rates at y are in step.K; the slowest contact, log|u| and beta of it,
-# and whether beta is kept steady.
+# A motion: y, the modes of ball and stem, the heights that count as the table's (slightly below 0 for contacts that
+# have just opened), the angles of poses.py, the next step, the guards; the numbers of samples, events and steps;
+# whether a stretch begins, whether the rates at y are in step.K; the slowest contact with its log|u| and beta, and
+# whether beta is kept steady.
 MOTION = kind(y=(16,), modes=("i8", (2,)), floor=(2,), angles=(2,), h=float, guards=(10,), samples="i8", events="i8",
               steps="i8", begins="i8", rated="i8", slowest="i8", polar=(2,), steady="i8", step=STEP, contacts=CONTACTS,
               tally=TALLY)  # fmt: skip

@@ -1,5 +1,5 @@
-"""Rolling for good. Where Coulomb's friction holds the ball and a whole nutation passed without an event, the same
-comes again and again, each time turned by the same angle about the vertical and moved on: so whole nutations are
+"""Rolling for good. Once Coulomb friction makes the ball roll and a whole nutation has passed without an event, every
+later nutation is the same one, rotated by the same angle about the vertical and displaced: whole nutations are
 skipped."""
 
 import numpy as np
@@ -17,7 +17,7 @@ from .tally import up_rate, zero
 
 @compiled
 def run_all(W: Record, P: Record, log: Array, end: float, steps: int) -> int:
-    """As run(), without samples, flying on, and skipping what comes again: OVER, MORE or ENDED."""
+    """Like run(), without samples, with flights, and skipping repeated nutations: OVER, MORE or ENDED."""
     limit, none, rows = W.steps + steps, np.zeros(0), np.zeros((0, 0))
     exact = P.delta == 0.0 and P.drag == 0.0
     while True:
@@ -31,7 +31,7 @@ def run_all(W: Record, P: Record, log: Array, end: float, steps: int) -> int:
 
 @compiled
 def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: int) -> int:
-    """Rolls on as follow() does; from the second largest theta on by whole nutations."""
+    """Rolls like follow(); from the second maximum of theta on by whole nutations."""
     first, second, least, T, passed = np.zeros(6), np.zeros(6), np.zeros(6), W.tally, 0
     while passed < 2:
         before = up_rate(W.y, P)
@@ -46,7 +46,7 @@ def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: in
         elif passed and up_rate(W.y, P) < 0.0 <= before:
             turns(W, P, least)
     period = second[0] - first[0]
-    whole = end - T.since >= period  # the last of the time sees all of a nutation
+    whole = end - T.since >= period  # the last part of the time contains a whole nutation
     if skip(W.y, W.angles, first, second, end if whole else T.since) and whole:
         T.least, T.most, T.seen = min(T.least, least[5]), max(T.most, second[5]), T.seen | 2
     W.rated = 0
@@ -55,7 +55,7 @@ def nutate(W: Record, P: Record, none: Array, rows: Array, end: float, limit: in
 
 @compiled
 def turns(W: Record, P: Record, out: Array) -> None:
-    """(t, phi, psi, x, y, theta) where theta is largest or least in the last step."""
+    """Writes (t, phi, psi, x, y, theta) at a maximum or minimum of theta in the last step into out."""
     S, angles = W.step, W.angles.copy()
     densely(W, P, NO_ONE, S.new[12] - S.z[12])
     at_share(S, zero(W, P, True, 0.0, 1.0), S.at)
@@ -67,9 +67,9 @@ def turns(W: Record, P: Record, out: Array) -> None:
 
 @compiled
 def skip(y: Array, angles: Array, first: Array, second: Array, end: float) -> bool:
-    """y after as many whole nutations, from first to second, as there is time for; whether any.
+    """Advances y by as many whole nutations, like that from first to second, as fit before end; returns whether any do.
 
-    In each G's place G_h goes over into turn G_h + moves, in complex numbers, turn = exp i(phi's advance).
+    Each maps the horizontal position G_h of G, as a complex number, to turn G_h + moves, turn = exp i(advance of phi).
     """
     n = np.floor((end - y[12]) / (second[0] - first[0]))
     if n < 1.0:

@@ -1,7 +1,7 @@
-"""Motion on the rough plane: exact, for any length of time, by Fourier series of one nutation (nutation.py).
+"""Motion on the rough plane: exact, for any length of time, by the Fourier series of one nutation (nutation.py).
 
-dt/dkappa = Q^-1/2, where s^2 theta_dot^2 = (c1 - c)(c - c2) Q. As paper/differences.py has Q, nothing cancels however
-near c1 and c2 are to each other: a steady precession is no special case.
+dt/dkappa = Q^-1/2, where s^2 theta_dot^2 = (c1 - c)(c - c2) Q. In the form of paper/differences.py nothing cancels in
+Q, however close c1 and c2 are: a steady precession is no special case.
 """
 
 from decimal import Decimal, localcontext
@@ -28,8 +28,9 @@ from .trajectory import Trajectory, checked_times
 
 
 class Path(NamedTuple):
-    """Of the contact point: the rate in the phase of the axes in which its velocity is periodic, the slowest rate of
-    its terms in space, that term's amplitude, the constant term's displacement, and dt/dtau."""
+    """For the path of the contact point: the rotation rate, per unit of phase, of the axes in which its velocity is
+    periodic; the slowest rate of its terms in space, and the amplitude of that term; the displacement by the constant
+    term; and dt/dtau."""
 
     rate: float
     slow: float
@@ -39,7 +40,7 @@ class Path(NamedTuple):
 
 
 class Track(NamedTuple):
-    """The series that a Path needs, (1, K) each: of the real part, and of the imaginary one, turned by -1."""
+    """The series that a Path needs, (1, K) each: of the real part, and minus that of the imaginary part."""
 
     sines: Array
     cosines: Array
@@ -49,23 +50,22 @@ class Track(NamedTuple):
 def roll(
     top: Top, constants: Constants | None, times: ArrayLike, start: State | str = "inner", well: int = 0
 ) -> Trajectory:
-    """The motion without slipping at the given times: Trajectory. Exact to rounding for times of any length.
+    """The Trajectory of the motion without slipping at the given times. Exact to rounding error for any length of time.
 
-    constants: K_J, K_R and E, numbers; or None where start is a State.
+    constants: K_J, K_R and E (numbers), or None if start is a State.
     times: (n,) in (R/g)^1/2, in any order; the motion starts at times[0].
-    start: "inner" or "outer" turning point, or a State. phi = psi = 0 and the contact point at the origin at times[0]
-    unless the State says otherwise. well: the row of turning_points in which to move, where there are several (a State
-    is in one of them already).
-    Raises TopError (NoMotionError where the energy is below every well).
+    start: "inner" or "outer" turning point, or a State. At times[0] phi = psi = 0 and the contact point is at the
+    origin, unless the State says otherwise. well: the row of turning_points() to which the motion belongs, if there are
+    several (a State determines it). Raises TopError (NoMotionError if the energy is below every well).
     """
     return Rolling(top, constants, start, well)(times)
 
 
 class Rolling(Nutation):
-    """The motion without slipping, for any times: arguments as in roll(); it starts at the times[0] of each call.
+    """The motion without slipping as an object; arguments as in roll(). Each call starts the motion at its times[0].
 
-    start, the State at the start; period (of the nutation, in (R/g)^1/2), turning_points (2,) in rad, phi_advance and
-    psi_advance (rad in a period); theta(times) alone, or called with times for the whole Trajectory.
+    start: the State at the start. period: that of the nutation, in (R/g)^1/2. turning_points: (2,) in rad. phi_advance,
+    psi_advance: rad per period. theta(times) gives theta alone; calling the object with times gives the Trajectory.
     """
 
     def __init__(self, top: Top, constants: Constants | None, start: State | str = "inner", well: int = 0) -> None:
@@ -86,7 +86,7 @@ class Rolling(Nutation):
 
     @cached_property
     def start(self) -> State:  # type: ignore[override]
-        """The instant of the start: the State given, or that of the turning point, with phi = psi = 0."""
+        """The State at the start: the one given, or that at the turning point with phi = psi = 0."""
         if self._given:
             return self._given
         at_inner = self._place[0] == 0
@@ -130,7 +130,7 @@ class Rolling(Nutation):
 
     @cached_property
     def _track(self) -> Track:
-        """The contact point's path, by integration of its velocity, term by term."""
+        """The path of the contact point, by integrating its velocity term by term."""
         mean, _, (forward, backward), constant = self._orientation
         rate = float(mean.sum())
         k = np.arange(1, len(forward) + 1)
@@ -151,7 +151,7 @@ class Rolling(Nutation):
 
     @cached_property
     def _first(self) -> tuple[complex, complex]:
-        """At the start: the contact point, where the path is as path() has it, and the way from it to G."""
+        """At the start: the contact point as computed by path(), and the vector from it to G."""
         phases, (d_phi, d_psi) = self._at_start, self._turn_of_start
         pose, (Y_re, Y_im) = self._pose(phases, d_phi, d_psi)
         return path(*phases, Y_re, Y_im, self._track.path, d_phi)[0], 1j * pose.s_exp_phi[0] * self.top.a
@@ -183,21 +183,21 @@ def dt_dkappa(v: Array, m: Array, curve: Floats, e: float, ends: Ends) -> Array:
         Q = differences.Q(inner, outer, place(v[i], m[i], curve), curve.K_R, e, curve.top)
         if Q > 0:
             found[i] = 1 / np.sqrt(Q)
-        else:  # at rest on an unstable steady precession any rate of kappa will do
+        else:  # at rest in an unstable steady precession any rate of kappa will do
             found[i] = 1.0 if ends.width == 0 else np.nan
     return found
 
 
 @compiled
 def place(v: float, m: float, curve: Floats) -> Place:
-    """What the differences take of a place."""
+    """The Place in the form that differences.py uses."""
     c, s2 = 1 - v, v * m
     return Place(c, s2, np.sqrt(eq.f3_2(c, s2, curve.top)), bracket(v, m, curve)[0])
 
 
 @compiled
 def bracket(v: float, m: float, curve: Floats) -> tuple[float, float]:
-    """B of (36), which is s w2, without cancellation next to the poles; and w3."""
+    """B of (36), which is s w2, without cancellation near the poles; and w3."""
     return bracket_near(1.0, v, curve) if v <= m else bracket_near(-1.0, m, curve)
 
 
@@ -234,7 +234,8 @@ def sigma_rates(v: Array, m: Array, dt_dkappa: Array, curve: Floats, ends: Ends)
 def contact_velocity(
     cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, curve: Floats, ends: Ends
 ) -> Complex:
-    """(n,): the contact point's velocity, (w2 c - w3 s, -w1) in the turning axes, over exp i(sigma_- + sigma_+)."""
+    """(n,): the velocity of the contact point, (w2 c - w3 s, -w1) in the rotating axes, over exp i(sigma_- +
+    sigma_+)."""
     velocity = np.empty(len(v), np.complex128)
     w = omega(cos_half, sin_half, v, m, dt_dkappa, curve, ends.width)
     for i in range(len(v)):
@@ -248,7 +249,7 @@ def contact_velocity(
 
 @compiled
 def path(turns: Array, half: Array, rest: Array, Y_re: Array, Y_im: Array, of: Path, d_phi: float) -> Complex:
-    """(n,): the contact point at the phases, from the sums of its series (n,), all turned by d_phi."""
+    """(n,): the contact point at the phases, from the sums of its series (n,), all rotated by d_phi."""
     contact = np.empty(len(rest), np.complex128)
     turned = of.scale * cis(d_phi)
     before, whole, periods = np.nan, turned, turned
@@ -258,7 +259,7 @@ def path(turns: Array, half: Array, rest: Array, Y_re: Array, Y_im: Array, of: P
             before = turns[i]
             part = np.pi * part_turn(turns[i], of.slow)
             whole = turned * cis(2 * part)
-            # the one term of the velocity that may hardly turn, over whole periods
+            # the one term of the velocity that may rotate very slowly, over whole periods
             periods = turned * (2 * cis(part) * np.sin(part) / of.slow if of.slow else 2 * np.pi * turns[i] + 0j)
         x = of.slow * tau / 2
         along = periods + whole * tau * cis(x) * (np.sin(x) / x if x else 1.0)
@@ -270,7 +271,7 @@ def path(turns: Array, half: Array, rest: Array, Y_re: Array, Y_im: Array, of: P
 def contact_and_force(
     v: Array, m: Array, w: Array, contact: Complex, s_exp_phi: Complex, top: TopNumbers
 ) -> tuple[Array, Array, Array, Array]:
-    """The contact point (n, 2), G and its velocity (n, 3), and the force (n, 3) in the turning axes."""
+    """The contact point (n, 2), G and its velocity (n, 3), and the force (n, 3) in the rotating axes."""
     n = len(v)
     at, com, velocity, force = np.empty((n, 2)), np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3))
     for i in range(n):
@@ -285,7 +286,7 @@ def contact_and_force(
     return at, com, velocity, force
 
 
-# ---- what the motion starts from ----
+# ---- the start of the motion ----
 
 
 def _from_constants(top: Top, constants: Constants | None, start: str, well: int) -> tuple[ExactCurve, Well]:

@@ -1,7 +1,7 @@
-"""Fourier series of one nutation: coefficients from the midpoints of half a period, and sums.
+"""Fourier series of one nutation: coefficients from values at the midpoints of half a period, and their sums.
 
-An even function of an angle eta, of period 2 pi, is c_0/2 + sum c_k cos(k eta); n midpoints eta_j = (j + 1/2) pi/n give
-its coefficients by the midpoint rule, to rounding once they resolve it.
+An even function of an angle eta with period 2 pi is c_0/2 + sum c_k cos(k eta). The midpoint rule at the n points
+eta_j = (j + 1/2) pi/n gives its coefficients, to rounding error once they resolve it.
 """
 
 import numpy as np
@@ -9,9 +9,9 @@ import numpy as np
 from ..compiled import compiled
 from ..types import Array
 
-AFRESH = 8  # harmonics after which cos(k tau), sin(k tau) are computed anew, so that rounding does not add up
-C2, C4, C6, C8, C10, C12, C14, C16, C18, C20 = (1 / (k * (k + 1)) for k in range(2, 22, 2))  # of the series of sine
-BLOCK = 256  # instants whose sums the processor keeps at hand
+AFRESH = 8  # harmonics after which cos(k tau), sin(k tau) are computed afresh, so that rounding errors do not add up
+C2, C4, C6, C8, C10, C12, C14, C16, C18, C20 = (1 / (k * (k + 1)) for k in range(2, 22, 2))  # of the sine's series
+BLOCK = 256  # instants whose sums fit into the processor's cache
 
 
 # ---- coefficients ----
@@ -45,8 +45,8 @@ def cosine_coefficients(values: Array) -> Array:
 
 @compiled
 def resolved(coefficients: Array) -> bool:
-    """Whether the cosine series (r, n) have ended within what n midpoints resolve: below 1e-15 of the first row's, or
-    of their own, largest; or small and not falling, which is rounding."""
+    """Whether n midpoints resolve the cosine series (r, n): the last coefficients are below 1e-15 of the largest, of
+    the first row or of their own; or small and no longer decreasing, which is rounding."""
     rows, n = coefficients.shape
     size = np.abs(coefficients)
     for r in range(rows):
@@ -69,7 +69,7 @@ def integral(c: Array) -> Array:
 
 @compiled
 def integral_to(angle: float, c: Array) -> float:
-    """The same integral from 0 to any angle."""
+    """The same integral from 0 to a given angle."""
     total = c[0] / 2 * angle
     for k in range(1, len(c)):
         total += c[k] / k * np.sin(k * angle)
@@ -78,10 +78,10 @@ def integral_to(angle: float, c: Array) -> float:
 
 @compiled
 def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
-    """(r, K): sum_j [even_j cos(k tau_j) + odd_j sin(k tau_j)] for k = 1 to K, as transform() has it.
+    """(r, K): sum_j [even_j cos(k tau_j) + odd_j sin(k tau_j)] for k = 1 to K, as in transform().
 
-    The first `rates` rows are of a function's rate, and become those of the function: divided by k. K is such that all
-    rows have ended; 0 where they do not within the harmonics that the midpoints resolve.
+    The first `rates` rows belong to derivatives; divided by k they become those of the functions themselves. K is large
+    enough for all rows to have converged; 0 if they do not within the harmonics that the midpoints resolve.
     """
     most, count = int(np.pi / np.diff(tau).max()), 8
     while count < most:
@@ -96,9 +96,10 @@ def harmonics(tau: Array, even: Array, odd: Array, rates: int) -> Array:
 
 @compiled
 def length(series: Array) -> int:
-    """How many harmonics of the series (r, K) are more than rounding; 0 where a row has not ended.
+    """The number of harmonics of the series (r, K) above rounding; 0 if a row has not converged.
 
-    A row has ended where its last quarter is rounding: below 1e-16 of the sum of its sizes, or small and not falling.
+    A row has converged if its last quarter is rounding: below 1e-16 of the sum of its absolute values, or small and no
+    longer decreasing.
     """
     rows, count = series.shape
     kept = 1
@@ -119,7 +120,7 @@ def length(series: Array) -> int:
 def of_time(dt_deta: Array, dkappa_deta: Array) -> tuple[Array, Array]:
     """The cosine coefficients of dt/deta (1, n), and the sine coefficients in tau of kappa - tau (1, K).
 
-    From dt/deta and dkappa/deta at the midpoints, (1, n) each. n or K is 0 for what they do not resolve.
+    From dt/deta and dkappa/deta at the midpoints, (1, n) each. n or K is 0 if the midpoints do not resolve that series.
     """
     n = dt_deta.shape[1]
     c, none = cosine_coefficients(dt_deta), np.zeros((1, 0))
@@ -133,9 +134,9 @@ def of_time(dt_deta: Array, dkappa_deta: Array) -> tuple[Array, Array]:
 
 @compiled
 def sine(x: float) -> float:
-    """sin(x) for |x| <= pi/2: x - x^3/3! + ... + x^21/21!, which is rounding less.
+    """sin(x) for |x| <= pi/2: x - x^3/3! + ... + x^21/21!, exact to rounding.
 
-    A polynomial, because a processor can do several at once of these, but not of the library's sines.
+    A polynomial, because it can be vectorized, unlike the library's sine.
     """
     y = x * x
     return x * (1 - y * C2 * (1 - y * C4 * (1 - y * C6 * (1 - y * C8 * (1 - y * C10 * (
@@ -166,7 +167,7 @@ def sums(half: Array, rest: Array, sines: Array, cosines: Array) -> Array:
 
 @compiled
 def cos_and_sin(half: Array, rest: Array) -> tuple[Array, Array]:
-    """Of pi half + rest, (n,), with |rest| at most pi/2."""
+    """cos and sin of pi half + rest, (n,) each, with |rest| at most pi/2."""
     cos, sin = np.empty(len(rest)), np.empty(len(rest))
     for j in range(len(rest)):
         s, sign = sine(rest[j] / 2), 1 - 2 * half[j]
@@ -183,14 +184,14 @@ def add(total: Array, b: float, wave: Array) -> None:
 
 @compiled
 def next_harmonic(cos: Array, sin: Array, step_cos: Array, step_sin: Array) -> None:
-    """cos and sin (n,) of k tau become those of (k + 1) tau, by the angle's own, step_cos and step_sin."""
+    """Replaces cos and sin (n,) of k tau by those of (k + 1) tau, from step_cos and step_sin of tau."""
     for j in range(len(cos)):
         cos[j], sin[j] = cos[j] * step_cos[j] - sin[j] * step_sin[j], sin[j] * step_cos[j] + cos[j] * step_sin[j]
 
 
 @compiled
 def part_turn(turns: float, rate: float) -> float:
-    """turns * rate less its whole part, to the digits of rate: the product with its leading 24 bits is exact."""
+    """The fractional part of turns * rate, to the precision of rate: the product with its leading 24 bits is exact."""
     leading = np.float64(np.float32(rate))
     whole = turns * leading
     return np.fmod(whole, 1) + turns * (rate - leading) - (np.trunc(turns * rate) - np.trunc(whole))

@@ -1,7 +1,7 @@
-"""Motion with friction at the contact point: what turns a tippe top over.
+"""Motion with friction at the contact point, which is what turns a tippe top over.
 
-The equations are in dynamics.py, how they are followed in stepper.py and following.py, what touches, sticks and stands
-in contacts.py, impact.py and standing.py. Here: what is asked for, and what is given back.
+The equations are in dynamics.py, their integration in stepper.py and following.py, and contacts, impacts and standing
+in contacts.py, impact.py and standing.py. This file checks the arguments and builds the results.
 """
 
 from collections.abc import Callable
@@ -48,42 +48,42 @@ def slide(
     edge: ArrayLike | None = None, rolling_resistance: float = 0.0, air_drag: float = 0.0,
     progress: Callable[[float], object] | None = None,
 ) -> Trajectory:  # fmt: skip
-    """The motion with friction at the given times: Trajectory.
+    """The Trajectory of the motion with friction at the given times.
 
-    state: State at times[0]; x, y, vx, vy left None mean G at the origin, at rest.
+    state: the State at times[0]; x, y, vx, vy None mean that G is at the origin, at rest.
     friction: Coulomb(mu_k, mu_s), Viscous(gamma), SmoothedCoulomb(mu, eps) or Contensou(mu, radius).
-    times: (n,) in (R/g)^1/2, not falling.
-    rtol: 1e-13 to 1e-3, the error of a step over 1 rad, |L|, |v|, R and the energy; over 900 (R/g)^1/2 of a turning top
-    C_J drifts by some 4 rtol of itself.
+    times: (n,) in (R/g)^1/2, not decreasing.
+    rtol: 1e-13 to 1e-3, the error of one step relative to 1 rad, |L|, |v|, R and the energy. While a top turns over, in
+    900 (R/g)^1/2, C_J changes by about 4 rtol C_J.
 
-    landing: "stop", and the Trajectory ends where the top lifts off, at the last of the times before it; or "plastic":
-    it flies, and lands without a bounce; friction acts in the impact by its own law, in proportion to the normal force
-    and so to the normal impulse (impact.py; that of a law that holds stops the slip if mu_s lets it, viscous friction
-    takes some of it). It is the same where the stem touches, for either landing.
-    edge: (radius, height above O along axis 3, rounding 0 if not given) in R of the edge of the stem's end, Shape.edge;
-    or None, a whole sphere. A start tilted further than where it touches stands on the edge.
-    rolling_resistance: delta in R, a moment -delta F_z omega_h/|omega_h| against the horizontal part of omega, 1e-4 to
-    1e-3 for wood (smooth below 1e-3 (g/R)^1/2). air_drag: k in MR^2 (g/R)^1/2, a moment -k omega. Both enter the heat.
-    progress: called now and then with the time reached; what it raises stops the run and passes through.
+    landing: with "stop" the Trajectory ends when the top lifts off, at the last of the times before. With "plastic" it
+    flies and lands without a bounce. In the impact friction follows its own law, with the normal impulse in place of
+    the normal force (impact.py): a law with static friction stops the slip if mu_s is large enough, viscous friction
+    reduces it. The same holds for impacts of the stem, with either landing. edge: (radius, height above O along axis 3,
+    rounding or 0) in R of the edge of the stem's end, as in Shape.edge; None for a whole sphere. If theta at the start
+    is beyond the angle at which the edge touches, the top starts on the edge. rolling_resistance: delta in R, a torque
+    -delta F_z omega_h/|omega_h| against the horizontal part of omega, 1e-4 to 1e-3 for wood (smoothed below 1e-3
+    (g/R)^1/2). air_drag: k in MR^2 (g/R)^1/2, a torque -k omega. Both add to heat. progress: is called now and then
+    with the time reached; an exception that it raises stops the run and is passed on.
 
-    events: (time, what), located to 1e-9: "sticks" and "slips" (laws that hold; "slips" also where the slip goes
-    through 0 without a halt and turns round), "lifts off" and "lands", or "lands on its
-    stem"; "stem touches" or "ball touches" (the other carries on), "stem leaves", "stands on its stem" (the ball has
-    left), "falls back on its ball". How many of ever smaller bounces between the two are listed depends on rtol. The
-    Trajectory ends early, without a sample at the event, with
-    "lifts off" where that stops it,
-    "rim touches" where the sphere's surface ends before anything else touches (an edge on the sphere, as of a cut ball
-    without a stem): what comes then is not computed,
-    "stands upright" on its stem within 1e-3 rad of flat, without the energy to tip over the rim of the stem's end any
-    more (standing.py); else the motion goes on over it: "rocks over" where the end comes down flat, an impact,
-    "Painleve's limit" where no normal force balances the friction, or several do (contacts.py),
-    "too many events" after 10,000 of them: friction at its limit that chatters, or a top that hops on,
-    "too many turns" after what takes about half a minute.
-    A start that must leave the table is one sample in the air, or flies from the first; its first event is "lifts off".
-    regime: "slip", or "roll" where friction holds the top; with Coulomb's law and no losses that part on the sphere is
-    the exact one of rolling.py. heat: the work of friction, of the losses and of impacts. supports: what carried the
-    top, from when on.
-    Raises TopError for bad input, and for friction so strong that no normal force balances it on the ball (Painleve).
+    events: (time, name), located to 1e-9. "sticks" and "slips" (laws with static friction; "slips" also when the slip
+    passes through 0 and reverses without a halt); "lifts off" and "lands", or "lands on its
+    stem"; "stem touches" or "ball touches" (while the other carries), "stem leaves", "stands on its stem" (the ball has
+    left the table), "falls back on its ball". If there is a series of ever smaller bounces between the two, rtol
+    determines how many are listed. These events end the Trajectory early, without a sample at the event:
+    "lifts off" if landing is to stop it;
+    "rim touches" if the sphere's surface ends before anything else touches (an edge on the sphere, as of a cut ball
+    without a stem), because what follows is not computed;
+    "stands upright" if it is on its stem within 1e-3 rad of flat, without enough energy to tip over the rim of the
+    stem's end (standing.py); otherwise the motion continues over the rim, with "rocks over" when the end comes down
+    flat, which is an impact; "Painleve's limit" if no normal force balances the friction, or several do (contacts.py);
+    "too many events" after 10,000 of them, for example if friction chatters at its limit or the top keeps hopping; "too
+    many turns" after as many steps as take about half a minute. A top that leaves the table at once gives a single
+    sample in the air, or flies from the start; its first event is "lifts off". regime: "slip", or "roll" while friction
+    makes the top roll; with Coulomb's law, and without rolling resistance or air drag, the parts that roll on the
+    sphere are the exact motion of rolling.py. heat: the energy lost by friction, rolling resistance, air drag and
+    impacts. supports: what carries the top, and from when on. Raises TopError for bad input, and if the friction is so
+    strong that no normal force balances it on the ball (Painleve's paradox).
     """
     if not isinstance(state, State):
         raise TopError("state", state, "State", code="wrong-kind")
@@ -105,10 +105,11 @@ def slide(
 def sensitivity(
     top: Top, state: State, friction: Friction, times: ArrayLike, nudge: float = 1e-6, **how: Number
 ) -> float:
-    """How many times a nudge of the start's theta (rad) grows: the largest change of theta by it, over the nudge.
+    """How much a small change of the initial theta (nudge, rad) grows: the largest change of theta divided by nudge.
 
-    Arguments as of slide(). Large where the physics is sensitive, whatever the tolerance: a top near the limit of
-    sticking, of lift-off or of a threshold. A nudge that makes other events happen counts by what it does to theta.
+    The other arguments are those of slide(). The result is large where the motion itself is sensitive, whatever the
+    tolerance: near the limits of sticking and of lift-off, or near a threshold spin. If the nudge changes the events,
+    only its effect on theta counts.
     """
     nudge = checked_nudge(nudge)
     moved, near = (slide(top, start, friction, times, **how) for start in (state, beside(state, nudge)))
@@ -116,25 +117,26 @@ def sensitivity(
 
 
 def checked_nudge(nudge: float) -> float:
-    """nudge, or a TopError."""
+    """nudge, or a TopError if it is out of range."""
     if finite("nudge", nudge) == 0:
         raise TopError("nudge", nudge, "nudge != 0")
     return float(nudge)
 
 
 def beside(state: State, nudge: float) -> State:
-    """A State whose theta is a nudge (rad) larger, from 1 rad on smaller."""
+    """The State with theta larger by nudge (rad), or smaller if theta is 1 rad or more."""
     return replace(state, theta=state.theta + (nudge if state.theta < 1 else -nudge))
 
 
 def growth(moved: Trajectory, near: Trajectory, nudge: float) -> float:
-    """How many times the nudge (rad) between the starts of two Trajectories grows at most, where both have samples."""
+    """The largest factor by which the difference nudge (rad) between the starts of two Trajectories grows, over the
+    times that both have."""
     both = min(len(moved.t), len(near.t))
     return float(np.abs(moved.theta[:both] - near.theta[:both]).max(initial=0.0) / abs(nudge))
 
 
 class _Run:
-    """One motion."""
+    """One motion of slide()."""
 
     def __init__(
         self, top: Top, friction: Friction, P: Record, flies: bool, progress: Callable[[float], object] | None
@@ -197,7 +199,7 @@ class _Run:
                 return
 
     def _state(self, y: Array) -> State:
-        """The State at y, with G's velocity unsaid."""
+        """The State at y, without the velocity of G."""
         W, P = self.motion, self.P
         row = np.zeros(WIDTH)
         row_at(W, P, OPEN, OPEN, row)
@@ -209,7 +211,8 @@ class _Run:
         return State(theta, w1, w2, w3, phi, psi, y[10], y[11])
 
     def _roll(self) -> bool:
-        """Rolling on the ball, by the exact motion of rolling.py, until an event; whether the motion ends with it."""
+        """Rolls on the ball, by the exact motion of rolling.py, until an event; returns whether the motion ends with
+        it."""
         W, P, y, times, top = self.motion, self.P, self.motion.y, self.times, self.top
         state = self._state(y)
         rolling, floor = Rolling(top, None, state), min(gap(P, np.cos(state.theta), np.sin(state.theta)), 0.0)
@@ -250,7 +253,7 @@ class _Run:
         return bool(happens(W, P, self.log, event, self.flies))
 
     def _alone(self, stands_on: int, event: int) -> None:
-        """The row of one instant, where an event ends the motion at once."""
+        """The row of a single instant, for an event that ends the motion at once."""
         W, P = self.motion, self.P
         modes = [OPEN, OPEN]
         if event != LIFTS_OFF:
@@ -262,7 +265,7 @@ class _Run:
 
 
 def _rows(moved: Trajectory, heat: float) -> Array:
-    """Rows of COLUMNS of a Trajectory that rolls."""
+    """The rows of COLUMNS for a Trajectory that rolls."""
     rows = np.empty((len(moved.t), WIDTH))
     for name, column in COLUMNS.items():
         if name not in ("heat", "regime"):
@@ -273,7 +276,7 @@ def _rows(moved: Trajectory, heat: float) -> Array:
 
 
 def _support(supports: list[tuple[float, str]], t: float, what: str) -> None:
-    """Adds (t, what carries); what carried for no time goes."""
+    """Adds (t, support), and drops a support that lasted for no time."""
     if supports and supports[-1][0] == t:
         supports.pop()
     if not supports or supports[-1][1] != what:

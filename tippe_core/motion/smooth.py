@@ -1,15 +1,16 @@
 """Motion on the smooth plane (appendix B): exact, for any length of time, by the Fourier series of nutation.py.
 
-No horizontal force acts: G moves uniformly, and w3 and L_z = I3 w3 c + I1 w2 s are constant. With e = 2E - I3 w3^2, E
-without the drift of G, c_dot^2 = s^2 theta_dot^2 is a cubic over I1 + a^2 s^2,
+There is no horizontal force: the horizontal velocity of G, w3 and L_z = I3 w3 c + I1 w2 s are constant. With
+e = 2E - I3 w3^2, where E does not include the horizontal motion of G, c_dot^2 = s^2 theta_dot^2 is a cubic divided by
+I1 + a^2 s^2:
 
     (I1 + a^2 s^2) theta_dot^2 = e - 2a(1 - c) - (L_z - I3 w3 c)^2/(I1 s^2) ,
     (I1 + a^2 s^2) c_dot^2 = P = s^2 [e - 2a(1 - c)] - (L_z - I3 w3 c)^2/I1 = (c1 - c)(c - c2) Q ,
     Q = e + (I3 w3)^2/I1 - 2a(1 - c - c1 - c2) ,
 
-so with the kappa of nutation.py dt = [(I1 + a^2 s^2)/Q]^1/2 dkappa. Its regular orientation next to a pole holds too:
-for it w2 = B/s with B = (L_z - I3 w3 c)/I1 = d + v I3 w3/I1, and theta_dot and w2 have the same inertia at a pole. The
-table pushes with
+so with the kappa of nutation.py dt = [(I1 + a^2 s^2)/Q]^1/2 dkappa. The orientation near a pole is regular in the same
+way: w2 = B/s with B = (L_z - I3 w3 c)/I1 = d + v I3 w3/I1, and at a pole theta_dot and w2 have the same moment of
+inertia. The normal force is
 
     F_z = 1 + d^2/dt^2 (-a c) = {I1 + a [I1 c (w1^2 + w2^2) - I3 w3 s w2]}/(I1 + a^2 s^2) .
 """
@@ -36,12 +37,14 @@ from .trajectory import Trajectory, checked_times
 
 
 def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
-    """The motion on a smooth plane at the given times: Trajectory. Exact to rounding for times of any length.
+    """The Trajectory of the motion on a smooth plane at the given times. Exact to rounding error for any length of
+    time.
 
-    state: State at times[0]; x, y, vx, vy left None mean G at the origin, at rest.
-    times: (n,) in (R/g)^1/2, not falling. Where the top leaves the table the Trajectory ends, with the event
-    (time, "lifts off"), for flight is not computed.
-    Raises TopError for bad input, and next to motions that take for ever to fall off an unstable steady precession.
+    state: the State at times[0]; x, y, vx, vy None mean that G is at the origin, at rest.
+    times: (n,) in (R/g)^1/2, not decreasing. If the top leaves the table the Trajectory ends, with the event
+    (time, "lifts off"), because the flight is not computed.
+    Raises TopError for bad input, and very close to motions that take infinitely long to leave an unstable steady
+    precession.
     """
     t = checked_times(times)
     if np.any(np.diff(t) < 0):
@@ -53,11 +56,11 @@ def glide(top: Top, state: State, times: ArrayLike) -> Trajectory:
 
 
 class Gliding(Nutation):
-    """The motion on the smooth plane as a function of time since its start: arguments as in glide().
+    """The motion on the smooth plane as an object; arguments as in glide().
 
-    period (of the nutation), phi_advance, psi_advance, theta(times) as in Rolling; turning_points (2,) in rad;
-    lift_off, the time from the start to F_z = 0 (inf: never; if the table could also pull, called with times the
-    motion goes on after it).
+    period, turning_points, phi_advance, psi_advance and theta(times) as in Rolling. lift_off: the time from the start
+    to F_z = 0, in (R/g)^1/2; inf if that never happens. Calling the object with times gives the Trajectory beyond
+    lift_off too, as if the table could pull.
     """
 
     def __init__(self, top: Top, state: State) -> None:
@@ -83,7 +86,7 @@ class Gliding(Nutation):
         return dt_dkappa(v, m, self.top.numbers, self._Q_outer, self.ends)
 
     def _exact_dt_dkappa(self, cos_half: Array, sin_half: Array) -> Array:
-        return self._dt_dkappa(*v_and_m(cos_half, sin_half, self.ends))  # Q has nothing to cancel
+        return self._dt_dkappa(*v_and_m(cos_half, sin_half, self.ends))  # nothing cancels in Q
 
     def _too_near(self) -> TopError:
         return TopError("theta", self.start.theta, "a start further from an unstable steady precession",
@@ -99,7 +102,7 @@ class Gliding(Nutation):
 
     @cached_property
     def lift_off(self) -> float:
-        """Time from the start to where F_z falls to 0, in (R/g)^1/2; inf if it never does."""
+        """The time from the start to F_z = 0, in (R/g)^1/2; inf if that never happens."""
 
         def F_z(t: Array) -> Array:
             moved, _ = self._pose(self._phases(np.append(0.0, t)), 0.0, 0.0)
@@ -138,7 +141,7 @@ def dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, ends: Ends) -
         Q = Q_outer + 2 * top.a * (ends.v2 - v[i])
         if Q > 0:
             found[i] = np.sqrt((top.I1 + top.a**2 * v[i] * m[i]) / Q)
-        else:  # at rest on an unstable steady precession any rate of kappa will do
+        else:  # at rest in an unstable steady precession any rate of kappa will do
             found[i] = 1.0 if ends.width == 0 else np.nan
     return found
 
@@ -147,7 +150,7 @@ def dt_dkappa(v: Array, m: Array, top: TopNumbers, Q_outer: float, ends: Ends) -
 def omega(
     cos_half: Array, sin_half: Array, v: Array, m: Array, dt_dkappa: Array, B_slope: float, w3: float, ends: Ends
 ) -> Array:
-    """(n, 3): omega about 1', 2', 3. B = d + v I3 w3/I1 = d - m I3 w3/I1, with the d of either pole."""
+    """(n, 3): omega about 1', 2', 3. B = d + v I3 w3/I1 = d - m I3 w3/I1, each with the d of its own pole."""
     w = np.empty((len(v), 3))
     for i in range(len(v)):
         side, x, d = nearer_pole(v[i], m[i], ends)
@@ -183,7 +186,7 @@ def normal_force(v: Array, m: Array, omega: Array, top: TopNumbers) -> Array:
 def turning_cosines(
     t: TopNumbers, e: Decimal, L_z: Decimal, L3: Decimal, here: Decimal, still: bool
 ) -> tuple[Decimal, Decimal]:
-    """cos(theta) at the turning points, Decimals: the zeros of P on both sides of here."""
+    """cos(theta) at the turning points, as Decimals: the zeros of P on both sides of here."""
 
     def P(c: Decimal) -> tuple[Decimal, Decimal]:
         B, rest = L_z - L3 * c, e - 2 * t.a * (1 - c)
@@ -210,7 +213,8 @@ def turning_cosines(
 
 
 def first_below(function: Callable[[Array], Array], period: float) -> float:
-    """The first t >= 0 at which function(t (n,)) -> (n,), of the given period, falls below 0; inf if it never does."""
+    """The first t >= 0 at which function(t (n,)) -> (n,), with the given period, falls below 0; inf if it never
+    does."""
     t = np.linspace(0, period, 513)
     values = function(t)
 

@@ -1,19 +1,21 @@
-"""Standing flat on the stem's end: when nothing can tip it any more, and what happens where its flat end comes down.
+"""Standing flat on the end of the stem: when nothing can tip the top any more, and what happens when the flat end comes
+down.
 
-The end is a circle of radius b, H = a + h from G, rounded by a ball of radius q. Leaning by alpha = pi - theta on a
-point of its rim G is H cos(alpha) + b sin(alpha) + q high, most where it is straight above that point,
-tan(alpha) = b/H, unless the ball comes to the table before that.
+The end is a circle of radius b at the distance H = a + h from G, rounded with the radius q. If the top leans by
+alpha = pi - theta on a point of the rim, G is at the height H cos(alpha) + b sin(alpha) + q. That is largest when G is
+vertically above the point, tan(alpha) = b/H, unless the ball touches the table first.
 
-Friction takes energy and never gives any. So with less energy above flat rest than G needs for that, all of the motion
-counted, nothing tips the top over its rim any more: it stands. The energy of the spin counts too, for friction at a
-point of the rim turns it into tilt as it does on the ball: from 1e-3 rad, at rest but for a spin of 6 (g/R)^1/2, the
-paper's top leans on its rim by 0.09 rad after 2 (R/g)^1/2, whichever the law.
+Friction only dissipates. So once the total energy above that of rest on the flat end is less than G needs to get
+over the rim, nothing can tip the top any more: it stands. The energy of the spin has to be included, because friction
+at a point of the rim converts it into tilt, as it does on the ball: from 1e-3 rad, at rest except for a spin of 6
+(g/R)^1/2, the paper's top leans on its rim by 0.09 rad after 2 (R/g)^1/2, for any friction law.
 
-Passing its flat position the contact runs round the rim, and so the motion is followed. Where it passes within FLAT,
-as a top that rocks in a plane does, the far side of the rim comes down at once: an impact like any other here, plastic,
-at the opposite point, on which the top then leans as much to the other side. What is left of its leaning may be too
-little to take it beyond FLAT again: then it lies on all of its rim, whatever its spin, which that rim only slows. So a
-start flat on the end with nothing but a spin stands, though from a lean of 1e-4 rad the same spin rocks it.
+Near the flat position the contact runs around the rim, and the motion is integrated through that. If it passes within
+FLAT, as when a top rocks in a plane, the far side of the rim comes down at once. That is a plastic impact at the
+opposite point, on which the top then leans equally far to the other side. If its remaining motion is too slow to take
+it beyond FLAT again, it lies on the whole rim, whatever its spin, which friction along the rim only slows. So a top
+that starts flat on the end with nothing but a spin stands, although from a lean of 1e-4 rad the same spin makes it
+rock.
 """
 
 import numpy as np
@@ -22,13 +24,14 @@ from ..compiled import compiled
 from ..types import Array, Number, Rim, Vector
 from .dynamics import kinetic
 
-STANDS, FLAT = 1e-3, 1e-6  # rad: what counts as upright; what counts as flat
-ROUNDING = 1e-13  # what is left of nothing by sin(pi)
+STANDS, FLAT = 1e-3, 1e-6  # rad: tilts that count as upright, and as flat
+ROUNDING = 1e-13  # larger than sin(pi) in floats
 
 
 @compiled
 def tipping_energy(top: Number, edge: Rim) -> float:
-    """What G must rise from flat on the stem's end for the top to tip over its rim, or onto its ball."""
+    """The height (R) by which G must rise from rest on the flat end for the top to tip over the rim, or onto its
+    ball."""
     b, h, q = edge
     H = top.a + h
     onto_ball = np.arctan2(b, h) + np.arccos(min(1.0, (1 - q) / np.hypot(b, h)))  # h cos(alpha) + b sin(alpha) = 1 - q
@@ -38,7 +41,7 @@ def tipping_energy(top: Number, edge: Rim) -> float:
 
 @compiled
 def energy_above_rest(top: Number, edge: Rim, y: Array, L3: float) -> float:
-    """The energy at y above that of rest, flat on the stem's end."""
+    """The energy at y above that of rest on the flat end of the stem, in MgR."""
     return kinetic(y, L3, top) + y[15] - (top.a + edge[1] + edge[2])
 
 
@@ -52,7 +55,7 @@ def leaning(e: Vector, w: Vector) -> tuple[float, float]:
 
 @compiled
 def lies(top: Number, edge: Rim, e: Vector, w: Vector) -> bool:
-    """Whether e' takes it no further than FLAT from flat: 1/2 (I1 + H^2 + b^2) e'^2 < b FLAT, on a rim that holds."""
+    """Whether e' is too slow to tilt it beyond FLAT: 1/2 (I1 + H^2 + b^2) e'^2 < b FLAT, pivoting on the rim."""
     b, h, _ = edge
     square = (w[1] * e[2] - w[2] * e[1]) ** 2 + (w[2] * e[0] - w[0] * e[2]) ** 2
     return (top.I1 + (top.a + h) ** 2 + b * b) * square < 2 * b * FLAT
@@ -60,13 +63,14 @@ def lies(top: Number, edge: Rim, e: Vector, w: Vector) -> bool:
 
 @compiled
 def crossed(y: Array, e: Vector) -> Array:
-    """y leaning as much to the other side, G as high."""
-    return turned(y, -e[1], e[0], -e[2])  # by 2 alpha about z cross e
+    """y leaning equally far to the other side, with G at the same height."""
+    return turned(y, -e[1], e[0], -e[2])  # rotated by 2 alpha about z cross e
 
 
 @compiled
 def leaned(y: Array, e: Vector, w: Vector) -> Array:
-    """y of a start flat on the end, leaning to where it turns, or else slides; of any other as it is."""
+    """For a start flat on the end: y with a minimal lean in the direction of its tilting, or of its sliding. Any other
+    y is returned as it is."""
     tiny, (s, rate) = FLAT / 1000, leaning(e, w)
     if e[2] > 0 or s > FLAT or (rate >= 0 and s > tiny):
         return y.copy()
@@ -81,7 +85,7 @@ def leaned(y: Array, e: Vector, w: Vector) -> Array:
 
 @compiled
 def turned(y: Array, i: float, j: float, w: float) -> Array:
-    """y turned by the quaternion (i, j, 0, w)."""
+    """y rotated by the quaternion (i, j, 0, w)."""
     px, py, pz, pw = y[0], y[1], y[2], y[3]
     y = y.copy()
     y[0], y[1] = w * px + i * pw + j * pz, w * py - i * pz + j * pw

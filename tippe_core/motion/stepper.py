@@ -1,8 +1,7 @@
-"""One step of Dormand and Prince's method of order 8 (Hairer, Norsett and Wanner, Solving Ordinary Differential
-Equations I, II.5 and II.6, DOP853), the polynomial of order 7 through it, and roots within it.
+"""One step of the Dormand-Prince method of order 8 (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations
+I, II.5 and II.6, DOP853), its dense output of order 7, and roots within a step.
 
-For dz/dtau = rates(z) of dynamics.py; impact.py uses the same table. The coefficients are those that scipy publishes
-with its DOP853.
+It solves dz/dtau = rates(z) of dynamics.py; impact.py uses the same coefficients, which are those of scipy's DOP853.
 """
 
 import numpy as np
@@ -21,7 +20,7 @@ SAFETY, LEAST_FACTOR, MOST_FACTOR = 0.9, 0.2, 10.0
 
 @compiled
 def stage(z: Array, K: Array, weights: Array, count: int, h: float, out: Array) -> None:
-    """z + h sum_j weights_j K_j into out."""
+    """Writes z + h sum_j weights_j K_j into out."""
     n = len(z)
     for i in range(n):
         out[i] = 0.0
@@ -36,7 +35,8 @@ def stage(z: Array, K: Array, weights: Array, count: int, h: float, out: Array) 
 
 @compiled
 def error(K: Array, scale: Array, h: float) -> float:
-    """The estimated error of a step over the scales: |h| e5^2/(e5^2 + e3^2/100)^1/2, their root mean squares."""
+    """The estimated error of a step relative to the scales: |h| e5^2/(e5^2 + e3^2/100)^1/2, e5 and e3 root mean
+    squares."""
     n, fifth, third = len(scale), 0.0, 0.0
     for i in range(n):
         e5 = e3 = 0.0
@@ -52,7 +52,7 @@ def error(K: Array, scale: Array, h: float) -> float:
 
 @compiled
 def factor(found: float) -> float:
-    """By how much to change h after a step whose error was this share of what is allowed."""
+    """The factor by which to change h after a step with this ratio of its error to the allowed one."""
     if not np.isfinite(found):
         return LEAST_FACTOR
     return min(MOST_FACTOR, max(LEAST_FACTOR, SAFETY * max(found, 1e-12) ** -0.125))
@@ -60,7 +60,8 @@ def factor(found: float) -> float:
 
 @compiled
 def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, float]:
-    """beta near that of step.at at which u' is along u, how fast it is attracted there and how fast log|u| grows."""
+    """The steady beta near that of step.at, at which u' is parallel to u; the rates at which beta relaxes to it and at
+    which log|u| grows."""
     S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
     beta, out, near = S.at[9], S.K[15], 1e-4
     for _ in range(3):
@@ -80,12 +81,12 @@ def steady_direction(W: Record, P: Record, slowest: int) -> tuple[float, float, 
 
 @compiled
 def densely(W: Record, P: Record, slowest: int, h: float) -> None:
-    """The polynomial of the step from step.z to step.new, whose stages are in step.K."""
+    """Computes the polynomial (dense output) of the step from step.z to step.new, whose stages are in step.K."""
     S, C, ball, stem = W.step, W.contacts, W.modes[BALL], W.modes[STEM]
     K, F = S.K, S.polynomial
     for s in range(3):
         stage(S.z, K, A_DENSE[s], STAGES + 1 + s, h, S.at)
-        if W.steady:  # as in the stages before: else beta runs away, and log|u| with it
+        if W.steady:  # as in the earlier stages: otherwise beta diverges, and log|u| with it
             S.at[9] = steady_direction(W, P, slowest)[0]
         rates(S.at, slowest, ball, stem, P, C, K[STAGES + 1 + s])
         if W.steady:
@@ -102,7 +103,7 @@ def densely(W: Record, P: Record, slowest: int, h: float) -> None:
 
 @compiled
 def within(S: Record, x: float, i: int) -> float:
-    """Component i of the polynomial at the share x of the step."""
+    """Component i of the polynomial at the fraction x of the step."""
     total = 0.0
     for m in range(6, -1, -1):
         total = (total + S.polynomial[m, i]) * (x if m % 2 == 0 else 1 - x)
@@ -111,14 +112,14 @@ def within(S: Record, x: float, i: int) -> float:
 
 @compiled
 def at_share(S: Record, x: float, out: Array) -> None:
-    """The polynomial at the share x of the step into out."""
+    """Writes the polynomial at the fraction x of the step into out."""
     for i in range(16):
         out[i] = within(S, x, i)
 
 
 @compiled
 def at_end(S: Record, share: float) -> None:
-    """The end of the step, or of its part up to a share, into step.at."""
+    """Writes the end of the step, or of its part up to the fraction share, into step.at."""
     if share == 1.0:
         S.at[:] = S.new
     else:
@@ -127,7 +128,7 @@ def at_end(S: Record, share: float) -> None:
 
 @compiled
 def when(S: Record, t: float) -> float:
-    """The share of the step at which its component t is this, by the method of false position (Illinois)."""
+    """The fraction of the step at which the time is t, by the method of false position (Illinois)."""
     low, high, f_low, f_high = 0.0, 1.0, S.z[12] - t, S.new[12] - t
     x, side = 1.0, 0
     for _ in range(60):

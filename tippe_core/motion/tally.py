@@ -1,4 +1,4 @@
-"""What is said of a motion as a whole, counted up as it is followed."""
+"""The summary of a motion, accumulated step by step."""
 
 import numpy as np
 
@@ -8,8 +8,8 @@ from .dynamics import BALL, OPEN, STEM, STICK, carried, kinetic, turning
 from .records import Record
 from .stepper import at_end, at_share, densely, when, within
 
-LAST = 0.1  # the share of the time by which the end is told
-UPRIGHT, LEANS = 0.2, 0.05  # rad: so near to a pole; so little change of the tilt
+LAST = 0.1  # the last fraction of the time, by which the end is judged
+UPRIGHT, LEANS = 0.2, 0.05  # rad: closer than this to a pole; the tilt changes by less than this
 
 
 @compiled
@@ -19,7 +19,7 @@ def energy(W: Record, P: Record) -> float:
 
 @compiled
 def begin_tally(W: Record, P: Record, since: float) -> None:
-    """An empty one; since: from when on the tilt and what carries count."""
+    """Starts an empty summary; since: the time from which on the tilt and the supports count."""
     T, (e, _, L3) = W.tally, turning(W.y, P)
     T.since, T.C_J, T.drift, T.hops, T.seen, T.slips = since, W.y[7] - P.a * L3, 0.0, 0, 0, 0
     T.time_90 = W.y[12] if e[2] == 0.0 else np.nan
@@ -30,7 +30,7 @@ def begin_tally(W: Record, P: Record, since: float) -> None:
 
 @compiled
 def tally(W: Record, P: Record, N: float) -> None:
-    """At the end of a step, with the load N that the table carried there."""
+    """Updates the summary at the end of a step, with the normal force N there."""
     T, y, (_, _, L3) = W.tally, W.y, turning(W.y, P)
     ball, stem = W.modes[BALL], W.modes[STEM]
     if ball != OPEN or stem != OPEN:
@@ -45,8 +45,8 @@ def tally(W: Record, P: Record, N: float) -> None:
 
 @compiled
 def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense: bool) -> None:
-    """When theta first passes 90 degrees, and how far it swings once that counts: in the step of length h from step.z,
-    up to the share where it ends, by the step's own polynomial; dense: whether that is there yet."""
+    """Records when theta first passes 90 degrees, and once that counts the range of theta, within the step of length h
+    from step.z, up to the fraction share, from the polynomial of the step. dense: whether it is computed already."""
     T, S = W.tally, W.step
     e, rate, e1, rate1, begins, ends = up(S.z), up_rate(S.z, P), up(S.at), up_rate(S.at, P), S.z[12], S.at[12]
     turns = rate * rate1 < 0.0
@@ -75,7 +75,7 @@ def tally_tilt(W: Record, P: Record, slowest: int, h: float, share: float, dense
 
 @compiled
 def up(y: Array) -> float:
-    """e_z = cos(theta), but for the length of p."""
+    """e_z = cos(theta), up to the norm of p."""
     return y[2] * y[2] + y[3] * y[3] - y[0] * y[0] - y[1] * y[1]
 
 
@@ -88,14 +88,14 @@ def up_rate(y: Array, P: Record) -> float:
 
 @compiled
 def widen(T: Record, y: Array) -> None:
-    """The tilts that were seen, by one more."""
+    """Extends the range of tilts by that of y."""
     theta = 2 * np.arctan2(np.hypot(y[0], y[1]), np.hypot(y[2], y[3]))
     T.least, T.most = min(T.least, theta), max(T.most, theta)
 
 
 @compiled
 def zero(W: Record, P: Record, of_rate: bool, low: float, high: float) -> float:
-    """The share of the step, between two, at which e_z' or e_z itself passes 0, by bisection."""
+    """The fraction of the step, between low and high, at which e_z' (of_rate) or e_z passes through 0, by bisection."""
     S = W.step
     at_share(S, high, S.at)
     beyond = up_rate(S.at, P) if of_rate else up(S.at)

@@ -14,7 +14,7 @@ from ..types import Array
 
 
 class Ledger(NamedTuple):
-    """Where the energy is, in MgR, (n,) each: see Trajectory.ledger."""
+    """The parts of the energy, in MgR, (n,) each: see Trajectory.ledger."""
 
     spin: Array
     precession: Array
@@ -25,7 +25,7 @@ class Ledger(NamedTuple):
 
     @property
     def kinetic(self) -> Array:
-        """All of it that is motion, (n,)."""
+        """The kinetic energy, (n,)."""
         return self.spin + self.precession + self.nutation + self.translation
 
 
@@ -33,24 +33,23 @@ class Ledger(NamedTuple):
 class Trajectory:
     """A motion of a top at n instants, in units of R, M and g.
 
-    t (n,) times; theta, phi, psi (n,) Euler angles in rad, phi the azimuth of 1', continuous in time but for the half
-    turns at a pole;
-    quaternion (n, 4) x, y, z, w, body to space = Rz(phi) Rx(theta) Rz(psi);
-    contact (n, 2) and com (n, 3), the contact point and G in space, z from the table up;
-    omega (n, 3) about 1', 2', 3; slip (n, 2), the velocity of the top's material at the contact, and
-    force (n, 3) on the top there, both in the turning axes x (along 1'), y (z cross 1'), z;
-    regime (n,) "roll", "slip" or "air"; events, a tuple of (time, what);
-    velocity (n, 3) of G in the same axes; where it is not given, that of the sphere's contact: omega x r + slip;
-    heat (n,) in MgR: what friction and impacts took since t[0], by their own work; 0 where not given;
-    supports, a tuple of (time, what): what carries the top from that time on, "ball", "stem", "both" or "none"; first
-    at t[0], then at each change, located like events; the ball alone where not given.
+    t (n,): the times. theta, phi, psi (n,): Euler angles in rad, phi the azimuth of 1', continuous in time except for
+    the half turns at a pole. quaternion (n, 4): x, y, z, w, from body to space, = Rz(phi) Rx(theta) Rz(psi). contact
+    (n, 2), com (n, 3): the contact point and G in space, with z upwards from the table. omega (n, 3): about 1', 2', 3.
+    slip (n, 2): the velocity of the point of the top that touches the table, and force (n, 3): the force on the top
+    there, both in the rotating axes x (along 1'), y (z cross 1'), z. regime (n,): "roll", "slip" or "air". events: a
+    tuple of (time, name). velocity (n, 3): of G, in the same axes; by default omega x r + slip, for contact at the
+    sphere. heat (n,), in MgR: the energy lost since t[0] by friction, rolling resistance, air drag and impacts,
+    integrated along with the motion; 0 by default. supports: a tuple of (time, name), where name, "ball", "stem",
+    "both" or "none", is what carries the top from that time on. The first is at t[0], the others at each change,
+    located like events. By default the ball alone.
 
-    Where a stem's end takes part, contact, slip and force are those of the point that carries; of two, the force is
-    the sum, and the contact and the slip are the means of both, weighted by the load. In the air slip and force are 0
-    and the contact is the point of the table below O.
+    If the stem touches, contact, slip and force are those of the loaded contact. If both are loaded, the force is the
+    sum, and contact and slip are means weighted by the normal forces. In the air slip and force are 0, and contact is
+    the point of the table below O.
 
-    jellett, routh, energy, L_3, L_z (n,) and ledger are computed from these, not from what was asked for. All arrays
-    are read-only.
+    jellett, routh, energy, L_3, L_z (n,) and ledger are computed from these arrays, not from the initial values. All
+    arrays are read-only.
     """
 
     top: Top
@@ -66,7 +65,7 @@ class Trajectory:
     force: Array
     regime: NDArray[np.str_]
     events: tuple[tuple[float, str], ...] = ()
-    velocity: Array = None  # type: ignore[assignment]  # once made, it has these two
+    velocity: Array = None  # type: ignore[assignment]  # never None after __post_init__, nor is heat
     heat: Array = None  # type: ignore[assignment]
     supports: tuple[tuple[float, str], ...] = ()
 
@@ -97,21 +96,21 @@ class Trajectory:
 
     @cached_property
     def L_3(self) -> Array:
-        """I3 w3, G's angular momentum about axis 3, (n,)."""
+        """L_3 = I3 w3, the component of the angular momentum about G along axis 3, (n,)."""
         return self.top.I3 * self.omega[:, 2]
 
     @cached_property
     def L_z(self) -> Array:
-        """I1 s w2 + I3 c w3, G's angular momentum about the vertical, (n,)."""
+        """L_z = I1 s w2 + I3 c w3, the vertical component of the angular momentum about G, (n,)."""
         (_, w2, w3) = self.omega.T
         return eq.L_z(np.cos(self.theta), np.sin(self.theta), w2, w3, self.top)
 
     @cached_property
     def ledger(self) -> Ledger:
-        """Where the energy is: Ledger of (n,) arrays in MgR, whose sum stays what it was.
+        """The parts of the energy: a Ledger of (n,) arrays in MgR, whose sum is constant.
 
-        spin I3 w3^2/2, precession I1 w2^2/2, nutation I1 w1^2/2, height of G above its place when upright,
-        translation v^2/2 of G, up and down included, and heat.
+        spin I3 w3^2/2, precession I1 w2^2/2, nutation I1 w1^2/2, height (of G, relative to upright), translation v^2/2
+        of G, including the vertical motion, and heat.
         """
         top, (w1, w2, w3) = self.top, self.omega.T
         height = self.com[:, 2] - (1 - top.a)
@@ -120,7 +119,7 @@ class Trajectory:
 
     @cached_property
     def energy(self) -> Array:
-        """E of (6), counted from G's height when upright, (n,)."""
+        """E of (6), with the potential energy 0 when upright, (n,)."""
         return sum(self.ledger[:-1], np.zeros(len(self.t)))
 
 

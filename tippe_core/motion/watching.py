@@ -1,4 +1,4 @@
-"""Guards along a step: whether one falls below 0, and where."""
+"""Guards along a step: whether one of them falls below 0, and where."""
 
 from ..compiled import compiled
 from .contacts import GUARDS, TOUCHES, first_negative, guards
@@ -6,12 +6,12 @@ from .dynamics import BALL, NO_ONE, STEM
 from .records import Record
 from .stepper import at_share
 
-LOOKS = 8  # so many times a guard is looked at along a step
+LOOKS = 8  # points of a step at which the guards are evaluated
 
 
 @compiled
 def first_event(W: Record, P: Record, slowest: int) -> tuple[int, float]:
-    """The first guard that falls below 0 within the step, or NO_ONE, and the share of the step at which it does."""
+    """The first guard that falls below 0 within the step, or NO_ONE, and the fraction of the step at which it does."""
     before, event, share = 0.0, NO_ONE, 1.0
     for n in range(1, LOOKS + 1):
         x = n / LOOKS
@@ -31,7 +31,7 @@ def first_event(W: Record, P: Record, slowest: int) -> tuple[int, float]:
 
 @compiled
 def watched(W: Record, P: Record, slowest: int, x: float) -> None:
-    """The guards at the share x of the step."""
+    """Computes the guards at the fraction x of the step."""
     C = W.contacts
     at_share(W.step, x, W.step.at)
     guards(W.step.at, slowest, W.modes[BALL], W.modes[STEM], W.floor, P, W.step, C, W.guards)
@@ -39,14 +39,15 @@ def watched(W: Record, P: Record, slowest: int, x: float) -> None:
 
 @compiled
 def height_or_guard(W: Record, P: Record, slowest: int, i: int, x: float, touches: bool) -> float:
-    """Guard i at the share x of the step; of one that touches, the height."""
+    """Guard i at the fraction x of the step; for one that touches, the height."""
     watched(W, P, slowest, x)
     return W.contacts.height[i - TOUCHES] if touches else W.guards[i]
 
 
 @compiled
 def crossing(W: Record, P: Record, slowest: int, i: int, low: float, high: float) -> float:
-    """The share of the step at which guard i falls below 0, between two, by false position and bisection in turns."""
+    """The fraction of the step, between low and high, at which guard i falls below 0, by false position and bisection
+    in turn."""
     touches = TOUCHES <= i < TOUCHES + 2 and height_or_guard(W, P, slowest, i, low, True) > 0.0
     f_low = height_or_guard(W, P, slowest, i, low, touches)
     f_high = height_or_guard(W, P, slowest, i, high, touches)

@@ -1,4 +1,4 @@
-"""The three constants of the motion without slipping, given or from an initial state."""
+"""The three constants of the motion without slipping, given directly or by an initial state."""
 
 from dataclasses import dataclass, fields
 from decimal import Context, Decimal, localcontext
@@ -15,9 +15,9 @@ from .equations import AnyTop
 from .top import Top, TopNumbers
 
 # The terms of (36) cancel to many figures near a pole and near a steady precession. Everything there is algebraic in
-# cos(theta), so where it matters it is evaluated with 60 digits (next to a pole 1 - c may be 1e-34), by Python's own.
+# cos(theta), so where it matters it is evaluated in Decimals with 60 digits (near a pole 1 - c may be 1e-34).
 EXACT = Context(prec=60, Emin=-999999, Emax=999999)
-LARGEST = 1e12  # of a State: no top is as fast or as far by far, and EXACT keeps 36 figures of squares as large
+LARGEST = 1e12  # in a State: far beyond any real top, and EXACT keeps 36 figures even of the squares
 
 
 @lru_cache(256)
@@ -41,7 +41,7 @@ class Constants:
         for field in fields(self):
             value = getattr(self, field.name)
             if np.ndim(value) == 0 and not isinstance(value, (list, tuple)):
-                value = finite(field.name, value) + 0.0  # -0 and 0 are one value, and have one hash
+                value = finite(field.name, value) + 0.0  # -0 becomes 0
             else:
                 value = numbers(field.name, value) + 0.0
                 value.flags.writeable = False
@@ -62,14 +62,14 @@ class Constants:
         return hash(tuple(np.asarray(getattr(self, n)).tobytes() for n in ("K_J", "K_R", "E")))
 
     def two_E_prime(self, top: Top) -> Scalars:
-        """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33). Correctly rounded for scalars."""
+        """2E' = 2E - K_R^2 + (I1/I3) K_J^2, the shifted energy of (33), in MgR. Correctly rounded for scalars."""
         if any(np.ndim(x) for x in (self.K_J, self.K_R, self.E)):
             return eq.two_E_prime(self.E, self.K_J, self.K_R, top)
         return float(Exact.of(self, top).e)
 
     @classmethod
     def from_state(cls, top: Top, theta: float, theta_dot: float, omega2: float, omega3: float) -> Self:
-        """The constants of the rolling motion through a state, by (30), (31) and (6).
+        """The constants of the rolling motion that passes through a state, by (30), (31) and (6).
 
         theta in rad, in [0, pi]; theta_dot, omega2 (about 2') and omega3 (about 3) in (g/R)^1/2.
         """
@@ -81,12 +81,15 @@ class Constants:
 
 @dataclass(frozen=True)
 class State:
-    """An instant of the motion: theta (rad), theta_dot, omega2 (about 2'), omega3 (about 3), the angles phi and psi,
-    G's place x, y in space and its horizontal velocity vx, vy in the axes x, y that turn with phi.
+    """The state of a motion at one instant, in units of R, M and g.
 
-    What is left None is unsaid: each plane has its own natural choice (rolling: the contact point starts at the
-    origin, and the velocity is the one of rolling). Raises TopError where a value is not finite or beyond
-    LARGEST, or theta not in [0, pi].
+    theta, phi, psi are the Euler angles in rad, theta in [0, pi]. theta_dot, omega2 (about 2') and omega3 (about 3) are
+    in (g/R)^1/2. x, y is the horizontal position of G in space (R), and vx, vy its horizontal velocity, in (gR)^1/2,
+    along the axes x, y that turn with phi.
+
+    x, y, vx, vy may be None; each function then makes its own choice (rolling: the contact point starts at the origin,
+    and the velocity is that of rolling). Raises TopError if a value is not finite or exceeds 1e12, or if theta is not
+    in [0, pi].
     """
 
     theta: float
@@ -116,7 +119,7 @@ class State:
 
 @dataclass(frozen=True)
 class Exact:
-    """K_J, K_R and e = 2E' with the digits of EXACT."""
+    """K_J, K_R and e = 2E', with the precision of EXACT."""
 
     K_J: Decimal
     K_R: Decimal
@@ -132,7 +135,7 @@ class Exact:
 
     @classmethod
     def of_state(cls, state: State, top: Top) -> Self:
-        """By (30), (31) and (33)."""
+        """From a State, by (30), (31) and (33)."""
         v, m = versines(state.theta)
         with localcontext(EXACT):
             t = exact_top(top)
@@ -145,19 +148,20 @@ class Exact:
 
 
 def nonzero(K: Decimal) -> Decimal:
-    """K, or 0 where it is so small that the turn at a pole, at 1 - c near K^2, would be lost among floats."""
+    """K, or 0 if it is so small that the turn near a pole, at 1 - c near K^2, is beyond the range of floats."""
     return K if abs(K) > Decimal("1e-24") else Decimal(0)
 
 
 def versines(theta: ArrayLike) -> tuple[Array, Array]:
-    """(1 - cos theta, 1 + cos theta), each to full relative precision, at its zero too; pi is the inverted pole."""
+    """(1 - cos theta, 1 + cos theta), both to full relative precision, also near their zeros; pi is the inverted
+    pole."""
     theta = np.asarray(theta, dtype=float)
     v, m = 2 * np.sin(theta / 2) ** 2, 2 * np.cos(theta / 2) ** 2
     return v, np.where(theta == np.pi, 0.0, m)
 
 
 def exact_versine(theta: float) -> Decimal:
-    """1 - cos(theta) with the digits of EXACT, theta from 0 to pi; the float pi is the inverted pole."""
+    """1 - cos(theta) with the precision of EXACT, for theta from 0 to pi; the float pi is the inverted pole."""
     if theta == np.pi:
         return Decimal(2)
     x2, k = Decimal(theta) ** 2, 2

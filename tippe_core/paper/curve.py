@@ -1,4 +1,4 @@
-"""theta_dot^2 = f(theta), equation (36), and the angular velocities on it, for any theta."""
+"""theta_dot^2 = f(theta), equation (36), and the angular velocities as functions of theta."""
 
 from decimal import localcontext
 from typing import overload
@@ -13,7 +13,7 @@ from .poles import Floats, bracket_near, pole_offsets
 from .top import Top, TopNumbers
 from .wells import ExactCurve
 
-_CANCELLED = 1e-5  # of the terms of (36): a smaller sum of them has lost more than five of sixteen figures
+_CANCELLED = 1e-5  # relative to the terms of (36): a smaller sum has lost more than five of sixteen figures
 
 
 @overload
@@ -59,7 +59,7 @@ def omega2(theta: Array, top: Top, constants: Constants) -> Array: ...
 def omega2(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     """omega_2' = [K_J - (I3/I1)(c - a) K_R/f3]/s, (30), in (g/R)^1/2. theta in rad; theta and the constants broadcast.
 
-    At a pole it is infinite unless the bracket vanishes there (K_J at P), and then 0.
+    At a pole it is infinite, or 0 if the bracket vanishes there (K_J at P).
     """
     offsets = pole_offsets(top, constants.K_J, constants.K_R)
     rows = np.broadcast_arrays(*versines(theta), constants.K_R, *offsets)
@@ -69,7 +69,7 @@ def omega2(theta: Scalars, top: Top, constants: Constants) -> Scalars:
 
 @compiled
 def omega2_on(top: TopNumbers, v: Array, m: Array, K_R: Array, upright: Array, inverted: Array) -> Array:
-    """w2 = B/s (30) from 1 - c, 1 + c, K_R and the offsets of both poles, (n,) all."""
+    """w2 = B/s (30) from v = 1 - c, m = 1 + c, K_R and the offsets of both poles, each (n,)."""
     w2 = np.empty(len(v))
     for i in range(len(v)):
         x, side = (v[i], 1.0) if v[i] <= m[i] else (m[i], -1.0)
@@ -84,9 +84,9 @@ def f(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def f(theta: Array, top: Top, constants: Constants) -> Array: ...
 def f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
-    """theta_dot^2 = f(theta), (36), in g/R; negative where no motion is.
+    """theta_dot^2 = f(theta), (36), in g/R; negative where no motion is possible.
 
-    theta in rad; theta and the constants broadcast. -inf at a pole that no motion with this K_J reaches. Next to its
+    theta in rad; theta and the constants broadcast. -inf at a pole that no motion with this K_J can reach. Near its
     zeros, where the terms of (36) cancel, it is computed in Decimals, point by point.
     """
     value, cancelled = floats(theta, top, constants)
@@ -101,12 +101,12 @@ def rounded_f(theta: float, top: Top, constants: Constants) -> Scalars: ...
 @overload
 def rounded_f(theta: Array, top: Top, constants: Constants) -> Array: ...
 def rounded_f(theta: Scalars, top: Top, constants: Constants) -> Scalars:
-    """f in floats all through, which is fast; next to its zeros it has the rounding of the terms of (36)."""
+    """f computed in floats only, which is fast; near its zeros the error is the rounding of the terms of (36)."""
     return floats(theta, top, constants)[0][()]
 
 
 def floats(theta: Scalars, top: Top, constants: Constants) -> tuple[Array, Indices]:
-    """f in floats, and the flat indices where its terms cancel."""
+    """f in floats, and the flat indices at which its terms cancel."""
     offsets = pole_offsets(top, constants.K_J, constants.K_R)
     given = [np.asarray(x) for x in (*versines(theta), constants.K_R, constants.two_E_prime(top), *offsets)]
     shape = np.broadcast_shapes(*(x.shape for x in given))
@@ -124,8 +124,8 @@ def floats(theta: Scalars, top: Top, constants: Constants) -> tuple[Array, Indic
 def theta_dot_2_on(
     top: TopNumbers, V: Array, M: Array, K_R: Array, e: Array, upright: Array, inverted: Array, f: Array
 ) -> Indices:
-    """(36) into f (n, m), from 1 - c, 1 + c, K_R, 2E' and the offsets of both poles, each (n or 1, m or 1); and the
-    flat indices at which its terms cancel."""
+    """Writes (36) into f (n, m), from 1 - c, 1 + c, K_R, 2E' and the offsets of both poles, each (n or 1, m or 1).
+    Returns the flat indices at which its terms cancel."""
     cancelled, count = np.empty(f.size, np.intp), 0
     n, m = f.shape
     v, c, s2, xC, K, d, e_row, U = np.empty((8, m))
@@ -139,7 +139,7 @@ def theta_dot_2_on(
                 xC[j] = B
         for j in range(m):
             d[j], e_row[j] = at(upright, i, j) if c[j] >= 0 else at(inverted, i, j), at(e, i, j)
-        for j in range(m):  # plain enough for the processor's vectors
+        for j in range(m):  # simple enough to be vectorized
             B = d[j] + xC[j]
             U[j] = eq.U(v[j], c[j], s2[j], B * B / s2[j], top)
             f[i, j] = eq.theta_dot_2(e_row[j], U[j], c[j], top)
@@ -155,12 +155,12 @@ def theta_dot_2_on(
 
 @shared_with_kernels
 def at(x: Array, i: int, j: int) -> float:
-    """x[i, j], where one row or column stands for all."""
+    """x[i, j], broadcasting an axis of length 1."""
     return x[i if x.shape[0] > 1 else 0, j if x.shape[1] > 1 else 0]
 
 
 def exact_f(top: Top, theta: Array, K_J: Array, K_R: Array, E: Array) -> Array:
-    """f with every float taken as exact, for arrays (n,), in Decimals."""
+    """f in Decimals, taking every float as exact; all arrays (n,)."""
     curves = {}
     value = np.empty(theta.shape)
     for i, (x, *row) in enumerate(zip(theta.tolist(), *(K.tolist() for K in (K_J, K_R, E)), strict=True)):

@@ -1,11 +1,12 @@
-"""Divided differences of (32), (34) and (36) over both turning points, c1 and c2, and a place c.
+"""Divided differences of (32), (34) and (36) over the two turning points, c1 and c2, and a third point c.
 
-Of a function g of cos(theta) with g1, g2 and g there, printed:
+A function g of cos(theta) has the values g1, g2 and g there, and
+
 
     g_12 = (g1 - g2)/(c1 - c2) ,   g_2c = (g2 - g)/(c2 - c) ,   g_12c = (g_12 - g_2c)/(c1 - c)
 
-Rearranged, because so nothing cancels however near the turning points are to each other: the polynomials divided out,
-the rest by the product rule, (g h)_12 = g1 h_12 + g_12 h2 and (g h)_12c = g1 h_12c + g_12 h_2c + g_12c h.
+They are rearranged so that nothing cancels, however close the turning points are: polynomials are divided out, the rest
+follows from the product rules (g h)_12 = g1 h_12 + g_12 h2 and (g h)_12c = g1 h_12c + g_12 h_2c + g_12c h.
 """
 
 from typing import NamedTuple
@@ -17,7 +18,7 @@ from .equations import AnyTop
 
 
 class Place(NamedTuple):
-    """c = cos(theta), s^2, and f3 and the bracket B there."""
+    """A point: c = cos(theta), s^2, f3 and the bracket B."""
 
     c: Number
     s2: Number
@@ -35,7 +36,7 @@ class Differences(NamedTuple):
 
 @shared_with_kernels
 def of_f3(one: Place, two: Place, here: Place, top: AnyTop) -> Differences:
-    """(32)  f3^2 = I3 + s^2 + (I3/I1)(c - a)^2, its differences over f3 + f3, by f3^2 = f3 f3"""
+    """(32)  f3^2 = I3 + s^2 + (I3/I1)(c - a)^2: its differences divided by sums of f3, from f3^2 = f3 f3"""
     ratio = top.I3 / top.I1
     y_12 = ((ratio - 1) * (one.c + two.c) - 2 * ratio * top.a) / (one.f3 + two.f3)
     y_2c = ((ratio - 1) * (two.c + here.c) - 2 * ratio * top.a) / (two.f3 + here.f3)
@@ -44,7 +45,7 @@ def of_f3(one: Place, two: Place, here: Place, top: AnyTop) -> Differences:
 
 @shared_with_kernels
 def of_bracket(one: Place, two: Place, here: Place, K_R: Number, top: AnyTop) -> Differences:
-    """(36)  B = K_J - (I3/I1)(c - a) K_R/f3, by those of f3 and of r = 1/f3"""
+    """(36)  B = K_J - (I3/I1)(c - a) K_R/f3, from the differences of f3 and of r = 1/f3"""
     y = of_f3(one, two, here, top)
     r_12, r_2c = -y.over_12 / (one.f3 * two.f3), -y.over_2c / (two.f3 * here.f3)
     r_12c = -(y.over_12c / one.f3 + r_12 * y.over_2c) / here.f3
@@ -55,7 +56,7 @@ def of_bracket(one: Place, two: Place, here: Place, K_R: Number, top: AnyTop) ->
 
 @shared_with_kernels
 def Q(one: Place, two: Place, here: Place, K_R: Number, e: Number, top: AnyTop) -> Number:
-    """(36)  s^2 theta_dot^2 = (c1 - c)(c - c2) Q, where 1 and 2 are the turning points
+    """(36)  s^2 theta_dot^2 = (c1 - c)(c - c2) Q, with the turning points c1 and c2
 
     Q f1^2 = -{s^2 [2E' - 2a(1 - c)] - f2^2 B^2}_12c, with (34)  f2^2 = I1 + (I1/I3) s^2 + (c - a)^2
     """

@@ -1,11 +1,11 @@
-"""The paper's equations, each once: for floats, arrays, Decimals and compiled kernels alike.
+"""The paper's equations, each once, written so that they work for floats, arrays, Decimals and compiled kernels alike.
 
-The paper's letters, in units of R, M and g: c = cos(theta), s = sin(theta), w1, w2, w3 the angular velocities about 1',
-2' and 3; top: TopNumbers(a, I1, I3), or a Top. Besides these s2 = s^2, v = 1 - c and w1_2 = w1^2, w2_2 = w2^2 are given
-where they are known better than from c, s, w1 or w2. np.sqrt of a Decimal is its own square root.
+The paper's letters, in units of R, M and g: c = cos(theta), s = sin(theta); w1, w2, w3 are the angular velocities about
+1', 2' and 3; top is TopNumbers(a, I1, I3) or a Top. s2 = s^2, v = 1 - c, w1_2 = w1^2 and w2_2 = w2^2 are separate
+arguments where they are known more accurately than from c, s, w1 or w2. np.sqrt works for Decimals too.
 
-The printed form of an equation stands first in its docstring. Next to a pole the bracket of (36) loses its figures:
-poles.py takes it apart there.
+Each docstring begins with the printed form of the equation. Near a pole the bracket of (36) loses its figures; poles.py
+has the form that is used there.
 """
 
 from typing import TypeAlias
@@ -41,7 +41,7 @@ def K_J(c: Number, s: Number, w2: Number, w3: Number, top: AnyTop) -> Number:
 
 @shared_with_kernels
 def K_J_of_spin(c: Number, w3: Number, top: AnyTop) -> Number:
-    """(30)  (I3/I1)(c - a) w3, the part of K_J that is axis 3's: all of it where w2 = 0, or at a pole"""
+    """(30)  (I3/I1)(c - a) w3, the part of K_J due to the spin: all of it if w2 = 0 or at a pole"""
     return top.I3 / top.I1 * (c - top.a) * w3
 
 
@@ -104,7 +104,7 @@ def bracket(c: Number, K_J: Number, w3: Number, top: AnyTop) -> Number:
 
 @shared_with_kernels
 def U(v: Number, c: Number, s2: Number, w2_2: Number, top: AnyTop) -> Number:
-    """(33)  U = 2a(1 - c) + f2^2 w2^2,  2E' at theta_dot = 0: the tilt energy, with w2^2 = B^2/s^2"""
+    """(33)  U = 2a(1 - c) + f2^2 w2^2,  2E' at theta_dot = 0: the effective potential of theta, with w2^2 = B^2/s^2"""
     return 2 * top.a * v + f2_2(c, s2, top) * w2_2
 
 
@@ -116,16 +116,16 @@ def theta_dot_2(e: Number, U: Number, c: Number, top: AnyTop) -> Number:
 
 @shared_with_kernels
 def bracket_slope(c: Number, s2: Number, w3: Number, top: AnyTop) -> Number:
-    """of (36)  dB/dc = -(I3/I1) K_R (I3 + 1 - a c)/f3^3,  with K_R/f3 = w3"""
+    """from (36)  dB/dc = -(I3/I1) K_R (I3 + 1 - a c)/f3^3,  with K_R/f3 = w3"""
     return -top.I3 / top.I1 * w3 * (top.I3 + 1 - top.a * c) / f3_2(c, s2, top)
 
 
 @shared_with_kernels
 def s4_U_slope(c: Number, s2: Number, B: Number, dB: Number, top: AnyTop) -> Number:
-    """of (36)  dU/dc = -2a + d(f2^2/s^2)/dc B^2 + 2 (f2^2/s^2) B dB/dc
+    """from (36)  dU/dc = -2a + d(f2^2/s^2)/dc B^2 + 2 (f2^2/s^2) B dB/dc
 
-    s^4 dU/dc = -2a s^4 + 2 [(c - a)(1 - a c) + I1 c] B^2 + 2 f2^2 s^2 B dB/dc: rearranged, because U is infinite at the
-    poles; its zeros are the steady precessions.
+    s^4 dU/dc = -2a s^4 + 2 [(c - a)(1 - a c) + I1 c] B^2 + 2 f2^2 s^2 B dB/dc, rearranged because U is infinite at the
+    poles. The zeros are the steady precessions.
     """
     a = top.a
     return -2 * a * s2 * s2 + 2 * B * (((c - a) * (1 - a * c) + top.I1 * c) * B + f2_2(c, s2, top) * s2 * dB)
@@ -144,8 +144,8 @@ def force_terms(
     (38)  F_x = -(I3 K_R f^(1/2)/f3^3) [c - (I3/I1)(c - a)]
     (39)  (1 - a c) F_y = a s F_z + I1 f'/2 - I1 (c/s) w2^2 + I3 w2 w3
 
-    rearranged, because (39) is 0/0 at a c = 1 and all three lose their figures at the poles: with f' carried out and
-    (31), where q = w1^2 + w2^2,
+    rearranged, because (39) is 0/0 at a c = 1 and all three lose their figures at the poles. With f' written out, (31),
+    and q = w1^2 + w2^2,
 
     F_z = 1 + (a/f1^2) {[c (I1 + 1 + a^2) - a (1 + c^2)] q - a s^2 - (I3 + 1 - a c) s w2 w3}
     F_x = -(I3 w3/f3^2) [c - (I3/I1)(c - a)] w1
@@ -164,33 +164,33 @@ def force_terms(
 
 @shared_with_kernels
 def force(c: Number, s: Number, w1: Number, w1_2: Number, w2: Number, w3: Number, top: AnyTop) -> Vector:
-    """(38), (39), (37)  F_x, F_y, F_z at the contact point without slipping; F_x turns its sign with theta_dot"""
+    """(38), (39), (37)  F_x, F_y, F_z at the contact point without slipping; F_x changes sign with theta_dot"""
     X, Y0, Y1, Z0, Z1 = force_terms(c, s, w2, w3, top)
     return X * w1, Y0 + Y1 * w1_2, Z0 + Z1 * w1_2
 
 
-# ---- beyond the numbered ones ----
+# ---- relations without a number of their own ----
 
 
 @shared_with_kernels
 def rolling_velocity(c: Number, s: Number, w1: Number, w2: Number, w3: Number, top: AnyTop) -> tuple[Number, Number]:
-    """(4)  v = omega x r, G's velocity without slipping along x and y: w2 (c - a) - w3 s,  -w1 (1 - a c)"""
+    """(4)  v = omega x r, the velocity of G without slipping; along x and y: w2 (c - a) - w3 s,  -w1 (1 - a c)"""
     return w2 * (c - top.a) - w3 * s, -w1 * (1 - top.a * c)
 
 
 @shared_with_kernels
 def two_E_smooth(s2: Number, w1: Number, w2: Number, v: Number, top: AnyTop) -> Number:
-    """(B3)  e = 2E - I3 w3^2 = I1 (w1^2 + w2^2) + a^2 s^2 w1^2 + 2a(1 - c),  where G only moves up and down"""
+    """(B3)  e = 2E - I3 w3^2 = I1 (w1^2 + w2^2) + a^2 s^2 w1^2 + 2a(1 - c),  if G moves only vertically"""
     return 2 * energy(w1, w2, 0, top.a * top.a * s2 * w1 * w1, v, top)
 
 
 @shared_with_kernels
 def L_z(c: Number, s: Number, w2: Number, w3: Number, top: AnyTop) -> Number:
-    """(B4)  L_z = I1 s w2 + I3 c w3,  G's angular momentum about the vertical"""
+    """(B4)  L_z = I1 s w2 + I3 c w3,  the vertical component of the angular momentum about G"""
     return top.I1 * s * w2 + top.I3 * c * w3
 
 
 @shared_with_kernels
 def I_eff(c: Number, s2: Number, top: AnyTop) -> Number:
-    """note 58  I_eff = I1 s^2 + I3 (c - a)^2,  of a turn about r: K_min = C_J^2/(2 I_eff)"""
+    """note 58  I_eff = I1 s^2 + I3 (c - a)^2,  for a rotation about r: K_min = C_J^2/(2 I_eff)"""
     return top.I1 * s2 + top.I3 * (c - top.a) ** 2

@@ -12,7 +12,7 @@ from .top import Top
 
 
 def forces_on_curve(theta: Scalars, top: Top, constants: Constants, w1_squared: Scalars) -> Vector:
-    """(F_x, F_y, F_z) of (37) to (39) for theta_dot > 0, in Mg, where theta_dot^2 is this."""
+    """(F_x, F_y, F_z) of (37) to (39), in Mg, for theta_dot > 0 and theta_dot^2 = w1_squared."""
     v, m = versines(theta)
     w2, w3 = (function(theta, top, constants) for function in (omega2, omega3))
     with np.errstate(invalid="ignore"):
@@ -26,7 +26,7 @@ def normal_force(theta: Array, top: Top, constants: Constants) -> Array: ...
 def normal_force(theta: Scalars, top: Top, constants: Constants) -> Scalars:
     """F_z = 1 + a (s f'/2 + c f), (37), in Mg. theta in rad; theta and the constants broadcast.
 
-    nan at a pole that no motion with this K_J reaches.
+    nan at a pole that no motion with this K_J can reach.
     """
     return forces_on_curve(theta, top, constants, f(theta, top, constants))[2]
 
@@ -36,7 +36,7 @@ def friction_force(theta: float, top: Top, constants: Constants) -> tuple[Scalar
 @overload
 def friction_force(theta: Array, top: Top, constants: Constants) -> tuple[Array, Array]: ...
 def friction_force(theta: Scalars, top: Top, constants: Constants) -> tuple[Scalars, Scalars]:
-    """(F_x, F_y) for theta_dot > 0, (38) and (39), in Mg; F_x turns its sign with theta_dot.
+    """(F_x, F_y) for theta_dot > 0, (38) and (39), in Mg; F_x changes sign with theta_dot.
 
     x along 1' (the line of nodes), y along z cross 1'. theta in rad; theta and the constants broadcast. F_x is nan
     where f < 0.

@@ -1,12 +1,14 @@
-"""The largest energy at which a top neither leaves the table nor slips: one scan, one zero, one least, for one K_J.
+"""The largest energy at which a top neither leaves the table nor slips: one scan, one zero and one minimum for each
+K_J.
 
-At one theta the forces (37) to (39) are F_x = X w1, F_y = Y0 + Y1 w1^2, F_z = Z0 + Z1 w1^2, so with f = w1^2 the limit
-mu F_z = n F_h (mu = mu_s, n = 1; for lift-off alone mu = 1, n = 0) is a quadratic in f, and 2E' = U + f1^2 f.
+At a given theta the forces (37) to (39) are F_x = X w1, F_y = Y0 + Y1 w1^2, F_z = Z0 + Z1 w1^2. So with f = w1^2 the
+limit mu F_z = n F_h (mu = mu_s, n = 1; for lift-off alone mu = 1, n = 0) is a quadratic in f, and 2E' = U + f1^2 f.
 
-A trajectory of the well first comes to theta with the energy `base`, the largest U between theta and the steady
-precession. The first energy that breaks the limit at theta is base where it is broken then, and else that at the end of
-the interval in which base lies. The limit of a K_J is the least of these over theta. Outwards from the steady
-precession base only rises: nothing counts beyond the first place at which the limit is broken at base.
+A trajectory in the well reaches theta from the energy `base` on, the largest U between theta and the steady precession.
+If the limit is already violated at base, base is the first energy to violate it at theta; otherwise it is the energy at
+the end of the interval around base in which the limit holds. The limit energy for a K_J is the minimum of these over
+theta. Going outwards from the steady precession base never falls, so nothing matters beyond the first point at which
+the limit is violated at base.
 """
 
 from typing import TypeAlias
@@ -21,15 +23,16 @@ from .search import least, zero
 from .top import TopNumbers
 from .wells import D_near, N_near, U_near
 
-# Places along a path outwards from the steady precession, rows of these; DISTANCE in theta to the pole it leads to.
+# Columns of a path, whose rows are points outwards from the steady precession; DISTANCE in theta to the pole ahead.
 DISTANCE, X, SIDE, BASE, MARGIN, FIRST = range(6)
-MORE = 24  # places
+MORE = 24  # additional points
 Limit: TypeAlias = tuple[float, float]  # mu, n
 
 
 @shared_with_kernels
 def interval_end(limit: Limit, X: float, Y0: float, Y1: float, Z0: float, Z1: float) -> float:
-    """The f at which mu F_z >= n F_h ends, from one at which it holds; inf, or less than that one, if it never does."""
+    """The f up to which mu F_z >= n F_h holds, starting from one at which it does; inf, or less than that one, if it
+    always holds."""
     mu, n = limit
     if n == 0:
         return -Z0 / Z1 if Z1 < 0 else np.inf
@@ -47,7 +50,8 @@ def interval_end(limit: Limit, X: float, Y0: float, Y1: float, Z0: float, Z1: fl
 
 @shared_with_kernels
 def look(x: float, side: float, barrier: float, curve: Floats, limit: Limit) -> tuple[float, float, float]:
-    """base (no less than the barrier passed), the margin mu F_z - n F_h there, the first 2E' that breaks the limit."""
+    """base (at least the barrier already passed), the margin mu F_z - n F_h there, and the first 2E' that violates the
+    limit."""
     mu, n = limit
     c, s, (B, w3) = side * (1 - x), np.sqrt(x * (2 - x)), bracket_near(side, x, curve)
     w2 = B / s if s > 0 else 0.0 if B == 0 else np.inf
@@ -64,7 +68,7 @@ def look(x: float, side: float, barrier: float, curve: Floats, limit: Limit) -> 
 
 @shared_with_kernels
 def margin_at(x: float, side: float, barrier: float, curve: Floats, limit: Limit) -> float:
-    """s^2 times the margin, which is infinite at a pole."""
+    """s^2 times the margin; the margin itself is infinite at a pole."""
     return x * (2 - x) * look(x, side, barrier, curve, limit)[1]
 
 
@@ -75,7 +79,7 @@ def first_at(x: float, side: float, barrier: float, curve: Floats, limit: Limit)
 
 @shared_with_kernels
 def F_z_at(x: float, side: float, e: float, curve: Floats) -> float:
-    """F_z at 2E' = e."""
+    """F_z (Mg) at 2E' = e."""
     c, s, (B, w3) = side * (1 - x), np.sqrt(x * (2 - x)), bracket_near(side, x, curve)
     _, _, _, Z0, Z1 = eq.force_terms(c, s, B / s if s > 0 else 0.0, w3, curve.top)
     return Z0 + Z1 * eq.theta_dot_2(e, U_near(x, side, curve), c, curve.top)
@@ -86,7 +90,7 @@ def F_z_at(x: float, side: float, e: float, curve: Floats) -> float:
 
 @shared_with_kernels
 def place(distance: float, toward: float) -> tuple[float, float]:
-    """x and side at this distance in theta from the pole of cos(theta) = toward."""
+    """x and side of the point at this distance in theta from the pole cos(theta) = toward."""
     if distance <= np.pi / 2:
         return 2 * np.sin(distance / 2) ** 2, toward
     return 2 * np.cos(distance / 2) ** 2, -toward
@@ -94,7 +98,7 @@ def place(distance: float, toward: float) -> tuple[float, float]:
 
 @shared_with_kernels
 def seen(path: Array, k: int, side: float) -> float:
-    """x of a place as that pole sees it."""
+    """x of a point as seen from that pole."""
     return path[k, X] if path[k, SIDE] == side else 2 - path[k, X]
 
 
@@ -108,16 +112,14 @@ def add(
 
 @shared_with_kernels
 def scan(path: Array, toward: float, far: float, points: int, curve: Floats, limit: Limit, best: float) -> int:
-    """Fills the path outwards from its first place, closer and closer to the distance far, until the limit is broken at
-    base or base is more than best, or than the least energy found on it: how many places."""
+    """Fills the path outwards from its first point, in ever smaller steps towards the distance far, until the limit is
+    violated at base, or base exceeds best or the least energy found on the path. Returns the number of points."""
     k, near, rising = 1, path[0, DISTANCE], True
     through = (curve.upright if toward > 0 else curve.inverted) == 0
     for j in range(1, points + MORE):
         share = max(1 - j / points, 0.0)
         distance = far + (near - far) * share * share
-        if j > points or (
-            j == points and far == 0 and not through
-        ):  # farther and farther, up the wall of U at the pole
+        if j > points or (j == points and far == 0 and not through):  # in growing steps up the wall of U at the pole
             if distance == 0 and through:
                 break
             distance = max(3 * path[k - 1, DISTANCE] - 2 * path[k - 2, DISTANCE], path[k - 1, DISTANCE] / 10)
@@ -125,7 +127,7 @@ def scan(path: Array, toward: float, far: float, points: int, curve: Floats, lim
         add(path, k, distance, x, side, path[k - 1, BASE], curve, limit)
         if path[k, BASE] > path[k - 1, BASE]:
             rising = True
-        elif rising and k > 1:  # past a barrier: its top takes the place before
+        elif rising and k > 1:  # past a barrier: its maximum replaces the previous point
             rising, side = False, path[k - 1, SIDE]
             low, high = seen(path, k - 2, side), seen(path, k, side)
             if N_near(low, side, curve) * N_near(high, side, curve) < 0:
@@ -142,7 +144,7 @@ def scan(path: Array, toward: float, far: float, points: int, curve: Floats, lim
 
 @shared_with_kernels
 def broken_between(path: Array, k: int, toward: float, curve: Floats, limit: Limit) -> int:
-    """The index of the last place: k, or that of a new one where the margin falls below 0 between the last three."""
+    """The index of the last point: k, or that of a new one if the margin falls below 0 between the last three."""
     if k < 2 or not 0 <= path[k - 1, MARGIN] < min(path[k - 2, MARGIN], path[k, MARGIN]):
         return k
     side, barrier = path[k - 1, SIDE], path[k - 2, BASE]
@@ -158,7 +160,7 @@ def broken_between(path: Array, k: int, toward: float, curve: Floats, limit: Lim
 
 @shared_with_kernels
 def corner(path: Array, k: int, curve: Floats, limit: Limit, part: float) -> int:
-    """Puts the place at which the limit is first broken at base last on the path, and one just before it."""
+    """Ends the path with the point at which the limit is first violated at base, and one just before it."""
     if k < 2 or path[k - 1, MARGIN] >= 0:
         return k
     side, barrier = path[k - 1, SIDE], path[k - 2, BASE]
@@ -176,7 +178,7 @@ def corner(path: Array, k: int, curve: Floats, limit: Limit, part: float) -> int
 
 @shared_with_kernels
 def dips(paths: Array, counts: Indices, curve: Floats, limit: Limit, part: float) -> tuple[float, float, float]:
-    """(2E', x, side) of the least first energy on both paths where it is less than best, between places too."""
+    """(2E', x, side) of the least violating energy on both paths if it is less than best; also between the points."""
     found, x_found, side_found = np.inf, paths[0, 0, X], paths[0, 0, SIDE]
     for way in range(2):
         for k in range(counts[way]):
@@ -185,7 +187,7 @@ def dips(paths: Array, counts: Indices, curve: Floats, limit: Limit, part: float
     for way in range(2):
         path = paths[way]
         for k in range(way, counts[way] - 1):
-            one, i = (path, k - 1) if k > 0 else (paths[1], 1)  # the place before
+            one, i = (path, k - 1) if k > 0 else (paths[1], 1)  # the point before
             if (k == 0 and counts[1] < 2) or not path[k, MARGIN] >= 0 or path[k, FIRST] == np.inf:
                 continue
             if min(one[i, FIRST], path[k + 1, FIRST]) < path[k, FIRST]:
@@ -201,7 +203,7 @@ def dips(paths: Array, counts: Indices, curve: Floats, limit: Limit, part: float
 
 @shared_with_kernels
 def turning(path: Array, k: int, curve: Floats, e: float, part: float) -> float:
-    """theta at which a trajectory of energy 2E' = e turns, on a path of k places."""
+    """theta of the turning point of a trajectory of energy 2E' = e, on a path of k points."""
     for i in range(1, k):
         if path[i, BASE] > e:
             side = path[i, SIDE]
@@ -216,9 +218,11 @@ def turning(path: Array, k: int, curve: Floats, e: float, part: float) -> float:
 def limit_of(
     paths: Array, x: float, side: float, points: int, curve: Floats, limit: Limit, far: Array, part: float
 ) -> tuple[float, float, float, float, float]:
-    """2E', theta_inner, theta_outer, theta_verge and F_z there, from the steady precession at x on, to this part of x.
+    """2E', theta_inner, theta_outer, theta_verge and F_z there, starting from the steady precession at x, to the
+    relative accuracy `part` in x.
 
-    paths (2, points + MORE + 2, 6) to write on; far: to where, at most, the paths lead, at last where they do."""
+    paths: working space (2, points + MORE + 2, 6). far: how far the paths may lead; overwritten with how far they
+    do."""
     counts = np.ones(2, np.intp)
     for way, toward in ((0, 1.0), (1, -1.0)):
         add(paths[way], 0, angle(x, side * toward), x, side, -np.inf, curve, limit)
@@ -248,7 +252,8 @@ def limit_of(
 
 @shared_with_kernels
 def lowest(V: Array, M: Array, curve: Floats, part: float) -> tuple[float, float, bool]:
-    """(x, side) of the least U, found on the grid 1 - c = V, 1 + c = M from theta = 0 to pi; whether sure."""
+    """(x, side) of the minimum of U, found on the grid 1 - c = V, 1 + c = M from theta = 0 to pi, and whether it is
+    certain."""
     n = len(V) - 1
     U = np.empty(n + 1)
     for i in range(n + 1):
@@ -276,7 +281,7 @@ def lowest(V: Array, M: Array, curve: Floats, part: float) -> tuple[float, float
 
 @compiled
 def lowest_of(V: Array, M: Array, top: TopNumbers, K_R: float, offsets: Array) -> Array:
-    """Rows of x, side and whether that is sure, of lowest(), for the rows of offsets."""
+    """Rows of x, side and certainty from lowest(), one for each row of offsets."""
     found = np.empty((len(offsets), 3))
     for i in range(len(offsets)):
         x, side, sure = lowest(V, M, Floats(top, K_R, offsets[i, 0], offsets[i, 1]), 1e-8)
@@ -288,8 +293,8 @@ def lowest_of(V: Array, M: Array, top: TopNumbers, K_R: float, offsets: Array) -
 def limits_of(
     top: TopNumbers, K_R: float, offsets: Array, steady: Array, limits: Array, points: int
 ) -> tuple[Array, Array]:
-    """For each of the limits (mu, n) and each K_J: 2E', theta_inner, theta_outer, theta_verge and F_z of limit_of();
-    and theta and U of the steady precessions, rows of x and side."""
+    """For each of the limits (mu, n) and each K_J: 2E', theta_inner, theta_outer, theta_verge and F_z from limit_of().
+    Then theta and U of the steady precessions, given as rows of x and side."""
     paths, found = np.empty((2, points + MORE + 2, 6)), np.empty((len(limits), 5, len(offsets)))
     at_rest = np.empty((2, len(offsets)))
     for i in range(len(offsets)):
@@ -297,7 +302,7 @@ def limits_of(
         at_rest[0, i], at_rest[1, i] = angle(x, side), U_near(x, side, curve)
         for j in range(len(limits)):
             if j > 0 and limits[j - 1, 1] > 0:
-                far[:] = 0  # only what lifts off bounds what slips
+                far[:] = 0  # only the limit of lift-off bounds that of slipping
             columns = limit_of(paths, x, side, points, curve, (limits[j, 0], limits[j, 1]), far, 1e-8)
             for row in range(5):
                 found[j, row, i] = columns[row]

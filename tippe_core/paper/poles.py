@@ -1,8 +1,8 @@
-"""Next to a pole, where the bracket B of (36) loses all its figures on every trajectory that comes near one.
+"""The bracket B of (36) near a pole, where its terms cancel on every trajectory that comes close.
 
-There it is taken apart: at theta = 0, with x = 1 - c, B = d + x C, where the pole's offset d = K_J - K_J(P) is known
-with more digits than K_J, and C has no cancellation. Seen from the inverted pole, the top is another one: the equations
-read the same with a -> -a, c -> -c, K_R -> -K_R, and 2E' is less by 4a.
+There it is split: near theta = 0, with x = 1 - c, B = d + x C. The pole offset d = K_J - K_J(P) is known with more
+digits than K_J, and C has no cancellation. Seen from the inverted pole the equations are those of another top, with
+a -> -a, c -> -c, K_R -> -K_R, and with 2E' smaller by 4a.
 """
 
 from decimal import Decimal, localcontext
@@ -22,12 +22,12 @@ from .top import Top, TopNumbers
 
 @shared_with_kernels
 def seen_from(side: Number, top: AnyTop) -> TopNumbers:
-    """The top as the pole of cos(theta) = side sees it, 1 the upright and -1 the inverted one."""
+    """The top as seen from the pole cos(theta) = side: 1 for the upright, -1 for the inverted one."""
     return TopNumbers(side * top.a, top.I1, top.I3)
 
 
 class Floats(NamedTuple):
-    """A top, K_J and K_R as kernels take them: K_J by the offsets of the upright and of the inverted pole."""
+    """A top, K_J and K_R in the form that kernels use: K_J as its offsets from the upright and the inverted pole."""
 
     top: TopNumbers
     K_R: float
@@ -37,7 +37,7 @@ class Floats(NamedTuple):
 
 @shared_with_kernels
 def bracket_near(side: Number, x: Number, curve: Floats) -> tuple[Number, Number]:
-    """B and w3 at the distance x of cos(theta) to the pole of cos(theta) = side."""
+    """B and w3 where cos(theta) is at the distance x from the pole cos(theta) = side."""
     c, s2 = side * (1 - x), x * (2 - x)
     d, w3 = curve.upright if side > 0 else curve.inverted, eq.omega3(c, s2, curve.K_R, curve.top)
     C = pole_slope(x, np.sqrt(eq.f3_2(c, s2, curve.top)), side * w3, seen_from(side, curve.top))
@@ -46,20 +46,20 @@ def bracket_near(side: Number, x: Number, curve: Floats) -> tuple[Number, Number
 
 @shared_with_kernels
 def angle(x: float, side: float) -> float:
-    """theta there."""
+    """theta (rad) where cos(theta) is at the distance x from the pole cos(theta) = side."""
     turned = 2 * np.arctan2(np.sqrt(x), np.sqrt(2 - x))
     return turned if side > 0 else np.pi - turned
 
 
 @shared_with_kernels
 def pole_slope(x: Number, f3: Number, w3: Number, top: AnyTop) -> Number:
-    """C of B = d + x C at x = 1 - c, where x C is the B of the trajectory through the pole:
+    """C in B = d + x C at x = 1 - c, where x C is B on the trajectory through the pole:
 
     (36)  x C = K_J(P) - (I3/I1)(c - a) K_R/f3,  K_J(P) = (I3/I1)(1 - a) K_R/f3(P),  with K_R/f3 = w3
 
-    Rearranged, because it is 0/0 at x = 0: with p = 1 - a, q = c - a and f3(P), f3 at the pole and at x,
+    Rearranged, because it is 0/0 at x = 0. With p = 1 - a, q = c - a, and f3(P) and f3 at the pole and at x,
     p/f3(P) - q/f3 = (p f3 - q f3(P))/(f3(P) f3) = x {p^2 (2 - x) + I3 (p + q)}/{f3(P) f3 (p f3 + q f3(P))}
-    by (32); q as p - x, because 1 - x loses x where a is near to 1.
+    by (32). q is computed as p - x, because 1 - x loses digits of x when a is close to 1.
     """
     p, q, f3_P = 1 - top.a, 1 - top.a - x, np.sqrt(eq.f3_2(1.0, 0.0, top))
     unit = top.I3 / top.I1 * w3 / f3_P
@@ -70,13 +70,13 @@ def pole_slope(x: Number, f3: Number, w3: Number, top: AnyTop) -> Number:
 
 @shared_with_kernels
 def one_sign(x: Number, p: Number, q: Number, f3_P: Number, f3: Number, top: AnyTop) -> Number:
-    """(p f3 - q f3(P))/x, where p f3 and q f3(P) cancel"""
+    """(p f3 - q f3(P))/x, when p f3 and q f3(P) nearly cancel"""
     return (p * p * (2 - x) + top.I3 * (p + q)) / (p * f3 + q * f3_P)
 
 
 @shared_with_kernels
 def two_signs(x: Number, p: Number, q: Number, f3_P: Number, f3: Number) -> Number:
-    """(p f3 - q f3(P))/x, where they do not"""
+    """(p f3 - q f3(P))/x, when they do not"""
     return (p * f3 - q * f3_P) / x
 
 
@@ -85,10 +85,10 @@ def pole_constants(top: Top, K_R: float) -> tuple[float, float]: ...
 @overload
 def pole_constants(top: Top, K_R: Array) -> tuple[Array, Array]: ...
 def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
-    """(K_J at P, K_J at the inverted pole): where the bracket of (36) vanishes at theta = 0 and at theta = pi.
+    """(K_J at P, K_J at the inverted pole): the values for which the bracket of (36) vanishes at theta = 0 and at pi.
 
-    K_J(P) = (I3/I1)(1 - a) K_R/f3(0); through the poles pass the trajectories with these K_J and no others. K_R of any
-    shape; for a number these are the floats nearest to them, which everything here takes for the poles' own.
+    K_J(P) = (I3/I1)(1 - a) K_R/f3(0). Only trajectories with these K_J pass through the poles. K_R of any shape; for a
+    single number the results are the nearest floats, and every function here takes those as exactly the poles' K_J.
     """
     if np.ndim(K_R):
         K_R = numbers("K_R", K_R)
@@ -99,7 +99,7 @@ def pole_constants(top: Top, K_R: Scalars) -> tuple[Scalars, Scalars]:
 
 @shared_with_kernels
 def K_J_of_pole(side: Number, K_R: Number, top: AnyTop) -> Number:
-    """K_J of the trajectories through the pole of cos(theta) = side."""
+    """K_J of the trajectories through the pole cos(theta) = side."""
     return eq.K_J_of_spin(side, eq.omega3(side, 0, K_R, top), top)
 
 
@@ -113,7 +113,7 @@ def pole_ratios(top: Top) -> tuple[Decimal, Decimal]:
 
 
 def exact_pole_constants(top: Top, K_R: Decimal) -> tuple[Decimal, Decimal]:
-    """K_J at P and at the inverted pole."""
+    """K_J at P and at the inverted pole, as Decimals."""
     with localcontext(EXACT):
         upright, inverted = pole_ratios(top)
         return upright * K_R, inverted * K_R
@@ -121,18 +121,18 @@ def exact_pole_constants(top: Top, K_R: Decimal) -> tuple[Decimal, Decimal]:
 
 @lru_cache(256)
 def in_two_floats(top: Top, K_R: float) -> tuple[tuple[float, float], tuple[float, float]]:
-    """K_J at P and at the inverted pole, each as its nearest float and what is left."""
+    """K_J at P and at the inverted pole, each as the nearest float and the remainder."""
     upright, inverted = ((float(K), float(K - Decimal(float(K)))) for K in exact_pole_constants(top, Decimal(K_R)))
     return upright, inverted
 
 
 def pole_offsets(top: Top, K_J: Scalars, K_R: Scalars) -> tuple[Array, Array]:
-    """d = K_J - K_J(P), and the same at the inverted pole, without the rounding of K_J(P)."""
+    """The pole offsets: d = K_J - K_J(P), and the same at the inverted pole, free of the rounding error of K_J(P)."""
     parts = np.array([in_two_floats(top, K) for K in np.ravel(K_R).tolist()])
     upright, inverted = (K_J - near - rest for near, rest in parts.T.swapaxes(0, 1).reshape(2, 2, *np.shape(K_R)))
     return np.where(at_pole(upright, K_J), 0.0, upright), np.where(at_pole(inverted, K_J), 0.0, inverted)
 
 
 def at_pole(d: Number, K_J: Scalars) -> Bools:
-    """Whether K_J is the pole's own to the last digit: its float cannot be nearer to it."""
+    """Whether K_J is that of the pole to the last digit: no float is nearer to it."""
     return np.abs(d) <= 0.51 * np.spacing(np.abs(K_J))

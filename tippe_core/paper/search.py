@@ -1,4 +1,4 @@
-"""Zeros and minima of a function of one number, for kernels: plain loops, no derivative."""
+"""Zeros and minima of a function of one variable, for kernels: plain loops, no derivatives."""
 
 from collections.abc import Callable
 from typing import Any, TypeAlias
@@ -7,15 +7,16 @@ import numpy as np
 
 from ..compiled import shared_with_kernels
 
-Arguments: TypeAlias = tuple[Any, ...]  # of the function, after x
+Arguments: TypeAlias = tuple[Any, ...]  # further arguments of the function, after x
 
 
 @shared_with_kernels
 def zero(function: Callable[..., float], low: float, high: float, args: Arguments, part: float = 1e-8) -> float:
-    """The zero of function(x, *args) between low and high, 0 <= low < high, where its signs differ.
+    """The zero of function(x, *args) between low and high, 0 <= low < high, where it has opposite signs.
 
-    Inverse quadratic interpolation where that is safe, else bisection (T. R. Chandrupatla, Adv. Eng. Softw. 28, 145
-    (1997)), until the bracket is this part of x and of itself; then the zero of its chord, off by the square of that.
+    Inverse quadratic interpolation where that is safe, otherwise bisection (T. R. Chandrupatla, Adv. Eng. Softw. 28,
+    145 (1997)), until the bracket has shrunk to the fraction `part` of x and of its first width. A last linear
+    interpolation squares the relative error.
     """
     x, y = high, function(high, *args)  # the newest
     opposite, y_opposite = low, function(low, *args)
@@ -48,9 +49,10 @@ def zero(function: Callable[..., float], low: float, high: float, args: Argument
 def least(
     function: Callable[..., float], low: float, at: float, high: float, args: Arguments, part: float = 1e-15
 ) -> float:
-    """A minimum of function(x, *args) between low and high, where it is less at `at`: to this part of its value.
+    """A minimum of function(x, *args) between low and high, given a point `at` with a smaller value than at both ends.
+    part: the relative accuracy of the minimum value.
 
-    The vertex of the parabola through the last three points where it falls inside and the steps shrink, else a golden
+    The vertex of the parabola through the last three points if it lies inside and the steps shrink, otherwise a golden
     section (R. P. Brent, Algorithms for Minimization Without Derivatives (1973), ch. 5).
     """
     y_low, y, y_high = function(low, *args), function(at, *args), function(high, *args)
@@ -59,7 +61,7 @@ def least(
     for _ in range(80):
         left, right = (y_low - y) * (high - at), (y_high - y) * (at - low)
         step = (left * (high - at) - right * (at - low)) / (2 * (left + right)) if left + right > 0 else np.nan
-        parabola = low < at + step < high and abs(step) < before / 2  # neither for nan nor for inf
+        parabola = low < at + step < high and abs(step) < before / 2  # False for nan and inf
         if not parabola:
             step = 0.381966 * ((high - at) if high - at > at - low else (low - at))
         before, last = last, abs(step)

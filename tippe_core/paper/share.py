@@ -1,4 +1,5 @@
-"""How much of the (K_J, theta) plane friction leaves a top: Fig. 6 beside Fig. 5, for thousands of tops a second."""
+"""How much of the (K_J, theta) plane is left by finite friction: Fig. 6 compared with Fig. 5, for thousands of tops a
+second."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,19 +13,20 @@ from .poles import Floats, K_J_of_pole, angle
 from .tielines import crowded
 from .top import TopNumbers
 
-ROWS = 64  # K_J
-PART = (np.arange(ROWS) + 0.5) / ROWS  # of K_J(P)
+ROWS = 64  # values of K_J
+PART = (np.arange(ROWS) + 0.5) / ROWS  # in units of K_J(P)
 MUCH = 1.3
-POINTS, CLOSE = 10, 1e-4  # on each side of a steady precession; how close, a part, a zero is placed
+POINTS, CLOSE = 10, 1e-4  # on each side of a steady precession; relative accuracy of a zero
 GRID_V, GRID_M = versines(crowded(32))
 
 
 def allowed_shares(a: ArrayLike, I1: ArrayLike, I3: ArrayLike, K_R: float, mu_s: float) -> Array:
-    """The share, 0 to 1, of Fig. 5's region of the (K_J, theta) plane, K_J from 0 to P, that friction leaves.
+    """The fraction, 0 to 1, of the region of Fig. 5 in the (K_J, theta) plane, K_J from 0 to P, in which a top does not
+    slip.
 
-    The sum of the widths in theta of 64 tielines under F_h <= mu_s F_z, over the same under F_z >= 0 alone; a tieline
-    of no motion is 0 wide, one that nothing limits is pi wide. a, I1, I3 numbers or arrays that broadcast together, K_R
-    and mu_s numbers; nan where there is no such Top, or where Fig. 5's region is empty.
+    It is the sum of the widths in theta of 64 tielines with F_h <= mu_s F_z, divided by the same sum with F_z >= 0
+    alone. A tieline without a motion has width 0, one that nothing limits has width pi. a, I1, I3: numbers or arrays
+    that broadcast together; K_R, mu_s: numbers. nan where there is no such Top, or where the region of Fig. 5 is empty.
     """
     K_R, mu_s = finite("K_R", K_R), finite("mu_s", mu_s)
     if mu_s < 0:
@@ -40,7 +42,7 @@ def allowed_shares(a: ArrayLike, I1: ArrayLike, I3: ArrayLike, K_R: float, mu_s:
 
 @compiled
 def widths(V: Array, M: Array, a: Array, I1: Array, I3: Array, K_R: float, mu_s: float, part: Array) -> Array:
-    """Widths in theta of tielines of tops (n,) at these parts of K_J(P): (2, n, parts), of Fig. 5 and of Fig. 6."""
+    """Widths in theta (rad) of the tielines of Figs. 5 and 6, (2, n, len(part)), of n tops at K_J = part * K_J(P)."""
     found, paths, far = np.empty((2, len(a), len(part))), np.empty((2, POINTS + MORE + 2, 6)), np.empty(2)
     near, reach = np.empty(2), np.empty(2)
     limits = ((1.0, 0.0), (mu_s, 1.0))

@@ -1,4 +1,4 @@
-"""The top as the paper's equations see it: three numbers, and the scales that turn them into a real one."""
+"""The top as it enters the paper's equations: three numbers, and the scales that give them SI units."""
 
 from dataclasses import dataclass
 from typing import NamedTuple, Self
@@ -8,7 +8,7 @@ from ..types import Number
 
 
 class TopNumbers(NamedTuple):
-    """a, I1, I3 of a Top as the equations take them: floats, arrays that broadcast, Decimals, or of a compiled call."""
+    """a, I1, I3 of a Top in the form that the equations use: floats, arrays that broadcast, or Decimals."""
 
     a: Number
     I1: Number
@@ -59,7 +59,7 @@ class Top:
 
 @dataclass(frozen=True)
 class Scales:
-    """The size of a real top: R in m, M in kg, g in m/s^2. Its properties are the SI value of one unit of Sec. VI."""
+    """The scales of a real top: R in m, M in kg, g in m/s^2. Each property is one unit of Sec. VI in SI units."""
 
     R: float
     M: float

@@ -1,7 +1,7 @@
-"""The wells of U, where f >= 0 of (36): turning points, and the steady precessions at their bottom.
+"""The wells of U, in which f >= 0 in (36): their turning points, and the steady precessions at their minima.
 
-Floats find them, on a grid and by zero(); Decimals take the last steps and decide what floats cannot: next to a pole,
-next to a steady precession, and where wells merge.
+They are found in floats, on a grid and by zero(). Decimals take the last steps and decide what floats cannot: near a
+pole, near a steady precession, and where two wells merge.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,25 +20,25 @@ from .poles import Floats, angle, at_pole, bracket_near, exact_pole_constants
 from .search import zero
 from .top import Top
 
-ROOTS = Decimal("1e-55")  # a state's K_J and K_R are exact but for a square root
+ROOTS = Decimal("1e-55")  # relative error of K_J and K_R of a state, from square roots
 
 
 class SteadyPrecessions(NamedTuple):
-    """theta (k,) in rad, ascending, and stable (k,), whether U is least there."""
+    """The tilts theta (k,) of steady precessions, in rad, ascending, and stable (k,): True at minima of U."""
 
     theta: Array
     stable: Bools
 
 
 class Well(NamedTuple):
-    """cos(theta) at the turning points."""
+    """A well: cos(theta) at its turning points."""
 
     inner: Decimal
     outer: Decimal
 
 
 class Station(NamedTuple):
-    """cos(theta), e - U there, and whether U is least there."""
+    """A pole or an extremum of U: cos(theta), e - U there, and whether U has a minimum."""
 
     c: Decimal
     kinetic: Decimal
@@ -46,10 +46,11 @@ class Station(NamedTuple):
 
 
 class ExactCurve:
-    """U, e - U and its like as functions of c = cos(theta), Decimals, for one K_J, K_R and e = 2E'."""
+    """U, e - U and related functions of c = cos(theta), in Decimals, for one K_J, K_R and e = 2E'."""
 
     def __init__(self, top: Top, exact: Exact, rounded: bool = True) -> None:
-        """rounded: K_J, K_R and E were given as floats, and mean what the nearest float can mean."""
+        """rounded: K_J, K_R and E were given as floats, so their values are uncertain by half a unit in the last
+        place."""
         self.top = exact_top(top)
         with localcontext(EXACT):
             poles = exact_pole_constants(top, exact.K_R)
@@ -65,7 +66,7 @@ class ExactCurve:
 
     @classmethod
     def of(cls, top: Top, K_J: float, K_R: float) -> Self:
-        """With no energy."""
+        """The curve without an energy."""
         K_J, K_R = (nonzero(Decimal(finite(name, K))) for name, K in (("K_J", K_J), ("K_R", K_R)))
         return cls(top, Exact(K_J, K_R, Decimal(0)))
 
@@ -76,19 +77,19 @@ class ExactCurve:
         return s2, w3, eq.bracket(c, self.exact.K_J, w3, self.top)
 
     def U(self, c: Decimal) -> Decimal:
-        """Infinite at a pole unless the bracket vanishes there too: then it is the height alone."""
+        """U of (33). Infinite at a pole, unless the bracket vanishes there: then only the potential energy is left."""
         if abs(c) == 1:
             return Decimal("Infinity") if self.offsets[c < 0] else eq.U(1 - c, c, Decimal(0), Decimal(0), self.top)
         s2, _, B = self.parts(c)
         return eq.U(1 - c, c, s2, B * B / s2, self.top)
 
     def kinetic(self, c: Decimal) -> tuple[Decimal, Decimal | None]:
-        """e - U and its slope, for where U is finite; at a pole the slope is left out."""
+        """e - U and its slope, where U is finite; at a pole the slope is None."""
         s2 = 1 - c * c
         return self.exact.e - self.U(c), -self.N(c) / (s2 * s2) if s2 else None
 
     def D(self, c: Decimal) -> tuple[Decimal, Decimal]:
-        """s^2 (e - U) between the poles, where only this is finite towards them, and its slope."""
+        """s^2 (e - U), which unlike U stays finite towards the poles, and its slope."""
         s2, w3, B = self.parts(c)
         N = eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
         kinetic = self.exact.e - eq.U(1 - c, c, s2, B * B / s2, self.top)
@@ -100,7 +101,7 @@ class ExactCurve:
         return eq.s4_U_slope(c, s2, B, eq.bracket_slope(c, s2, w3, self.top), self.top)
 
 
-# ---- in floats: x is the distance of cos(theta) to the pole of cos(theta) = side ----
+# ---- in floats: x is the distance of cos(theta) from the pole cos(theta) = side ----
 
 _GRID_V, _GRID_M = versines(np.linspace(0, np.pi, 513))  # 1 - c and 1 + c
 
@@ -123,15 +124,15 @@ def N_near(x: float, side: float, curve: Floats) -> float:
 
 @shared_with_kernels
 def D_near(x: float, side: float, curve: Floats, e: float) -> float:
-    """s^2 (e - U), at the pole itself its limit"""
+    """s^2 (e - U); at the pole its limit"""
     s2, (B, _) = x * (2 - x), bracket_near(side, x, curve)
     return s2 * (e - U_near(x, side, curve)) if s2 > 0 else -eq.f2_2(side, s2, curve.top) * B * B
 
 
 @compiled
 def extrema_near(V: Array, M: Array, curve: Floats) -> Array:
-    """The zeros of N from theta = 0 on, found on the grid 1 - c = V, 1 + c = M: rows of side, x, its bracket in x, and
-    dN/dx. Where N only dips towards zero, a golden section looks deeper."""
+    """The zeros of N from theta = 0 upwards, found on the grid 1 - c = V, 1 + c = M: rows of side, x, a bracket in x,
+    and dN/dx. Where N only comes close to zero, a golden section looks for a zero in between."""
     n, half, rows, found = len(V) - 1, len(V) // 2, 0, np.empty((2 * len(V), 5))
     N = np.empty(n + 1)
     for i in range(half + 1):
@@ -152,7 +153,7 @@ def extrema_near(V: Array, M: Array, curve: Floats) -> Array:
                     dip, count = x1 if y1 * N[i] < 0 else x2, 2
                     break
                 if closer == 8 and min(abs(y1), abs(y2)) > 0.01 * most:
-                    break  # a parabola that has a zero is nearer to it by now
+                    break  # a parabola with a zero would have found it by now
                 low, high = (x1, high) if abs(y2) < abs(y1) else (low, x2)
         for part in range(count):
             one, other = (first, dip) if part == 0 else (dip, last)
@@ -166,13 +167,13 @@ def extrema_near(V: Array, M: Array, curve: Floats) -> Array:
 
 
 def extrema(curve: ExactCurve) -> list[Decimal]:
-    """cos(theta) of all zeros of N in (0, pi), from theta = 0 on: where U is least or largest."""
+    """cos(theta) of all zeros of N in (0, pi), from theta = 0 upwards: the minima and maxima of U."""
     if curve.exact.K_J == curve.exact.K_R == 0:
-        return []  # U is the height alone
+        return []  # U is only the potential energy
     zeros = []
     for side, x, low, high, slope in extrema_near(_GRID_V, _GRID_M, curve.floats).tolist():
         ends = exact_cosine(side, low), exact_cosine(side, high)
-        slopes = iter([Decimal(-side * slope)])  # only next to the guess
+        slopes = iter([Decimal(-side * slope)])  # valid only near the guess
 
         def N(c: Decimal, slopes: Iterator[Decimal] = slopes) -> tuple[Decimal, Decimal | None]:
             return curve.N(c), next(slopes, None)
@@ -189,11 +190,12 @@ def solve(
     function: Callable[[Decimal], tuple[Decimal, Decimal | None]],
     low: Decimal, high: Decimal, rises: bool, guess: Decimal | None = None,
 ) -> Decimal:  # fmt: skip
-    """The zero of function(c) -> (value, slope or None) between low and high (Decimals); rises: from below 0 to above.
+    """The zero of function(c) -> (value, slope or None) between low and high (Decimals); rises: whether it is
+    increasing.
 
-    Newton's step, or the secant's, kept inside the bracket; bisection, in the distance to a pole on a logarithmic
-    scale, where a step leaves it. Ends when a step moves 1 - c or 1 + c by less than 1e-13 of itself, and the steps
-    fall as fast as they do off a double zero.
+    Steps of Newton's or the secant method that stay inside the bracket; otherwise bisection, on a logarithmic scale in
+    the distance from a pole. It ends when a step changes 1 - c or 1 + c by less than 1e-13 of itself and the steps
+    shrink as fast as at a simple zero.
     """
     c, previous, last = guess if guess and low < guess < high else bisect(low, high), None, Decimal(1)
     for _ in range(400):
@@ -232,9 +234,9 @@ def bisect(low: Decimal, high: Decimal) -> Decimal:
 
 
 def steady_precessions(top: Top, K_J: float, K_R: float) -> SteadyPrecessions:
-    """The steady precessions f = f' = 0 at K_J and K_R (numbers): SteadyPrecessions(theta, stable), arrays by theta.
+    """The SteadyPrecessions f = f' = 0 at K_J and K_R (numbers): theta in rad, ascending, and whether each is stable.
 
-    theta in rad in (0, pi), and 0 or pi itself where K_J is exactly the pole's; stable (f'' < 0) means that U is least.
+    theta is in (0, pi), or 0 or pi itself if K_J is exactly that of the pole. Stable (f'' < 0) means a minimum of U.
     """
     with localcontext(EXACT):
         stations = [s for s in find_stations(ExactCurve.of(top, K_J, K_R)) if s.kinetic.is_finite()]
@@ -244,13 +246,13 @@ def steady_precessions(top: Top, K_J: float, K_R: float) -> SteadyPrecessions:
 
 
 def exact_angle(c: Decimal) -> float:
-    """theta of an exact cos(theta)."""
+    """theta (rad) of a cos(theta) given as a Decimal."""
     with localcontext(EXACT):
         return float(angle(float(1 - c), 1.0) if c > 0 else angle(float(1 + c), -1.0))
 
 
 def find_stations(curve: ExactCurve) -> list[Station]:
-    """The poles and the extrema between them: U is monotone from each to the next."""
+    """The poles and the extrema between them: U is monotonic from each to the next."""
     with localcontext(EXACT):
         places = [Decimal(1), *extrema(curve), Decimal(-1)]
         U = [curve.U(c) for c in places]
@@ -261,10 +263,10 @@ def find_stations(curve: ExactCurve) -> list[Station]:
 
 
 def wells(curve: ExactCurve) -> list[Well]:
-    """The allowed intervals of cos(theta), from theta = 0 on: list of Well.
+    """The allowed intervals of cos(theta), from theta = 0 upwards: a list of Wells.
 
-    An energy given as a float that differs from that of the bottom of a well by no more than its own rounding is the
-    one of the steady precession.
+    An energy given as a float that equals the minimum of a well to within its own rounding is taken as that of the
+    steady precession.
     """
     with localcontext(EXACT):
         exact, stations = curve.exact, find_stations(curve)
@@ -290,7 +292,7 @@ def wells(curve: ExactCurve) -> list[Well]:
 
 
 def no_motion(curve: ExactCurve, most: Decimal) -> NoMotionError:
-    """The error to raise where e - U is nowhere more than this."""
+    """The error to raise when e - U is nowhere larger than most."""
     with localcontext(EXACT):
         exact = curve.exact
         E, E_least = (eq.E_of(e, exact.K_J, exact.K_R, curve.top) for e in (exact.e, exact.e - most))
@@ -300,25 +302,23 @@ def no_motion(curve: ExactCurve, most: Decimal) -> NoMotionError:
 
 
 def no_less(x: Decimal) -> float:
-    """x in ten figures, none of them rounded down: typed in again it is no smaller."""
+    """x to ten figures, rounded up: entered again it is no smaller."""
     return float(Context(prec=10, rounding=ROUND_CEILING).plus(x))
 
 
 @compiled
 def turning_near(low: float, high: float, side: float, curve: Floats, e: float) -> float:
-    """x of the zero of e - U between two x at which it differs in sign."""
+    """x of the zero of e - U between two x at which it has opposite signs."""
     return zero(D_near, low, high, (side, curve, e))
 
 
 def turning_point(curve: ExactCurve, one: Station, other: Station) -> Decimal:
-    """The zero of e - U between two stations at which it differs in sign."""
+    """The zero of e - U between two stations at which it has opposite signs."""
     low, high = sorted((one, other))  # by cos(theta)
     for end in (low, high):
         if end.kinetic == 0:
             return end.c
-    through_pole = any(
-        abs(end.c) == 1 and end.kinetic.is_finite() for end in (one, other)
-    )  # there D is 0 whatever e is
+    through_pole = any(abs(end.c) == 1 and end.kinetic.is_finite() for end in (one, other))  # there D is 0 for every e
     if through_pole:
         return solve(curve.kinetic, low.c, high.c, high.kinetic > 0)
     side = 1.0 if low.c + high.c > 0 else -1.0
@@ -328,9 +328,9 @@ def turning_point(curve: ExactCurve, one: Station, other: Station) -> Decimal:
 
 
 def turning_points(top: Top, constants: Constants) -> Array:
-    """The allowed intervals f >= 0: (k, 2) array of theta (rad), a row each, from theta = 0 on.
+    """The allowed intervals f >= 0: (k, 2) array of theta (rad), one row for each interval, from theta = 0 upwards.
 
-    The constants are numbers. Steady precession: both ends equal. Raises NoMotionError below the lowest well.
+    The constants are numbers. For a steady precession both ends are equal. Raises NoMotionError if f < 0 everywhere.
     """
     return np.array(
         [[exact_angle(w.inner), exact_angle(w.outer)] for w in wells(ExactCurve(top, Exact.of(constants, top)))]
