@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from app.model.planes.picture import Setup
 from app.share import export, glb, prints
@@ -114,10 +114,13 @@ def drawn(shown):
     count = _first_nods(shown)
     if not count:
         return seconds, rows, words
-    smooth = np.linspace(0, seconds[count - 1], 40 * NODS)
-    said = say("share.first", first=smooth[-1], whole=seconds[-1])
-    rows = {name: CubicSpline(seconds[:count], values[:count])(smooth) for name, values in rows.items()}
-    return smooth, rows, (words[0], words[1] + said)
+    t = moved.t[:count]
+    smooth = np.linspace(0, t[-1], 40 * NODS)
+    rows = {name: CubicSpline(t, values[:count])(smooth) for name, values in rows.items()}
+    # the tilt has its speed in each frame, omega_1
+    rows[next(iter(rows))] = np.degrees(CubicHermiteSpline(t, moved.theta[:count], moved.omega[:count, 0])(smooth))
+    said = say("share.first", first=seconds[count - 1], whole=seconds[-1])
+    return smooth * shown.setup.scales.time, rows, (words[0], words[1] + said)
 
 
 def _first_nods(shown):
