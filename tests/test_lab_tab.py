@@ -15,6 +15,7 @@ from tippe_core import PRESETS
 @pytest.fixture
 def tab(monkeypatch):
     monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: act())
+    monkeypatch.setattr("app.tabs.lab.lab.RESTS", 0.0)
     lab, done = Lab(), []
     lab.rest = lambda: None  # where all spins end is no part of it
     made = LabTab(lab, lambda: done.append("research"), lambda: done.append("rests"))
@@ -36,6 +37,7 @@ def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
     """As by an undo; of several scenes the last."""
     waits, rested = [], []
     monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: waits.append(act))
+    monkeypatch.setattr("app.tabs.lab.lab.RESTS", 0.0)
     lab = Lab()
     lab.rest = lambda: rested.append(lab.start.tilt)
     begin(lab)

@@ -114,16 +114,17 @@ class Scene:
     def levels(self) -> list[tuple[Array, Array]]:
         """Motions of the same K_J and K_R at other energies, and one at LEVELS[i] of the marks: [(theta, theta_dot)],
         each theta ascending, theta_dot >= 0."""
-        curves = []
-        for share in LEVELS:
-            constants = replace(self.constants, E=self.marks.energy(share))
-            wells = turning_points(self.top, constants)
-            inner, outer = wells[int(np.argmin(np.abs(wells - self.marks.theta_steady).min(axis=1)))]
-            theta = between(inner, outer, LEVEL_COLUMNS)
-            theta_dot = np.sqrt(np.maximum(rounded_f(theta, self.top, constants), 0))
-            theta_dot[[0, -1]] = 0
-            curves.append((theta, theta_dot))
-        return curves
+        energies = [self.marks.energy(share) for share in LEVELS]
+        ends = []
+        for E in energies:
+            wells = turning_points(self.top, replace(self.constants, E=E))
+            ends.append(wells[int(np.argmin(np.abs(wells - self.marks.theta_steady).min(axis=1)))])
+        inner, outer = np.transpose(ends)
+        theta = between(inner, outer, LEVEL_COLUMNS)
+        at_all = replace(self.constants, E=np.array(energies)[:, None])
+        theta_dot = np.sqrt(np.maximum(rounded_f(theta, self.top, at_all), 0))
+        theta_dot[:, [0, -1]] = 0
+        return list(zip(theta, theta_dot, strict=True))
 
     @cached_property
     def potential(self) -> tuple[Array, Array]:

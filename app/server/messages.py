@@ -184,6 +184,7 @@ CHANGES = {
     "Painted": {"painted": COUNT},
     "Paper": {},
     "Phone": {"mark": text(32)},
+    "Said": {},
     "ShareHead": {"closed": COUNT},
     "Surface3D": POINT,
     "Top3D": PICTURE,

@@ -104,7 +104,8 @@ def listed(key: str, language: str | None = None) -> Found:
 
 def say(key: str, language: str | None = None, **numbers: object) -> str:
     """The words under a key, with these numbers in them. KeyError where there are none, or one lacks its number."""
-    return _Numbers(language or spoken()).format(listed(key, language), **numbers)
+    words: str = listed(key, language)
+    return _Numbers(language or spoken()).format(words, **numbers) if "{" in words else words
 
 
 def written(value: object, form: str = "", language: str | None = None) -> str:

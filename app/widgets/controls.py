@@ -14,6 +14,7 @@ from app.model.roll.region import PAPER
 from app.state import asked
 from app.text import listed, say, written
 from app.widgets.cards import NOTES, PLAIN, alert, card, note, section
+from app.widgets.said import said
 from tippe_core import Top
 
 STYLE = """
@@ -239,8 +240,7 @@ class Controls(param.Parameterized):
         self._used = None  # the control that was used last: there it is said if what follows from it cannot be
         self._busy = False  # whether a hand is on one of them
         self._controls = {name: Control(name, scene.inputs[name], self._request) for name in OF_A_MOTION}
-        self._other = pn.pane.HTML("", stylesheets=[STYLE], sizing_mode="stretch_width", margin=(2, 14, 0, 16),
-                                   styles={"min-height": "calc(35px * var(--type, 1))"})  # fmt: skip
+        self._other = said(STYLE, margin=(2, 14, 0, 16), styles={"min-height": "calc(35px * var(--type, 1))"})
         self._switch = pmui.RadioButtonGroup.from_param(
             self.param.face,
             label="",
@@ -307,7 +307,7 @@ class Controls(param.Parameterized):
             control.show(value, shown, notes.get(name, ""), messages.get(name), bounds)
         for name, wish in self._pictures.items():
             wish.show(scene.inputs[name])
-        self._other.object = self._other_face(scene)
+        self._other.text = self._other_face(scene)
 
     def follow(self, scene):
         """What a hand elsewhere moves, such as one on a picture, at once."""
@@ -324,8 +324,8 @@ class Controls(param.Parameterized):
         else:
             constants = scene.constants
             values = {"K_J": constants.K_J, "K_R": constants.K_R, "energy": constants.E}
-        said = ", ".join(f"{named(name)} = {written(value, '.4g')}" for name, value in values.items())
-        return note(say(f"controls.other.{other}", values=said))
+        each = ", ".join(f"{named(name)} = {written(value, '.4g')}" for name, value in values.items())
+        return note(say(f"controls.other.{other}", values=each))
 
     @staticmethod
     def _notes(scene):

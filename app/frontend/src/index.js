@@ -25,6 +25,7 @@ import { renderPhone } from "./widgets/phone.js";
 import { renderShareHead } from "./widgets/share_head.js";
 import { renderSymbols } from "./widgets/symbols.js";
 import { renderTopsMap } from "./widgets/tops_map.js";
+import { renderSaid } from "./widgets/said.js";
 import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
@@ -51,6 +52,7 @@ export default {
   Paper: { render: renderPaper },
   Phone: { render: renderPhone },
   Photo: { render: renderPhoto },
+  Said: { render: renderSaid },
   ShareHead: { render: renderShareHead },
   Surface3D: { render: renderSurface3D },
   Top3D: { render: renderTop3D },

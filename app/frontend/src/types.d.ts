@@ -172,6 +172,10 @@ interface CopyModel extends Model {
   button: [before: string, after: string];
 }
 
+interface SaidModel extends Model {
+  text: string;
+}
+
 interface AddressModel extends Model {
   search: string;
   page: string;

@@ -6,6 +6,7 @@ Lab then has becomes what the component draws.
 
 import json
 import math
+import time
 from functools import partial
 
 import panel as pn
@@ -26,6 +27,7 @@ from tippe_core import TopError
 INPUTS = ("spin", "tilt", "mu", "patch")
 SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2)}
 """{input: (least, most, step, digits) of its slider}; more can be typed."""
+SOON = 0.05  # s: a run that is done before that is not said to be under way
 LOOKS = 0.3  # s between two looks at how far a run is
 RESTS = 0.4  # s after its last wish a hand is taken to rest
 
@@ -105,13 +107,38 @@ def begin(lab):
     """What takes a thread, which a page has once it is there. What no hand of the tab has asked for, as an undo, comes
     to rest too."""
 
-    def still(scene):
-        if lab.scene is scene and not lab.rests:
+    def still():
+        if not lab.rests:
             lab.rest()
 
     lab.show()
     lab.rest()
-    lab.param.watch(lambda event: after(RESTS, partial(still, event.new)), "scene")
+    quiet = Quiet(still)
+    lab.param.watch(lambda event: quiet.moved(), "scene")
+
+
+class Quiet:
+    """Calls act() once nothing has moved for RESTS; one timer for all that moves meanwhile."""
+
+    def __init__(self, act):
+        self._act, self._last, self._waits = act, 0.0, False
+
+    def moved(self):
+        self._last = time.monotonic()
+        if not self._waits:
+            self._wait(RESTS)
+
+    def _wait(self, seconds):
+        self._waits = True
+        after(seconds, self._look)
+
+    def _look(self):
+        self._waits = False
+        left = self._last + RESTS - time.monotonic()
+        if left > 0:
+            self._wait(left)
+        else:
+            self._act()
 
 
 class LabTab:
@@ -119,7 +146,7 @@ class LabTab:
     rests: called when a hand that has changed something rests."""
 
     def __init__(self, lab, research, rests):
-        self._lab, self._research, self._rests = lab, research, rests
+        self._lab, self._research, self._quiet, self._looks = lab, research, Quiet(rests), 0
         self._answered, self._said, self._shown, self._tried, self._wrong = 0, None, None, {}, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
@@ -130,7 +157,7 @@ class LabTab:
     def _heard(self, event):
         """A wish of the browser."""
         count, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
-        self._answered = int(count)
+        self._answered, looks = int(count), self._looks
         if name == "research":
             self._research()
         elif name == "stop":
@@ -140,9 +167,13 @@ class LabTab:
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
         else:
             raise asked.Unasked(name)
-        after(RESTS, partial(self._rest, self._answered))
-        if self._said != self._answered:
+        self._quiet.moved()
+        if self._said == self._answered:
+            return
+        if not self._lab.busy:
             self.show()
+        elif self._looks == looks:  # the run tells, or the look at it
+            self._wait(SOON)
 
     def _of_body(self, name, value):
         """What the Lab is to be asked for by a dimension of the body, in its unit; nothing, and a sentence at it, where
@@ -162,18 +193,20 @@ class LabTab:
 
     def _changed(self, *events):
         """Tells how far a run is, too, as long as one is computed."""
-        self.show()
-        if any(event.name == "busy" and event.new for event in events):
-            after(LOOKS, self._look)
-
-    def _look(self):
-        if self._lab.busy:
+        if all(event.name == "busy" and event.new for event in events):
+            self._wait(SOON)
+        else:
             self.show()
-            after(LOOKS, self._look)
 
-    def _rest(self, answered):
-        if answered == self._answered:
-            self._rests()
+    def _wait(self, seconds):
+        """Until a look at what is computed; it takes the place of the one that was waited for."""
+        self._looks += 1
+        after(seconds, partial(self._look, self._looks))
+
+    def _look(self, number):
+        if number == self._looks and self._lab.busy:
+            self.show()
+            self._wait(LOOKS)
 
     def show(self):
         """What the Lab has now."""

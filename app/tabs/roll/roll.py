@@ -17,6 +17,7 @@ from app.widgets.near import WhenNear
 from app.widgets.plane_card import PlaneCard
 from app.widgets.plots import Motion, TimeFigures
 from app.widgets.portraits import Curve, Force, Phase, Potential, Ring, Track
+from app.widgets.said import said
 from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top
 from app.widgets.typeset import power
@@ -55,8 +56,8 @@ def times_rows(times):
 
 
 def unit_words(scene):
-    said = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
-    return f'<div class="axis">{said}</div>'
+    unit = say("roll.says.unit", time=named("time"), milliseconds=scene.scales.time * 1e3)
+    return f'<div class="axis">{unit}</div>'
 
 
 def kept_words(scene):
@@ -70,7 +71,7 @@ class Switch:
     def __init__(self, title, *kinds, soon):
         self._kinds, self._made, self._scene = kinds, {}, None
         self._places = [pn.Column(sizing_mode="stretch_both", margin=0, visible=False) for _ in kinds]
-        self._says = words("", styles={"min-height": "2.8em"})
+        self._says = said(styles={"min-height": "2.8em"})
         self.view = card(title)
         self._switch = pmui.RadioButtonGroup(
             options={say(f"roll.portraits.{kind.name}.title"): i for i, kind in enumerate(kinds)},
@@ -106,7 +107,7 @@ class Switch:
         if chosen not in self._made:
             return self._look(chosen)
         self._made[chosen].show(scene)
-        self._says.object = self._made[chosen].words(scene)
+        self._says.text = self._made[chosen].words(scene)
 
 
 class Roll:
@@ -120,7 +121,7 @@ class Roll:
         self._motion, self._top = Motion(), Top3D(sizing_mode="stretch_both", tiltable=True)
         self._card = PlaneCard(self._motion, pacer.ask, slip, runs)
         self._plane = self._card.plane
-        self._kept, self._unit = words(""), words("")
+        self._says = said()
         # What each round of pictures draws; it grows as the cards are made.
         self._planes = [self._motion.show, self._plane.show_plane, partial(show_top, self._top)]
         self._times, self._portraits = [], []
@@ -155,7 +156,7 @@ class Roll:
     def _make_times(self):
         figures = TimeFigures()
         self._add(self._times, self._over_time, figures.show)
-        self._over_time.extend([*times_rows(figures), self._unit, self._kept])
+        self._over_time.extend([*times_rows(figures), self._says])
 
     def _make_surface(self):
         surface = Surface3D(sizing_mode="stretch_both", stylesheets=[":host .tippe { min-height: 0 }"])
@@ -205,7 +206,7 @@ class Roll:
         self._card.show_selected(scene)
 
     def _show_words(self, scene):
-        self._kept.object, self._unit.object = kept_words(scene), unit_words(scene)
+        self._says.text = unit_words(scene) + kept_words(scene)
 
     @staticmethod
     def _draw(shows, scene):

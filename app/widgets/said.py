@@ -1,0 +1,17 @@
+"""Words that change with each move of a hand."""
+
+import param
+
+from app.bundle import Bundled
+from app.widgets.cards import TYPE
+
+
+class Said(Bundled):
+    """HTML, in the page's own type. What a pane of Panel says costs the server four times as much to change."""
+
+    text = param.String(default="", doc="HTML.")
+
+
+def said(style=TYPE, **options):
+    """style: its CSS."""
+    return Said(stylesheets=[style], **({"sizing_mode": "stretch_width", "margin": 0} | options))
