@@ -3,18 +3,21 @@
 import csv
 import io
 import json
+from dataclasses import astuple, replace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from app.model import ends
 from app.model.maps import kept
 from app.model.maps.lines import disagreements, lines
-from app.model.maps.maps import UNITS, Map
+from app.model.maps.maps import LAWS, QUANTITIES, UNITS, Map
 from app.model.maps.solving import Level, run, solve
 from app.tabs.maps.export import made, python
 from app.text import speaking
-from tippe_core import Scales, TopError
+from tippe_core import Scales, TopError, slide
 
 
 def last(asked):
@@ -125,12 +128,62 @@ def test_the_line_of_painleves_limit_is_where_runs_are_refused():
 
 
 def test_what_is_mixed():
-    end = np.full((4, 4), "stem", "<U8")
+    """One among others; one at the corner of an area; where a nudge grows a thousandfold. A straight border is not."""
+    end = np.full((5, 5), "stem", "<U8")
     end[1, 1] = "upright"
-    columns = {name: np.full((4, 4), np.nan) for name in UNITS}
-    columns["growth"][3, 3] = 1e6
-    mixed = Level(asked=Map(), x=np.arange(4.0), y=np.arange(4.0), end=end, columns=columns).mixed
-    assert np.argwhere(mixed).tolist() == [[1, 1], [3, 3]]
+    end[3:, 3:] = "upright"
+    end[3, 4] = "stem"
+    columns = {name: np.full((5, 5), np.nan) for name in UNITS}
+    columns["growth"][0, 3:] = 1001.0, 999.0
+    mixed = Level(asked=Map(), x=np.arange(5.0), y=np.arange(5.0), end=end, columns=columns).mixed
+    assert np.argwhere(mixed).tolist() == [[0, 3], [1, 1], [3, 3], [3, 4]]
+
+
+# ---- what a cell is ----
+
+
+def numbers(cell):
+    edge = (0.0, 0.0, 0.0) if cell.edge is None else cell.edge
+    parts = (cell.top, cell.scales, cell.state, cell.friction)
+    return [x for part in parts for x in astuple(part) if x is not None] + [*edge, cell.t_end]
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("name", QUANTITIES)
+def test_a_quantity_on_an_axis_is_first_what_it_is_of_the_body(name, law):
+    """So that the other axis alone says which run it is."""
+    if name == "second" and law == "viscous":
+        return
+    usual = Map(law=law)
+    other = "tilt" if name != "tilt" else "spin"
+    low, high = QUANTITIES[name][:2]
+    cell = replace(usual, across=name, up=other, across_range=(low, high), up_range=(1.0, 40.0)).at(
+        usual.start[name], usual.start[other]
+    )
+    assert numbers(cell) == pytest.approx(numbers(usual.at(usual.start["spin"], usual.start["tilt"])), rel=1e-12)
+
+
+@pytest.mark.parametrize("slip", [0.0, 0.4, 1.0])
+def test_the_slip_at_the_start_is_a_share_of_that_of_a_top_at_rest(slip):
+    """Which goes round at omega_3, its point of contact sin(theta) from the axis."""
+    cell = Map(up="slip", up_range=(0.0, 1.0)).at(28.6, slip)
+    moved = slide(cell.top, cell.state, cell.friction, np.linspace(0, 1e-6, 2), edge=cell.edge)
+    most = 2 * np.pi * 28.6 / cell.scales.angular_velocity * np.sin(np.radians(5.7))
+    assert np.hypot(*moved.slip[0]) == pytest.approx(slip * most, abs=1e-9)
+    if slip == 1.0:
+        assert np.hypot(*(moved.com[1] - moved.com[0])[:2]) < 1e-9
+
+
+def test_the_run_of_a_place_is_that_of_its_cell(level):
+    """With its hops; and the toy, which does not hop, is on its stem alone from when its ball leaves the table."""
+    i, j = level.cell(44.0, 6.0)
+    found = run(level.asked, level.x[j], level.y[i])
+    assert (found.end, found.hops) == (level.end[i, j], level.columns["hops"][i, j])
+    assert found.time_90 == pytest.approx(level.columns["time_90"][i, j], rel=1e-9)
+    assert found.theta[-1] == pytest.approx(level.columns["theta_end"][i, j], abs=1e-3) and found.hops > 10
+    toy = run(Map(), 28.6, 5.7)
+    above = toy.film.com[:, 2] + toy.film.top.a * np.cos(toy.film.theta) - 1  # of O, over its place on the ball
+    assert toy.hops == 0 and toy.time_stem == pytest.approx(toy.t[np.argmax(above > 1e-6)], abs=0.01)
 
 
 # ---- what cannot be ----
@@ -210,4 +263,8 @@ def test_files_say_what_they_are_of(level):
     with np.load(io.BytesIO(made(level, "end", "npz"))) as file:
         assert json.loads(str(file["parameters"]))["values"]["mu"] == 0.3
         np.testing.assert_array_equal(file["heat"], level.columns["heat"])
-    assert made(level, "end", "png").startswith(b"\x89PNG") and b"<svg" in made(level, "heat", "svg")
+    assert parameters["own"]["M"] == 0.006 and parameters["units"]["second"] == "mm" and parameters["seconds"] == 6.0
+    drawn = Image.open(io.BytesIO(made(level, "end", "png")))
+    picture = ElementTree.fromstring(made(level, "heat", "svg"))
+    told = picture.find(".//{http://purl.org/dc/elements/1.1/}description").text
+    assert json.loads(drawn.info["Description"]) == json.loads(told) == parameters

@@ -6,11 +6,14 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
 from app.model.explorer import Explorer
+from app.model.measured import shown
 from app.model.measured.examples import EXAMPLES, FOLDER, example
 from app.model.measured.table import read
+from app.model.measured.work import LONGEST
 from app.tabs.measure.measure import Measure
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.words import numbers_table
@@ -49,6 +52,37 @@ def test_a_table_that_needs_a_word_more_is_not_there_before():
     assert "frames" in made.said.object and (made._data, made._body) == before and made._example == "rolls"
     made.columns.rate.value = "240"
     assert made._example == "" and made._data.t[-1] == pytest.approx(29 / 240)
+
+
+def long_table(step):
+    """Of 600 rows, so many s apart."""
+    rows = (f"{i * step:.4f},{5 + i % 7},{20 + i % 5}" for i in range(600))
+    return "\n".join(["t (s),tilt (deg),spin (rev/s)", *rows])
+
+
+def test_of_a_film_of_hours_a_part_is_fitted(monkeypatch):
+    """As long as can be; a part that is longer, or in which too little was measured, is said, and nothing is run."""
+    made = Measure(Explorer().scene)
+    monkeypatch.setattr(shown, "shown", lambda model, data: pytest.fail("run") if np.ptp(data.t) > LONGEST else None)
+    made.take(long_table(1.0))
+    assert made.part.value == (0, LONGEST) and "599 s" in made.said.object and not made.start.disabled
+    made._pulled(300.0)
+    assert made.part.value == (300.0, 300.0) and "8 measured values, and at most 60 s" in made.said.object
+    made.take(long_table(30.0))
+    assert "ms as the unit" in made.said.object and made.start.disabled and made.part.end == pytest.approx(17_970)
+
+
+def test_a_guess_is_chosen_by_the_beginning_of_a_film(monkeypatch):
+    """Of whose many starts each would take seconds."""
+    runs, of_problem = [], shown.Problem.residuals
+
+    def counted(own, x):
+        runs.append(np.ptp(own.data.t))
+        return of_problem(own, x)
+
+    monkeypatch.setattr(shown.Problem, "residuals", counted)
+    Measure(Explorer().scene).take(long_table(0.05))
+    assert len(runs) > 10 and max(runs) <= shown.LOOK
 
 
 @pytest.mark.parametrize(("each", "line"), [(1, 24), (5, 71), (40, 441)])

@@ -6,7 +6,8 @@ from types import MappingProxyType
 
 import numpy as np
 import pytest
-from measured_bodies import LOSSES, LOSSY, film, off_truth, other_value, recovered
+import sliding_body as sb
+from measured_bodies import LOSSES, LOSSY, case, film, off_truth, other_value, recovered
 from measured_proof import ALL, go_on, share_within_two
 from measured_proof import kept as kept_films
 
@@ -170,6 +171,30 @@ def test_where_a_film_looks_from_makes_no_difference():
     shown = {"azimuth": seen["azimuth"] + 4.0, "x": turned.real, "y": turned.imag}
     data = Data(MappingProxyType({name: Series(t, values, 1e-3) for name, values in shown.items()}))
     assert np.abs(left_over(model, data).row).max() < 1e-6
+
+
+def test_a_film_sees_what_a_body_in_space_shows():
+    """From the place and the axis of the tests' own body alone: G, the point below O, and the end of a stem on 3."""
+    kind, top, scales, truth = case(1002)
+    t, tip, R = np.arange(40) / 60, 1.8, scales.R
+    theta, w = truth["tilt"], truth["spin"]
+    axis = np.array([0.0, -np.sin(theta), np.cos(theta)])
+    motion = sb.integrate(top, lambda u: truth["mu"] * u / np.sqrt(u @ u + truth["eps"] ** 2),
+                          np.array([np.sin(theta / 2), 0, 0, np.cos(theta / 2)]), w * axis, np.zeros(3),
+                          (1 - top.a * axis[2]) * sb.UP, t / scales.time, rtol=1e-10)  # fmt: skip
+    axes = np.array([sb.matrix(q)[:, 2] for q in motion.quaternion])
+    G, turning = motion.com, np.cross(motion.omega, axes)
+    flat = axes[:, 0] ** 2 + axes[:, 1] ** 2
+    end, below = G + (top.a + tip) * axes, G + top.a * axes
+    shown = {"height": R * G[:, 2], "tip": R * end[:, 2], "x": R * below[:, 0], "y": R * below[:, 1],
+             "tip_x": R * end[:, 0], "tip_y": R * end[:, 1], "tilt": np.arccos(axes[:, 2]),
+             "spin": (motion.omega * axes).sum(axis=1) / scales.time,
+             "precession": (axes[:, 0] * turning[:, 1] - axes[:, 1] * turning[:, 0]) / flat / scales.time,
+             "azimuth": np.unwrap(np.arctan2(axes[:, 0], -axes[:, 1]))}  # fmt: skip
+    seen = model_of(kind, top, scales).with_values(truth).with_stem(None, tip).seen(t)
+    assert {*seen} == {*shown}
+    for name, values in shown.items():
+        np.testing.assert_allclose(seen[name], values, rtol=0, atol=1e-6 * np.abs(values).max(), err_msg=name)
 
 
 def test_runs_of_one_sign():

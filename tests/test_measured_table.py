@@ -82,6 +82,12 @@ def test_bytes_are_decoded(encoding):
     assert read(TRACKER.replace("θ", "tilt").encode("cp1252")).columns[1].quantity == "tilt"
 
 
+@pytest.mark.parametrize(("step", "unit"), [(1 / 30, "s"), (1000 / 240, "ms"), (1000 / 30, "ms")])
+def test_times_without_a_unit_are_those_of_a_film(step, unit):
+    time = read("\n".join(["t,tilt", *(f"{i * step:.4f},{5 + i}" for i in range(12))])).columns[0]
+    assert (time.unit, time.guessed) == (unit, True)
+
+
 def lines(*changed, base=TRACKER):
     """A table with some of its lines, counted from 1, changed."""
     parts = base.splitlines()

@@ -9,10 +9,12 @@ from app.model.measured.data import TOGETHER, Data
 from app.model.measured.fit import Problem
 from app.model.measured.motion import Left, Model, left_over
 from app.model.measured.starts import starts
+from app.model.measured.table import MeasuredError
 from tippe_core import TopError, Trajectory
 from tippe_core.types import Array
 
 POINTS = 900  # of a curve
+LOOK = 3.0  # s: by so much of a film a guess is chosen
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +83,13 @@ def _axis(model: Model, data: Data, left: Left, t: Array, motion: Trajectory) ->
 
 
 def guess(model: Model, data: Data) -> Shown:
-    """Before anything is fitted: the best of a few motions that begin with the first values. Raises TopError where none
-    is a motion."""
-    problem = Problem(model, data)
+    """Before anything is fitted: the one of a few motions that begin with the first values which is best at first.
+    Raises TopError where none is a motion."""
+    first = data.t[0]
+    try:
+        problem = Problem(model, data.between(first, first + LOOK))
+    except MeasuredError:  # there are few values
+        problem = Problem(model, data)
     (x,) = problem.best_of(starts(model, data), 1)
     return shown(model.with_values(dict(zip(model.free, map(float, x), strict=True))), data)
 

@@ -23,6 +23,7 @@ HEAD = 12
 """First lines of a long table, of which the browser leaves none out."""
 USUAL = {"rev/s": 60.0, "rad/s": 600.0, "deg/s": math.inf}
 """{unit: the largest number that a top's spin is likely to have in it}."""
+SLOWEST = 1.0  # from one row to the next: no film is slower in s, and none faster in ms
 
 ANGLES = {"deg": math.pi / 180, "rad": 1.0}
 RATES = {"rev/s": 2 * math.pi, "rad/s": 1.0, "deg/s": math.pi / 180, "rpm": math.pi / 30}
@@ -269,7 +270,10 @@ def _likely(quantity: str, values: Array, name: str) -> str:
     """The unit of a column that does not say it."""
     largest = float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
     if quantity == "time":
-        return "frames" if re.match("frame|bild", name.lower()) else "s"
+        if re.match("frame|bild", name.lower()):
+            return "frames"
+        steps = np.diff(values[np.isfinite(values)])
+        return "ms" if steps.size and float(np.median(steps)) > SLOWEST else "s"
     if UNITS[quantity] is ANGLES:
         return "rad" if largest <= math.pi + 0.2 else "deg"
     if UNITS[quantity] is RATES:

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from app.model.measured.data import Data, settled
 from app.model.measured.examples import FILMED, FOLDER
 from app.model.measured.fit import Fit, fit
@@ -11,11 +13,13 @@ from app.model.measured.kept import Kept, kept
 from app.model.measured.motion import Model, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import Shown, shown
-from app.model.measured.table import read
+from app.model.measured.table import MeasuredError, read
 from tippe_core import Scales, Shape, Top
 
 LOOSE = {"body": ("a", "I1", "I3"), "push": ("tilt_rate", "across"), "losses": ("rolling_resistance", "air_drag")}
 """What can be fitted besides the start and the law."""
+LONGEST = 60.0
+"""s that are fitted at once: a run of these takes a tenth of a second, and a fit is of thousands."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +46,17 @@ def models(top: Top, scales: Scales, shape: Shape | None, law: str, loose: tuple
     """Rolling, and sliding by this law, with these numbers free as well: rolling has neither losses nor a push."""
     of_rolling = tuple(name for name in loose if name in LOOSE["body"])
     return model_of("rolling", top, scales, shape, of_rolling), model_of(law, top, scales, shape, loose)
+
+
+def part_of(data: Data, start: float, end: float) -> Data:
+    """What is fitted of the data. Raises MeasuredError where that is too little, or too long."""
+    try:
+        if end - start <= LONGEST:
+            return data.between(start, end)
+    except MeasuredError:
+        if np.ptp(data.t) <= LONGEST:
+            raise
+    raise MeasuredError("too-long", start=start, end=end, most=LONGEST)
 
 
 def found(data: Data, both: tuple[Model, Model]) -> Found:

@@ -3,19 +3,25 @@
 import csv
 import io
 import json
+import textwrap
 from dataclasses import asdict
 
 import numpy as np
 
 from app.model import ends
+from app.model.colours import FAINT, INK
 from app.model.maps.lines import lines
-from app.model.maps.maps import QUANTITIES, UNITS, Map
-from app.tabs.maps.picture import span
+from app.model.maps.maps import QUANTITIES, SECONDS, UNITS, Map
+from app.tabs.maps.picture import DASHES as STYLES
+from app.tabs.maps.picture import half_step, span
 from app.tabs.maps.words import title, with_unit
-from app.text import listed
+from app.text import listed, say, written
 
 DPI = 300
 KINDS = ("csv", "npz", "png", "svg")
+OF_LAW = {"smoothed": {"second": "(gR)^1/2"}, "contensou": {"second": "mm"}, "viscous": {"mu": "(gR)^-1/2"}}
+"""{law: {number of it: its unit}}, where it has one."""
+DASHES = {"dotdash": "dashdot"}  # which Bokeh has and matplotlib has not
 LAWS = {
     "coulomb": "SimpleNamespace(mu_k=v.mu, mu_s=np.maximum(v.mu, v.second))",
     "viscous": "SimpleNamespace(gamma=v.mu)",
@@ -32,12 +38,19 @@ def made(level, colour, kind):
 def _parameters(asked):
     fixed = {name: value for name, value in asked.start.items() if name not in (asked.across, asked.up)}
     units = {name: quantity.unit for name, quantity in QUANTITIES.items()} | {"seconds": "s"} | UNITS
-    return asdict(asked) | {"values": fixed, "units": units}
+    top, scales, edge = asked.thing
+    own = asdict(top) | {"R": 1e3 * scales.R, "M": scales.M, "g": scales.g, "edge": edge}
+    units |= {"I1": "MR^2", "I3": "MR^2", "M": "kg", "g": "m/s^2", "edge": "R"} | OF_LAW.get(asked.law, {})
+    return asdict(asked) | {"own": own, "values": fixed, "units": units}
+
+
+def _header(asked):
+    return json.dumps(_parameters(asked), ensure_ascii=False)
 
 
 def _csv(level, colour):
     file = io.StringIO()
-    file.write(f"# {json.dumps(_parameters(level.asked), ensure_ascii=False)}\n")
+    file.write(f"# {_header(level.asked)}\n")
     table = csv.writer(file)
     table.writerow((level.asked.across, level.asked.up, "end", *level.columns, "mixed"))
     mixed = level.mixed
@@ -49,43 +62,88 @@ def _csv(level, colour):
 
 def _npz(level, colour):
     file = io.BytesIO()
-    parameters = json.dumps(_parameters(level.asked), ensure_ascii=False)
-    np.savez_compressed(file, allow_pickle=False, parameters=np.array(parameters), across=level.x, up=level.y,
+    np.savez_compressed(file, allow_pickle=False, parameters=np.array(_header(level.asked)), across=level.x, up=level.y,
                         end=level.end, mixed=level.mixed, **level.columns)  # fmt: skip
     return file.getvalue()
 
 
 def _drawn(level, colour, kind):
     import matplotlib
-    from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
 
-    asked, named = level.asked, listed("maps.quantities")
+    asked = level.asked
     with matplotlib.rc_context({"font.size": 9, "svg.hashsalt": "maps"}):
         figure = Figure(figsize=(7.2, 4.8), layout="constrained")
-        axes = figure.add_subplot(
-            xlabel=with_unit(asked.across), ylabel=with_unit(asked.up), title=title(asked, colour)
-        )
-        if colour == "end":
-            shown = ListedColormap(list(ends.COLOUR.values()))
-            index = np.vectorize(lambda end: ends.NAMES.index(end) if end else np.nan, otypes=[float])(level.end)
-            axes.pcolormesh(level.x, level.y, index, cmap=shown, vmin=-0.5, vmax=len(ends.NAMES) - 0.5, rasterized=True)
-            patches = [Patch(color=ends.COLOUR[end], label=listed("maps.ends")[end])
-                       for end in ends.NAMES if (level.end == end).any()]  # fmt: skip
-            axes.legend(handles=patches, fontsize=7)
-        elif span(level, colour):
-            unit = f" ({UNITS[colour]})" if UNITS[colour] else ""
-            mesh = axes.pcolormesh(level.x, level.y, level.columns[colour], rasterized=True)
-            figure.colorbar(mesh, label=listed("maps.colours")[colour] + unit)
-        for _, line in lines(asked):
-            axes.plot(*line.T, "--", color="black", linewidth=1)
-        fixed = ", ".join(f"{named[name]} {value:.4g} {QUANTITIES[name].unit}".strip()
-                          for name, value in _parameters(asked)["values"].items())  # fmt: skip
-        figure.supxlabel(f"{asked.body}; {listed('maps.laws')[asked.law]}; {fixed}", fontsize=6)
+        axes = figure.add_subplot(xlabel=with_unit(asked.across), ylabel=with_unit(asked.up))
+        keys = [*_ends(axes, level)] if colour == "end" else _column(figure, axes, level, colour)
+        keys += [*_hatched(axes, level, colour), *_lines(axes, asked)]
+        axes.set(xlim=asked.across_range, ylim=asked.up_range)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(_number)
+        if keys:
+            figure.legend(handles=keys, fontsize=7, loc="outside lower center", ncols=2)
+        figure.suptitle(title(asked, colour))
+        axes.set_title(textwrap.fill(_fixed(asked), 135), fontsize=6.5)
         file = io.BytesIO()
-        figure.savefig(file, format=kind, dpi=DPI, metadata={"Date": None} if kind == "svg" else {})
+        undated = {"Date": None} if kind == "svg" else {}
+        figure.savefig(file, format=kind, dpi=DPI, metadata=undated | {"Description": _header(asked)})
     return file.getvalue()
+
+
+def _ends(axes, level):
+    """Draws them, and gives the keys."""
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    index = np.vectorize(lambda end: ends.NAMES.index(end) if end else np.nan, otypes=[float])(level.end)
+    axes.pcolormesh(level.x, level.y, index, cmap=ListedColormap(list(ends.COLOUR.values())), vmin=-0.5,
+                    vmax=len(ends.NAMES) - 0.5, rasterized=True)  # fmt: skip
+    for end in ends.NAMES:
+        if (level.end == end).any():
+            yield Patch(color=ends.COLOUR[end], label=listed("maps.ends")[end])
+
+
+def _column(figure, axes, level, colour):
+    if span(level, colour):
+        unit = f" ({UNITS[colour]})" if UNITS[colour] else ""
+        mesh = axes.pcolormesh(level.x, level.y, level.columns[colour], rasterized=True)
+        figure.colorbar(mesh, label=listed("maps.colours")[colour] + unit, format=_number)
+    return []
+
+
+def _hatched(axes, level, colour):
+    from matplotlib.collections import PatchCollection
+    from matplotlib.patches import Patch, Rectangle
+
+    wide, high = half_step(level.x), half_step(level.y)
+    hatch = {"edgecolor": INK if colour == "end" else "#fefefe", "hatch": "/" * 6, "linewidth": 0}
+    cells = [Rectangle((level.x[j] - wide, level.y[i] - high), 2 * wide, 2 * high)
+             for i, j in np.argwhere(level.mixed)]  # fmt: skip
+    if cells:
+        axes.add_collection(PatchCollection(cells, facecolor="none", **hatch))
+        yield Patch(facecolor="none" if colour == "end" else FAINT, label=say("maps.hatched"), **hatch)
+
+
+def _lines(axes, asked):
+    for name, line in lines(asked):
+        style = DASHES.get(STYLES[name], STYLES[name])
+        axes.plot(*line.T, color="#fefefe", linewidth=3)
+        yield from axes.plot(*line.T, linestyle=style, color=INK, linewidth=1, label=say(f"maps.lines.{name}"))
+
+
+def _number(x, _):
+    return written(x, "g")
+
+
+def _fixed(asked):
+    """What is the same in all cells, in words."""
+    values, named = _parameters(asked)["values"], listed("maps.quantities")
+    second = values.pop("second", None)
+    said = [f"{named[name]} {written(value, '.4g')} {QUANTITIES[name].unit}".strip() for name, value in values.items()]
+    if second is not None and SECONDS[asked.law]:
+        said.append(f"{listed('maps.seconds_of')[asked.law]}: {written(second, '.4g')}")
+    body = listed("build.presets")[asked.body]["name"] if asked.own is None else ""
+    return "; ".join(filter(None, (body, listed("maps.laws")[asked.law], ", ".join(said))))
 
 
 def python(asked: Map):

@@ -4,13 +4,26 @@ from functools import partial
 
 import numpy as np
 import panel as pn
-from bokeh.models import BoxAnnotation, ColumnDataSource, FixedTicker, Label, Line, Range1d, Scatter, Span, Whisker
+import panel_material_ui as pmui
+from bokeh.models import (
+    BoxAnnotation,
+    ColumnDataSource,
+    CustomJSTickFormatter,
+    FixedTicker,
+    Label,
+    Line,
+    NumeralTickFormatter,
+    Range1d,
+    Scatter,
+    Span,
+    Whisker,
+)
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, GREY, INK
-from app.text import say
+from app.text import decimal_point, say
 from app.widgets.cards import words
-from app.widgets.plots import draw, plain
+from app.widgets.plots import TICKS, draw, plain
 
 SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
 """{quantity: how many of its unit on the axis one of the data is}; of lengths 1000, mm."""
@@ -28,6 +41,14 @@ def named(fig, label):
     """The figure, which is a picture of this name to the ear."""
     fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
+
+
+def part_of_time():
+    """A slider with two ends, s, which are written as the page's language writes them."""
+    form = CustomJSTickFormatter(args={"basic": NumeralTickFormatter(format="0.000"), "point": decimal_point()},
+                                 code=TICKS)  # fmt: skip
+    return pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01, format=form,
+                            margin=(6, 12), sizing_mode="stretch_width")  # fmt: skip
 
 
 def _heard(pulled, attr, old, new):

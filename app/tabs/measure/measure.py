@@ -14,11 +14,11 @@ from app.model.measured.remembered import said_of
 from app.model.measured.report import program, residuals_table
 from app.model.measured.shown import placed
 from app.model.measured.table import MeasuredError, read
-from app.model.measured.work import LOOSE, found, found_again, found_of_example, models
+from app.model.measured.work import LONGEST, LOOSE, found, found_again, found_of_example, models, part_of
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.measure.columns import Columns
-from app.tabs.measure.figures import Pictures, constants
+from app.tabs.measure.figures import Pictures, constants, part_of_time
 from app.tabs.measure.file import MeasuredFile
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.report import report
@@ -72,8 +72,7 @@ class Measure:
                               margin=0, visible=False)  # fmt: skip
 
     def _make_controls(self):
-        self.part = pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01, format="0.000",
-                                     margin=(6, 12), sizing_mode="stretch_width")  # fmt: skip
+        self.part = part_of_time()
         self.part.param.watch(lambda event: self._draw(), "value_throttled")
         self.law = pmui.RadioButtonGroup(label="", options={says: law for law, says in listed("measure.laws").items()},
                                          value="contensou", size="small", margin=0, sx=PLAIN)  # fmt: skip
@@ -203,16 +202,18 @@ class Measure:
                 self.filmed.film = ""
         self._data = data
         thinned = note(say("measure.thinned", each=self._thinned)) if self._thinned > 1 else ""
-        self.said.object = note(notes_words(table.notes, self._thinned)) + thinned
         first, last = float(data.t[0]), float(data.t[-1])
-        start, end = part or (first, last)
+        longer = note(say("measure.longer", long=last - first, most=LONGEST)) if last - first > LONGEST else ""
+        self.said.object = note(notes_words(table.notes, self._thinned)) + thinned + longer
+        start, end = part or (first, min(last, first + LONGEST))
         self.part.param.update(start=first, end=last, value=(max(start, first), min(end, last)),
-                               step=(last - first) / 400 or 0.01)  # fmt: skip
+                               step=min(last - first, LONGEST) / 400 or 0.01)  # fmt: skip
         self._begin()
         return not self.start.disabled
 
     def _begin(self):
-        source = listed("measure.examples")[self._example] if self._example else say("measure.own")
+        whose = say("measure.saved" if self._of_file else "measure.own")
+        source = listed("measure.examples")[self._example] if self._example else whose
         self.pictures.begin(self._data, self.part.value[0], source)
         self._draw()
 
@@ -231,7 +232,7 @@ class Measure:
         self._found, self._part = None, tuple(map(float, self.part.value))
         self.home.visible, self.take_home.disabled = False, True
         try:
-            data = self._data.between(*self._part)
+            data = part_of(self._data, *self._part)
         except MeasuredError as error:
             self._refused(error)
             self.start.disabled = True

@@ -10,12 +10,14 @@ from app.text import listed, say, written
 from app.widgets.cards import note
 
 SHOWN = {"tilt": 180 / np.pi}
+OF_MODELS = ("", *[" class=n"] * 4, "")
 TABLE = """
 table { border-collapse: collapse; margin: 8px 0; font-size: inherit; width: 100%; font-variant-numeric: tabular-nums }
 p { margin: 4px 0 } td, th { padding: 5px 10px 5px 0; text-align: left; font-weight: normal; vertical-align: baseline }
-th { color: var(--faint, #5b6875); font-size: 12px } td.n { text-align: right; white-space: nowrap }
+th { color: var(--faint, #5b6875); font-size: 12px }
+td.n, th + th:not(:last-child) { text-align: right } td.n { white-space: nowrap }
 tr.best td { font-weight: 600 }
-td + td.n + td, td.faint { color: var(--faint, #5b6875) } tr + tr { border-top: 1px solid var(--rule, #d8dce0) }
+td.faint { color: var(--faint, #5b6875) } tr + tr { border-top: 1px solid var(--rule, #d8dce0) }
 h3 { font-size: 18px; margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01em }
 """
 
@@ -81,9 +83,8 @@ def numbers_table(fit):
     return f"<table>{head}{''.join(rows)}</table>{sentences}"
 
 
-def _row(*cells, best=False):
-    marks = ["", " class=n", " class='n faint'", " class=faint", " class=faint", ""]
-    told = "".join(f"<td{marks[min(i, 5)]}>{cell}</td>" for i, cell in enumerate(cells))
+def _row(*cells, best=False, marks=("", " class=n", " class='n faint'", " class=faint", " class=faint")):
+    told = "".join(f"<td{mark}>{cell}</td>" for mark, cell in zip(marks, cells, strict=True))
     return f"<tr{' class=best' if best else ''}>{told}</tr>"
 
 
@@ -107,7 +108,7 @@ def models_table(rolling, sliding):
         seldom = written(min(fit.runs.values()), ".1f")
         chi2, aic = (written(value, ",.0f") for value in (fit.chi2, fit.aic))
         cells = (chi2, f"{fit.freedom}", aic, seldom, say(f"measure.{_state(fit)}"))
-        rows.append(_row(say(f"measure.models.{fit.model.name}"), *cells, best=fit is better))
+        rows.append(_row(say(f"measure.models.{fit.model.name}"), *cells, best=fit is better, marks=OF_MODELS))
     return f"<table><tr>{head}</tr>{''.join(rows)}</table>{note(say('measure.heads_mean'))}"
 
 
