@@ -1,1 +1,2 @@
-"""What computes and keeps: a Scene of what was set, other motions, bodies, the lesson, votes, long work. No widget."""
+"""Everything that is computed and stored, without any widget: Scenes, other motions, bodies, the lesson, votes,
+runs."""

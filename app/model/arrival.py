@@ -1,8 +1,8 @@
-"""The motion that is seen on arrival, kept in app/data: it plays before anything is compiled.
+"""The motion shown on arrival, stored in app/data so that it plays before anything is compiled.
 
     python -m app.model.arrival
 
-computes it anew, after a change of the physics or of the start; a test compares it with a fresh run.
+recomputes it, after a change of the physics or of the start; a test compares it with a fresh run.
 """
 
 from dataclasses import fields
@@ -15,13 +15,13 @@ from tippe_core import Top, Trajectory
 
 FILE = Path(__file__).parent.parent / "data" / "arrival.npz"
 TABLE, TOY, SPIN, TILT, MU = ARRIVAL = "ordinary", "Leine and Glocker's toy", 28.65, 5.73, 0.3
-"""The table, the toy, its spin (rev/s: 180 rad/s), its tilt (degrees: 0.1 rad) and the friction: that it comes to stand
-does not hang on the digits of these."""
+"""The table, the toy, its spin (rev/s: 180 rad/s), its tilt (degrees: 0.1 rad) and the friction. That it ends up
+standing does not depend on the last digits of these."""
 HAPPENS = "events", "supports"
 
 
 def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:
-    """Keeps a Trajectory, its numbers as float32, and the codes of lab/ends.py Ends."""
+    """Stores a Trajectory, its numbers as float32, and the codes of Ends in lab/ends.py."""
     rows = {
         part.name: getattr(trajectory, part.name) for part in fields(trajectory) if part.name not in ("top", *HAPPENS)
     }
@@ -34,7 +34,7 @@ def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:
 
 
 def read(top: Top) -> Trajectory:
-    """The Trajectory that is kept, of this top."""
+    """The stored Trajectory, for this top."""
     with np.load(FILE) as kept:
         found: dict[str, Any] = {name: value for name, value in kept.items() if name != "ends"}
     for name in HAPPENS:
@@ -46,7 +46,7 @@ def read(top: Top) -> Trajectory:
 
 
 def read_ends() -> tuple[str, ...]:
-    """The code of each of lab/ends.py SPINS: how a run ends with this tilt and friction."""
+    """The codes for SPINS in lab/ends.py: how a run with each spin ends, at this tilt and friction."""
     with np.load(FILE) as kept:
         return tuple(kept["ends"].tolist())
 

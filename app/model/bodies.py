@@ -1,4 +1,4 @@
-"""The body that is drawn, and what of it touches; lengths in R."""
+"""The body that is drawn, and which part of it touches; lengths in R."""
 
 from functools import lru_cache
 
@@ -17,19 +17,20 @@ OUTLINE_POINTS = 96
 
 
 def fits(shape: Shape, top: Top) -> bool:
-    """Whether a, I1 and I3 are the shape's, to the three digits of appendix A."""
+    """Whether a, I1 and I3 are those of the shape, to the three digits of appendix A."""
     own = shape.top
     return max(abs(own.a - top.a), abs(own.I1 - top.I1), abs(own.I3 - top.I3)) < ROUNDED
 
 
 @lru_cache(maxsize=8)
 def body(shape: Shape) -> Array:
-    """The shape's outline, (radius, height above O along axis 3) in R, (k, 2)."""
+    """The outline of the shape: (k, 2), radius and height above O along axis 3, in R."""
     return shape.profile(max(OUTLINE_POINTS, len(shape.solid.outline) + 1)) / shape.R
 
 
 def second_part(shape: Shape | None) -> str:
-    """What of a body touches beside the ball: "stem" where that is the end of a stem, or nothing, else "rim"."""
+    """The part of a body that touches besides the ball: "stem" if it is the end of a stem or there is none, else
+    "rim"."""
     if shape is None or shape.edge is None:
         return "stem"
     radius, height, rounding = shape.edge
@@ -38,10 +39,10 @@ def second_part(shape: Shape | None) -> str:
 
 
 def outline(top: Top) -> Array:
-    """A stand-in for the body of a top of which only a, I1 and I3 are known, like body(shape).
+    """A stand-in, like body(shape), for a top of which only a, I1 and I3 are known.
 
-    Only the sphere that rolls is certain, so a tippe top is drawn as a whole ball, and a top with G above O as
-    a disc on a round peg.
+    Only the sphere that rolls is certain, so a tippe top is drawn as a whole ball, and a top with G above O as a disc
+    on a round peg.
     """
     angle = np.linspace(0, np.pi, 60)
     ball = np.column_stack([np.sin(angle), -np.cos(angle)])

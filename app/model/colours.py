@@ -1,7 +1,8 @@
-"""One colour a quantity, the same in every picture: Okabe and Ito's colour-blind safe palette.
+"""One colour for each quantity, the same in every picture: the colour-blind safe palette of Okabe and Ito.
 
-The energy's yellow is darkened, since the palette's own is too pale for a line on white. colours.json is the one list,
-which frontend/src/colours.js reads too. Words and thin lines take ON_LIGHT on a light ground, the palette's darkened.
+The yellow of the energy is darkened, because the original is too pale for a line on white. colours.json is the one
+list, which frontend/src/colours.js reads too. Words and thin lines on a light background use ON_LIGHT, the darkened
+palette.
 """
 
 import json
@@ -12,6 +13,6 @@ COLOURS: dict[str, str] = {name: colour for name, colour in _LIST.items() if isi
 ON_LIGHT: dict[str, str] = COLOURS | _LIST["on_light"]
 INK, FAINT = COLOURS["ink"], COLOURS["faint"]
 GREY = COLOURS["grey"]
-"""Of what is no quantity, seen on a light and on a dark page."""
+"""For everything that is not a quantity, on a light and on a dark page."""
 ACCENT = COLOURS["accent"]
-"""Of what is selected in the Lab and on the maps, and of where one is."""
+"""For the selection in the Lab and on the maps, and for the present position."""

@@ -1,4 +1,4 @@
-"""How many cores this process has: in a container no more than it is given the time of, whatever the machine has."""
+"""The number of cores that this process may use: in a container only as many as its share of processor time."""
 
 import math
 import os
@@ -8,13 +8,13 @@ GROUPS, MINE = Path("/sys/fs/cgroup"), Path("/proc/self/cgroup")
 
 
 def allowed() -> int:
-    """Those that the system lets it run on."""
+    """The cores on which the system lets it run."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def given(groups: Path = GROUPS, mine: Path = MINE) -> float:
-    """The least that its control group, or one that this is in, has time for; inf where none says so. (cpu.max, of
-    Linux's second version, as Docker, Kubernetes and systemd set it; os.process_cpu_count() does not look at it.)"""
+    """The smallest number of cores for which its control group, or a parent group, has time; inf without a limit. (This
+    is cpu.max of cgroup v2, as set by Docker, Kubernetes and systemd; os.process_cpu_count() ignores it.)"""
     try:
         own = next(line for line in mine.read_text().splitlines() if line.startswith("0::"))[3:].lstrip("/")
     except (OSError, StopIteration):
@@ -24,11 +24,11 @@ def given(groups: Path = GROUPS, mine: Path = MINE) -> float:
         try:
             time, period = (groups / folder / "cpu.max").read_text().split()
             found = min(found, float(time) / float(period))
-        except (OSError, ValueError):  # the outermost has none, and "max" is no number
+        except (OSError, ValueError):  # the root group has no file, and "max" is not a number
             continue
     return found
 
 
 def cores() -> int:
-    """Whole ones, at least one."""
+    """The number of whole cores, at least one."""
     return int(max(1, min(allowed(), given())))

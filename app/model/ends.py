@@ -1,7 +1,9 @@
-"""How a run ends: one hue, light to dark by tilt, always with its word; what still rolls or changes stands between.
+"""How a run ends: colours of one hue, light to dark by tilt, always shown with a word; still rolling or changing is in
+between.
 
-ends.json is the one list, which frontend/src/ends.js reads too: `in_lab` is what the Lab's strip calls an end, which
-tells fewer of them apart. What is said of an end stands under its name in maps.toml, and under the Lab's in lab.toml.
+ends.json is the one list, which frontend/src/ends.js reads too. `in_lab` is the name of an end in the Lab's strip,
+which distinguishes fewer of them. The words for an end are under its name in maps.toml, and under its Lab name in
+lab.toml.
 """
 
 import json
@@ -10,12 +12,12 @@ from pathlib import Path
 _LIST: list[dict[str, str]] = json.loads(Path(__file__).with_name("ends.json").read_text(encoding="utf-8"))
 
 NAMES = tuple(end["name"] for end in _LIST)
-"""As an Ending and Many have them."""
+"""The names that Ending and Many use."""
 COLOUR = {end["name"]: end["colour"] for end in _LIST}
-"""{name: colour on a light ground}"""
+"""{name: colour on a light background}"""
 WORDS_ON = {end["name"]: end["words"] for end in _LIST if "words" in end}
-"""{name: colour of words on it, where they are not dark}"""
+"""{name: colour of words on it, if not dark}"""
 IN_LAB = tuple(end["in_lab"] for end in _LIST if "in_lab" in end)
-"""As the Lab's strip has them."""
+"""The names that the Lab's strip uses."""
 COLOUR_IN_LAB = {end["in_lab"]: end["colour"] for end in _LIST if "in_lab" in end}
-"""{as the Lab's strip has it: colour on a light ground}"""
+"""{name in the Lab's strip: colour on a light background}"""

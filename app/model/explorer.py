@@ -1,4 +1,4 @@
-"""The view-model: one solve of what is set, one frozen Scene of how it rolls."""
+"""The view-model: each change of the inputs is solved once, and gives one frozen Scene of the rolling motion."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -6,6 +6,7 @@ from types import MappingProxyType
 from typing import Any
 
 import param
+from param.parameterized import batch_call_watchers
 
 from app.model.roll.region import PAPER, Upper
 from app.model.scene import Scene, solve
@@ -15,12 +16,12 @@ from tippe_core import State, Top, TopError
 
 
 class Explorer(Start):
-    """The controls. Several set in one `param.update` make one solve and one `scene` event; what no rolling hangs on
-    makes none.
+    """The controls. Several inputs set in one `param.update` cause one solve and one `scene` event; inputs on which
+    rolling does not depend cause none.
 
-    What was set last is what the motion is given by, and the inputs of the other sets then follow to the last digit, so
-    that each may be changed next. To put back what was: set `given` and its inputs. A start that does not roll is
-    gripped first: the constants are those of what rolls then.
+    The set of inputs that was changed last determines the motion, and the other sets follow to the last digit, so that
+    each may be changed next. To restore an earlier motion, set `given` and its inputs. A start that does not roll is
+    gripped by the table first: the constants are those of the rolling that follows.
     """
 
     upper: param.Selector[Upper] = param.Selector(
@@ -45,7 +46,7 @@ class Explorer(Start):
         self._solve()
 
     def later(self, **inputs: Any) -> None:
-        """Takes inputs of what a hand lets go, and solves how that rolls when somebody is to see it: settle()."""
+        """Takes inputs of a released top; its rolling motion is solved only when it will be seen, in settle()."""
         self._later = True
         try:
             self.param.update(**inputs)
@@ -53,13 +54,13 @@ class Explorer(Start):
             self._later = False
 
     def settle(self) -> None:
-        """Solves what waits for it."""
+        """Solves what later() has postponed."""
         if self._waits:
             self._solve()
 
     @property
     def let_go(self) -> State:
-        """The State at t = 0, before any table grips it."""
+        """The State at t = 0, before any table has gripped it."""
         return super().let_go if self.given == "hand" else rolls(self.scene.state, self.scene.top)
 
     def _on_inputs(self, *events: param.parameterized.Event) -> None:
@@ -80,8 +81,9 @@ class Explorer(Start):
     def _follow(self, **values: object) -> None:
         self._following = True
         try:
-            with param.edit_constant(self):
-                self.param.update(**values)
+            with param.edit_constant(self), batch_call_watchers(self):
+                for name, value in values.items():
+                    setattr(self, name, value)
         finally:
             self._following = False
 
@@ -118,7 +120,7 @@ class Explorer(Start):
 
 @lru_cache(12)
 def solved(**inputs: Any) -> Scene:
-    """The Scene of these inputs, kept for all visitors; where it cannot be said how that rolls, that of the default."""
+    """The Scene of these inputs, cached for all visitors; the default Scene if these inputs do not give a motion."""
     try:
         return Explorer(**inputs).scene
     except (ValueError, ArithmeticError):

@@ -1,4 +1,4 @@
-"""A motion in frames: at which times, and the turning axes in space."""
+"""A motion in frames: their times, and the rotating axes in space."""
 
 import numpy as np
 
@@ -12,13 +12,13 @@ from tippe_core.types import Array
 NUTATIONS = 20
 FRAMES_A_NUTATION = 64
 MOST_FRAMES = 2400
-# The picture between two frames is a turn about one axis, so a frame must not turn the top far.
+# Between two frames the picture rotates about one axis, so the top must not turn far from one to the next.
 MOST_TURN = 0.3
-STILL = 1e-6  # an angular velocity of which no frame could show a turn
+STILL = 1e-6  # an angular velocity too small to be seen in any frame
 
 
 def frame_times(period: float, top: Top, constants: Constants) -> Array:
-    """Some nutations in frames of equal length, short enough that the top turns little between two; (n,)."""
+    """The times (n,) of some nutations in equal frames, so short that the top turns little between two."""
     # (33) bounds the spin: no component is larger than this.
     fastest = float(np.sqrt((2 * abs(float(constants.E)) + 4 * abs(top.a)) / min(top.I1, top.I3)))
     step = min(period / FRAMES_A_NUTATION, MOST_TURN / max(fastest, STILL))
@@ -36,7 +36,7 @@ def axes(theta: Array, phi: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def in_space(motion: Trajectory) -> tuple[Array, Array, Array]:
-    """The table's force, the angular velocity and the angular momentum about G, along x, y, z; each (n, 3)."""
+    """The force of the table, the angular velocity and the angular momentum about G along x, y, z; (n, 3) each."""
     top = motion.top
     nodal, across, axis, towards = axes(motion.theta, motion.phi)
     w1, w2, w3 = (component[:, None] for component in motion.omega.T)

@@ -1,4 +1,4 @@
-"""What a hand on a picture of a Scene asks for: inputs of the Explorer."""
+"""Inputs of the Explorer that follow from dragging something in a picture of a Scene."""
 
 import numpy as np
 
@@ -7,8 +7,8 @@ from app.model.scene import Scene
 
 
 def pulled(scene: Scene, grip: str, theta: float, K_J: float, limit: str) -> dict[str, float | str]:
-    """By a hand at (theta, K_J). grip: a "tieline" is to become the motion, as far as it goes under the limit "slip" or
-    "lift-off"; the "line" is the motion's own; its "end", and a "point" beyond, are where it then turns."""
+    """The inputs for a pointer at (theta, K_J). grip: "tieline" makes that tieline the motion, up to the limit "slip"
+    or "lift-off"; "line" drags the motion's own line; "end", or a "point" beyond it, is where the motion then turns."""
     if grip == "tieline":
         return {"K_J": K_J, "energy": {"slip": 1.0, "lift-off": 2.0}[limit], "given": "share"}
     if grip == "line":
@@ -20,7 +20,7 @@ def pulled(scene: Scene, grip: str, theta: float, K_J: float, limit: str) -> dic
 
 
 def held(scene: Scene, t: float) -> dict[str, float]:
-    """What a hand that takes the axis at the time t leaves as it is, while it tilts it."""
+    """The inputs that stay unchanged while the axis, grabbed at the time t, is tilted."""
     motion = scene.rolling(np.array([0.0, t]))
     w1, w2, w3 = (float(each) for each in motion.omega[1])
     return {"theta_dot": w1, "omega2": w2, "omega3": w3, "phi": float(motion.phi[1]), "psi": float(motion.psi[1])}

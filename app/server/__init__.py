@@ -1,1 +1,1 @@
-"""`python -m app`: who may come in, what they may say, and what is answered."""
+"""`python -m app`: who may connect, which messages are accepted, and what is answered."""

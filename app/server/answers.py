@@ -1,4 +1,4 @@
-"""What is answered over HTTP beside the page: where it is, and files; with the headers of all."""
+"""HTTP answers besides the page itself: redirects and files; and the headers of all answers."""
 
 import logging
 import os
@@ -33,7 +33,7 @@ SENTENCE = Path(__file__).with_name("sentence.html").read_text(encoding="utf-8")
 
 
 class Answer:
-    """What all handlers have, the libraries' too: these headers, and of what went wrong one line."""
+    """Mixin of all handlers, also those of the libraries: these headers, and one line for an error."""
 
     def set_default_headers(self):
         for name, value in HEADERS.items():
@@ -56,7 +56,7 @@ class Answer:
 
 
 class Files(Answer):
-    """With the file open for each piece anew: else a connection that reads slowly would be two open files."""
+    """Opens the file again for each piece; otherwise a slow connection would need two open files."""
 
     @classmethod
     def get_content(cls, path, start=None, end=None):
@@ -66,7 +66,7 @@ class Files(Answer):
 
 
 class Component(Files, ComponentResourceHandler):
-    """Panel's would import any module that a visitor names."""
+    """Replaces Panel's handler, which would import any module that a visitor names."""
 
     def parse_url_path(self, path):
         if path.split("/")[0] not in sys.modules:
@@ -75,7 +75,7 @@ class Component(Files, ComponentResourceHandler):
 
 
 class Handler(Answer, RequestHandler):
-    """Of this project's few plain answers, each of which holds for its moment alone."""
+    """Base of this project's few plain answers, none of which may be cached."""
 
     def set_default_headers(self):
         super().set_default_headers()
@@ -86,7 +86,7 @@ class Handler(Answer, RequestHandler):
 
     @property
     def language(self):
-        """The one of the address, else the one that this browser prefers."""
+        """The language in the address, else the one that the browser prefers."""
         asked = self.request.query_arguments.get(LANGUAGE, [b""])[-1].decode(errors="replace")
         return asked if asked in text.LANGUAGES else text.preferred(self.request.headers.get("Accept-Language", ""))
 
@@ -105,7 +105,7 @@ class Handler(Answer, RequestHandler):
 
 
 class Root(Handler):
-    """Where the page is, for who asks for the server alone."""
+    """Redirects / to the page."""
 
     def get(self):
         prefix = self.application.tippe.prefix
@@ -113,7 +113,7 @@ class Root(Handler):
 
 
 def routes(application):
-    """What is served beside the page, and nothing else: of all that Bokeh and Panel have, the files."""
+    """All routes besides the page: of those of Bokeh and Panel only the static files."""
     prefix = application.tippe.prefix
     files = [(pattern, type(handler.__name__, (Files, handler), {}), *more) for pattern, handler, *more
              in toplevel_patterns if issubclass(handler, StaticFileHandler)]  # fmt: skip
@@ -127,7 +127,7 @@ def routes(application):
 
 
 def log_request(handler):
-    """As tornado does it, but without the query, which may hold the key of a teacher's vote."""
+    """Logs like tornado, but without the query, which may contain the key of a teacher's vote."""
     status, request = handler.get_status(), handler.request
     level = logging.INFO if status < 400 else logging.WARNING if status < 500 else logging.ERROR
     logging.getLogger("tornado.access").log(level, "%d %s %s (%s)", status, request.method, request.path,

@@ -1,7 +1,7 @@
-"""Connections are taken while there is room for them, and wait outside while there is not.
+"""Accepts connections while there is room for them; otherwise they wait unaccepted.
 
-To the system each is an open file, of which a process may have only so many (ulimit -n). At the limit no connection can
-be taken, and a server that asks for the next one all the same does nothing else any more.
+To the system each connection is an open file, and a process may have only so many (ulimit -n). At the limit no
+connection can be accepted, and a server that keeps trying does nothing else any more.
 """
 
 import logging
@@ -19,16 +19,16 @@ except ImportError:  # Windows, where connections are not counted with the files
 
 log = logging.getLogger("tippe")
 
-FILES = (65_536, 10_240, 4_096)  # as many as we ask for; macOS gives 10,240 whatever it says
+FILES = (65_536, 10_240, 4_096)  # limits to ask for; macOS allows 10,240 whatever it reports
 OTHERS = 64  # of them are not for connections, or a quarter where there are few
-STALLED = 10.0  # s without a byte, after which who does not read makes room
+STALLED = 10.0  # s without a byte read, after which a connection may be closed to make room
 LOOK_AGAIN = 0.25  # s
 SAY_AGAIN = 60.0  # s
 AT_ONCE = 64  # connections, before the others are served
 
 
 def most_files():
-    """Raises the limit of open files as far as the system lets us; returns it, None where there is none."""
+    """Raises the limit of open files as far as the system allows and returns it; None if there is none."""
     if resource is None:
         return None
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -45,7 +45,7 @@ def most_files():
 
 
 class Stream(IOStream):
-    """One that knows when a byte of it last went out."""
+    """A stream that records when it last sent a byte."""
 
     def __init__(self, *arguments, **named):
         super().__init__(*arguments, **named)
@@ -59,7 +59,7 @@ class Stream(IOStream):
 
 
 class Arrivals:
-    """Takes what comes to listening sockets, and gives it to an HTTPServer. files: as of most_files()."""
+    """Accepts connections at listening sockets for an HTTPServer. files: from most_files()."""
 
     def __init__(self, http, sockets, files):
         self.sockets, self._http, self._files = sockets, http, files
@@ -67,12 +67,12 @@ class Arrivals:
         self._said, self._again, self._streams = -SAY_AGAIN, None, WeakSet()
 
     def start(self):
-        """From now on they are taken."""
+        """Starts accepting."""
         for each in self.sockets:
             IOLoop.current().add_handler(each, self._arrived, IOLoop.READ)
 
     def stop(self):
-        """From now on nobody is taken; the sockets stay open."""
+        """Stops accepting; the sockets stay open."""
         for each in self.sockets:
             IOLoop.current().remove_handler(each)
         if self._again is not None:

@@ -1,5 +1,5 @@
-"""What each worker says of itself, once a second, where all of them read it: any one can tell whether a page would be
-let in, whichever takes it, and how the whole server is."""
+"""Shared memory in which each worker reports its state once a second, so that any worker can tell whether a new page
+would be let in by any of them, and how the whole server is doing."""
 
 import mmap
 import os
@@ -19,11 +19,11 @@ except ImportError:  # Windows
     resource = None
 
 STEP = 1.0  # s
-HEARD = 15.0  # s after which a worker that says nothing is taken to have ended
-REMEMBERED = 15  # steps, of which the longest delay is told
+HEARD = 15.0  # s after which a worker that reports nothing counts as ended
+REMEMBERED = 15  # steps over which the longest delay is reported
 REFUSALS = ("stranger", "full", "crowded", "hurried", "stopping", "ended", "connection", "message")
 POOLS = {"run": WORK, "file": FILES, "map": MAPS}
-QUEUES = ("page", "session", *POOLS)  # each has how many wait, how many had their turn, and how long these waited
+QUEUES = ("page", "session", *POOLS)  # each reports how many wait, how many had their turn, and how long those waited
 STATES = ("full", "stopping", "compiling")
 FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files",
           *(f"refused {why}" for why in REFUSALS),
@@ -31,7 +31,7 @@ FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files",
 
 
 def memory():
-    """Bytes that this process has; where the system does not say, the most that it had; 0 where nothing is known."""
+    """Memory of this process in bytes; its maximum so far if the system reports only that; 0 if unknown."""
     try:
         return int(Path("/proc/self/statm").read_text().split()[1]) * mmap.PAGESIZE
     except OSError:
@@ -39,35 +39,35 @@ def memory():
 
 
 def files():
-    """How many this process has open; nan where the system does not say."""
+    """The number of open files of this process; nan if unknown."""
     return next((float(len(os.listdir(path))) for path in ("/proc/self/fd", "/dev/fd") if os.path.isdir(path)), np.nan)
 
 
 class Board:
-    """To be made before the workers are, which write on it each in its row, mine."""
+    """To be created before the workers, each of which writes to its own row, mine."""
 
     def __init__(self, workers):
         self._rows = np.frombuffer(mmap.mmap(-1, 8 * workers * len(FIELDS)), float).reshape(workers, -1)
         self.mine = 0
 
     def write(self, **values):
-        """All FIELDS but the time."""
+        """Writes all FIELDS except the time."""
         values["at"] = time.monotonic()  # one clock for all processes
         self._rows[self.mine] = [values[name] for name in FIELDS]
 
     def leave(self):
-        """This worker is to be asked no more."""
+        """Removes this worker."""
         self._rows[self.mine] = 0
 
     def read(self):
-        """{worker: {field: number}} of those that live."""
+        """{worker: {field: number}} of the live workers."""
         heard = time.monotonic() - HEARD
         return {worker: dict(zip(FIELDS, row.tolist(), strict=True)) for worker, row in enumerate(self._rows)
                 if row[0] > max(heard, 0)}  # fmt: skip
 
 
 class Watch:
-    """Looks at this worker's door, and writes what it sees on the board."""
+    """Reports the state of this worker's door on the board."""
 
     def __init__(self, board, door):
         self.board, self._door = board, door
@@ -85,7 +85,7 @@ class Watch:
         IOLoop.current().call_later(STEP, self._step)
 
     def look(self):
-        """Writes how things are now."""
+        """Writes the present state."""
         door = self._door
         queues = {"page": door.pages, "session": door.making} | POOLS
         self.board.write(

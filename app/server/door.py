@@ -1,4 +1,4 @@
-"""Who may come in, and how much of the server's own thread each session takes."""
+"""Admission of visitors, and how much of the server's own thread each session may take."""
 
 import asyncio
 import time
@@ -8,24 +8,24 @@ from contextlib import contextmanager
 
 from tornado.ioloop import IOLoop
 
-SHARE, SAVED = 0.5, 5.0  # of the processor for one session, and s of it that a quiet one has saved up
-LONGEST_WAIT = 0.25  # s, beside what a message cost itself, so that "Cancel" comes through
+SHARE, SAVED = 0.5, 5.0  # share of the processor for one session, and s of it that a quiet session can save up
+LONGEST_WAIT = 0.25  # s, in addition to the cost of the message itself, so that "Cancel" gets through
 
 
 class Turns:
-    """Has things made one at a time, in turn among the addresses that ask. pause: after each, for those inside to be
-    served, in so many times what it took."""
+    """Lets things be made one at a time, in turn among the addresses that ask. pause: the time after each in which the
+    admitted visitors are served, as a multiple of what it took."""
 
     def __init__(self, pause):
         self._pause, self._waiting, self._busy = pause, OrderedDict(), False  # address -> deque of futures
         self.turns, self.waited = 0, 0.0  # how many there were, and s that these waited
 
     def waiting(self, address=None):
-        """How many wait; from an address."""
+        """The number of those that wait, in all or from one address."""
         return sum(map(len, self._waiting.values())) if address is None else len(self._waiting.get(address, ()))
 
     async def turn(self, address):
-        """Returns when it is this one's turn; the next waits for done()."""
+        """Returns when it is the caller's turn; the next one waits for done()."""
         since = time.monotonic()
         if self._busy:
             mine = asyncio.get_running_loop().create_future()
@@ -35,7 +35,7 @@ class Turns:
         self.turns, self.waited = self.turns + 1, self.waited + time.monotonic() - since
 
     def done(self, took):
-        """Those inside are served before the next is made."""
+        """Ends a turn; admitted visitors are served before the next one."""
         IOLoop.current().call_later(took * self._pause, self._next)
 
     def _next(self):
@@ -50,7 +50,7 @@ class Turns:
 
 
 class Door:
-    """Counts sessions and pages, and lets them be made in turn. context: Bokeh's of the page."""
+    """Counts sessions and pages, and lets them be made in turn. context: Bokeh's application context of the page."""
 
     def __init__(self, settings, context):
         self.settings, self._context = settings, context
@@ -64,21 +64,21 @@ class Door:
 
     @property
     def full(self):
-        """Whether no page more is let in: those that have gone make room."""
+        """Whether no more pages are let in, after sessions whose page has closed have been dropped."""
         return sum(bool(each.connection_count) for each in self.sessions) >= self.settings.sessions
 
     @property
     def served(self):
-        """Whether anybody was here so far."""
+        """Whether there has been any visitor."""
         return self.making.turns > 0
 
     @property
     def idle(self):
-        """Whether nobody is here, or about to come in."""
+        """Whether there is no visitor, nor one about to enter."""
         return not (self.sessions or self.sockets or self.making.waiting() or self.pages.waiting())
 
     def refusal(self, address):
-        """Why not, a key of [server] in main.toml; None where there is room."""
+        """The reason for refusing a page, a key of [server] in main.toml; None if there is room."""
         if self.stopping:
             return "stopping"
         if len(self.sessions) + self.making.waiting() >= self.settings.sessions:
@@ -92,7 +92,7 @@ class Door:
 
 
 class Budget:
-    """A session's share of the processor: who is over it waits, and while he waits nothing is read from him."""
+    """A session's share of the processor. A session over its share waits, and nothing is read from it meanwhile."""
 
     _running = None  # the one whose work is being done; there is one thread
 
@@ -101,19 +101,19 @@ class Budget:
         self._since = 0.0
 
     def spend(self, seconds):
-        """Counts s of the processor."""
+        """Charges seconds of the processor."""
         now = time.monotonic()
         self.left = min(SAVED, self.left + SHARE * (now - self.at)) - seconds
         self.at, self.spent = now, self.spent + seconds
 
     def wait(self):
-        """s to wait after a message."""
+        """The time to wait after a message, s."""
         seconds, self.spent = max(0.0, min(-self.left / SHARE, LONGEST_WAIT + self.spent)), 0.0
         return seconds
 
     @contextmanager
     def work(self):
-        """Counts what is done inside: once, and without what is counted to another."""
+        """Context that charges the work done inside: once, and without what is charged to another session."""
         outer = Budget._running
         self._change(outer, self)
         try:
@@ -131,7 +131,7 @@ class Budget:
         Budget._running = after
 
     async def steps(self, coroutine):
-        """Awaits a coroutine and counts its own steps, not what others do between them."""
+        """Awaits a coroutine and charges its own steps, not what others do between them."""
         return await self._stepping(coroutine)
 
     @types.coroutine

@@ -1,4 +1,4 @@
-"""How a server ends: open pages are told and come back elsewhere, one after the other; then it closes."""
+"""How a server ends: open pages are told one after the other and reconnect elsewhere; then it closes."""
 
 import asyncio
 import logging
@@ -12,13 +12,13 @@ from app.server.processes import REPLACE
 
 log = logging.getLogger("tippe")
 
-GRACE = 3  # s from the last page to the end, whatever still runs
+GRACE = 3  # s from the last page to the end, whatever is still running
 APART = 1.0  # s between two pages at most: another server makes one in less
-LAST = 0.2  # s, in which what was said goes out
+LAST = 0.2  # s for the last messages to go out
 
 
 class Ending:
-    """Of one process. While it lasts no page is let in, so /readyz and the page say no."""
+    """The end of one process. Meanwhile no page is let in: /readyz and the page refuse."""
 
     def __init__(self, settings, door, arrivals, server):
         self.code = 0
@@ -26,17 +26,17 @@ class Ending:
         self._at_once = False
 
     def begin(self, number, _frame=None):
-        """At a signal. SIGINT, or a second one, asks to wait for nobody."""
+        """Handler of a signal. SIGINT, or a second signal, ends without waiting."""
         self._at_once = self._at_once or self._door.stopping or number == signal.SIGINT
         if self._door.stopping:
             return
         self._door.stopping = True
         if hasattr(signal, "alarm"):
-            signal.alarm(GRACE + self._settings.drain)  # which ends what does not come to an end
+            signal.alarm(GRACE + self._settings.drain)  # kills a process that does not end by itself
         IOLoop.current().add_callback_from_signal(self._end)
 
     def replace(self):
-        """Ends so that another process takes its place. Nobody is here."""
+        """Ends so that another process takes its place; there are no visitors."""
         self.code = REPLACE
         self.begin(signal.SIGINT)
 

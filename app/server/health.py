@@ -1,18 +1,18 @@
-"""What those ask who look after a server: whether it lives, whether it takes new pages, and how it is."""
+"""Answers for monitoring: whether the server is alive, whether it accepts new pages, and its metrics."""
 
 from app.server.answers import Handler
 from app.server.board import QUEUES, REFUSALS, STATES
 
 
 class Liveness(Handler):
-    """Whether this worker answers, and how full it is. Who gets no answer here for long may start it again."""
+    """Whether this worker answers, and its number of pages. If it does not answer for long, it may be restarted."""
 
     def get(self):
         self.write({"live": True, "sessions": len(self.application.door.sessions)})
 
 
 class Readiness(Handler):
-    """Whether a new page is let in, whichever worker takes it: status 200, else 503 and why not."""
+    """Whether a new page would be let in by any worker: status 200, else 503 and the reason."""
 
     def get(self):
         workers = self.application.watch.now()
@@ -23,7 +23,7 @@ class Readiness(Handler):
 
 
 class Metrics(Handler):
-    """The board, as Prometheus reads it. Only with TIPPE_METRICS=1, whose package is installed then."""
+    """The board in the format of Prometheus. Only with TIPPE_METRICS=1, which needs prometheus-client."""
 
     def get(self):
         from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
@@ -43,7 +43,7 @@ class Metrics(Handler):
     )
 
     def collect(self):
-        """As a collector of prometheus_client does."""
+        """The interface of a collector of prometheus_client."""
         from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
 
         rows = {str(worker): row for worker, row in self.application.watch.now().items()}
@@ -65,7 +65,8 @@ class Metrics(Handler):
 
 
 def routes(settings):
-    """Where they are: with the prefix and without; metrics without alone, so that a prefix gives them to nobody."""
+    """The routes: with and without the prefix; metrics only without, so that a proxy under the prefix cannot reach
+    them."""
     places = [(f"{prefix}/{name}", handler) for prefix in {"", settings.prefix}
               for name, handler in (("liveness", Liveness), ("readyz", Readiness))]  # fmt: skip
     return places + ([("/metrics", Metrics)] if settings.metrics else [])

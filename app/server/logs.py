@@ -1,4 +1,4 @@
-"""The log: a line for each thing, as text or as JSON, with the addresses of visitors or without."""
+"""The log: one line for each event, as text or JSON, with or without the addresses of visitors."""
 
 import json
 import logging
@@ -10,12 +10,12 @@ from ipaddress import ip_address
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
 
-# What may be an address, of IPv4 or IPv6.
+# Anything that may be an IPv4 or IPv6 address.
 WORD = re.compile(r"(?<![\w.:])[0-9a-fA-F]*[.:][0-9a-fA-F.:]*[0-9a-fA-F:](?![\w])")
 
 
 def without_addresses(line):
-    """The line with - for each address in it."""
+    """The line with - in place of each address."""
 
     def replaced(found):
         word = found[0]
@@ -32,7 +32,7 @@ def without_addresses(line):
 
 
 class Line(logging.Formatter):
-    """Of text, or of JSON."""
+    """Formatter of lines of text or JSON."""
 
     def __init__(self, as_json, addresses):
         super().__init__(f"%(asctime)s %(levelname)s {platform.node()} %(process)d %(message)s")
@@ -55,8 +55,8 @@ class Line(logging.Formatter):
 
 
 def begin(settings):
-    """From now on all is written so, to stdout."""
-    sys.stdout.reconfigure(errors="backslashreplace")  # half a character, sent by somebody, is no reason not to log
+    """Sets up the log, to stdout."""
+    sys.stdout.reconfigure(errors="backslashreplace")  # an invalid character from a visitor must not break the log
     logging.basicConfig(stream=sys.stdout, level=logging.WARNING, force=True)
     logging.captureWarnings(True)
     [handler] = logging.getLogger().handlers
@@ -65,12 +65,12 @@ def begin(settings):
     sys.excepthook = lambda *error: logging.getLogger("tippe").critical("the server cannot go on", exc_info=error)
     for name in ("bokeh", "panel"):  # their own handlers write to another stream, in another form
         logging.getLogger(name).handlers.clear()
-        logging.getLogger(name).setLevel("CRITICAL")  # what they say of an error, note() says
+        logging.getLogger(name).setLevel("CRITICAL")  # their errors are logged by note()
     if settings.log == "debug":
         logging.getLogger("tornado.access").setLevel(logging.INFO)
 
 
 def unheard(loop, context):
-    """What nobody waits for: that a page has closed while something was on its way to it is no error."""
+    """Handler of unawaited exceptions: that a page closed while something was on its way to it is no error."""
     if not isinstance(context.get("exception"), (WebSocketClosedError, StreamClosedError)):
         loop.default_exception_handler(context)

@@ -1,9 +1,9 @@
-"""What a browser may say to the page, looked at as it came: before Bokeh, Panel or a widget makes anything of it.
+"""What a browser may send to the page, checked as it arrives, before Bokeh, Panel or a widget uses it.
 
-Here stands what each part of the page may be sent, each thing with its type, its length and its size; all else is
-Refused. The libraries do not ask: Panel Material UI reserves as many bytes as a message names, numpy takes a type of
-any width from one, and Bokeh makes any model that it describes. A component that is not named here, because it is new,
-takes plain values of bounded size.
+This file lists what each part of the page may be sent, with type, length and size; everything else is Refused. The
+libraries do not check: Panel Material UI reserves as many bytes as a message asks for, numpy accepts a type of any
+width from one, and Bokeh creates any model that it describes. A component that is not listed here, because it is new,
+accepts plain values of bounded size.
 """
 
 import re
@@ -23,7 +23,7 @@ MOST = 1_000  # entries of a list
 
 
 class Refused(ValueError):
-    """What a browser running this page never sends. The sentence goes to whoever sent it."""
+    """A message that a browser running this page never sends. The sentence goes to the sender."""
 
 
 # --- values, as they are in a message's JSON
@@ -31,7 +31,7 @@ class Refused(ValueError):
 
 @dataclass(frozen=True)
 class Value:
-    """What something may be: in words, and as a function of it and of the model that it is for."""
+    """The allowed values of something: in words, and as a function of a value and the model that it is for."""
 
     words: str
     fits: Any
@@ -50,7 +50,7 @@ def number(low=-LARGEST, high=LARGEST):
 
 
 def text(longest=LONGEST):
-    """At most so many letters."""
+    """A text of at most this many characters."""
     return Value(f"text of at most {longest} letters", lambda value, of: type(value) is str and len(value) <= longest)
 
 
@@ -71,7 +71,7 @@ def row(*values, or_none=False):
 
 
 def many(each, most=MOST):
-    """A list of at most so many."""
+    """A list of at most this many."""
     return Value(f"a list of at most {most}, each {each.words}",
                  lambda value, of: type(value) is list and len(value) <= most
                  and all(each.fits(entry, of) for entry in value))  # fmt: skip
@@ -87,7 +87,7 @@ def _plain(value, of=None, levels=4):
 
 
 def entries_of(value):
-    """{name: value} of what stands for a dict in a message; None where it is none."""
+    """{name: value} of the representation of a dict in a message; None if it is not one."""
     entries = value.get("entries", []) if isinstance(value, dict) and value.get("type") == "map" else None
     if not isinstance(entries, list) or len(entries) > MOST or not set(value) <= {"type", "entries"}:
         return None
@@ -224,7 +224,7 @@ MESSAGES = {
 
 
 def look_at(message, document):
-    """Raises Refused for what this page never sends, whatever Bokeh would make of it. message: as Bokeh took it in."""
+    """Raises Refused for anything that this page never sends. message: as received by Bokeh."""
     kind, content = message.msgtype, message.content
     if kind not in KINDS:
         raise Refused(f"A {str(kind)[:40]!r} message is not for this server.")
@@ -261,7 +261,7 @@ def _count(content):
 
 
 def _model(reference, models):
-    """What is referred to; None where it was there and has gone, of which Bokeh passes over whatever is said."""
+    """The model that is referred to; None if it no longer exists, in which case Bokeh ignores the message."""
     name = reference.get("id") if isinstance(reference, dict) and len(reference) == 1 else None
     model = models.get_by_id(name) if isinstance(name, str) else None
     if model is None and not (isinstance(name, str) and models.seen(name)):
@@ -270,7 +270,7 @@ def _model(reference, models):
 
 
 def _called(model):
-    """The name of what a model is of; a component of Panel's has its own class for its data, numbered."""
+    """The name of a model's class; a component of Panel has a numbered class of its own for its data."""
     return re.sub(r"\d+$", "", type(model).__name__)
 
 
@@ -324,7 +324,7 @@ def _look_at_event(event, models):
 
 
 def _message(values, model):
-    """(what a message to a component says, what it may)."""
+    """(the contents of a message to a component, the allowed ones)."""
     inner = getattr(model, "data", None)
     of = _called(inner)
     if model is None or (isinstance(inner, DataModel) and of not in CHANGES):
@@ -337,5 +337,5 @@ def _message(values, model):
 
 
 def shown(value):
-    """A value as it stands in a sentence."""
+    """A value as it is printed in a sentence."""
     return f"{value!r:.60}" if isinstance(value, (str, float, bool, type(None))) else f"a {type(value).__name__}"

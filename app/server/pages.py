@@ -1,4 +1,4 @@
-"""The page: written once, given out in turn."""
+"""The page: generated once, handed out in turn."""
 
 import logging
 import re
@@ -24,7 +24,7 @@ SCRIPT = inlined(Path(__file__).with_name("waiting.js"))
 
 
 class Sheet:
-    """The page as all get it, written once in each language; what each visitor has of his own is put into it."""
+    """The HTML of the page, generated once in each language; what differs between visitors is inserted."""
 
     TOKEN, NONCE = secrets.token_hex(), secrets.token_hex()  # stand in for them
 
@@ -41,13 +41,13 @@ class Sheet:
             self._pages[language] = re.sub(r"<script(?=[\s>])", f'<script nonce="{self.NONCE}"', html)
 
     def page(self, language, token, nonce):
-        """For one visitor."""
+        """The HTML for one visitor."""
         return self._pages[language].replace(self.NONCE, nonce).replace(self.TOKEN, token)
 
 
 class Page(Handler):
-    """The page, from one template session: a visitor's own is made when his browser opens the socket. Pages are given
-    out one at a time, in turn among the addresses that ask."""
+    """The page, from one template session; a visitor's own session is created when the browser opens the socket. Pages
+    are handed out one at a time, in turn among the addresses that ask."""
 
     async def get(self):
         if self.request.path.endswith("/"):  # the page's own addresses are relative to one without
@@ -77,7 +77,7 @@ class Page(Handler):
             app.door.pages.done(time.monotonic() - start)
 
     def _token(self):
-        """What opens a session, with what its page is made of."""
+        """The token that opens a session, with the data from which its page is made."""
         app, request = self.application, self.request
         headers = {name: value for name, value in request.headers.items() if name in app.include_headers}
         return generate_jwt_token(
@@ -86,4 +86,4 @@ class Page(Handler):
             extra_payload={"headers": headers, "cookies": {}, "arguments": request.arguments})  # fmt: skip
 
     def compute_etag(self):
-        """None: no two are the same."""
+        """None, because no two pages are the same."""

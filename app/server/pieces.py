@@ -12,7 +12,7 @@ SMALL = 4096  # bytes of an array that costs more as two pieces of its own than 
 
 
 class Pieces(list):
-    """Of a message: what Bokeh would write to a socket, as (piece, whether it is bytes)."""
+    """The pieces of a message as Bokeh would write them to a socket: (piece, whether it is bytes)."""
 
     write_lock = Lock()
 

@@ -1,4 +1,4 @@
-"""The processes of a server, and their memory."""
+"""The worker processes of a server, and their memory."""
 
 import ctypes
 import gc
@@ -11,14 +11,14 @@ from app.server.board import memory
 log = logging.getLogger("tippe")
 
 LIBC = ctypes.CDLL(None) if os.name == "posix" else None
-REPLACE = 10  # the exit code of a worker that ends so that another begins
-MOST_LOST = 100  # workers, after which something is wrong with the server itself
+REPLACE = 10  # the exit code of a worker that is to be replaced
+MOST_LOST = 100  # crashed workers, after which the server itself must be at fault
 MEGABYTE = 2**20
 
 
 def workers(count, board):
-    """So many processes; one that ends is replaced, and all end with this one, however it ends. Returns, in each of
-    them, the end of a pipe whose other end this one holds."""
+    """Starts count worker processes. One that ends is replaced, and all end with this process, however it ends.
+    Returns, in each of them, the end of a pipe whose other end this process holds."""
     held, ours = os.pipe()
     places, lost = {}, 0  # process: its row of the board
     try:
@@ -47,9 +47,9 @@ def workers(count, board):
 
 
 def tidier(door, replace):
-    """A function that gives the memory of ended sessions back to the system: their models refer to each other. What
-    lives is frozen: else Python looks through all of it now and then, which is a second for 100 sessions, and finds
-    nothing. replace: called where the process has grown over its bound all the same, and nobody is there."""
+    """A function that collects ended sessions, whose models refer to each other, and returns their memory to the
+    system. Live objects are frozen: otherwise Python searches all of them now and then, which takes a second for 100
+    sessions and finds nothing. replace: called if the process still exceeds its bound and there are no visitors."""
     known, gone = set(), 0
     bound = door.settings.memory * MEGABYTE
 

@@ -1,9 +1,9 @@
 """The page for a class or for the open internet: `python -m app`, set by environment variables (Settings).
 
-`panel serve app` serves the same page to one person. Here, what one visitor may cost the others is bounded: sessions
-are counted and made one at a time, in turn among addresses (door); a message is looked at before Bokeh takes it
-(messages), and has an end (sockets); a visitor who sends more than a share of the processor can answer is read more
-slowly. docs/DEPLOY.md and SECURITY.md say what follows from that.
+`panel serve app` serves the same page to one person. Here, what one visitor can cost the others is bounded: sessions
+are counted and created one at a time, in turn among addresses (door); a message is checked before Bokeh uses it
+(messages), and its size is limited (sockets); a visitor who sends more than a share of the processor can answer is read
+more slowly. docs/DEPLOY.md and SECURITY.md describe the consequences.
 """
 
 import gc
@@ -52,8 +52,8 @@ TIDY = 10  # s
 
 
 def serve(settings, sockets, show, board, parent=None):
-    """Serves until SIGTERM, or until the other end of the pipe parent is closed; returns the exit code. show: puts the
-    page into the document that is being served."""
+    """Serves until SIGTERM, or until the other end of the pipe `parent` is closed; returns the exit code. show: puts
+    the page into the document being served."""
     compile_beside()  # before anything is computed
     bokeh_settings.perform_error_diagnostics = False  # an absent property's name would be compared with all others
     bokeh_settings.perform_document_validation = False  # every page has the same parts: the tests look at them
@@ -93,7 +93,7 @@ def serve(settings, sockets, show, board, parent=None):
 
 
 def prepared(settings, show):
-    """Bokeh's application for tornado, with our routes and what they need in it."""
+    """Bokeh's tornado application, with our routes and what they need."""
 
     def make(document):
         with set_curdoc(document):

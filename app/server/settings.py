@@ -3,8 +3,10 @@
 import argparse
 import os
 import re
+import sys
 from dataclasses import dataclass, field, fields
 from importlib.util import find_spec
+from pathlib import Path
 
 from bokeh.server.util import check_allowlist
 
@@ -13,11 +15,11 @@ from app.model.votes.ballots import store
 PORT = re.compile(r":(\d+|\*)$")
 
 
-# What a text means; where it means nothing, a ValueError says what is allowed.
+# Parsers of the texts; each raises a ValueError that says what is allowed.
 
 
 def whole(low, high):
-    """A whole number from low to high."""
+    """Parser of a whole number from low to high."""
 
     def taken(text):
         if not re.fullmatch(r"\d{1,9}", text) or not low <= int(text) <= high:
@@ -28,7 +30,7 @@ def whole(low, high):
 
 
 def forked(text):
-    """How many processes."""
+    """The number of processes."""
     count = whole(1, 64)(text)
     if count > 1 and not hasattr(os, "fork"):
         raise ValueError("1 on this system: it cannot fork")
@@ -36,7 +38,7 @@ def forked(text):
 
 
 def matching(pattern, allowed):
-    """A text that is so."""
+    """Parser of a text that matches the pattern."""
 
     def taken(text):
         if not re.fullmatch(pattern, text):
@@ -47,7 +49,7 @@ def matching(pattern, allowed):
 
 
 def path(text):
-    """With a slash before each part."""
+    """The path with a slash before each part."""
     parts = text.strip("/").split("/") if text.strip("/") else []
     if not all(re.fullmatch(r"(?!\.+$)[\w.~-]+", part, re.ASCII) for part in parts):
         raise ValueError("a path of ASCII letters, digits and . _ ~ -, such as /tops")
@@ -55,7 +57,7 @@ def path(text):
 
 
 def names(text):
-    """Hosts, each host or host:port."""
+    """The hosts, each as host or host:port."""
     hosts = [re.sub(r"^\w+://", "", host.strip()).rstrip("/").lower() for host in text.split(",") if host]
     for host in hosts:
         if not re.fullmatch(r"[\w.*-]+(:(\d{1,5}|\*))?|\[[\da-fA-F:]+\](:\d{1,5})?", host):
@@ -64,20 +66,20 @@ def names(text):
 
 
 def votes(text):
-    """Where votes can be kept."""
+    """A place where votes can be kept."""
     store(text, 1)
     return text
 
 
 def measured(text):
-    """Whether there are metrics."""
+    """Whether /metrics is served, which needs a package."""
     if whole(0, 1)(text) and find_spec("prometheus_client") is None:
         raise ValueError("0 as long as prometheus-client is not installed: pip install 'tippe-top-explorer[metrics]'")
     return int(text)
 
 
 def bound(text):
-    """Of a worker's memory; needs that another can take its place."""
+    """The bound of a worker's memory; it needs a system on which another worker can take its place."""
     return whole(0, 1_000_000 if hasattr(os, "fork") else 0)(text)
 
 
@@ -87,7 +89,7 @@ def _setting(default, says, take=str):
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
-    """Each field is the environment variable TIPPE_ and its name in capitals, and an option of the same name."""
+    """Each field is an environment variable, TIPPE_ and its name in capitals, and an option of the same name."""
 
     port: int = _setting(5006, "port to listen on", whole(1, 65535))
     address: str = _setting("", "address to listen on; without it, all of this machine's")
@@ -115,7 +117,7 @@ class Settings:
 
     @classmethod
     def of(cls, environment, arguments=()):
-        """From os.environ and the command line, which goes first.
+        """From os.environ and the command line, which takes precedence.
 
         Raises ValueError naming the variable or option, its value and what is allowed; SystemExit after --help and
         for an option that is none.
@@ -150,7 +152,7 @@ def _with_port(host):
 
 def _parser(items):
     parser = argparse.ArgumentParser(
-        prog="python -m app",
+        prog="tippe-top" if Path(sys.argv[0]).stem == "tippe-top" else "python -m app",
         description="Serves the tippe top explorer, at http://localhost:5006/app if nothing else is said.",
         epilog="Each option is an environment variable too: --port 8765 is TIPPE_PORT=8765.",
         allow_abbrev=False,

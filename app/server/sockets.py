@@ -1,4 +1,4 @@
-"""The server's end of a page's connection: what comes is bounded, counted, and answered in a sentence."""
+"""The server's end of a page's connection: messages are bounded, charged, and answered, if need be by a sentence."""
 
 import asyncio
 import logging
@@ -35,7 +35,7 @@ SOCKETS = 3  # of one session: its page's, and what is left of one that was lost
 
 
 def ours(error):
-    """Whether an error came out of this project's own code, and so is a bug of its."""
+    """Whether an error was raised in this project's own code, and so is one of its bugs."""
     here = str(Path(__file__).parents[2])
     # where others' code is only called
     through = (f"{here}/app/borrowed.py", f"{here}/app/server/")
@@ -45,7 +45,7 @@ def ours(error):
 
 
 def note(error, whose="a session"):
-    """Logs what could not be done, in one line unless it is a bug of ours; returns a sentence for the sender."""
+    """Logs what failed, in one line unless it is a bug of ours; returns a sentence for the sender."""
     if not isinstance(error, Refused) and ours(error):
         log.error("a bug, met by %s: %s", whose, "".join(traceback.format_exception(error)))
         return "The server could not do that; what is shown has not changed."
@@ -55,14 +55,14 @@ def note(error, whose="a session"):
 
 
 def prepare(document):
-    """What Panel does to the session that it writes a page from, and a session that is made from a token lacks."""
+    """Prepares a session created from a token as Panel prepares one from which it generates a page."""
     document.template_variables["dist_url"] = LOCAL_DIST
     for root in document.roots:
         patch_model_css(root, dist_url=LOCAL_DIST)
 
 
 class Socket(Answer, WSHandler):
-    """Bokeh's, with a limit at each place where a browser could ask for more than its share."""
+    """Bokeh's handler, with a limit wherever a browser could take more than its share."""
 
     token, fragments, refused = "", 0, False  # fragments: of the message that is coming in
 
@@ -175,7 +175,7 @@ class Socket(Answer, WSHandler):
             await asyncio.sleep(wait)
 
     async def _take(self, fragment):
-        """Answers where this was the last of a message; returns what that costs at least, else 0."""
+        """Adds a fragment, and answers if it was the last of a message; returns the least cost of that, else 0."""
         self.fragments += 1
         try:
             if self.fragments > MOST_FRAGMENTS:
@@ -191,7 +191,7 @@ class Socket(Answer, WSHandler):
         return WHOLE_PAGE if message.msgtype == "PULL-DOC-REQ" else EACH_MESSAGE
 
     async def _answer(self, message):
-        """The reply to a message. What cannot be done is said in one line, to the sender and in the log."""
+        """The reply to a message. A failure is reported in one line, to the sender and in the log."""
         try:
             look_at(message, self.connection.session.document)
             act = ServerSession.pull if message.msgtype == "PULL-DOC-REQ" else ServerSession.patch
@@ -209,7 +209,7 @@ class Socket(Answer, WSHandler):
             await self.send_message(reply)
 
     async def send_message(self, message):
-        """All pieces at once: Bokeh's waits for each to be out, and Panel's messages, meanwhile, for it."""
+        """Sends all pieces at once; Bokeh would wait for each, and Panel's messages meanwhile for Bokeh."""
         pieces = await pieces_of(message)
         with suppress(WebSocketClosedError):
             await asyncio.gather(*(WebSocketHandler.write_message(self, *piece) for piece in pieces))

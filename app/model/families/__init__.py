@@ -1,1 +1,1 @@
-"""A top among others."""
+"""A top compared with others."""

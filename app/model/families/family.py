@@ -1,4 +1,4 @@
-"""Figs. 5 and 6 of one top among others, and how much of Fig. 5's region friction leaves to many."""
+"""Figs. 5 and 6 of one top compared with others, and the share of Fig. 5's region without slipping for many tops."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -26,8 +26,8 @@ TIELINES, POINTS = 48, 40
 class Region:
     """Figs. 5 and 6 of one top: its name, K_J(P), and the tielines of both limits at part (n,) = K_J/K_J(P), 0 to 1.
 
-    theta, height (n, m): Fig. 5's f1^2 theta_dot^2 on the tielines of lift-off, in units of K_R^2, so that tops spun
-    differently have one scale.
+    theta, height (n, m): f1^2 theta_dot^2 of Fig. 5 on the tielines of lift-off, in units of K_R^2, so that tops with
+    different spins have the same scale.
     """
 
     name: str
@@ -41,7 +41,7 @@ class Region:
 
 
 def region(name: str, top: Top, K_R: float, mu_s: float, count: int = TIELINES) -> Region:
-    """The Region of a top, from tippe_core's own tielines."""
+    """The Region of a top, from the tielines of tippe_core."""
     pole = pole_constants(top, K_R)[0]
     part = (np.arange(count) + 0.5) / count
     lift, slip = figures(top, part * pole, K_R, mu_s)
@@ -56,7 +56,7 @@ def region(name: str, top: Top, K_R: float, mu_s: float, count: int = TIELINES) 
 
 @dataclass(frozen=True, eq=False)
 class Map:
-    """The share (m, n) over I3/I1 (m,) and a (n,), nan where there is no such top, or its row is not done."""
+    """The share (m, n) over I3/I1 (m,) and a (n,); nan where there is no such top, or in rows not computed yet."""
 
     a: Array
     ratio: Array
@@ -64,7 +64,7 @@ class Map:
 
 
 def share_map(I1: float, K_R: float, mu_s: float, a: Array, ratio: Array) -> Iterator[tuple[int, Map]]:
-    """Yields (tops done, the Map so far) after every row. Whoever stops taking has stopped it."""
+    """Yields (tops done, the Map so far) after every row; a caller that stops iterating stops it."""
     share = np.full((len(ratio), len(a)), np.nan)
     for row, part in enumerate(ratio):
         share[row] = allowed_shares(a, I1, I1 * part, K_R, mu_s)
@@ -72,6 +72,6 @@ def share_map(I1: float, K_R: float, mu_s: float, a: Array, ratio: Array) -> Ite
 
 
 def ordinary() -> OrdinaryTop:
-    """The preset that is an ordinary top with a/R near -10."""
+    """The preset of an ordinary top with a/R near -10."""
     shapes = (preset.shape for preset in PRESETS)
     return next(shape for shape in shapes if isinstance(shape, OrdinaryTop) and shape.top.a < -5)

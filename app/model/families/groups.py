@@ -1,4 +1,4 @@
-"""The groups of tops over a/R and I1/I3, which tell what friction can do to a top, as Thresholds of tippe_core."""
+"""The groups of tops over a/R and I1/I3, as in Thresholds of tippe_core: what friction can do to a top."""
 
 Corners = tuple[tuple[float, ...], tuple[float, ...]]
 
@@ -7,7 +7,8 @@ def areas(left: float, right: float, low: float, high: float) -> dict[str, Corne
     """{group: (a, I1/I3) of the corners of its area} in a picture with left <= a <= right, low <= I1/I3 <= high and
     left < 0 < right; a corner may lie below low.
 
-    They meet where spinning upright, at I1/I3 = 1 - a, and inverted, at 1 + a, is stable at no spin or at any.
+    The borders are where upright spinning (I1/I3 = 1 - a) and inverted spinning (1 + a) become stable at all spins or
+    at none.
     """
     return {
         "never rises": ((0, 0, right, right), (low, 1, 1 - right, low)),

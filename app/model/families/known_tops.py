@@ -1,4 +1,4 @@
-"""The tops that have a name, as places on the map of all tops: a/R and I1/I3 decide which of them can turn over."""
+"""The tops with a name as points on the map of all tops, where a/R and I1/I3 decide which of them can turn over."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -12,7 +12,7 @@ from app.model.scene import Scene
 from tippe_core import PRESETS, Preset, Thresholds, Top, thresholds
 from tippe_core.types import Array
 
-SAME = 5e-4  # of a/R and of I1/I3: two such tops have one place
+SAME = 5e-4  # in a/R and I1/I3: tops that are closer share one point
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -35,13 +35,13 @@ class KnownTop:
 
     @property
     def least_spin(self) -> float:
-        """In rev/s: more slowly spun upright it does what it does at rest; nan where no spin changes that."""
+        """The spin (rev/s) below which an upright top behaves as it does at rest; nan if no spin makes a difference."""
         limits = self.limits
         spins = [limits.upright.spin, limits.launch] if limits.group == "can invert" else [limits.upright.spin]
         return max(spins) * self.turn
 
     def shown(self, mu_s: float) -> Region:
-        """Its Figs. 5 and 6, thrown as a new body is."""
+        """Its Figs. 5 and 6, with the spin that a new body is given."""
         return region(self.name, self.top, thrown(PRESET_OF[self.name].shape, self.top)[1], mu_s)
 
 
@@ -50,7 +50,7 @@ PRESET_OF: dict[str, Preset] = {preset.name: preset for preset in PRESETS}
 
 @cache
 def known_tops() -> tuple[KnownTop, ...]:
-    """One of each place, the first of the presets that have it."""
+    """One top for each point of the map: the first of the presets there."""
     found: list[KnownTop] = []
     for preset in PRESETS:
         turn = preset.shape.scales.angular_velocity / (2 * np.pi)
@@ -61,7 +61,7 @@ def known_tops() -> tuple[KnownTop, ...]:
 
 
 def known_of(scene: Scene) -> KnownTop | None:
-    """The known top that a Scene is of."""
+    """The known top of a Scene."""
     return next((each for each in known_tops() if _same(each.top, scene.top)), None)
 
 

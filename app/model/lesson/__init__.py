@@ -1,1 +1,1 @@
-"""The lesson: its steps, and the runs that answer them."""
+"""The lesson: its steps, and the runs that give their answers."""

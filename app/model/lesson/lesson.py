@@ -1,7 +1,7 @@
-"""The lesson as data: six steps and the page's own top, and what is for theorists.
+"""The lesson as data: six steps, the page's own top, and the part for theorists.
 
-Nothing here is a stored key: Step.answer(scene) works it out from the run that is shown, or from the scene's own top.
-The words are in app/text, under the steps' names.
+No answers are stored: Step.answer(scene) computes the answer from the run that is shown, or from the scene's own top.
+The words are in app/text, under the names of the steps.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ from app.model.story import ON_ITS_SIDE
 
 
 def creep(scene: Scene) -> Answer:
-    """Which turns over: the toy whose contact is a point, or the one whose contact is a small patch."""
+    """Which toy turns over: the one with a point contact, or the one with a small contact patch."""
     point, patch = named("point"), named("patch")
     over = {name: motion.tilt.max() > ON_ITS_SIDE for name, motion in (("point", point), ("patch", patch))}
     turned = [name for name, did in over.items() if did]
@@ -50,11 +50,11 @@ STEPS = (*LESSON, *THEORY)
 NAMES = tuple(step.name for step in STEPS)
 OF_NAME = {step.name: step for step in STEPS}
 BEFORE = {"free": "flips", "jellett": "arms", "energy": "height", "routh": "arms", "flip": "yours"}
-"""What a link to a step that was there before opens."""
+"""The step that a link to a former step opens."""
 
 
 def planned(step: Step, scene: Scene) -> Scene:
-    """The Scene that a step is about: of one with inputs, that which they give this scene's top."""
+    """The Scene that a step is about: for a step with inputs, the Scene that they give for this scene's top."""
     if step.inputs is None:
         return scene
     inputs = step.inputs(scene.top)

@@ -1,4 +1,4 @@
-"""What a step of the lesson is made of: what is shown, asked, answered and drawn."""
+"""The parts of a step of the lesson: what is shown, asked, answered and drawn."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,10 +13,10 @@ from tippe_core import Tielines, Top, pole_constants
 from tippe_core.types import Array, Number
 
 K_R = 10.0  # the paper's, for Figs. 5 and 6
-TILT = 0.1  # rad: nobody lets a top go exactly upright
+TILT = 0.1  # rad: nobody releases a top exactly upright
 FEW = 24
 
-Numbers: TypeAlias = dict[str, Number]  # by their names in the words, some of which stand there as words
+Numbers: TypeAlias = dict[str, Number]  # by their names in the texts; some are shown as words
 Inputs: TypeAlias = dict[str, Number]  # of the Explorer
 
 
@@ -31,7 +31,7 @@ class Curve(NamedTuple):
 
 
 class Point(NamedTuple):
-    """A place on the graph."""
+    """A point on the graph."""
 
     key: str
     x: float
@@ -40,7 +40,7 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A graph beside a step; x, y are the symbols on its axes, the curves' and points' keys name their words."""
+    """A graph beside a step; x, y: the symbols on its axes; the keys of curves and points are those of their labels."""
 
     x: str
     y: str
@@ -50,9 +50,9 @@ class Picture:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """truth: what the computation says, an option or a number; numbers: for the words of the step.
+    """truth: the computed answer, an option or a number; numbers: those in the texts of the step.
 
-    picture: a graph that tells it, where it has one; told: which of the step's explanations says it.
+    picture: a graph of it, if there is one; told: which of the step's explanations applies.
     """
 
     truth: str | float
@@ -63,14 +63,15 @@ class Answer:
 
 @dataclass(frozen=True)
 class Choice:
-    """A prediction that is one of a few; or that one does not know yet, which is an answer too."""
+    """A prediction by choosing an option; "I do not know yet" is an answer too."""
 
     options: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Guess:
-    """A prediction on a slider. share, least: how far a good one may be off, of the truth and at least."""
+    """A prediction on a slider. share, least: the allowed error of a good guess, relative to the truth, and at
+    least."""
 
     low: float
     high: float
@@ -80,18 +81,18 @@ class Guess:
     least: float
 
     def near(self, truth: float) -> float:
-        """How far a good one may be off this truth."""
+        """The allowed error of a good guess."""
         return max(self.least, self.share * abs(truth))
 
 
 @dataclass(frozen=True)
 class Step:
-    """A step: what is watched before and after the prediction, and the answer, read from that.
+    """A step: what is watched before and after the prediction, and the answer that follows from it.
 
-    tops: names of runs.named, side by side; before, end: s, as far as they are watched before the prediction and
-    after it; later: which of the tops are seen only then. picture: what is drawn beside, a name of the view's, or "".
-    inputs: of the Explorer, for a step about one rolling motion; then the times are in its nutations. tex: equations of
-    the paper; sources: names in sources.toml.
+    tops: names for runs.named, shown side by side; before, end: s, how far they are shown before the prediction and
+    after it; later: those of them that are shown only afterwards. picture: the picture beside them, a name known to the
+    view, or "". inputs: of the Explorer, for a step about one rolling motion; the times are then in nutations. tex:
+    equations of the paper; sources: names in sources.toml.
     """
 
     name: str
@@ -108,7 +109,7 @@ class Step:
 
 
 def at(K_J_share: float, energy: float, mu_s: float = 0.5) -> Callable[[Top], Inputs]:
-    """Inputs for a motion of K_R = 10 at this share of K_J(P) and of the energy's marks."""
+    """Inputs for a motion with K_R = 10 at this fraction of K_J(P) and this position on the energy scale."""
 
     def inputs(top: Top) -> Inputs:
         K_J = K_J_share * pole_constants(top, K_R)[0]
@@ -118,7 +119,7 @@ def at(K_J_share: float, energy: float, mu_s: float = 0.5) -> Callable[[Top], In
 
 
 def limit_words(E: float) -> str:
-    """An energy that limits a motion: a number, or that there is none, or that it lies below the least."""
+    """The words for a limit energy: a number, none at all, or below the least energy."""
     return say(f"learn.limits.{'energy' if np.isfinite(E) else 'always' if np.isnan(E) else 'never'}", E=E)
 
 
@@ -127,7 +128,7 @@ def level(key: str, colour: str, x: Array, y: float, dash: str = "dashed") -> Cu
 
 
 def tied(found: Tielines, key: str, colour: str) -> Curve:
-    """Tielines as one curve with gaps."""
+    """The tielines as one curve with gaps."""
     gap = np.full(len(found.K_J), np.nan)
     theta = np.column_stack([found.theta_inner, found.theta_outer, gap]).ravel()
     return Curve(key, colour, np.degrees(theta), np.column_stack([found.K_J, found.K_J, gap]).ravel())

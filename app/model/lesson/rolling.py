@@ -1,4 +1,4 @@
-"""The answers for theorists, of one top that rolls: where it turns back, where it slips or leaves the table."""
+"""The answers for theorists, about one rolling top: where it turns back, and where it slips or leaves the table."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from tippe_core import (
 
 
 def turning(scene: Scene) -> Answer:
-    """Where the motion turns back, in degrees."""
+    """The tilt at which the motion turns back, in degrees."""
     top, constants = scene.top, scene.constants
     inner, outer = np.degrees(scene.turning)
     reach = 0.35 * (scene.turning[1] - scene.turning[0]) + 0.02
@@ -38,7 +38,7 @@ def turning(scene: Scene) -> Answer:
 
 
 def ties(scene: Scene) -> Answer:
-    """Where the range of tilt goes as K_J grows towards P: the paper's Fig. 5 from above."""
+    """How the range of tilt changes as K_J increases towards P: the paper's Fig. 5 from above."""
     top, K_J, K_R = scene.top, float(scene.constants.K_J), float(scene.constants.K_R)
     pole = pole_constants(top, K_R)[0]
     K = np.linspace(0, 1, FEW + 1) * pole
@@ -80,7 +80,7 @@ def jump(scene: Scene) -> Answer:
 
 
 def slip(scene: Scene) -> Answer:
-    """The share of Fig. 5's region that friction takes away, in percent: Fig. 6."""
+    """The share of Fig. 5's region that is lost to slipping, in percent: Fig. 6."""
     top, K_R, mu_s = scene.top, float(scene.constants.K_R), scene.mu_s
     lost = 100 * (1 - float(allowed_shares(top.a, top.I1, top.I3, K_R, mu_s)))
     K = np.linspace(0, 1, FEW + 1) * pole_constants(top, K_R)[0]

@@ -1,7 +1,7 @@
-"""The runs that the lesson shows, each computed by tippe_core from a start that a hand gives.
+"""The runs that the lesson shows, each computed by tippe_core for a top released by a hand.
 
-One toy, the Lab's on arrival, on its three tables; the same toy with a contact that is a point, and with one that is a
-small patch; the paper's top, a whole ball, rolling, and on its head with either of two spins; and the page's own top.
+One toy, that of the Lab on arrival, on its three tables; the same toy with a point contact, and with a small contact
+patch; the paper's top as a whole ball, rolling, and upside down with either of two spins; and the page's own top.
 """
 
 from dataclasses import dataclass
@@ -22,14 +22,14 @@ from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Indices
 
 SMALL_PATCH = 1e-4  # m: of a hard toy
-HEAD_SECONDS = 1.2  # s for which a top on its head is shown
+HEAD_SECONDS = 1.2  # s for which an inverted top is shown
 A_NUTATION = 96  # frames
 LAW = SmoothedCoulomb(0.3, 1.0)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Pointed(Start):
-    """A toy whose contact is a point, with Coulomb's friction alone."""
+    """A toy with a point contact, with Coulomb friction only."""
 
     @property
     def friction(self) -> Friction:
@@ -38,7 +38,7 @@ class Pointed(Start):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Patched(Start):
-    """A toy whose contact is a small patch."""
+    """A toy with a small contact patch."""
 
     @property
     def friction(self) -> Friction:
@@ -47,18 +47,18 @@ class Patched(Start):
 
 @lru_cache(4)
 def of_contact(kind: type[Start]) -> TableMotion:
-    """The arrival's toy and start on the ordinary table, with another contact."""
+    """The toy and start of the arrival on the ordinary table, with another kind of contact."""
     start = kind(**vars(start_of(TOY, SPIN, TILT, MU)))
     return moved(start, "ordinary", *computed(start, "ordinary"))
 
 
 def on_table(table: str) -> TableMotion:
-    """The arrival's toy and start on a table."""
+    """The toy and start of the arrival on a table."""
     return motion_on(table, TOY, SPIN, TILT, MU)
 
 
 def own(scene: Scene) -> TableMotion:
-    """The page's own top, let go as the arrival's toy is; a TopError where it cannot be."""
+    """The page's own top, released like the toy of the arrival; raises TopError if that is not possible."""
     start = Start(toy="", top=scene.top, scales=scene.scales, shape=scene.shape, profile=scene.profile,
                   landing="plastic", stem=True, seconds=6.0, spin=SPIN, tilt=TILT, mu=MU)  # fmt: skip
     return moved(start, "ordinary", *computed(start, "ordinary"))
@@ -69,9 +69,9 @@ def own(scene: Scene) -> TableMotion:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Proof:
-    """A top near upright, rolling, and what its constants ask for on its head; spins in rev/s about its own axis.
+    """A rolling top near upright, and the inverted spins that its constants require, in rev/s about its own axis.
 
-    start: its Constants; spin: at the start.
+    start: its Constants; spin: its spin at the start.
     """
 
     top: Top
@@ -82,18 +82,18 @@ class Proof:
     setup: Start
 
     def at(self, theta: Array) -> Array:
-        """The spin about its own axis that Routh's constant asks for at these tilts, rev/s."""
+        """The spin about its own axis that Routh's constant requires at these tilts, rev/s."""
         return self.setup.turns * omega3(theta, self.top, self.start)
 
 
 @lru_cache(1)
 def proof() -> Proof:
-    """Of the paper's top, spun to the paper's K_R."""
+    """The Proof for the paper's top with the paper's K_R."""
     preset = TOYS["The paper's tippe top"]
     top, turns = preset.top, preset.shape.scales.angular_velocity / (2 * np.pi)
     omega = float(omega3(THROWN_TILT, top, Constants(0.0, K_R, 0.0)))
     start = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, omega)
-    # (30) at theta = pi, where omega_2' has no part in it
+    # (30) at theta = pi, where omega_2' does not contribute
     jellett = -top.I1 / top.I3 * float(start.K_J) / (1 + top.a)
     setup = Start(toy=preset.name, top=top, scales=preset.shape.scales, shape=None, profile=outline(top),
                   landing="plastic", stem=False, seconds=HEAD_SECONDS, spin=turns * omega,
@@ -104,14 +104,15 @@ def proof() -> Proof:
 
 @lru_cache(4)
 def rolled(tilt: float, spin: float) -> TableMotion:
-    """The proof's top rolling from this tilt (rad) on, spun about its own axis (rev/s), its axis at rest."""
+    """The top of the proof, rolling from this tilt (rad) with this spin about its own axis (rev/s), its axis at
+    rest."""
     setup = proof().setup
     motion = roll(setup.top, None, setup.times, State(tilt, 0.0, 0.0, spin / setup.turns))
     return moved(setup, "rough", motion, 0.0)
 
 
 def named(name: str) -> TableMotion:
-    """The run that a step calls by this name."""
+    """The run to which a step refers by this name."""
     found = proof()
     if name in ("point", "patch"):
         return of_contact(Pointed if name == "point" else Patched)
@@ -123,8 +124,8 @@ def named(name: str) -> TableMotion:
 
 
 def nutations(scene: Scene, count: float) -> tuple[tuple[Array | Indices, ...], Array]:
-    """Some nutations of a Scene's motion: the arguments of top3d.pack_frames, and rows of curves as a TableMotion has
-    them, with the time, the tilt and the regime alone."""
+    """Some nutations of a Scene's motion: the arguments of top3d.pack_frames, and rows of curves as in a TableMotion,
+    but only with the time, the tilt and the regime."""
     moved = scene.rolling(np.linspace(0.0, count * scene.rolling.period, int(count * A_NUTATION) + 1))
     codes = np.array([OF_CORE[regime] for regime in moved.regime])
     rows = np.zeros((len(moved.t), 8))
@@ -134,13 +135,13 @@ def nutations(scene: Scene, count: float) -> tuple[tuple[Array | Indices, ...], 
 
 @lru_cache(1)
 def slipped() -> Trajectory:
-    """The proof's top, let slip: with an ordinary friction of 0.3 it comes onto its head."""
+    """The top of the proof with slipping: with an ordinary friction of 0.3 it turns over."""
     found = proof()
     state = State(THROWN_TILT, 0.0, 0.0, found.spin / found.setup.turns)
     return slide(found.top, state, LAW, np.linspace(0.0, 400.0, 4001), landing="plastic")
 
 
 def on_ball(motion: TableMotion) -> int:
-    """For how many instants of its trajectory the ball alone carries it."""
+    """The number of instants of its trajectory at which only the ball carries it."""
     others = np.flatnonzero(motion.carried != "ball")
     return int(others[0]) if len(others) else len(motion.trajectory.t)

@@ -1,6 +1,6 @@
-"""The six steps of the lesson, and the page's own top: what each asks, and the answer that its own run gives.
+"""The six steps of the lesson, and the page's own top: what each asks, and the answer that its run gives.
 
-Nothing here is a stored key: an answer is read from the run that is shown.
+No answers are stored: they are computed from the run that is shown.
 """
 
 import numpy as np
@@ -14,13 +14,13 @@ from app.model.story import ON_ITS_SIDE, marks
 from tippe_core.types import Array
 
 UNSURE = "unsure"
-SPINS = 0.5  # rev/s: with less it does not turn
-LIKE = 0.5  # of two losses alike, the smaller is at least this share of the larger
-MORE = 1.02  # a sum of energy that grew by more would be no sum
+SPINS = 0.5  # rev/s: a smaller spin counts as none
+LIKE = 0.5  # two losses are alike if the smaller is at least this share of the larger
+MORE = 1.02  # a sum of energies that grew by more would be wrong
 
 
 def times(motion: TableMotion) -> dict[str, float]:
-    """When what happened first, s, by its code."""
+    """{code: the time (s) at which it first happened}"""
     found: dict[str, float] = {}
     for mark in marks(motion):
         found.setdefault(mark.code, mark.t)
@@ -34,7 +34,7 @@ def at(motion: TableMotion, t: float) -> Array:
 
 
 def flips(scene: Scene) -> Answer:
-    """What it does, to its end."""
+    """What the toy does until the end."""
     motion = on_table("ordinary")
     when = times(motion)
     truth = "over" if {"over", "stands"} <= when.keys() else "falls" if "topples" in when else "upright"
@@ -42,7 +42,7 @@ def flips(scene: Scene) -> Answer:
 
 
 def way(scene: Scene) -> Answer:
-    """Which way it spins about its own axis when it stands on its stem, and which way round it goes."""
+    """Which way it spins about its own axis when it stands on its stem, and which way it goes round."""
     motion, step = on_table("ordinary"), BY_NAME["way"]
     first, last = motion.curves[0], at(motion, step.end)
     stopped, same = abs(last[5]) < SPINS, first[5] * last[5] > 0
@@ -53,7 +53,7 @@ def way(scene: Scene) -> Answer:
 
 
 def height(scene: Scene) -> Answer:
-    """What pays for the height of G, all as the height to which it could lift the top."""
+    """Where the energy for the height of G comes from, expressed as the height to which it could lift the top."""
     motion, step = on_table("ordinary"), BY_NAME["height"]
     first, last = motion.curves[0], at(motion, step.end)
     spin = (first[3] - first[2]) - (last[3] - last[2])
@@ -65,7 +65,7 @@ def height(scene: Scene) -> Answer:
 
 
 def tables(scene: Scene) -> Answer:
-    """Which of the rough table and ice it still turns over on."""
+    """Whether it still turns over on the rough table or on ice."""
     found = {table: on_table(table) for table in ("rough", "ice")}
     turned = [table for table, motion in found.items() if motion.tilt.max() > ON_ITS_SIDE]
     numbers = {f"{table}_{name}": float(getattr(motion.tilt, name)()) for table, motion in found.items()
@@ -74,7 +74,7 @@ def tables(scene: Scene) -> Answer:
 
 
 def arms(scene: Scene) -> Answer:
-    """How much rubbing takes from L_3 and from L_z, as long as the ball alone touches."""
+    """How much friction takes from L_3 and from L_z, while only the ball touches."""
     motion = on_table("ordinary")
     moved, n = motion.trajectory, on_ball(motion)
     a = motion.start.top.a
@@ -94,7 +94,7 @@ def arms(scene: Scene) -> Answer:
 
 
 def contradiction(scene: Scene) -> Answer:
-    """What Jellett's and Routh's constants of a start near upright say of the spin at theta = pi."""
+    """The spins at theta = pi that Jellett's and Routh's constants of a start near upright require."""
     found, run = proof(), slipped()
     product = found.jellett * found.routh
     alike = abs(found.jellett - found.routh) < 1e-9 * abs(found.spin)
@@ -112,7 +112,7 @@ def contradiction(scene: Scene) -> Answer:
 
 
 def yours(scene: Scene) -> Answer:
-    """Whether the page's own top turns over, as long as it is watched."""
+    """Whether the page's own top turns over while it is watched."""
     motion = own(scene)
     over, rows = times(motion).get("over", np.nan), motion.curves
     tilt = rows[rows[:, 0] <= YOURS.end, 1]

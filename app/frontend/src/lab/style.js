@@ -148,15 +148,15 @@ const answer = `
 .answer { display: flex; flex-direction: column; } .answer .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; }
 .answer .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
 .spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .energy { stroke: var(--q-energy); stroke-width: 2; }
-.answer .halo { stroke: none; } svg .inside { fill: var(--ground); }
+svg .washed { stroke: var(--q-energy-wash); } svg .inside { fill: var(--ground); stroke: var(--q-energy); }
 .first { stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
-.own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); stroke: none; } .turning { stroke: var(--ink); stroke-width: 2; }
+.own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); } .turning { stroke: var(--ink); stroke-width: 2; }
 .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
 .readout { position: absolute; background: var(--ground); border: 1px solid var(--line-2); border-radius: 6px; padding: 2px 8px; font-size: var(--t-s); white-space: nowrap; pointer-events: none; font-variant-numeric: tabular-nums; z-index: 1; }
 .titled h2 { flex: 1; } .icon { padding: 0; width: var(--touch); }
 .large { border: 0; padding: 24px; width: calc(100vw - 48px); height: calc(100vh - 48px); max-width: none; max-height: none; background: var(--ground); color: var(--ink); border-radius: 8px; }
 .large[open] { display: flex; flex-direction: column; } .large .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; } .large .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
-.large::backdrop { background: #0008; } .large .halo { stroke: none; }
+.large::backdrop { background: #0008; }
 .dot { fill: var(--ground); stroke: var(--accent); stroke-width: 5; }
 .lab.old .answer :is(polyline, polygon, .rest, .past) { opacity: .38; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
