@@ -137,6 +137,10 @@ def test_what_is_mixed():
     columns["growth"][0, 3:] = 1001.0, 999.0
     mixed = Level(asked=Map(), x=np.arange(5.0), y=np.arange(5.0), end=end, columns=columns).mixed
     assert np.argwhere(mixed).tolist() == [[0, 3], [1, 1], [3, 3], [3, 4]]
+    alone = np.full((5, 5), "", "<U8")  # no neighbour was run yet
+    alone[::2, ::2] = "stem"
+    none = {name: np.full((5, 5), np.nan) for name in UNITS}
+    assert not Level(asked=Map(), x=np.arange(5.0), y=np.arange(5.0), end=alone, columns=none).mixed.any()
 
 
 # ---- what a cell is ----

@@ -47,7 +47,7 @@ class Level:
         differ = np.zeros(self.end.shape, int)
         for one, other in (((slice(1, None), slice(None)), (slice(-1), slice(None))),
                            ((slice(None), slice(1, None)), (slice(None), slice(-1)))):  # fmt: skip
-            unlike = self.end[one] != self.end[other]
+            unlike = (self.end[one] != self.end[other]) & (self.end[one] != "") & (self.end[other] != "")
             differ[one] += unlike
             differ[other] += unlike
         with np.errstate(invalid="ignore"):
