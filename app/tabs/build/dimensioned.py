@@ -11,7 +11,7 @@ from app.text import say
 from app.widgets.controls import number
 from app.widgets.plots import PAPER, draw
 
-COLUMN, STEP = 0.085, 0.035  # of the span of the figure: from the body to the first of the heights, and between two
+COLUMN, STEP = 0.10, 0.035  # of the span of the figure: from the body to the first of the heights, and between two
 SIZE = 7  # px of an arrow's head
 
 
