@@ -10,6 +10,7 @@ import numpy as np
 import param
 from bokeh.models import CustomJS
 from panel.custom import JSComponent
+from param.parameterized import batch_call_watchers
 
 from app.text import listed
 
@@ -47,6 +48,12 @@ class Bundled(JSComponent):
 
     def __init__(self, **params):
         super().__init__(**({"texts": self.says()} | params))
+
+    def tell(self, **values):
+        """Takes several values as one change. `param.update` does too, but reads all others of the component first."""
+        with batch_call_watchers(self):
+            for name, value in values.items():
+                setattr(self, name, value)
 
     def is_new(self, what):
         """Whether this is not what was put into it last; from now on it is."""

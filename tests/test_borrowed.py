@@ -4,6 +4,7 @@ does what it is for, and no other module of the page borrows anything."""
 import ast
 import asyncio
 import inspect
+import json
 import sys
 import threading
 from pathlib import Path
@@ -16,6 +17,7 @@ import panel.reactive
 import panel_material_ui as pmui
 import param
 import pytest
+from bokeh.core.serialization import Serializer
 from bokeh.document import Document
 from bokeh.document.events import ModelChangedEvent
 from bokeh.document.models import DocumentModelManager
@@ -195,6 +197,28 @@ def test_each_connection_of_a_session_is_brought_what_is_new():
     for connection in both:
         borrowed.put(connection, [event])
     assert all("new" in borrowed.WAITING[connection][0].content_json for connection in both)
+
+
+def test_a_message_says_what_bokehs_own_would_and_a_new_model_once():
+    """9."""
+    document, known, new = Document(), Div(text="known"), Row(Div(text="fresh"))
+    page = Row(known)
+    document.add_root(page)
+    document.models.flush_synced()
+    page.children.append(new)
+
+    def event(value):
+        return ModelChangedEvent(document, page, "children", value)
+
+    said = []
+    for value in (list(page.children), list(page.children), [page, None, {"a": float("nan")}, known]):
+        own = Serializer(references=document.models.synced_references)
+        expected = own.encode([event(value)])
+        message = borrowed.message_of([event(value)])
+        assert json.dumps(message.content["events"]) == json.dumps(expected)
+        said.append(message.content_json)
+    assert ["fresh" in each for each in said] == [True, False, False]
+    assert not document.models.synced_references ^ {*document.models}
 
 
 def test_what_writes_to_a_page_waits_under_these_names():

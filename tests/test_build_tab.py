@@ -1,5 +1,6 @@
 """The tab that builds a body, without a browser: its fields, its sentences, and whether that body turns over."""
 
+import warnings
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -70,6 +71,12 @@ def test_the_bench_says_what_is_printed_and_goes_back_to_a_preset(builder, explo
     assert "STL" not in bench.derived.object and bench.families.value != "loaded sphere"
     bench.families.value = "loaded sphere"
     assert builder.draft.name == "Loaded sphere"
+
+
+def test_nothing_of_it_is_to_go_from_panel(builder):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", PendingDeprecationWarning)
+        assert Build(builder).saved.variant == "outlined"
 
 
 def test_many_pieces_have_their_knobs_in_portions(builder, explorer):

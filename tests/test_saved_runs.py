@@ -9,7 +9,8 @@ import pandas as pd
 import pytest
 
 from app.model.lab.run import motion_on, start_of, whole_on
-from app.share.saved_runs import Shown, caption, run_csv, run_glb, run_npz, run_print, run_python
+from app.share.saved_runs import NODS, Shown, caption, drawn, run_csv, run_glb, run_npz, run_print, run_python
+from tippe_core import glide, grip, roll
 
 TOY = "The paper's tippe top"
 START = TOY, 12.0, 25.0, 0.3
@@ -68,7 +69,13 @@ def test_the_animation_stands_on_its_ball_where_the_ball_is(shown):
     document = run_glb(shown, 4.0)
     length = struct.unpack("<I", document[12:16])[0]
     said = json.loads(document[20 : 20 + length])
-    assert said["asset"]["extras"]["parameters"]["table"].strip(" '") == shown.table
+    assert said["asset"]["extras"]["parameters"]["table"] == shown.table
+    slower = said["asset"]["extras"]["slower than the real top by"]
+    words = {"ordinary": "on an ordinary table", "rough": "rolling", "ice": "on ice"}[shown.table]
+    assert said["animations"][0]["name"] == f"{words}, {slower:.3g} times slower"
+    [times] = {sampler["input"] for sampler in said["animations"][0]["samplers"]}
+    longest = said["accessors"][times]["max"][0]
+    assert longest == pytest.approx(slower * shown.trajectory.t[-1] * shown.setup.scales.time) and longest < 60.1
     channel = next(each for each in said["animations"][0]["channels"] if each["target"]["path"] == "translation")
     place = said["accessors"][said["animations"][0]["samplers"][channel["sampler"]]["output"]]
     view = said["bufferViews"][place["bufferView"]]
@@ -84,6 +91,23 @@ def test_the_animation_stands_on_its_ball_where_the_ball_is(shown):
 def test_the_picture_is_one(shown, kind, begins):
     picture = run_print(shown, kind)
     assert picture.startswith(begins) and len(picture) > 10_000
+
+
+def test_the_picture_shows_single_nods_where_all_would_be_one_black_area(shown):
+    seconds, rows, words = drawn(shown)
+    tilt, force, _ = rows.values()
+    setup = shown.setup
+    whole = shown.trajectory.t * setup.scales.time
+    if shown.table == "ordinary":
+        assert np.array_equal(seconds, whole) and "the first" not in words[1]
+        return
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(tilt))))
+    assert len(turns) in (2 * NODS - 1, 2 * NODS) and f"the first {seconds[-1]:.2g} s of {whole[-1]:.3g} s" in words[1]
+    t = seconds / setup.scales.time
+    motion = roll(setup.top, None, t, grip(setup.top, setup.state)[0]) if shown.table == "rough" else glide(
+        setup.top, setup.state, t)  # fmt: skip
+    assert np.allclose(tilt, np.degrees(motion.theta), atol=0.01 * np.ptp(tilt))  # the width of the line
+    assert np.allclose(force, motion.force[:, 2], atol=0.01 * np.ptp(force))
 
 
 def test_what_stands_below_the_picture_is_said_in_words(shown):

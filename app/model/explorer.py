@@ -6,6 +6,7 @@ from types import MappingProxyType
 from typing import Any
 
 import param
+from param.parameterized import batch_call_watchers
 
 from app.model.roll.region import PAPER, Upper
 from app.model.scene import Scene, solve
@@ -80,8 +81,9 @@ class Explorer(Start):
     def _follow(self, **values: object) -> None:
         self._following = True
         try:
-            with param.edit_constant(self):
-                self.param.update(**values)
+            with param.edit_constant(self), batch_call_watchers(self):
+                for name, value in values.items():
+                    setattr(self, name, value)
         finally:
             self._following = False
 

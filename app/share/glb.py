@@ -13,11 +13,11 @@ FLOAT, UNSIGNED, ARRAY, ELEMENTS = 5126, 5125, 34962, 34963
 PAINT = ((0.72, 0.45, 0.20), (0.95, 0.90, 0.80))  # wood, in two tones, so that a turn shows
 
 
-def animation_glb(scene, slower=16.0, said=None):
+def animation_glb(scene, slower=16.0, said=None, name="rolling"):
     """The trajectory as a glTF 2.0 binary (bytes): the body, its track and the table, in m, y up.
 
     slower: how many times longer than the real motion the animation takes; the asset's extras say so too. scene: or
-    what has as much of one as saved_runs.Shown; said: its parameters.
+    what has as much of one as saved_runs.Shown; said: its parameters; name: of the animation.
     The keyframes are the frames of the scene; the body's origin is O, a above G along the axis.
     """
     R, motion, said = scene.scales.R, scene.trajectory, said or parameters(scene)
@@ -48,7 +48,10 @@ def animation_glb(scene, slower=16.0, said=None):
             "generator": "Tippe top explorer",
             "extras": {
                 "slower than the real top by": slower,
-                "parameters": {name: f"{value!r} {unit}" for name, (value, unit) in said.items()},
+                "parameters": {
+                    key: f"{value if isinstance(value, str) else repr(value)} {unit}".rstrip()
+                    for key, (value, unit) in said.items()
+                },
             },
         },
         "scene": 0,
@@ -61,7 +64,7 @@ def animation_glb(scene, slower=16.0, said=None):
         ],
         "animations": [
             {
-                "name": f"rolling, {slower:g} times slower",
+                "name": f"{name}, {slower:.3g} times slower",
                 "samplers": [{"input": seconds, "output": output, "interpolation": "LINEAR"} for _, output in channels],
                 "channels": [
                     {"sampler": i, "target": {"node": 1, "path": path}} for i, (path, _) in enumerate(channels)

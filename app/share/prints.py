@@ -46,18 +46,19 @@ def draw(scene, name, kind):
 
 
 def curves(seconds, rows, words, kind):
-    """Rows of (what is on the axis, values) over the seconds, two lines of words below, as the bytes of a file."""
+    """Rows {what is on the axis: values} over the seconds, two lines of words below, as the bytes of a file."""
     import matplotlib
     from matplotlib.figure import Figure
 
     with matplotlib.rc_context(FONT):
         figure, file = Figure(figsize=(WIDTH, 5.0), layout="constrained"), io.BytesIO()
         figure.get_layout_engine().set(rect=(0, 0.12, 1, 0.88))
-        for axes, (named, values) in zip(np.ravel(figure.subplots(len(rows), sharex=True)), rows, strict=True):
+        for axes, (named, values) in zip(np.ravel(figure.subplots(len(rows), sharex=True)), rows.items(), strict=True):
             axes.plot(seconds, values, color=INK, linewidth=0.9)
             if np.ptp(values) < 1e-6 * np.abs(values).max():  # what is kept is no noise
                 axes.set_ylim(*sorted((0, 1.2 * values[0])))
             axes.set_ylabel(named)
+            axes.ticklabel_format(useOffset=False)
         axes.set_xlabel("$t$ (s)")
         for line, text in enumerate(words):
             figure.text(0.5, 0.084 - 0.04 * line, text, ha="center", va="center", fontsize=7.5, color=INK)

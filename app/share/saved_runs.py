@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from app.model.planes.picture import Setup
 from app.share import export, glb, prints
@@ -25,8 +26,11 @@ UNITS = {
 }  # fmt: skip
 """{array of a Trajectory: (what it is, unit, the scale that makes it SI)}."""
 ORDINARY, ROUGH, ICE = "ordinary", "rough", "ice"
+OF_ONE = "in units of M, R and g"
 PLANES = {"sliding": ORDINARY, "smooth": ICE}
 """What the three planes call two of the tables."""
+LONGEST = 60.0  # s that an animation takes
+NODS = 12  # drawn of a motion that nods alike for ever
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,10 +50,10 @@ class Shown:
     def parameters(self):
         """{name: (value, unit)} of what it is, every number to the last digit."""
         top, scales = self.setup.top, self.setup.scales
-        law = repr(self.setup.friction) if self.name == ORDINARY else self.name
+        law = (repr(self.setup.friction), OF_ONE) if self.name == ORDINARY else (self.name, "")
         return {
-            "table": (self.name, ""), "friction": (law, ""), "a": (top.a, "R"), "I1": (top.I1, "MR^2"),
-            "I3": (top.I3, "MR^2"), "start": (repr(self.setup.state), ""), "R": (scales.R, "m"),
+            "table": (self.name, ""), "friction": law, "a": (top.a, "R"), "I1": (top.I1, "MR^2"),
+            "I3": (top.I3, "MR^2"), "start": (repr(self.setup.state), OF_ONE), "R": (scales.R, "m"),
             "M": (scales.M, "kg"), "g": (scales.g, "m/s^2"),
         }  # fmt: skip
 
@@ -90,16 +94,39 @@ def run_npz(shown, link=""):
 
 
 def run_glb(shown, slower):
-    """A run as a glTF animation (bytes)."""
-    return glb.animation_glb(shown, slower, shown.parameters)
+    """A run as a glTF animation (bytes), so many times slower than it was, but not longer than LONGEST."""
+    seconds = shown.trajectory.t[-1] * shown.setup.scales.time
+    slower = max(1.0, min(slower, LONGEST / seconds))
+    name = {ORDINARY: "on an ordinary table", ROUGH: "rolling", ICE: "on ice"}[shown.name]
+    return glb.animation_glb(shown, slower, shown.parameters, name)
 
 
 def run_print(shown, kind):
     """The tilt, the normal force and the energy of a run over time, as the bytes of a "png" or "svg" file."""
-    moved, scales = shown.trajectory, shown.setup.scales
-    rows = ((r"$\theta$ (°)", np.degrees(moved.theta)), (r"$F_z$ ($Mg$)", moved.force[:, 2]),
-            (r"$E$ ($MgR$)", moved.energy))  # fmt: skip
-    return prints.curves(moved.t * scales.time, rows, caption(shown), kind)
+    return prints.curves(*drawn(shown), kind)
+
+
+def drawn(shown):
+    """What run_print draws: (s, {what it is: values}, two lines of mathtext)."""
+    moved, words = shown.trajectory, caption(shown)
+    seconds = moved.t * shown.setup.scales.time
+    rows = {r"$\theta$ (°)": np.degrees(moved.theta), r"$F_z$ ($Mg$)": moved.force[:, 2], r"$E$ ($MgR$)": moved.energy}
+    count = _first_nods(shown)
+    if not count:
+        return seconds, rows, words
+    t = moved.t[:count]
+    smooth = np.linspace(0, t[-1], 40 * NODS)
+    rows = {name: CubicSpline(t, values[:count])(smooth) for name, values in rows.items()}
+    # the tilt has its speed in each frame, omega_1
+    rows[next(iter(rows))] = np.degrees(CubicHermiteSpline(t, moved.theta[:count], moved.omega[:count, 0])(smooth))
+    said = say("share.first", first=seconds[count - 1], whole=seconds[-1])
+    return smooth * shown.setup.scales.time, rows, (words[0], words[1] + said)
+
+
+def _first_nods(shown):
+    """How many frames show the first NODS nods of such a motion, where all of them would be one black area; else 0."""
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(shown.trajectory.theta)))) + 2
+    return 0 if shown.name == ORDINARY or len(turns) <= 4 * NODS else int(turns[2 * NODS])
 
 
 def caption(shown):

@@ -198,11 +198,11 @@ class Control:
         low, high = bounds or RANGES[self.name][:2]
         self._shown, self._stands = number(shown), None
         told = [self._heard, float(value), self._shown]
-        self.view.param.update(start=float(low), end=float(high), told=told, **more)
+        self.view.tell(start=float(low), end=float(high), told=told, **more)
 
     def _say(self, words, wrong=False):
         self._stands = None
-        self.view.param.update(**wording(words, wrong))
+        self.view.tell(**wording(words, wrong))
 
 
 def across(part):

@@ -16,7 +16,7 @@ class Guide(Bundled):
     seconds = param.Number(default=1.0, doc="Seconds of the real top in one unit of time.")
 
     def show(self, scene):
-        self.param.update(said=spoken(scene), seconds=scene.scales.time)
+        self.tell(said=spoken(scene), seconds=scene.scales.time)
 
 
 def spoken(scene):

@@ -37,7 +37,7 @@ class Surface3D(Bundled):
 def show_surface(surface, scene):
     plane, motion = scene.plane, scene.constants
     if surface.is_new(plane):
-        surface.param.update(
+        surface.tell(
             K_J=pack(plane.K_J),
             theta=pack(plane.theta),
             heights=pack(plane.height),
@@ -48,6 +48,4 @@ def show_surface(surface, scene):
             theta_max=plane.surface_range[1],
             limit=plane.limit,
         )
-    surface.param.update(
-        selected=pack([motion.K_J, *scene.turning, scene.regime.max()]), selected_curve=pack(scene.curve)
-    )
+    surface.tell(selected=pack([motion.K_J, *scene.turning, scene.regime.max()]), selected_curve=pack(scene.curve))

@@ -83,7 +83,7 @@ def show_top(top, scene):
     if not top.is_new(motion):
         top.mu_s = scene.mu_s
         return
-    top.param.update(
+    top.tell(
         mu_s=scene.mu_s,
         profile=pack(scene.profile),
         seconds=scene.scales.time,

@@ -65,6 +65,8 @@ test("words of events stand where there is room, in short where there is little,
   assert.deepEqual([over.word, over.side], ["turns over 1.0 s", "end"]);
   assert.deepEqual([stands.word, stands.side], ["stands 1.5 s", "start"]);
   assert.deepEqual([falls.word, falls.side], ["starts to fall 4.5 s", "end"]);
+  const two = placed([[80, "stands 1.5 s", "stands 1.5 s"], [187, "falls 4.5 s", "falls 4.5 s"], [224, "off its stem 5.6 s", "off its stem 5.6 s"]], 0, 340, wide);
+  assert.deepEqual(two.map(({ side, row }) => [side, row]), [["start", 0], ["end", 1], ["start", 0]]); // a second row where one has no room
   assert.equal(placed([[5, "a long word", "short one"], [9, "a long word", "short one"], [13, "a long word", "short one"]], 0, 20, wide).length, 0);
 });
 

@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import param
+from param.parameterized import batch_call_watchers
 
 from app.model.arrival import TABLE, TILT
 from app.model.lab.ends import Ends, Key, ends_once, known_ends
@@ -266,8 +267,9 @@ class Lab(param.Parameterized):
 
     def _set(self, **values: object) -> None:
         """Sets constants; an event where they are others."""
-        with param.edit_constant(self):
-            self.param.update(**values)
+        with param.edit_constant(self), batch_call_watchers(self):
+            for name, value in values.items():
+                setattr(self, name, value)
 
     def _follow(self, *events: param.parameterized.Event) -> None:
         """Computes what is set, now or when the present run is done."""

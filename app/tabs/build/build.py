@@ -178,8 +178,11 @@ class Build:
 
     @staticmethod
     def _download(key, filename, content):
-        return pmui.FileDownload(label=say(f"build.bench.{key}"), filename=filename,
-                                 callback=lambda: io.BytesIO(content()), **BUTTON)  # fmt: skip
+        given = {name: value for name, value in BUTTON.items() if name != "variant"}
+        button = pmui.FileDownload(label=say(f"build.bench.{key}"), filename=filename,
+                                   callback=lambda: io.BytesIO(content()), **given)  # fmt: skip
+        button.variant = BUTTON["variant"]  # given at once, Panel takes it for two that contradict, and warns
+        return button
 
     @property
     def section_view(self):

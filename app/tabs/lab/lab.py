@@ -224,7 +224,7 @@ class LabTab:
             for table, motion in scene.motions.items():
                 changes[f"frames_{table}"] = pack_frames(*motion.frames) if motion else b""
                 changes[f"curves_{table}"] = pack(motion.curves) if motion else b""
-        self.view.param.update(**changes)
+        self.view.tell(**changes)
 
     def _state(self, scene):
         lab, start = self._lab, self._lab.start

@@ -10,6 +10,7 @@ const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }
 const LEFT = 46, RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
 const ROOM = 30; // px that words in a picture need
 const MOST_POINTS = 2400;
+const NAMED = [0.3, 0.15, 0.45, 0.6, 0.75, 0.02]; // shares of the run before at which its name may stand
 const JUMP = 0.5; // R: from one frame to the next the contact goes so far only where another part takes over
 
 export class Answer {
@@ -21,6 +22,8 @@ export class Answer {
     /** @type {((t: number) => void)[]} */
     this.moves = []; // of a picture that moves otherwise than by its line
     this.name = "energy";
+    /** @type {((share: number) => [x: number, y: number, ground?: string]) | null} */
+    this.unnamed = null; // where the run before may have its name, by a share of it
     /** @type {import("./curves.js").Curves | null} */
     this.before = null;
     this.title = part("h2");
@@ -101,8 +104,25 @@ export class Answer {
     this.now = drawn("line", { class: "now", y1: 0, y2: this.bottom });
     this.moves = [];
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.unnamed = null;
     this.drawing.replaceChildren(...(this.curves.count ? this[name]() : []));
+    this.nameThen();
     this.at(this.time.t);
+  }
+
+  // The run before has its name beside its line, where that leaves room for it.
+  nameThen() {
+    if (!this.unnamed) return;
+    const name = drawn("text", {}, this.texts.then), others = [...this.drawing.querySelectorAll(".halo, .word")].map((word) => word.getBBox());
+    this.drawing.append(name);
+    for (const share of [...NAMED, NAMED[0]]) { // where it is nowhere free, at the first
+      const [x, y, ground = ""] = this.unnamed(share);
+      name.setAttribute("class", `halo ${ground}`);
+      name.setAttribute("x", x.toFixed(1));
+      name.setAttribute("y", y.toFixed(1));
+      const box = name.getBBox();
+      if (!others.some((other) => meets(box, other))) return;
+    }
   }
 
   /** @param {number} least @param {number} most @param {string} unit @param {number} apart px between two marks */
@@ -120,14 +140,17 @@ export class Answer {
     return { y, found };
   }
 
-  // The run before, of one quantity, and as high as that has to be.
+  // The run before, of one quantity.
   /** @param {(value: number) => number} y @param {number} column */
   then(y, column) {
     const curves = this.before;
     if (!curves) return [];
-    const t = 0.3 * Math.min(curves.end, this.time.end);
-    return [drawn("polyline", { class: "then", points: curves.points((at) => Math.min(this.x(at), this.right), y, column) }),
-      drawn("text", { class: "halo", x: this.x(t) + 4, y: y(curves.at(t, column)) - 5 }, this.texts.then)];
+    const end = Math.min(curves.end, this.time.end);
+    this.unnamed = (share) => {
+      const t = share * end, value = curves.at(t, column);
+      return [this.x(t) + 4, y(value) - 5, column === ENERGY && value < this.curves.at(t, column) ? "washed" : ""];
+    };
+    return [drawn("polyline", { class: "then", points: curves.points((at) => Math.min(this.x(at), this.right), y, column) })];
   }
 
   /** @param {number[]} columns @returns {[least: number, most: number]} */
@@ -141,12 +164,12 @@ export class Answer {
     const { y, found } = this.axes(0, 1.03 * this.range(ENERGY)[1], "mm");
     const line = (column) => curves.points(this.x, y, column), floor = `${this.x(curves.end)},${this.bottom} ${LEFT},${this.bottom}`;
     const heights = curves.range(HEIGHT), t = (share) => share * curves.end, at = (share, column) => y(curves.at(t(share), column));
-    const words = [], put = (share, height, text, more, kind = "halo") => words.push(
-      drawn("text", { class: `word ${kind}`, x: this.x(t(share)), y: height }, text),
+    const words = [], put = (share, height, text, more, kind) => words.push(
+      drawn("text", { class: `word halo ${kind}`, x: this.x(t(share)), y: height }, text),
       ...(more ? [drawn("text", { class: "halo", x: this.x(t(share)), y: height, dy: "1.3em" }, more)] : []));
-    if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin);
+    if (at(0.04, HEIGHT) - at(0.04, ENERGY) > ROOM) put(0.04, (at(0.04, HEIGHT) + at(0.04, ENERGY)) / 2 + 4, said.spin, "", "washed");
     const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
-    if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by);
+    if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by, "");
     const long = 112 / (this.right - LEFT);
     const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > ROOM);
     const free = [0.4, 0.3, 0.2, 0.08].find(isFree), stands = free ?? 0.4;
@@ -154,7 +177,7 @@ export class Answer {
     const over = (column) => Math.min(...[0, 0.5, 1].map((of) => at(stands + of * long, column))) - 8;
     const isHigh = this.bottom - at(stands, HEIGHT) > ROOM && this.bottom - at(stands + long, HEIGHT) > ROOM;
     // over its area; where the energy leaves no room there, on it; where it is too low for that, over both
-    const [height, kind] = free ? [over(HEIGHT), "halo"] : isHigh ? [this.bottom - 10, "inside"] : [over(ENERGY), "halo"];
+    const [height, kind] = free ? [over(HEIGHT), "washed"] : isHigh ? [this.bottom - 10, "inside"] : [over(ENERGY), ""];
     put(stands, height, say(texts, text, { least: [least, 0], most: [most, 0] }), "", kind);
     return [
       ...found,
@@ -206,7 +229,13 @@ export class Answer {
     const at = (/** @type {number[]} */ [, x, y]) => [this.width / 2 + scale * (x - (x0 + x1) / 2), TOP + high / 2 - scale * (y - (y0 + y1) / 2)];
     const isJump = (line, i) => !i || Math.hypot(line[i][1] - line[i - 1][1], line[i][2] - line[i - 1][2]) > JUMP;
     const pathOf = (line) => line.map((p, i) => `${isJump(line, i) ? "M" : "L"}${at(p).map((v) => v.toFixed(1)).join(" ")}`);
-    const points = pathOf(kept), [wordX, wordY] = then.length ? at(then[then.length - 1]) : [0, 0];
+    const points = pathOf(kept);
+    if (then.length) {
+      this.unnamed = (share) => {
+        const [x, y] = at(then[Math.round((1 - share) * (then.length - 1))]); // from its end on
+        return [x + 6, y + 4];
+      };
+    }
     const past = drawn("path", { class: "past" }), dot = drawn("circle", { class: "dot", r: 6 });
     this.moves.push((t) => {
       const count = kept.filter(([when]) => when <= t + 1e-9).length, [x, y] = at(kept[Math.max(count - 1, 0)]);
@@ -216,7 +245,7 @@ export class Answer {
     });
     const mm = ticks(0, (wide * R) / scale, 3)[1], bar = (mm / R) * scale, foot = this.height - 8;
     return [
-      ...(then.length ? [drawn("path", { class: "then", d: pathOf(then).join("") }), drawn("text", { class: "halo", x: wordX + 6, y: wordY + 4 }, texts.then)] : []),
+      ...(then.length ? [drawn("path", { class: "then", d: pathOf(then).join("") })] : []),
       drawn("path", { class: "rest", d: points.join("") }), past, dot,
       drawn("path", { class: "axis", d: `M${RIGHT} ${foot - 5}v5h${bar}v-5` }),
       drawn("text", { x: RIGHT + bar + 8, y: foot + 2 }, say(texts, "{mm} mm", { mm: [mm, mm < 1 ? 1 : 0] })),
@@ -234,6 +263,10 @@ export class Answer {
     this.resizing.disconnect();
   }
 }
+
+// Whether two boxes of words share a place.
+/** @param {DOMRect} a @param {DOMRect} b */
+const meets = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
 // Of many points some, and the last.
 /** @param {number[][]} line */

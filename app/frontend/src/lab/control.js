@@ -3,6 +3,7 @@ import { part, read, say, written } from "./parts.js";
 
 const THUMB = 10; // px from the end of a slider's track to the middle of its thumb there
 const WIDTH = 340, WIDE = 5.6, APART = 16; // px: of the strip of ends at least, of a letter under it, between words
+const NEXT = 6; // px between words of which one is where a mark is
 
 export class Control {
   /**
@@ -17,6 +18,7 @@ export class Control {
     this.said = said;
     this.ask = ask;
     this.limits = { low: 0, high: 1, digits: 0 };
+    this.was = /** @type {HTMLElement[]} */ ([]); // what marks the run before
     this.share = this.value = 0; // of the track, where the value is; what was shown last of a hold
     const id = `lab-${name}`;
     this.slider = part("input", { type: "range", id, "aria-label": said.name, oninput: () => {
@@ -113,12 +115,27 @@ export class Control {
   // On the strip below the track: where the run before was.
   /** @param {number | undefined} value */
   showWas(value) {
-    const { low, high } = this.limits, bar = this.below.firstChild;
-    this.was?.remove();
+    const { low, high } = this.limits, [bar, line] = this.below.children;
+    for (const old of this.was) old.remove();
+    this.was = [];
     if (value === undefined || !bar || value < low || value > high) return;
-    this.was = part("i", { class: "was", title: say(this.texts, this.texts.was, { value: [value, this.limits.digits] }),
-      style: `left: ${this.along((value - low) / (high - low))}` });
-    bar.append(this.was);
+    const said = say(this.texts, this.texts.was, { value: [value, value % 1 ? 1 : 0] }), style = `left: ${this.along((value - low) / (high - low))}`;
+    this.was = [part("i", { class: "was", title: said, style }), part("b", { style }, said)];
+    bar.append(this.was[0]);
+    line.append(this.was[1]);
+    this.fitWas(line, this.was[1]);
+  }
+
+  // In words, where there is room for them: below the mark, or left or right of it.
+  /** @param {Element} line @param {HTMLElement} word */
+  fitWas(line, word) {
+    const others = [...line.children].filter((each) => each !== word).map((each) => each.getBoundingClientRect());
+    for (const share of [50, 100, 0]) {
+      word.style.transform = `translateX(-${share}%)`;
+      const { left, right } = word.getBoundingClientRect();
+      if (others.every((other) => right + NEXT < other.left || other.right + NEXT < left)) return;
+    }
+    word.remove();
   }
 
   // Under the track: how it ends for each spin.

@@ -95,32 +95,39 @@ export function tempo(events, t, end) {
   return Math.min(2 ** Math.max(Math.ceil(Math.log2((to - from) / LONG)), 0), FASTEST);
 }
 
-// Where the words of events stand beside their lines: right of it or left, in full where all have room, else in short.
+// Where the words of events stand beside their lines: right of it or left, in full where all have room, else in short, and
+// where one row has not room for all in two.
 /**
  * @param {[x: number, word: string, short: string][]} lines
  * @param {number} left @param {number} right
  * @param {(word: string) => number} wide in px
- * @returns {{ x: number, word: string, side: "start" | "end" }[]}
+ * @returns {{ x: number, word: string, side: "start" | "end", row: number }[]}
  */
 export function placed(lines, left, right, wide) {
-  const whole = beside(lines.map(([x, word]) => [x, word]), left, right, wide);
-  const mixed = beside(lines, left, right, wide), short = beside(lines.map(([x, , word]) => [x, word]), left, right, wide);
-  return [whole, mixed, short].reduce((best, found) => (found.length > best.length ? found : best));
+  const [whole, short] = [1, 2].map((i) => lines.map((line) => /** @type {[number, string]} */ ([line[0], line[i]])));
+  const ways = [1, 2].flatMap((rows) => [whole, lines, short].map((said) => beside(said, left, right, wide, rows)));
+  return ways.reduce((best, found) => (found.length > best.length ? found : best));
 }
 
 // The same, of the words that each line may have, the first of them that finds room.
-/** @param {[x: number, ...words: string[]][]} lines @param {number} left @param {number} right @param {(word: string) => number} wide */
-function beside(lines, left, right, wide) {
-  const taken = lines.map(([x]) => [x - 1, x + 1]), found = [];
-  const isFree = (from, to) => from >= left && to <= right && taken.every(([a, b]) => to < a || from > b);
-  for (const [x, ...words] of lines) {
-    for (const [text, side] of words.flatMap((word) => [[word, "start"], [word, "end"]])) {
-      const width = wide(text), from = side === "start" ? x + 3 : x - 4 - width;
-      if (!isFree(from, from + width + 1)) continue;
-      taken.push([from, from + width + 1]);
-      found.push({ x, word: text, side: /** @type {"start" | "end"} */ (side) });
-      break;
-    }
-  }
-  return found;
+/**
+ * @param {[x: number, ...words: string[]][]} lines
+ * @param {number} left @param {number} right
+ * @param {(word: string) => number} wide
+ * @param {number} rows
+ */
+function beside(lines, left, right, wide, rows) {
+  const taken = Array.from({ length: rows }, () => lines.map(([x]) => [x - 1, x + 1]));
+  const isFree = (row, from, to) => from >= left && to <= right && taken[row].every(([a, b]) => to < a || from > b);
+  return lines.flatMap(([x, ...words]) => {
+    const ways = taken.flatMap((_, row) => words.flatMap((word) => ["start", "end"].map((side) => {
+      const width = wide(word), from = side === "start" ? x + 3 : x - 4 - width;
+      return { x, word, side: /** @type {"start" | "end"} */ (side), row, from, to: from + width + 1 };
+    })));
+    const way = ways.find(({ row, from, to }) => isFree(row, from, to));
+    if (!way) return [];
+    const { row, from, to, word, side } = way;
+    taken[row].push([from, to]);
+    return [{ x, word, side, row }];
+  });
 }

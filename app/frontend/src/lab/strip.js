@@ -5,6 +5,7 @@ import { TABLES } from "./stage.js";
 import { SPEEDS } from "./time.js";
 
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
+const GAP = 6; // px left of it
 const LETTER = 0.56; // how wide a letter is, in its size
 const NARROW = 400; // px of a strip
 const NEED = 100; // px of a stage in which the top is drawn as it then stands
@@ -20,6 +21,8 @@ export class Strip {
     this.texts = texts;
     this.time = time;
     this.width = this.top = this.bottom = 0; // px; not known yet
+    /** @type {import("./curves.js").Curves | null} */
+    this.before = null;
     this.play = part("button", { class: "round", type: "button", onclick: () => time.play(!time.playing) });
     this.clock = part("span", { class: "clock" });
     this.speed = part("select", {
@@ -84,7 +87,9 @@ export class Strip {
   }
 
   show(scene) {
+    const { before } = scene, curves = before?.curves[before.table];
     this.scene = scene;
+    this.before = curves?.count ? curves : null; // of the run before
     this.range.max = (Math.ceil(100 * scene.end) / 100).toFixed(2); // a whole number of its steps
     this.draw();
   }
@@ -109,7 +114,7 @@ export class Strip {
     this.drawing.replaceChildren(
       drawn("clipPath", { id: "played" }, this.clip), drawn("clipPath", { id: "all" }, drawn("rect", { x: 0, y: 0, width: this.right + 1, height })), ...this.axes(), ...this.events(), ...this.shapes(),
       ...this.then(), ...lines.map((line) => line("rest")), drawn("g", { "clip-path": "url(#played)" }, ...lines.map((line) => line("past"))),
-      ...this.names(), ...this.comes(),
+      ...this.names(), ...this.comes(), ...this.nameThen(),
     );
     this.drawing.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.at(this.time.t);
@@ -117,11 +122,15 @@ export class Strip {
 
   // The run before.
   then() {
-    const { scene: { before }, texts } = this, curves = before?.curves[before.table];
-    if (!curves?.count) return [];
+    const { before: curves } = this;
+    return curves ? [drawn("polyline", { class: "then", "clip-path": "url(#all)", points: curves.points(this.x, this.y, TILT) })] : [];
+  }
+
+  nameThen() {
+    const { before: curves, texts } = this;
+    if (!curves) return [];
     const t = 0.62 * Math.min(curves.end, this.time.end), y = this.y(curves.at(t, TILT));
-    return [drawn("polyline", { class: "then", "clip-path": "url(#all)", points: curves.points(this.x, this.y, TILT) }),
-      drawn("text", { class: "halo", x: this.x(t), y: y > (this.top + this.bottom) / 2 ? y - 7 : y + 16 }, texts.then)];
+    return [drawn("text", { class: "halo", x: this.x(t), y: y > (this.top + this.bottom) / 2 ? y - 7 : y + 16 }, texts.then)];
   }
 
   axes() {
@@ -143,12 +152,12 @@ export class Strip {
     const { size } = this, events = scene.runs[scene.table]?.events ?? [];
     const when = (t) => say(texts, "{t} s", { t: [t, 1] });
     const lines = events.map(([t, , word, short]) => [this.x(t), `${word} ${when(t)}`, `${short} ${when(t)}`]);
-    const words = placed(lines, 0, this.width, (word) => LETTER * size * word.length);
-    return words.flatMap(({ x, word, side }) => {
-      const cut = word.lastIndexOf(" ", word.length - 3);
+    const words = placed(lines, -GAP, this.width, (word) => LETTER * size * word.length);
+    return words.flatMap(({ x, word, side, row }) => {
+      const cut = word.lastIndexOf(" ", word.length - 3), down = 1.2 * size * row;
       return [
-        drawn("line", { class: "event", x1: x, x2: x, y1: 4, y2: this.bottom }),
-        drawn("text", { x: side === "start" ? x + 5 : x - 5, y: 14, "text-anchor": side },
+        drawn("line", { class: "event", x1: x, x2: x, y1: 4 + down, y2: this.bottom }),
+        drawn("text", { x: side === "start" ? x + 5 : x - 5, y: 14 + down, "text-anchor": side },
           drawn("tspan", { class: "word" }, word.slice(0, cut)), word.slice(cut)),
       ];
     });
@@ -180,7 +189,7 @@ export class Strip {
   comes() {
     const { scene, texts, time } = this, from = this.x(time.end);
     if (scene.state.whole || this.right - from < NEED) return [];
-    return [drawn("text", { x: (from + this.right) / 2, y: this.y(90) - 5, "text-anchor": "middle" }, texts.comes)];
+    return [drawn("text", { class: "halo", x: (from + this.right) / 2, y: this.y(90) - 5, "text-anchor": "middle" }, texts.comes)];
   }
 
   // Of three curves, at their ends, each where there is room.

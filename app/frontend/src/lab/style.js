@@ -148,15 +148,17 @@ const answer = `
 .answer { display: flex; flex-direction: column; } .answer .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; }
 .answer .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
 .spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .energy { stroke: var(--q-energy); stroke-width: 2; }
-.answer .halo { stroke: none; } svg .inside { fill: var(--ground); }
+svg .washed { stroke: var(--wash); } svg .inside { fill: var(--ground); stroke: var(--lift); }
+:is(.answer, .large) { --wash: var(--q-energy-wash); --lift: var(--q-energy); }
+.lab.old :is(.answer, .large) { --wash: color-mix(in srgb, var(--q-energy-wash) 38%, var(--ground)); --lift: color-mix(in srgb, var(--q-energy) 38%, var(--ground)); }
 .first { stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
-.own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); stroke: none; } .turning { stroke: var(--ink); stroke-width: 2; }
+.own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); } .turning { stroke: var(--ink); stroke-width: 2; }
 .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
 .readout { position: absolute; background: var(--ground); border: 1px solid var(--line-2); border-radius: 6px; padding: 2px 8px; font-size: var(--t-s); white-space: nowrap; pointer-events: none; font-variant-numeric: tabular-nums; z-index: 1; }
 .titled h2 { flex: 1; } .icon { padding: 0; width: var(--touch); }
 .large { border: 0; padding: 24px; width: calc(100vw - 48px); height: calc(100vh - 48px); max-width: none; max-height: none; background: var(--ground); color: var(--ink); border-radius: 8px; }
 .large[open] { display: flex; flex-direction: column; } .large .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; } .large .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
-.large::backdrop { background: #0008; } .large .halo { stroke: none; }
+.large::backdrop { background: #0008; }
 .dot { fill: var(--ground); stroke: var(--accent); stroke-width: 5; }
 .lab.old .answer :is(polyline, polygon, .rest, .past) { opacity: .38; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
@@ -172,6 +174,7 @@ const controls = `
 .ctl { display: grid; grid-template-columns: 1fr auto; align-items: baseline; column-gap: 8px; }
 .ctl label { font-weight: 600; }
 .num { width: 72px; border: 0; border-bottom: 1px solid var(--line-2); background: none; padding: 0; height: 24px; border-radius: 0; text-align: right; font-variant-numeric: tabular-nums; }
+.num:focus-visible { outline-offset: 0; }
 .unit { color: var(--ink-2); margin-left: 4px; display: inline-block; min-width: 3ch; }
 .ctl > :is(.below, .wrong) { grid-column: 1 / -1; }
 .ctl input[type=range] { grid-column: 1 / -1; -webkit-appearance: none; appearance: none; width: 100%; height: 24px; margin: 0; background: none; cursor: pointer; }
