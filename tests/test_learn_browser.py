@@ -176,8 +176,10 @@ def presented(page):
 
 
 def ends(page):
-    """The run that is shown is moved to its end, as by a hand."""
+    """The run that is shown plays, and is moved to its end, as by a hand: tops that are drawn for the first time begin
+    at their beginning."""
     bar = page.get_by_role("slider", name=say("learn.view.time"), exact=True)
+    page.wait_for_function("([bar, t]) => bar.value !== t", arg=[bar.element_handle(), bar.input_value()])
     bar.focus()
     bar.press("End")
 

@@ -242,11 +242,14 @@ def test_maps_are_kept_and_bounded(level, monkeypatch, tmp_path):
     assert kept.recall(maps[2].asked) is None
 
 
-@pytest.mark.parametrize("up", ["tilt", "mu", "second", "slip", "a", "ratio", "R", "stem", "rounding"])
-def test_its_python_makes_it(up):
+UPS = ["tilt", "mu", "second", "slip", "a", "ratio", "R", "stem", "rounding"]
+
+
+@pytest.mark.parametrize(("up", "law"), [*((up, "contensou") for up in UPS), ("second", "coulomb"), ("mu", "viscous")])
+def test_its_python_makes_it(up, law):
     spans = {"tilt": (1, 40), "mu": (0.1, 0.5), "second": (0.1, 1), "slip": (0.1, 1), "a": (0.1, 0.3),
              "ratio": (0.9, 1.3), "R": (8, 30), "stem": (16, 25), "rounding": (2, 8)}  # fmt: skip
-    asked = Map(up=up, up_range=spans[up], cells=3, seconds=2.0)
+    asked = Map(up=up, up_range=spans[up], law=law, cells=3, seconds=2.0)
     made_by_it = {}
     exec(python(asked), made_by_it)
     level, many = last(asked), made_by_it["many"]
