@@ -1,6 +1,6 @@
 """How fast the page comes and follows the hand, in Chromium, against a bare Bokeh server app in the same run.
 
-    python benchmarks/browser.py [first] [hand] [phone]
+    python benchmarks/browser.py [first] [hand]
 
 first: a visit with nothing cached, from the request until something is there to see, and to take hold of:
 
@@ -16,12 +16,7 @@ input from Chromium itself, while the top plays:
 
 An input counts as painted in the first frame that shows its value or a later one's: of the figure under the hand (the
 selected tieline of Fig. 6), and of the whole page (that, the plots over time, the top in 3-D, and Fig. 5 where it is
-seen).
-
-phone: a first visit of python -m app by a phone of four years ago, Chromium with a processor SLOWED times slower: when
-its third picture of a moving top is there; how many it has a second while it plays; and the kB, compressed, of what
-must have come before: what is still asked for where nothing of Bokeh's and Panel's comes at all, and the top moves.
-Results of runs are kept below.
+seen). Results of runs are kept below.
 """
 
 import argparse
@@ -45,8 +40,6 @@ from visiting import WHOLE, free_port, launch, of_roll  # noqa: E402
 
 VISITS = 6
 STEPS, MOVES, RATE, ROUNDS = 60, 90, 30, 3
-SLOWED, PLAYS = 4, 5  # and s for which its pictures are counted
-PHONE = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
 
 BARE = """
 import numpy as np
@@ -255,52 +248,10 @@ def hands(playwright, servers):
                   f"{p95 / base:5.2f} times bare")  # fmt: skip
 
 
-def phone(browser, url, alone=False):
-    """(ms until the top moves, its pictures in a second after all has come, kB that came before it moved). alone:
-    without Bokeh and Panel; then nothing comes after."""
-    context = browser.new_context(**PHONE)
-    page, sizes = context.new_page(), []
-    session = context.new_cdp_session(page)
-    session.send("Network.enable")
-    session.on("Network.loadingFinished", lambda event: sizes.append(event["encodedDataLength"]))
-    session.send("Emulation.setCPUThrottlingRate", {"rate": SLOWED})
-    if alone:
-        page.route("**/static/**", lambda route: route.abort())
-    page.add_init_script(ARRIVALS.replace("PARTS", ARRIVED["ours"]))
-    page.goto(url, wait_until="commit")
-    page.wait_for_function("window.came?.top", timeout=120_000)
-    before, rate = sum(sizes) / 1e3, np.nan
-    if not alone:
-        page.wait_for_function("window.came?.page", timeout=120_000)
-        pictures = "__tippe.tops('lab').find((top) => top.playing)?.pictures"
-        first, start = page.evaluate(pictures), time.perf_counter()
-        page.wait_for_timeout(1e3 * PLAYS)
-        rate = (page.evaluate(pictures) - first) / (time.perf_counter() - start)
-    came = page.evaluate("came.top")
-    context.close()
-    return came, rate, before
-
-
-def phones(playwright, servers):
-    url, found, least = servers["python -m app"][1], [], []
-    for _ in range(VISITS):
-        browser = launch(playwright)
-        found.append(phone(browser, url))
-        browser.close()
-        browser = launch(playwright)
-        least.append(phone(browser, url, alone=True))
-        browser.close()
-    top, rate, _ = np.array(found).T
-    alone, _, kilobytes = np.array(least).T
-    print(f"phone, {SLOWED} times slower, n = {VISITS}: a moving top after {min(top):.0f} ms at least, median "
-          f"{np.median(top):.0f}; {np.median(rate):.0f} pictures a second, least {min(rate):.0f}; must come before it: "
-          f"{max(kilobytes):.0f} kB, then it moves after {min(alone):.0f} ms")  # fmt: skip
-
-
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("what", nargs="*", choices=["first", "hand", "phone", []], help="all where none is named")
-    what = parser.parse_args().what or ["first", "hand", "phone"]
+    parser.add_argument("what", nargs="*", choices=["first", "hand", []], help="both where none is named")
+    what = parser.parse_args().what or ["first", "hand"]
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         bare = Path(folder, "bare.py")
         bare.write_text(BARE)
@@ -314,7 +265,7 @@ def main():
                   f"load {os.getloadavg()[0]:.1f}, Python {platform.python_version()}, "
                   f"panel {version('panel')}, bokeh {version('bokeh')}, Chromium {browser.version}")  # fmt: skip
             browser.close()
-            for part, measure in {"first": visits, "hand": hands, "phone": phones}.items():
+            for part, measure in {"first": visits, "hand": hands}.items():
                 if part in what:
                     measure(playwright, servers)
         finally:

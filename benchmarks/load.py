@@ -400,3 +400,12 @@ if __name__ == "__main__":
 # 12.9 s. The same day before it, also quiet: a move and its rest 2.0, 61.2 (30.6 times) and 59.6 (29.8 times).
 # --quick, one worker: 10 come together 3279 5621 ms, 20 of 20 move 16 49 ms, 4.3 and 6.1 MB a session; two workers
 # 1788 3253 ms, 14 29 ms.
+#
+# 2026-11-26, 02:50, moves of a hand that goes on alone, before (810c761) and after words that change were one light
+# component, messages named models without a list of them, and a run that is done at once was told once; all in one run
+# with a raised priority, much else beside (load 12), two rounds of 6 s, the least of each: bare 1.7 ms; Explore 16.7
+# before, 17.3 after (10.4 times bare; the server's own thread 9.7 and 9.0), the other round 21.0
+# and 17.5; Research 28.7 and 24.7 (17.2 and 14.8 times). Research misses the aim of 10, Explore by little if at all;
+# bare was 2.2 where nothing else ran. A session of Research holds 3,600 lists, dicts and sets of Bokeh's models, each
+# with a set of its owners: 2 of the 6.6 MB that Python has allocated for it, and parameters take 1.6. Nothing else of
+# this file was measured: too much ran beside.

@@ -37,18 +37,35 @@ def mathml(display):
     return visit
 
 
+# The start of an entry in a docstring: names, with shapes, then a gap or, after the end of a sentence, a colon.
+ENTRY = re.compile(r"(\w+(?: \([^)]*\))?(?:, \w+(?: \([^)]*\))?)*)(:(?= )| {2,})(.*)")
+
+
 def as_written(app, what, name, obj, options, lines):
-    """Docstrings are plain text: nothing in them is markup, and what is indented keeps its lines."""
-    found, block = [], False
+    """Docstrings are plain text: nothing in them is markup, each entry is a paragraph, and what is otherwise indented
+    keeps its lines."""
+    found, literal, entry = [""], False, False
     for line in lines:
-        indented = line.startswith(" ")
-        if indented and not block and line.strip():
-            found += ["", "::", ""]
-        block = indented or (block and not line.strip())
-        if not indented and line.strip() and found and found[-1].startswith(" "):
+        plain, start = escaped(line.strip()), ENTRY.match(line)
+        if not plain:
             found.append("")
-        found.append("    " + line if indented else re.sub(r"([\\*`|_])", r"\\\1", line))
+            entry = False
+        elif line.startswith(" ") and entry:
+            found[-1] += " " + plain
+        elif line.startswith(" "):
+            found += ["    " + line] if literal else ["", "::", "", "    " + line]
+            literal = True
+        else:
+            entry = bool(start) and (start[2] != ":" or not found[-1] or found[-1].endswith((".", ";", ":")))
+            if entry:
+                plain = f"**{escaped(start[1])}{start[2].strip()}** {escaped(start[3].strip())}"
+            found += ["", plain] if literal or entry else [plain]
+            literal = False
     lines[:] = found
+
+
+def escaped(text):
+    return re.sub(r"([\\*`|_])", r"\\\1", text)
 
 
 def setup(app):

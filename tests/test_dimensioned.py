@@ -39,10 +39,11 @@ def test_the_section_says_each_in_its_unit_and_what_is_held_in_the_colour_of_wha
     for name in drawn:
         size = written(1e3 * value_of(shape, name), ".4g")
         assert any(text.endswith(f"{size} {lengths[name].unit}") for text in said), name
-    before = section.measured.said.data["colour"]
+    assert not section.measured.held.data["text"]
     section._held = "l"
     section.show(builder.draft)
-    assert sum(a != b for a, b in zip(before, section.measured.said.data["colour"], strict=True)) == 1
+    assert len(section.measured.said.data["text"]) == len(said) - 1
+    assert [text.split("\n")[0] for text in section.measured.held.data["text"]] == ["stem"]
 
 
 def test_the_strip_of_ends_has_each_of_them_and_the_spin_of_the_verdict():

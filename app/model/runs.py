@@ -1,8 +1,8 @@
-"""Long work, beside the server: in a few threads that all pages share, in turns.
+"""Long computations, in a few threads that all pages share in turns.
 
-The server's own thread answers everybody, so what may take long is not done there. Nothing outside can end a thread
-without harm; so what is done in one looks at its flag now and then (look), and ends where its page has gone or wants
-something else. A page has one piece of each kind of work: a newer one takes the place of the one before.
+The server's own thread answers everybody, so long computations are not done there. A thread cannot be safely stopped
+from outside; so a computation checks a flag now and then (look), and ends if its page has closed or wants something
+else. A page has one computation of each kind: a newer one replaces the one before.
 """
 
 import logging
@@ -21,10 +21,10 @@ from typing import Any, TypeAlias
 from app.model.cores import cores
 from app.text import speaking, spoken
 
-NICE = 5  # how far a map stands back behind whoever moves something
+NICE = 5  # how much lower the priority of a map is than that of moving something
 # A run rests for NAP after each TURN, s, so that the server gets to its other visitors.
 TURN, NAP = 0.01, 0.001
-SAY = 0.5  # s: who waits for longer is told his place in the queue, and so often
+SAY = 0.5  # s: visitors who wait longer are told their place in the queue, and how often
 
 _NOW: ContextVar["Run | None"] = ContextVar("run", default=None)
 Piece: TypeAlias = Callable[[], None]
@@ -36,16 +36,16 @@ log = logging.getLogger("tippe")
 
 
 class Stopped(Exception):
-    """Raised within a run that is to end."""
+    """Raised within a run that should end."""
 
 
 class Full(Stopped):
-    """What becomes of a run that is not begun and does not wait either, as too many do: so many."""
+    """The result of a run that is refused, because too many wait already: this many."""
 
 
 def stand_back() -> None:
-    """Gives this thread, and all that it begins, a lower priority, and no more cores than there is time for: where a
-    thread has them of its own."""
+    """Gives this thread, and those that it starts, a lower priority and no more cores than there is time for, on
+    systems on which threads have their own."""
     if sys.platform == "linux":
         usable, most = os.sched_getaffinity(0), cores()
         if most < len(usable):
@@ -55,9 +55,9 @@ def stand_back() -> None:
 
 
 class Pool:
-    """A few threads, and who waits for one. Visitors take turns: next is who has the fewest pieces of work under way,
-    of these the one whose turn was longest ago. The last free thread is for who has none under way. most: pieces that
-    may wait; begin: called in each thread first."""
+    """A few threads, and a queue for them. Visitors take turns: next is the one with the fewest pieces of work under
+    way, and of these the one whose turn was longest ago. The last free thread is reserved for a visitor with none under
+    way. most: the number of pieces that may wait; begin: called first in each thread."""
 
     def __init__(self, threads: int, name: str, most: int = 400, begin: Piece | None = None) -> None:
         self.threads, self.most = threads, most
@@ -72,8 +72,8 @@ class Pool:
         self._changing = threading.Lock()
 
     def add(self, visitor: Hashable, piece: Piece, place: Place = lambda place: None) -> None:
-        """Has it called in a thread, when it is its turn. place: told where in the queue he is who waits for long, on
-        another thread, and 0 when his turn has come. Raises Full."""
+        """Has the piece called in a thread when its turn comes. place: is called, on another thread, with the place in
+        the queue of a visitor who waits for long, and with 0 when the turn has come. Raises Full."""
         with self._changing:
             if len(self._since) >= self.most:
                 raise Full(len(self._since))
@@ -85,7 +85,7 @@ class Pool:
                 self._tell_later()
 
     def remove(self, visitor: Hashable, piece: Piece) -> bool:
-        """Whether it still waited; then it is not called."""
+        """Removes a piece that still waits; returns whether it did."""
         with self._changing:
             waits = piece in self._waiting.get(visitor, ())
             if waits:
@@ -96,7 +96,7 @@ class Pool:
         return waits
 
     def waiting(self) -> int:
-        """How many pieces wait for a thread."""
+        """The number of pieces that wait for a thread."""
         return len(self._since)
 
     def _tell_later(self) -> None:
@@ -107,7 +107,7 @@ class Pool:
             timer.start()
 
     def _tell(self) -> None:
-        """Whoever has waited for so long, and has nothing under way, hears of each change of his place."""
+        """Tells visitors who have waited long enough, and have nothing under way, each change of their place."""
         with self._changing:
             now, before = time.monotonic(), self._told
             queue = [each for each in self._waiting if not self._working[each]]
@@ -123,7 +123,8 @@ class Pool:
             tell(place)
 
     def rest(self, visitor: Hashable) -> float:
-        """s for which a piece of this visitor's rests after each turn: he has one share, however many his pieces."""
+        """The time (s) for which a piece of this visitor rests after each turn; all pieces of a visitor share one
+        share."""
         alone = len(self._working) < 2
         return NAP if alone else NAP + TURN * (self._working[visitor] - 1)
 
@@ -164,8 +165,8 @@ MAPS = Pool(2, "map", 40, stand_back)
 
 
 class Run:
-    """One piece of work. work: a function of this Run, called in a thread; done: one of what work returned, or of the
-    exception that it raised. reached: how far it is, in a number of its own."""
+    """One piece of work. work: a function of this Run, called in a thread; done: a function of the result of work, or
+    of the exception that it raised. reached: its progress, as a number of its own."""
 
     def __init__(self, work: Callable[["Run"], Result], done: Callable[[Result], None]) -> None:
         self.work, self.done = work, done
@@ -177,11 +178,11 @@ class Run:
 
     @property
     def elapsed(self) -> float:
-        """How long it has taken so far, s."""
+        """The time taken so far, s."""
         return time.monotonic() - self.begun
 
     def stop(self) -> None:
-        """Ends it: at once where it still waits for a thread, else at its next look."""
+        """Ends it: at once if it still waits for a thread, otherwise at its next look()."""
         if self.stopped:
             return
         self.stopped = True
@@ -189,12 +190,12 @@ class Run:
             self._drop()
 
     def forget(self) -> None:
-        """Ends it, and it is not told: something else is asked for by now."""
+        """Ends it without calling done, because something else is wanted by now."""
         self.done = lambda result: None
         self.stop()
 
     def look(self, reached: float = 0.0) -> None:
-        """To be called from within, often: raises Stopped where the run is to end."""
+        """To be called often from within the work: raises Stopped if the run should end."""
         self.reached = reached
         if self.stopped or not self._here():
             raise Stopped
@@ -203,7 +204,7 @@ class Run:
             self._rested = time.monotonic()
 
     def result(self) -> Result:
-        """What it returns, or the exception that it raises: it is told on another thread."""
+        """The result of the work, or the exception that it raised, to be passed to another thread."""
         try:
             return self.work(self) if self._here() else Stopped()
         except Exception as error:
@@ -211,20 +212,20 @@ class Run:
 
 
 def look(reached: float = 0.0) -> None:
-    """Run.look of the run that this thread does; nothing where it does none."""
+    """Run.look of the run of this thread; does nothing in other threads."""
     run = _NOW.get()
     if run is not None:
         run.look(reached)
 
 
 def to_session(document: Document) -> Post:
-    """What calls a function on the thread of a Bokeh document's session: for Runs."""
+    """A function that calls another on the thread of a Bokeh document's session, for Runs."""
 
     def post(function: Piece) -> None:
         try:
             document.add_next_tick_callback(function)
         except AttributeError:
-            # Bokeh takes a document apart in one thread and says afterwards that its session has ended.
+            # Bokeh destroys a document in one thread and reports only afterwards that its session has ended.
             if document.session_context is not None:
                 raise
 
@@ -232,7 +233,7 @@ def to_session(document: Document) -> Post:
 
 
 def connected_to(document: Document) -> Callable[[], bool]:
-    """What tells whether a Bokeh document's page is there, and not only the session that it left: for Runs."""
+    """A function that tells whether the page of a Bokeh document is connected, not only its session left, for Runs."""
 
     def here() -> bool:
         session = document.session_context and document.session_context.session
@@ -242,11 +243,11 @@ def connected_to(document: Document) -> Callable[[], bool]:
 
 
 class Runs:
-    """What one page has under way: one piece of each kind of work.
+    """The work of one page: one piece of each kind.
 
-    post: takes a function and calls it on the session's own thread. None: what is begun is done at once, without a
-    thread. here: whether the page is still there; nothing is begun for one that is not, and what it has ends. waits: is
-    told the page's place in a queue, 0 when it is in none any more; full: how many wait where no more may.
+    post: calls a function on the session's own thread; if None, work is done at once, without a thread. here: whether
+    the page is still connected; otherwise nothing is begun, and its work ends. waits: is called with the page's place
+    in a queue, 0 when it is no longer in one; full: is called with the number of those that wait, if no more may.
     """
 
     def __init__(
@@ -266,8 +267,8 @@ class Runs:
         return self._post is not None
 
     def begin(self, run: Run, kind: str, pool: Pool = WORK) -> None:
-        """Has its work done, in the language of this page, and then tells it on the session's thread. What there is of
-        the same kind ends, and is not told: the newest answers."""
+        """Has the work done, in the language of this page, and then calls done on the session's thread. Earlier work of
+        the same kind ends without an answer: only the newest answers."""
         if self._left:
             return
         if not self.beside:
@@ -305,7 +306,7 @@ class Runs:
             self.post(lambda: self._full(waiting))
 
     def post(self, function: Piece) -> None:
-        """Calls it on the session's thread, unless the page has gone."""
+        """Calls a function on the session's thread, unless the page has closed."""
         if self._left:
             return
         if self._post is not None:
@@ -314,13 +315,13 @@ class Runs:
             function()
 
     def leave(self) -> None:
-        """The page has gone: all that it has under way ends."""
+        """Ends all work of the page, which has closed."""
         self._left = True
         for run in tuple(self._under_way):
             run.stop()
 
 
 def _logged(future: Future[None]) -> None:
-    """What nobody waits for."""
+    """Logs the exception of a future that nobody waits for."""
     if not future.cancelled() and future.exception():
         log.error("a run could not be told", exc_info=future.exception())

@@ -1,4 +1,4 @@
-"""One frozen Scene: all that the views show of one top and one motion, and solve(), which makes it.
+"""One frozen Scene: everything that the views show of one top and one motion; and solve(), which computes it.
 
 Angles in rad; lengths in R, masses in M, accelerations in g, so times in (R/g)^1/2, forces in Mg, energies in MgR.
 """
@@ -35,20 +35,21 @@ from tippe_core.paper.curve import rounded_f
 from tippe_core.types import Array, Indices
 
 STATE, TOP = ("theta", "theta_dot", "omega2", "omega3", "phi", "psi"), ("a", "I1", "I3")
-# At its limit a motion rolls still: rounding is not to say otherwise.
+# A motion at its limit still rolls: rounding must not change that.
 AT_LIMIT = 1e-9
 SAMPLES_A_NUTATION = 128
 LEVELS = (0.15, 0.4, 0.7, 1.0, 2.0)
 LEVEL_COLUMNS = 32
 POTENTIAL_COLUMNS = 160
 
-# Of a, I1 and I3: below it the digits of what follows leave the motion, and solving takes seconds.
+# For a, I1 and I3: below this the motion loses its digits, and solving takes seconds.
 LEAST_INERTIA = 1e-12
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Scene:
-    """All that the views show. Trajectory arrays have one row a frame; vectors are along the axes of space.
+    """Everything that the views show. Trajectory arrays have one row for each frame; vectors are in axes fixed in
+    space.
 
     ratio is F_h/F_z; regime a code a frame, of regimes.py; upright_spin omega_3 at theta = 0; profile (k, 2) the
     radius of the body drawn and its height above O along axis 3; shape the body, None where a, I1, I3 were set apart
@@ -89,7 +90,7 @@ class Scene:
 
     @property
     def turns(self) -> float:
-        """The spin near theta = 0, rev/s."""
+        """The spin near theta = 0, in rev/s."""
         return float(self.upright_spin * self.scales.angular_velocity / (2 * np.pi))
 
     @property
@@ -98,7 +99,7 @@ class Scene:
         where that is more than 1."""
         return float(max(np.ptp(each) / max(1, np.abs(each).max()) for each in (self.K_J, self.K_R, self.E)))
 
-    # What not every picture shows is computed when the first one asks.
+    # Quantities that not every picture shows are computed when first needed.
 
     @cached_property
     def nutation(self) -> Trajectory:
@@ -107,7 +108,7 @@ class Scene:
 
     @property
     def well(self) -> int:
-        """Which of the top's wells it moves in, from the upright one on, as Rolling counts them."""
+        """The index of the well in which it moves, counted from theta = 0 as in Rolling."""
         return int(np.abs(turning_points(self.top, self.constants) - self.turning).sum(axis=1).argmin())
 
     @cached_property
@@ -128,7 +129,7 @@ class Scene:
 
     @cached_property
     def potential(self) -> tuple[Array, Array]:
-        """theta (n,) and the least energy there, E (n,): a motion turns where its energy is that."""
+        """theta (n,) and the least energy E (n,) there: a motion turns back where its energy equals this."""
         inner, outer = self.turning
         reach = 0.6 * (outer - inner) + 0.05
         theta = np.linspace(max(inner - reach, 1e-3), min(outer + reach, np.pi - 1e-3), POTENTIAL_COLUMNS)
@@ -136,9 +137,9 @@ class Scene:
 
     @cached_property
     def rosette(self) -> tuple[float, float, float, float] | None:
-        """Centre x, y and the least and largest distance of the track from it; None where the track goes straight on.
+        """The centre x, y and the least and largest distance of the track from it; None if the track runs straight on.
 
-        A nutation turns the motion by phi_advance and moves it: together a turn about one point of the table.
+        One nutation rotates the motion by phi_advance and displaces it: together a rotation about a point of the table.
         """
         track = self.nutation.contact @ (1, 1j)
         turn = np.exp(1j * self.rolling.phi_advance)
@@ -228,7 +229,7 @@ def _scene(
     turning: tuple[float, float],
     trajectory: Trajectory,
 ) -> Scene:
-    """What was solved, with all that is seen of it."""
+    """The Scene of what was solved, with everything that is shown."""
     top, shape, mu_s = rolling.top, asked["shape"], asked["mu_s"]
     drawn = shape if fits(shape, top) else None
     F_x, F_y, F_z = trajectory.force.T

@@ -1,7 +1,7 @@
-"""One top, let go once: all that a person sets of it, each quantity once, whatever view shows it.
+"""The start of one top: everything that a person sets, each quantity once, whatever view shows it.
 
-The motion is given by one set of GIVEN: by a hand's spin and tilt, with G at rest unless slip says otherwise, or by
-what rolls. The table is where it is watched; changing it keeps the start.
+The motion is given by one of the sets in GIVEN: by the spin and tilt of a hand, with G at rest unless slip says
+otherwise, or by a rolling motion. The table is the one on which it is watched; changing it does not change the start.
 """
 
 from dataclasses import replace
@@ -24,7 +24,7 @@ PLANE = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smoot
 
 
 class Start(param.Parameterized):
-    """What a page has one of. Several set in one `param.update` make one start."""
+    """The start, of which each page has one. Several inputs set in one `param.update` make one new start."""
 
     # the top
     shape = param.ClassSelector(
@@ -78,7 +78,7 @@ class Start(param.Parameterized):
 
     @property
     def set(self) -> dict[str, Any]:
-        """{input: value} of the top, how its motion is given, and the Lab's table: what puts it back."""
+        """{input: value} of the top, of the way its motion is given, and of the Lab's table: enough to restore it."""
         names = ("shape", "a", "I1", "I3", "given", *self.GIVEN[self.given], "table", "mu", "patch")
         return {name: getattr(self, name) for name in names}
 
@@ -88,7 +88,7 @@ class Start(param.Parameterized):
 
     @property
     def toy(self) -> Toy:
-        """The name in TOYS that the body has; else the body, or a sphere of these a, I1 and I3."""
+        """The body's name in TOYS; otherwise the body itself, or a sphere with these a, I1 and I3."""
         try:
             top = Top(self.a, self.I1, self.I3)
         except TopError:  # said at the control that was given it
@@ -100,24 +100,24 @@ class Start(param.Parameterized):
 
     @property
     def at_rest(self) -> bool:
-        """Whether a hand lets it go with G at rest."""
+        """Whether it is released with G at rest."""
         return self.given == "hand" and self.slip == 1
 
     @property
     def let_go(self) -> State:
-        """The State at t = 0, before any table grips it."""
+        """The State at t = 0, before any table has gripped it."""
         return by_hand(self.spin, self.tilt, self.slip, self.shape.scales)
 
 
 def rolls(state: State, top: Top) -> State:
-    """A State that rolls, from the origin, with the velocity that this is of G."""
+    """A rolling State that starts at the origin, with the velocity of G made explicit."""
     s, c = np.sin(state.theta), np.cos(state.theta)
     vx, vy = rolling_velocity(c, s, state.theta_dot, state.omega2, state.omega3, top)
     return replace(state, phi=0.0, psi=0.0, vx=float(vx), vy=float(vy))
 
 
 def of_toy(toy: Toy) -> dict[str, Any]:
-    """{input of a Start: value} of the body of a toy."""
+    """{input of a Start: value} for the body of a toy."""
     preset = TOYS[toy] if isinstance(toy, str) else None
     shape = preset.shape if preset else toy
     assert isinstance(shape, Shape)
@@ -126,7 +126,7 @@ def of_toy(toy: Toy) -> dict[str, Any]:
 
 
 def arrives() -> dict[str, Any]:
-    """{input of a Start: value} of what is seen on arrival, as far as it is not the default."""
+    """{input of a Start: value} for what is shown on arrival, where it differs from the default."""
     return of_toy(arrival.TOY) | {
         "given": "hand", "spin": arrival.SPIN, "tilt": arrival.TILT, "mu": arrival.MU, "law": "contact",
     }  # fmt: skip

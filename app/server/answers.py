@@ -127,8 +127,9 @@ def routes(application):
 
 
 def log_request(handler):
-    """Logs like tornado, but without the query, which may contain the key of a teacher's vote."""
+    """Logs like tornado, but without the query, which may contain the key of a teacher's vote; and 503, which is how a
+    full or stopping server answers, is no error."""
     status, request = handler.get_status(), handler.request
-    level = logging.INFO if status < 400 else logging.WARNING if status < 500 else logging.ERROR
+    level = logging.INFO if status < 400 else logging.WARNING if status < 500 or status == 503 else logging.ERROR
     logging.getLogger("tornado.access").log(level, "%d %s %s (%s)", status, request.method, request.path,
                                             request.remote_ip)  # fmt: skip

@@ -30,7 +30,7 @@ PLACE = """
 @media (max-width: 1180px) { :host { width: 393px; padding: 12px 16px 24px } }
 @media (max-width: 700px) { :host { width: 100%; bottom: calc(53px + env(safe-area-inset-bottom)); border: 0 } }
 """
-UNROLLED = ".scroll-button { display: none !important }"
+UNROLLED = ":host { max-height: none !important } .scroll-button { display: none !important }"
 
 
 class Share(param.Parameterized):

@@ -7,7 +7,7 @@ from app.widgets.cards import TYPE
 
 
 class Said(Bundled):
-    """HTML, in the page's own type. What a pane of Panel says costs the server four times as much to change."""
+    """HTML, in the page's own type. What a pane of Panel says costs the server several times as much to change."""
 
     text = param.String(default="", doc="HTML.")
 

@@ -1,1 +1,1 @@
-"""One top on the three planes, with friction."""
+"""One top on the three planes: rough, smooth, and with sliding friction."""

@@ -1,4 +1,4 @@
-"""What became of a top on the sliding plane, read from its own run."""
+"""How the motion of a top on the sliding plane ended, determined from its run."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ NEAR_UPRIGHT = np.radians(2)
 
 
 def became(picture: Picture, motion: Motion) -> str:
-    """The key in planes.toml of what became of it on the sliding plane."""
+    """The key in planes.toml of how the motion on the sliding plane ended."""
     found, theta, a = motion.ending, motion.trajectory.theta, picture.settings.top.a
     assert found is not None  # of the sliding plane
     if found.flat:

@@ -1,5 +1,5 @@
-"""What happened in a run of the three planes, and when, read from the run itself: marks in its tilt and its spin, and
-what became of its contact."""
+"""What happened in a run of the three planes, and when, determined from the run: marks in its tilt and spin, and the
+events of its contacts."""
 
 from typing import NamedTuple
 

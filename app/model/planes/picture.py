@@ -1,6 +1,6 @@
-"""One frozen Picture: one top on all three planes, and the Settings that it was made of.
+"""One frozen Picture: one top on all three planes, and the Settings from which it was computed.
 
-In units of R, M and g but for what a person sets: rev/s, degrees, s.
+In units of R, M and g, except for what a person sets: rev/s, degrees, s.
 """
 
 from dataclasses import dataclass, field
@@ -44,7 +44,7 @@ RTOL = 1e-9  # of slide()
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Setup:
-    """A body on the tables, as a run takes it. shape: None where a, I1 and I3 are not its own."""
+    """A body on the tables, in the form that a run needs. shape: None if a, I1 and I3 are not those of the body."""
 
     most_turn: ClassVar[float] = MOST_TURN
 
@@ -114,8 +114,8 @@ class Setup:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Settings(Setup):
-    """All that a run of the three planes depends on. rolling: the State that the constants chosen for rolling give;
-    None: spin and tilt are given."""
+    """Everything on which a run of the three planes depends. rolling: the State given by constants of the motion; None
+    if spin and tilt are given."""
 
     rolling: State | None
     spin: float

@@ -1,4 +1,4 @@
-"""The view-model of the three planes: the controls, one run of what they say, one frozen Picture of it all."""
+"""The view-model of the three planes: the controls, one run of what they set, one frozen Picture of the results."""
 
 from dataclasses import fields, replace
 from functools import partial
@@ -78,22 +78,22 @@ class Planes(param.Parameterized):
         start.param.watch(lambda *events: self._run_anew(), ["given", *SET])
 
     def show(self) -> None:
-        """Somebody looks."""
+        """Starts computing, because the view is shown."""
         self._shown = self.begun = True
         self._run_anew()
 
     def hide(self) -> None:
-        """Nobody looks any more."""
+        """Stops computing, because the view is hidden."""
         self._shown = False
 
     @property
     def plane(self) -> str:
-        """What is looked at: one of PLANES, or "compare"."""
+        """The plane that is shown: one of PLANES, or "compare"."""
         return PLANE[self._start.table]
 
     @property
     def inputs(self) -> dict[str, Any]:
-        """What is set."""
+        """The present inputs."""
         start = self._start
         return {name: getattr(start, name) for name in SET} | {"by": BY[start.given == "hand"]}
 

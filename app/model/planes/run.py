@@ -1,6 +1,6 @@
-"""The Picture of Settings: the same top on the three planes, and a run beside the one that slides.
+"""Computes the Picture of Settings: the same top on the three planes, and a second, slightly disturbed sliding run.
 
-It is made in a thread, which has no page: it is told in which language to say why there is no motion.
+It runs in a thread, which has no page, so it is told in which language to say why there is no motion.
 """
 
 from collections.abc import Callable

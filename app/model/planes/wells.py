@@ -1,6 +1,6 @@
-"""The well that the top is a bead in: V_J over theta, the least energy at its C_J (tippe_core/outcomes.py).
+"""The well in which the top moves like a bead: V_J over theta, the least energy at its C_J (tippe_core/outcomes.py).
 
-Each while in which no stem touches has a C_J, and so a well, of its own.
+Each interval in which the stem does not touch has its own C_J, and so its own well.
 """
 
 from dataclasses import dataclass

@@ -21,26 +21,30 @@ class Dimensioned:
     def __init__(self, fig):
         self.lines = ColumnDataSource({name: [] for name in ("x", "z", "x1", "z1", "colour", "width")})
         self.tips = ColumnDataSource({name: [] for name in ("x", "z", "angle", "colour")})
-        self.said = ColumnDataSource({name: [] for name in ("x", "z", "text", "dx", "dy", "align", "colour")})
+        # what is held has words of its own: the look of the page changes one colour of a Text, not a column of them
+        self.said, self.held = (
+            ColumnDataSource({name: [] for name in ("x", "z", "text", "dx", "dy", "align")}) for _ in range(2)
+        )
         draw(fig, Segment, source=self.lines, x0="x", y0="z", x1="x1", y1="z1", line_color="colour", line_width="width")
         draw(fig, Scatter, "x", "z", source=self.tips, marker="triangle", size=SIZE, angle="angle",
              fill_color="colour", line_color=None)  # fmt: skip
-        draw(fig, Text, "x", "z", source=self.said, text="text", x_offset="dx", y_offset="dy", text_color="colour",
-             text_align="align", text_baseline="middle", text_font_size="12px", text_font_style="bold",
-             background_fill_color=PAPER, background_fill_alpha=0.8, padding=2)  # fmt: skip
+        for source, colour in ((self.said, INK), (self.held, COLOURS["chosen"])):
+            draw(fig, Text, "x", "z", source=source, text="text", x_offset="dx", y_offset="dy", text_color=colour,
+                 text_align="align", text_baseline="middle", text_font_size="12px", text_font_style="bold",
+                 background_fill_color=PAPER, background_fill_alpha=0.8, padding=2)  # fmt: skip
 
     def show(self, shape, dimensions, held, wide, span):
         """The measures of a shape; dimensions: of a Draft; held: the name of what a hand has; wide: how far the body
         reaches aside, mm; span: of the figure."""
         known = {dimension.name: dimension for dimension in dimensions}
-        lines, tips, said, heights = [], [], [], 0
+        lines, tips, words, heights = [], [], {False: [], True: []}, 0
         for measure in measures(shape):
             dimension = known.get(measure.name)
             if dimension is None:
                 continue
             (x, z), (x1, z1) = ((1e3 * a, 1e3 * b) for a, b in (measure.start, measure.end))
             colour, thick = (COLOURS["chosen"], 2) if measure.name == held else (FAINT, 1)
-            words = INK if measure.name != held else COLOURS["chosen"]
+            said = words[measure.name == held]
             text = self._text(dimension, value_of(shape, measure.name))
             if measure.is_height:
                 at = wide + (COLUMN + STEP * (heights % 2)) * span
@@ -48,13 +52,14 @@ class Dimensioned:
                 lines += [(x, z, at, z, FAINT, 0.5), (x1, z1, at, z1, FAINT, 0.5), (at, z, at, z1, colour, thick)]
                 up = 0 if z1 > z else math.pi
                 tips += [(at, z1, up, colour), (at, z, math.pi - up, colour)]
-                said.append((at, (z + z1) / 2, text.replace(" ", "\n", 1), 6, 0, "left", words))
+                said.append((at, (z + z1) / 2, text.replace(" ", "\n", 1), 6, 0, "left"))
             else:
                 lines.append((x, z, x1, z1, colour, thick))
                 slanted, left = z != z1, x1 < x
-                said.append((x1, z1, text, -12 if left else 12, 0, "right" if left else "left", words)
-                            if not slanted else ((x + x1) / 2, (z + z1) / 2, text, 0, 0, "center", words))  # fmt: skip
-        for source, rows in ((self.lines, lines), (self.tips, tips), (self.said, said)):
+                said.append((x1, z1, text, -12 if left else 12, 0, "right" if left else "left")
+                            if not slanted else ((x + x1) / 2, (z + z1) / 2, text, 0, 0, "center"))  # fmt: skip
+        drawn = (self.lines, lines), (self.tips, tips), (self.said, words[False]), (self.held, words[True])
+        for source, rows in drawn:
             source.data = {name: [row[i] for row in rows] for i, name in enumerate(source.column_names)}
 
     @staticmethod

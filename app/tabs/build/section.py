@@ -19,6 +19,7 @@ PARTS = {"body": "#d9b98c", "hollow": PAPER, "core": "#8a96a3"}  # of the sectio
 FRAME = 276  # px, where the browser has not said how large it is; square, so that both axes have one scale
 BORDERS = {"left": 40, "right": 10, "above": 20, "below": 30}  # px; the same both ways, for the figure is square, too
 ROOM = 1.9  # widths of a body, its dimensions beside it included
+ASIDE = 0.06  # of what is in view, more of it right of the axis, where the heights are written
 REACH = 16  # px from a handle that still take hold of it
 
 
@@ -137,7 +138,7 @@ class Section:
         needed = max(ROOM * 2 * profile[:, 0].max(), 1.3 * (high - low))
         self._span = span = 1.25 ** math.ceil(math.log(needed, 1.25))
         middle = (low + high) / 2
-        for axis, centre in ((self.figure.x_range, 0.0), (self.figure.y_range, middle)):
+        for axis, centre in ((self.figure.x_range, ASIDE * span), (self.figure.y_range, middle)):
             axis.update(start=centre - span / 2, end=centre + span / 2)
 
 

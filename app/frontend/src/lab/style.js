@@ -148,7 +148,9 @@ const answer = `
 .answer { display: flex; flex-direction: column; } .answer .plot { flex: 1; min-height: 200px; position: relative; margin-top: 4px; }
 .answer .plot svg { position: absolute; inset: 0; width: 100%; height: 100%; }
 .spins { fill: var(--q-energy-wash); } .lifts { fill: var(--q-energy); } .energy { stroke: var(--q-energy); stroke-width: 2; }
-svg .washed { stroke: var(--q-energy-wash); } svg .inside { fill: var(--ground); stroke: var(--q-energy); }
+svg .washed { stroke: var(--wash); } svg .inside { fill: var(--ground); stroke: var(--lift); }
+:is(.answer, .large) { --wash: var(--q-energy-wash); --lift: var(--q-energy); }
+.lab.old :is(.answer, .large) { --wash: color-mix(in srgb, var(--q-energy-wash) 38%, var(--ground)); --lift: color-mix(in srgb, var(--q-energy) 38%, var(--ground)); }
 .first { stroke: var(--line-2); stroke-dasharray: 4 3; } line.now { stroke: var(--accent); stroke-width: 2; }
 .own { stroke: var(--q-spin); stroke-width: 2; } svg .word.own { fill: var(--q-spin); } .turning { stroke: var(--ink); stroke-width: 2; }
 .answer .rest { stroke: var(--line-2); } .answer .past { stroke: var(--ink); stroke-width: 2; }
@@ -172,6 +174,7 @@ const controls = `
 .ctl { display: grid; grid-template-columns: 1fr auto; align-items: baseline; column-gap: 8px; }
 .ctl label { font-weight: 600; }
 .num { width: 72px; border: 0; border-bottom: 1px solid var(--line-2); background: none; padding: 0; height: 24px; border-radius: 0; text-align: right; font-variant-numeric: tabular-nums; }
+.num:focus-visible { outline-offset: 0; }
 .unit { color: var(--ink-2); margin-left: 4px; display: inline-block; min-width: 3ch; }
 .ctl > :is(.below, .wrong) { grid-column: 1 / -1; }
 .ctl input[type=range] { grid-column: 1 / -1; -webkit-appearance: none; appearance: none; width: 100%; height: 24px; margin: 0; background: none; cursor: pointer; }

@@ -5,7 +5,7 @@ import { part } from "./parts.js";
 const SAID_MS = 1500;
 const CODE = "background: white; padding: 0; line-height: 0";
 const STYLE = `
-:host { display: block; } * { box-sizing: border-box; } [hidden] { display: none !important; }
+:host { display: block; max-height: none !important; } * { box-sizing: border-box; } [hidden] { display: none !important; }
 .all { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #1b2430); }
 .line { display: flex; align-items: center; gap: 8px; } h2 { flex: 1; margin: 0; font-size: calc(18px * var(--type, 1)); font-weight: 600; letter-spacing: -.01em; }
 button { font: inherit; color: inherit; border: 0; background: none; border-radius: 6px; min-height: calc(32px * var(--type, 1)); padding: 0 10px; cursor: pointer; white-space: nowrap; }

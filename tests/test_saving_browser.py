@@ -1,0 +1,119 @@
+"""Every file that Share saves of the run on each table: pressed in Chromium, and read by other programs."""
+
+import io
+import json
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pygltflib
+import pytest
+from lab_page import come, pause
+from PIL import Image
+
+pytestmark = pytest.mark.served
+
+TABLES = {"Ordinary": "ordinary", "Rough": "rough", "Ice": "ice"}
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="module")
+def page(server, chromium):
+    visit = come(chromium.new_page(viewport={"width": 1400, "height": 900}), f"{server}?v=2&tab=lab&table=ordinary")
+    pause(visit.page)
+    yield visit.page
+    visit.page.close()
+    assert not visit.errors
+
+
+def choose(page, table):
+    page.get_by_role("radio", name=table, exact=True).click()
+    page.locator(f".lab[data-table={TABLES.get(table, 'three')}][data-whole]").wait_for()
+
+
+def share(page):
+    if not page.get_by_role("button", name="CSV", exact=True).count():
+        page.get_by_role("button", name="Share", exact=True).click()
+    page.get_by_role("button", name="CSV", exact=True).wait_for()
+
+
+def saved(page, label, name):
+    """The bytes of the file of this name, of the button of that label: the last, for the first PNG is the photo."""
+    with page.expect_download() as download:
+        page.get_by_role("button", name=label, exact=True).locator("visible=true").last.click()
+    assert download.value.suggested_filename == name
+    return download.value.path().read_bytes()
+
+
+def read(csv):
+    return pd.read_csv(io.BytesIO(csv), comment="#")
+
+
+@pytest.fixture(scope="module")
+def runs():
+    """{table: its CSV as pandas reads it}, of those that have been saved."""
+    return {}
+
+
+@pytest.mark.parametrize("label, table", TABLES.items())
+def test_each_file_of_a_tables_run_is_that_run(page, runs, label, table, tmp_path):
+    choose(page, label)
+    share(page)
+    page.get_by_text(f"This motion, {table}").locator("visible=true").wait_for()
+    name = f"tippe-top-{table}"
+
+    csv = saved(page, "CSV", f"{name}.csv")
+    run = runs[table] = read(csv)
+    link = page.locator("input[readonly]").locator("visible=true").input_value()
+    assert f"# table = {table}\n" in csv.decode() and f"# {link}\n" in csv.decode()
+    assert not run.isna().any(axis=None) and run["t"].iloc[-1] == pytest.approx(12 if table == "ordinary" else 6)
+    tilt, energy = np.degrees(run["theta"]), run["energy"]
+    if table == "ordinary":
+        assert tilt.max() > 170 and energy.iloc[-1] < energy.iloc[0] / 4
+        assert np.allclose(energy + run["heat"], energy[0], rtol=1e-3)  # what is lost is heat
+    else:
+        assert tilt.max() < 6 and np.ptp(energy) < 1e-6 * energy[0]
+
+    with np.load(io.BytesIO(saved(page, "NumPy", f"{name}.npz"))) as arrays:
+        assert np.array_equal(arrays["theta"], run["theta"])
+        assert json.loads(str(arrays["header"]))["parameters"]["table"][0] == table
+
+    picture = Image.open(io.BytesIO(saved(page, "PNG", f"{name}.png"))).convert("L")
+    assert picture.width == pytest.approx(183 / 25.4 * 600, abs=2)  # two columns of a journal, 600 dpi
+    assert 0.01 < np.mean(np.array(picture) < 128) < 0.12  # lines on white, no black area
+
+    svg = saved(page, "SVG", f"{name}.svg")
+    assert ET.fromstring(svg).tag.endswith("svg")
+    drawn = page.context.browser.new_page()
+    drawn.set_content(svg.decode())
+    seen = np.array(Image.open(io.BytesIO(drawn.locator("svg").screenshot())).convert("L"))
+    drawn.close()
+    assert 0.01 < np.mean(seen < 128) < 0.12
+
+    gltf = pygltflib.GLTF2.load_from_bytes(saved(page, "GLB", f"{name}.glb"))
+    times = gltf.accessors[gltf.animations[0].samplers[0].input]
+    assert times.count == len(run) and gltf.asset.extras["parameters"]["table"] == table
+
+    (tmp_path / "run.py").write_bytes(saved(page, ".py", f"{name}.py"))
+    again = "import run; np = run.np; np.save('tilt.npy', np.c_[run.motion.t, run.motion.theta])"
+    done = subprocess.run([sys.executable, "-c", again], cwd=tmp_path, capture_output=True, text=True, check=False,
+                          env=os.environ | {"PYTHONPATH": str(ROOT), "MPLBACKEND": "agg"})  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert Image.open(tmp_path / "run.png").width > 400
+    t, theta = np.load(tmp_path / "tilt.npy").T
+    rows = np.rint((len(t) - 1) * run["t"] / run["t"].iloc[-1]).astype(int)  # of which those are saved that show it
+    assert np.allclose(theta[rows[:200]], run["theta"][:200], atol=1e-6)
+
+
+def test_of_all_three_each_is_saved_as_alone(page, runs):
+    choose(page, "All three")
+    share(page)
+    for table in TABLES.values():
+        page.get_by_role("button", name="ice" if table == "ice" else f"{table} table", exact=True).click()
+        page.get_by_text(f"This motion, {table}").locator("visible=true").wait_for()
+        run = read(saved(page, "CSV", f"tippe-top-{table}.csv"))
+        assert np.allclose(run["theta"][:400], runs[table]["theta"][:400], atol=1e-9)
