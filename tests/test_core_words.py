@@ -1,5 +1,6 @@
 """Every event, verdict and preset of the core has words on the page, in every language; its errors: test_text.py."""
 
+import inspect
 import re
 
 import numpy as np
@@ -20,7 +21,8 @@ from tippe_core.motion.happening import NAMES, change
 
 def quoted(function, start, end):
     """The words in quotation marks in a part of a docstring."""
-    part = function.__doc__[function.__doc__.index(start) : function.__doc__.index(end)]
+    text = inspect.getdoc(function)  # as one Python indents it and another does not
+    part = text[text.index(start) : text.index(end)]
     return {" ".join(words.split()) for words in re.findall(r'"([^"]+)"', part)}
 
 
@@ -51,7 +53,7 @@ def test_the_outcome_is_said_as_the_core_says_it():
         goes = outcome(top, state, scales)
         verdicts.add(goes.verdict)
         assert outcome_words(goes, scales) == goes.sentence
-    assert verdicts == quoted(outcome.__globals__["Outcome"], "verdict ", "\n    theta ")
+    assert verdicts == quoted(outcome.__globals__["Outcome"], "verdict ", "\ntheta ")
     for language in LANGUAGES:
         assert {*listed("planes.outcome.will", language)} == verdicts
         assert {*listed("planes.groups", language)} == quoted(
