@@ -160,6 +160,20 @@ def in_order():
     panel.io.document.write_events = panel.io.document.schedule_write_events = send_all
 
 
+def behind(write):
+    """3, for Panel 1.10 and Bokeh 3.10. write: Bokeh's method that writes the changes of a session when its lock opens:
+    behind what Panel held back for the same page, which waits until the socket is free, and may bring what they name."""
+
+    async def written(session, changes):
+        for connections, events in panel.io.document._WRITE_EVENTS.pop(session.document, []):
+            message = connections[0].protocol.create("PATCH-DOC", events)
+            for connection in connections:
+                await connection.send_message(message)
+        await write(session, changes)
+
+    return written
+
+
 @cache
 def mend():
     """2, 3, and 4: where Panel takes its style sheets from for a part that never came into a document, because its view
@@ -171,6 +185,8 @@ def mend():
     panel.io.document._dispatch_msgs = to_the_last(panel.io.document._dispatch_msgs)
     if hasattr(panel.io.document, "_WRITE_MSGS"):  # Panel 1.9
         in_order()
+    else:
+        ServerSession._send_pending_patches = behind(ServerSession._send_pending_patches)
     panel.reactive.CDN_DIST = LOCAL_DIST
 
 
