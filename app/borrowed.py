@@ -162,7 +162,7 @@ def in_order():
 
 def behind(write):
     """3, for Panel 1.10 and Bokeh 3.10. write: Bokeh's method that writes the changes of a session when its lock opens:
-    behind what Panel held back for the same page, which waits until the socket is free, and may bring what they name."""
+    behind what Panel held back for the same page, which waits for a free socket, and may bring what they name."""
 
     async def written(session, changes):
         for connections, events in panel.io.document._WRITE_EVENTS.pop(session.document, []):

@@ -101,8 +101,9 @@ def answers(url):
 
 
 def until(condition, seconds=20):
-    """Waits for a condition."""
+    """Waits for a condition, and gives what it gave."""
     end = time.monotonic() + seconds
-    while not condition():
+    while not (found := condition()):
         assert time.monotonic() < end, "waited too long"
         time.sleep(0.05)
+    return found

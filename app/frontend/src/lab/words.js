@@ -57,7 +57,7 @@ export class Keeps {
     this.texts = texts;
     this.body = part("tbody");
     this.until = part("span", { class: "small" });
-    this.element = part("section", { class: "keeps", "aria-label": texts.keeps },
+    this.element = part("section", { class: "keeps", tabindex: 0, "aria-label": texts.keeps }, // a phone scrolls it
       part("div", { class: "titled" }, part("h2", {}, texts.keeps), this.until),
       part("table", {}, part("thead", {}, part("tr", {}, part("td"), ...texts.kept.map((word) => part("th", { scope: "col" }, word)))), this.body));
   }
