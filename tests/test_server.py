@@ -245,7 +245,7 @@ def test_who_leaves_while_he_connects_leaves_no_traceback(server):
     def token():
         return TOKEN.search(get(server.url)[2])  # none while the server is full
 
-    for _ in range(8):
+    for _ in range(40):
         run(hasty(until(token).group(1)))
     until(lambda: get(server.url)[0] == 200)
     assert "Traceback" not in server.log
