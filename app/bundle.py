@@ -10,9 +10,9 @@ import numpy as np
 import param
 from bokeh.models import CustomJS
 from panel.custom import JSComponent
-from param.parameterized import batch_call_watchers
 
 from app.text import listed
+from app.together import set_together
 
 BUNDLE = Path(__file__).parent / "static" / "tippe.js"
 
@@ -50,10 +50,8 @@ class Bundled(JSComponent):
         super().__init__(**({"texts": self.says()} | params))
 
     def tell(self, **values):
-        """Takes several values as one change. `param.update` does too, but reads all others of the component first."""
-        with batch_call_watchers(self):
-            for name, value in values.items():
-                setattr(self, name, value)
+        """Takes several values as one change."""
+        set_together(self, **values)
 
     def is_new(self, what):
         """Whether this is not what was put into it last; from now on it is."""

@@ -6,12 +6,12 @@ from types import MappingProxyType
 from typing import Any
 
 import param
-from param.parameterized import batch_call_watchers
 
 from app.model.roll.region import PAPER, Upper
 from app.model.scene import Scene, solve
 from app.model.start import Start, rolls
 from app.text import told
+from app.together import set_together
 from tippe_core import State, Top, TopError
 
 
@@ -81,9 +81,8 @@ class Explorer(Start):
     def _follow(self, **values: object) -> None:
         self._following = True
         try:
-            with param.edit_constant(self), batch_call_watchers(self):
-                for name, value in values.items():
-                    setattr(self, name, value)
+            with param.edit_constant(self):
+                set_together(self, **values)
         finally:
             self._following = False
 

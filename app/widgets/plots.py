@@ -30,6 +30,11 @@ GRID, PAPER = "#e7ebef", "#ffffff"
 POINTS_A_CURVE = 640
 
 
+def in_language(basic):
+    """A tick formatter of Bokeh's, with the decimal point of the page's language."""
+    return CustomJSTickFormatter(args={"basic": basic, "point": decimal_point()}, code=TICKS)
+
+
 def plain(**options):
     """A figure without a frame, in the page's own type; nothing on it is logged or asks the server."""
     fig = figure(
@@ -51,10 +56,10 @@ def plain(**options):
     fig.axis.major_label_text_font_size = "12px"
     fig.axis.major_tick_in = 0
     fig.axis.major_label_policy = AllLabels()  # one for both
-    if (point := decimal_point()) != ".":
+    if decimal_point() != ".":
         for axis in fig.axis:
             if isinstance(axis.formatter, BasicTickFormatter):
-                axis.formatter = CustomJSTickFormatter(args={"basic": axis.formatter, "point": point}, code=TICKS)
+                axis.formatter = in_language(axis.formatter)
     if fig.name:
         label = say(f"roll.figures.{fig.name}")
         fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))

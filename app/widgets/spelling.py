@@ -2,10 +2,10 @@
 
 import re
 
-from app.text import listed
+from app.text import decimal_point
 
 
 def spelled(words):
     """Words with their numbers as the page's language writes them, and no line's end before a unit."""
-    words = re.sub(r"(?<=\d)\.(?=\d)", listed("lab_view.view.decimal"), words)
+    words = re.sub(r"(?<=\d)\.(?=\d)", decimal_point(), words)
     return re.sub(r"(?<=\d) (?=(mm|s|rev/s|U/s|%)\b)", "\N{NO-BREAK SPACE}", words)

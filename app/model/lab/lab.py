@@ -11,7 +11,6 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import param
-from param.parameterized import batch_call_watchers
 
 from app.model.arrival import TABLE, TILT
 from app.model.lab.ends import Ends, Key, ends_once, known_ends
@@ -34,6 +33,7 @@ from app.model.runs import Result, Run, Runs, Stopped
 from app.model.start import Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, story
 from app.text import say, told
+from app.together import set_together
 from tippe_core import Shape, State, TopError
 from tippe_core.types import Array
 
@@ -267,9 +267,8 @@ class Lab(param.Parameterized):
 
     def _set(self, **values: object) -> None:
         """Sets constants; an event where they are others."""
-        with param.edit_constant(self), batch_call_watchers(self):
-            for name, value in values.items():
-                setattr(self, name, value)
+        with param.edit_constant(self):
+            set_together(self, **values)
 
     def _follow(self, *events: param.parameterized.Event) -> None:
         """Computes what is set, now or when the present run is done."""

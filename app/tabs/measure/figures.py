@@ -8,7 +8,6 @@ import panel_material_ui as pmui
 from bokeh.models import (
     BoxAnnotation,
     ColumnDataSource,
-    CustomJSTickFormatter,
     FixedTicker,
     Label,
     Line,
@@ -21,9 +20,9 @@ from bokeh.models import (
 
 from app.bundle import call
 from app.model.colours import COLOURS, FAINT, GREY, INK
-from app.text import decimal_point, say
+from app.text import say
 from app.widgets.cards import words
-from app.widgets.plots import TICKS, draw, plain
+from app.widgets.plots import draw, in_language, plain
 
 SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
 """{quantity: how many of its unit on the axis one of the data is}; of lengths 1000, mm."""
@@ -45,10 +44,9 @@ def named(fig, label):
 
 def part_of_time():
     """A slider with two ends, s, which are written as the page's language writes them."""
-    form = CustomJSTickFormatter(args={"basic": NumeralTickFormatter(format="0.000"), "point": decimal_point()},
-                                 code=TICKS)  # fmt: skip
-    return pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01, format=form,
-                            margin=(6, 12), sizing_mode="stretch_width")  # fmt: skip
+    return pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01,
+                            format=in_language(NumeralTickFormatter(format="0.000")), margin=(6, 12),
+                            sizing_mode="stretch_width")  # fmt: skip
 
 
 def _heard(pulled, attr, old, new):
