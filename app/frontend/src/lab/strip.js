@@ -187,9 +187,11 @@ export class Strip {
 
   // Where the rest of its life is to be.
   comes() {
-    const { scene, texts, time } = this, from = this.x(time.end);
-    if (scene.state.whole || this.right - from < NEED) return [];
-    return [drawn("text", { class: "halo", x: (from + this.right) / 2, y: this.y(90) - 5, "text-anchor": "middle" }, texts.comes)];
+    const { scene, size, texts: { comes }, time } = this, from = this.x(time.end), room = this.right - from;
+    if (scene.state.whole || room < NEED) return [];
+    const cut = LETTER * size * comes.length > room ? comes.indexOf(" ", comes.length / 2) : -1; // into two lines
+    const lines = cut < 0 ? [comes] : [comes.slice(0, cut), comes.slice(cut + 1)], x = (from + this.right) / 2;
+    return lines.map((line, i) => drawn("text", { class: "halo", x, y: this.y(90) - 5 - 1.2 * size * (lines.length - 1 - i), "text-anchor": "middle" }, line));
   }
 
   // Of three curves, at their ends, each where there is room.
