@@ -6,6 +6,7 @@ another stands anywhere else in the page. The issues named are the libraries' ow
 
 import inspect
 from collections import deque
+from collections.abc import Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import cache, partial, wraps
@@ -18,13 +19,16 @@ import panel.layout.grid
 import panel.reactive
 import panel_material_ui as pmui
 import param
-from bokeh.core.serialization import Serializer
+from bokeh.core.serialization import Deserializer, Serializer, UnknownReferenceError
+from bokeh.document import Document
+from bokeh.document.events import DocumentPatchedEvent
 from bokeh.document.models import DocumentModelManager
 from bokeh.model import Model
 from bokeh.protocol.messages.patch_doc import patch_doc
 from bokeh.server.connection import ServerConnection
 from bokeh.server.session import ServerSession
 from bokeh.server.tornado import BokehTornado
+from panel.custom import JSComponent
 from panel.io.resources import LOCAL_DIST
 
 FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that have Panel's freeze_doc
@@ -123,6 +127,33 @@ class Known(Serializer):
         return thing.ref if known and thing not in self._models._new_models else super().get_ref(thing)
 
 
+def named_in(part):
+    """The ids in a part of a message."""
+    if isinstance(part, dict):
+        if isinstance(part.get("id"), str):
+            yield part["id"]
+        part = part.values()
+    if not isinstance(part, str | bytes) and isinstance(part, Iterable):
+        for each in part:
+            yield from named_in(each)
+
+
+def apply(document, patch, *, setter=None):
+    """9. What Bokeh's method of a Document does with a message. That lists the names of all models first, and takes it
+    that the page now knows them all, those too that are still to be sent."""
+    models, names = document.models, {*named_in(getattr(patch, "content", patch))}
+    reader = Deserializer([model for model in map(models.get_by_id, names) if model], setter=setter)
+    try:
+        events = reader.deserialize(patch)["events"]
+    except UnknownReferenceError as error:
+        if models.seen(error.id):  # of a model that has gone meanwhile
+            return
+        raise
+    for event in events:
+        DocumentPatchedEvent.handle_event(document, event, setter)
+    models.flush_synced(lambda model: model.id not in names)
+
+
 def message_of(events):
     """Bokeh's PATCH-DOC of these events of one document."""
     models = events[0].document.models
@@ -190,7 +221,7 @@ def lost_at_once(connect):
 
 @cache
 def mend():
-    """2, 3, 10, and 4: where Panel takes its style sheets from for a part that never came into a document, because its
+    """2, 3, 9, 10, and 4: where Panel takes its style sheets from for a part that never came into a document, because its
     view failed. It would ask another machine; and all parts share their sheets, so the page would lose them.
     https://github.com/holoviz/panel/issues/7073, https://github.com/holoviz/panel/pull/8408"""
     DocumentModelManager.freeze = thawed(DocumentModelManager.freeze)
@@ -202,6 +233,7 @@ def mend():
     else:
         ServerSession._send_pending_patches = behind(ServerSession._send_pending_patches)
     BokehTornado.new_connection = lost_at_once(BokehTornado.new_connection)
+    Document.apply_json_patch = apply
     panel.reactive.CDN_DIST = LOCAL_DIST
 
 
@@ -244,6 +276,38 @@ def at_once(component, *properties):
     first, which was a fifteenth of a move. No issue that we found."""
     component._priority_changes = component._busy__ignore = list(properties)
     component._process_events = partial(_take, component, component._process_events, {*properties})
+
+
+class Direct(JSComponent):
+    """6. What is set while a change of the page goes on goes into it without Panel's two holds a component, which cost
+    more than what they hold."""
+
+    def _param_change(self, *events):
+        values = {event.name: event.new for event in events}
+        for ref, (model, _) in self._models.items():
+            document = model.document
+            if not (document and document is panel.state.curdoc and document.callbacks.hold_value
+                    and values.keys() <= self.own()):  # fmt: skip
+                super()._param_change(*events)
+                return
+            told = self._in_process__events.get(document, {})
+            before = self._changing.get(ref)
+            news = {name: value for name, value in values.items() if name not in told or told[name] != value}
+            self._changing[ref] = [*news]
+            try:
+                model.data.update(**news)
+            finally:
+                if before is None:
+                    del self._changing[ref]
+                else:
+                    self._changing[ref] = before
+
+    @classmethod
+    @cache
+    def own(cls):
+        """The names of its values, which no other part of Panel knows."""
+        plain = (param.Event, panel.custom.Child, panel.custom.Children)
+        return {name for name in set(cls.param) - set(JSComponent.param) if not isinstance(cls.param[name], plain)}
 
 
 def _take(component, process, properties, changes):
