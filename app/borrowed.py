@@ -221,8 +221,8 @@ def lost_at_once(connect):
 
 @cache
 def mend():
-    """2, 3, 9, 10, and 4: where Panel takes its style sheets from for a part that never came into a document, because its
-    view failed. It would ask another machine; and all parts share their sheets, so the page would lose them.
+    """2, 3, 9, 10; and 4: a part whose view failed never came into a document, and Panel would take its style sheets
+    from another machine. All parts share their sheets, so the page would lose them.
     https://github.com/holoviz/panel/issues/7073, https://github.com/holoviz/panel/pull/8408"""
     DocumentModelManager.freeze = thawed(DocumentModelManager.freeze)
     for module in FREEZES:
