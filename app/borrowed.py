@@ -24,6 +24,7 @@ from bokeh.model import Model
 from bokeh.protocol.messages.patch_doc import patch_doc
 from bokeh.server.connection import ServerConnection
 from bokeh.server.session import ServerSession
+from bokeh.server.tornado import BokehTornado
 from panel.io.resources import LOCAL_DIST
 
 FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that have Panel's freeze_doc
@@ -174,10 +175,23 @@ def behind(write):
     return written
 
 
+def lost_at_once(connect):
+    """10. Bokeh's method that connects a page to its session. From 3.10 on the page may have gone by then: nobody was
+    told of it, and the session was kept for good. No issue that we found."""
+
+    def connected(server, protocol, socket, context, session):
+        connection = connect(server, protocol, socket, context, session)
+        if socket.ws_connection is None:
+            server.client_lost(connection)
+        return connection
+
+    return connected
+
+
 @cache
 def mend():
-    """2, 3, and 4: where Panel takes its style sheets from for a part that never came into a document, because its view
-    failed. It would ask another machine; and all parts share their sheets, so the page would lose them.
+    """2, 3, 10, and 4: where Panel takes its style sheets from for a part that never came into a document, because its
+    view failed. It would ask another machine; and all parts share their sheets, so the page would lose them.
     https://github.com/holoviz/panel/issues/7073, https://github.com/holoviz/panel/pull/8408"""
     DocumentModelManager.freeze = thawed(DocumentModelManager.freeze)
     for module in FREEZES:
@@ -187,6 +201,7 @@ def mend():
         in_order()
     else:
         ServerSession._send_pending_patches = behind(ServerSession._send_pending_patches)
+    BokehTornado.new_connection = lost_at_once(BokehTornado.new_connection)
     panel.reactive.CDN_DIST = LOCAL_DIST
 
 
