@@ -35,7 +35,7 @@ WAITING = WeakKeyDictionary()  # connection -> messages that were made and not y
 # --- for any server
 
 
-class Here(ThreadPoolExecutor):
+class InThisThread(ThreadPoolExecutor):
     """An executor that runs a function at once, in the calling thread."""
 
     def submit(self, function, /, *arguments, **named):
@@ -57,7 +57,7 @@ def in_one_thread(loop, context):
     computations are given to app.model.runs. https://github.com/bokeh/bokeh/pull/15239,
     https://github.com/holoviz/panel/pull/8675
     """
-    here = Here(1)
+    here = InThisThread(1)
     loop.set_default_executor(here)
     executor = getattr(context, "_executor", None)  # Bokeh 3.9 has none
     if executor is not None:
