@@ -235,6 +235,29 @@ def test_what_writes_to_a_page_waits_under_these_names():
     assert "_WRITE_EVENTS" in source or "_WRITE_MSGS" in source
 
 
+class Clients(BokehTornado):
+    """What a server of Bokeh knows of its connections."""
+
+    def __init__(self):
+        self._clients = set()
+
+    def _require_running(self):
+        pass
+
+
+@pytest.mark.parametrize("here", [True, False])
+def test_who_left_before_he_was_connected_leaves_no_connection(here):
+    """10."""
+    server, socket, session = Clients(), Socket(), ServerSession("mine", Document(), io_loop=IOLoop())
+    if not here:
+        socket.ws_connection = None
+    connect = borrowed.lost_at_once(BokehTornado.new_connection)
+    connection = connect(server, Protocol(), socket, None, session)
+    assert connection.protocol
+    assert (session.connection_count, len(server._clients)) == (here, here)
+    session.destroy()
+
+
 def sheets():
     """The addresses of the style sheets of a part whose document is none of a server's."""
     with set_curdoc(Document()):

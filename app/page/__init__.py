@@ -1,1 +1,1 @@
-"""The page: what stands on it, and the picture before the session."""
+"""The page: its views, and the picture before the session has started."""

@@ -1,14 +1,15 @@
-"""Panel Material UI's design, which works out once for each kind of component in a document what it gives to them."""
+"""Panel Material UI's design, but what it gives to a kind of component is computed only once for each document."""
 
 from weakref import WeakKeyDictionary
 
 from panel_material_ui import MaterialDesign
 
-GIVEN = WeakKeyDictionary()  # of a document: {kind of component: what the design gives it}
+GIVEN = WeakKeyDictionary()  # document -> {kind of component: what the design gives to it}
 
 
 class Design(MaterialDesign):
-    """Panel asks for it at each change of each component, and it read files each time: a twelfth of a move."""
+    """Panel asks for these values at each change of each component, and reads files each time, a twelfth of the cost of
+    a move."""
 
     def params(self, viewable, doc=None):
         known = GIVEN.setdefault(doc, {}) if doc is not None else {}

@@ -1,8 +1,9 @@
-"""The page around Bokeh's own: in it the arrival's top moves before the scripts, the session and the controls come.
+"""The page around Bokeh's: it shows the moving top of the arrival before the scripts, the session and the controls are
+there.
 
-What the Lab of a session says on arrival is the same for all. Its words are written into the page, its numbers are a
-file that the browser keeps. early.js asks for it, frontend/src/first.js draws both, and hands the picture over to the
-session's component when that is made.
+On arrival the Lab is the same in every session. Its words are written into the page; its numbers are in a file that the
+browser caches. early.js requests the file, frontend/src/first.js draws both, and hands the picture over to the
+session's component once that is there.
 
     python -m app.page.first
 
@@ -32,19 +33,19 @@ from app.text import LANGUAGES, speaking
 PAGE = Path(__file__).with_name("first.html")
 EARLY, BORROWED = inlined(PAGE.with_name("early.js")), inlined(PAGE.parents[1] / "borrowed.js")
 FILE = Path(__file__).with_name("arrival.gz")
-FRAME, POSE, CURVE = 21, 11, 8  # columns of a frame as pack_frames makes it, those that place the top, and of a curve
+FRAME, POSE, CURVE = 21, 11, 8  # columns: of a frame (pack_frames), of these its pose, and of a curve
 NUMBERS = {"profile": (2, 2, 2**20), "frames_ordinary": (FRAME, POSE, 2**12), "curves_ordinary": (CURVE, CURVE, 2**7)}
-"""{what a LabView says in bytes: (columns, those that are needed at first, steps in one)}."""
+"""{array of a LabView: (columns, those that are needed at first, steps per unit)}."""
 
 
 class Numbers:
-    """Where Panel's server finds the file."""
+    """Tells Panel's server where the file is."""
 
     _bundle_path = FILE
 
 
 def arrival():
-    """A LabView as it is on arrival, of no session."""
+    """A LabView as it is on arrival, without a session."""
     lab = Lab()
     lab.show()
     lab.rest()
@@ -52,8 +53,8 @@ def arrival():
 
 
 def written(view):
-    """The file: a line of JSON, [[name, rows, columns, columns that follow], ...], then float32 column by column, in
-    steps that no eye sees and that are packed well."""
+    """The file: a line of JSON, [[name, rows, columns, stored columns], ...], then the columns as float32, rounded to
+    steps that are too small to be seen and that compress well."""
     heads, parts = [], []
     for name, (width, needed, steps) in NUMBERS.items():
         rows = np.frombuffer(getattr(view, name), "<f4").reshape(-1, width)
@@ -64,7 +65,7 @@ def written(view):
 
 @cache
 def words():
-    """JSON of {language: all else that a LabView says on arrival}."""
+    """JSON of {language: everything else in a LabView on arrival}."""
     found = {}
     for language in LANGUAGES:
         with speaking(language):
@@ -75,8 +76,7 @@ def words():
 
 
 def searches():
-    """{search of an address that opens the arrival and asks for nothing else: its language, or "" for the browser's
-    own}."""
+    """{query that opens the arrival and nothing else: its language, or "" for the browser's}."""
     found, tab = {"": ""}, {names.TAB: room.FIRST}
     for language in ("", *LANGUAGES):
         asked = tab | ({names.LANGUAGE: language} if language else {})
@@ -90,7 +90,7 @@ def version():
 
 
 def variables(language):
-    """What PAGE needs; language: of the page."""
+    """The variables of the template PAGE; language: that of the page."""
     address = f"./components/{__name__}/{Numbers.__name__}/_bundle_path/{FILE.name}"
     bundles = [address_of(kind) for kind in (Bundled, pmui.Page)]
     early = {"language": language, "bundles": bundles, "searches": searches(),

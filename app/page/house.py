@@ -1,4 +1,4 @@
-"""What a page has besides its views, and each view made with its own part of it."""
+"""What a page has besides its views, and the creation of each view with the parts that it needs."""
 
 from functools import partial
 
@@ -36,16 +36,16 @@ from app.widgets.top3d import Top3D, show_top
 
 
 def alike(*rooms):
-    """The rooms of a tab that has the same at each level."""
+    """The levels of a tab that has the same rooms at each level."""
     return dict.fromkeys(LEVELS, rooms)
 
 
 TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"), "maps": alike("families", "maps"),
         "measure": alike("measure")}  # fmt: skip
-"""{tab: {level: the names that its rooms have in an address}}, in the order of the head."""
+"""{tab: {level: names of its rooms in an address}}, in the order of the head."""
 
 
-# The top that is built, alone: what it goes with is a matter of the Lab.
+# Only the top that is being built, because whatever moves beside it belongs to the Lab.
 BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
 DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}
 HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
@@ -53,11 +53,11 @@ PLAIN = ".tippe :is(.verdict, .scales, .time, .shows) { display: none !important
 
 
 class House:
-    """The Explorer that solves, the Pacer that is asked and shows its scenes, the Builder of bodies, the Lab, how the
-    top is played, what is kept, and what runs beside.
+    """Everything that the views share: the Explorer, which solves; the Pacer, which takes requests and shows scenes;
+    the Builder of bodies; the Lab; the playback; the Keep; and the Runs.
 
-    look_at(name of a room) shows it, and level is how much the page shows: the page sets where that leads; and what is
-    told when runs_shown() may be others.
+    look_at(name) shows a room, and level is how much the page shows; the page sets both, and `told`, which is called
+    when runs_shown() may have changed.
     """
 
     def __init__(self, texts, sentence, look_at, level):
@@ -90,12 +90,12 @@ class House:
             show(self._explores())
 
     def _at_levels(self, show):
-        """show(whether it explores), now and at each other level."""
+        """Calls show(whether the level is "Explore") now and whenever the level changes."""
         self._shows_level.append(show)
         show(self._explores())
 
     def take(self, name, looked_at):
-        """A top that has a name, in the room that is looked at and so everywhere."""
+        """Sets the page's top to the one with this name, from the room that is shown."""
         if looked_at == room.FIRST:
             self.lab_of.ask(toy=name)
             self.lab_of.rest()
@@ -103,7 +103,7 @@ class House:
             self.builder.choose(name)
 
     def toy(self, looked_at):
-        """What the top of this room is called; another name than any where it has none."""
+        """The name of the top in this room; "" or another unknown name if it has none."""
         return self.explorer.toy if looked_at == room.FIRST else self.builder.draft.name
 
     def _explores(self):
@@ -113,7 +113,7 @@ class House:
     def scene(self):
         return self.explorer.scene
 
-    # ---- the rooms, each made when it is first looked at ----
+    # ---- the rooms, each created when it is first shown ----
 
     def lab(self):
         return lab_view(self.lab_of, lambda: self._look_at(room.USUAL))
@@ -127,7 +127,7 @@ class House:
         return Roll(self.pacer, self.playing, controls.card(), slip, self.runs).main
 
     def _road(self, says, goes, **layout):
-        """A button that leads on."""
+        """A button that leads to another room."""
         button = pmui.Button(label=say(says), **BUTTON | layout)
         on_click(button, lambda event: goes())
         return button
@@ -187,7 +187,7 @@ class House:
         return flexible(*cards)
 
     def _use(self, name):
-        """A known top in the Lab, and everywhere."""
+        """Shows a known top in the Lab, and so everywhere."""
         self.lab_of.ask(toy=name)
         self._look_at("lab")
 
@@ -210,7 +210,7 @@ class House:
         return maps.view
 
     def _throw(self, toy, spin, tilt, mu, look):
-        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH)  # as the map has it
+        self.lab_of.ask(toy=toy, spin=spin, tilt=tilt, mu=mu, patch=PATCH)  # the patch of the map
         if look:
             self._look_at("lab")
 
@@ -227,6 +227,6 @@ class House:
 
     @property
     def makers(self):
-        """{name of a room in the address: its maker}."""
+        """{name of a room in the address: the function that creates it}."""
         made = (self.lab, self.roll, self.planes, self.build, self.families, self.learn, self.maps, self.measure)
         return dict(zip(ROOMS, made, strict=True))

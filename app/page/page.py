@@ -1,4 +1,4 @@
-"""The page, layout only."""
+"""The page: its layout only."""
 
 from weakref import WeakKeyDictionary
 
@@ -34,7 +34,7 @@ BARE = {"theme_toggle": False, "busy_indicator": None}
 
 
 class Tongue(param.Parameterized):
-    """Which language the page speaks; another one means another page, so it is loaded anew, with its state."""
+    """The language of the page; for another one the page is loaded again, with its state."""
 
     lang = param.Selector(default="", objects=["", *text.LANGUAGES], doc='"": the one the browser prefers')
 
@@ -44,9 +44,9 @@ def page():
     asked = read(search)[0].get(LANGUAGE)
     accepted = text.preferred(pn.state.headers.get("Accept-Language", ""))
     SPEAKS[pn.state.curdoc] = asked if asked in text.LANGUAGES else accepted
-    texts, sentence = read(search)  # what it says is in that language
+    texts, sentence = read(search)  # in this language
     failed = failure()
-    if VOTE in texts:  # a student's link
+    if VOTE in texts:  # the link of a student
         return pmui.Page(title=say("main.title"), main=[student_page(texts[VOTE]), failed],
                          stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
     house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts, search))
@@ -80,7 +80,7 @@ def page():
 
 
 def chosen(rooms, house, tongue, share):
-    """What the head asks for, and whom."""
+    """The functions that the head calls for what is chosen in it."""
 
     def table(name):
         rooms.room = house.start.table(name)
@@ -95,7 +95,7 @@ def chosen(rooms, house, tongue, share):
 
 
 def tells(head, rooms, house):
-    """Has the head say which top and which table there is, now and whenever it is another."""
+    """Keeps the head informed of the present top and table."""
 
     def tell(*events):
         head.tops(*choices.tops(house.toy(rooms.room)))
@@ -112,6 +112,6 @@ def show():
     pn.extension("katex", design=Design, respect_explicit_sizing=True)
     shown = page()
     with edit_readonly(shown):
-        # It would be told whether any page of this server is busy, which kept it and all it shares for ever.
+        # Panel would tell it whether any page of this server is busy, which kept it and all it shares alive for ever.
         shown.busy = shown.param.theme_toggle
     shown.servable()

@@ -136,8 +136,6 @@ class Socket(Answer, WSHandler):
         await self._greet(session)
 
     async def _greet(self, session):
-        if self.ws_connection is None:  # gone meanwhile: nobody would close the connection, and the session never ended
-            return
         protocol = Protocol()
         self.receiver = Receiver(protocol)
         self.connection = self.application.new_connection(protocol, self, self.application_context, session)

@@ -1,1 +1,1 @@
-"""What stands in the page's address, and the way back and forth through it."""
+"""The state of the page in its address, undo and redo, and checks of what a browser sends."""

@@ -1,4 +1,4 @@
-"""What a page asks, taken as ours: whoever speaks past the page may send anything in the place of a number."""
+"""Checks of what a page sends: a client other than the page may send anything in place of a number."""
 
 import logging
 import math
@@ -7,11 +7,11 @@ log = logging.getLogger("tippe")
 
 
 class Unasked(ValueError):
-    """Raised for what a page never sends."""
+    """Raised for a value that a page never sends."""
 
 
 def number(value):
-    """A finite float; else Unasked."""
+    """The value as a finite float; else raises Unasked."""
     try:
         if not isinstance(value, bool) and isinstance(value, (int, float)) and math.isfinite(value):
             return float(value)
@@ -21,26 +21,26 @@ def number(value):
 
 
 def text(value):
-    """A str; else Unasked."""
+    """The value as a str; else raises Unasked."""
     if isinstance(value, str):
         return value
     raise Unasked("not a text")
 
 
 def anything(value):
-    """Whatever it is."""
+    """The value, whatever it is."""
     return value
 
 
 def parts(value, *kinds):
-    """A list of one value of each of these kinds, functions such as those above; else Unasked."""
+    """The items of a list, each checked by one of these functions (such as those above); else raises Unasked."""
     if not isinstance(value, (list, tuple)) or len(value) != len(kinds):
         raise Unasked(f"not a list of {len(kinds)}")
     return [kind(part) for kind, part in zip(kinds, value, strict=True)]
 
 
 def heard(act):
-    """A watcher that calls act(event), and passes over what a page never sends, with one line in the log."""
+    """A watcher that calls act(event); a value that a page never sends is ignored, with one line in the log."""
 
     def watcher(event):
         try:
@@ -52,5 +52,5 @@ def heard(act):
 
 
 def pass_over(event, error):
-    """Says so."""
+    """Writes that line."""
     log.warning("passed over: %s of a %s: %s", event.name, type(event.obj).__name__, error)

@@ -1,6 +1,6 @@
-"""How a value is written in the address, and read from there: text() of a value, value() of a text.
+"""How values are written in the address and read from it: text() of a value, value() of a text.
 
-What a stranger wrote there is read, never believed: value() raises a ValueError with a sentence.
+A text may come from anyone, so it is checked: value() raises a ValueError with a sentence.
 """
 
 import base64
@@ -22,35 +22,35 @@ NUMBER = re.compile(r"-?(\d+\.?\d*|\.\d+)(e-?\d+)?", re.ASCII)
 
 
 class Number:
-    """A float, as short as it can be and to the last digit."""
+    """A float, in as few characters as keep every digit."""
 
     @staticmethod
     def text(value):
-        """Of a finite number."""
+        """The text of a finite number."""
         text = repr(float(value)).removesuffix(".0").replace("e+", "e").replace("e-0", "e-")
         return re.sub(r"^(-?)0\.", r"\1.", text)
 
     @staticmethod
     def value(text):
-        """Of what text() wrote; else a ValueError."""
+        """The number in a text; else raises ValueError."""
         if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text) or abs(float(text)) == float("inf"):
             raise ValueError(say("share.link.number"))
         return float(text)
 
 
 class Numbers:
-    """So many floats in a list, or none."""
+    """A list of a fixed number of floats, or None."""
 
     def __init__(self, count):
         self._count = count
 
     @staticmethod
     def text(value):
-        """Of finite numbers."""
+        """The text of finite numbers."""
         return "_".join(map(Number.text, map(asked.number, value)))
 
     def value(self, text):
-        """Of what text() wrote; else a ValueError."""
+        """The numbers in a text; else raises ValueError."""
         parts = text.split("_") if text else []
         if len(parts) not in (0, self._count):
             raise ValueError(say("share.link.numbers", count=self._count))
@@ -58,41 +58,44 @@ class Numbers:
 
 
 class OneOf:
-    """One of a few values, each by its word."""
+    """One of a few values, each written as a word."""
 
     def __init__(self, **words):
         self._words = words
 
     def text(self, value):
-        """The word of a value; Unasked where it has none."""
+        """The word of a value; raises Unasked if it has none."""
         for word, known in self._words.items():
             if known == value:
                 return word
         raise asked.Unasked(f"not one of {', '.join(self._words)}")
 
     def value(self, text):
-        """The value of a word; else a ValueError."""
+        """The value of a word; else raises ValueError."""
         if text not in self._words:
             raise ValueError(say("share.link.one_of", words=", ".join(self._words)))
         return self._words[text]
 
 
 class Body:
-    """A shape: its kind and its dimensions in SI; where those are lists, its file, packed."""
+    """A shape: its kind and its dimensions in SI units, or, if these include lists, its file, compressed."""
 
     PACKED = "z"
 
     @classmethod
     def text(cls, shape):
-        """Of any Shape."""
-        dimensions = list(given(shape).values())
+        """The text of any Shape."""
+        names = names_of(type(shape))[0]
+        while names[-1] not in given(shape):  # those at the end that go without saying
+            names.pop()
+        dimensions = [getattr(shape, name) for name in names]
         if all(isinstance(value, float) for value in dimensions):
             return "_".join([type(shape).__name__, *map(Number.text, dimensions)])
         return cls.PACKED + base64.urlsafe_b64encode(zlib.compress(save_top(shape).encode(), 9)).decode().rstrip("=")
 
     @classmethod
     def value(cls, text):
-        """Of what text() wrote; else a ValueError, which may be the TopError of an impossible body."""
+        """The Shape in a text; else raises ValueError, which may be the TopError of an impossible body."""
         if text.startswith(cls.PACKED):
             shape = cls._unpacked(text[len(cls.PACKED) :])
         else:
@@ -116,7 +119,7 @@ class Body:
 
 
 class Key:
-    """A teacher's, in his link."""
+    """The secret key of a teacher, in the teacher's own link."""
 
     text = staticmethod(str)
 
@@ -128,13 +131,13 @@ class Key:
 
 
 class Film:
-    """A film's data with what is fitted to them, packed; or nothing."""
+    """A film's data and fit, compressed; or ""."""
 
     text = staticmethod(str)
 
     @staticmethod
     def value(text):
-        """The letters themselves, where a film is in them; else a ValueError."""
+        """The compressed text itself if it holds a film; else raises ValueError."""
         try:
             if text:
                 film.unpacked(text)

@@ -1,7 +1,7 @@
-"""The state of the page as the query of a URL, and the steps back and forth through it.
+"""The state of the page as the query of its address, and undo and redo.
 
-Which name keeps what is in names.py. A query holds what is not the default, every number to the last digit:
-?v=2&KJ=6.7&mu=.3. What a stranger wrote there is read, never believed.
+names.py says which name stores what. A query contains only what differs from the default, every number to the last
+digit: ?v=2&KJ=6.7&mu=.3. It may come from anyone, so it is checked.
 """
 
 from dataclasses import dataclass
@@ -19,9 +19,9 @@ from app.state.names import SECRET, VERSION_NAME, of, query
 from app.text import say, told
 from tippe_core import TopError
 
-# The defaults are part of a version: with others, or with another meaning of a name, this becomes 3.
+# The defaults belong to a version: if they or the meaning of a name change, this becomes 3.
 VERSION = 2
-LONGEST_QUERY = 12_000  # a body of the most points that can be built is shorter
+LONGEST_QUERY = 12_000  # characters; the body with the most points that can be built needs fewer
 MOST_NAMES = 60
 STEPS = 100
 
@@ -30,7 +30,7 @@ FOLLOWING = {name for names in Explorer.GIVEN.values() for name in names}
 
 
 def read(query):
-    """(texts, sentence): the names and texts of a query, {} and a sentence where it cannot be one. Never raises."""
+    """(texts, sentence): the names and texts of a query; {} and a sentence if it is not valid. Never raises."""
     query = query.removeprefix("?")
     if len(query) > LONGEST_QUERY:
         return {}, say("share.link.too_long", letters=len(query))
@@ -45,12 +45,13 @@ def read(query):
 
 
 def shared(query):
-    """What of a query others may see."""
+    """The part of a query that may be shared with others."""
     return "&".join(part for part in query.split("&") if not part.startswith(f"{SECRET}="))
 
 
 def values(texts, known, skip=()):
-    """(values, sentence): the parameters that texts give, those not possible left out and named. Never raises."""
+    """(values, sentence): the parameters in texts; invalid ones are left out and named in the sentence. Never
+    raises."""
     found, wrong = {}, []
     for parameter, name in known.items():
         if name.key not in texts:
@@ -64,7 +65,7 @@ def values(texts, known, skip=()):
 
 
 def inputs_of(texts):
-    """(inputs, sentence): what texts ask of an Explorer, a body with its own numbers. Never raises."""
+    """(inputs, sentence): the inputs of an Explorer in texts, with the body's own a, I1 and I3. Never raises."""
     inputs, sentence = values(texts, EXPLORER)
     if "shape" in inputs:
         top = inputs["shape"].top
@@ -73,27 +74,28 @@ def inputs_of(texts):
 
 
 def explorer_of(texts, explores=False):
-    """(Explorer, sentence): the start that texts ask for, else the default one of this level. Never raises."""
+    """(Explorer, sentence): the start in texts, or the default one of this level if it is impossible. Never raises."""
     inputs, sentence = inputs_of(texts)
     first = arrives() if explores else {}
     try:
         return Explorer(**first | inputs), sentence
-    # what the solver says of numbers whose squares or reciprocals are no numbers
+    # the solver's error for numbers whose squares or reciprocals overflow
     except (ValueError, ArithmeticError) as error:
         why = told(error) if isinstance(error, TopError) else say("share.link.extreme")
         return Explorer(**first), say("share.link.impossible", why=why)
 
 
 def kept(explorer, texts=None, sentence="", explores=lambda: False, **more):
-    """The Keep of a page about this Explorer, of which the link has been obeyed already. explores(): whether the page
-    explores. What a hand lets go may be kept where it cannot be said how that rolls."""
+    """The Keep of a page with this Explorer, which the link has already set. explores(): whether the page is at the
+    level "Explore". A start by hand is stored even if its rolling motion cannot be computed."""
     keep = Keep(texts, sentence, allowed=lambda: explorer.given == "hand" or not explorer.scene.messages, **more)
     keep.add(explorer, lambda explorer: usual(explorer, explores()), opened=True)
     return keep
 
 
 def usual(explorer, explores=False):
-    """{parameter: value} of an Explorer where a query is silent about it: the start by which it is given, its body."""
+    """{parameter: value} of an Explorer if a query does not mention it; only the inputs by which the start is given,
+    and the body."""
     names = [name for name in EXPLORER if name not in FOLLOWING or name in Explorer.GIVEN[explorer.given]]
     first = {name: Explorer.param[name].default for name in names}
     if explores:
@@ -106,14 +108,15 @@ def usual(explorer, explores=False):
 
 @dataclass(frozen=True)
 class Part:
-    """What one view keeps: a Parameterized, {parameter: Name}, and what says which of them count, with defaults."""
+    """The state of one view: a Parameterized, {parameter: Name}, and a function that returns the relevant parameters
+    with their defaults."""
 
     owner: param.Parameterized
     known: dict
     usual: Any
 
     def state(self, undoable=False):
-        """{parameter: value} as of now, of those that count."""
+        """{parameter: present value} of the relevant parameters."""
         names = (name for name in self.usual(self.owner) if self.known[name].undoable or not undoable)
         return {name: getattr(self.owner, name) for name in names}
 
@@ -121,9 +124,9 @@ class Part:
 class Keep(param.Parameterized):
     """The state of a page: its query, and undo and redo.
 
-    at_rest() is to be called when a gesture ends; it makes the query, and where something undoable changed, a step.
-    allowed: whether what is set now can be shown at all; else it is passed over. shortest: of the texts of a query,
-    those that have to be said.
+    at_rest() is to be called when a gesture ends; it updates the query and, if something undoable has changed, adds a
+    step. allowed: whether the present inputs can be shown; if not, they are not stored. shortest: reduces the texts of
+    a query to those that are needed.
     """
 
     query = param.String(default="", doc="the state, from the question mark on; empty where all is the default")
@@ -135,7 +138,7 @@ class Keep(param.Parameterized):
     def __init__(self, texts=None, sentence="", allowed=lambda: True, shortest=lambda texts: texts):
         super().__init__(sentence=sentence)
         self._shortest = shortest
-        self._texts = dict(texts or {})  # of views that are not made yet
+        self._texts = dict(texts or {})  # for views that do not exist yet
         self._parts, self._allowed = [], allowed
         self._steps, self._at, self._gesture = [{}], 0, None
 
@@ -145,10 +148,10 @@ class Keep(param.Parameterized):
         return dict(self._texts)
 
     def add(self, owner, usual=None, opened=False):
-        """Keeps of a view too what NAMES has of its class, at what the link said of it.
+        """Also stores the parameters that NAMES lists for the class of this view, and sets them as the link says.
 
-        usual: the owner's parameters that count now, with their defaults; without it all of them. opened: the link has
-        been obeyed already.
+        usual: returns the owner's relevant parameters with their defaults; all of them if it is not given. opened: the
+        link has already been applied.
         """
         kind = type(owner).__name__
         known = of(kind)
@@ -166,15 +169,15 @@ class Keep(param.Parameterized):
             self.sentence = " ".join(filter(None, (self.sentence, wrong)))
         self._parts.append(part)
         owner.param.watch(partial(self._set, known), list(known))
-        # it is not a step that a view was made
+        # creating a view is not a step
         self._steps = [step | {id(owner): part.state(undoable=True)} for step in self._steps]
         self._write()
 
     def _set(self, known, *events):
-        """What a page never sends goes back to what was."""
+        """Sets parameters back that were given a value which a page never sends."""
         for event in events:
             if known[event.name].codec is Body or (event.new is None and event.obj.param[event.name].allow_None):
-                continue  # no page sends a body; and None, where it may be, has no word in a link
+                continue  # no page sends a body; and None, where it is allowed, is not written in a link
             try:
                 known[event.name].codec.text(event.new)
             except (ValueError, TypeError, OverflowError) as error:
@@ -183,7 +186,7 @@ class Keep(param.Parameterized):
         self.param.trigger("changed")
 
     def at_rest(self, gesture=None):
-        """A gesture has ended; what comes late of the same gesture, which is not None, makes no step of its own."""
+        """Ends a gesture. A late change by the same gesture (if it is not None) does not make another step."""
         if not self._allowed():
             return
         step = {id(part.owner): part.state(undoable=True) for part in self._parts}
@@ -196,7 +199,7 @@ class Keep(param.Parameterized):
         self._write()
 
     def undo(self):
-        """One step back; only to the last one that could be shown where what is set now cannot."""
+        """One step back; if the present inputs cannot be shown, only to the last step."""
         self._go(self._at - self._allowed())
 
     def redo(self):
@@ -229,5 +232,5 @@ class Keep(param.Parameterized):
 
 
 def same(value, other):
-    """Equal to the last digit, and in the sign of zero."""
+    """Whether two values are equal to the last digit, including the sign of zero."""
     return value == other and (not isinstance(value, float) or Number.text(value) == Number.text(other))

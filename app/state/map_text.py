@@ -7,11 +7,12 @@ from tippe_core import PRESETS, TopError
 
 
 class MapText:
-    """A Map in an address: across_from_to_up_from_to_law_body_seconds_cells, then name_value of what is fixed."""
+    """A Map in an address: across_from_to_up_from_to_law_body_seconds_cells, then name_value for each fixed
+    quantity."""
 
     @staticmethod
     def text(asked):
-        """Of any Map; the page's own top is in other words of the address, and here 0."""
+        """The text of any Map. The page's own top is elsewhere in the address; here it is 0."""
         numbers = (asked.seconds, float(asked.cells))
         names = [preset.name for preset in PRESETS]
         body = names.index(asked.body) + 1 if asked.body in names else 0
@@ -24,7 +25,7 @@ class MapText:
 
     @staticmethod
     def value(text):
-        """Of what text() wrote; else a ValueError, which may be the TopError of what no map can be."""
+        """The Map in a text; else raises ValueError, which may be the TopError of an impossible map."""
         parts = text.split("_")
         if not 10 <= len(parts) <= 10 + 2 * len(QUANTITIES) or len(parts) % 2:
             raise TopError("map", text, "across_from_to_up_from_to_law_body_seconds_cells")

@@ -1,6 +1,7 @@
-"""Every name that an address can have: what it is of, how it is written, whether changing it is a step to undo.
+"""All names that an address can contain: what each refers to, how it is written, and whether a change of it can be
+undone.
 
-A view keeps nothing that has no row here; a Keep finds the rows by the owner's class.
+A view stores only what has a row here; a Keep finds the rows by the owner's class.
 """
 
 import ipaddress
@@ -19,19 +20,20 @@ from app.state.map_text import MapText
 from app.text import LANGUAGES
 
 ROOMS = ("lab", "roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")
-"""Of which several may be one tab's."""
+"""Tabs may consist of several rooms."""
 LEVELS = ("explore", "research")
 SECTIONS = ("lesson", "derivation", "teach", "history")
-"""Of the tab of lessons."""
+"""The rooms of the tab Learn."""
 SPEEDS = {str(n): 1 / n for n in (1, 2, 4, 8, 16, 32, 64)}
 
 VERSION_NAME, TAB, LEVEL, LANGUAGE, VOTE, SECRET = "v", "tab", "level", "lang", "vote", "room"
-"""Those that are read before there is a view. SECRET: the teacher's key of a vote, in his own address alone."""
+"""Names that are read before there are views. SECRET: the teacher's key of a vote, only in the teacher's own
+address."""
 
 
 @dataclass(frozen=True)
 class Name:
-    """key: in the address; owner: the class whose parameter it keeps; codec: of codecs.py."""
+    """key: the name in the address; owner: the class whose parameter it stores; codec: one of codecs.py."""
 
     key: str
     owner: str
@@ -77,7 +79,7 @@ ROWS = (
     Name("seconds", "Explorer", "seconds", Number),
     Name("half", "Explorer", "upper", OneOf(yes=True, no=False, paper=PAPER)),
     Name("limit", "Explorer", "limit", OneOf(lift="lift-off", slip="slip")),
-    # how it is played and looked at
+    # playback and view
     Name("t", "Clock", "at", Number, undoable=False),
     Name("slow", "Playing", "speed", OneOf(**SPEEDS), undoable=False),
     Name("view", "Playing", "camera", Numbers(3), undoable=False),
@@ -99,9 +101,9 @@ ROWS = (
     Name("map", "MapChoice", "asked", MapText),
     Name("mapby", "MapChoice", "colour", _words(*COLOURS_BY)),
     Name("mapat", "MapChoice", "place", Numbers(2)),
-    # a film's data
+    # data of a film
     Name("film", "Filmed", "film", Film, undoable=False),
-    # the lessons
+    # lessons
     Name("step", "Learn", "step", OneOf(**{step: step for step in STEPS}, **BEFORE), undoable=False),
     Name("learn", "Learn", "section", _words(*SECTIONS), undoable=False),
     Name(SECRET, "Learn", "room", Key, undoable=False),
@@ -115,7 +117,7 @@ def of(owner):
 
 
 def is_local(host):
-    """Whether an address is of this machine alone, so that no phone gets there."""
+    """Whether an address is that of this machine, which a phone cannot reach."""
     try:
         return ipaddress.ip_address(host.strip("[]")).is_loopback
     except ValueError:
@@ -123,7 +125,7 @@ def is_local(host):
 
 
 def link(**texts):
-    """The query of an address that the page gives away, of names that it knows."""
+    """The query of a link that the page offers, of names that it knows."""
     unknown = texts.keys() - NAMES.keys() - {VOTE}
     if unknown:
         raise LookupError(f"no such name in an address: {', '.join(unknown)}")
@@ -131,5 +133,5 @@ def link(**texts):
 
 
 def query(texts):
-    """The query of an address that says these texts, some of which may be a stranger's."""
+    """The query with these texts, some of which may come from anyone."""
     return "?" + "&".join(f"{quote(key)}={quote(text)}" for key, text in texts.items())

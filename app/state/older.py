@@ -1,22 +1,21 @@
-"""Links of the first version, in which each view of the Lab had a top, a start and a table of its own: they open what
-they opened, and say it in the names of today."""
+"""Links of version 1, in which each view of the Lab had its own top, start and table: they still open what they opened,
+and are rewritten with today's names."""
 
 from app.model.lab.run import TOYS
 from app.model.start import PLANE
 from app.state.codecs import Body, Number
 from app.state.names import TAB
 
-LAB = {"turns": "spin", "lean": "tilt", "rub": "mu_k"}  # of a hand in the Lab
+LAB = {"turns": "spin", "lean": "tilt", "rub": "mu_k"}  # of a start by hand in the Lab
 MOTION = "by", "KJ", "KR", "e", "E", "th", "thd", "w2", "w3", "phi", "psi"
-HAND = "spin", "tilt", "slip"  # of a hand in the three planes
+HAND = "spin", "tilt", "slip"  # of a start by hand on the three planes
 TABLE = {plane: table for table, plane in PLANE.items()}
 ONLY_THEN = {*LAB, "toy", "plane", "start", "mu_smooth", "mu_stick"}
-MU_S = ".4"  # of Coulomb's law in the three planes, where a link said nothing
+MU_S = ".4"  # the default of Coulomb's law on the three planes in version 1
 
 
 def today(texts):
-    """The texts of a query of version 1 as those of version 2. What the views that it did not open had of their own is
-    left out."""
+    """The texts of a version 1 query in version 2. Texts of views that it did not open are left out."""
     room = texts.get(TAB, "roll")
     of_room = {"lab": _lab, "three-planes": _planes}.get(room, dict)
     return {key: text for key, text in of_room(texts).items() if key not in ONLY_THEN}
@@ -29,7 +28,7 @@ def _lab(texts):
 
 
 def _body(text):
-    """Of a toy, which was the place of its name, or a body."""
+    """The text of a body: that of a toy was its index, or a body."""
     if text[:1].isalpha():
         return {"body": text}
     if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= len(TOYS):

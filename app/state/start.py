@@ -1,4 +1,4 @@
-"""From room to room: which of the page's view-models somebody looks at, and on which table the one start is."""
+"""Moving between rooms: which of the page's view-models is shown, and the table of the common start."""
 
 from app.model.start import PLANE
 
@@ -6,17 +6,17 @@ TOY, ROLLING, PLANES = "lab", "roll", "three-planes"
 
 
 class OneStart:
-    """explorer: the Explorer, which is the start; lab: a Lab."""
+    """The one start that all rooms share. explorer: the Explorer, which is the start; lab: a Lab."""
 
     def __init__(self, explorer, lab):
         self._explorer, self._lab, self._planes = explorer, lab, None
 
     def have(self, planes):
-        """The Planes are there now."""
+        """To be called when the Planes have been created."""
         self._planes = planes
 
     def moved(self, left, room):
-        """A room of the page was left for another, by their names in an address."""
+        """To be called when the page changes from one room to another, given by their names in an address."""
         self._explorer.settle()
         if room == ROLLING or (left, room) == (ROLLING, TOY):
             self._explorer.table = "rough"
@@ -25,7 +25,7 @@ class OneStart:
                 (model.show if room == name else model.hide)()
 
     def table(self, name):
-        """The room that shows this table at the level of research."""
+        """Sets the table; returns the room that shows it at the level "Explore"."""
         self._explorer.table = name
         return ROLLING if name == "rough" else PLANES
 
@@ -35,12 +35,12 @@ class OneStart:
         return model is not None and model.busy
 
     def lab_runs(self):
-        """(table, its motion, what it began with) of the tables that the Lab shows."""
+        """(table, its motion, its start) of each table that the Lab shows."""
         scene = self._lab.scene
         return [(table, motion, motion.start) for table, motion in scene.motions.items() if motion] if scene else []
 
     def planes_runs(self):
-        """As lab_runs(), of the planes that are looked at."""
+        """The same for the planes that are shown."""
         picture = self._planes.picture if self._planes else None
         if picture is None:
             return []

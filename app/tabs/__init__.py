@@ -1,1 +1,1 @@
-"""One folder a tab; none knows another."""
+"""One folder for each tab; they do not import each other."""

@@ -1,1 +1,1 @@
-"""Parts of the page that several tabs and what is taken home are made of."""
+"""Parts of the page that several tabs, and the files to download, are made of."""

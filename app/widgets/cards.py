@@ -1,4 +1,4 @@
-"""The page's building blocks: cards, words in the page's own type, a grid that fits a phone."""
+"""The building blocks of the page: cards, text in the page's own type, a grid that fits a phone."""
 
 import panel as pn
 import panel_material_ui as pmui
@@ -7,7 +7,7 @@ from app.model.colours import COLOURS
 from app.widgets.typeset import typeset
 
 PLAIN = {"& button": {"textTransform": "none", "padding": "3px 8px", "whiteSpace": "nowrap"}}
-LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # read on light and on dark
+LINK = "color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c))"  # legible on light and on dark
 UNSEEN_LABEL = {
     "& .MuiFormLabel-root": {"position": "absolute", "width": "1px", "height": "1px", "overflow": "hidden",
                              "clipPath": "inset(50%)"},
@@ -15,12 +15,12 @@ UNSEEN_LABEL = {
     "& fieldset": {"top": 0},
 }  # fmt: skip
 FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
-# Two rows fill a screen; a phone, where the rows of buttons wrap, needs more.
+# Two rows fill a screen; on a phone, where rows of buttons wrap, a card needs more.
 HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"
 )
-TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # of two figures, one above the other
-# The stage beside what answers it. On a narrow page both give their cards to one column.
+TALL = f"calc({HEIGHT_OF_A_CARD} + 170px)"  # two figures, one above the other
+# The stage beside the other cards. On a narrow page both give their cards to one column.
 HEAD = "calc(48px * var(--type, 1))"
 WIDE = "@media (min-width: 1000px)"
 STAGED = """
@@ -36,15 +36,15 @@ SIDE = """
 @media (min-width: 1000px) { :host { display: flex; flex-direction: column; gap: 12px } }
 """
 IN_SIGHT = "@media (min-width: 1000px) and (min-height: 700px) { :host { position: sticky; top: calc(HEAD + 12px) } }"
-# Of the card with the stage: on a narrow page in sight below the head; else as high as what is below it, which stays in
-# sight too, leaves room for.
+# The card with the stage. On a narrow page it stays in sight below the head; otherwise it is as high as the cards
+# below it, which stay in sight too, allow.
 FIRST = """
 :host { position: sticky; top: HEAD; z-index: 5; height: min(50vh, 400px) !important }
 @media (max-width: 700px) { :host { height: 330px !important } }
 @media (min-width: 1000px) { :host { position: static; height: HIGH !important } }
 """.replace("HIGH", "clamp(390px, 100vh - HEAD - var(--below) - 24px, 52vw)")
 UNSEEN = ":host { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%) }"
-# A name, a note, and what is wrong, wherever they stand.
+# A name, a note, and an error, wherever they are.
 NOTES = """
 .name { font-size: 1.08em } .name i, .name sub { font-family: Georgia, serif } .name i { font-size: 1.2em }
 .name sub { font-size: 0.8em } .note { color: var(--faint, #5b6875) } .alert { color: var(--alert, #b3261e);
@@ -65,17 +65,17 @@ BUTTON = {"size": "small", "variant": "outlined", "margin": 0, "sx": {"textTrans
 
 
 def px(size):
-    """A size of type in CSS, larger for a projector."""
+    """A font size in CSS, larger for a projector."""
     return f"calc({size}px * var(--type, 1))"
 
 
 def words(text="", style="", **options):
-    """style: CSS of its own, beyond the page's."""
+    """Text as HTML; style: additional CSS."""
     return pn.pane.HTML(text, stylesheets=[TYPE + style], **({"sizing_mode": "stretch_width", "margin": 0} | options))
 
 
 def alert(text):
-    """Plain text that says what is wrong."""
+    """An error message, plain text."""
     return f'<div class="alert" role="alert">{typeset(text)}</div>' if text else ""
 
 
@@ -84,9 +84,9 @@ def note(text):
 
 
 def on_click(button, act):
-    """Calls act(event) when the button is clicked; all that it changes on the page is sent as one message.
+    """Calls act(event) when the button is clicked; all changes that it makes on the page are sent as one message.
 
-    (Panel may call it without the document's lock, and then refuses what changes a figure.)
+    (Panel may call it without the document's lock, and then refuses changes of a figure.)
     """
 
     def clicked(event):
@@ -97,7 +97,7 @@ def on_click(button, act):
 
 
 def progress(percent, says):
-    """A bar, filled so far; says: of what, for the ear."""
+    """A progress bar; says: its name for screen readers."""
     style = f"width: 100%; accent-color: {COLOURS['chosen']}"
     return f'<progress max="100" value="{percent:.0f}" aria-label="{says}" style="{style}"></progress>'
 
@@ -125,7 +125,7 @@ def card(title, *content, height=HEIGHT_OF_A_CARD):
 
 
 def flow(*content, margin=(6, 0)):
-    """In a row, as far as there is room."""
+    """A row that wraps if there is too little room."""
     styles = {"display": "flex", "flex-flow": "row wrap", "gap": "8px", "align-items": "center"}
     return pn.Column(*content, sizing_mode="stretch_width", margin=margin, styles=styles)
 
@@ -135,7 +135,7 @@ def section(title):
 
 
 def grid(*cards, narrowest=480):
-    """Cards side by side where there is room for it."""
+    """Cards side by side where there is room."""
     return pn.Column(
         *cards,
         sizing_mode="stretch_width",
@@ -150,14 +150,14 @@ def grid(*cards, narrowest=480):
 
 
 def first(made, below=0):
-    """A card as the first of a stage; below: px that the others of the stage are high, with what is between."""
+    """Makes a card the first of a stage; below: the height in px of the other cards of the stage, with the gaps."""
     made.styles = made.styles | {"--below": f"{below}px"}
     made.stylesheets = [*made.stylesheets, FIRST.replace("HEAD", HEAD)]
     return made
 
 
 def framed(title, *content):
-    """A card whose picture is all that is seen of it: the switch of the table lies on it. title: for the ear."""
+    """A card that shows only its picture, on which the choice of table lies. title: for screen readers."""
     made = card(title, *content)
     made[0].stylesheets = [*made[0].stylesheets, UNSEEN]
     made.styles = made.styles | {"padding": "0", "border-radius": "6px", "box-shadow": "none",
@@ -166,9 +166,9 @@ def framed(title, *content):
 
 
 def staged(stage, others, mirrored=False):
-    """What is looked at and what answers it, lists of cards: side by side where there is room, the stage then 57 % wide
-    and in sight while the others scroll; else in one column, by their `order`, the first in sight. mirrored: the stage
-    is on the right, and in one column after the others."""
+    """The cards of the stage and the other cards: side by side if there is room, the stage then 57 % wide and in sight
+    while the others scroll; else in one column, in the `order` of each card, the first one in sight. mirrored: the
+    stage is on the right, and in one column after the others."""
     sides = [
         pn.Column(*stage, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE, IN_SIGHT.replace("HEAD", HEAD)]),
         pn.Column(*others, sizing_mode="stretch_width", margin=0, stylesheets=[SIDE]),
@@ -178,13 +178,13 @@ def staged(stage, others, mirrored=False):
 
 
 def later(made, place):
-    """A card that comes so late in one column."""
+    """Sets the position of a card in one column."""
     made.styles = made.styles | {"order": str(place)}
     return made
 
 
 def flexible(*cards):
-    """Of (card, how it grows, shrinks and how wide it is at least), in rows."""
+    """A row of (card, its CSS flex: growth, shrinkage and least width), which wraps."""
     for each, flex in cards:
         each.styles = each.styles | {"flex": flex, "min-width": "0"}
     styles = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
@@ -192,7 +192,7 @@ def flexible(*cards):
 
 
 def field(value, label, **options):
-    """label: for the ear; beside it stands the same to be seen."""
+    """An entry; label: for screen readers, because it is also written beside the entry."""
     options = {"width": 84, "margin": 0} | options
     return pmui.TextInput(value=value, label=label, size="small", sx=FIELD | UNSEEN_LABEL, **options)
 

@@ -1,4 +1,4 @@
-"""What is chosen in the page's head beside a tab: the top, the table, the language, and Share."""
+"""The choices in the head of the page besides the tabs: the top, the table, the language, and Share."""
 
 from app.model.lab.run import TOYS
 from app.model.start import TABLES
@@ -6,12 +6,12 @@ from app.state import asked
 from app.state.start import PLANES, ROLLING
 from app.text import LANGUAGES, listed, say
 
-OWN = ""  # a body that is none of those with a name
+OWN = ""  # a body that has no name
 
 
 def asks(**does):
-    """What a HeadBar asks for. does: {"toy", "table", "language": a function of a name that is one of those here, each;
-    "share": a function}."""
+    """What a HeadBar asks for. does: {"toy", "table", "language": a function of a valid name, each; "share": a function
+    of nothing}."""
 
     def one_of(known, act):
         def chosen(name):
@@ -27,15 +27,15 @@ def asks(**does):
 
 
 def tops(toy):
-    """The arguments of HeadBar.tops where this is the name of the page's top."""
+    """The arguments of HeadBar.tops if the page's top has this name."""
     names = listed("build.presets")
     known = [[name, names[name]["name"]] for name in TOYS]
     return (toy, known) if toy in TOYS else (OWN, [[OWN, say("main.own")], *known])
 
 
 def tables(room, table):
-    """Those of HeadBar.tables in this room, where the page's start is on this table."""
-    view = listed("lab_view.view")  # as Explore has it
+    """The arguments of HeadBar.tables in this room, if the start is on this table."""
+    view = listed("lab_view.view")  # as at the level "Explore"
     known = [[name, word, ROLLING if name == "rough" else PLANES, view["hints"][name]]
              for name, word in view["tables"].items()]  # fmt: skip
     return "rough" if room == ROLLING else table, known if room in (ROLLING, PLANES) else []

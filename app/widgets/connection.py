@@ -1,4 +1,4 @@
-"""What the page does when the server is gone: it says so, waits, and comes back to what the person had set."""
+"""What the page does when the server is gone: it says so, waits, and returns to the state that was set."""
 
 import param
 
@@ -6,9 +6,9 @@ from app.bundle import Bundled
 
 
 class Connection(Bundled):
-    """Once a server answers, the page is loaded anew: its address holds what was set.
+    """Once a server answers again, the page is reloaded; its address contains the state.
 
-    (BokehJS 3.9 can also go on with a session, but fails where the document has arrays, or where a message was cut.)
+    (BokehJS 3.9 can also continue a session, but fails if the document has arrays, or if a message was cut off.)
     """
 
     words = param.String(constant=True, doc="What it says.")

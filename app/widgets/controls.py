@@ -1,4 +1,4 @@
-"""The controls beside the pictures: a slider a number to type, and the sentence when it cannot be."""
+"""The controls beside the pictures: each has a slider, an entry, and a sentence if its value is refused."""
 
 import html
 import math
@@ -48,7 +48,7 @@ SYMBOLS = {
     "time": "<i>t</i>",
 }
 SPIN = "(<i>g</i>/<i>R</i>)<sup>½</sup>"
-# start, end and step of each slider; a typed number may lie outside.
+# start, end and step of each slider; a typed number may be outside
 RANGES = {
     "K_J": (0, 9, 0.01),
     "K_R": (-20, 20, 0.05),
@@ -70,7 +70,7 @@ RANGES = {
     "patch": (0.05, 2, 0.05),
     "gamma": (0, 2, 0.01),
 }
-# Lines of words below, kept free so that nothing moves while a hand is on a slider.
+# Lines of words below, reserved so that nothing moves while a hand is on a slider.
 LINES = {"K_J": 1, "K_R": 3, "energy": 5, "omega3": 5}
 GRID = {"display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 220px), 1fr))", "gap": "0 12px"}
 NO_SCROLLING = ".scroll-button { display: none !important }"
@@ -84,20 +84,20 @@ def number(value):
 
 
 def named(name):
-    """A symbol, with its word on hover."""
+    """A symbol, whose name is shown on hover."""
     return f'<span title="{html.escape(say(f"controls.hints.{name}"))}">{SYMBOLS[name]}</span>'
 
 
 def worst(scene):
-    """What the motion does, in the words of its worst instant."""
+    """What the motion does, in the words for its worst instant."""
     return say(f"regimes.way.{NAMES[scene.regime.max()]}")
 
 
 class Dial(Bundled):
-    """A control in the browser: a name, a slider, a number to type, and words below.
+    """A control in the browser: a name, a slider, an entry, and words below.
 
-    `told` is Python's alone and `asked` the browser's alone, so neither can come back as the other's wish. The browser
-    counts what it asks; what it is told is for the last it had asked then, and is passed over where it has asked since.
+    Only Python writes `told` and only the browser `asked`, so neither comes back as a request of the other. The browser
+    counts its requests; `told` names the last request that it answers, and is ignored if there has been another since.
     """
 
     input = param.String(constant=True, doc="Which input it is of.")
@@ -117,18 +117,18 @@ class Dial(Bundled):
 
 
 def wording(words, wrong=False):
-    """Of a Dial: words are HTML; plain text where something is wrong."""
+    """The properties of a Dial for these words: HTML, but plain text for an error."""
     return {"wrong": wrong, "words": alert(words) if wrong else note(words)}
 
 
 def asked_of(sent):
-    """(count, number or text, whether it was typed) of what a Dial's browser asks."""
+    """(count, number or text, whether it was typed) of a request by a Dial in the browser."""
     count, wish, typed = asked.parts(sent, asked.number, asked.anything, bool)
     return int(count), asked.text(wish) if typed else asked.number(wish), typed
 
 
 def typed_number(text):
-    """What somebody typed; raises ValueError."""
+    """The number that was typed; raises ValueError."""
     value = float(text.replace("−", "-").replace(",", "."))
     if not math.isfinite(value):
         raise ValueError
@@ -136,13 +136,13 @@ def typed_number(text):
 
 
 class Control:
-    """One input of a view-model. request: a function of its name and the number that is wanted, and typed=True where
-    that was typed."""
+    """One input of a view-model. request: called with its name and the requested number, and with typed=True if that
+    was typed."""
 
     def __init__(self, name, value, request):
         self.name, self._request, self._heard, self._shown = name, request, 0, number(value)
-        self._unread = False  # whether the last that was typed is no number
-        self._stands = None  # what show() was last asked for, as long as it stands
+        self._unread = False  # whether what was typed last is not a number
+        self._stands = None  # the arguments of the last show(), as long as they still apply
         start, end, step = RANGES[name]
         spoken, unit = listed(f"controls.spoken.{name}")
         self.view = Dial(
@@ -178,9 +178,9 @@ class Control:
         self._request(self.name, value, typed=True)
 
     def show(self, value, shown, note, message, bounds=None):
-        """value: the input as it was solved; shown: the number for the field; bounds of the slider, RANGES if none.
-        A message stands in the note's place, and then the field keeps what was typed. So does what was said of text
-        that is no number, until the value is another."""
+        """value: the input as it was solved; shown: the number for the entry; bounds: those of the slider, RANGES by
+        default. A message replaces the note, and then the entry keeps what was typed. The same holds after text that is
+        not a number, until the value changes."""
         if self._unread and (message or number(shown) == self._shown):
             return
         wanted = (self._heard, value, shown, note, message, bounds)
@@ -194,7 +194,7 @@ class Control:
         self._stands = wanted
 
     def follow(self, value, shown, bounds=None, **more):
-        """The slider and the number go where the value is. more: of the Dial's, at the same time."""
+        """Moves the slider and the entry to the value. more: other properties of the Dial, in the same message."""
         low, high = bounds or RANGES[self.name][:2]
         self._shown, self._stands = number(shown), None
         told = [self._heard, float(value), self._shown]
@@ -206,13 +206,13 @@ class Control:
 
 
 def across(part):
-    """Over all columns."""
+    """Lets a part span all columns."""
     part.styles = part.styles | {"grid-column": "1 / -1"}
     return part
 
 
 class Wish:
-    """A widget whose value is a wish for one input: a hand on it asks, and show() puts it where the input is."""
+    """A widget that requests a value of one input when it is used by hand; show() sets it to the present value."""
 
     def __init__(self, view, name, ask):
         self.view, self._shown, self._name, self._ask = view, view.value, name, ask
@@ -229,15 +229,15 @@ class Wish:
 
 
 class Controls(param.Parameterized):
-    """All of them. ask: takes inputs of the Explorer; soon: of a Pacer. show() is for a hand at rest, follow() for each
-    scene. card() has them all."""
+    """All controls. ask: called with inputs of the Explorer; soon: that of a Pacer. show() is for a hand at rest,
+    follow() for each scene. card() contains all of them."""
 
     face = param.Selector(default="constants", objects=list(FACES), doc="which face is shown; it changes nothing else")
 
     def __init__(self, scene, ask, soon):
         super().__init__()
         self._scene, self._ask = scene, ask
-        self._used = None  # the control that was used last: there it is said if what follows from it cannot be
+        self._used = None  # the last control that was used: it shows the error if the motion is impossible
         self._busy = False  # whether a hand is on one of them
         self._controls = {name: Control(name, scene.inputs[name], self._request) for name in OF_A_MOTION}
         self._other = said(STYLE, margin=(2, 14, 0, 16), styles={"min-height": "calc(35px * var(--type, 1))"})
@@ -259,7 +259,7 @@ class Controls(param.Parameterized):
         self._turn()
 
     def card(self):
-        """What sets the motion, with the friction of the table; the top, and what Figs. 5 and 6 show."""
+        """The inputs of the motion and the friction; those of the top; and what Figs. 5 and 6 show."""
         parts = [
             across(self._switch), *self._faces.values(), *self._views("mu_s"), across(self._other),
             across(section(say("roll.sections.top"))), *self._views("a", "I1", "I3"),
@@ -271,7 +271,7 @@ class Controls(param.Parameterized):
     def _turn(self):
         for face, column in self._faces.items():
             shown = face == self.face
-            # its parts stand in the grid around it, which a sheet could not say of one that is hidden
+            # its parts are laid out in the grid around it, which a style sheet could not do for a hidden part
             column.styles = {"display": "contents" if shown else "none"}
             if shown and not column.objects:
                 column.objects = self._views(*FACES[face])
@@ -292,7 +292,7 @@ class Controls(param.Parameterized):
         return [self._controls[name].view for name in names]
 
     def show(self, scene):
-        """On all controls but those of the face that is not looked at."""
+        """Shows a scene on all controls, except those of the face that is hidden."""
         self._scene, self._busy = scene, False
         notes = self._notes(scene)
         hidden = {name for face, names in FACES.items() if face != self.face for name in names}
@@ -310,14 +310,14 @@ class Controls(param.Parameterized):
         self._other.text = self._other_face(scene)
 
     def follow(self, scene):
-        """What a hand elsewhere moves, such as one on a picture, at once."""
+        """Shows at once what a hand elsewhere moves, for example on a picture."""
         self._scene = scene
         if not self._busy:
             self._controls["K_J"].follow(scene.constants.K_J, scene.constants.K_J, scene.plane.K_J_range)
             self._controls["energy"].follow(scene.share, scene.constants.E)
 
     def _other_face(self, scene):
-        """The face that is not on the sliders."""
+        """The face that is not given by the sliders."""
         other = "state" if self.face == "constants" else "constants"
         if other == "state":
             values = {name: getattr(scene.state, name) for name in FACES["state"]}

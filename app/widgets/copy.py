@@ -1,4 +1,4 @@
-"""A text to copy."""
+"""A text to be copied."""
 
 import param
 
@@ -6,7 +6,7 @@ from app.bundle import Bundled
 
 
 class Copy(Bundled):
-    """A text to take along, and a button that copies it, also where a page without https may not."""
+    """A text with a button that copies it, also on a page without https, where browsers may forbid that."""
 
     text = param.String(default="")
     label = param.String(default="")

@@ -1,4 +1,4 @@
-"""A button that saves a file, which is made beside the server when it is clicked."""
+"""A button that saves a file, which is made in a thread when it is clicked."""
 
 import base64
 from functools import partial
@@ -10,9 +10,10 @@ from app.model.runs import FILES, Run, Stopped
 
 
 class Download(Bundled):
-    """runs: the page's Runs. state: gives the arguments of make, as of the click; make: gives the file's bytes.
+    """runs: the page's Runs. state: returns the arguments of make at the time of the click; make: returns the file's
+    bytes.
 
-    Clicks while a file is made are answered by one file, of what is set at the last of them, and called as it was then.
+    Clicks while a file is being made give one file, with the state and the name at the last click.
     """
 
     label = param.String(constant=True)

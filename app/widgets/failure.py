@@ -1,4 +1,4 @@
-"""What the page says where the server could not do what was asked of it: an error anywhere in the page's own work."""
+"""The page's messages about errors in its own work, and about waiting in a queue."""
 
 import logging
 from functools import partial
@@ -12,11 +12,11 @@ from app.model.runs import Full, Stopped, to_session
 from app.text import say
 
 log = logging.getLogger("tippe")
-PAGES = WeakKeyDictionary()  # document -> a weak reference to its Failure, which knows its document
+PAGES = WeakKeyDictionary()  # document -> a weak reference to its Failure, because that refers to the document
 
 
 class Failure(Bundled):
-    """One sentence, until it is closed or the page is loaded anew; and another while the page waits for others."""
+    """A sentence that stays until it is closed or the page is reloaded; and another while the page waits in a queue."""
 
     words = param.String(doc="What it says.")
     close = param.String(constant=True, doc="Of the button that closes it.")
@@ -33,7 +33,7 @@ def _page(document):
 
 
 def tell(document=None):
-    """Has the page of a Bokeh document say it; of the one that is being served, where none is given."""
+    """Shows the sentence on the page of a Bokeh document; by default that of the one being served."""
     document = document or pn.state.curdoc
     page = _page(document)
     if page:
@@ -41,28 +41,28 @@ def tell(document=None):
 
 
 def waits(place):
-    """Has the page that is being served say its place in a queue; 0: it is in none any more."""
+    """Shows the page's place in a queue; 0: it no longer waits."""
     page = _page(pn.state.curdoc)
     if page:
         page.waits = say("main.queue.waits", count=place) if place else ""
 
 
 def full(waiting):
-    """Has it say that what was asked for is not done, as so many wait already."""
+    """Says that a request was refused, because so many are waiting already."""
     page = _page(pn.state.curdoc)
     if page:
         page.param.update(words=say("main.queue.full", count=waiting), times=page.times + 1)
 
 
 def ended(error):
-    """What a view says where its own work has ended with this and nothing is under way any more."""
+    """The sentence that a view shows if its own work ended with this error."""
     if isinstance(error, Full):
         return say("main.queue.full", count=error.args[0])
     return say("main.queue.stopped" if isinstance(error, Stopped) else "main.failed")
 
 
 def failure():
-    """A Failure, which from now on is told of whatever fails in this session; the server's own handler hears it too."""
+    """A Failure that shows any error in this session; the server's own handler is called too."""
     handler = pn.config.exception_handler or logged
 
     def handle(error):
@@ -71,20 +71,20 @@ def failure():
         finally:
             handler(error)
 
-    pn.config.exception_handler = handle  # of this session alone
+    pn.config.exception_handler = handle  # only for this session
     return Failure()
 
 
 def logged(error):
-    """Where the server has no handler of its own."""
+    """Logs an error if the server has no handler of its own."""
     log.error("a callback failed", exc_info=error)
 
 
 def after(seconds, act):
-    """Calls act() on the thread of the page that is being served, so many s from now; an error is told."""
+    """Calls act() on the page's thread after so many seconds; errors are shown."""
     pn.state.curdoc.add_timeout_callback(partial(attempt, act), max(round(1000 * seconds), 20))
 
 
 def attempt(act):
-    """Calls act() now; an error is handled as in Panel's own callbacks, and so told."""
+    """Calls act() now; errors are handled as in Panel's own callbacks, and so are shown."""
     pn.state.execute(act, schedule=False)

@@ -1,4 +1,5 @@
-"""A top in 3-D that moves once, on a clock of its own; what a film saw of its axis may stand beside."""
+"""A top in 3-D that plays a motion once, with a clock of its own; the measured direction of its axis can be shown
+beside it."""
 
 import numpy as np
 import param
@@ -8,7 +9,7 @@ from app.widgets.top3d import pack_frames
 
 
 class FilmStage(Bundled):
-    """Plays a motion. Its clock, which pictures over time may follow, is `tippe:clock:<clock>`, in s."""
+    """Plays a motion. Its clock, which figures over time can follow, is `tippe:clock:<clock>`, in s."""
 
     SAYS = ("Stage", "Top3D", "FilmStage")
     REGIMES = "here"
@@ -26,7 +27,7 @@ class FilmStage(Bundled):
 
 
 def put_motion(stage, t, motion, outline, start, **others):
-    """Puts a Trajectory onto a FilmStage. t: its times, s; outline: (k, 2), of the body."""
+    """Shows a Trajectory on a FilmStage. t: its times, s; outline: (k, 2), that of the body."""
     none, code = np.zeros((len(t), 3)), np.zeros(len(t))
     stage.param.update(
         profile=pack(outline),

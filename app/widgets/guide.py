@@ -1,4 +1,4 @@
-"""The page by keyboard and by ear, and the tour of Roll."""
+"""Keyboard and screen readers, and the tour of the rolling top."""
 
 import numpy as np
 import param
@@ -9,7 +9,8 @@ from app.widgets.controls import worst
 
 
 class Guide(Bundled):
-    """The tour and the list of keys, which the head opens; the keys; and what the top does now, read out."""
+    """The tour and the list of keys, which the head opens; the keys themselves; and a description of the motion, read
+    aloud."""
 
     tour = param.Boolean(default=True, doc="Whether what the tour shows is looked at.")
     said = param.String(default="", doc="What the motion on display is, in plain words; for a hand at rest.")
@@ -20,7 +21,7 @@ class Guide(Bundled):
 
 
 def spoken(scene):
-    """What the top does, for the ear."""
+    """A description of the motion, for screen readers."""
     inner, outer = np.degrees(scene.turning)
     slips = say("roll.says.slip", E=scene.marks.slip) if np.isfinite(scene.marks.slip) else ""
     motion = say("roll.says.motion", worst=worst(scene), inner=inner, outer=outer, turns=scene.turns,

@@ -1,7 +1,7 @@
-"""The one row at the head of the page: its name, the top, the tabs, the level, undo and redo, Share, and all else
-behind three dots. On a phone the tabs stand at the foot.
+"""The row at the head of the page: its name, the top, the tabs, the level, undo and redo, Share, and a menu behind
+three dots. On a phone the tabs are at the foot.
 
-A click on a tab is answered in the browser, which shows the place of its room; Python then has the view made.
+The browser answers a click on a tab by showing the place of its room; Python then has the view created.
 """
 
 import panel as pn
@@ -19,10 +19,9 @@ class Head(Bundled):
 
 
 class HeadBar:
-    """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look; toured: the room that
-    the tour shows.
+    """view: the Head. rooms: the page's Rooms; keep: its Keep; look: its Look; toured: the room that the tour shows.
 
-    does: {name: function of a value} for what else is asked: "toy", "table", "share", "language".
+    does: {name: function of a value} for all other requests: "toy", "table", "share", "language".
     """
 
     SWITCHES = ("dark", "large")
@@ -51,7 +50,7 @@ class HeadBar:
             try:
                 self._does[name](value)
             finally:
-                self._say()  # that it was answered
+                self._say()  # confirms that it was answered
 
     def _go(self, name, value):
         if value not in self._rooms.param[name].objects:
@@ -59,17 +58,18 @@ class HeadBar:
         setattr(self._rooms, name, value)
 
     def tops(self, chosen, known):
-        """Which tops can be chosen, as [name, words], and which one is; "" where none of them."""
+        """Sets the tops that can be chosen, as [name, words], and the present one; "" if it is none of them."""
         self._toy, self._toys = chosen, known
         self._say()
 
     def tables(self, chosen, known):
-        """Which tables can be chosen here, as [name, words, room], and which one is; none where they lead nowhere."""
+        """Sets the tables that can be chosen here, as [name, words, room], and the present one; none if there is no
+        choice."""
         self._table, self._tables = chosen, known
         self._say()
 
     def opened(self, shares):
-        """Whether what Share opens is there."""
+        """Sets whether Share is open."""
         self._shares = shares
         self._say()
 
@@ -79,11 +79,11 @@ class HeadBar:
         self.view.state = {
             "room": rooms.room, "tour": rooms.room == self._toured, "tab": rooms.tab, "level": rooms.level,
             "tabs": [[tab, say(f"main.tabs.{tab}"), rooms.first(tab)] for tab in rooms.tabs],
-            # what the other level of this tab shows
+            # what this tab shows at the other level
             "levels": [[level, say(f"main.levels.{level}"),
                         rooms.room if rooms.room in names_of else rooms.first(rooms.tab, level)]
                        for level, names_of in rooms.tabs[rooms.tab].items()],
-            # what is chosen below the row: a table, or another room of the tab
+            # the choice in the row below: a table, or another room of the tab
             "below": "table" if self._tables else "room",
             "rooms": self._tables or ([[room, names.get(room, ""), room] for room in here] if len(here) > 1 else []),
             "chosen": self._table if self._tables else rooms.room,

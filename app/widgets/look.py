@@ -1,14 +1,14 @@
-"""How the page looks: light or dark, and large, of high contrast, for a projector.
+"""The look of the page: light or dark, and large with high contrast, for a projector.
 
-The widgets keep one theme, whose colours are variables of CSS; the look changes these, so that all follow at once.
-(Another theme would be worked out by each widget for itself, which takes seconds.)
+The widgets have one theme, whose colours are CSS variables; the look changes these, so that all widgets follow at once.
+(With another theme each widget would compute its own, which takes seconds.)
 """
 
 import param
 
 from app.bundle import Bundled
 
-# Of the widgets' theme: name: (on light, on dark); those with an rgb are asked for as three numbers too.
+# name in the widgets' theme: (on light, on dark); names with rgb are also needed as three numbers
 COLOURS = {
     "text-primary": ("#1f1f1f", "#ffffff"),
     "text-secondary": ("#5b5b5b", "#b8bec5"),
@@ -50,7 +50,7 @@ def _variables():
 
 
 def widgets():
-    """What the theme says of the colours: each is the look's, else the one on light."""
+    """The colours of the widgets' theme: the CSS variables of the look, with the light ones as default."""
     ours = {f"--mui-palette-{name}": f"var(--look-{name}, {light})" for name, (light, _) in _variables()}
     ours["colorScheme"] = "var(--look-scheme, light)"
     return {"MuiCssBaseline": {"styleOverrides": {":host(:not(#_))": ours}}}  # more specific than the theme's own

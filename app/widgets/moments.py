@@ -1,4 +1,4 @@
-"""What happened in a run, and when; a click puts the clock there."""
+"""What happened in a run, and when; clicking an entry sets the clock to it."""
 
 import param
 
@@ -6,7 +6,7 @@ from app.bundle import Bundled
 
 
 class Moments(Bundled):
-    """A list that is drawn in the browser."""
+    """The list, which is drawn in the browser."""
 
     clock = param.String(constant=True, doc="Which clock goes to the moment that is clicked.")
     rows = param.List(default=[], doc="[t, when, what, how it then was, as HTML] in turn, t as the clock has it")

@@ -1,4 +1,4 @@
-"""What need not be drawn while nobody can see it."""
+"""Leaves out drawing what nobody can see."""
 
 import param
 
@@ -8,15 +8,15 @@ OVER = {"position": "absolute", "inset": "0", "z-index": "-1", "pointer-events":
 
 
 class Near(Bundled):
-    """Whether the card that it lies in is near the screen."""
+    """Whether the card in which it lies is near the screen."""
 
     near = param.Boolean(default=True, doc="The browser writes it; until it has, everything is.")
 
 
 class WhenNear:
-    """A card whose pictures are drawn of a scene only where they can be seen; what was left out comes when they can.
+    """A card that is drawn for a scene only while it is near the screen; it catches up when it comes near.
 
-    card: a card; soon: of a Pacer; draw(scene).
+    card: a card; soon: that of a Pacer; draw(scene): draws it.
     """
 
     def __init__(self, card, soon, draw):
@@ -27,7 +27,7 @@ class WhenNear:
         self._sight.param.watch(lambda event: event.new and soon(self._catch_up), "near")
 
     def show(self, scene):
-        """Draws it, now or later."""
+        """Draws the scene, now or later."""
         self._scene = scene
         if self._sight.near:
             self._catch_up()

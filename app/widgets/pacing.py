@@ -1,4 +1,5 @@
-"""Keeps the picture under the hand: of a stream of requests only the newest is solved, once the last was painted."""
+"""Keeps the pictures under the hand: of a stream of requests only the newest is solved, once the last scene was
+painted."""
 
 import time
 from contextlib import ExitStack
@@ -11,31 +12,31 @@ from app.borrowed import at_once
 from app.bundle import Bundled
 from app.widgets.failure import after, attempt
 
-# Two, so that one is on its way while the browser paints the other.
+# Two, so that one can be on its way while the browser paints the other.
 HANDS_IN_FLIGHT = 2
-# After its last request a hand is taken to rest; one that goes on in steps rests between them, but is not still.
+# s without a request after which a hand is at rest; one that moves in steps rests between them, but is not still
 REST_AFTER, STILL_AFTER = 0.15, 0.6
-# A hidden tab paints nothing and so never answers.
+# A hidden browser tab paints nothing and so never answers.
 ANSWER_WITHIN = 2.0
 
 
 class Painted(Bundled):
-    """Answers `sent` with the same number in `painted`, after the browser painted all that came before it."""
+    """Answers `sent` with the same number in `painted`, once the browser has painted everything that came before it."""
 
     sent = param.Integer(default=0)
     painted = param.Integer(default=0)
 
 
 class Pacer:
-    """Between the hands and an Explorer, and between its scenes and what shows them. One way round: a hand asks, the
-    Explorer solves, and its one scene comes here, to be shown.
+    """Stands between the hands and an Explorer, and between its scenes and the views. In one direction: a hand asks,
+    the Explorer solves, and the one scene comes here, to be shown.
 
-    What shows a scene says by itself when it does: shows(). "hand" is for what a hand moves, and is cheap. The
-    "pictures" follow in turn, each in a message of its own once the one before is painted, so that a hand never waits
-    for more than one; a round of them shows one scene, the newest at its start. "rest" is for a hand at rest, or for an
-    input that cannot be; "still" for what costs more than a step may, and waits until the hand has gone, and at first
-    until the page has come. After a single step pictures and what is for the rest come in one message: each costs the
-    server more than what is in it.
+    Views say when they show scenes: shows(). "hand" is for what a hand moves, and is cheap. The "pictures" follow in
+    turn, each in a message of its own once the one before is painted, so that a hand never waits for more than one; a
+    round of them shows one scene, the newest at its start. "rest" is for a hand at rest, or for an input that is
+    refused; "still" for what takes longer than a step, and waits until the hand has gone, and at first until the page
+    has loaded. After a single step pictures and "rest" come in one message, because each message costs the server more
+    than its contents.
     """
 
     def __init__(self, explorer):
@@ -44,20 +45,20 @@ class Pacer:
         self.painted = Painted(width=0, height=0, margin=0)
         at_once(self.painted, "painted")
         self._wanted, self._round, self._round_is_due, self._resting = {}, [], False, True
-        self._others = {}  # what takes inputs of another view-model -> what is wanted of it
+        self._others = {}  # functions that take inputs of another view-model -> the inputs that are requested
         self._single = True  # whether the hand was at rest before the last request
-        self._said = None  # the scene that was shown to the rest since then
-        self._stayed = explorer.scene  # the one that was shown to what waits until all is still
+        self._said = None  # the scene that was shown to "rest" since then
+        self._stayed = explorer.scene  # the scene that was last shown to "still"
         self._requested = 0.0
         self._later, self._begun = [], False
-        self._hands, self._drawing = [], []  # (number, when sent) of what the browser has yet to paint
+        self._hands, self._drawing = [], []  # (number, time of sending) of what the browser has yet to paint
         self._sent = 0  # the last number
         explorer.param.watch(self._on_scene, "scene")
         self.painted.param.watch(self._on_painted, "painted")
 
     def shows(self, show, when):
-        """Has show(scene) called now, and from now on when a scene is to be shown: when is "hand", "pictures",
-        "rest" or "still"."""
+        """Calls show(scene) now, and from now on when a scene is to be shown; when is "hand", "pictures", "rest" or
+        "still"."""
         if when == "still":
             self.later(lambda: show(self._explorer.scene))
         else:
@@ -65,14 +66,14 @@ class Pacer:
         self._shows[when].append(show)
 
     def begin(self):
-        """The page has come."""
+        """To be called when the page has loaded."""
         self._begun = True
         self._advance()
         after(ANSWER_WITHIN, self._finish)
 
     def soon(self, make):
-        """Runs a function that puts something new on the page, next of what waits for its turn: two such messages
-        under way at once may each count on what the other brings."""
+        """Runs a function that adds something to the page, before anything else that waits: two such messages under way
+        at the same time may each depend on the other."""
         if not self._begun:
             make()
             return
@@ -81,24 +82,25 @@ class Pacer:
         after(ANSWER_WITHIN, self._finish)
 
     def later(self, make):
-        """Runs a function that puts something on the page which need not be there at first: when the page has come, in
-        turn like the pictures, last of what waits."""
+        """Runs a function that adds something to the page which is not needed at first: after the page has loaded, in
+        turn with the pictures, after everything else that waits."""
         self._later.append(make)
         if self._begun:
             after(ANSWER_WITHIN, self._finish)
 
     def ask(self, **inputs):
-        """Asks for these inputs of the Explorer; a later wish for the same input replaces one still waiting."""
+        """Requests these inputs of the Explorer; a later request for the same input replaces one that still waits."""
         self._wanted.update(inputs)
         self._requested = time.monotonic()
-        self._single, self._said = self._resting, None  # what is asked for is answered, also where nothing changes
+        self._single, self._said = self._resting, None  # a request is answered even if nothing changes
         if self._resting:
             self._resting = False
             after(REST_AFTER, self._rest)
         self._advance()
 
     def ask_of(self, take):
-        """What asks for inputs that take(**inputs) takes, in the same turns as ask() does for the Explorer's."""
+        """A function that requests inputs, which take(**inputs) receives in turn with those that ask() sends to the
+        Explorer."""
         return partial(self._ask_other, take)
 
     def _ask_other(self, take, **inputs):
@@ -148,7 +150,7 @@ class Pacer:
 
     def _rest(self):
         try:
-            self._advance()  # a hidden tab answers nothing that could do it
+            self._advance()  # also for a hidden tab, which sends no answer that would do it
         finally:
             left = self._requested + REST_AFTER - time.monotonic()
             self._resting = not (left > 0 or self._wanted)
@@ -176,7 +178,7 @@ class Pacer:
             after(ANSWER_WITHIN, self._finish)
 
     def _finish(self):
-        """The pictures of a tab that does not answer come too, late."""
+        """Also shows the pictures of a tab that does not answer, after a time."""
         self._advance()
         self._see_to_it()
 
@@ -190,7 +192,7 @@ class Pacer:
         if self._begun or not pn.state.curdoc:
             with pn.io.hold():  # one message, in order, so that the answer comes after the picture
                 sent()
-        else:  # until the page says that it is there only Bokeh sends anything, what is done under its lock
+        else:  # until the page has loaded Bokeh sends only changes that are made under its lock
             pn.state.curdoc.add_next_tick_callback(partial(attempt, sent))
         in_flight.append((number, time.monotonic()))
 
@@ -201,7 +203,7 @@ class Pacer:
 
 
 def _each(shows, scene):
-    """Shows a scene; the others too where one of them fails."""
+    """Shows a scene in all views, even if one of them fails."""
     with pn.io.hold(), ExitStack() as others:
         for show in reversed(shows):
             others.callback(show, scene)

@@ -1,4 +1,4 @@
-"""Fig. 6 with all that stands around it: what its lines are, K_R below, and roads out of it."""
+"""Fig. 6 with everything around it: its key, K_R below, and buttons that lead elsewhere."""
 
 from functools import partial
 
@@ -18,14 +18,14 @@ from app.widgets.plane_inset import PlaneInset
 from app.widgets.slip_lines import HIGH, SlipLines
 from tippe_core import Top, TruncatedSphere
 
-# As high without a button, so that nothing moves when one comes.
+# As high as with a button, so that nothing moves when one appears.
 ROADS = {"display": "flex", "flex-direction": "row", "gap": "8px", "align-items": "center", "min-height": "36px"}
 
 
 class PlaneCard:
-    """content: what goes into a card. motion: a Motion; ask: takes inputs of the Explorer; slip: shows this motion on a
-    table where it slips; runs: the page's Runs. show_selected() is for each scene of a hand, plane.show_plane of the
-    pictures, show_path() for a hand at rest."""
+    """content: the content of a card. motion: a Motion; ask: called with inputs of the Explorer; slip: shows this
+    motion on a table on which it slips; runs: the page's Runs. show_selected() is for each scene of a hand,
+    plane.show_plane for the pictures, show_path() for a hand at rest."""
 
     def __init__(self, motion, ask, slip, runs=None):
         self._runs = runs or Runs()
@@ -64,7 +64,7 @@ class PlaneCard:
 
     def show_path(self, scene):
         self._trajectory = scene.rolling
-        # as long as ten moves, so not in the thread that answers everybody
+        # takes as long as ten moves, so not in the thread that answers everybody
         self._runs.begin(Run(lambda run: slipping(scene), partial(self._show_slipping, scene)), "slipping")
         self.near.show(scene)
         self.slip.visible = bool(scene.regime.max() == WOULD_SLIP)
@@ -80,7 +80,7 @@ class PlaneCard:
 
 
 def papers():
-    """Inputs of the Explorer: the paper's top, as it is there at first."""
+    """Inputs of the Explorer: the paper's top, as it is at first."""
     shape, top = TruncatedSphere.paper(), Top.paper()
     names = (*Explorer.GIVEN["share"], "given", "mu_s")
     first = {name: Explorer.param[name].default for name in names}
@@ -88,7 +88,7 @@ def papers():
 
 
 def key():
-    """What each line is."""
+    """What each line means."""
     return "".join(
         (
             swatch(FAINT, say("roll.key.tielines")),

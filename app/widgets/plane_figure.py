@@ -1,4 +1,4 @@
-"""Fig. 6 in Bokeh: the tielines in the (K_J, theta) plane, what friction costs there, and the motion in it."""
+"""Fig. 6 in Bokeh: the tielines in the (K_J, theta) plane, the effect of friction, and the selected motion."""
 
 import numpy as np
 from bokeh.models import ColumnDataSource, HArea, Line, Range1d, Scatter, Segment, Span, Text
@@ -12,7 +12,7 @@ from app.widgets.plots import draw, plain
 
 
 class PlaneFigure:
-    """Fig. 6: tielines under the friction limit, what friction costs shaded, and the selected motion on top."""
+    """Fig. 6: tielines under the friction limit, the part lost to friction shaded, and the selected motion on top."""
 
     def __init__(self, motion):
         self.figure = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1), name="plane")
@@ -35,7 +35,7 @@ class PlaneFigure:
             )
         }
         self.pole = ColumnDataSource({"theta": [0.0], "K_J": [0.0]})
-        # what is read of any point of the plane: rows upwards, and where they lie
+        # values for any point of the plane: rows upwards, and the ranges
         self.field = ColumnDataSource({"E": [], "ratio": [], "x": [], "y": [], "w": [], "h": []})
         self.selected = ColumnDataSource(
             {
@@ -72,7 +72,7 @@ class PlaneFigure:
              text_font_style="italic", text_font_size="15px", text_color=INK)  # fmt: skip
 
     def _draw_selected(self):
-        """The motion, above all others, and why it does not roll."""
+        """The selected motion, above everything else, and why it cannot roll."""
         fig = self.figure
         on_top = {"source": self.selected, "level": "overlay"}
         draw(fig, Segment, x0="inner", x1="outer", y0="K_J", y1="K_J", line_color="colour", line_width=5,
@@ -84,7 +84,7 @@ class PlaneFigure:
         draw(fig, Scatter, "theta", "K_J", size=13, fill_color="white", line_color=INK, line_width=2, **on_top)
 
     def _listen(self, motion):
-        """To the browser's own clock, which moves the bead, and to hands."""
+        """Connects the browser's clock, which moves the bead, and hands."""
         fig, hand = self.figure, {"fig": self.figure, "hand": self.hand, "selected": self.selected}
         fig.js_on_change("inner_width", call("followMotion", motion=motion, **hand))
         words = listed("roll.plane") | {"place": place_words()}
@@ -97,7 +97,7 @@ class PlaneFigure:
     def show_selected(self, scene):
         inner, outer = scene.turning
         worst = int(scene.regime.max())
-        # A patch, because theta, where the bead is, belongs to the browser's clock.
+        # A patch, because the browser's clock sets theta, the position of the bead.
         row = {
             "K_J": scene.constants.K_J,
             "K_R": scene.constants.K_R,
@@ -146,7 +146,7 @@ class PlaneFigure:
 
 
 def place_words():
-    """What is read of a place, as HTML; its numbers are put in by the browser."""
+    """The readings at a point, as HTML; the browser fills in the numbers."""
     numbers = {
         "K_J": f"{{K_J}} {SPIN}",
         "angle": "{theta} rad = {degrees}°",

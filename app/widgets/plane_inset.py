@@ -1,5 +1,5 @@
-"""The motion of Fig. 6 seen from near, where its tieline is too short to be seen: a toy that the rough table gripped
-nods by a few degrees, which is some pixels of all tilts."""
+"""An enlarged view of the motion in Fig. 6 if its tieline is too short: a toy that the rough table has gripped nods by
+a few degrees, which is only some pixels on the axis of all tilts."""
 
 import numpy as np
 import panel as pn
@@ -10,16 +10,16 @@ from app.text import say
 from app.widgets.cards import words
 from app.widgets.plots import draw, plain
 
-SHORT = 0.06  # of the theta axis: a shorter tieline is shown from near as well
-ROUND = 0.7  # of the tieline's length, that is seen beyond either end
+SHORT = 0.06  # of the theta axis: shorter tielines are also shown enlarged
+ROUND = 0.7  # of the tieline's length, shown beyond either end
 LOOK = {"position": "absolute", "right": "10px", "bottom": "10px", "width": "200px", "z-index": "2",
         "background": "var(--card, white)", "border": f"1px solid {FAINT}", "border-radius": "6px",
         "padding": "4px 6px"}  # fmt: skip
 
 
 class PlaneInset:
-    """plane: a PlaneFigure, whose sources it draws again. view: what is laid over it, empty where there is no need of
-    it: a figure is a tenth of what a page costs."""
+    """plane: a PlaneFigure, whose sources it draws again. view: an overlay for it, empty if it is not needed, because a
+    figure is a tenth of the cost of a page."""
 
     def __init__(self, plane):
         self._plane, self.figure, self._says = plane, None, words()

@@ -1,7 +1,7 @@
-"""Scene -> Bokeh: what all figures share, and the motion over time; plane_figure.py has Fig. 6.
+"""Scene -> Bokeh: what all figures share, and the motion over time; Fig. 6 is in plane_figure.py.
 
-A figure is built once; after that only the sources whose numbers changed are sent. What moves often (the selected
-tieline, the line at the clock's time) lies on Bokeh's overlay level, which repaints without the rest of its figure.
+A figure is built once; after that only the sources with new numbers are sent. What moves often (the selected tieline,
+the line at the time of the clock) is on Bokeh's overlay level, which is repainted without the rest of its figure.
 """
 
 from pathlib import Path
@@ -36,7 +36,7 @@ def in_language(basic):
 
 
 def plain(**options):
-    """A figure without a frame, in the page's own type; nothing on it is logged or asks the server."""
+    """A figure without frame and tools, in the page's own type; using it sends nothing to the server."""
     fig = figure(
         sizing_mode="stretch_both",
         title=None,
@@ -44,7 +44,7 @@ def plain(**options):
         tools="",
         outline_line_color=None,
         min_border=4,
-        background_fill_alpha=0,  # the theme of the widgets would give another colour than none
+        background_fill_alpha=0,  # the theme of the widgets would set a colour
         border_fill_alpha=0,
         lod_threshold=None,
         **options,
@@ -55,7 +55,7 @@ def plain(**options):
     fig.axis.major_label_text_color = INK
     fig.axis.major_label_text_font_size = "12px"
     fig.axis.major_tick_in = 0
-    fig.axis.major_label_policy = AllLabels()  # one for both
+    fig.axis.major_label_policy = AllLabels()  # the same object for both
     if decimal_point() != ".":
         for axis in fig.axis:
             if isinstance(axis.formatter, BasicTickFormatter):
@@ -67,15 +67,15 @@ def plain(**options):
 
 
 def draw(fig, kind, *xy, source, level="glyph", **looks):
-    """Draws a glyph of Bokeh in the figure; xy: its first two places. The figure's own methods make three of each, for
-    selections that there are none of here: a page had half as many parts again, each to be made, counted and sent."""
+    """Draws a Bokeh glyph in the figure; xy: its first two coordinates. The figure's own methods create three of each,
+    for selections that are not used here: a page had half as many parts again, all to be created, counted and sent."""
     glyph = kind(**dict(zip(("x", "y"), xy, strict=False)), **looks)
     of_all = fig.renderers[0].view.filter if fig.renderers else AllIndices()
     return fig.add_glyph(source, glyph, level=level, view=CDSView(filter=of_all))
 
 
 class Motion:
-    """The tilt of the motion on display over time, for the figures that follow the clock with it."""
+    """The tilt of the present motion over time, shared by the figures that follow the clock."""
 
     def __init__(self):
         self.source = ColumnDataSource({"t": np.zeros(2), "theta": np.zeros(2)})
@@ -88,13 +88,13 @@ class Motion:
 
 
 def thinned(**curves):
-    """Some of the rows of curves, enough to draw."""
+    """Every n-th row of the curves, enough to draw."""
     every = max(1, len(curves["t"]) // POINTS_A_CURVE)
     return {name: curve[::every] for name, curve in curves.items()}
 
 
 class TimeFigures:
-    """theta, F_z, F_h/F_z and the constants over one time axis, each with a line at the clock's time."""
+    """theta, F_z, F_h/F_z and the constants on one time axis, each with a line at the time of the clock."""
 
     NAMES = ("theta", "normal", "ratio", "constants")
 

@@ -1,6 +1,6 @@
-"""Scene -> Bokeh: one nutation in the planes where physicists look at it, the track from above, the force in its disc.
+"""Scene -> Bokeh: one nutation in the planes that physicists use, the track from above, the force in its disc.
 
-One Portrait is drawn at a time in each card; the beads go with the browser's clock, and a hand on one moves the clock.
+Each card draws one Portrait at a time. The beads move with the browser's clock, and dragging one sets the clock.
 """
 
 import numpy as np
@@ -16,9 +16,10 @@ POINTS_OF_A_TRACK = 480  # on a screen
 
 
 class Portrait:
-    """A curve that the motion runs along, with a bead at the clock's time. whole: of all frames, not one nutation."""
+    """A curve along which the motion runs, with a bead at the time of the clock. whole: all frames are drawn, not one
+    nutation."""
 
-    name = ""  # in roll.toml, and of the figure
+    name = ""  # in roll.toml, and the name of the figure
     whole = False
     aspect = None
 
@@ -43,10 +44,10 @@ class Portrait:
         self._shown = None
 
     def below(self):
-        """Draws what lies under the curve."""
+        """Draws what is below the curve."""
 
     def above(self):
-        """Draws what lies over it."""
+        """Draws what is above it."""
 
     def show(self, scene):
         shown = (scene.trajectory, scene.mu_s)
@@ -61,7 +62,7 @@ class Portrait:
         self.curve.data = {"t": motion.t, "x": x, "y": y}
 
     def frame(self, x, y):
-        """Sets the ranges to hold these values."""
+        """Sets the ranges so that they contain these values."""
         for range_, values in ((self.figure.x_range, x), (self.figure.y_range, y)):
             low, high = np.min(values), np.max(values)
             pad = 0.08 * (high - low) or 0.05
@@ -170,7 +171,7 @@ class Track(Portrait):
 
 
 class Ring(Portrait):
-    """The rosette of a large circle is too thin to be seen from above: here it is unrolled."""
+    """The rosette unrolled: that of a large circle is too thin to be seen from above."""
 
     name = "ring"
     whole = True

@@ -1,6 +1,6 @@
-"""The rooms of the page: a place for each view, of which one is seen. A click is answered in the browser, at once; a
-view is made when it is first looked at, and then stays. Until then its place says that it is being made, or that it
-could not be."""
+"""The rooms of the page: a place for each view, one of which is visible. The browser answers a click at once; a view is
+created when it is first shown, and then stays. Until then its place says that it is being created, or that this
+failed."""
 
 import logging
 
@@ -17,7 +17,7 @@ log = logging.getLogger("tippe")
 
 
 class Place:
-    """Where a view is to be. name: the place's own; make: a function that returns the view; soon: of a Pacer."""
+    """The place of a view. name: its name; make: a function that returns the view; soon: that of a Pacer."""
 
     def __init__(self, name, make, soon):
         self._make, self._soon, self._view, self._asked = make, soon, None, False
@@ -31,7 +31,7 @@ class Place:
         return words(f'<div role="status">{note(say("main.making.waits"))}</div>', margin=AROUND)
 
     def ask(self):
-        """Has the view made, where it is neither there nor under way."""
+        """Has the view created, unless it exists or is being created."""
         if self._asked:
             return
         self._asked = True
@@ -41,7 +41,7 @@ class Place:
         self._soon(self.fill)
 
     def fill(self):
-        """Makes the view now. What fails leaves a sentence, and can be asked for again."""
+        """Creates the view now. An error leaves a sentence, and creating it can be tried again."""
         self._asked = True
         try:
             self._view = self._view or self._make()
@@ -58,11 +58,11 @@ class Place:
 
 
 class Rooms(param.Parameterized):
-    """room: the name of the one that is looked at; level: how much the page shows.
+    """room: the name of the room that is shown; level: how much the page shows.
 
-    makers: {name in the address: maker}; tabs: {name: {level: names of its rooms}}; opened: the name of the room that
-    is looked at first, at this level, and usual the one where there is no such; at_once: those that are then made with
-    the page. soon: of a Pacer.
+    makers: {name in the address: function that creates the view}; tabs: {name: {level: names of its rooms}}; opened,
+    level: the room that is shown first, and its level; usual: the room if there is no such one; at_once: rooms whose
+    view is then created with the page. soon: that of a Pacer.
     """
 
     room = param.Selector(doc="a name of makers")
@@ -75,7 +75,7 @@ class Rooms(param.Parameterized):
         self.room = opened if opened in makers else usual
         self.level = level if level in levels else levels[-1]
         self._places = {name: Place(name, make, soon) for name, make in makers.items()}
-        self._last = {}  # (tab, level) -> the room of it that was looked at last
+        self._last = {}  # (tab, level) -> the room of it that was shown last
         self.columns = [place.column for place in self._places.values()]
         self._follow()
         if self.room in at_once:
@@ -84,25 +84,26 @@ class Rooms(param.Parameterized):
         else:
             self._look()
         self.param.watch(self._moved, ["room", "level"])
-        # they are said always, and left out where they go without saying
+        # both are always given to the Keep, which leaves them out of a link if they are the default
         keep.add(self, lambda rooms: {"room": None, "level": None})
 
     @property
     def tab(self):
-        """The name of the tab that the room is of."""
+        """The name of the tab to which the present room belongs."""
         return self.tab_of(self.room)
 
     def tab_of(self, room):
-        """The name of the tab that a room is of."""
+        """The name of the tab to which a room belongs."""
         return next(tab for tab, rooms in self.tabs.items() if any(room in names for names in rooms.values()))
 
     def first(self, tab, level=None):
-        """The room that a tab shows when it is gone to: of those it has at this level the one seen last."""
+        """The room that a tab shows when it is chosen: the last one that was shown, of those that it has at this
+        level."""
         level = level or self.level
         return self._last.get((tab, level), self.tabs[tab][level][0])
 
     def place(self, room):
-        """The place of a room, by its name in the document."""
+        """The name in the document of a room's place."""
         return self._places[room].column.name
 
     def _moved(self, *events):
@@ -115,7 +116,7 @@ class Rooms(param.Parameterized):
             self._look()
 
     def _follow(self):
-        """The level is one at which this room is."""
+        """Sets the level to one that has the present room."""
         rooms = self.tabs[self.tab]
         if self.room not in rooms[self.level]:
             self.level = next(level for level, names in rooms.items() if self.room in names)
@@ -124,7 +125,7 @@ class Rooms(param.Parameterized):
     def _look(self):
         for name, place in self._places.items():
             place.column.visible = name == self.room
-        # What another computes might overtake the page itself: it is made when that is there.
+        # Its results might reach the page before the page itself: it is created once that has loaded.
         ask = self._places[self.room].ask
         if pn.state.loaded:
             ask()

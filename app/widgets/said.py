@@ -1,4 +1,4 @@
-"""Words that change with each move of a hand."""
+"""Text that changes with each move of a hand."""
 
 import param
 
@@ -7,7 +7,7 @@ from app.widgets.cards import TYPE
 
 
 class Said(Bundled):
-    """HTML, in the page's own type. What a pane of Panel says costs the server several times as much to change."""
+    """HTML in the page's own type. Changing the text of a Panel pane costs the server several times as much."""
 
     text = param.String(default="", doc="HTML.")
 

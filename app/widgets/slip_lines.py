@@ -1,5 +1,6 @@
-"""What slipping does in Fig. 6: the path of the motion that is let slip at its tieline's end, and K_R below it on the
-same theta axis. Rolling, a motion is its tieline; slipping, it keeps K_J nearly, and its K_R goes through zero."""
+"""The effect of slipping in Fig. 6: the path of the motion if it slips from its tieline's end, and K_R below it on the
+same theta axis. Rolling, a motion stays on its tieline; slipping, K_J is nearly conserved while K_R passes through
+zero."""
 
 import numpy as np
 from bokeh.models import ColumnDataSource, HArea, Label, Line, Range1d, Scatter, Segment, Span
@@ -9,14 +10,14 @@ from app.text import say
 from app.widgets.plots import draw, plain
 
 HIGH = 96  # px
-LEFT = 44  # px, of both figures, so that one tilt stands under the other
+LEFT = 44  # px, the left margin of both figures, which aligns their theta axes
 LETTER = 0.02  # of the width, in the narrowest figure
 ROWS = {"K_J": COLOURS["jellett"], "K_R": COLOURS["omega"]}
 BESIDE = {"text_color": INK, "text_font_size": "12px", "visible": False}
 
 
 class SlipLines:
-    """plane: a PlaneFigure, over which they lie. below: K_R over theta. show() is for a hand at rest."""
+    """plane: the PlaneFigure over which they are drawn. below: K_R over theta. show() is for a hand at rest."""
 
     def __init__(self, plane):
         self._plane, self._shown = plane, None
@@ -30,7 +31,7 @@ class SlipLines:
         above.xaxis.visible = False
         self.below.add_layout(Span(location=0, dimension="width", line_color=FAINT))
         names = ("theta", "low", "high", "K_J", "K_R")
-        # as far as its stem lets it go; beyond, as a whole sphere would; where it is at the end
+        # up to where the stem touches; beyond, as for a whole sphere; and the end
         self.own, self.beyond, self.end = (ColumnDataSource({name: [] for name in names}) for _ in range(3))
         for fig, row in ((above, "K_J"), (self.below, "K_R")):
             self._draw(fig, row)
@@ -56,12 +57,12 @@ class SlipLines:
              line_width=3)  # fmt: skip
 
     def clear(self):
-        """The path of another motion is not this one's."""
+        """Removes the path of another motion."""
         if self._shown is not None:
             self.show(None, None)
 
     def show(self, path, scene):
-        """path: the Slipping of the Scene; None where there is none."""
+        """path: the Slipping of the Scene; None if there is none."""
         if path is self._shown:
             return
         self._shown = path
@@ -105,8 +106,8 @@ class SlipLines:
 
 
 def _beside(x, text, end):
-    """Where words of a place stand: left of it, or where they would begin outside the figure, right of it, or else
-    from its edge on."""
+    """Where the words for a point start: left of it; if they would begin outside the figure, right of it; or else at
+    its edge."""
     wide = LETTER * end * max(map(len, text.split("\n")))
     if x >= wide:
         return {"x": x, "x_offset": -2, "text_align": "right"}

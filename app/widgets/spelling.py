@@ -1,4 +1,4 @@
-"""Numbers in sentences, as the page's language writes them."""
+"""Numbers in sentences, in the notation of the page's language."""
 
 import re
 
@@ -6,6 +6,6 @@ from app.text import decimal_point
 
 
 def spelled(words):
-    """Words with their numbers as the page's language writes them, and no line's end before a unit."""
+    """The words with their numbers in the notation of the page's language, and no line break before a unit."""
     words = re.sub(r"(?<=\d)\.(?=\d)", decimal_point(), words)
     return re.sub(r"(?<=\d) (?=(mm|s|rev/s|U/s|%)\b)", "\N{NO-BREAK SPACE}", words)

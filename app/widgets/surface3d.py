@@ -1,4 +1,5 @@
-"""The paper's Fig. 5, f1^2 theta_dot^2 over the (K_J, theta) plane, as a surface to turn, zoom and read values off."""
+"""The paper's Fig. 5, f1^2 theta_dot^2 over the (K_J, theta) plane, as a surface that can be turned, enlarged and
+read."""
 
 import numpy as np
 import param
@@ -7,9 +8,9 @@ from app.bundle import Bundled, pack
 
 
 class Surface3D(Bundled):
-    """One row of the surface is one tieline, from its inner to its own outer turning point; a row with nan is a gap.
+    """Each row of the surface is one tieline, from its inner to its outer turning point; a row with nan is a gap.
 
-    All bytes are float32, from `pack`. n rows, m points a row.
+    All bytes are float32, from `pack`; n rows of m points.
     """
 
     SAYS = ("Stage",)

@@ -1,4 +1,4 @@
-"""What each symbol and each term means, under the hand wherever it stands: its sketch, and its words."""
+"""The meaning of each symbol and term, shown on hover wherever it occurs: a sketch and words."""
 
 from app.bundle import Bundled
 from app.text import listed

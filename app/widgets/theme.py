@@ -1,4 +1,4 @@
-"""The widgets' theme, and the style sheet of the page itself."""
+"""The theme of the widgets, and the style sheet of the page itself."""
 
 from app.widgets.look import widgets
 
@@ -16,7 +16,7 @@ THEME = {
                 "root": {"flexWrap": "wrap", "& .MuiToggleButton-root": {"width": "auto", "flex": "1 1 auto"}}
             }
         },
-        # as quiet as the ground: of a page that a student votes on
+        # as plain as the background, on the page on which a student votes
         "MuiAppBar": {
             "styleOverrides": {
                 "root": {
@@ -27,18 +27,18 @@ THEME = {
                 }
             }
         },
-        "MuiMenuItem": {"defaultProps": {"role": "option"}},  # all menus here are of a Select
+        "MuiMenuItem": {"defaultProps": {"role": "option"}},  # every menu here belongs to a Select
     }
 }
 
 STYLE = [
-    ".MuiLinearProgress-root { display: none !important }",  # it stays there, and has no name
-    ".MuiTooltip-popper { display: none !important }",  # in English; guide.js has ours
-    "main { background: var(--mui-palette-background-default) !important }",  # it would keep the first theme's
+    ".MuiLinearProgress-root { display: none !important }",  # always there, and without a name for screen readers
+    ".MuiTooltip-popper { display: none !important }",  # these are in English; guide.js shows ours
+    "main { background: var(--mui-palette-background-default) !important }",  # else that of the first theme stays
     "h3.title { color: var(--mui-palette-text-primary); font-size: 20px }",
 ]
 HEADLESS = [
-    ".MuiAppBar-root, main .MuiToolbar-root { display: none !important }",  # the page has a head of its own
-    # on a phone the tabs stand at the foot
+    ".MuiAppBar-root, main .MuiToolbar-root { display: none !important }",  # the page has its own head
+    # on a phone the tabs are at the foot
     "@media (max-width: 700px) { .main-content { padding-bottom: calc(53px + env(safe-area-inset-bottom)) } }",
 ]

@@ -1,4 +1,4 @@
-"""The top in three dimensions: the browser plays poses that were computed here, with no traffic while it plays."""
+"""The top in three dimensions: the browser plays poses that were computed here, without further messages."""
 
 import numpy as np
 import param
@@ -7,18 +7,18 @@ from app.bundle import Bundled, pack
 
 
 def pack_frames(t, quaternion, contact, com, theta, force, omega, momentum, regime):
-    """Put a trajectory into the bytes that `Top3D.frames` takes.
+    """A trajectory as the bytes of `Top3D.frames`.
 
-    All vectors in the space axes x, y, z (z up); units R, M, g.
+    All vectors along the space axes x, y, z (z up); units R, M, g.
 
     Parameters
     ----------
-    t : (n,) times, growing
+    t : (n,) times, ascending
     quaternion : (n, 4) x, y, z, w, body to space
-    contact : (n, 2) the point of contact
+    contact : (n, 2) the contact point
     com : (n, 3) G
     theta : (n,) the tilt
-    force : (n, 3) the table's force on the top, in Mg
+    force : (n, 3) the force of the table on the top, in Mg
     omega : (n, 3) angular velocity
     momentum : (n, 3) angular momentum about G
     regime : (n,) codes of app/model/regimes.py
@@ -29,11 +29,11 @@ def pack_frames(t, quaternion, contact, com, theta, force, omega, momentum, regi
 class Top3D(Bundled):
     """The top on its table, with its tracks and arrows, and the bar that plays it.
 
-    While it plays, and when it is moved by hand, it dispatches `tippe:clock` on the browser's window with
-    `{t, index, playing}`; it moves to the time of a `tippe:seek` with `{t}`. Tops with a `clock` play as one, for the
-    same stretch of time, and their events are `tippe:clock:<clock>` and `tippe:seek:<clock>`.
-    `tippe.time(clock)` on the window is the time now, and `tippe.photo(wide, clock)` a canvas with the picture, so many
-    pixels wide; without a clock, of the rolling top. All this holds too where the top is drawn flat, without WebGL.
+    While it plays, and when it is moved by hand, it dispatches `tippe:clock` on the browser's window with `{t, index,
+    playing}`; it goes to the time of a `tippe:seek` with `{t}`. Tops with a `clock` play together, over the same
+    interval of time, and their events are `tippe:clock:<clock>` and `tippe:seek:<clock>`. `tippe.time(clock)` on the
+    window is the present time, and `tippe.photo(wide, clock)` a canvas with the picture, so many pixels wide; without a
+    clock, that of the rolling top. All this also holds if the top is drawn flat, without WebGL.
     """
 
     SAYS = ("Stage",)

@@ -1,4 +1,4 @@
-"""Plain sentences as a reader of the page sees them: the letters of formulas, signs and units as they are printed."""
+"""Plain sentences as they appear on the page: letters of formulas, signs and units as they are printed."""
 
 import html
 import re

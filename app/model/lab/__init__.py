@@ -1,1 +1,1 @@
-"""The Lab: a toy let go by a hand, on three tables."""
+"""The Lab: a toy released by hand, on three tables."""

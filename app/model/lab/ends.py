@@ -1,4 +1,5 @@
-"""Where the runs of all spins end, for the strip below the slider: of a toy, tilt and friction, for all visitors."""
+"""How the runs at all spins end, for the strip below the slider; for one toy, tilt and friction, shared by all
+visitors."""
 
 import threading
 from collections import OrderedDict
@@ -14,17 +15,17 @@ from app.text import say
 from tippe_core import Many, slide_many
 from tippe_core.types import Array
 
-SPINS = np.linspace(0.0, 50.0, 101)  # rev/s: all of the slider
-TIMES = np.arange(1.0, 6.01, 0.5)  # s: whether it stands is looked at then, for it may fall again
+SPINS = np.linspace(0.0, 50.0, 101)  # rev/s: the whole range of the slider
+TIMES = np.arange(1.0, 6.01, 0.5)  # s: when it is checked whether the toy stands, because it may fall again
 STANDS, LEANS = np.radians(170), np.radians(20)
-CLOSE = 2  # cells: where the end changes as soon again, ends are mixed
-MOST = 64  # that are kept
-LOOKS = 0.2  # s between two looks of who waits for another's
+CLOSE = 2  # cells: if the end changes again within so few, the ends are called mixed
+MOST = 64  # the number of Ends that are stored
+LOOKS = 0.2  # s between two checks of a page that waits for the result of another
 Key = tuple[Toy, float, float, float]  # toy, tilt, mu, patch
 
 
 class Segment(NamedTuple):
-    """From one spin to another (rev/s) runs end alike: one of ends.IN_LAB or "mixed", and its word."""
+    """From one spin to another (rev/s) all runs end alike: code is one of ends.IN_LAB or "mixed", word is its name."""
 
     least: float
     most: float
@@ -33,7 +34,7 @@ class Segment(NamedTuple):
 
 
 class Ends(NamedTuple):
-    """spins (n,), the code of each run (n,), and the same in Segments; "mixed" where neighbours alternate."""
+    """spins (n,), the code of each run (n,), and the part of the body that may touch besides the ball."""
 
     spins: Array
     codes: tuple[str, ...]
@@ -41,7 +42,8 @@ class Ends(NamedTuple):
 
     @property
     def segments(self) -> tuple[Segment, ...]:
-        """In the page's language."""
+        """The runs grouped into Segments, with words in the page's language; "mixed" where neighbouring runs
+        alternate."""
         part = say(f"planes.parts.{self.part}")
         edges = [self.spins[0], *(self.spins[1:] + self.spins[:-1]) / 2, self.spins[-1]]
         found, place = [], 0
@@ -53,11 +55,11 @@ class Ends(NamedTuple):
 
 _kept: OrderedDict[Key, Ends] = OrderedDict()
 _under_way: set[Key] = set()
-_changing = threading.Condition()  # of these two; who waits for another's hears of it
+_changing = threading.Condition()  # guards _kept and _under_way; notified when a computation ends
 
 
 def known_ends(toy: Toy, tilt: float, mu: float, patch: float = PATCH) -> Ends | None:
-    """What ends_of() has found before, or ships with the arrival; None if it has to be asked."""
+    """What ends_of() has found before, or what ships with the arrival; None if it has to be computed."""
     key = toy, tilt, mu, patch
     with _changing:
         found = _kept.get(key)
@@ -71,7 +73,8 @@ def known_ends(toy: Toy, tilt: float, mu: float, patch: float = PATCH) -> Ends |
 def ends_of(
     toy: Toy, tilt: float, mu: float, patch: float = PATCH, look: Callable[[float], object] | None = None
 ) -> Ends:
-    """The Ends of a toy. look: called with the share that is done; what it raises ends it. Raises TopError."""
+    """The Ends of a toy. look: called with the share that is done; an exception that it raises stops the computation.
+    Raises TopError."""
     starts = [start_of(toy, float(spin), tilt, mu, patch=patch) for spin in SPINS]
     start, states = starts[0], np.array([[each.state] for each in starts], dtype=object)
     times = TIMES / start.scales.time
@@ -87,7 +90,7 @@ def ends_of(
 def ends_once(
     toy: Toy, tilt: float, mu: float, patch: float = PATCH, look: Callable[[float], object] | None = None
 ) -> Ends:
-    """ends_of(), which of those who ask for the same at once only one computes."""
+    """ends_of(), but if several pages ask for the same Ends at the same time, only one of them computes it."""
     key = toy, tilt, mu, patch
     while not _taken(key):
         if look is not None:
@@ -101,7 +104,7 @@ def ends_once(
 
 
 def _taken(key: Key) -> bool:
-    """Whether it is now who asks that computes it; waits for a while where another does."""
+    """Whether the caller should compute it; waits up to LOOKS seconds if another page is doing so."""
     with _changing:
         free = _changing.wait_for(lambda: key not in _under_way, LOOKS)
         if free:
@@ -110,7 +113,7 @@ def _taken(key: Key) -> bool:
 
 
 def codes_of(many: Many) -> tuple[str, ...]:
-    """The code of each row of runs, that differ in their length alone."""
+    """The code of each row of runs; the runs in a row differ only in their length."""
     high = many.theta_end > STANDS
     stands, inverted = ((high & (many.end == end)).any(axis=1) for end in ("stem", "inverted"))
     last = many.theta_end[:, -1]
@@ -121,7 +124,7 @@ def codes_of(many: Many) -> tuple[str, ...]:
 
 
 def mixed(codes: tuple[str, ...]) -> tuple[str, ...]:
-    """The codes, with "mixed" from where they begin to alternate within CLOSE cells to where that ends."""
+    """The codes, replaced by "mixed" over each range in which they alternate within CLOSE cells."""
     changes = [i for i in range(1, len(codes)) if codes[i] != codes[i - 1]]
     found = list(codes)
     for first, then in pairwise(changes):

@@ -1,4 +1,5 @@
-"""What a motion keeps from its start to its end: energy, Jellett's and Routh's constants, spin; words and numbers."""
+"""What a motion conserves from its start to its end: energy, Jellett's and Routh's constants, spin, in words and
+numbers."""
 
 from typing import NamedTuple
 
@@ -8,13 +9,14 @@ from app.model.lab.run import TableMotion
 from app.text import say
 from tippe_core.types import Array
 
-ROUNDING, NEARLY, TURNED = 1e-6, 0.25, 0.05  # of the largest value
-TREND = 0.2  # of the range
-DIGITS = 5  # after the point, at most
+ROUNDING, NEARLY, TURNED = 1e-6, 0.25, 0.05  # relative to the largest value
+TREND = 0.2  # relative to the range of the values
+DIGITS = 5  # decimals, at most
 
 
 class Row(NamedTuple):
-    """One quantity: its name, how much of it is kept ("full", "half" or "empty"), that in a word, and the numbers."""
+    """One quantity: its name, how far it is conserved ("full", "half" or "empty"), the same in a word, and the
+    numbers."""
 
     name: str
     mark: str
@@ -23,7 +25,8 @@ class Row(NamedTuple):
 
 
 def keeps(motion: TableMotion) -> tuple[Row, ...]:
-    """The Rows of a motion, from its start to its end: before the rough table gripped it, too, but for the energy."""
+    """The Rows of a motion from its start to its end; the start is before the rough table grips it, except for the
+    energy."""
     moved, curves, top = motion.trajectory, motion.curves, motion.start.top
     return (
         _row("energy", curves[:, 3].astype(float), 0, say("lab.keeps.millimetres")),
@@ -34,7 +37,8 @@ def keeps(motion: TableMotion) -> tuple[Row, ...]:
 
 
 def kind_of(values: Array) -> tuple[str, str]:
-    """How much is kept, and the key of its word: "kept", "swings", "nearly", "zero" (its sign turned) or "lost"."""
+    """How far it is conserved, and the key of its word: "kept", "swings", "nearly", "zero" (its sign has changed) or
+    "lost"."""
     most, spread = float(np.abs(values).max()), float(np.ptp(values))
     first, last = values[0], values[-1]
     if spread <= ROUNDING * most:

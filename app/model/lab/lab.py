@@ -1,7 +1,7 @@
-"""The view-model of the Lab: one toy, one start, let go by a hand, and the table on which it is watched.
+"""The view-model of the Lab: one toy, one start by hand, and the table on which it is watched.
 
-Of what is asked for the newest is computed, beside the server; the scene before stays until then, and where what was
-asked for cannot be.
+Only the newest request is computed, in a thread. The previous scene is shown until it is done, and stays if it cannot
+be computed.
 """
 
 import math
@@ -38,28 +38,29 @@ from tippe_core import Shape, State, TopError
 from tippe_core.types import Array
 
 LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5), "patch": (0.01, 5.0)})
-"""{input: what a hand in the Lab may give it}, in rev/s, degrees and mm; the sliders show less."""
+"""{input: the range in which the Lab lets it be set}, in rev/s, degrees and mm; the sliders have smaller ranges."""
 POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0), "mu": (0.0, 1e3), "patch": (0.0, 1e3)})
-"""The same of a start that comes from elsewhere, as from a link: that is kept and shown."""
+"""The same for a start that comes from elsewhere, for example from a link: within it the start is kept and shown."""
 CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
 Limits: TypeAlias = MappingProxyType[str, tuple[float, float]]
-SHOWN = 30  # characters of what is no number, in a sentence
-PATIENCE = 0.5  # s: a run that a newer one replaces may still finish within this
+SHOWN = 30  # characters of an input that is not a number, as quoted in a sentence
+PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
 Inputs: TypeAlias = tuple[str, Toy, float, float, float, State | None, float]
-"""table, toy, spin, tilt, mu; the State of a start that is not let go by a hand, with G at rest; and the patch."""
+"""table, toy, spin, tilt, mu; the State of a start that is not made by hand with G at rest, else None; and the radius
+of the patch."""
 WATCHED = "table", "shape", "a", "I1", "I3", "given", "spin", "tilt", "slip", "theta_dot", "omega2", "mu", "patch"
 FIRST: Inputs = SHIPS
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LabScene:
-    """All that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu, given, patch: what it is of.
+    """Everything that the Lab shows. table, toy, spin (rev/s), tilt (degrees), mu, given, patch: its inputs.
 
-    motions: {table: TableMotion or None}; None where it is not watched, or cannot be: then refused has a sentence why.
-    stories: {table: Story}, of the motions. said: headline and explanation of all three together. keeps: {table: Rows},
-    of all three. messages: {input: a sentence} for what was asked for and cannot be; all else is the last good one.
-    profile: (k, 2) in R, a in R and seconds, of one unit of time, for the picture in 3-D; part: "stem" or "rim".
-    whole: whether they are seen to their end.
+    motions: {table: TableMotion or None}; None if the table is not watched, or if there is no motion: then refused has
+    a sentence that says why. stories: {table: Story} of these motions. said: the headline and the explanation for all
+    three together. keeps: {table: Rows} for all three. messages: {input: a sentence} for each input that was refused;
+    the rest is then the last valid scene. profile: (k, 2) in R; a in R; seconds for one unit of time, for the picture
+    in 3-D; part: "stem" or "rim". whole: whether the motions are computed to their end.
     """
 
     table: str
@@ -83,12 +84,12 @@ class LabScene:
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """Of the table that is watched; of all three, the ordinary one's."""
+        """The events on the table that is watched; if all three are shown, on the ordinary one."""
         return self._story.events
 
     @property
     def stages(self) -> tuple[Stage, ...]:
-        """As events; where that motion cannot be, one stage that says so."""
+        """The stages of the motion whose events() are shown; if that motion is missing, one stage that says so."""
         return self._story.stages
 
     @property
@@ -110,7 +111,7 @@ def scene_of(
     whole: bool = False,
 ) -> LabScene:
     """The LabScene of a start, in the page's language; whole: to the end of the toy's life. Raises TopError, whose name
-    is an input, where none of the tables can have it because of that input's value."""
+    is an input, if that input's value is impossible on all of the tables."""
     watched, seen = tuple(TABLES) if table == "three" else (table,), whole_on if whole else motion_on
     motions: dict[str, TableMotion | None] = dict.fromkeys(TABLES)
     refused: dict[str, str] = {}
@@ -137,14 +138,14 @@ def scene_of(
 
 
 def _sentence(error: TopError) -> str:
-    """Why a start cannot be."""
+    """Why a start is impossible."""
     if error.code in ("stem-below-table", "body-below-table"):
         return say(f"lab.refused.{error.code}", tilt=error.value, most=error.numbers["most"])
     return told(error)
 
 
 def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
-    """Why an input cannot have a value, in a sentence; "" where it can."""
+    """Why an input cannot have this value, in a sentence; "" if it can."""
     if name == "toy" and isinstance(value, Shape):
         return ""
     if name in CHOICES:
@@ -157,11 +158,11 @@ def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
 
 
 class Lab(param.Parameterized):
-    """What the page's Start does on the Lab's table, one `scene` event for each answer. What cannot be set goes back to
-    what was.
+    """Computes what the page's Start does on the Lab's tables; each result is one `scene` event. An input that is
+    refused goes back to its previous value.
 
-    start: the Start, which ask() sets; runs: the page's Runs. Of several starts asked for while one is computed only
-    the newest is.
+    start: the Start, which ask() sets; runs: the page's Runs. If several starts are requested while one is computed,
+    only the newest of them is computed.
     """
 
     busy = param.Boolean(False, constant=True, doc="whether a newer start is being computed")
@@ -176,38 +177,38 @@ class Lab(param.Parameterized):
         self._run: Run | None = None
         self._shown = self.begun = self._again = self.rests = False
         self._messages: dict[str, str] = {}
-        self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and what puts the Start back to it
+        self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and the inputs that set the Start back to it
         self._strip: Key | None = None
-        self._seen: Inputs | None = None  # what was set when it was last looked at
+        self._seen: Inputs | None = None  # the inputs at the last call of _follow()
         super().__init__()  # type: ignore[no-untyped-call]  # of param
         self.start.param.watch(self._follow, list(WATCHED))
 
     @property
     def inputs(self) -> Inputs:
-        """What is set."""
+        """The present inputs."""
         start = self.start
         given = None if start.at_rest else start.let_go
         return start.table, start.toy, start.spin, start.tilt, start.mu, given, start.patch
 
     def show(self) -> None:
-        """Computes from now on what is set: before somebody looks nothing is."""
+        """Starts computing the present inputs; nothing is computed before the view is shown."""
         self._shown = self.begun = True
         self._follow()
 
     def hide(self) -> None:
-        """Nobody looks any more."""
+        """Marks the view as hidden: nothing more is computed."""
         self._shown = False
 
     def ask(self, **inputs: object) -> None:
-        """Sets what can be; for each that cannot there is a sentence in the scene's messages, and it stays. Another
-        toy, spin or tilt is let go by a hand."""
+        """Sets the inputs that are valid; each of the others keeps its value, and the scene's messages say why. A new
+        toy, spin or tilt makes the start one by hand."""
         faults = {name: fault(name, value) for name, value in inputs.items()}
         self._messages = {name: said for name, said in faults.items() if said}
         self._set_start({name: value for name, value in inputs.items() if not faults[name]})
         self._tell()
 
     def _set_start(self, inputs: dict[str, Any]) -> None:
-        """The inputs of the Lab into the Start."""
+        """Sets the Start from inputs of the Lab."""
         start = self.start
         found = inputs | (of_toy(inputs["toy"]) if "toy" in inputs else {})
         if {"toy", "spin", "tilt"} & inputs.keys():
@@ -217,13 +218,13 @@ class Lab(param.Parameterized):
 
     @property
     def reached(self) -> float:
-        """How much of the run that is computed is done, 0 to 1."""
+        """How much of the present run is done, 0 to 1."""
         if self._run is None:
             return 0.0
         return min(1.0, self._run.reached * shape_of(self.start.toy).scales.time / SECONDS)
 
     def stop(self) -> None:
-        """Ends the run that is computed; what it was of goes back to what is shown."""
+        """Stops the present run; the inputs go back to those of the scene that is shown."""
         if self._run is None:
             return
         self._run.stop()
@@ -231,12 +232,12 @@ class Lab(param.Parameterized):
 
     @property
     def _key(self) -> Key | None:
-        """Of the Ends; None where they are of no start such as this."""
+        """The key of the Ends; None if the start is not by hand with G at rest."""
         start = self.start
         return (start.toy, start.tilt, start.mu, start.patch) if start.at_rest else None
 
     def rest(self) -> None:
-        """To be called when no hand moves: where the runs of all spins end is looked up, or computed beside."""
+        """To be called when no hand moves: looks up how the runs at all spins end, or has it computed in a thread."""
         key = self._strip = self._key
         self._set(ends=key and known_ends(*key))
         if key and self.ends is None:
@@ -245,13 +246,13 @@ class Lab(param.Parameterized):
         self._live()
 
     def _live(self) -> None:
-        """Has the rest of the life of what is shown computed, where no hand moves and nothing else is."""
+        """Has the rest of the toy's life computed, if no hand moves and nothing else is being computed."""
         scene, inputs = self.scene, self._good
         if self.rests and scene is not None and not scene.whole and self._run is None:
             self._runs.begin(Run(lambda run: scene_of(*inputs, whole=True), partial(self._lived, inputs)), "life")
 
     def _lived(self, inputs: Inputs, result: Result) -> None:
-        """The whole life in the place of its beginning, if that is still what is shown."""
+        """Shows the whole life in place of its beginning, if that is still what is shown."""
         scene = self.scene
         if isinstance(result, LabScene) and scene is not None:
             if inputs == self._good and not result.refused.keys() - scene.refused.keys():
@@ -266,22 +267,22 @@ class Lab(param.Parameterized):
             raise result
 
     def _set(self, **values: object) -> None:
-        """Sets constants; an event where they are others."""
+        """Sets constant parameters; there is an event only if their values change."""
         with param.edit_constant(self):
             set_together(self, **values)
 
     def _follow(self, *events: param.parameterized.Event) -> None:
-        """Computes what is set, now or when the present run is done."""
+        """Computes the present inputs, now or when the present run is done."""
         if not self._shown:
             return
         faults = {name: said for name in self.INPUTS if (said := fault(name, getattr(self.start, name), POSSIBLE))}
-        if faults:  # of a link
+        if faults:  # they came from a link
             self._messages |= faults
             self.start.later(**self._back)
             self._tell()
             return
         if events and self.inputs == self._seen:
-            return  # what rolls follows what is set
+            return  # only the rolling motion, which follows from these inputs, has changed
         self._seen = self.inputs
         if self._strip != self._key:
             self._set(ends=None)
@@ -298,7 +299,7 @@ class Lab(param.Parameterized):
     def _begin(self) -> None:
         inputs, self._again = self.inputs, False
         work = Run(lambda run: scene_of(*inputs), partial(self._done, inputs, self.start.set))
-        if inputs == FIRST or not self._runs.beside:  # what ships needs no thread
+        if inputs == FIRST or not self._runs.beside:  # the result that ships needs no thread
             work.done(work.result())
             return
         self._run = work
@@ -309,7 +310,7 @@ class Lab(param.Parameterized):
         self._run = None
         if self._again:
             self._begin()
-            if self._run is None:  # it is answered already, and newer than this
+            if self._run is None:  # the new run has already been answered
                 return
         idle = {"busy": False} if self._run is None else {}
         if isinstance(result, LabScene):
@@ -325,17 +326,18 @@ class Lab(param.Parameterized):
             raise result
 
     def _refused(self, inputs: Inputs, error: TopError) -> None:
-        """What cannot be goes back; a tilt that this body cannot have, of another body to the first one's."""
+        """Sets a refused input back; if a new body cannot have this tilt, it gets the tilt of the last scene or the
+        default."""
         name = error.name if error.name in LIMITS else "tilt"
         self._messages[name] = _sentence(error)
         if self.inputs != inputs:
-            return  # something else is asked for by now
+            return  # another start has been requested meanwhile
         known = self._good[1] == self.start.toy and self.scene
         is_tilt = name == "tilt" and self.start.at_rest
         self.start.later(**{"tilt": self._good[3] if known else TILT} if is_tilt else self._back)
         self._tell()
 
     def _tell(self) -> None:
-        """The messages into the scene."""
+        """Copies the messages into the scene."""
         if self.scene is not None and dict(self.scene.messages) != self._messages:
             self._set(scene=replace(self.scene, messages=MappingProxyType(dict(self._messages))))

@@ -1,4 +1,4 @@
-"""The whole life of a toy on the ordinary table: until the table has gripped it for good, and a moment more."""
+"""The whole life of a toy on the ordinary table: until it rolls for good, and a moment longer."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,10 +10,10 @@ from app.model.planes.picture import Setup
 from app.model.planes.run import cut, slid
 from tippe_core import TopError, Trajectory
 
-SECONDS = 6.0  # of a run while a hand moves, and of every other at least
+SECONDS = 6.0  # of a run while a hand moves, and at least of any other
 LIFE = 60.0  # s, at most
-AFTER = 2.0  # s that are seen of what goes on for ever
-NEAR, FAR = (0.5, 0.01), (1.0, 0.02)  # from row to row at most so many rad and s: within SECONDS, and later
+AFTER = 2.0  # s that are still shown of a motion that goes on for ever
+NEAR, FAR = (0.5, 0.01), (1.0, 0.02)  # largest rotation (rad) and time (s) between two rows: up to SECONDS, and after
 MOST_ROWS = 6000
 
 
@@ -21,7 +21,7 @@ T = TypeVar("T", bound=Setup)
 
 
 def within(start: T) -> T:
-    """A Setup of no more seconds than its turns can be shown."""
+    """A Setup, shortened if it makes too many turns to be shown."""
     try:
         start.times  # noqa: B018  (it is computed, or refused)
     except TopError as error:
@@ -32,7 +32,7 @@ def within(start: T) -> T:
 
 
 def lived(start: Setup, look: Callable[[float], object]) -> tuple[float, Trajectory]:
-    """How long a start is to be seen, s, and its Trajectory until then, thinned. look: as progress of slide()."""
+    """How long a start is to be shown, s, and its Trajectory until then, thinned. look: the progress of slide()."""
     time, seconds, most = start.scales.time, 2 * SECONDS, LIFE
     while True:
         wanted, seconds = seconds, within(replace(start, seconds=seconds)).seconds
@@ -52,7 +52,8 @@ def lived(start: Setup, look: Callable[[float], object]) -> tuple[float, Traject
 
 
 def _end(moved: Trajectory, time: float, *, ended: bool) -> float:
-    """Until when it is to be seen, s: AFTER the table has gripped it for good, or what ended it; inf if neither."""
+    """Until when the motion is to be shown, s: until AFTER seconds after it rolls for good or has ended; inf if it does
+    neither."""
     slips, last = np.flatnonzero(moved.regime != "roll"), len(moved.t) - 1
     if len(slips) and slips[-1] == last and not ended:
         return np.inf
@@ -61,9 +62,11 @@ def _end(moved: Trajectory, time: float, *, ended: bool) -> float:
 
 
 def thinned(moved: Trajectory, time: float, until: float = np.inf) -> Trajectory:
-    """A Trajectory until then, s, in as few of its rows as show it: as NEAR and FAR say, and where anything changes.
+    """A Trajectory up to the time `until` (s), with as few of its rows as are needed: at the intervals NEAR and FAR,
+    and wherever the regime changes.
 
-    time: s in one unit of its time."""
+    time: s in one unit of its time.
+    """
     step, turning = np.diff(moved.t), np.linalg.norm(moved.omega, axis=1)
     later = (time * moved.t[1:] > SECONDS)[:, None]
     turn, while_ = np.where(later, FAR, NEAR).T

@@ -1,6 +1,6 @@
-"""One toy let go by a hand, on the three tables: what it does on each, as a Motion, and the curves of it.
+"""The motion of one toy, released by hand, on each of the three tables, and its curves.
 
-Ordinary: it slips, with the friction of a real contact. Rough: it can only roll, so it is gripped first. Ice: no
+Ordinary: it slips, with the friction of a real contact. Rough: it can only roll, so the table grips it first. Ice: no
 friction at all.
 """
 
@@ -23,25 +23,25 @@ from tippe_core.motion.friction import Friction
 from tippe_core.types import Array
 
 TABLES = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth"})
-"""{table: what planes/run.py calls it}."""
+"""{table: its name in planes/run.py}."""
 TOYS: MappingProxyType[str, Preset] = MappingProxyType({preset.name: preset for preset in PRESETS})
-PATCH = 0.5  # mm, the radius of the patch of contact, where nobody sets another
-MOST_LOOKS = 20_000  # of slide() at its page: some seconds; a toy that flips needs a hundred
-STEP = 2  # a row of the curves for so many frames: 200 rows in a second of a fast top
-NEARLY = 1e-5  # of its time: as float32 has it
+PATCH = 0.5  # mm: the default radius of the contact patch
+MOST_LOOKS = 20_000  # calls of slide()'s progress: some seconds; a toy that flips needs a hundred
+STEP = 2  # one row of the curves for so many frames: 200 rows in a second of a fast top
+NEARLY = 1e-5  # relative: the precision of a time stored as float32
 SHIPS = *arrival.ARRIVAL, None, PATCH
 
 
 Toy: TypeAlias = str | Shape
-"""The name of one of TOYS, or a body of somebody's own."""
+"""The name of one of TOYS, or a body of the visitor's own."""
 
 
 class TooLong(Exception):
-    """A run, of a rim that chatters, takes more work than anybody waits for."""
+    """A run takes too long, for example that of a rim that chatters."""
 
 
 class Patience:
-    """What a run calls now and then: ends it where its page has gone, or after MOST_LOOKS."""
+    """The progress function of a run: stops it if its page has closed, or after MOST_LOOKS calls."""
 
     def __init__(self) -> None:
         self._left = MOST_LOOKS
@@ -55,9 +55,9 @@ class Patience:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Start(Setup):
-    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees; else as it is given."""
+    """A toy in the hand: G at rest, spin (rev/s) about its axis, tilt in degrees; or the State `given`."""
 
-    most_turn: ClassVar[float] = 0.5  # 2000 frames of a fast one
+    most_turn: ClassVar[float] = 0.5  # 2000 frames of a fast toy
 
     toy: Toy
     spin: float
@@ -79,7 +79,7 @@ class Start(Setup):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Watched(Motion):
-    """A Motion of a Setup on a table, a name of TABLES."""
+    """A Motion of a Setup on a table, one of the names in TABLES."""
 
     start: Setup
     table: str
@@ -91,22 +91,22 @@ class Watched(Motion):
 
     @property
     def tilt(self) -> Array:
-        """theta in degrees, as far as the trajectory goes."""
+        """theta in degrees, at the times of the trajectory."""
         return np.degrees(self.trajectory.theta)
 
     @property
     def carried(self) -> NDArray[np.str_]:
-        """On what it stands at these times: "ball", "stem", "both" or "none"."""
+        """What the top stands on at the times of the trajectory: "ball", "stem", "both" or "none"."""
         return self.carried_at(self.trajectory.t)
 
     def carried_at(self, t: Array) -> NDArray[np.str_]:
-        """The same at these times of the trajectory."""
+        """The same at the times t, in the trajectory's unit."""
         since, on = zip(*self.trajectory.supports, strict=True)
         return np.array(on)[np.searchsorted(since, t, side="right") - 1]
 
     @property
     def rolls_since(self) -> float:
-        """From when on it rolls to the end, s; nan if it does not."""
+        """The time (s) from which it rolls until the end; nan if it does not."""
         slips = np.flatnonzero(self.trajectory.regime != "roll")
         if not len(slips):
             return 0.0
@@ -115,11 +115,13 @@ class Watched(Motion):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TableMotion(Watched):
-    """A Watched motion of the Lab. lost: the energy that the rough table took when it gripped, MgR; heat counts it.
+    """A Watched motion of the Lab. lost: the energy (MgR) that the grip of the rough table has taken; it is part of the
+    heat.
 
     curves (n, 8): t (s), tilt (degrees), height of G (mm), the energy as the height to which it could lift the top
-    (mm), heat so far in the same, spin about its own axis and turning seen from above (rev/s), and the code of
-    regimes.py."""
+    (mm), the heat so far in the same way, the spin about the top's own axis and its rotation seen from above (rev/s),
+    and the code of regimes.py.
+    """
 
     start: Start
     lost: float
@@ -128,7 +130,7 @@ class TableMotion(Watched):
 
     @property
     def is_cut(self) -> bool:
-        """Whether it is seen as far as it was computed, and goes on there."""
+        """Whether the motion continues after the end of what was computed."""
         ended = bool(self.ended) and len(self.trajectory.t) < len(self.t)
         return self.whole and self.table == "ordinary" and not ended and bool(np.isnan(self.rolls_since))
 
@@ -139,7 +141,7 @@ def shape_of(toy: Toy) -> Shape:
 
 
 def toy_of(shape: Shape, top: Top) -> Toy:
-    """The name in TOYS of what has this body and this top; else the body."""
+    """The name in TOYS of the toy with this body and this top; if there is none, the body."""
     return next((name for name, preset in TOYS.items() if preset.shape == shape and preset.top == top), shape)
 
 
@@ -154,7 +156,7 @@ def start_of(toy: Toy, spin: float, tilt: float, mu: float, given: State | None 
 def motion_on(
     table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH
 ) -> TableMotion:
-    """The TableMotion of a start, kept for all visitors; of the arrival, the one that ships. Raises TopError in the
+    """The TableMotion of a start, cached for all visitors; for the arrival, the one that ships. Raises TopError in the
     units of the controls."""
     if (table, toy, spin, tilt, mu, given, patch) == SHIPS:
         return whole_on(*SHIPS)
@@ -165,7 +167,8 @@ def motion_on(
 def whole_on(
     table: str, toy: Toy, spin: float, tilt: float, mu: float, given: State | None = None, patch: float = PATCH
 ) -> TableMotion:
-    """As motion_on(), to the end of the toy's life; where a table knows no end, as long as on the ordinary one."""
+    """As motion_on(), to the end of the toy's life; on a table on which it never ends, as long as on the ordinary
+    one."""
     start = start_of(toy, spin, tilt, mu, given, patch)
     if (table, toy, spin, tilt, mu, given, patch) == SHIPS:
         kept = arrival.read(start.top)
@@ -181,8 +184,8 @@ def whole_on(
 
 
 def on(start: Start, table: str) -> TableMotion:
-    """The TableMotion of a Start on a table, as long as its turns can be shown. Raises TopError in the units of the
-    controls."""
+    """The TableMotion of a Start on a table, shortened if it makes too many turns to be shown. Raises TopError in the
+    units of the controls."""
     try:
         start = within(start)
         return moved(start, table, *computed(start, table))
@@ -191,7 +194,7 @@ def on(start: Start, table: str) -> TableMotion:
 
 
 def computed(start: Start, table: str) -> tuple[Trajectory, float]:
-    """What a Start does on a table, and the energy that the rough one took when it gripped, MgR."""
+    """The trajectory of a Start on a table, and the energy (MgR) that the grip of the rough one has taken."""
     top, state, times, lost = start.top, start.state, start.times, 0.0
     check_room(start, state)
     if table == "ordinary":
@@ -203,7 +206,7 @@ def computed(start: Start, table: str) -> tuple[Trajectory, float]:
 
 
 def moved(start: Start, table: str, trajectory: Trajectory, lost: float, *, whole: bool = False) -> TableMotion:
-    """The TableMotion of what computed() gives; whole: of what is thinned already, and seen to its end."""
+    """The TableMotion of the results of computed(). whole: the trajectory is already thinned and goes to the end."""
     shown, end = trajectory if whole else thinned(trajectory, start.scales.time), start.seconds / start.scales.time
     times = shown.t if end - shown.t[-1] < NEARLY * end else np.append(shown.t, end)
     motion = motion_of(shown, start, times, TABLES[table])
@@ -221,7 +224,7 @@ def _curves(motion: Motion, start: Start, lost: float) -> Array:
         moved.t * scales.time, np.degrees(moved.theta), millimetres * height, millimetres * energy,
         millimetres * (moved.heat + lost), turns * spin, turns * above, motion.frames[-1][: len(moved.t)],
     ])  # fmt: skip
-    if len(motion.t) > len(moved.t):  # it ended early, and stands still to the end
+    if len(motion.t) > len(moved.t):  # it ended early; the last row is repeated at the end
         rows = np.concatenate([rows, rows[-1:]])
         rows[-1, 0], rows[-1, -1] = motion.t[-1] * scales.time, motion.frames[-1][-1]
     kept = np.arange(0, len(rows), STEP)

@@ -1,4 +1,4 @@
-"""What is drawn of the top of a run on a map; lengths in R."""
+"""The outline of the top in the animation of a map's run; lengths in R."""
 
 import numpy as np
 
@@ -9,8 +9,8 @@ from tippe_core.types import Array
 
 
 def outline_of(asked: Map, cell: Cell, own: Array | None) -> Array:
-    """The outline of what slides, (k, 2); own: that of a body of one's own. A stem that a map makes longer is drawn
-    longer; a top whose a or I1 it changes is none that is known, so the ball alone is."""
+    """The outline (k, 2) of the sliding body; own: that of the visitor's own body. A stem that the map lengthens is
+    drawn longer. If the map changes a or I1, the shape is unknown, and only the ball is drawn."""
     axes = {asked.across, asked.up}
     if {"a", "ratio"} & axes or (asked.body == OWN and own is None):
         return outline(cell.top)

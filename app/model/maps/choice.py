@@ -1,4 +1,4 @@
-"""What a reader of Maps has set: the map, what its colours say, and the place of the bead."""
+"""The choices of a reader of Maps: the map, the meaning of its colours, and the position of the bead."""
 
 from typing import Any, ClassVar
 
@@ -8,11 +8,11 @@ from app.model.maps.maps import COLOURS_BY, Map
 
 AT = (28.6, 5.7)
 FIXED = ("spin", "tilt", "slip", "mu", "second")
-"""What can be set where it is on no axis."""
+"""The quantities that can be set as long as they are on no axis."""
 
 
 class MapChoice(param.Parameterized):
-    """asked: the Map; colour: one of COLOURS_BY; place: across and up of the bead."""
+    """asked: the Map; colour: one of COLOURS_BY; place: the position of the bead, across and up."""
 
     INPUTS: ClassVar = ("asked", "colour", "place")
 

@@ -1,9 +1,9 @@
-"""Maps that were made, for all visitors: the newest in memory, and as files beside the kernels that made them. Those
-that are seen first ship with the page, in app/data.
+"""Maps that were computed before, shared by all visitors: the newest in memory, the others as files beside the kernels
+that computed them. Those that are shown first ship with the page, in app/data.
 
     python -m app.model.maps.kept
 
-computes those anew, after a change of the physics; a test compares some of its cells with fresh runs.
+computes these anew, after a change of the physics; a test compares some of their cells with fresh runs.
 """
 
 import hashlib
@@ -22,13 +22,13 @@ from tippe_core import kept
 
 DATA = Path(__file__).parents[2] / "data"
 SHIPPED = {Map(): DATA / "map.npz", Map(body="The paper's tippe top"): DATA / "map-paper.npz"}
-IN_MEMORY, AS_FILES = 64, 400  # of 48 x 48 cells each takes some 150 kB
+IN_MEMORY, AS_FILES = 64, 400  # a map of 48 x 48 cells takes some 150 kB
 _memory: OrderedDict[Map, Level] = OrderedDict()
 _changing = threading.Lock()
 
 
 def recall(asked: Map) -> Level | None:
-    """The whole map, if it was made before with these sources of tippe_core."""
+    """The complete map, if it was computed before by the same sources of tippe_core."""
     with _changing:
         level = _memory.get(asked)
         if level is not None:
@@ -47,7 +47,7 @@ def recall(asked: Map) -> Level | None:
 
 
 def keep(level: Level) -> None:
-    """A whole map; the oldest files go."""
+    """Stores a complete map; the oldest files are deleted."""
     _remember(level)
     path = _path(level.asked)
     if path is None:
@@ -75,10 +75,10 @@ def _remember(level: Level) -> None:
 
 
 def _path(asked: Map) -> Path | None:
-    """By content; the folder's own name says which sources of tippe_core computed it."""
+    """The file's name is a hash of the map's contents; its folder is named after the sources of tippe_core."""
     try:
         folder = kept.folder()
-    except ImportError:  # no numba: nothing is kept
+    except ImportError:  # no numba: nothing is stored
         return None
     return folder and folder / "maps" / f"{hashlib.sha256(repr(asked).encode()).hexdigest()[:32]}.npz"
 

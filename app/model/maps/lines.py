@@ -1,4 +1,4 @@
-"""What closed forms say of a map: lines over it, and why runs end otherwise than they allow."""
+"""What closed forms predict for a map: lines drawn over it, and why runs end differently than they allow."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -12,18 +12,18 @@ from tippe_core import Thresholds, Top, TopError, strongest_friction, thresholds
 from tippe_core.paper import equations as eq
 from tippe_core.types import Array, Bools
 
-FINE = 61  # points a side at which closed forms are asked
-MANY = 20  # hops that cost more than a little spin
+FINE = 61  # points along each side at which the closed forms are evaluated
+MANY = 20  # more hops than this cost the top a noticeable part of its spin
 TURNED = ("stem", "inverted")
-WINDOW = ("window_low", "window_high")  # I1/I3 = 1 - a/R and 1 + a/R: the borders of the groups of tops
+WINDOW = ("window_low", "window_high")  # I1/I3 = 1 - a/R and 1 + a/R: the borders between the groups of tops
 
 
 @dataclass(frozen=True)
 class Disagreement:
-    """Where runs do otherwise than a closed form says. kind: "lies" (it lets a top stand turned over, and the run does
-    not), "stays" (it cannot stay upright, and does), "beyond" (it cannot stand turned over, and does). count: cells, of
-    how many of which the form says so; why most of them do otherwise, a key of maps.toml; one of them, (across, up);
-    from and to which value across."""
+    """Where runs differ from a closed form. kind: "lies" (the inverted top should stand, and it does not), "stays" (the
+    upright top should be unstable, and it stays), "beyond" (the inverted top should be unstable, and it stands). count:
+    the number of such cells; of: the number of cells for which the closed form predicts this; why: the reason in most
+    of them, a key of maps.toml; one of them, (across, up); and their range across."""
 
     kind: str
     count: int
@@ -45,7 +45,7 @@ def _limits(top: Top) -> Thresholds:
 
 
 def _excess(asked: Map, x: float, y: float) -> dict[str, float]:
-    """{line: by how much a start is beyond it}; nan where there is no such start, or no such line."""
+    """{line: by how much a start is beyond it}; nan if there is no such start, or no such line."""
     none = dict.fromkeys(("stands", "leaves", "painleve", *WINDOW), np.nan)
     try:
         cell = asked.at(x, y)
@@ -56,16 +56,16 @@ def _excess(asked: Map, x: float, y: float) -> dict[str, float]:
     launch = abs(C_J / eq.C_J(1.0, 0.0, 0.0, 1.0, top))
     found = {"stands": launch - limits.launch if limits.inverted.stable == "above" else np.nan,
              "leaves": launch - limits.upright.spin if limits.upright.stable == "below" else np.nan}  # fmt: skip
-    mu = cell.friction.law.mu if asked.law != "viscous" else np.nan  # that grows with the slip without bound
+    mu = cell.friction.law.mu if asked.law != "viscous" else np.nan  # viscous friction has no upper bound
     found["painleve"] = mu - _strongest(top)
     return found | {"window_low": top.I1 / top.I3 - (1 - top.a), "window_high": top.I1 / top.I3 - (1 + top.a)}
 
 
 @lru_cache(32)
 def lines(asked: Map) -> tuple[tuple[str, Array], ...]:
-    """(name, (k, 2) places) of each line: "stands", above which a top can stand turned over; "leaves", above which it
-    cannot stay upright; "painleve", friction beyond which no normal force balances it on the ball; and of a map over
-    tops the WINDOW."""
+    """(name, (k, 2) points) of each line: "stands", above which the inverted top is stable; "leaves", above which the
+    upright top is unstable; "painleve", friction beyond which no normal force can balance the top on its ball; and, for
+    a map over tops, the lines of WINDOW."""
     x, y = (np.linspace(*span, FINE) for span in (asked.across_range, asked.up_range))
     fields = [[_excess(asked, float(one), float(other)) for one in x] for other in y]
     wanted = ("stands", "leaves", "painleve", *(WINDOW if {"a", "ratio"} & {asked.across, asked.up} else ()))
@@ -78,7 +78,8 @@ def lines(asked: Map) -> tuple[tuple[str, Array], ...]:
 
 
 def _crossings(x: Array, y: Array, z: Array) -> list[Array]:
-    """Where z (y, x) passes 0 along each row: the first places of all rows as one line, the second as another, ..."""
+    """Where z (y, x) changes sign along each row: the first zeros of all rows as one line, the second ones as another,
+    ..."""
     found: dict[int, list[tuple[float, float]]] = {}
     for row, other in zip(z, y, strict=True):
         at = np.flatnonzero((row[:-1] < 0) & (row[1:] >= 0) | (row[:-1] >= 0) & (row[1:] < 0))
@@ -89,7 +90,7 @@ def _crossings(x: Array, y: Array, z: Array) -> list[Array]:
 
 
 def disagreements(level: Level) -> list[Disagreement]:
-    """Of a level that is whole, a kind each; none where all runs do what the closed forms say."""
+    """The Disagreements of a complete level, one for each kind; none if all runs do what the closed forms predict."""
     excess = [[_excess(level.asked, float(x), float(y)) for x in level.x] for y in level.y]
     stands, leaves = (np.array([[each[name] for each in row] for row in excess]) for name in ("stands", "leaves"))
     was_run, turned = level.end != "refused", np.isin(level.end, TURNED)
@@ -116,13 +117,13 @@ def _disagreement(level: Level, kind: str, says: Bools, otherwise: Bools) -> Dis
 
 
 def _why(level: Level, kind: str, i: int, j: int) -> str:
-    """Why a run does otherwise, by what it did itself."""
+    """Why a run differs, determined from the run itself."""
     end = str(level.end[i, j])
     if kind == "beyond":
         return "carries" if end == "stem" else "high"
     if kind == "stays" and level.asked.law == "coulomb":
         return "sticks"
-    if np.isfinite(level.columns["time_stem"][i, j]):  # it was over before it rolled or leaned
+    if np.isfinite(level.columns["time_stem"][i, j]):  # it turned over before it rolled or leaned
         pivots = "falls" if level.asked.law == "contensou" else "stem"
         return "lifts" if level.columns["hops"][i, j] > MANY else pivots
     if end == "rolling":

@@ -1,6 +1,6 @@
-"""What a map is: two quantities of a sliding top across and up, all others fixed, and one run in each cell.
+"""Definition of a map: two quantities of a sliding top across and up, all others fixed, and one run in each cell.
 
-In the units of a person: rev/s, degrees, s, mm; a/R and I1/I3 have none. A map's runs are in units of R, M and g.
+Values are in rev/s, degrees, s and mm; a/R and I1/I3 are dimensionless. The runs are in units of R, M and g.
 """
 
 from dataclasses import dataclass
@@ -15,16 +15,16 @@ from tippe_core import PRESETS, Contensou, Coulomb, Scales, SmoothedCoulomb, Sta
 from tippe_core.motion.friction import Friction
 from tippe_core.types import Array, Rim
 
-OWN = ""  # the name of a body that is none of tippe_core.PRESETS
+OWN = ""  # the name that stands for a body that is not one of tippe_core.PRESETS
 LAWS = ("coulomb", "viscous", "smoothed", "contensou")
 COLOURS_BY = ("end", "time_90", "theta_end", "F_z_least", "flew", "heat", "hops", "growth")
 MOST_CELLS, MOST_SECONDS = 96, 60.0
-FIRST = 8  # cells a side of the first look
+FIRST = 8  # cells along each side of the first, coarse level
 NUDGE = 1e-6  # rad
 
 
 class Quantity(NamedTuple):
-    """What can go across or up: least and most that can be, and the range that is looked at first."""
+    """A quantity that can be an axis: its possible range, and the range that is shown first."""
 
     least: float
     most: float
@@ -46,13 +46,13 @@ QUANTITIES = {
     "rounding": Quantity(0.0, 100.0, 1.0, 8.0, "mm"),
 }
 SECONDS = {"coulomb": "mu_s", "viscous": "", "smoothed": "eps", "contensou": "radius"}
-"""{law: what its second number is}: friction at rest; (gR)^1/2; the patch in mm."""
+"""{law: what its second parameter is}: static friction; a speed in (gR)^1/2; the radius of the patch in mm."""
 UNITS = {"theta_end": "°", "time_90": "s", "time_stem": "s", "hops": "", "flew": "", "F_z_least": "Mg", "heat": "MgR",
          "energy_error": "MgR", "C_J_drift": "", "growth": ""}  # fmt: skip
 
 
 class Body(NamedTuple):
-    """What slides: its Top, its R, M and g, and the edge of its stem."""
+    """The sliding body: its Top, its R, M and g, and the edge of its stem."""
 
     top: Top
     scales: Scales
@@ -67,7 +67,7 @@ def of_preset(name: str) -> Body:
 
 
 def of_page(scene: Scene) -> tuple[str, Body | None]:
-    """(body, own) of a Map of the page's top: its preset's name, or OWN and what it is."""
+    """(body, own) of a Map of the page's top: the name of its preset, or OWN and the Body."""
     for preset in PRESETS:
         if preset.shape == scene.shape and preset.top == scene.top:
             return preset.name, None
@@ -76,10 +76,12 @@ def of_page(scene: Scene) -> tuple[str, Body | None]:
 
 @dataclass(frozen=True, kw_only=True)
 class Map:
-    """All that a map depends on. body: the name of a preset, or OWN, and then own is what slides. values: those of
-    QUANTITIES, of which across and up are not looked at; stem is how far the end of the stem reaches above O, and with
-    it the edge moves, but not the mass. nudged: whether each cell is run twice, the second time NUDGE further tilted.
-    Raises TopError for what cannot be."""
+    """Everything on which a map depends. body: the name of a preset, or OWN for the Body `own`. values: the values of
+    QUANTITIES; those of the two axes are ignored. stem is the height of the end of the stem above O; it moves the edge
+    but does not change the mass. nudged: whether each cell is run a second time, tilted by NUDGE more.
+
+    Raises TopError for impossible values.
+    """
 
     body: str = "Leine and Glocker's toy"
     own: Body | None = None
@@ -122,12 +124,12 @@ class Map:
 
     @property
     def thing(self) -> Body:
-        """What slides."""
+        """The sliding body."""
         return self.own or of_preset(self.body)
 
     @property
     def start(self) -> dict[str, float]:
-        """{name: value} of all QUANTITIES, where nothing is on an axis."""
+        """{name: value} of all QUANTITIES, for the body as it is."""
         top, scales, edge = self.thing
         R = 1e3 * scales.R
         second = {"contensou": 0.5, "smoothed": 0.1, "coulomb": 0.3, "viscous": 0.0}[self.law]
@@ -137,23 +139,24 @@ class Map:
         return own | dict(self.values)
 
     def levels(self) -> tuple[int, ...]:
-        """Cells a side, coarse to fine; the middle of each cell of the second is that of one in nine of the third."""
+        """Cells along each side, from coarse to fine; the centre of each cell of the second level is that of one in
+        nine cells of the third."""
         third = self.cells // 3
         return (*((FIRST,) if third > FIRST else ()), *((third,) if self.cells > FIRST else ()), self.cells)
 
     def centres(self, n: int) -> tuple[Array, Array]:
-        """The middles of n cells across, and of n up."""
+        """The centres of n cells across, and of n cells up."""
         part = (np.arange(n) + 0.5) / n
         (left, right), (bottom, top) = self.across_range, self.up_range
         return left + (right - left) * part, bottom + (top - bottom) * part
 
     def at(self, across: float, up: float) -> "Cell":
-        """The Cell with these."""
+        """The Cell at these values of the axes."""
         return Cell.of(self, self.start | {self.across: float(across), self.up: float(up)})
 
 
 class Cell(NamedTuple):
-    """One run, as slide() takes it: t_end in (R/g)^1/2."""
+    """One run, as slide() takes it; t_end in (R/g)^1/2."""
 
     top: Top
     scales: Scales
@@ -164,7 +167,7 @@ class Cell(NamedTuple):
 
     @classmethod
     def of(cls, asked: Map, x: dict[str, float]) -> "Cell":
-        """Of the values of QUANTITIES; TopError where there is none."""
+        """The Cell for these values of QUANTITIES; TopError if they are impossible."""
         own, mine, _ = asked.thing
         top = own if not {"a", "ratio"} & {asked.across, asked.up} else Top(x["a"], x["ratio"] * own.I3, own.I3)
         scales = Scales(x["R"] / 1e3, mine.M, mine.g)
@@ -174,7 +177,7 @@ class Cell(NamedTuple):
 
 
 def _edge(asked: Map, x: dict[str, float]) -> Rim | None:
-    """The stem's, in R of the body as it is, whose lengths grow with R unless they are on an axis."""
+    """The edge of the stem, in R of the original body; its lengths grow with R unless they are on an axis."""
     edge = asked.thing.edge
     if edge is None or not {"stem", "rounding"} & {asked.across, asked.up}:
         return edge
@@ -184,7 +187,7 @@ def _edge(asked: Map, x: dict[str, float]) -> Rim | None:
 
 def _law(law: str, x: dict[str, float], scales: Scales) -> Friction:
     if law == "coulomb":
-        return Coulomb(x["mu"], max(x["second"], x["mu"]))  # friction at rest is the larger one
+        return Coulomb(x["mu"], max(x["second"], x["mu"]))  # static friction is the larger one
     if law == "viscous":
         return Viscous(x["mu"])
     if law == "smoothed":
@@ -193,7 +196,7 @@ def _law(law: str, x: dict[str, float], scales: Scales) -> Friction:
 
 
 def cells_of(asked: Map, places: list[tuple[float, float]]) -> SimpleNamespace:
-    """What slide_many() takes of these places, and which of them are possible."""
+    """The arguments of slide_many() for these places, and which of the places are possible."""
     found: list[Cell | None] = []
     for across, up in places:
         try:

@@ -1,4 +1,4 @@
-"""How fast small tilts grow and turn, by the linear picture and by runs; and how the time of inversion scales."""
+"""How fast small tilts grow and rotate, by linear theory and in runs; and how the time of inversion scales."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -12,17 +12,18 @@ from tippe_core import State, TopError, slide, slide_many, spinning_modes, stead
 from tippe_core.types import Array
 
 SPINS, DOTS = 97, 9
-SMALL = 1e-7  # rad: a start so near to a pole is a small motion for a while
-FOLDS = 3.0  # e-folds over which a run's growth is measured
-MOST_TIME = 400.0  # (R/g)^1/2: no run is followed longer for it
-POINTS = 9  # runs of a power
-REACH = 1.5  # times more, and less, than at the bead
+SMALL = 1e-7  # rad: a start so near a pole remains a small deviation for some time
+FOLDS = 3.0  # e-foldings over which the growth of a run is measured
+MOST_TIME = 400.0  # (R/g)^1/2: the longest run for this
+POINTS = 9  # runs for each power law
+REACH = 1.5  # the runs extend from 1/REACH to REACH times the value at the bead
 Look = Callable[[float], object]
 
 
 class Branch(NamedTuple):
-    """Of "upright", "inverted" or "tumbling" spin: the growth (1/s) and the turning (1/s, seen from above) of the mode
-    that grows fastest, over spin (rev/s of the start); growth of runs at spins of their own, none for tumbling."""
+    """Upright, inverted or tumbling spin: the growth rate and the rotation rate, seen from above (both 1/s), of the
+    fastest-growing mode as functions of the spin (rev/s) of the start; and the growth of runs, at fewer spins; none for
+    tumbling."""
 
     name: str
     spin: Array
@@ -33,7 +34,8 @@ class Branch(NamedTuple):
 
 
 class Power(NamedTuple):
-    """time ~ quantity^power, with its error; nan where fewer than three runs turn over. runs: how many do."""
+    """The exponent of time ~ quantity^power, and its error; nan if fewer than three runs turn over. runs: how many
+    do."""
 
     law: str
     quantity: str
@@ -44,14 +46,14 @@ class Power(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Rates:
-    """branches: of Branch; powers: of Power."""
+    """branches: a tuple of Branch; powers: a tuple of Power."""
 
     branches: tuple[Branch, ...]
     powers: tuple[Power, ...]
 
 
 def rates(asked: Map, place: tuple[float, float], look: Look | None = None) -> Rates:
-    """The Rates at the bead. Raises TopError where there is no such top."""
+    """The Rates at the bead. Raises TopError if there is no such top."""
     own, x = fixed(asked, place), at_place(asked, place)
     low, high = own.across_range
     spin = np.linspace(max(low, 0.0), high, SPINS)
@@ -72,7 +74,7 @@ def _branch(name: str, here: Cell, spin: Array, look: Look | None) -> Branch:
             if not len(between):
                 continue
             modes = tumbling_modes(top, law, float(between[0]))
-            modes = np.delete(modes, np.argmin(np.abs(modes)))  # along the steady motions themselves
+            modes = np.delete(modes, np.argmin(np.abs(modes)))  # the mode along the family of steady motions
         else:
             modes = spinning_modes(top, law, _own_spin(name, per_spin * each, here), name == "inverted")
         found[i] = unit * modes[0].real, unit * abs(modes[0].imag)
@@ -83,13 +85,14 @@ def _branch(name: str, here: Cell, spin: Array, look: Look | None) -> Branch:
 
 
 def _own_spin(name: str, C_J: float, here: Cell) -> float:
-    """omega3 at a pole with this C_J: I3 (c - a) omega3."""
+    """The spin at a pole with this C_J, from C_J = I3 (c - a) omega3."""
     c = -1.0 if name == "inverted" else 1.0
     return C_J / (here.top.I3 * (c - here.top.a))
 
 
 def _grown(name: str, here: Cell, C_J: float, look: Look | None) -> tuple[float, float]:
-    """(C_J that pivoting has left by then, how fast the tilt from the pole grows in a run: nan where it dies away)."""
+    """(the C_J that is left then, since pivoting reduces it; the growth rate of the tilt from the pole in a run, nan if
+    it decays)."""
     top, law, spin = here.top, here.friction, _own_spin(name, C_J, here)
     modes = spinning_modes(top, law, spin, name == "inverted").real
     none = C_J, np.nan
@@ -110,7 +113,7 @@ def _grown(name: str, here: Cell, C_J: float, look: Look | None) -> tuple[float,
 
 
 def powers(own: Map, x: dict[str, float], look: Look | None = None) -> tuple[Power, ...]:
-    """How the time to pass 90 degrees goes with the spin, with mu and with the law's second number, by each law."""
+    """The scaling of the time to reach 90 degrees with the spin, mu, and the second parameter of each friction law."""
     found = []
     for law in ("coulomb", "viscous", "contensou"):
         second = x["second"] if law == own.law else Map(law=law).start["second"]

@@ -1,4 +1,4 @@
-"""A Map solved in pieces, coarse to fine, so that it can be stopped between two of them; every cell is one run."""
+"""Solves a Map in pieces, from coarse to fine, so that it can be stopped between two pieces; each cell is one run."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -12,18 +12,18 @@ from app.model.maps.maps import NUDGE, UNITS, Map, cells_of
 from tippe_core import Trajectory, ending, slide, slide_many
 from tippe_core.types import Array, Bools
 
-PIECE, FEWEST, MOST = 0.12, 16, 256  # s a piece should take, and cells in it
-GROWS = 1e3  # a nudge that grows so much: neighbours between two cells may end otherwise
+PIECE, FEWEST, MOST = 0.12, 16, 256  # duration (s) of a piece, and the range of its number of cells
+GROWS = 1e3  # if a nudge grows by this factor, runs between neighbouring cells may end differently
 CURVE, MOST_CURVE = 900, 2400  # samples of a run that is drawn
-TURN = 1.5  # rad: so far it should turn at most between two of them
+TURN = 1.5  # rad: the largest rotation between two of them, if possible
 Ends: TypeAlias = NDArray[np.str_]
 Progress: TypeAlias = Callable[[float], object]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Level:
-    """A map as far as it is: end (up, across), "" where no run was made yet; columns: {name of UNITS: (up, across)} in
-    these units, nan there."""
+    """A map as far as it has been computed: end (up, across), "" for cells not yet run; columns: {a name of UNITS:
+    values (up, across)} in these units, nan for the same cells."""
 
     asked: Map
     x: Array
@@ -33,17 +33,17 @@ class Level:
 
     @property
     def whole(self) -> bool:
-        """Whether each cell was run."""
+        """Whether every cell has been run."""
         return bool((self.end != "").all())
 
     @property
     def finest(self) -> bool:
-        """Whether no finer one follows."""
+        """Whether this is the finest level."""
         return self.whole and len(self.x) == self.asked.cells
 
     @property
     def mixed(self) -> Bools:
-        """Where two or more of four neighbours end otherwise, or a nudge grows beyond GROWS."""
+        """Where two or more of the four neighbours end differently, or a nudge grows by more than GROWS."""
         differ = np.zeros(self.end.shape, int)
         for one, other in (((slice(1, None), slice(None)), (slice(-1), slice(None))),
                            ((slice(None), slice(1, None)), (slice(None), slice(-1)))):  # fmt: skip
@@ -54,21 +54,22 @@ class Level:
             return ((differ >= 2) | (self.columns["growth"] > GROWS)) & (self.end != "")
 
     def copy(self) -> "Level":
-        """As it is now: what solve() gives is filled on."""
+        """A copy of the present values; solve() continues to fill the Levels that it yields."""
         return replace(self, end=self.end.copy(), columns={name: x.copy() for name, x in self.columns.items()})
 
     def worst(self, name: str) -> float:
-        """The largest size in a column; nan where it has no number."""
+        """The largest absolute value in a column; nan if it has no number."""
         sizes = np.abs(self.columns[name])
         return float(np.nanmax(sizes)) if np.isfinite(sizes).any() else np.nan
 
     def cell(self, across: float, up: float) -> tuple[int, int]:
-        """(row, column) of the cell that a place is in."""
+        """(row, column) of the cell that contains a place."""
         return int(np.argmin(np.abs(self.y - up))), int(np.argmin(np.abs(self.x - across)))
 
 
 class Found(NamedTuple):
-    """What a single run did: times in s, nan if never; theta in degrees over t in s; film: the motion at t."""
+    """The result of a single run: times in s, nan if never; theta (degrees) over t (s); film: the motion at the times
+    t."""
 
     end: str
     time_90: float
@@ -80,7 +81,8 @@ class Found(NamedTuple):
 
 
 def solve(asked: Map, look: Progress | None = None) -> Iterator[Level]:
-    """Levels, one after each piece; look: called with the share that is done, what it raises stops all."""
+    """Yields the Level after each piece. look: called with the share that is done; an exception that it raises stops
+    everything."""
     before: Level | None = None
     total, done = sum(n * n for n in asked.levels()), 0
     for n in asked.levels():
@@ -127,13 +129,13 @@ def _fill(level: Level, piece: NDArray[np.intp], share: float, look: Progress | 
 
 
 def run(asked: Map, across: float, up: float, look: Progress | None = None) -> Found:
-    """What one place on a map does, in full. TopError where there is no such run."""
+    """The run at one place of a map, in full. TopError if there is no such run."""
     cell = asked.at(across, up)
     frames = int(np.clip(abs(cell.state.omega3) * cell.t_end / TURN, CURVE, MOST_CURVE))
     times, time = np.linspace(0, cell.t_end, frames), cell.scales.time
     moved = slide(cell.top, cell.state, cell.friction, times, rtol=asked.rtol, landing="plastic", edge=cell.edge,
                   progress=look)  # fmt: skip
-    # as its cell has it: between two frames of the film it may nod past 90 degrees and back
+    # as in its cell: between two frames of the film the tilt may go past 90 degrees and back
     time_90 = slide_many(cell.top, cell.state, cell.friction, cell.t_end, cell.edge, rtol=asked.rtol).time_90
     stems = [start for start, on in moved.supports if on == "stem"]
     return Found(

@@ -1,6 +1,6 @@
-"""The end tilt over the spin: steady motions as lines, runs as dots, and what becomes of a run in the long.
+"""The final tilt over the spin: steady motions as lines, runs as points, and the long-term fate of a run.
 
-All at the tilt, friction and law of a Map's bead: rev/s across, degrees up.
+All at the tilt, friction and law of a Map's bead; rev/s across, degrees up.
 """
 
 from collections.abc import Callable
@@ -18,12 +18,13 @@ from tippe_core.types import Array
 RUNS, SWEEP, TILTS, LONGER = 41, 17, 181, 4
 MOST_SECONDS = 60.0
 DRIFT = 600  # samples of the long run
-DIFFER = 5.0  # degrees: from here on going up and going down end at different tilts
+DIFFER = 5.0  # degrees: the least difference between the sweeps up and down that counts as hysteresis
 Look = Callable[[float], object]
 
 
 class Line(NamedTuple):
-    """Spins of a start that has the C_J of a steady motion at these tilts; whether it is stable."""
+    """One line of steady motions: the spins of starts with the same C_J, at these tilts, and whether the motions are
+    stable."""
 
     spin: Array
     theta: Array
@@ -31,8 +32,9 @@ class Line(NamedTuple):
 
 
 class Life(NamedTuple):
-    """A long run: the spin of a start with the C_J that is left, and the tilt, over t (s); when it first stands on its
-    stem alone and when it last leaves it, s, nan if never; how long it was followed, s; the tilt at the end."""
+    """A long run over t (s): the spin of a start with the C_J that is left, and the tilt; the times at which it first
+    stands on its stem alone and at which it last leaves it, s, nan if never; how long it was computed, s; and the final
+    tilt."""
 
     t: Array
     spin: Array
@@ -45,9 +47,9 @@ class Life(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Bifurcation:
-    """lines: of Line; spin (n,), and of runs from there the tilt at the end (degrees) after each of times (s), (2, n);
-    up, down (m,): tilts over swept (m,), each run going on from the one before with its C_J brought to the next spin;
-    life: of the start at the bead."""
+    """lines: a tuple of Line; spin (n,), and end (2, n), the tilts (degrees) of runs from there after each of times
+    (s); up, down (m,): the tilts over swept (m,), where each run continues the one before with its C_J changed to that
+    of the next spin; life: of the start at the bead."""
 
     lines: tuple[Line, ...]
     spin: Array
@@ -60,13 +62,13 @@ class Bifurcation:
 
     @property
     def hysteresis(self) -> tuple[float, float] | None:
-        """The least and the largest of the spins where going up and going down end at different tilts."""
+        """The lowest and the highest spin at which the sweeps up and down end at different tilts."""
         at = self.swept[np.abs(self.up - self.down) > DIFFER]
         return (float(at.min()), float(at.max())) if at.size else None
 
 
 def spins_of(asked: Map) -> tuple[float, float]:
-    """From which to which spin (rev/s)."""
+    """The range of the spin (rev/s)."""
     if asked.across == "spin":
         return asked.across_range
     if asked.up == "spin":
@@ -80,7 +82,7 @@ def at_place(asked: Map, place: tuple[float, float]) -> dict[str, float]:
 
 
 def fixed(asked: Map, place: tuple[float, float]) -> Map:
-    """The Map over spin and tilt that goes through the bead of another."""
+    """The Map over spin and tilt through the bead of another Map."""
     x, axes = at_place(asked, place), (asked.across, asked.up)
     if set(axes) & {"a", "ratio", "R", "stem", "rounding"}:
         cell = asked.at(*place)
@@ -101,8 +103,8 @@ def launch(cell: Cell) -> float:
 
 
 def steady_lines(top: Top, per_spin: float, low: float, high: float) -> tuple[Line, ...]:
-    """The steady motions of a top whose starts have C_J = per_spin times their spin: the poles, and between them
-    C_J^2 = a I_eff^2/(I1 c - I3 (c - a)), each cut where it turns stable."""
+    """The steady motions of a top whose starts have C_J = per_spin times their spin: the poles, and between them C_J^2
+    = a I_eff^2/(I1 c - I3 (c - a)). Lines are cut where the stability changes."""
     found: list[Line] = []
     spins = np.linspace(low, high, 241)
     poles = [steady_states(top, per_spin * spin).stable[[0, -1]] for spin in spins]
@@ -122,7 +124,7 @@ def steady_lines(top: Top, per_spin: float, low: float, high: float) -> tuple[Li
 
 
 def _cut(spin: Array, theta: Array, stable: Array) -> list[Line]:
-    """Pieces of one line that are stable or not all along."""
+    """Cuts a line into pieces that are stable, or unstable, throughout."""
     there = np.isfinite(spin)
     ends = np.flatnonzero((stable[1:] != stable[:-1]) | (there[1:] != there[:-1])) + 1
     pieces = [(0 if first == 0 else first, last) for first, last in zip([0, *ends], [*ends, len(spin)], strict=True)]
@@ -131,7 +133,7 @@ def _cut(spin: Array, theta: Array, stable: Array) -> list[Line]:
 
 
 def bifurcation(asked: Map, place: tuple[float, float], look: Look | None = None) -> Bifurcation:
-    """The Bifurcation through the bead. Raises TopError where there is no such top."""
+    """The Bifurcation through the bead. Raises TopError if there is no such top."""
     own, x = fixed(asked, place), at_place(asked, place)
     low, high = own.across_range
     here = own.at(x["spin"], x["tilt"])
@@ -151,8 +153,8 @@ def bifurcation(asked: Map, place: tuple[float, float], look: Look | None = None
 
 
 def _sweep(own: Map, tilt: float, spins: Array, look: Look | None) -> Array:
-    """The tilt at the end of each run; it starts where the one before ended, all velocities in proportion to bring C_J
-    to the next spin. A run that was refused is nan, and the next starts anew."""
+    """The final tilt of each run; it starts where the one before ended, with all velocities scaled to give the C_J of
+    the next spin. A run that was refused is nan, and the next one starts afresh."""
     found, state = np.full(len(spins), np.nan), None
     for i, spin in enumerate(spins):
         cell = own.at(float(spin), tilt)
@@ -169,7 +171,7 @@ def _sweep(own: Map, tilt: float, spins: Array, look: Look | None) -> Array:
 
 
 def _brought(state: States, cell: Cell) -> States | None:
-    """A state with the C_J of a cell's start."""
+    """A state with its velocities scaled to the C_J of a cell's start."""
     top = cell.top
 
     def C_J(theta: Array, omega2: Array, omega3: Array) -> float:
@@ -184,7 +186,7 @@ def _brought(state: States, cell: Cell) -> States | None:
 
 
 def _life(here: Cell, look: Look | None) -> Life:
-    """The run of the bead for MOST_SECONDS."""
+    """The run at the bead for MOST_SECONDS."""
     time = here.scales.time
     times = np.linspace(0, MOST_SECONDS / time, DRIFT)
     moved = slide(here.top, here.state, here.friction, times, rtol=1e-6, landing="plastic", edge=here.edge,

@@ -1,4 +1,4 @@
-"""The run of a place on a map as a hand lets a toy go in the Lab."""
+"""A place on a map as a start by hand in the Lab."""
 
 from app.model.lab.run import PATCH, TOYS
 from app.model.maps.maps import OWN, Map
@@ -7,7 +7,7 @@ CHANGED = {"a", "ratio", "R", "stem", "rounding"}
 
 
 def throw_of(asked: Map, across: float, up: float) -> tuple[str, float, float, float] | None:
-    """(toy, spin in rev/s, tilt in degrees, mu); None where the Lab has no such run."""
+    """(toy, spin in rev/s, tilt in degrees, mu); None if the Lab has no such run."""
     x = asked.start | {asked.across: across, asked.up: up}
     same = asked.law == "contensou" and abs(x["second"] - PATCH) < 1e-9 and x["slip"] == 1.0
     if asked.body == OWN or asked.body not in TOYS or {asked.across, asked.up} & CHANGED or not same:

@@ -1,1 +1,1 @@
-"""What somebody measured, and the motion that is fitted to it."""
+"""What a visitor has measured, and the motion that is fitted to it."""

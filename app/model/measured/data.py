@@ -1,4 +1,4 @@
-"""What was measured, in s, rad and m: the columns of a Table as a person settled them."""
+"""Measured data in s, rad and m: the columns of a Table with the quantities and units that the visitor confirmed."""
 
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -13,7 +13,8 @@ TOGETHER = (("x", "y"), ("tip_x", "tip_y"))
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """One measured quantity: values at t, each with this standard error; s, and rad, rad/s or m."""
+    """One measured quantity: values at the times t (s), in rad, rad/s or m; error is the standard error of each
+    value."""
 
     t: Array
     values: Array
@@ -22,17 +23,17 @@ class Series:
 
 @dataclass(frozen=True, eq=False)
 class Data:
-    """Series by quantity, keys of UNITS but for "time"."""
+    """The Series by quantity (the keys of UNITS except "time")."""
 
     series: MappingProxyType[str, Series]
 
     @property
     def t(self) -> Array:
-        """All times, each once."""
+        """All times, each once, in ascending order."""
         return np.unique(np.concatenate([series.t for series in self.series.values()]))
 
     def between(self, start: float, end: float) -> "Data":
-        """The same, of this part of the time alone."""
+        """The Data from start to end (s). Raises MeasuredError if they are fewer than eight values."""
         parts = {}
         for name, series in self.series.items():
             inside = (series.t >= start) & (series.t <= end)
@@ -43,13 +44,14 @@ class Data:
 
 
 def corrected(column: Column, quantity: str, unit: str) -> Column:
-    """The column as another quantity; a unit that it does not have becomes its first."""
+    """The column with another quantity and unit; a unit that the quantity does not have is replaced by its first
+    one."""
     units = UNITS.get(quantity, {})
     return replace(column, quantity=quantity, unit=unit if unit in units else next(iter(units), ""), guessed=False)
 
 
 def settled(table: Table, rate: float = 0.0) -> Data:
-    """The Data of a Table. rate: frames a second, where the time is counted in frames."""
+    """The Data of a Table. rate: frames per second, if the time is counted in frames."""
     used = [column for column in table.columns if column.quantity]
     for quantity in UNITS:
         alike = [column.name for column in used if column.quantity == quantity]
@@ -87,13 +89,13 @@ def _series(column: Column, t: Array, known: Array) -> Series:
     values, t = values[good], t[good]
     if column.quantity == "azimuth":
         values = np.unwrap(values)
-    least = 1e-4 * float(np.ptp(values)) or 1e-6  # of numbers that were rounded away, or computed
+    least = 1e-4 * float(np.ptp(values)) or 1e-6  # for values that were rounded to fewer digits, or computed
     error = column.error * size if column.error and column.error > 0 else max(roughness(values), least)
     return Series(t, values, error)
 
 
 def roughness(values: Array) -> float:
-    """The standard error of one value, from how the values jump about a smooth curve: of third differences, whose
-    variance is 20 times theirs, the middle one."""
+    """The standard error of one value, from the scatter about a smooth curve: the median size of the third differences,
+    whose variance is 20 times that of a value."""
     jumps = np.abs(np.diff(values, 3))
     return float(np.median(jumps) / (0.6745 * np.sqrt(20))) if jumps.size else 0.0

@@ -1,6 +1,7 @@
-"""The examples of the tab Measure, made by tippe_core with noise; `python -m app.model.measured.examples` writes them.
+"""The examples of the tab Measure, computed by tippe_core with noise; `python -m app.model.measured.examples` writes
+them.
 
-All are of the paper's top. Nobody filmed them; their names say so.
+All are for the paper's top. None of them was filmed, and their names say so.
 """
 
 from pathlib import Path
@@ -11,14 +12,14 @@ from app.model.measured.motion import Model, model_of
 from tippe_core import Scales, Top, TruncatedSphere
 
 FOLDER = Path(__file__).parents[2] / "data" / "measured"
-FILMED = TruncatedSphere.paper()  # as a shape; its numbers are those that the paper rounds
-RATE = 120.0  # frames a second
-TILT, SPIN, TURN = np.radians(1.0), 2 * np.pi * 0.3, np.radians(1.5)  # errors of one value
+FILMED = TruncatedSphere.paper()  # the shape; the paper gives its a, I1 and I3 rounded
+RATE = 120.0  # frames per second
+TILT, SPIN, TURN = np.radians(1.0), 2 * np.pi * 0.3, np.radians(1.5)  # standard errors of one value
 EXAMPLES = ("slips", "rolls", "air")
 
 
 def example_model(name: str) -> tuple[Model, int]:
-    """(what moves, how many frames)."""
+    """(the Model, the number of frames)."""
     shape, top = TruncatedSphere.paper(), Top.paper()
     scales = Scales(shape.R, shape.M)
     if name == "rolls":
@@ -32,7 +33,7 @@ def example_model(name: str) -> tuple[Model, int]:
 
 
 def example(name: str) -> str:
-    """The text of an example: as Tracker, phyphox or a spreadsheet would write it."""
+    """The text of an example, as Tracker, phyphox or a spreadsheet would write it."""
     model, count = example_model(name)
     t = np.arange(count) / RATE
     seen, rng = model.seen(t), np.random.default_rng(EXAMPLES.index(name))
@@ -50,7 +51,7 @@ def example(name: str) -> str:
 
 
 def main() -> None:
-    """Writes the files."""
+    """Writes the example files."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in EXAMPLES:
         (FOLDER / f"made-{name}.csv").write_text(example(name), encoding="utf-8", newline="\n")

@@ -1,5 +1,5 @@
-"""A film's data with what is to be fitted to them, as text: a table that any program reads, below a line that starts
-with `# film:` and says the rest. In a link it is packed."""
+"""A film's data with the settings of its fit, as text: a table that any program reads, below a line that starts with `#
+film:` and holds the settings. In a link the text is compressed."""
 
 import base64
 import binascii
@@ -19,15 +19,15 @@ from app.model.measured.work import LOOSE, models
 from tippe_core import Scales, Shape, Top, TopError, load_top, save_top
 
 MARK = "# film:"
-FINE = 20.0  # digits of a value go to this part of its error
-LONGEST_PACKED = 6000  # letters in a link
+FINE = 20.0  # a value is written to this fraction of its error
+LONGEST_PACKED = 6000  # characters of a link
 UNITS = {"tilt": "rad", "azimuth": "rad", "spin": "rad/s", "precession": "rad/s"}
 
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """law: a key of OF_LAW but "rolling"; loose: keys of LOOSE; part: (start, end) in s. top, scales, shape: of what
-    was filmed. fits: of rolling and of sliding what said_of() keeps, none where nothing was fitted."""
+    """law: a key of OF_LAW except "rolling"; loose: keys of LOOSE; part: (start, end) in s. top, scales, shape: those
+    of the filmed top. fits: said_of() of the rolling and of the sliding fit; empty if nothing was fitted."""
 
     law: str
     loose: tuple[str, ...]
@@ -39,13 +39,13 @@ class Film:
 
     @property
     def free(self) -> tuple[str, ...]:
-        """The numbers that are loose."""
+        """The parameters that these keys set free."""
         return tuple(name for key in self.loose for name in LOOSE[key])
 
 
 def table_of(data: Data) -> str:
-    """The data as a table that table.read takes, in the digits that their errors leave them: one row a time,
-    an empty cell where nothing was measured."""
+    """The data as a table that table.read() accepts, with as many digits as their errors justify: one row for each
+    time, and an empty cell where nothing was measured."""
     heads = [f"{name.replace('_', ' ')} ({UNITS.get(name, 'm')}) ± {series.error:.4g}"
              for name, series in data.series.items()]  # fmt: skip
     digits = {name: max(0, math.ceil(-math.log10(series.error / FINE))) for name, series in data.series.items()}
@@ -58,7 +58,7 @@ def table_of(data: Data) -> str:
 
 
 def written(film: Film, data: Data) -> str:
-    """The text of a film's data and its settings."""
+    """The text of a film's data and settings."""
     top, scales = film.top, film.scales
     said = {
         "law": film.law,
@@ -71,7 +71,7 @@ def written(film: Film, data: Data) -> str:
 
 
 def opened(text: str | bytes) -> Film | None:
-    """What a text says of its fit, None where it is a table alone. Raises MeasuredError where that cannot be read."""
+    """The settings in a text, None if it is only a table. Raises MeasuredError if they cannot be read."""
     plain = text.decode("utf-8-sig", "replace") if isinstance(text, bytes) else text.removeprefix("\ufeff")
     for line, said in enumerate(plain[:LARGEST].split("\n", 20)[:20], 1):
         if said.startswith(MARK):
@@ -99,13 +99,13 @@ def _film(said: Any) -> Film:
 
 
 def packed(text: str) -> str:
-    """Letters and digits for a link; "" where they are too many."""
+    """The text in letters and digits, for a link; "" if it is too long."""
     letters = base64.urlsafe_b64encode(zlib.compress(text.encode(), 9)).decode().rstrip("=")
     return letters if len(letters) <= LONGEST_PACKED else ""
 
 
 def unpacked(letters: str) -> str:
-    """The text of what packed() gave. Raises ValueError."""
+    """The text that packed() compressed. Raises ValueError."""
     unpack = zlib.decompressobj()
     try:
         text = unpack.decompress(base64.urlsafe_b64decode(letters + "=" * (-len(letters) % 4)), LARGEST).decode()

@@ -1,4 +1,5 @@
-"""The fit of a Model to Data: least squares from several starts, what it knows and what it cannot tell."""
+"""The fit of a Model to Data: least squares from several starting points, the errors, and what the data do not
+determine."""
 
 import itertools
 from dataclasses import dataclass
@@ -16,28 +17,28 @@ from app.model.runs import look
 from tippe_core import Constants, TopError
 from tippe_core.types import Array
 
-STEP = 1e-4  # of a number, or of its typical size, for central differences
+STEP = 1e-4  # relative to a parameter, or to its typical size: the step of central differences
 SIZES = {"tilt": 0.1, "tilt_rate": 0.3, "across": 0.3, "spin": 3.0, "rolling_resistance": 1e-3, "air_drag": 1e-3}
-STARTS = 6  # of the grid, the best are followed
-FOLLOWED = 10  # if that is in vain, of those scattered widely so many
-ROUNDS = 3  # around the best, where that fits nothing
-AGREEING, SAME = 3, 1e-3  # so many starts end at one chi-square, to this part of it, where it is surely the least
-ALSO = RISE  # by less of chi-square other numbers are as good: two standard errors
-MOST_BETTER = 3  # times that a valley may lead to a better place
+STARTS = 6  # points of the grid from which the fit starts
+FOLLOWED = 10  # scattered starting points, if those do not lead to a good fit
+ROUNDS = 3  # of starting points around the best, if no fit is good
+AGREEING, SAME = 3, 1e-3  # this many fits that end within SAME of the same chi-square show that it is the minimum
+ALSO = RISE  # other minima whose chi-square is at most this much larger are as good: two standard errors
+MOST_BETTER = 3  # how often following a valley may lead to a better minimum
 ALL = slice(None)
-GROWING = (0.25, 0.5, 0.75)  # parts of the time that are fitted one after the other
-TOGETHER = 0.95  # correlation from which two numbers are said to move together
-REFUSED = 1e-3  # a model that is right is refused as often
-CLEARLY = 6.0  # by so much of AIC one model is better
+GROWING = (0.25, 0.5, 0.75)  # fractions of the time that are fitted one after the other
+TOGETHER = 0.95  # correlation above which two parameters are said to be correlated
+REFUSED = 1e-3  # significance level: a correct model is rejected this often
+CLEARLY = 6.0  # difference in AIC above which one model is said to be better
 
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """model: with the numbers found. sides: one standard error of each free one, below and above it, inf where
-    chi-square never says no; covariance: (k, k), by the curvature of chi-square.
-    left: what it leaves over. runs: {quantity: how many standard errors its residuals change sign too seldom}.
-    unknown: free numbers that these data do not tell; together: (one, other, correlation), likewise.
-    sure: whether it is as good as chance allows, or several starts ended here: else a better one may be elsewhere."""
+    """model: with the best parameters. sides: one standard error of each free parameter, downwards and upwards, inf if
+    chi-square never rises enough; covariance: (k, k), from the curvature of chi-square. left: the residuals. runs:
+    {quantity: the deviation of the number of runs of one sign from its expectation, in standard errors}. unknown: free
+    parameters that the data do not determine; together: (one, other, correlation) of strongly correlated parameters.
+    sure: whether this is certainly the global minimum, because the fit is good or several starts ended here."""
 
     model: Model
     sides: dict[str, tuple[float, float]]
@@ -51,38 +52,38 @@ class Fit:
 
     @property
     def errors(self) -> dict[str, float]:
-        """The standard error of each free number, to the side on which it is larger."""
+        """The standard error of each free parameter, the larger of the two sides."""
         return {name: max(both) for name, both in self.sides.items()}
 
     @property
     def chi2(self) -> float:
-        """Of all residuals."""
+        """Chi-square of all residuals."""
         return float(self.left.row @ self.left.row)
 
     @property
     def chi2_of(self) -> dict[str, tuple[float, int]]:
-        """{quantity: (chi-square, how many values)}."""
+        """{quantity: (chi-square, number of values)}."""
         return {name: (float(row @ row), len(row)) for name, row in self.left.residuals.items()}
 
     @property
     def freedom(self) -> int:
-        """Degrees of freedom."""
+        """The number of degrees of freedom."""
         return max(len(self.left.row) - len(self.model.free) - self.hidden, 1)
 
     @property
     def aic(self) -> float:
-        """Akaike's criterion: the less the better."""
+        """Akaike's information criterion; the smaller the better."""
         return self.chi2 + 2 * (len(self.model.free) + self.hidden)
 
     @property
     def refused(self) -> bool:
-        """Whether the data refuse the model: by chi-square, or by residuals that keep their sign for too long."""
+        """Whether the data reject the model, by chi-square or by residuals that change sign too rarely."""
         seldom = norm.ppf(REFUSED / (2 * len(self.runs)))
         return bool(chi_square.sf(self.chi2, self.freedom) < REFUSED or min(self.runs.values()) < seldom)
 
     @property
     def correlation(self) -> Array:
-        """(k, k), in the order of the free numbers."""
+        """The correlation matrix (k, k), in the order of the free parameters."""
         size = np.sqrt(np.diag(self.covariance))
         return self.covariance / np.outer(size, size)
 
@@ -110,13 +111,13 @@ def _constants(model: Model) -> Array:
 
 
 def fit(model: Model, data: Data) -> Fit:
-    """The best Fit of the model's free numbers. It looks whether it is to end. Raises TopError where none of the starts
-    is a motion."""
+    """The best Fit of the model's free parameters. It can be stopped. Raises TopError if there is no motion for any of
+    the starting points."""
     problem = Problem(model, data)
     if (count := problem.count) <= len(model.free) + shifted(data):
         raise TopError("values", count, "more than {least} measured values", "Free fewer numbers, or measure more.",
                        code="too-few-values", least=len(model.free) + shifted(data))  # fmt: skip
-    # At first of the beginning alone: of a whole motion, that turns many times, there are many false minima.
+    # First only the beginning: over a whole motion, with its many turns, there are many false minima.
     t = np.concatenate([series.t for series in data.series.values()])
     shares = [t <= t.min() + share * np.ptp(t) for share in GROWING]
     ends: list[tuple[float, Array]] = []
@@ -125,7 +126,7 @@ def fit(model: Model, data: Data) -> Fit:
             x = problem.followed(x, 12, row)[1]
         ends.append(problem.followed(x, 25))
     if not _settled(ends, problem):
-        # A law's number that the beginning hardly tells may have been led astray by it: others, by the whole motion.
+        # The beginning hardly depends on the friction law, so the fit of it may have gone astray: fit the whole motion.
         for x in problem.best_of(scattered(model, data), FOLLOWED):
             ends.append(problem.followed(x, 25))
             if _settled(ends, problem):
@@ -134,7 +135,7 @@ def fit(model: Model, data: Data) -> Fit:
     for _ in range(ROUNDS):
         if problem.good(best) or _alike(ends) >= AGREEING:
             break
-        # Nothing fits, so that there may be a better place: whether those around the best lead back to it.
+        # No fit is good, so there may be a better minimum: check whether starts around the best lead back to it.
         for y in problem.best_of(around(x, problem.sizes), FOLLOWED):
             ends.append(problem.followed(y, 60))
             if _alike(ends) >= AGREEING:
@@ -145,25 +146,26 @@ def fit(model: Model, data: Data) -> Fit:
 
 
 def _least(ends: list[tuple[float, Array]], problem: "Problem") -> tuple[float, Array]:
-    """The least of the ends, followed to its own end."""
+    """The best of the ends, refined to full accuracy."""
     at = min(range(len(ends)), key=lambda i: ends[i][0])
     ends[at] = problem.followed(ends[at][1], 60, exactly=True)
     return ends[at]
 
 
 def _alike(ends: list[tuple[float, Array]]) -> int:
-    """How many end at the least."""
+    """How many starts ended at the smallest chi-square."""
     least = min(chi2 for chi2, _ in ends)
     return sum(chi2 < least + max(0.1, SAME * least) for chi2, _ in ends)
 
 
 def _settled(ends: list[tuple[float, Array]], problem: "Problem") -> bool:
-    """Whether there is no need to look elsewhere: one that is as good as chance allows may still be a false one."""
+    """Whether the search can end: the fit is good, and more than one start ended there, since a good fit alone may be
+    false."""
     return problem.good(min(chi2 for chi2, _ in ends)) and _alike(ends) > 1
 
 
 class Problem:
-    """Least squares of a Model's free numbers, in their order."""
+    """Least squares for the free parameters of a Model, in their order."""
 
     def __init__(self, model: Model, data: Data) -> None:
         self.model, self.data = model, data
@@ -172,7 +174,7 @@ class Problem:
         self.sizes = np.array([SIZES.get(name, 0.1 * max(abs(model.values[name]), 0.01)) for name in model.free])
 
     def residuals(self, x: Array) -> Array:
-        """In standard errors, all in one."""
+        """All residuals in units of their standard errors, (n,)."""
         look()
         values = dict(zip(self.model.free, map(float, x), strict=True))
         try:
@@ -182,7 +184,7 @@ class Problem:
         return np.nan_to_num(row, nan=NO_MOTION, posinf=NO_MOTION, neginf=-NO_MOTION)
 
     def slopes(self, x: Array) -> Array:
-        """Of the residuals."""
+        """The Jacobian of the residuals, (n, k)."""
         columns = []
         for i, size in enumerate(np.maximum(STEP * np.abs(x), STEP * self.sizes)):
             low, high = x.copy(), x.copy()
@@ -191,19 +193,19 @@ class Problem:
         return np.array(columns).T
 
     def best_of(self, starts: list[Array], most: int, row: Array | slice = ALL) -> list[Array]:
-        """Those from which least is left over, the best first."""
+        """The starting points with the smallest sums of squares, the best first."""
         inside = [np.clip(x, self.bounds[0] + 1e-6, self.bounds[1] - 1e-6) for x in starts]
         return sorted(inside, key=lambda x: float(np.sum(self.residuals(x)[row] ** 2)))[:most]
 
     def followed(self, x: Array, steps: int, row: Array | slice = ALL, exactly: bool = False) -> tuple[float, Array]:
-        """(chi-square, numbers) where least squares from x end."""
+        """(chi-square, parameters) at the end of a least-squares fit from x."""
         narrow = {"xtol": 1e-10, "ftol": 1e-10} if exactly else {}
         found = least_squares(lambda x: self.residuals(x)[row], x, lambda x: self.slopes(x)[row], self.bounds,
                               x_scale=self.sizes, max_nfev=steps, **narrow)  # fmt: skip
         return 2 * float(found.cost), found.x
 
     def good(self, chi2: float) -> bool:
-        """Whether it is as good as chance allows."""
+        """Whether a chi-square is no larger than chance allows."""
         return chi2 < self.count + np.sqrt(2 * self.count)
 
 
@@ -217,7 +219,7 @@ def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, 
     model = model.with_values(dict(zip(names, map(float, x), strict=True)))
     left = left_over(model, data)
     tells = found.tells(x, problem.bounds)
-    for other in others:  # as good, and outside of what the valley around the best allows
+    for other in others:  # equally good minima outside the valley around the best one
         tells = np.all([tells, other > x - 2 * found.below, other < x + 2 * found.above], axis=0)
     errors = np.sqrt(np.diag(found.covariance))
     correlation = found.covariance / np.outer(errors, errors)
@@ -231,8 +233,8 @@ def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, 
 
 
 def runs(row: Array) -> float:
-    """How far the number of runs of one sign is from what chance makes it, in standard errors (Wald and Wolfowitz);
-    negative: too few, so that the residuals follow something."""
+    """The deviation of the number of runs of one sign from its expectation, in standard errors (Wald and Wolfowitz);
+    negative if there are too few, that is, if the residuals have a trend."""
     above = row > 0
     n, m = int(above.sum()), int((~above).sum())
     count = 1 + int(np.count_nonzero(above[1:] != above[:-1]))
@@ -244,8 +246,8 @@ def runs(row: Array) -> float:
 
 
 def verdict(rolling: Fit, sliding: Fit) -> str:
-    """ "rolled", "slipped", "neither", "either" where these data cannot tell, or "unsure" where a fit that is refused
-    may not be the best one: a key of [found] in measure.toml."""
+    """A key of [found] in measure.toml: "rolled", "slipped", "neither", "either" if the data cannot decide, or "unsure"
+    if a rejected fit may not be the best one."""
     if any(fit.refused and not fit.sure for fit in (rolling, sliding)):
         return "unsure"
     if rolling.refused and sliding.refused:

@@ -1,4 +1,4 @@
-"""The constants of the motion from the data themselves, without any motion fitted: did they stay?"""
+"""The constants of the motion computed directly from the data, without a fit: were they conserved?"""
 
 import itertools
 from collections.abc import Callable
@@ -13,16 +13,15 @@ from tippe_core.paper import equations as eq
 from tippe_core.types import Array
 
 SHARE = 0.2  # of the values: the first and the last are compared
-WINDOWS, LEAST = 20, 6  # parts of the time over which an azimuth gives K_J; frames in one at least
-FEWEST = 4  # such parts
-MOST_TURNED = 1.0  # rad between two frames: where the azimuth turns more, a whole turn may have been missed
+WINDOWS, LEAST = 20, 6  # the number of windows over which an azimuth gives K_J; the least number of frames in one
+FEWEST = 4  # windows
+MOST_TURNED = 1.0  # rad between two frames: above this, a whole turn of the azimuth may have been missed
 STAYED = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
 class Kept:
-    """A constant of the motion at t (s): values with errors, in the units of the paper; before and after: the means of
-    the first and the last fifth, (value, standard error)."""
+    """A constant of the motion at t (s): values and errors, in the units of the paper."""
 
     t: Array
     values: Array
@@ -34,22 +33,22 @@ class Kept:
 
     @property
     def mean(self) -> tuple[float, float]:
-        """Of all values, and its standard error."""
+        """The mean of all values, and its standard error."""
         return self._mean(slice(None))
 
     @property
     def before(self) -> tuple[float, float]:
-        """The mean of the first fifth."""
+        """The mean of the first fifth of the values, and its standard error."""
         return self._mean(slice(0, max(int(SHARE * len(self.t)), 1)))
 
     @property
     def after(self) -> tuple[float, float]:
-        """The mean of the last fifth."""
+        """The mean of the last fifth of the values, and its standard error."""
         return self._mean(slice(-max(int(SHARE * len(self.t)), 1), None))
 
     @property
     def stayed(self) -> bool:
-        """Whether all values agree with one number."""
+        """Whether all values agree with a constant."""
         mean, _ = self.mean
         left = (self.values - mean) / self.errors
         (first, one), (last, other) = self.before, self.after
@@ -58,8 +57,8 @@ class Kept:
 
 
 def kept(data: Data, top: Top, scales: Scales) -> dict[str, Kept]:
-    """{"K_R": Kept} where tilt and spin were measured, and "K_J" where the precession or the azimuth was too; errors by
-    those of the data."""
+    """{"K_R": Kept} if tilt and spin were measured, and "K_J" if the precession rate or the azimuth was too. The errors
+    follow from those of the data."""
     series = dict(data.series)
     if not {"tilt", "spin"} <= set(series):
         return {}
@@ -92,10 +91,10 @@ def kept(data: Data, top: Top, scales: Scales) -> dict[str, Kept]:
 
 
 def _by_azimuth(t: Array, rows: list[Array], errors: list[float], top: Top, unit: float) -> Kept:
-    """K_J as means over parts of the time: that of s w2 = s^2 phi_dot is the integral of s^2 over phi, over the time.
+    """K_J as means over windows of time; that of s w2 = s^2 phi_dot is the integral of s^2 dphi divided by the time.
 
-    Differences of an azimuth are no precession rate, for a nutation may be as short as two frames; its integral over
-    many frames is one. What goes on between two frames is the product of how s^2 and phi_dot nutate: as an error.
+    The differences of an azimuth do not give the precession rate, because a nutation may be as short as two frames, but
+    its integral over many frames is accurate. What s^2 and phi_dot do together between two frames counts as an error.
     """
     theta, spin, phi = rows
     count = min(WINDOWS, (len(t) - 1) // LEAST)
@@ -113,10 +112,10 @@ def _by_azimuth(t: Array, rows: list[Array], errors: list[float], top: Top, unit
 
 
 def _window(t: Array, theta: Array, spin: Array, phi: Array, errors: list[float], top: Top) -> tuple[float, float]:
-    """(K_J, its error) of one part; t in (R/g)^1/2."""
+    """(K_J, its error) of one window; t in (R/g)^1/2."""
     s, c, ratio = np.sin(theta), np.cos(theta), top.I3 / top.I1
     s2, turned, long = s**2, np.diff(phi), t[-1] - t[0]
-    weights = np.zeros_like(t)  # of a mean over the time
+    weights = np.zeros_like(t)  # of a time average
     weights[1:] += np.diff(t) / (2 * long)
     weights[:-1] += np.diff(t) / (2 * long)
     middle = (s2[1:] + s2[:-1]) / 2
@@ -127,7 +126,7 @@ def _window(t: Array, theta: Array, spin: Array, phi: Array, errors: list[float]
     of_azimuth = -np.diff(middle, prepend=0.0, append=0.0) / long
     noise = sum(error**2 * float(slopes @ slopes)
                 for error, slopes in zip(errors, (of_tilt, of_spin, of_azimuth), strict=True))  # fmt: skip
-    # p, the nutation of s^2, is what is left of it beyond noise and drift; phi_dot's follows from K_J.
+    # p: the amplitude of s^2, from its variance beyond noise and drift; that of phi_dot, q p, follows from K_J.
     left = s2 - np.polyval(np.polyfit(t, s2, 1), t)
     p2 = 2 * max(float(np.mean(left**2)) - errors[0] ** 2 * float(np.mean((2 * s * c) ** 2)), 0.0)
     mean = float(s2.mean())
@@ -136,7 +135,7 @@ def _window(t: Array, theta: Array, spin: Array, phi: Array, errors: list[float]
 
 
 def _spread(function: Callable[..., Array], rows: list[Array], errors: list[float]) -> Array:
-    """The standard errors of function(*rows), by its slopes."""
+    """The standard errors of function(*rows), by propagation of errors."""
     total = np.zeros(len(rows[0]))
     for i, error in enumerate(errors):
         high, low = (function(*(row + way * error * (i == j) for j, row in enumerate(rows))) for way in (0.5, -0.5))

@@ -1,8 +1,9 @@
-"""What a fit knows of its numbers: how far each can go until chi-square says no, whatever the others do.
+"""How well a fit determines its parameters: how far each can move before chi-square rises too much, with all others
+refitted.
 
-Where chi-square is a parabola, its curvature tells. Where its valley is curved, the valley is followed: a number is
-held beside the best, the others are fitted anew, and so on until chi-square has risen by 4: two standard errors (the
-profile of the likelihood; D. J. Venzon and S. H. Moolgavkar, Appl. Statist. 37, 87 (1988)).
+Where chi-square is a parabola, its curvature gives the errors. Where its valley is curved, the valley is followed: one
+parameter is held at a value beside the best and the others are refitted, until chi-square has risen by 4, that is, to
+two standard errors (profile likelihood; D. J. Venzon and S. H. Moolgavkar, Appl. Statist. 37, 87 (1988)).
 """
 
 from collections.abc import Callable
@@ -16,34 +17,34 @@ from app.model.runs import look
 from tippe_core.types import Array
 
 RISE = 4.0  # of chi-square at two standard errors
-BENT = 0.1  # part of a number's variance along which chi-square is no parabola, from which its valley is followed
+BENT = 0.1  # largest share of a parameter's variance from non-parabolic directions before its valley is followed
 MOVES_WITH = 0.3  # correlation
-ROUGHLY = 1.3  # times: how far it may be from one
-CLOSE, TRIES = 0.05, 9  # the rise is met to this part of two standard errors, within so many steps
-STEPS = 1.6, 3.0  # each so many times as far as the one before, until it has risen enough
-BETTER = 0.05  # by so much of chi-square another place is a better one
-LONGEST = 30.0  # times the error that the curvature tells: no valley is followed farther
-VAGUE = 0.5  # of itself: a number above 0 whose error is larger is not known
+ROUGHLY = 1.3  # factor by which the rise may differ from a parabola's
+CLOSE, TRIES = 0.05, 9  # relative accuracy of two standard errors, and the number of steps to find it
+STEPS = 1.6, 3.0  # the least and the largest factor by which a step is longer than the one before
+BETTER = 0.05  # a minimum is a better one if its chi-square is smaller by this much
+LONGEST = 30.0  # times the error from the curvature: the farthest to which a valley is followed
+VAGUE = 0.5  # a positive parameter with a larger relative error is not determined
 
 
 class Problem(Protocol):
-    """Least squares of a model's free numbers."""
+    """Least squares for the free parameters of a model."""
 
     bounds: Array
     sizes: Array
 
     def residuals(self, x: Array) -> Array:
-        """In standard errors."""
+        """The residuals in units of their standard errors, (n,)."""
 
     def slopes(self, x: Array) -> Array:
-        """Of the residuals."""
+        """Their Jacobian, (n, k)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Known:
-    """covariance: (k, k), by the curvature at the best. below, above: (k,) one standard error to either side, inf where
-    chi-square never says no. followed: of which numbers the valley was followed. better: a place that it came by and
-    that is better than the best, else None."""
+    """covariance: (k, k), from the curvature at the minimum. below, above: (k,), one standard error to either side, inf
+    if chi-square never rises enough. followed: (k,), the parameters whose valley was followed. better: a point with a
+    smaller chi-square that was found on the way, else None."""
 
     covariance: Array
     below: Array
@@ -52,7 +53,7 @@ class Known:
     better: Array | None = None
 
     def tells(self, x: Array, bounds: Array) -> Array:
-        """Which numbers the data tell: within their bounds, to half of themselves where they are above 0."""
+        """Which parameters the data determine: within their bounds and, if positive, to half of their value."""
         low, high = bounds
         error = np.maximum(self.below, self.above)
         most = np.where(low >= 0, VAGUE * np.abs(x), 0.1 * (high - low))
@@ -60,22 +61,22 @@ class Known:
 
 
 def known(problem: Problem, x: Array) -> Known:
-    """Of the numbers that are best."""
+    """The Known at the minimum x."""
     J = problem.slopes(x)
     norms = np.linalg.norm(J, axis=0)
     norms[norms == 0] = 1e-300
-    # Numbers that move together to the last digits still have errors, very large ones.
+    # Parameters that are degenerate to the last digits still have errors, very large ones.
     _, sizes, turned = np.linalg.svd(J / norms, full_matrices=False)
-    axes = turned / np.maximum(sizes, 1e-9 * sizes[0])[:, None] / norms  # of the ellipsoid of one standard error
+    axes = turned / np.maximum(sizes, 1e-9 * sizes[0])[:, None] / norms  # of the error ellipsoid (1 standard error)
     covariance = axes.T @ axes
     errors = np.sqrt(np.diag(covariance))
     bent = np.array([not _straight(problem.residuals, x, axis, problem.bounds) for axis in axes])
     followed = (axes[bent] ** 2).sum(axis=0) > BENT * errors**2
-    # what moves with one of these has a curved valley too
+    # a parameter that is correlated with one of these has a curved valley too
     followed |= np.any(np.abs(covariance[followed] / np.outer(errors[followed], errors)) > MOVES_WITH, axis=0)
     below, above = errors.copy(), errors.copy()
     least = float(np.sum(problem.residuals(x) ** 2))
-    ends: list[Array] = []  # of the valley of the number that is known worst: others begin there too
+    ends: list[Array] = []  # of the valley of the least certain parameter: the others are also started there
     for i in sorted(np.flatnonzero(followed), key=lambda i: -errors[i] / max(abs(x[i]), 1e-12)):
         here = []
         for way, side in ((-1, below), (1, above)):
@@ -88,7 +89,7 @@ def known(problem: Problem, x: Array) -> Known:
 
 
 def _straight(residuals: Callable[[Array], Array], x: Array, axis: Array, bounds: Array) -> bool:
-    """Whether chi-square rises by about 4 at two standard errors to either side, as the curvature says."""
+    """Whether chi-square rises by about 4 at two standard errors to either side, as the curvature predicts."""
     least = float(np.sum(residuals(x) ** 2))
     rises = []
     for way in (-2, 2):
@@ -102,12 +103,12 @@ def _straight(residuals: Callable[[Array], Array], x: Array, axis: Array, bounds
 def _far(
     problem: Problem, x: Array, least: float, i: int, way: int, along: Array, ends: list[Array]
 ) -> tuple[float, Array, Array | None]:
-    """(one standard error of number i to this side, the farthest place where chi-square had not risen by 4, a better
-    place that was come by). along: how all numbers move when this one moves by one of its errors. ends: places from
-    which the valley is looked for as well."""
+    """(one standard error of parameter i to this side, the farthest point at which chi-square had not risen by 4, a
+    point with a smaller chi-square if one was found). along: the change of all parameters per standard error of this
+    one. ends: further points from which the refits start."""
     error, edge = abs(float(along[i])), float(problem.bounds[int(way > 0), i])
     room = min(abs(edge - float(x[i])), LONGEST * error)
-    low, high = (0.0, 0.0), None  # (how far, the root of the rise there): the rise is met between them
+    low, high = (0.0, 0.0), None  # (distance, square root of the rise there): the rise of 4 lies between them
     far, y, at = min(2 * error, room), x, 0.0
     for _ in range(TRIES):
         look()
@@ -131,13 +132,13 @@ def _far(
 
 
 def _between(low: tuple[float, float], high: tuple[float, float]) -> float:
-    """Where the root of the rise is 2, by the straight line, and well within."""
+    """The distance at which the root of the rise is 2, by linear interpolation, kept away from both ends."""
     share = (2 - low[1]) / (high[1] - low[1]) if np.isfinite(high[1]) else 0.5
     return low[0] + (high[0] - low[0]) * float(np.clip(share, 0.1, 0.9))
 
 
 def _valley(problem: Problem, x: Array, i: int, value: float) -> tuple[float, Array]:
-    """(chi-square, numbers) where number i is held and the others are fitted."""
+    """(chi-square, parameters) with parameter i held at value and the others refitted."""
     others = np.arange(len(x)) != i
     inside = np.clip(x, problem.bounds[0] + 1e-6, problem.bounds[1] - 1e-6)
     inside[i] = value

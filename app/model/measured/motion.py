@@ -1,4 +1,4 @@
-"""A motion of rolling or sliding with numbers that a fit may move, seen as a film sees it."""
+"""A rolling or sliding motion with parameters that can be fitted, as a film shows it."""
 
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -25,25 +25,25 @@ from tippe_core.types import Array
 BODY = ("a", "I1", "I3")
 START = ("tilt", "tilt_rate", "across", "spin")
 OF_LAW = {"rolling": (), "smoothed": ("mu", "eps"), "contensou": ("mu", "radius"), "viscous": ("gamma",)}
-"""{model: the numbers of its law of friction}."""
+"""{model: the parameters of its friction law}."""
 BOUNDS = {
     "tilt": (1e-3, np.pi - 1e-3), "tilt_rate": (-20.0, 20.0), "across": (-40.0, 40.0), "spin": (-200.0, 200.0),
     "mu": (1e-3, 2.0), "eps": (1e-3, 3.0), "radius": (1e-4, 0.5), "gamma": (1e-4, 5.0),
     "rolling_resistance": (0.0, 0.05), "air_drag": (0.0, 0.05), "a": (-20.0, 0.99), "I1": (1e-3, 400.0),
     "I3": (1e-3, 400.0),
 }  # fmt: skip
-"""{number: least and largest}, in units of R, M and g; across is omega_2'."""
+"""{parameter: its bounds}, in units of R, M and g; across is omega_2'."""
 RTOL = 1e-9
-NO_MOTION = 1e4  # what a residual is where the numbers make no motion
+NO_MOTION = 1e4  # the residual for parameters that give no motion
 MOST_SHIFTED = {"azimuth": 1, "x": 3, "tip_x": 3}
-"""{quantity: how many numbers of where a film looks from are fitted to it}: where the azimuth is counted from, and a
-track's origin and direction."""
+"""{quantity: how many parameters of the camera are fitted to it}: the zero of the azimuth, or the origin and direction
+of a track."""
 
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """name: a key of OF_LAW. values: of all its numbers; free: those that a fit moves. edge, tip: of the stem, where it
-    takes part; tip is its height above O in R."""
+    """name: a key of OF_LAW. values: those of all its parameters; free: the names of those that are fitted. edge, tip:
+    of the stem, if it can touch; tip is its height above O in R."""
 
     name: str
     top: Top
@@ -54,16 +54,16 @@ class Model:
     tip: float = 1.0
 
     def with_values(self, values: dict[str, float]) -> "Model":
-        """The same with some of its numbers changed."""
+        """The Model with some values changed."""
         settled = MappingProxyType({**self.values, **values})
         return Model(self.name, self.top, self.scales, self.free, settled, self.edge, self.tip)
 
     def with_stem(self, edge: tuple[float, ...] | None, tip: float) -> "Model":
-        """The same with this edge of the stem's end, and its tip so high above O."""
+        """The Model with another edge of the stem's end, and the tip at this height above O."""
         return Model(self.name, self.top, self.scales, self.free, self.values, edge, tip)
 
     def moved(self, t: Array) -> Trajectory:
-        """The Trajectory at t (s, the first the start). Raises TopError."""
+        """The Trajectory at the times t (s), of which the first is the start. Raises TopError."""
         v, times = self.values, (t - t[0]) / self.scales.time
         top = Top(v["a"], v["I1"], v["I3"])
         state = State(v["tilt"], v["tilt_rate"], v["across"], v["spin"])
@@ -79,7 +79,8 @@ class Model:
         return SmoothedCoulomb(v["mu"], v["eps"]) if self.name == "smoothed" else Contensou(v["mu"], v["radius"])
 
     def seen(self, t: Array) -> dict[str, Array]:
-        """{quantity: what a film would show of it at t}, in rad, rad/s and m; a motion that ends stays as it ended."""
+        """{quantity: what a film would show of it at t}, in rad, rad/s and m; a motion that ends early stays as it
+        ended."""
         motion = self.moved(t)
         there = np.minimum(np.arange(len(t)), len(motion.t) - 1)
         theta, phi, omega = motion.theta[there], motion.phi[there], motion.omega[there]
@@ -103,20 +104,20 @@ class Model:
 
 @dataclass(frozen=True, eq=False)
 class Left:
-    """What a Model leaves over of Data: residuals in standard errors, and the model's values beside the data, moved to
-    where the film looks from; {quantity: (n,)} each."""
+    """The residuals of a Model, in standard errors, and the model's values at the times of the data, fitted to the
+    position of the camera; {quantity: (n,)} each."""
 
     residuals: dict[str, Array] = field(default_factory=dict)
     values: dict[str, Array] = field(default_factory=dict)
 
     @property
     def row(self) -> Array:
-        """All residuals in one."""
+        """All residuals, (n,)."""
         return np.concatenate(list(self.residuals.values()))
 
 
 def left_over(model: Model, data: Data) -> Left:
-    """What the model leaves over; raises TopError where there is no such motion."""
+    """The residuals of a model; raises TopError if it gives no motion."""
     times = data.t
     seen, left = model.seen(times), Left()
     at = {name: np.searchsorted(times, series.t) for name, series in data.series.items()}
@@ -133,7 +134,7 @@ def left_over(model: Model, data: Data) -> Left:
 
 
 def _turned(x: Array, y: Array, x_seen: Array, y_seen: Array) -> tuple[Array, Array]:
-    """A track turned and moved to lie best on the one seen: least squares over an angle and a place."""
+    """A track rotated and shifted to fit the one that was seen: least squares over an angle and a displacement."""
     own, seen = x + 1j * y, x_seen + 1j * y_seen
     own = own - own.mean()
     turn = np.angle(np.vdot(own, seen - seen.mean()))
@@ -142,16 +143,16 @@ def _turned(x: Array, y: Array, x_seen: Array, y_seen: Array) -> tuple[Array, Ar
 
 
 def shifted(data: Data) -> int:
-    """How many numbers of where the film looks from are fitted beside a Model's own."""
+    """The number of parameters of the camera that are fitted in addition to those of a Model."""
     return sum(MOST_SHIFTED.get(name, 0) for name in data.series)
 
 
 def model_of(
     name: str, top: Top, scales: Scales, shape: Shape | None = None, loose: tuple[str, ...] = (), **held: float
 ) -> Model:
-    """The Model in which the start and the law are free, and what is loose beside; held: numbers that stand. A top
-    that rolls may start anyhow; one that slides was spun about its axis and let go, unless tilt_rate and across are
-    loose."""
+    """The Model in which the start, the friction law and the parameters `loose` are free; held: parameters with fixed
+    values. A rolling top may start with any velocities; a sliding one was spun about its axis and released, unless
+    tilt_rate and across are loose."""
     if unknown := [each for each in (*loose, *held) if each not in BOUNDS]:
         raise TopError("loose", unknown[0], " | ".join(BOUNDS), code="wrong-kind")
     first = START if name == "rolling" else ("tilt", "spin", *OF_LAW[name])

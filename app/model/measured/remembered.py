@@ -1,5 +1,5 @@
-"""A fit as a saved film or a link says it: shown without fitting anew. Its numbers and their errors are taken from
-there; what they leave over, and how they move together, are computed from the data again."""
+"""A fit restored from a saved film or a link, without fitting again. Its parameters and their errors are taken from
+there; the residuals and correlations are computed from the data again."""
 
 import itertools
 from typing import Any
@@ -14,7 +14,7 @@ DIGITS = 9
 
 
 def said_of(fit: Fit) -> dict[str, Any]:
-    """What is kept of a Fit."""
+    """What is stored of a Fit."""
 
     def short(x: float) -> float | None:
         return float(f"{x:.{DIGITS}g}") if np.isfinite(x) else None
@@ -29,7 +29,7 @@ def said_of(fit: Fit) -> dict[str, Any]:
 
 
 def checked(said: Any, model: Model) -> dict[str, Any]:
-    """What said_of() gave of a Fit of this Model. Raises ValueError, KeyError, TypeError."""
+    """The result of said_of() for a Fit of this Model, checked. Raises ValueError, KeyError, TypeError."""
     values, sides = dict(said["values"]), dict(said["sides"])
     if {*values} != {*model.free} or {*sides} != {*model.free} or not {*said["unknown"]} <= {*model.free}:
         raise ValueError("fits")
@@ -43,7 +43,7 @@ def checked(said: Any, model: Model) -> dict[str, Any]:
 
 
 def remembered(model: Model, data: Data, said: dict[str, Any]) -> Fit:
-    """The Fit of what checked() gave. Raises TopError where these numbers make no motion."""
+    """The Fit for the result of checked(). Raises TopError if its parameters give no motion."""
     model = model.with_values({name: float(value) for name, value in said["values"].items()})
     left, names = left_over(model, data), model.free
     J = Problem(model, data).slopes(np.array([model.values[name] for name in names]))

@@ -1,4 +1,4 @@
-"""What is taken home of a fit: the residuals as a table, and the Python that repeats it."""
+"""What can be downloaded of a fit: the residuals as a table, and a Python program that repeats it."""
 
 from app.model.measured.data import Data
 from app.model.measured.film import table_of
@@ -26,7 +26,8 @@ for name in {names!r}:
 
 
 def residuals_table(data: Data, fit: Fit) -> str:
-    """A row a value: its time, quantity, what was measured and fitted in s, rad, m, and what is left in errors."""
+    """One row for each value: its time, its quantity, the measured and the fitted value in s, rad, m, and the residual
+    in standard errors."""
     rows = ["t_s,quantity,measured,fitted,residual_in_errors"]
     for name, series in data.series.items():
         parts = zip(series.t, series.values, fit.left.values[name], fit.left.residuals[name], strict=True)
@@ -35,7 +36,7 @@ def residuals_table(data: Data, fit: Fit) -> str:
 
 
 def program(data: Data, fits: tuple[Fit, ...], loose: tuple[str, ...], start: float, end: float) -> str:
-    """Python that reads the same data and fits the same models."""
+    """A Python program that reads the same data and fits the same models."""
     model = fits[0].model
     top, scales = model.top, model.scales
     edge = "" if model.edge is None else f".with_stem({model.edge!r}, {model.tip!r})"

@@ -1,4 +1,4 @@
-"""A motion beside what was measured, on the film's own clock: its curves, its poses, and where the axis was seen."""
+"""A motion beside the data, on the film's own clock: its curves, its poses, and the measured direction of the axis."""
 
 from dataclasses import dataclass
 
@@ -13,15 +13,15 @@ from app.model.measured.table import MeasuredError
 from tippe_core import TopError, Trajectory
 from tippe_core.types import Array
 
-POINTS = 900  # of a curve
-LOOK = 3.0  # s: by so much of a film a guess is chosen
+POINTS = 900  # of each curve
+LOOK = 3.0  # s of the film, from its beginning, by which a guess is chosen
 
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """left: what the model leaves over of the data from its start on. t (n,): s of the film; motion: the model's at
-    these. curves: {quantity: (t, values)} in s, rad, rad/s and m. axis: rows (t, x, y, z), where the axis was
-    measured; its azimuth is the motion's own unless azimuths: then that was measured too."""
+    """left: the residuals of the data from the model's start on. t (n,): time of the film, s; motion: the model's at
+    these times. curves: {quantity: (t, values)} in s, rad, rad/s and m. axis: rows (t, x, y, z) of its measured
+    directions; azimuths: whether the azimuth was measured too; otherwise it is the motion's own."""
 
     model: Model
     data: Data
@@ -34,12 +34,12 @@ class Shown:
 
     @property
     def tilt(self) -> Array:
-        """Of the motion at t."""
+        """The motion's tilt at t, rad."""
         return self.motion.theta
 
 
 def shown(model: Model, data: Data) -> Shown:
-    """The model beside the data that begin where it starts. Raises TopError where there is no such motion."""
+    """The model beside the data, which begin where it starts. Raises TopError if there is no such motion."""
     left, times = left_over(model, data), data.t
     first, last, unit = times[0], times[-1], model.scales.time
     fastest = abs(model.values["spin"]) + abs(model.values["across"]) + 1.0
@@ -69,7 +69,7 @@ def _axis(model: Model, data: Data, left: Left, t: Array, motion: Trajectory) ->
     series = data.series
     if "tilt" in series:
         times, theta = series["tilt"].t, series["tilt"].values
-    elif "tip" in series:  # while it stands on its ball, the tip is R + tip cos theta above the table
+    elif "tip" in series:  # on the ball, the tip is R + tip cos(theta) above the table
         times = series["tip"].t
         theta = np.arccos(np.clip((series["tip"].values / model.scales.R - 1) / model.tip, -1, 1))
     else:
@@ -83,19 +83,19 @@ def _axis(model: Model, data: Data, left: Left, t: Array, motion: Trajectory) ->
 
 
 def guess(model: Model, data: Data) -> Shown:
-    """Before anything is fitted: the one of a few motions that begin with the first values which is best at first.
-    Raises TopError where none is a motion."""
+    """A first guess before anything is fitted: of a few motions that begin with the first values, the one that fits
+    best at first. Raises TopError if none of them is a motion."""
     first = data.t[0]
     try:
         problem = Problem(model, data.between(first, first + LOOK))
-    except MeasuredError:  # there are few values
+    except MeasuredError:  # too few values
         problem = Problem(model, data)
     (x,) = problem.best_of(starts(model, data), 1)
     return shown(model.with_values(dict(zip(model.free, map(float, x), strict=True))), data)
 
 
 def placed(model: Model, data: Data) -> Shown | None:
-    """guess(), None where there is none."""
+    """guess(), or None if there is none."""
     try:
         return guess(model, data)
     except TopError:

@@ -1,4 +1,4 @@
-"""Where the fit of a Model to Data begins."""
+"""The points in parameter space from which the fit of a Model to Data starts."""
 
 import itertools
 
@@ -9,19 +9,19 @@ from app.model.measured.data import Data
 from app.model.measured.motion import Model
 from tippe_core.types import Array
 
-SCATTERED = 256  # starts that are looked at where those by the first values are in vain
-NEAR, MOST_NEAR = 0.1, 8  # part of a number's own size, around the best; so many
-FIRST = 4.0  # standard errors about the first values, in which these lie
+SCATTERED = 256  # starting points that are tried if those from the first values do not lead to a good fit
+NEAR, MOST_NEAR = 0.1, 8  # relative distance from the best fit, and number, of the starting points around it
+FIRST = 4.0  # standard errors about the first values within which the starting points lie
 RANGES = {
     "tilt": (0.05, 1.3), "tilt_rate": (-1.0, 1.0), "across": (-3.0, 3.0), "spin": (-12.0, 12.0), "mu": (0.05, 0.8),
     "eps": (0.01, 1.0), "radius": (3e-3, 0.2), "gamma": (0.03, 1.5), "rolling_resistance": (1e-4, 0.02),
     "air_drag": (1e-4, 0.02),
 }  # fmt: skip
-"""{number: least and largest of these starts}, evenly in its logarithm where it is above 0."""
+"""{parameter: the range of its starting values}, evenly in the logarithm if it is positive."""
 
 
 def starts(model: Model, data: Data) -> list[Array]:
-    """Where to begin: what the first values say, and a grid of what they do not."""
+    """A grid: parameters that the first values give, and several values of the others."""
     first = {name: float(np.median(series.values[:5])) for name, series in data.series.items()}
     unit = model.scales.angular_velocity
     tilts = [first["tilt"]] if "tilt" in first else [0.1, 0.4, 0.9]
@@ -41,7 +41,7 @@ def starts(model: Model, data: Data) -> list[Array]:
 
 
 def scattered(model: Model, data: Data) -> list[Array]:
-    """Starts spread evenly over what the first values allow."""
+    """Points evenly distributed over the ranges that the first values allow."""
     unit = {"tilt": 1.0, "spin": model.scales.angular_velocity}
     points = qmc.Sobol(len(model.free), seed=0).random(SCATTERED)
     columns = []
@@ -59,6 +59,6 @@ def scattered(model: Model, data: Data) -> list[Array]:
 
 
 def around(x: Array, sizes: Array) -> list[Array]:
-    """Starts around a place, within a part of each number or of its usual size, whichever is larger."""
+    """Points around x, at distances relative to each parameter or to its typical size, whichever is larger."""
     shares = 2 * qmc.Sobol(len(x), seed=1).random(MOST_NEAR) - 1
     return [x + NEAR * share * np.maximum(np.abs(x), sizes) for share in shares]

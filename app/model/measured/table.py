@@ -1,9 +1,8 @@
-"""A table of what somebody measured of a top on film or with a phone: what was understood of each column.
+"""Reads a table of measurements of a top, from a film or a phone, and interprets each column.
 
-Tracker writes a tab or a comma between its columns, below a line or two of names; a sheet may have a line of units
-below its names; phyphox names and units in quotes;
-a spreadsheet semicolons, and decimal commas. What cannot be read is told with its line, as a MeasuredError; what
-could be read but was left out is a note of the Table.
+Tracker separates columns with tabs or commas, below a line or two of names; a sheet may have a line of units below the
+names; phyphox puts names and units in quotes; spreadsheets use semicolons and decimal commas. What cannot be read
+raises a MeasuredError with its line; what was read but left out is a note of the Table.
 """
 
 import math
@@ -16,14 +15,14 @@ import numpy as np
 from tippe_core.types import Array
 
 LARGEST = 200_000
-"""Bytes of a table: the server takes a message of 256 KiB, and text grows a little on its way."""
+"""Bytes of a table: the server accepts messages of 256 KiB, and text grows a little in transit."""
 FEWEST, MOST = 8, 5000
-"""Rows of a table."""
+"""The least and the largest number of rows."""
 HEAD = 12
-"""First lines of a long table, of which the browser leaves none out."""
+"""The number of first lines that the browser keeps when it shortens a long table."""
 USUAL = {"rev/s": 60.0, "rad/s": 600.0, "deg/s": math.inf}
-"""{unit: the largest number that a top's spin is likely to have in it}."""
-SLOWEST = 1.0  # from one row to the next: no film is slower in s, and none faster in ms
+"""{unit: the largest spin that is plausible in it}."""
+SLOWEST = 1.0  # between two rows: a longer step is in ms, not in s
 
 ANGLES = {"deg": math.pi / 180, "rad": 1.0}
 RATES = {"rev/s": 2 * math.pi, "rad/s": 1.0, "deg/s": math.pi / 180, "rpm": math.pi / 30}
@@ -41,9 +40,9 @@ UNITS = {
     "tip_x": LENGTHS,
     "tip_y": LENGTHS,
 }
-"""{quantity: {unit: its size in s, rad, rad/s or m}}; a frame's is one over the frame rate."""
+"""{quantity: {unit: its size in s, rad, rad/s or m}}; for frames the frame rate is needed as well."""
 
-# The names by which tables call a quantity, in lower case and without what is no letter; the first that fits.
+# The names of each quantity in tables, in lower case and reduced to letters and digits.
 NAMES = {
     "time": "t time zeit seconds frame frames bild bilder timestamp",
     "tilt": "tilt theta θ thetar θr neigung inclination nutation tiltangle neigungswinkel",
@@ -72,7 +71,7 @@ _GAP = {"", "-", "nan", "na", "n/a", "null", "none"}
 
 
 class MeasuredError(ValueError):
-    """What is wrong with a table. code: a key of [wrong] in measure.toml, numbers: what stands in its words."""
+    """An error in a table. code: a key of [wrong] in measure.toml; numbers: the values that its sentence quotes."""
 
     def __init__(self, code: str, **numbers: object) -> None:
         super().__init__(f"{code}: {numbers}")
@@ -81,8 +80,8 @@ class MeasuredError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """name: as it stands in the table. quantity: a key of UNITS, or "" where it is not used. guessed: the unit does not
-    stand in the table. error: of one value, in the unit, where the name ends in "± error", else None."""
+    """name: as in the table. quantity: a key of UNITS, or "" if the column is not used. guessed: the unit is not in the
+    table. error: that of one value, in this unit, if the name ends in "± error", else None."""
 
     name: str
     quantity: str
@@ -94,7 +93,8 @@ class Column:
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """lines: the line of the file in which each row stands. notes: (code, numbers); codes: [notes] in measure.toml."""
+    """lines: the line number in the file of each row. notes: (code, numbers); the codes are keys of [notes] in
+    measure.toml."""
 
     columns: tuple[Column, ...]
     lines: tuple[int, ...]
@@ -115,7 +115,7 @@ def read(data: bytes | str) -> Table:
         raise MeasuredError("empty")
     between = _separator(lines)
     rows = [(number, _cells(line, between)) for number, line in lines]
-    if all(len(cells) > 1 and not cells[-1] for _, cells in rows):  # a separator after each line's last cell
+    if all(len(cells) > 1 and not cells[-1] for _, cells in rows):  # a separator after the last cell of each line
         rows = [(number, cells[:-1]) for number, cells in rows]
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, between)), None)
     if first is None:
@@ -134,7 +134,7 @@ def _decoded(data: bytes) -> str:
 
 
 def _separator(lines: list[tuple[int, str]]) -> str:
-    """What stands between columns: what is in most lines; a space only where nothing else is."""
+    """The separator: the one that occurs in most lines; a space only if there is no other."""
     for between in "\t;,":
         if sum(between in line for _, line in lines) > len(lines) / 2:
             return between
@@ -142,7 +142,8 @@ def _separator(lines: list[tuple[int, str]]) -> str:
 
 
 def _names(heads: list[list[str]]) -> list[str] | None:
-    """Of the lines above the numbers the last, with the units below them where that has nothing else."""
+    """The names from the last line above the numbers, with the units of the line below them if that contains only
+    units."""
     if len(heads) > 1 and all(not cell or _bare(cell) in _UNIT for cell in heads[-1]) and any(heads[-1]):
         return [f"{name} ({_bare(unit)})" if unit else name for name, unit in zip(*heads[-2:], strict=True)]
     return heads[-1] if heads else None
@@ -153,7 +154,7 @@ def _bare(unit: str) -> str:
 
 
 def _cells(line: str, between: str) -> list[str]:
-    """The cells of a line, without the quotes around them."""
+    """The cells of a line, without quotes."""
     if between == " ":
         return line.split()
     cells = re.findall(rf'(?:^|{between})[ ]*("[^"]*"|[^{between}]*)', line)
@@ -165,7 +166,7 @@ def _is_number(cell: str, between: str) -> bool:
 
 
 def _is_data(cells: list[str], between: str) -> bool:
-    """Whether this is a row of numbers, gaps among them."""
+    """Whether this is a row of numbers, possibly with gaps."""
     numbers = sum(_is_number(cell, between) for cell in cells)
     return numbers > 0 and numbers >= len(cells) / 2
 
@@ -180,7 +181,7 @@ def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: 
         notes.append(("cut-short", {"line": rows[-1][0], "found": len(rows[-1][1]), "expected": width}))
         rows = rows[:-1]
     for number, cells in rows:
-        # a gap at the end of a row may have lost its separator with the row's own end
+        # a gap at the end of a row may have lost its separator
         if len(cells) not in (width, width - 1) or (len(cells) < width and between in ", "):
             raise MeasuredError("width", line=number, found=len(cells), expected=width)
         cells.extend([""] * (width - len(cells)))
@@ -218,7 +219,7 @@ def _gaps(columns: tuple[Column, ...], lines: Array) -> Iterator[tuple[str, dict
 
 
 def _check_decimals(rows: list[tuple[int, list[str]]], between: str) -> None:
-    """MeasuredError where some numbers have a decimal comma and others a point."""
+    """Raises MeasuredError if some numbers have a decimal comma and others a point."""
     if between == ",":
         return
     first = ""
@@ -256,7 +257,7 @@ def _columns(names: list[str], values: Array) -> tuple[Column, ...]:
 
 
 def _understood(name: str) -> tuple[str, str, float | None]:
-    """(quantity, unit, error) of a column's name; "" for what it does not tell."""
+    """(quantity, unit, error) from a column's name; "" or None for what it does not say."""
     name, _, error = name.partition("±")
     found = _NUMBER.fullmatch(error.strip())
     unit = re.search(r"[(\[]([^)\]]*)[)\]]", name) or _UNIT_LAST.search(name)
@@ -267,7 +268,7 @@ def _understood(name: str) -> tuple[str, str, float | None]:
 
 
 def _likely(quantity: str, values: Array, name: str) -> str:
-    """The unit of a column that does not say it."""
+    """The most likely unit of a column that does not say it."""
     largest = float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
     if quantity == "time":
         if re.match("frame|bild", name.lower()):
@@ -282,14 +283,14 @@ def _likely(quantity: str, values: Array, name: str) -> str:
 
 
 def line_in_file(line: int, each: int) -> int:
-    """Where a line of a table stands in its file, of which the browser kept the first lines, and of the others those
-    whose number from 0 is a multiple of each."""
+    """The line in the original file of a line in the shortened table: the browser keeps the first HEAD lines, and of
+    the others those whose number, counted from 0, is a multiple of each."""
     beyond = line - 1 - HEAD
     return line if each == 1 or beyond < 0 else each * (math.ceil(HEAD / each) + beyond) + 1
 
 
 def written(table: Table) -> str:
-    """The table as text that read() takes, tabs between the columns."""
+    """The table as text that read() accepts, with tabs between the columns."""
     heads = [column.name for column in table.columns]
     rows = zip(*(column.values for column in table.columns), strict=True)
     cells = [["" if math.isnan(x) else repr(float(x)) for x in row] for row in rows]

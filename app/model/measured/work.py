@@ -1,4 +1,4 @@
-"""What is found of a film's data: both models fitted, the constants of the motion, and the better motion."""
+"""Everything that is computed from a film's data: both fits, the constants of the motion, and the better motion."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -17,14 +17,15 @@ from app.model.measured.table import MeasuredError, read
 from tippe_core import Scales, Shape, Top
 
 LOOSE = {"body": ("a", "I1", "I3"), "push": ("tilt_rate", "across"), "losses": ("rolling_resistance", "air_drag")}
-"""What can be fitted besides the start and the law."""
+"""What can be fitted in addition to the start and the friction law."""
 LONGEST = 60.0
-"""s that are fitted at once: a run of these takes a tenth of a second, and a fit is of thousands."""
+"""s that are fitted at once: a run of this length takes a tenth of a second, and a fit needs thousands of runs."""
 
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """rolling and sliding: of the same data. kept: what the constants of the motion did. motion: the better one's."""
+    """rolling and sliding: fits to the same data. kept: whether the constants of the motion were conserved. motion:
+    that of the better fit."""
 
     rolling: Fit
     sliding: Fit
@@ -33,23 +34,24 @@ class Found:
 
     @property
     def fits(self) -> tuple[Fit, Fit]:
-        """Both."""
+        """(rolling, sliding)."""
         return self.rolling, self.sliding
 
     @property
     def better(self) -> Fit:
-        """The one of less AIC."""
+        """The fit with the smaller AIC."""
         return min(self.fits, key=lambda each: each.aic)
 
 
 def models(top: Top, scales: Scales, shape: Shape | None, law: str, loose: tuple[str, ...]) -> tuple[Model, Model]:
-    """Rolling, and sliding by this law, with these numbers free as well: rolling has neither losses nor a push."""
+    """The rolling Model, and the sliding one with this friction law; loose: keys of LOOSE. Rolling has neither losses
+    nor a push."""
     of_rolling = tuple(name for name in loose if name in LOOSE["body"])
     return model_of("rolling", top, scales, shape, of_rolling), model_of(law, top, scales, shape, loose)
 
 
 def part_of(data: Data, start: float, end: float) -> Data:
-    """What is fitted of the data. Raises MeasuredError where that is too little, or too long."""
+    """The part of the data to be fitted. Raises MeasuredError if it is too short or too long."""
     try:
         if end - start <= LONGEST:
             return data.between(start, end)
@@ -60,12 +62,12 @@ def part_of(data: Data, start: float, end: float) -> Data:
 
 
 def found(data: Data, both: tuple[Model, Model]) -> Found:
-    """Takes seconds, and looks whether it is to end. Raises TopError."""
+    """Fits both Models; takes seconds and can be stopped. Raises TopError."""
     return _of_both(data, *(fit(model, data) for model in both))
 
 
 def found_again(data: Data, both: tuple[Model, Model], fits: tuple[dict[str, Any], ...]) -> Found:
-    """What a saved film has, without fitting anew. Raises TopError."""
+    """The Found of a saved film, without fitting again. Raises TopError."""
     return _of_both(data, *(remembered(model, data, said) for model, said in zip(both, fits, strict=True)))
 
 
@@ -76,6 +78,6 @@ def _of_both(data: Data, rolling: Fit, sliding: Fit) -> Found:
 
 @lru_cache(maxsize=32)
 def found_of_example(name: str, law: str, loose: tuple[str, ...]) -> Found:
-    """Of a whole example, which every visitor may ask for."""
+    """The Found of a whole example; cached, because every visitor may ask for it."""
     data = settled(read((FOLDER / f"made-{name}.csv").read_bytes()))
     return found(data, models(Top.paper(), FILMED.scales, FILMED, law, loose))

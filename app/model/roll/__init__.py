@@ -1,1 +1,2 @@
-"""What is seen of a Scene that rolls: the plane of its tielines, levers, the derivation, what slips."""
+"""Results derived from a Scene of rolling: the plane of the tielines, lever arms, the derivation, what slipping
+does."""

@@ -1,10 +1,9 @@
-"""The paper's equations (1) to (39) and (B1) to (B4), both sides of each on a motion, by different routes.
+"""The paper's equations (1) to (39) and (B1) to (B4): both sides of each, evaluated on a motion by different routes.
 
-One side has the time derivatives of the motion's own poses, see stretches.py; what the constants of the motion say
-stands on the other. The limits (27) to (29), R -> 0, are a derivative at R = 0 by a complex step, of the formula for
-any R.
+One side uses time derivatives of the motion's own poses (stretches.py), the other the constants of the motion. The
+limits (27) to (29), R -> 0, are derivatives at R = 0, by a complex step, of the formula for any R.
 
-Units R, M, g. Vectors are shown along the turning axes: 1', y = z x 1', z. The words are in app/text.
+Units R, M, g. Vectors are given along the rotating axes 1', y = z x 1', z. The words are in app/text.
 """
 
 from collections.abc import Callable, Iterable
@@ -31,7 +30,8 @@ Reading: TypeAlias = Callable[[Window], Long]
 
 @dataclass(frozen=True)
 class Line:
-    """An equation: its number, its TeX, its two sides on a Window, (n,) or (n, 3), and the symbols to look at.
+    """An equation: its number, its TeX, its two sides on a Window, (n,) or (n, 3), and its symbols, which can be
+    pointed at.
 
     plane: "rough" or "smooth".
     """
@@ -60,7 +60,7 @@ def _isaeva(m: Window, w3: Number, w_z: Number) -> Number:
 
 
 def isaeva_elsewhere(m: Window) -> Long:
-    """(26) at another tilt of the same constants: the least of these tilts."""
+    """(26) at another tilt with the same constants: the smallest tilt of the motion."""
     theta = m.theta.min()
     w2, w3 = (function(theta, m.top, m.constants) for function in (omega2, omega3))
     return 0 * m.theta + _isaeva(m, w3, w3 * np.cos(theta) + w2 * np.sin(theta))
@@ -85,7 +85,7 @@ def carried(m: Window) -> Long:
 
 
 def start(m: Window) -> tuple[float, float, float]:
-    """E, I3 w3, L_z and the drift of G of the motion's first instant, from its State (smooth plane, G at rest)."""
+    """E, I3 w3 and L_z at the first instant, from the motion's State (smooth plane, G at rest)."""
     state, top = m.state, m.top
     s, c = np.sin(state.theta), np.cos(state.theta)
     L_z = top.I3 * state.omega3 * c + top.I1 * state.omega2 * s
@@ -229,7 +229,8 @@ LINES = (
 
 
 class Symbol(NamedTuple):
-    """texts: how it is written in the MathML, no spaces; value (n,) or (n, 3), turning axes; arrow, start: a vector."""
+    """texts: how it is written in the MathML, without spaces; value (n,) or (n, 3), along the rotating axes; arrow,
+    start: the vector to be drawn and its starting point."""
 
     texts: tuple[str, ...]
     value: Reading
@@ -293,7 +294,8 @@ SYMBOLS = {
 
 
 def both_sides(line: Line, parts: Iterable[Window]) -> tuple[Array, Array, Array]:
-    """t (n,), left and right (n, k) of a line, vectors along 1', y, z, away from the windows' ends."""
+    """t (n,), left and right (n, k) of a line, vectors along 1', y, z; points near the ends of the windows are left
+    out."""
     rows = []
     for m in parts:
         sides = []
@@ -307,5 +309,5 @@ def both_sides(line: Line, parts: Iterable[Window]) -> tuple[Array, Array, Array
 
 
 def difference(left: Array, right: Array) -> Array:
-    """The largest over components, in shares of 1 + the largest that either side gets; (n,)."""
+    """The largest difference of any component, relative to 1 + the largest value of either side; (n,)."""
     return np.abs(left - right).max(axis=1) / (1 + max(np.nanmax(np.abs(left)), np.nanmax(np.abs(right))))

@@ -11,9 +11,9 @@ from tippe_core.types import Array
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Levers:
-    """Points and directions seen along F_x, a row (across, up) a frame, in R, from C: the axis 3; G, whose distance
-    across is the arm of the torque about z; the foot on the axis, whose distance from C is that of the torque about 3.
-    push (n,): F_x, in Mg."""
+    """Points and directions seen along F_x, one row (across, up) for each frame, in R, from C: the axis 3; G, whose
+    horizontal distance is the lever arm of the torque about z; and the foot of the perpendicular from C to the axis,
+    whose distance is the lever arm about 3. push (n,): F_x, in Mg."""
 
     axis: Array
     G: Array
@@ -22,11 +22,11 @@ class Levers:
 
 
 def levers(motion: Trajectory) -> Levers:
-    """From the poses of a motion."""
+    """The Levers of a motion, from its poses."""
     _, across, axis, _ = axes(motion.theta, motion.phi)
     up = np.array([0.0, 0.0, 1.0])
     contact = np.column_stack([motion.contact, np.zeros(len(motion.t))])
-    foot = up - axis[:, 2:] * axis  # O is above C; from there down the axis as far as it is nearest to C
+    foot = up - axis[:, 2:] * axis  # O is above C; from O down along the axis to the point nearest C
 
     def seen(vectors: Array) -> Array:
         return np.column_stack([(vectors * across).sum(axis=1), vectors[:, 2]])

@@ -1,4 +1,4 @@
-"""Where the energy of a motion stands between its steady precession and the two limits, and back."""
+"""Conversion between the energy of a motion and its position between steady precession and the two limits."""
 
 from dataclasses import dataclass
 
@@ -7,16 +7,16 @@ import numpy as np
 from tippe_core import Top, figures
 from tippe_core.types import Array
 
-# Beyond it the squares of what follows leave a float's range.
+# Above this, squares of what follows exceed the range of floats.
 LARGEST = 1e6
-# A limit that is never reached still needs a place on the energy slider: this share of the energy above the last one.
+# A limit that is never reached still needs a place on the energy slider: this fraction above the last energy.
 UNLIMITED = 0.25
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Marks:
-    """The energies that the energy control is marked with, E; inf where nothing limits, nan where even the steady
-    precession breaks the limit. nodes: the (3,) finite energies at which the control stands at 0, 1 and 2."""
+    """The energies that are marked on the energy control, E; inf if nothing limits the energy, nan if even the steady
+    precession violates the limit. nodes: (3,), the finite energies at the positions 0, 1 and 2."""
 
     steady: float
     slip: float
@@ -25,7 +25,8 @@ class Marks:
     nodes: Array
 
     def energy(self, share: float) -> float:
-        """0 the steady precession, 1 the limit of friction, 2 that of F_z; straight on beyond 2, and below 0."""
+        """The energy at a position: 0 is the steady precession, 1 the limit of friction, 2 that of F_z; linear beyond 2
+        and below 0."""
         slopes = np.diff(self.nodes)
         if share < 0:
             return self.nodes[0] + share * (slopes[0] or slopes[1])
@@ -54,7 +55,7 @@ def energy_marks(top: Top, K_J: float, K_R: float, mu_s: float) -> Marks:
             E = nodes[-1]
         elif not E < steady + LARGEST * (1 + abs(steady)):  # no limit, or one that no top ever reaches
             E = nodes[-1] + UNLIMITED * (1 + abs(steady))
-        nodes.append(max(E, nodes[-1]))  # rounding may put a limit below what it is a limit of
+        nodes.append(max(E, nodes[-1]))  # rounding may put one limit below another
     if nodes[2] == nodes[0]:
         nodes[2] += UNLIMITED * (1 + abs(steady))
     return Marks(

@@ -1,4 +1,5 @@
-"""What the portraits of a Scene show, on the page and in print: the force in its disc, the track and its rosette."""
+"""The curves in the portraits of a Scene, on the page and in print: the force in its disc, the track and its
+rosette."""
 
 from dataclasses import dataclass
 
@@ -7,37 +8,37 @@ import numpy as np
 from app.model.scene import Scene
 from tippe_core.types import Array
 
-POINTS_OF_A_CIRCLE = 145  # in print a line to the eye, still
-# A circle so much larger than the track is a straight line to the eye.
+POINTS_OF_A_CIRCLE = 145  # so that in print it still looks smooth
+# A circle this much larger than the track looks like a straight line.
 STRAIGHT = 300
-NO_TABLE = 1e-3  # Mg: of a push so small the direction says nothing
+NO_TABLE = 1e-3  # Mg: below this, F_z is too small for the ratio to mean anything
 
 
 def square(scene: Scene) -> Array:
-    """theta_dot^2 = f(theta) over a nutation, (n,)."""
+    """theta_dot^2 = f(theta) over one nutation, (n,)."""
     return scene.nutation.omega[:, 0] ** 2
 
 
 def pushes(scene: Scene) -> tuple[Array, Array]:
-    """F_x/F_z and F_y/F_z over a nutation, each (n,). Beyond lift-off there is no table to push: NaN."""
+    """F_x/F_z and F_y/F_z over one nutation, each (n,). nan beyond lift-off, where there is no contact."""
     F = scene.nutation.force
     F_x, F_y, F_z = np.where(F[:, 2:] > NO_TABLE, F, np.nan).T
     return F_x / F_z, F_y / F_z
 
 
 def circle(radius: float, low: float = 0.0, high: float = 2 * np.pi) -> tuple[Array, Array]:
-    """x and y of a circle about the origin, or an arc of it."""
+    """x and y of a circle about the origin, or of an arc of it."""
     around = np.linspace(low, high, POINTS_OF_A_CIRCLE)
     return radius * np.cos(around), radius * np.sin(around)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Seen:
-    """The track on the table from above at times t (n,): x and y, each (n,). rings: the parts that are drawn of the two
-    circles that its rosette stays between, each x and y; none where it has no rosette.
+    """The track on the table, seen from above, at times t (n,): x and y, each (n,). rings: the visible parts of the two
+    circles between which its rosette stays, x and y of each; empty if there is no rosette.
 
-    Unrolled, which shows a rosette too thin to be seen: along (n,) the way round in its middle, across (n,) from the
-    inner circle outwards, width from it to the outer one.
+    Unrolled, so that a thin rosette becomes visible: along (n,), the way along its middle circle; across (n,), the
+    distance from the inner circle; width, the distance between the two circles.
     """
 
     t: Array
@@ -50,7 +51,7 @@ class Seen:
 
 
 def track(scene: Scene, points: int | None = None) -> Seen:
-    """points: some so many, or all."""
+    """The track of a Scene. points: about so many of its points, or all."""
     motion = scene.trajectory
     every = max(1, len(motion.t) // (points or len(motion.t)))
     t, (x, y) = motion.t[::every], motion.contact[::every].T
@@ -74,7 +75,7 @@ def track(scene: Scene, points: int | None = None) -> Seen:
 
 
 def _arc(angle: Array, radius: float) -> tuple[float, float]:
-    """From where to where a circle is drawn beside a track that is seen from its centre at these angles."""
+    """The range of angles over which a circle is drawn beside a track that covers these angles."""
     low, high = float(angle.min()), float(angle.max())
     if radius >= STRAIGHT:
         return low, high

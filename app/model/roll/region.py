@@ -20,23 +20,23 @@ from tippe_core.types import Array, Scalars
 
 LEAST_TIELINES = 48
 MESH_COLUMNS = 48
-HOVER_COLUMNS = 128  # over all tilts: of 1.4 degrees each
+HOVER_COLUMNS = 128  # over all tilts: 1.4 degrees each
 
 PAPER: Literal["paper"] = "paper"
 Upper: TypeAlias = bool | Literal["paper"]
-"""Which part of the plane is shown: True, K_J from 0 to P and all tilts; False, past both poles; PAPER, K_J from 0 to
-P and the tilts of the paper's own figure."""
+"""The part of the plane that is shown: True, K_J from 0 to P and all tilts; False, past both poles; PAPER, K_J from 0
+to P and the tilts of the paper's own figure."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Plane:
-    """What Figs. 5 and 6 show of one top at one K_R and mu_s: all tielines, whatever motion is selected.
+    """What Figs. 5 and 6 show for one top at one K_R and mu_s: all tielines, whichever motion is selected.
 
-    K_J (n,) ascending; lift and slip are tippe_core's tielines over it under the two limits (F_z >= 0 alone, and with
-    F_h <= mu_s F_z as well). theta, height (n, m): Fig. 5's mesh of f1^2 theta_dot^2 on the tielines of `surface`, a
-    row from its own inner to its own outer turning point; surface_range: of theta, as far as that goes.
-    hover_theta (k,), hover_K_J (j,): where hover_E and hover_ratio (j, k) are given: on each tieline of the slip limit
-    its own motion, beyond its ends the motion of least energy that gets there.
+    K_J (n,) ascending; lift and slip are tippe_core's Tielines at these K_J for the two limits (F_z >= 0 alone, and F_h
+    <= mu_s F_z as well). theta, height (n, m): the mesh of f1^2 theta_dot^2 in Fig. 5 on the tielines of `surface`,
+    each row from its inner to its outer turning point; surface_range: the range of theta. hover_theta (k,), hover_K_J
+    (j,): where hover_E and hover_ratio (j, k) are given: on each tieline of the slip limit for its own motion, beyond
+    its ends for the motion of least energy that reaches this tilt.
     """
 
     K_J: Array
@@ -58,26 +58,26 @@ class Plane:
 
 
 def between(inner: Scalars, outer: Scalars, columns: int) -> Array:
-    """Angles from inner to outer, closer together towards the ends; (..., columns)."""
+    """Angles from inner to outer, denser near the ends; (..., columns)."""
     share = (1 - np.cos(np.linspace(0, np.pi, columns))) / 2
     inner, outer = np.asarray(inner)[..., None], np.asarray(outer)[..., None]
     return inner + (outer - inner) * share
 
 
 def height(theta: Array, top: Top, constants: Constants) -> Array:
-    """f1^2 theta_dot^2 of (36), and 0 at the ends of the last axis where they are turning points in (0, pi)."""
+    """f1^2 theta_dot^2 of (36), and 0 at those ends of the last axis that are turning points in (0, pi)."""
     value = f1_squared(theta, top) * rounded_f(theta, top, constants)
     return np.maximum(value, 0)
 
 
 def K_J_range(top: Top, K_J: float, K_R: float, upper: Upper) -> tuple[float, float]:
-    """From 0 to P, or past both poles; in any case as far as K_J."""
+    """The range of K_J: from 0 to P, or past both poles; in any case it includes K_J."""
     poles = pole_constants(top, K_R)
     beyond = 0.25 * max(map(abs, poles))
     low, high = sorted((0.0, poles[0])) if upper else (min(poles) - beyond, max(poles) + beyond)
     if high - low < 1e-9:
         low, high = -1.0, 1.0
-    # In whole steps, so that a K_J that moves outside does not change the picture each time.
+    # In whole steps, so that the picture does not change at each step of a K_J outside.
     if K_J < low:
         low = float(np.floor(K_J - 0.5))
     if K_J > high:
@@ -87,7 +87,7 @@ def K_J_range(top: Top, K_J: float, K_R: float, upper: Upper) -> tuple[float, fl
 
 @lru_cache(maxsize=8)
 def plane(top: Top, K_R: float, mu_s: float, upper: Upper, limit: str, low: float, high: float) -> Plane:
-    """The Plane. The same arguments give the same object, so a view can tell by identity that nothing changed."""
+    """The Plane. The same arguments give the same object, so a view can tell by identity that nothing has changed."""
     poles = pole_constants(top, K_R)
     step = 2.0 ** np.floor(np.log2((high - low) / LEAST_TIELINES))
     even = step * np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
@@ -139,7 +139,7 @@ def everywhere(top: Top, theta: Array, K_J: Array, K_R: float, E_limit: Array) -
     theta, K_J = theta[None, :], K_J[:, None]
     E = np.fmax(least_energy(theta, top, K_J, K_R), np.where(np.isfinite(E_limit), E_limit, np.nan)[:, None])
     constants = Constants(K_J, K_R, E)
-    # At the turning point itself rounding may leave f just below 0, where there is no theta_dot.
+    # At a turning point rounding may leave f just below 0, where theta_dot is not real.
     w1_squared = np.maximum(rounded_f(theta, top, constants), 0)
     F_x, F_y, F_z = forces_on_curve(theta, top, constants, w1_squared)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -1,7 +1,8 @@
-"""The motion of a Scene that is let slip at the end of its tieline: what of K_J, K_R and the tilt it keeps.
+"""The motion of a Scene if it starts to slip at the end of its tieline: how K_J, K_R and the tilt change.
 
-Rolling, a motion is its tieline in the (K_J, theta) plane for ever. Slipping, it keeps K_J nearly (it pivots), and runs
-out of the tieline's end along the same height; K_R goes with it. It nods on the way: each row is the mean of one nod.
+A rolling motion stays on its tieline in the (K_J, theta) plane for ever. When the top slips, K_J is nearly conserved
+(pivoting changes it slowly), so it leaves the tieline's end at about the same K_J, while K_R changes. It nutates on the
+way: each row is the mean over one nod.
 """
 
 from collections.abc import Callable
@@ -15,10 +16,10 @@ from app.model.scene import Scene
 from tippe_core import Contensou, State, Top, TopError, Trajectory, omega2, omega3, slide
 from tippe_core.types import Array, Indices
 
-MU, PATCH = 0.3, 0.008  # of wood that slides on a table; the radius of the patch, in R, is Hertz's for a wooden toy
-STILL = np.radians(0.2)  # it nods by less than the tenth of a degree either way that the page shows
-NODS, SAMPLES = 300, 24  # nutations of the rolling motion that are followed, and times in each
-MOST_LOOKS = 2_000  # of slide() at its progress: a quarter of a second; the paper's top needs ten
+MU, PATCH = 0.3, 0.008  # for wood that slides on a table; PATCH is the Hertzian contact radius, in R, for a wooden toy
+STILL = np.radians(0.2)  # nods within a tenth of a degree either way, the resolution of the page, count as none
+NODS, SAMPLES = 300, 24  # how many nutations of the rolling motion are followed, and samples of each
+MOST_LOOKS = 2_000  # calls of slide()'s progress: a quarter of a second; the paper's top needs ten
 
 NEAR_A_POLE = 1e-6
 RTOL = 1e-8
@@ -26,10 +27,10 @@ RTOL = 1e-8
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Slipping:
-    """theta, K_J, K_R (n,): the means of one nod after the other, from the tieline's end on; low, high (n,) the least
-    and the largest tilt of each. seconds: in (R/g)^1/2, how long it is. touches: the first row, if any, in which it is
-    tilted as far as where the stem touches: from there on it goes on as a whole sphere would. rolls: whether, at the
-    last row, it rolls again without nodding. mu: the friction it has on the way."""
+    """theta, K_J, K_R (n,): means over successive nods, starting at the tieline's end; low, high (n,): the smallest and
+    the largest tilt of each nod. seconds: the duration, in (R/g)^1/2. touches: the first row, if any, in which the tilt
+    reaches that at which the stem touches; from there on the motion is that of a whole sphere. rolls: whether the top
+    rolls again, without nodding, at the last row. mu: the friction coefficient on the way."""
 
     theta: Array
     low: Array
@@ -43,7 +44,7 @@ class Slipping:
 
 
 def slipping(scene: Scene) -> Slipping | None:
-    """The Slipping of a Scene's motion; None where there is none."""
+    """The Slipping of a Scene's motion; None if there is none."""
     touch = scene.shape.touch_angle if scene.shape else None
     state = at_the_end(scene)
     mu = min(MU, scene.mu_s)
@@ -53,22 +54,23 @@ def slipping(scene: Scene) -> Slipping | None:
 
 
 def at_the_end(scene: Scene) -> State | None:
-    """The motion at the outer end of its tieline, where it turns, as a start of slide(); None at a pole."""
+    """The motion at the outer end of its tieline, a turning point, as a start for slide(); None at a pole."""
     theta, top = scene.turning[1], scene.top
     s, c = np.sin(theta), np.cos(theta)
     if s < NEAR_A_POLE:
         return None
     w2, w3 = (float(each(theta, top, scene.constants)) for each in (omega2, omega3))
-    # it rolls: vx, of G in the turning axes, leaves the contact point at rest
+    # it rolls: vx, that of G along the rotating axes, leaves the contact point at rest
     return State(theta, 0.0, w2, w3, vx=w2 * (c - top.a) - w3 * s, vy=0.0)
 
 
 class TooLong(Exception):
-    """It takes more work than a picture is worth."""
+    """The run takes longer than the picture is worth."""
 
 
 def _patient() -> Callable[[float], None]:
-    """A progress of slide() that ends it after MOST_LOOKS, or with the run that it is part of."""
+    """A progress function for slide() that stops it after MOST_LOOKS calls, or with the computation of which it is a
+    part."""
     left = iter(range(MOST_LOOKS))
 
     def patient(reached: float) -> None:
@@ -83,7 +85,7 @@ def _patient() -> Callable[[float], None]:
 def _slipping(top: Top, state: State, mu: float, touch: float | None, period: float) -> Slipping | None:
     times = np.linspace(0, NODS * period, NODS * SAMPLES + 1)
     try:
-        # what a whole sphere does, so that it is followed past where the stem would touch
+        # the motion of a whole sphere, so that it can be followed beyond the tilt at which the stem would touch
         motion = slide(top, state, Contensou(mu, PATCH), times, rtol=RTOL, landing="plastic", progress=_patient())
     except (TopError, TooLong):
         return None
@@ -109,7 +111,8 @@ def _slipping(top: Top, state: State, mu: float, touch: float | None, period: fl
 
 
 def _nods(theta: Array) -> Indices:
-    """Where each nod begins: at the motion's start, then where the tilt is largest; evenly where it never is."""
+    """The indices at which the nods begin: the start, then each maximum of the tilt; evenly spaced if there are
+    none."""
     steps = np.diff(theta)
     tops = np.flatnonzero((steps[:-1] > 0) & (steps[1:] <= 0)) + 1
     return np.append(0, tops) if len(tops) > 2 else np.arange(0, len(theta) - SAMPLES, SAMPLES)

@@ -1,1 +1,1 @@
-"""Votes of a class, and where they are kept."""
+"""Votes of a class, and where they are stored."""

@@ -1,7 +1,7 @@
-"""Where votes are kept so that all workers see them: a file on one host, a Redis for several. Both hold texts by keys.
+"""Stores for votes that all workers share: a file on one host, a Redis for several. Both store texts by keys.
 
-read(keys) is a dict of those that are there. change(key, function) puts function(text) in place of a text, None being
-none, with nobody in between; what function raises leaves all as it was. Both raise Away.
+read(keys) returns a dict of those that exist. change(key, function) replaces a text by function(text) atomically; None
+stands for no text, and an exception in function leaves everything unchanged. Both raise Away.
 """
 
 import importlib.util
@@ -13,23 +13,23 @@ import time
 from contextlib import contextmanager
 from pathlib import Path
 
-PATIENCE = 1.0  # s that a store may take
+PATIENCE = 1.0  # s that a store may take to answer
 FOLDER = "tippe-top-explorer"
 URL = re.compile(r"(redis|rediss|unix)://.+")
 
 
 class Away(Exception):
-    """The store does not answer, or cannot keep anything; its text is for the log."""
+    """The store does not answer or cannot be written to; the text is for the log."""
 
 
 class Sqlite:
-    """A file, which all workers of a host have open at a time. For one thread."""
+    """A file that all workers of a host have open at the same time. To be used from one thread."""
 
     def __init__(self, path):
         self._path, self._connection, self._opened = Path(path), None, None
 
     def _file(self):
-        """Which file there is now: somebody may have taken it away and put another there."""
+        """The identity of the file that is there now: the file may have been removed and replaced by another."""
         try:
             there = self._path.stat()
         except FileNotFoundError:
@@ -39,9 +39,9 @@ class Sqlite:
     def _open(self):
         self.leave()
         self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        os.close(os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600))  # what SQLite puts beside it is as this is
+        os.close(os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600))  # also the mode of SQLite's files beside it
         self._connection = sqlite3.connect(self._path, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
-        # Who reads then never waits for who writes. Two who open a new file at once do not wait for each other here.
+        # In this mode reading never waits for writing. SQLite does not wait when two processes set it at the same time.
         end = time.monotonic() + PATIENCE
         while True:
             try:
@@ -94,7 +94,7 @@ class Sqlite:
 
 
 class Redis:
-    """A server of its own, which forgets by itself what is not changed for so many s."""
+    """A Redis server, which deletes texts that have not changed for `lasts` seconds."""
 
     def __init__(self, url, lasts):
         import redis
@@ -102,10 +102,10 @@ class Redis:
         from redis.retry import Retry
 
         self._lasts, self._error = int(lasts), redis.RedisError
-        # tried twice: the first time may only tell that the connection was lost
+        # two attempts: the first may only discover that the connection was lost
         self._client = redis.Redis.from_url(url, decode_responses=True, socket_timeout=PATIENCE,
                                             socket_connect_timeout=PATIENCE, retry=Retry(NoBackoff(), 1))  # fmt: skip
-        self._client.connection_pool.make_connection()  # not yet connected: what cannot be in a URL is said now
+        self._client.connection_pool.make_connection()  # does not connect yet, but raises for an impossible URL
 
     @contextmanager
     def _working(self):
@@ -126,7 +126,7 @@ class Redis:
     def change(self, key, function):
         name = f"tippe:{key}"
 
-        def changed(pipe):  # is done anew where somebody else was faster
+        def changed(pipe):  # is repeated if another client was faster
             text = function(pipe.get(name))
             pipe.multi()
             if text is None:
@@ -139,8 +139,8 @@ class Redis:
 
 
 def store(where, lasts):
-    """What TIPPE_VOTES names: a Redis's URL, a file, or nothing, which is a file of this user's. lasts: s that a text
-    must stay unchanged for. Raises ValueError, where it can be none."""
+    """The store that TIPPE_VOTES names: the URL of a Redis, a file, or, if it is empty, a file in this user's home.
+    lasts: s for which a text must be kept unchanged. Raises ValueError if it is neither."""
     if "://" not in where:
         return Sqlite(where or usual())
     if not URL.fullmatch(where):
@@ -154,7 +154,7 @@ def store(where, lasts):
 
 
 def usual():
-    """A file that all servers of this user on this machine have in common; another start finds it again."""
+    """A file that all servers of this user on this machine share, and find again after a restart."""
     given = os.environ.get("LOCALAPPDATA" if os.name == "nt" else "XDG_STATE_HOME", "")
     home = (Path(given) if Path(given).is_absolute() else Path("~/.local/state").expanduser()) / FOLDER
     nearest = next(folder for folder in (home, *home.parents) if folder.exists())
@@ -162,12 +162,13 @@ def usual():
 
 
 def _beside():
-    """A folder of this user's among the temporary ones: of his own making, as anybody may make one of that name."""
+    """A folder of this user's in the temporary directory. It must have been created by this user, because anybody can
+    create one of that name."""
     folder = Path(tempfile.gettempdir()) / f"{FOLDER}-{os.getuid() if hasattr(os, 'getuid') else 'user'}"
     try:
         folder.mkdir(mode=0o700, exist_ok=True)
         made = folder.lstat()
     except OSError:
-        return folder  # nothing can be kept there, which is said when it is tried
+        return folder  # nothing can be stored there, which is reported at the first attempt
     ours = not hasattr(os, "getuid") or (made.st_uid == os.getuid() and made.st_mode & 0o170077 == 0o040000)
     return folder if ours else Path(tempfile.mkdtemp(prefix=FOLDER))

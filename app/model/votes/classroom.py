@@ -1,7 +1,7 @@
-"""Votes of a class: rooms that all workers see, no names, bounded; a room is its teacher's, by a key of his own.
+"""Votes of a class, in rooms that all workers share, anonymous and bounded; a teacher owns a room by a secret key.
 
-A room is plain data: {"step", "asks", "top", "shown", "owner", "used", "phones": {phone: address},
-"votes": {phone: [value, address, when]}, "others": {step: votes}}: one question at a time, and the votes on others.
+A room is plain data: {"step", "asks", "top", "shown", "owner", "used", "phones": {phone: address}, "votes": {phone:
+[value, address, when]}, "others": {step: votes}}: one question at a time, and the votes on others.
 """
 
 import hashlib
@@ -15,16 +15,16 @@ import time
 from dataclasses import dataclass
 
 MOST_ROOMS, ROOMS_OF_ADDRESS = 1000, 40
-MOST_VOTES, VOTES_OF_ADDRESS = 400, 250  # of a room
-LASTS = 6 * 3600.0  # s after its last use
-USED = 600.0  # s: no oftener is it written that a room is in use
-BETWEEN = 1.0  # s between two votes of one phone
-LETTERS = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ"  # none that is taken for another
+MOST_VOTES, VOTES_OF_ADDRESS = 400, 250  # in each room
+LASTS = 6 * 3600.0  # s after its last use, until a room is deleted
+USED = 600.0  # s: the use of a room is recorded at most this often
+BETWEEN = 1.0  # s between two votes from one phone
+LETTERS = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ"  # without letters and digits that look alike
 CODE_LENGTH = 6
 CODE = re.compile(rf"[{LETTERS}]{{{CODE_LENGTH}}}")
 KEY = re.compile(rf"{CODE.pattern}\.[\w-]{{22}}", re.ASCII)  # the room's code, and its owner's secret
-MARK = re.compile(r"[0-9a-f]{32}", re.ASCII)  # what a phone is known by
-REGISTER = "rooms"  # the key of {code: [used, address]}: no code is so short
+MARK = re.compile(r"[0-9a-f]{32}", re.ASCII)  # the identifier of a phone
+REGISTER = "rooms"  # the key of {code: [used, address]}; it cannot be a room's code
 
 EMPTY = {"votes": {}, "others": {}, "phones": {}, "shown": False}
 
@@ -32,15 +32,15 @@ log = logging.getLogger("tippe")
 
 
 class Refused(Exception):
-    """A vote or a room that cannot be; its text is a key under [student] or [vote] in teach.toml."""
+    """A vote or a room that is refused; the text is a key under [student] or [vote] in teach.toml."""
 
 
 @dataclass(frozen=True)
 class Room:
-    """One question to a class, which each page says in its own language, and the votes so far.
+    """One question to a class, which each page shows in its own language, and the votes so far.
 
-    step: the name of a lesson.Step; asks: the fields of a lesson.Choice or Guess; top: the page's own, as a link has
-    it; shown: whether its answer is; phones: how many have come.
+    step: the name of a lesson.Step; asks: the fields of a lesson.Choice or Guess; top: that of the teacher's page, as
+    in a link; shown: whether the answer is shown; phones: how many have joined.
     """
 
     code: str
@@ -53,7 +53,7 @@ class Room:
 
     @classmethod
     def of(cls, code, text):
-        """Of what a store has under its code."""
+        """The Room stored as text under its code."""
         if text is None:
             return None
         record = json.loads(text)
@@ -62,7 +62,7 @@ class Room:
 
 
 def possible(asks, value):
-    """Whether a vote is an answer."""
+    """Whether a vote is one of the possible answers."""
     if "options" in asks:
         return value in asks["options"]
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -70,7 +70,7 @@ def possible(asks, value):
 
 
 def network(address):
-    """What one person has all of: an address, of IPv6 the first half."""
+    """The part of an address that belongs to one person: all of it, but only the first half of an IPv6 address."""
     try:
         found = ipaddress.ip_address(address)
     except ValueError:
@@ -81,20 +81,20 @@ def network(address):
 
 
 def mixed(*parts):
-    """A number from which nobody gets its parts back, in hexadecimal."""
+    """A hash of the parts, in hexadecimal, from which they cannot be recovered."""
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 class Rooms:
-    """The rooms in a store. clock: s, the same for all hosts."""
+    """The rooms in a store. clock: returns the time in s, the same on all hosts."""
 
     def __init__(self, store, votes_of_address=VOTES_OF_ADDRESS, clock=time.time):
         self._store, self._clock, self._votes_of_address = store, clock, votes_of_address
 
     def open(self, address, **question):
-        """(Room, key): a new one, with these fields of it; Refused("full" or "crowded") where there are too many."""
+        """(Room, key) of a new room with these fields; raises Refused("full" or "crowded") if there are too many."""
         now, old, found = self._clock(), [], []
-        # so many addresses have the same: which one it was is not kept
+        # many addresses share the same six digits, so that the address itself is not stored
         address = mixed(network(address))[:6]
 
         def entered(text):
@@ -119,12 +119,12 @@ class Rooms:
         return Room.of(code, text), f"{code}.{secret}"
 
     def _living(self, text):
-        """The record in a text, or None."""
+        """The record in a text, or None if it has expired."""
         record = json.loads(text) if text else None
         return record if record and self._clock() - record["used"] <= LASTS else None
 
     def _read(self, code):
-        """(text, record) of a room, which this uses; (None, None) where there is none."""
+        """(text, record) of a room, and records its use; (None, None) if there is none."""
         text = self._store.read([code]).get(code) if CODE.fullmatch(code) else None
         record = self._living(text)
         if record is None:
@@ -137,7 +137,7 @@ class Rooms:
             self.use(code)
 
     def use(self, code):
-        """Lets a room last from now on."""
+        """Extends the life of a room from now on."""
         now = self._clock()
 
         def in_register(text):
@@ -148,11 +148,11 @@ class Rooms:
             record = self._living(text)
             return json.dumps(record | {"used": now}) if record else text
 
-        self._store.change(REGISTER, in_register)  # first: a room that lasts is never thought to be old
+        self._store.change(REGISTER, in_register)  # first, so that a room that is in use never looks expired
         self._store.change(code, in_room)
 
     def owned(self, key):
-        """The Room of a teacher's key; Refused("over") where there is none, or it is another's."""
+        """The Room of a teacher's key; raises Refused("over") if there is none or if the key is wrong."""
         code, secret = key.split(".")
         text, record = self._read(code)
         if record is None or not hmac.compare_digest(record["owner"], mixed(secret)):
@@ -160,7 +160,7 @@ class Rooms:
         return Room.of(code, text)
 
     def close(self, key):
-        """Forgets a teacher's room and its votes, if it is there."""
+        """Deletes a teacher's room and its votes, if it exists."""
         try:
             code = self.owned(key).code
         except Refused:
@@ -170,7 +170,7 @@ class Rooms:
             {each: entry for each, entry in json.loads(text or "{}").items() if each != code}))  # fmt: skip
 
     def _owners(self, key, changed):
-        """The Room of a teacher's key after changed(record); Refused("over") as owned()."""
+        """The Room of a teacher's key after changed(record); raises Refused("over") as owned() does."""
         code, found = self.owned(key).code, []
 
         def change(text):
@@ -184,7 +184,8 @@ class Rooms:
         return Room.of(code, found[0])
 
     def ask(self, key, **question):
-        """Has a teacher's room ask another question; the votes on the one before are kept, and come back with it."""
+        """Makes another question the current one in a teacher's room; votes on the previous one are kept, and restored
+        with it."""
 
         def changed(record):
             if record["step"] == question["step"]:
@@ -195,15 +196,15 @@ class Rooms:
         return self._owners(key, changed)
 
     def reveal(self, key):
-        """Shows the answer in a teacher's room: no vote is taken any more."""
+        """Shows the answer in a teacher's room; no more votes are accepted."""
         return self._owners(key, lambda record: {"shown": True})
 
     def reset(self, key):
-        """Forgets all votes and phones in a teacher's room, for the next class."""
+        """Deletes all votes and phones in a teacher's room, for the next class."""
         return self._owners(key, lambda record: EMPTY)
 
     def ballot(self, code, phone, address=""):
-        """(Room, the vote of this phone or None), and the phone has come; (None, None) where there is no room."""
+        """(Room, the vote of this phone or None), and counts the phone as joined; (None, None) if there is no room."""
         text, record = self._read(code)
         if record is None:
             return None, None
@@ -227,8 +228,8 @@ class Rooms:
         return Room.of(code, text), mine[0] if mine else None
 
     def vote(self, code, phone, address, value, step=None):
-        """Counts the vote of a phone (any text that it is known by) in place of its earlier one, or raises Refused.
-        step: the question that the phone had, of which the class may have gone on."""
+        """Counts the vote of a phone (identified by any text) in place of its earlier one, or raises Refused. step: the
+        question that the phone shows; the class may have moved on to another."""
         if not CODE.fullmatch(code):
             raise Refused("gone")
         phone, address, now = mixed(code, phone), mixed(code, network(address))[:6], self._clock()
@@ -260,5 +261,5 @@ class Rooms:
         self._use(code, *found)
 
     def look(self, codes):
-        """{code: text} of those that are there; Room.of reads a text, where it is another than before."""
+        """{code: text} of the rooms that exist; Room.of() reads a text that has changed."""
         return self._store.read(codes)

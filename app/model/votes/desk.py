@@ -1,4 +1,4 @@
-"""The one thread of a process that talks to the store of votes, and the pages that look at rooms in it."""
+"""The only thread of a process that talks to the store of votes, and the pages that watch rooms in it."""
 
 import logging
 import math
@@ -12,17 +12,18 @@ from app.model.votes.ballots import Away, store
 from app.model.votes.classroom import LASTS, USED, VOTES_OF_ADDRESS, Room, Rooms
 
 LOOK_EVERY = 0.5  # s
-PAUSE = 2.0  # s for which a store that did not answer is not asked again
-PHONES_EVERY = 2.0  # s: no oftener is a phone told that others have voted
+PAUSE = 2.0  # s for which the store is not asked again after it did not answer
+PHONES_EVERY = 2.0  # s: a phone is told of the votes of others at most this often
 MOST_WAITING = 1000
 
 log = logging.getLogger("tippe")
 
 
 class Desk:
-    """The one thread of this process that talks to the store: pages ask, and are told in that thread.
+    """The only thread of this process that talks to the store: pages put requests to it, and are called back in that
+    thread.
 
-    Who does not answer keeps no page waiting; and what 250 pages look at is read once.
+    So a store that does not answer makes no page wait, and what 250 pages watch is read once.
     """
 
     def __init__(self, where=None, votes_of_address=VOTES_OF_ADDRESS):
@@ -31,11 +32,11 @@ class Desk:
         self._thread, self._lock, self._rooms, self._away = None, threading.Lock(), None, (-math.inf, None)
 
     def keep(self, where, votes_of_address):
-        """To be called first, if at all: where votes are kept, as TIPPE_VOTES says it."""
+        """To be called before anything else, if at all: where votes are stored, as in TIPPE_VOTES."""
         self._where, self._votes_of_address = where, votes_of_address
 
     def ask(self, work, done):
-        """Has done(result of work(Rooms)) called; or of the exception: Refused, Away, or else a bug."""
+        """Calls done() with the result of work(Rooms), or with its exception: Refused, Away, or that of a bug."""
         with self._lock:
             if self._thread is None:
                 self._thread = threading.Thread(target=self._serve, name="votes", daemon=True)
@@ -46,11 +47,12 @@ class Desk:
             done(Away("full"))
 
     def watch(self, code, told, votes=True):
-        """Has told(Room) called now and whenever it changes (without votes: of these not at each), told(None) when it
-        is closed, told(Away) while nobody can say. Returns what ends this."""
+        """Calls told(Room) now and whenever the room changes (with votes=False, new votes are not told at once),
+        told(None) when it is closed, and told(Away) while the store does not answer. Returns a function that ends
+        this."""
         watch = Watch(code, told, votes)
         self._watches.add(watch)
-        self.ask(lambda rooms: None, lambda result: None)  # it may sleep
+        self.ask(lambda rooms: None, lambda result: None)  # wakes the thread if it sleeps
         return lambda: self._watches.discard(watch)
 
     def _serve(self):
@@ -96,7 +98,7 @@ class Desk:
 
     def _look(self, rooms):
         watches = tuple(self._watches)
-        now, used = time.monotonic(), {watch.code for watch in watches if watch.votes}  # by those who own them
+        now, used = time.monotonic(), {watch.code for watch in watches if watch.votes}  # rooms watched by their owners
         self._used = {code: self._used.get(code, now) for code in used}
         for code, since in self._used.items():
             if now - since > USED:
@@ -118,19 +120,19 @@ class Desk:
 
 @lru_cache(64)
 def read(code, text):
-    """Room.of, once for all pages that look at it."""
+    """Room.of(), cached for all pages that watch the room."""
     return Room.of(code, text)
 
 
 class Watch:
-    """One page that looks at a room."""
+    """A page that watches a room."""
 
     def __init__(self, code, told, votes):
         self.code, self.votes, self._told, self._last = code, votes, told, ...
         self._room, self._when = None, -math.inf
 
     def tell(self, text, away=None):
-        """What is there now, if that is news to it."""
+        """Tells the page what is there now, if that has changed."""
         if away is not None:
             if self.votes and not isinstance(self._last, Away):
                 self._last = away
@@ -145,10 +147,10 @@ class Watch:
         self._told(room)
 
     def _waits(self, room):
-        """Whether it is news of votes alone, too soon after the last; it comes with a later look."""
+        """Whether only votes have changed, too soon after the last time; they will come with a later look."""
         before, early = self._room, time.monotonic() - self._when < PHONES_EVERY
         return bool(early and room and before and (room.step, room.shown) == (before.step, before.shown))
 
 
 DESK = Desk()
-"""That of this process."""
+"""The Desk of this process."""

@@ -1,4 +1,4 @@
-"""A family of tops compared: a map of the share of their motions that friction leaves."""
+"""A family of tops compared: a map of the share of their motions that is possible with a given friction."""
 
 import time
 from functools import partial
@@ -25,14 +25,14 @@ SPANS = {"tippe": np.linspace(0.02, 0.5, 49), "ordinary": np.linspace(-10.0, -0.
 
 
 class Compare:
-    """compute() fills it. scene: the first; show() is for others, and what is asked for
-    from then on is about these. runs: the page's Runs."""
+    """view: the map and its inputs; compute() fills it. scene: the first one; after show() requests refer to another
+    scene. runs: the page's Runs."""
 
-    # what a map is made with: name, symbol
+    # the parameters of a map: name, symbol
     FIELDS = (("I1", "<i>I</i><sub>1</sub>"), ("K_R", "<i>K</i><sub>R</sub>"), ("mu_s", "<i>μ</i><sub>s</sub>"))
 
     def __init__(self, scene, runs=None):
-        self._scene, self._runs, self._run = scene, runs or Runs(), None  # of the map
+        self._scene, self._runs, self._run = scene, runs or Runs(), None  # the present run, if any
         self.kind = self._buttons("kinds")
         self.kind.value = "ordinary" if scene.top.a < 0 else "tippe"
         self.kind.param.watch(lambda event: self._prefill(), "value")
@@ -67,7 +67,7 @@ class Compare:
 
     @property
     def map_view(self):
-        """The map of the share, and what starts and stops it."""
+        """The map of the share, and the buttons that start and stop it."""
         with_these = [beside(symbol, self.entries[name]) for name, symbol in self.FIELDS]
         return [
             self.kind,
@@ -85,7 +85,7 @@ class Compare:
         self._scene = scene
 
     def _prefill(self):
-        """The explorer's own numbers where its top is of this kind, else those of a preset that is."""
+        """Fills in the explorer's own numbers if its top is of this kind, otherwise those of a preset."""
         scene, ordinary_tops = self._scene, self.kind.value == "ordinary"
         I1, K_R = scene.top.I1, scene.inputs["K_R"]
         if (scene.top.a < 0) != ordinary_tops:
@@ -115,8 +115,7 @@ class Compare:
         return values
 
     def compute(self, event=None):
-        """The map, beside the server, so that this page and all others stay served. Where there can be none, a sentence
-        says why."""
+        """Computes the map in a thread. If it is impossible, a sentence says why."""
         a = SPANS[self.kind.value]
         try:
             asked = self._asked()
@@ -137,13 +136,13 @@ class Compare:
         shown = time.monotonic()
         for done, found in steps:
             run.look()
-            # a message now and then: more would queue up on a slow line, and be under way when a page is closed
+            # rarely: on a slow line more messages would queue up, and be under way when a page is closed
             if found.share.size == done or time.monotonic() > shown + PICTURE_EVERY:
                 shown = time.monotonic()
                 self._runs.post(partial(self._show_rows, run, done, found, span))
 
     def _show_rows(self, run, done, found, span):
-        """The map as far as it is."""
+        """Shows the map as far as it has been computed."""
         if not run.stopped:
             self.shares.data = {"share": [found.share], **span}
             self.bar.object = _progress(100 * done / found.share.size)
@@ -162,6 +161,6 @@ def _progress(percent):
 
 
 def _sides(values):
-    """Half a cell beyond the first and the last."""
+    """The outer edges of the first and the last cell."""
     step = values[1] - values[0]
     return values[0] - step / 2, values[-1] + step / 2

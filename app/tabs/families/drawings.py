@@ -1,4 +1,4 @@
-"""Figs. 5 and 6 of one top as SVG: text that a thread can write, where a Bokeh figure would be fifty models."""
+"""Figs. 5 and 6 of one top as SVG: text that a thread can write, whereas a Bokeh figure would be fifty models."""
 
 import html
 
@@ -7,29 +7,29 @@ import numpy as np
 from app.model.colours import COLOURS, FAINT, INK
 from app.text import say, written
 
-WIDTH = 360  # px: a phone's; wider where there is room, and its type with it
+WIDTH = 360  # px: that of a phone; where there is more room, the figure and its letters are scaled up
 LINE, PALE, RULE = f"var(--ink, {INK})", f"var(--faint, {FAINT})", "var(--rule, #e7ebef)"
 SHEET = "color-mix(in srgb, #9a7434 26%, var(--card, #fff))"
 
 
 def letters(letter, below=""):
-    """A symbol, in SVG: what stands below it goes back up to the line."""
+    """A symbol in SVG; the subscript returns to the baseline."""
     down = f'<tspan dy="3" font-size="9">{below}</tspan><tspan dy="-3">&#8203;</tspan>' if below else ""
     return f'<tspan font-style="italic">{letter}</tspan>{down}'
 
 
 K_J, F_Z, THETA = letters("K", "J"), letters("F", "z"), letters("θ")
 HALO = f'paint-order="stroke" stroke="var(--card, white)" stroke-width="4" fill="{LINE}"'
-ROOM = 1.1  # rad, that a name needs
+ROOM = 1.1  # rad: room for a name
 DASHED = 'stroke-dasharray="6 4"'
-# Fig. 5 as a drawing: K_J runs so far back and up, of the width and the height of the picture
+# Fig. 5 as a drawing: how far the K_J axis runs back and up, relative to width and height of the picture
 BACK, UP, HIGH = 0.28, 0.45, 0.5
 
 
 class Drawing:
-    """A picture whose numbers lie in x (from, to), left to right, and y (from, to), upwards.
+    """A picture with the coordinate ranges x (from, to), left to right, and y (from, to), upwards.
 
-    margins: px around them, left, right, top, bottom.
+    margins: px around it, left, right, top, bottom.
     """
 
     def __init__(self, label, height, x, y, margins=(0, 0, 24, 0)):
@@ -39,13 +39,13 @@ class Drawing:
         self._parts, self._label = [], html.escape(label)
 
     def px(self, x, y):
-        """Of numbers or arrays."""
+        """Pixels of coordinates, which are numbers or arrays."""
         (left, right), (low, high) = self._x, self._y
         across, up = (np.asarray(x) - left) / (right - left), (np.asarray(y) - low) / (high - low)
         return self._left + self._wide * across, self._top + self._high * (1 - up)
 
     def path(self, x, y, style, closed=False):
-        """A line through points; where one is nan it has a gap."""
+        """A line through points, with gaps at nan."""
         pen, steps = "M", []
         for a, b in zip(*self.px(x, y), strict=True):
             if np.isfinite(a + b):
@@ -73,9 +73,9 @@ def pen(colour, width=1.5, more=""):
 
 
 def waterfall(shown, end, most):
-    """Fig. 5 of a family.Region as a drawing: a sheet of f1^2 theta_dot^2 stands on every tieline, K_J to the back.
+    """Fig. 5 of a family.Region as a drawing: a sheet of f1^2 theta_dot^2 stands on each tieline, K_J to the back.
 
-    end: where the theta axis ends; most: the height, in K_R^2, that there is room for.
+    end: the end of the theta axis; most: the largest height, in K_R^2, for which there is room.
     """
 
     def place(theta, part, height=0.0):
@@ -103,7 +103,7 @@ def waterfall(shown, end, most):
 
 
 def plane(shown, mu_s):
-    """Fig. 6 of one top, a family.Region: K_J over all tilts, each curve with its words beside it."""
+    """Fig. 6 of one top, a family.Region: K_J over all tilts, each curve with its name beside it."""
     end, pole = np.pi, shown.pole
     drawing = Drawing(say("roll.figures.plane"), 262, (0, end), (0, 1.06), (34, 8, 10, 34))
     drawing.text(0, 1.06, K_J, 'font-size="14" text-anchor="end"', shift=(-12, 8))
@@ -114,7 +114,7 @@ def plane(shown, mu_s):
         drawing.path([0, end], [value / pole] * 2, pen(RULE, 1))
         drawing.text(0, value / pole, written(value, "g"), 'text-anchor="end"', shift=(-5, 4))
     steady, lift, slip, part = shown.lift.theta_steady, shown.lift, shown.slip, shown.part
-    # where even the steady precession breaks a limit, the tieline is a point there
+    # where even the steady precession violates a limit, the tieline is a point
     left, right, first, last = (np.where(np.isnan(theta), steady, theta) for theta in (
         lift.theta_inner, lift.theta_outer, slip.theta_inner, slip.theta_outer))  # fmt: skip
     for one, other in ((left, first), (last, right)):
@@ -143,8 +143,8 @@ def _round_steps(most):
 
 
 def _name(drawing, words, curve, beyond, part, at, side=1):
-    """A curve's name at this height, beyond all curves, to their right or, side -1, to their left; where there is no
-    room, on the other side. A line leads to its curve."""
+    """The name of a curve at this height, to the right of all curves or, with side -1, to their left; on the other side
+    if there is no room. A line leads to the curve."""
     row = int(np.argmin(np.abs(part - at)))
     if not np.isfinite(curve[row] + beyond[row]):
         return

@@ -1,4 +1,4 @@
-"""Which tops can turn over: the map of all tops, and of the one that is looked at its Figs. 5 and 6, large."""
+"""Which tops can turn over: the map of all tops, and Figs. 5 and 6 of the selected one."""
 
 from functools import partial
 
@@ -17,11 +17,11 @@ from app.text import listed, say
 from app.widgets.cards import BUTTON, alert, flow, note, on_click, words
 
 HIGH = 620  # px
-POINTS = 80  # of a silhouette
+POINTS = 80  # of an outline
 
 
 class TopsMap(Bundled):
-    """The map. What it shows is Python's, what is asked of it the browser's."""
+    """The map. Python sets what it shows, the browser what is requested."""
 
     state = param.Dict(default={}, doc="tops: name, label, a, ratio and outline of each; here: a, ratio and outline of "
                        "the page's own; chosen: the name of the one that is looked at.")  # fmt: skip
@@ -34,8 +34,8 @@ class TopsMap(Bundled):
 
 
 class Tops:
-    """scene: the first; show() is for others. ask: inputs of the Explorer. use(name), change(name): a known top in the
-    Lab, or in Build."""
+    """scene: the first one; show() sets others. ask: called with inputs of the Explorer; use(name), change(name): show
+    a known top in the Lab, or in Build."""
 
     def __init__(self, scene, ask, use, change, runs=None):
         self._scene, self._ask, self._runs = scene, ask, runs or Runs()
@@ -62,7 +62,7 @@ class Tops:
         return [self.head, flow(self.use, self.change), self.figures]
 
     def show(self, scene):
-        """A known top that the page has come to is looked at; of another the one that was."""
+        """Selects the known top that the page has changed to, if any; otherwise the selection stays."""
         before, known, self._scene = known_of(self._scene), known_of(scene), scene
         self._look(known) if known and known is not before else self._put()
 
@@ -74,7 +74,7 @@ class Tops:
         self._look(found)
 
     def _moved(self, event):
-        """A ball with these numbers, with the I1 of the page's top."""
+        """Asks for a ball with these numbers and the I1 of the page's top."""
         _, a, ratio = asked.parts(event.new, asked.number, asked.number, asked.number)
         self._ask(a=a, I3=self._scene.top.I1 / ratio)
 
@@ -102,7 +102,7 @@ class Tops:
 
 
 def places():
-    """The known tops for the map."""
+    """The known tops on the map."""
     return [{"name": top.name, "label": spoken_name(top.name), "a": top.top.a, "ratio": top.ratio,
              "outline": outline(top.outline)} for top in known_tops()]  # fmt: skip
 
@@ -114,7 +114,7 @@ def outline(profile):
 
 
 def sentence(top: KnownTop):
-    """What a top does as far as its two numbers decide."""
+    """What a top does, as far as its a and I1/I3 determine it."""
     group = top.limits.group
     key = {"rises part of the way": "part", "can invert": "turns", "never rises": "never", "neutral": "ball",
            "can stand upright": "stands", "never stands upright": "falls"}[group]  # fmt: skip

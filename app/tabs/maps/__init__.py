@@ -1,1 +1,1 @@
-"""Families: tops side by side, and maps of many."""
+"""Maps of many runs of a sliding top."""

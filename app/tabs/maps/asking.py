@@ -1,4 +1,4 @@
-"""What can be set of a map: selects, and entries that are typed into; together they are a Map."""
+"""The inputs of a map: selects, and entries to type into; together they give a Map."""
 
 from contextlib import contextmanager
 from dataclasses import replace
@@ -19,7 +19,7 @@ SELECT = {"size": "small", "width": 172, "margin": (8, 0, 0, 0)}
 
 
 class Settings:
-    """changed: called after a hand has set something; gone: after it has typed another place of the bead."""
+    """changed: called after an input was set by hand; gone: after another position of the bead was typed."""
 
     def __init__(self, asked, colour, place, changed, gone):
         self._changed, self._gone, self._silent = changed, gone, False
@@ -47,7 +47,7 @@ class Settings:
 
     @property
     def view(self):
-        """In the order of the drawing: what is across and up, the colour, the law; then ranges and numbers."""
+        """In the order of the drawing: the axes, the colour, the law; then ranges and numbers."""
         entry = self.entries
         ranges = [flow(words(say(f"maps.{side}"), sizing_mode=None, width=80),
                        *(beside(say(f"maps.{end}"), entry[f"{side}_{end}"]) for end in LIMITS), margin=(4, 0))
@@ -58,7 +58,7 @@ class Settings:
 
     @property
     def place_view(self):
-        """Where the bead is."""
+        """The position of the bead."""
         return flow(words(say("maps.here"), sizing_mode=None), *(self.entries[f"here_{side}"] for side in SIDES),
                     margin=(4, 0))  # fmt: skip
 
@@ -71,7 +71,7 @@ class Settings:
             self._silent = before
 
     def show(self, asked, colour, place):
-        """All of a Map, and the rest."""
+        """Shows all inputs of a Map, the colour and the bead."""
         self._slides = {"body": asked.body, "own": asked.own}
         with self._quietly():
             for name, value in (("across", asked.across), ("up", asked.up), ("colour", colour), ("law", asked.law)):
@@ -88,14 +88,14 @@ class Settings:
             self._write({f"here_{side}": x for side, x in zip(SIDES, place, strict=True)})
 
     def look_at(self, across, up):
-        """Other ranges."""
+        """Sets other ranges."""
         with self._quietly():
             self._write({f"{side}_{end}": float(span[i]) for side, span in (("across", across), ("up", up))
                          for i, end in enumerate(LIMITS)})  # fmt: skip
         self._changed()
 
     def asked(self):
-        """What is set, as a Map; raises ValueError, TopError."""
+        """The present inputs, as a Map; raises ValueError, TopError."""
         value = {name: self._number(name) for name in self.entries if not name.startswith("here")}
         chosen = {name: select.value for name, select in self.choices.items()}
         axes = (chosen["across"], chosen["up"])
@@ -109,10 +109,10 @@ class Settings:
         return replace(asked, values=fixed)
 
     def place(self):
-        """Where the bead is typed to be; raises ValueError."""
+        """The position of the bead that was typed; raises ValueError."""
         return [self._number(f"here_{side}") for side in SIDES]
 
-    # ---- a hand ----
+    # ---- input by hand ----
 
     def _chosen(self, name, event):
         if self._silent:

@@ -1,4 +1,4 @@
-"""A map as a file, with all its parameters and units in it: CSV, NPZ, PNG, SVG, and the Python that makes it."""
+"""A map as a file with all its parameters and units: CSV, NPZ, PNG, SVG, and the Python program that computes it."""
 
 import csv
 import io
@@ -20,8 +20,8 @@ from app.text import listed, say, written
 DPI = 300
 KINDS = ("csv", "npz", "png", "svg")
 OF_LAW = {"smoothed": {"second": "(gR)^1/2"}, "contensou": {"second": "mm"}, "viscous": {"mu": "(gR)^-1/2"}}
-"""{law: {number of it: its unit}}, where it has one."""
-DASHES = {"dotdash": "dashdot"}  # which Bokeh has and matplotlib has not
+"""{law: {parameter: its unit}}, if it has one."""
+DASHES = {"dotdash": "dashdot"}  # Bokeh's names that matplotlib does not have
 LAWS = {
     "coulomb": "SimpleNamespace(mu_k=v.mu, mu_s=np.maximum(v.mu, v.second))",
     "viscous": "SimpleNamespace(gamma=v.mu)",
@@ -31,7 +31,7 @@ LAWS = {
 
 
 def made(level, colour, kind):
-    """One of KINDS, as bytes."""
+    """A file of one of KINDS, as bytes."""
     return {"csv": _csv, "npz": _npz}.get(kind, lambda *given: _drawn(*given, kind))(level, colour)
 
 
@@ -91,7 +91,7 @@ def _drawn(level, colour, kind):
 
 
 def _ends(axes, level):
-    """Draws them, and gives the keys."""
+    """Draws the ends, and returns the entries of the key."""
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
 
@@ -136,7 +136,7 @@ def _number(x, _):
 
 
 def _fixed(asked):
-    """What is the same in all cells, in words."""
+    """The values that are the same in all cells, in words."""
     values, named = _parameters(asked)["values"], listed("maps.quantities")
     second = values.pop("second", None)
     said = [f"{named[name]} {written(value, '.4g')} {QUANTITIES[name].unit}".strip() for name, value in values.items()]
@@ -147,7 +147,7 @@ def _fixed(asked):
 
 
 def python(asked: Map):
-    """A program whose `many` has what the map shows, row by row of up."""
+    """A program whose `many` contains what the map shows, row by row from below."""
     values = {name: repr(float(value)) for name, value in asked.start.items()} | {asked.across: "x", asked.up: "y"}
     given = ", ".join(f"{name}={value}" for name, value in values.items())
     tops = {"a", "ratio"} & {asked.across, asked.up}

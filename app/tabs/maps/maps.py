@@ -1,4 +1,4 @@
-"""The tab Maps: a map of runs, what one of them does, the same over the spin alone, and what is set."""
+"""The tab Maps: a map of runs, one of its runs, the dependence on spin alone, and the inputs."""
 
 import time
 from dataclasses import replace
@@ -33,13 +33,13 @@ MAP = Map()
 PICTURE_EVERY = 0.3  # s
 SIDE = {"background": "var(--card, white)", "border-radius": "10px", "padding": "10px 14px", "box-sizing": "border-box"}
 ROW = {"display": "flex", "flex-flow": "row wrap", "gap": "12px", "padding": "12px", "align-items": "start"}
-WHY = 3  # kinds of disagreement
+WHY = 3  # kinds of disagreement that are shown
 
 
 class Maps:
-    """The tab's content. runs: the page's Runs; scene: the page's, whose top slides, else the toy of the arrival.
-    throw(toy, spin, tilt, mu, look) lets the run of the bead go in the Lab; look: and goes there. usual: what a link
-    need not say of the choice."""
+    """The content of the tab. runs: the page's Runs; scene: the page's, whose top slides; without it, the toy of the
+    arrival. throw(toy, spin, tilt, mu, look) starts the run at the bead in the Lab; look: and shows the Lab. usual: the
+    choices that a link need not mention."""
 
     def __init__(self, runs=None, scene=None, throw=None):
         self._runs, self._throw, self._run = runs or Runs(), throw, None
@@ -60,8 +60,8 @@ class Maps:
             for name in ("stop", "whole", "throw")
         )
         shows = [pmui.Button(label=say("maps.show_one"), **BUTTON) for _ in range(WHY)]
-        # rows come and go, not their buttons: a button that changes before its script has come breaks
-        # and not what lays them out, whose own style would show it all the same
+        # rows come and go, but not their buttons: a button that changes before its script has loaded breaks
+        # nor their container, whose own style would show all of it anyway
         self.thrown_row, *self.show_rows = rows = [
             pn.Column(flow(button), sizing_mode="stretch_width", margin=0) for button in (self.thrown, *shows)
         ]
@@ -85,7 +85,7 @@ class Maps:
 
     @property
     def view(self):
-        """The two sides, one above the other where there is little room."""
+        """The two sides; one above the other if there is little room."""
         left = [self.head, self.names, _figure(self.map.figure),
                 flow(self.stop, self.whole, self.bar, margin=(4, 0)), self.said, words(note(say("maps.hint"))),
                 self.worst, *self.steady.view,
@@ -99,16 +99,16 @@ class Maps:
         return pn.Column(*sides, sizing_mode="stretch_width", margin=0, styles=ROW)
 
     def show(self, scene):
-        """The page has another top, perhaps: then that slides."""
+        """Uses the top of the page's new scene, if it has changed."""
         body, self._outline = of_page(scene), scene.profile
         if self._seen not in (None, body):
             self.choice.asked = replace(self.choice.asked, body=body[0], own=body[1])
         self._seen = body
 
-    # ---- what a person sets ----
+    # ---- input by hand ----
 
     def _set(self):
-        """By the settings."""
+        """Draws the map of the present settings."""
         try:
             asked = self.settings.asked()
         except ValueError as error:
@@ -133,10 +133,10 @@ class Maps:
     # ---- the map ----
 
     def draw(self):
-        """What the choice says; whatever was being drawn stops."""
+        """Draws the map that is chosen; a run under way stops."""
         colour = self.choice.colour
         asked = replace(self.choice.asked, nudged=colour == "growth")
-        if asked.body == OWN and asked.own is None:  # of a link, whose other words say what the page's top is
+        if asked.body == OWN and asked.own is None:  # from a link, in which the page's top is given separately
             asked = replace(asked, body=(self._seen or (asked.body, None))[0], own=(self._seen or (None, None))[1])
         self.settings.show(self.choice.asked, colour, self.choice.place)
         self.said.object = ""
@@ -150,7 +150,7 @@ class Maps:
         self.names.object = note(f"↑ {with_unit(asked.up)} &emsp; → {with_unit(asked.across)}")
         self.python.text = python(asked)
         self.map.begin(asked)
-        for said in (self.key, self.worst, *self.whys):  # of the map before
+        for said in (self.key, self.worst, *self.whys):  # they belong to the previous map
             said.object = ""
         for row in self.show_rows:
             row.visible = False
@@ -163,7 +163,7 @@ class Maps:
         self._go(self._within(asked, before))
 
     def _within(self, asked, before):
-        """The bead on the map: where it was, if that is on it, else in the middle."""
+        """The position of the bead: unchanged if it is on the map, otherwise in the middle."""
         place = self.choice.place
         same = before is None or (asked.across, asked.up) == (before.across, before.up)
         inside = same and all(low <= x <= high for x, (low, high) in zip(place, spans(asked), strict=True))
@@ -174,7 +174,7 @@ class Maps:
         shown = 0.0
         if level is None:
             for level in solve(asked, run.look):
-                # a message now and then: more would queue up on a slow line
+                # messages only now and then: on a slow line more would queue up
                 if level.whole or time.monotonic() > shown + PICTURE_EVERY:
                     shown = time.monotonic()
                     self._runs.post(partial(self._show_part, run, level.copy(), run.reached))
@@ -215,7 +215,7 @@ class Maps:
     # ---- one run ----
 
     def _by_hand(self, data):
-        """A place, or the corners of a box, that the browser sends; what no page sends is passed over."""
+        """A place, or the corners of a box, sent by the browser; what no page sends is ignored."""
         try:
             xs, ys = ([sent.number(x) for x in data[name][:2]] for name in ("x", "y"))
             cell = bool(data["cell"][0])
@@ -229,7 +229,7 @@ class Maps:
             self.go(xs[0], ys[0], cell)
 
     def go(self, across, up, cell=False):
-        """To the run of a place; cell: of the middle of the cell that it is in."""
+        """Moves the bead to a place; cell: to the centre of the cell that contains it."""
         if cell and self.level is not None:
             i, j = self.level.cell(across, up)
             across, up = float(self.level.x[j]), float(self.level.y[i])
@@ -237,7 +237,7 @@ class Maps:
 
     def _go(self, place):
         if place == self.choice.place:
-            self._show_place()  # what came to nothing before is asked for again
+            self._show_place()  # a run that failed before is tried again
         else:
             self.choice.place = place
 

@@ -1,4 +1,4 @@
-"""A Level of a map -> Bokeh: one picture of cells, a hatch on those that are mixed, closed-form lines, the bead."""
+"""Level of a map -> Bokeh: an image of its cells, hatching of mixed cells, lines of closed forms, the bead."""
 
 import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, Label, Line, MultiLine, Quad, Range1d, Scatter, Segment, Span
@@ -16,13 +16,13 @@ from app.widgets.plots import draw, plain
 DARK = "#1b2430"
 DASHES = {"stands": "dashed", "leaves": "dotted", "painleve": "solid", "window_low": "dashdot",
           "window_high": "dotdash"}  # fmt: skip
-LEAST_AREA, LEAST_ROOM = 0.06, 0.05  # of the map, of its width to either side: an end with less is in the key alone
+LEAST_AREA, LEAST_ROOM = 0.06, 0.05  # of the map's area and width: an end with less room is named in the key only
 EDGE = 0.25  # of the width
-WIDE = 4.0  # times as much room as above and below
+WIDE = 4.0  # a name needs this much more room to the sides than above and below
 
 
 class MapFigure:
-    """The figure; show() fills it. go: called with a place and whether it was a click on a cell."""
+    """The figure; show() fills it. go: called with a place and whether it is that of a clicked cell."""
 
     def __init__(self, go):
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 1))
@@ -64,7 +64,7 @@ class MapFigure:
         self.hand.on_change("data", lambda attr, old, new: go(new))
 
     def begin(self, asked):
-        """Another map: nothing of the one before is left."""
+        """Clears the figure for another map."""
         self.figure.x_range.update(start=asked.across_range[0], end=asked.across_range[1])
         self.figure.y_range.update(start=asked.up_range[0], end=asked.up_range[1])
         self._to_axes[0].glyph.x0, self._to_axes[1].glyph.y0 = asked.across_range[0], asked.up_range[0]
@@ -74,14 +74,14 @@ class MapFigure:
             word.visible = False
 
     def show(self, level, colour):
-        """What there is of a level; a coarser one stays below until it is whole."""
+        """Shows a level as far as it is computed; the coarser one stays below until it is complete."""
         left, right, bottom, top = *level.asked.across_range, *level.asked.up_range
         drawn = {"image": [cells(level, colour)], "x": [left], "y": [bottom], "w": [right - left], "h": [top - bottom]}
         self.fine.data = drawn
         if level.whole:
             self.coarse.data = drawn
             self._name_areas(level, colour)
-        self._hatch.glyph.hatch_color = DARK if colour == "end" else "#fefefe"  # as seen on these
+        self._hatch.glyph.hatch_color = DARK if colour == "end" else "#fefefe"  # visible on the cells
         if level.finest:
             self._mark(level)
             drawn = lines(level.asked)
@@ -98,8 +98,8 @@ class MapFigure:
         named = listed("maps.ends")
         for word, end in zip(self.words, ends.NAMES, strict=True):
             own = level.end == end
-            room = distance_transform_edt(np.pad(own, 1), sampling=(WIDE, 1))[1:-1, 1:-1]  # for a word, which is wide
-            room[[0, -1]] = 0  # a word there would be cut off
+            room = distance_transform_edt(np.pad(own, 1), sampling=(WIDE, 1))[1:-1, 1:-1]  # for a name, which is wide
+            room[[0, -1]] = 0  # a name there would be cut off
             if colour != "end" or own.mean() < LEAST_AREA or room.max() < LEAST_ROOM * len(level.x):
                 word.visible = False
                 continue
@@ -110,7 +110,7 @@ class MapFigure:
 
 
 class RunFigure:
-    """The tilt of one run over time, with the moment at which the stage shows it; a hand puts it to another."""
+    """The tilt of one run over time, with the time that the stage shows; it can be dragged to another."""
 
     def __init__(self):
         self.figure = fig = plain(x_range=Range1d(0, 1), y_range=Range1d(0, 180))
@@ -132,7 +132,7 @@ class RunFigure:
 
 
 def _beside_edge(level, j, room):
-    """Where a word stands, and which end of it is there: near a side of the map it would be cut off in its middle."""
+    """Where a name is placed and how it is aligned: near a side of the map, so that it is not cut off."""
     x, n = level.x, len(level.x)
     left, right = j < EDGE * n, n - 1 - j < EDGE * n
     if right:
@@ -141,19 +141,19 @@ def _beside_edge(level, j, room):
 
 
 def half_step(x):
-    """Half of the distance from one to the next."""
+    """Half the distance between neighbours."""
     return (x[1] - x[0]) / 2
 
 
 def span(level, colour):
-    """The least and the largest of a column, of what there is; None where there is nothing."""
+    """The smallest and the largest value of a column so far; None if there are none."""
     values = level.columns[colour]
     values = values[np.isfinite(values)]
     return (float(values.min()), float(values.max())) if values.size else None
 
 
 def cells(level, colour):
-    """The colours as Bokeh takes them, (up, across) of uint32; transparent where no run was made or nothing is."""
+    """The colours for Bokeh, (up, across) of uint32; transparent where no cell was run or there is no value."""
     rgba = np.zeros((*level.end.shape, 4), np.uint8)
     if colour == "end":
         for end, name in ends.COLOUR.items():

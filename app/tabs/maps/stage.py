@@ -1,4 +1,5 @@
-"""The top of the run at the bead in 3-D, on a clock that the run's curve follows; each run begins anew."""
+"""The top of the run at the bead in 3-D, with a clock that the run's curve follows; each run starts from the
+beginning."""
 
 from app.text import say
 from app.widgets.film_stage import FilmStage, put_motion
@@ -7,11 +8,11 @@ CLOCK = "map"
 
 
 def map_stage():
-    """Of the tab Maps."""
+    """The stage of the tab Maps."""
     return FilmStage(clock=CLOCK, label=say("maps.stage.label"), none=say("maps.stage.none"),
                      sizing_mode="stretch_width", height=260)  # fmt: skip
 
 
 def show_run(stage, found, outline):
-    """Puts a Found onto the stage; outline: of its body."""
+    """Shows a Found on the stage; outline: that of its body."""
     put_motion(stage, found.t, found.film, outline, 0.0)

@@ -1,5 +1,5 @@
-"""Below the map, all at the bead: the end tilt over the spin with the steady motions, growth and turning of small
-motions, and how the time of turning over scales."""
+"""Figures below the map, all at the bead: the final tilt over the spin with the steady motions, growth and rotation
+rates of small deviations, and the scaling of the time of inversion."""
 
 from functools import partial
 
@@ -23,11 +23,11 @@ from tippe_core import TopError
 
 COLOURS = {"upright": ACCENT, "tumbling": ends.COLOUR["stem"], "inverted": "#9b2d20"}
 DASHES = {True: "solid", False: "dashed"}
-SHADES = (ends.COLOUR["stem"], "#fefefe")  # of the dots after the first and the second time
+SHADES = (ends.COLOUR["stem"], "#fefefe")  # of the points after the first and the second time
 
 
 class Steady:
-    """view: its parts. show() computes what belongs to a place of a map, beside; the newest counts."""
+    """view: its parts. show() computes the results for a place of a map in a thread; the newest request counts."""
 
     def __init__(self, runs):
         self._runs, self._key, self._drawn = runs, None, False
@@ -66,7 +66,7 @@ class Steady:
                 words(key), pair, self.powers]  # fmt: skip
 
     def show(self, asked, place):
-        """Of the bead at a place of a Map."""
+        """Computes and draws the results for the bead at a place of a Map."""
         x = at_place(asked, place)
         self.here.data = {"x": [x["spin"]] * 2, "y": [0.0, 184.0]}
         moved = {name: value for name, value in x.items() if name != "spin"}
@@ -75,7 +75,7 @@ class Steady:
         if key == self._key:
             return
         self._key = key
-        if not self._drawn:  # else what stands there is still of the place before
+        if not self._drawn:  # else the figures still show the previous place
             self.title.object = _title(x)
             for fig in (self.bends, self.grow, self.turn):
                 fig.x_range.update(**dict(zip(("start", "end"), spins_of(asked), strict=True)))
@@ -94,7 +94,7 @@ class Steady:
                 self.says.object = alert(told(result))
             return
         if isinstance(result, Exception):
-            self._key = None  # to be asked again
+            self._key = None  # so that it is computed again
             self.says.object = note(ended(result))
             if not isinstance(result, Stopped):
                 raise result
@@ -108,7 +108,7 @@ class Steady:
             self.powers.object = of_powers(small.powers, x)
 
     def _clear(self):
-        """Nothing is drawn of the place before."""
+        """Clears the results of the previous place."""
         self._drawn, self.rates_title.object, self.powers.object = False, "", ""
         for source in (self.lines, *self.dots, *self.sweeps, self.life, *sum(self.branches.values(), ())):
             source.data = {name: [] for name in source.data}
@@ -145,7 +145,7 @@ def _title(x):
 
 
 def of_life(found):
-    """What becomes of the bead's run in the long, and whether going up and down differ."""
+    """What becomes of the bead's run in the long term, and whether the sweeps up and down differ."""
     life, said = found.life, []
     if np.isfinite(life.stands):
         said.append(say("maps.steady.stands", time=life.stands))
@@ -160,7 +160,7 @@ def of_life(found):
 
 
 def of_powers(powers, x):
-    """A table: how the time to pass 90 degrees goes with each quantity, by each law."""
+    """A table: how the time to reach 90 degrees scales with each quantity, for each law."""
     quantities, seconds = ("spin", "mu", "second"), listed("maps.quantities")
     by = {(power.law, power.quantity): power for power in powers}
     rows = []

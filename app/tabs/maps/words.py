@@ -1,4 +1,4 @@
-"""What the tab Maps says: the key of colours, what a run did, where runs and closed forms disagree."""
+"""The words of the tab Maps: the key of the colours, what a run did, where runs and closed forms disagree."""
 
 import numpy as np
 from bokeh.palettes import Viridis256
@@ -22,7 +22,7 @@ def _patch(style, text):
 
 
 def colours_say(level, colour):
-    """The key, by words."""
+    """The key of the colours, in words."""
     said = [f"<h2>{say('maps.colours_say')}</h2>"]
     if colour == "end":
         named = listed("maps.ends")
@@ -44,7 +44,7 @@ def colours_say(level, colour):
 
 
 def of_run(asked, across, up, found):
-    """What became of one run."""
+    """What happened in one run."""
     says = say("maps.run.says", across=_measured(across, asked.across), up=_measured(up, asked.up),
                end=listed("maps.ends")[found.end])  # fmt: skip
     times = [say("maps.run.passes", time=found.time_90) if np.isfinite(found.time_90) else say("maps.run.never")]
@@ -56,14 +56,14 @@ def of_run(asked, across, up, found):
 
 
 def of_worst(level):
-    """The worst numbers of a map, and what hatching is."""
+    """The largest errors of a map, and what hatching means."""
     drift = level.worst("C_J_drift")
     kept = power(drift) if np.isfinite(drift) else say("maps.drift_none")
     return say("maps.worst", energy=power(level.worst("energy_error")), drift=kept) + " " + say("maps.unsettled")
 
 
 def of_disagreement(found, asked, first):
-    """Where runs do otherwise than the closed form says, and why; first: of the kinds that there may be."""
+    """Where runs differ from a closed form, and why; first: whether it is the first kind of disagreement to be told."""
     if found is None:
         return note(say("maps.agree")) if first else ""
     low, high = written(found.low, ".3g"), _measured(found.high, asked.across)
@@ -86,11 +86,11 @@ def title(asked, colour):
 
 
 def unit_of(name):
-    """Of a quantity, as it is written after a number."""
+    """The unit of a quantity, as written after a number."""
     return listed("maps.units").get(QUANTITIES[name].unit, QUANTITIES[name].unit)
 
 
 def with_unit(name):
-    """The name of an axis."""
+    """The name of an axis with its unit."""
     unit = unit_of(name)
     return listed("maps.quantities")[name] + (f", {unit}" if unit else "")

@@ -1,4 +1,4 @@
-"""What was understood of a table's columns, with a few of their values, to be corrected."""
+"""How the columns of a table were interpreted, with some of their values, to be corrected."""
 
 import html
 from dataclasses import replace
@@ -18,8 +18,8 @@ FIRST = 4  # values
 
 
 class Columns:
-    """view: a row a column. changed: told of a Table that a person corrected; wrong: told in a sentence what is not
-    possible."""
+    """view: one row for each column. changed: called with a Table that was corrected; wrong: called with a sentence if
+    a correction is impossible."""
 
     def __init__(self, changed, wrong):
         self._changed, self._wrong, self._table = changed, wrong, None
@@ -31,20 +31,20 @@ class Columns:
 
     @property
     def frames_a_second(self):
-        """As it was typed; 0 where nothing was."""
+        """Frames per second, as typed; 0 if empty."""
         try:
             return typed_number(self.rate.value)
         except ValueError:
             return 0.0
 
     def show(self, table):
-        """A new table."""
+        """Shows a new table."""
         self._table = table
         self.view.objects = [*(self._row(i, column) for i, column in enumerate(table.columns)), self._of_rate]
         self.show_rate()
 
     def show_rate(self):
-        """Frames a second are asked for where the time is counted in frames."""
+        """Asks for the frame rate if the time is counted in frames."""
         self._of_rate.visible = any(column.unit == "frames" for column in self._table.columns)
 
     def _row(self, i, column):

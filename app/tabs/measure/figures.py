@@ -1,4 +1,4 @@
-"""What was measured as dots with their errors, over the model's curve, and what it leaves over below."""
+"""Measured values as points with error bars, over the model's curve, and the residuals below."""
 
 from functools import partial
 
@@ -25,9 +25,9 @@ from app.widgets.cards import words
 from app.widgets.plots import draw, in_language, plain
 
 SHOWN = {"tilt": 180 / np.pi, "azimuth": 180 / np.pi, "spin": 0.5 / np.pi, "precession": 0.5 / np.pi}
-"""{quantity: how many of its unit on the axis one of the data is}; of lengths 1000, mm."""
+"""{quantity: the factor from the unit of the data to that of the axis}; for lengths 1000, to mm."""
 COLOUR = {"spin": "omega", "precession": "omega", "azimuth": "theta"}
-HEIGHT, SMALL, REST, LEFT = 250, 180, 56, 52  # px; SMALL where there are more than two
+HEIGHT, SMALL, REST, LEFT = 250, 180, 56, 52  # px; SMALL if there are more than two figures
 NOTHING = {"t": np.zeros(0), "y": np.zeros(0)}
 HEAD = "display: flex; flex-wrap: wrap; justify-content: space-between; align-items: baseline; gap: 0 16px"
 
@@ -37,26 +37,27 @@ def size_of(quantity):
 
 
 def named(fig, label):
-    """The figure, which is a picture of this name to the ear."""
+    """The figure, named as an image for screen readers."""
     fig.js_on_change("inner_width", call("nameFigure", fig=fig, label=label))
     return fig
 
 
 def part_of_time():
-    """A slider with two ends, s, which are written as the page's language writes them."""
+    """A slider with two handles, in s, with numbers in the page's language."""
     return pmui.RangeSlider(label=say("measure.part"), start=0, end=1, value=(0, 1), step=0.01,
                             format=in_language(NumeralTickFormatter(format="0.000")), margin=(6, 12),
                             sizing_mode="stretch_width")  # fmt: skip
 
 
 def _heard(pulled, attr, old, new):
-    match new:  # whoever speaks past the page may send anything
+    match new:  # a client other than the page may send anything
         case {"start": [int() | float() as start]} if np.isfinite(start):
             pulled(float(start))
 
 
 class Pictures:
-    """view: a figure a quantity. pulled: told the moment in s at which a hand lets the motion begin."""
+    """view: one figure for each quantity. pulled: called with the time (s) to which the start of the motion is
+    dragged."""
 
     def __init__(self, pulled):
         self._hand = ColumnDataSource({"start": [0.0]})
@@ -65,7 +66,7 @@ class Pictures:
         self._parts, self._starts = {}, []
 
     def begin(self, data, start, source):
-        """New data. source: where they are from, in words."""
+        """Shows new data. source: their origin, in words."""
         first, last = data.t[0], data.t[-1]
         pad = 0.02 * (last - first)
         x_range = Range1d(first - pad, last + pad)
@@ -95,13 +96,13 @@ class Pictures:
         ]
 
     def show(self, shown, fit=None):
-        """The curves of a Shown, and where they are fitted what they leave over. None: none."""
+        """The curves of a Shown and, if they were fitted, the residuals. None: no curves."""
         for name, part in self._parts.items():
             part.show(shown, name, fit)
 
 
 class _Picture:
-    """Of one quantity: fig with the dots and the curve, rest with what it leaves over."""
+    """One quantity: fig with the points and the curve, rest with the residuals."""
 
     def __init__(self, name, series, x_range, high):
         self.name, self.size = name, size_of(name)
@@ -155,7 +156,7 @@ class _Picture:
 
 
 def constants(kept):
-    """A picture a constant of the motion, from the data themselves, with its error at each moment."""
+    """A figure for each constant of the motion, computed from the data alone, with its errors."""
     panes = []
     for name, constant in kept.items():
         colour = COLOURS["jellett" if name == "K_J" else "omega"]

@@ -1,5 +1,5 @@
-"""Where a table comes in: chosen, dropped on the page or pasted. It is read in the browser, and thinned there if it is
-long."""
+"""Input of a table: a file that is chosen or dropped on the page, or pasted text. The browser reads it, and thins it
+out if it is long."""
 
 import param
 
@@ -8,7 +8,7 @@ from app.model.measured.table import HEAD, MOST
 
 
 class MeasuredFile(Bundled):
-    """The newest text of a table. Nothing of it is kept anywhere but in this session."""
+    """The newest text of a table. It is stored only in this session."""
 
     most = param.Integer(default=180_000, constant=True, doc="characters of a text; of a longer one rows are left out")
     rows = param.Integer(default=MOST, constant=True, doc="rows of a table; of a longer one rows are left out")

@@ -1,4 +1,4 @@
-"""The tab Measure: what somebody measured of a top on film, beside rolling and sliding, with fitted numbers."""
+"""The tab Measure: measurements of a filmed top beside fitted rolling and sliding motions."""
 
 import panel as pn
 import panel_material_ui as pmui
@@ -42,14 +42,14 @@ LAWS = ("contensou", "smoothed", "viscous")
 
 
 class Filmed(param.Parameterized):
-    """What a link keeps of the tab, where a person wants it to."""
+    """What a link stores of the tab, if wanted."""
 
     film = param.String(default="", doc="the data and their settings, packed; empty: not in the link")
 
 
 class Measure:
-    """filmed: what a link keeps of it. view: the tab. scene: the first, whose top is the one that was filmed; show() is
-    for others. runs: the page's Runs."""
+    """filmed: what a link stores of it. view: the tab. scene: the first one, whose top is the one that was filmed;
+    show() sets others. runs: the page's Runs."""
 
     def __init__(self, scene, runs=None):
         self._scene, self._runs, self._run = scene, runs or Runs(), None
@@ -92,7 +92,7 @@ class Measure:
 
     @property
     def view(self):
-        """The pictures and what was understood of the table; beside them the top, what was found, and what to do."""
+        """The figures and the interpreted table; beside them the top, the results, and the controls."""
         examples = [pmui.Button(label=says, **BUTTON) for says in listed("measure.examples").values()]
         for button, name in zip(examples, EXAMPLES, strict=True):
             on_click(button, lambda event, name=name: self.take_example(name))
@@ -113,16 +113,16 @@ class Measure:
         return pn.Column(*sides, sizing_mode="stretch_width", margin=0, stylesheets=[PLACES])
 
     def show(self, scene):
-        """From now on a film is of the top of this scene; what was fitted stays as it is."""
+        """From now on films are of this scene's top; a fit that was made stays."""
         self._scene = scene
         if not self._example:
             self._say_top()
 
-    # ---- which top, and what is free ----
+    # ---- the top, and the free parameters ----
 
     @property
     def _body(self):
-        """(top, scales, shape, outline) of what was filmed: an example's own, else the page's."""
+        """(top, scales, shape, outline) of the filmed top: that of an example, else the page's."""
         if self._example:
             return Top.paper(), FILMED.scales, FILMED, body(FILMED)
         film = self._of_file
@@ -142,16 +142,16 @@ class Measure:
         return tuple(name for key in self.loose.value for name in LOOSE[key])
 
     def _models(self):
-        """Rolling and sliding, as they are to be fitted."""
+        """The rolling and the sliding Model to be fitted."""
         return models(*self._body[:3], self.law.value, self._loose)
 
     def _choose(self, law, loose):
-        """What is to be fitted, before its data are there."""
+        """Chooses what is to be fitted before its data are there."""
         self._silent = True
         self.law.value, self.loose.value = law, list(loose)
         self._silent = False
 
-    # ---- what comes in ----
+    # ---- input of data ----
 
     def _wrong(self, sentence):
         self.said.object = alert(sentence)
@@ -161,12 +161,12 @@ class Measure:
         self.take(text, int(each))
 
     def take_example(self, name):
-        """One of EXAMPLES, with all as it is at first."""
+        """Loads one of EXAMPLES, with default settings."""
         self._choose(LAWS[0], ())
         self.take((FOLDER / f"made-{name}.csv").read_bytes(), example=name)
 
     def take(self, text, each=1, example=""):
-        """A table, bytes or text. One that cannot be read leaves what was there."""
+        """Loads a table, bytes or text. If it cannot be read, the present one stays."""
         try:
             film, table = opened(text), read(text)
         except MeasuredError as error:
@@ -182,12 +182,12 @@ class Measure:
             self.compute(fits=film.fits)
 
     def _refused(self, error, each=1):
-        """each: every so-manieth row of the file is in the table."""
+        """each: the table contains every each-th row of the file."""
         self._wrong(say(f"measure.wrong.{error.code}", **in_file(error.numbers, each)))
 
     def _corrected(self, table, part=None):
-        """Whether there is something to fit: the data of the table as it is understood now. Where it makes none, what
-        was there stays."""
+        """Uses the data of a corrected table; returns whether there is something to fit. If it gives no data, the
+        present ones stay."""
         self._table, coming = table, self._coming
         try:
             data = settled(table, self.columns.frames_a_second)
@@ -218,15 +218,15 @@ class Measure:
         self._draw()
 
     def _pulled(self, start):
-        """A hand let the motion begin there."""
+        """The start of the motion was dragged there."""
         start = min(max(start, self.part.start), self.part.end)
         self.part.value = (start, max(self.part.value[1], start))
         self._begin()
 
-    # ---- the dots alone ----
+    # ---- the data without a fit ----
 
     def _draw(self):
-        """What was fitted before is no longer of this: a motion that begins with the first values, and the dots."""
+        """Discards the previous fit, and shows the data with a motion that begins with the first values."""
         if self._data is None or self._silent:
             return
         self._found, self._part = None, tuple(map(float, self.part.value))
@@ -257,7 +257,7 @@ class Measure:
                 raise result
             return
         first, self._kept = result
-        if self._found is None:  # else the fit was quicker
+        if self._found is None:  # else the fit was faster
             self.pictures.show(first)
             if first is not None:
                 show_film(self.stage, first, self._body[3])
@@ -269,7 +269,7 @@ class Measure:
     # ---- the fit ----
 
     def compute(self, event=None, fits=()):
-        """Both fits, beside the server; fits: those that a saved film has."""
+        """Computes both fits in a thread; fits: those of a saved film."""
         data, both = self._data.between(*self._part), self._models()
         if self._is_whole_example:
             asked_for = self._example, self.law.value, self._loose
@@ -300,19 +300,19 @@ class Measure:
         self.take_home.disabled = False
         self._put_in_link()
 
-    # ---- what is taken home ----
+    # ---- downloads ----
 
     def _film(self):
-        """The text of the film as it is fitted now."""
+        """The text of the film with the present fit."""
         top, scales, shape, _ = self._body
         film = Film(self.law.value, tuple(self.loose.value), self._part, top, scales, shape,
                     tuple(said_of(each) for each in self._found.fits) if self._found else ())  # fmt: skip
         return written(film, self._data)
 
     def _put_in_link(self):
-        """Where a person wants it, and it is short enough."""
+        """Puts the film into the link, if wanted and short enough."""
         wanted = self.in_link.value
-        if wanted and self._found is None:  # not fitted yet: what the link had stays
+        if wanted and self._found is None:  # not fitted yet: the link keeps what it had
             return
         self.filmed.film = packed(self._taken) if wanted else ""
         too_long = wanted and not self.filmed.film
@@ -329,7 +329,7 @@ class Measure:
 
     @property
     def _home(self):
-        """What the files are made of."""
+        """The data for the downloaded files."""
         found = self._found
         return self._data.between(*self._part), found.fits, self._loose, self._part, self.found.object, found.kept
 

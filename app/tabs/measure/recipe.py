@@ -1,4 +1,4 @@
-"""What to film and how to measure it: one page, to be printed for a class."""
+"""How to film a top and measure the film: one page, to be printed for a class."""
 
 from app.text import listed, spoken
 

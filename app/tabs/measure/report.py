@@ -1,4 +1,4 @@
-"""One HTML file of a fit, to be read without this page, and printed."""
+"""A report of a fit as one HTML file, to be read without this page, and printed."""
 
 import html
 import re
@@ -19,7 +19,7 @@ pre { font-size: 11px; white-space: pre-wrap; overflow-wrap: anywhere } svg { ma
 
 
 def report(data, fits, found, program, kept):
-    """The text of the file. found: what the page says of the fit, HTML. kept: the constants from the data."""
+    """The text of the file. found: the page's words about the fit, HTML. kept: the constants from the data."""
     better = min(fits, key=lambda each: each.aic)
     top, scales, count = better.model.top, better.model.scales, sum(len(each.t) for each in data.series.values())
     of = say("measure.report.of", R=1e3 * scales.R, a=top.a, I1=top.I1, I3=top.I3, count=count, start=data.t[0],
@@ -33,7 +33,7 @@ def report(data, fits, found, program, kept):
 
 
 class _Axes:
-    """Where times and values are in a picture, and its lines and numbers, round ones."""
+    """The positions of times and values in a figure, and its lines at round numbers."""
 
     def __init__(self, t, low, high):
         self._begin, self._long = t[0], np.ptp(t) or 1
@@ -52,7 +52,7 @@ class _Axes:
 
 
 def _round(low, high):
-    """Some four round numbers between two."""
+    """About four round numbers between two values."""
     about = (high - low or 1) / 4
     power = 10 ** np.floor(np.log10(about))
     step = next(size * power for size in (1, 2, 5, 10) if size * power >= about)
@@ -60,7 +60,7 @@ def _round(low, high):
 
 
 def _named(values):
-    """The last with its unit."""
+    """The numbers as text, the last one with its unit."""
     return [(value, " s" if i == len(values) - 1 else "") for i, value in enumerate(values)]
 
 
@@ -95,7 +95,7 @@ def _picture(name, data, fit):
 
 
 def _constant(name, constant):
-    """A band of one standard error about a constant of the motion, over time; dashed, its mean."""
+    """The error band of a constant of the motion over time; dashed, its mean."""
     values, errors, t = constant.values, constant.errors, constant.t
     axes = _Axes(t, (values - errors).min(), (values + errors).max())
     x = axes.x(t)

@@ -1,4 +1,4 @@
-"""What was found, in words and tables."""
+"""The results in words and tables."""
 
 import html
 
@@ -23,13 +23,13 @@ h3 { font-size: 18px; margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01
 
 
 def _number(value, error):
-    """(value, error) with two digits of the error."""
+    """(value, error), rounded to two digits of the error."""
     places = int(np.clip(1 - np.floor(np.log10(error)), 0, 6)) if 0 < error < np.inf else 3
     return written(value, f".{places}f"), written(error, f".{places}f") if error < np.inf else "∞"
 
 
 def _error(value, below, above):
-    """One standard error to either side, in one where they are about the same."""
+    """One standard error to either side; only one number if they are about the same."""
     if max(below, above) < 1.15 * min(below, above):
         return _number(value, max(below, above))
     least = min(below, above)
@@ -37,7 +37,7 @@ def _error(value, below, above):
 
 
 def found_words(rolling, sliding, kept):
-    """The sentence of what was found, and why."""
+    """The result in a sentence, and the reasons for it."""
     found = verdict(rolling, sliding)
     other = {"rolled": sliding, "slipped": rolling}.get(found)
     why = "out" if other is not None and other.refused else "why"
@@ -46,7 +46,7 @@ def found_words(rolling, sliding, kept):
 
 
 def kept_words(kept):
-    """What the constants of the motion did, from the data alone, and what that says."""
+    """Whether the constants of the motion were conserved, from the data alone, and what that means."""
     parts = []
     for name, constant in kept.items():
         (before, one), (after, other) = constant.before, constant.after
@@ -60,9 +60,9 @@ def kept_words(kept):
 
 
 def numbers_table(fit):
-    """The numbers of a Fit with their errors."""
+    """The parameters of a Fit with their errors."""
     scales = fit.model.scales
-    turns = scales.angular_velocity / (2 * np.pi)  # rev/s in (g/R)^1/2
+    turns = scales.angular_velocity / (2 * np.pi)  # rev/s in one (g/R)^1/2
     sizes = SHOWN | dict.fromkeys(("spin", "across", "tilt_rate"), turns) | {"radius": 1e3 * scales.R}
     rows = []
     for name in fit.model.free:
@@ -100,7 +100,7 @@ def _together(one, other, r):
 
 
 def models_table(rolling, sliding):
-    """Both models on the same data."""
+    """Both models, fitted to the same data."""
     head = "".join(f"<th>{word}</th>" for word in listed("measure.heads"))
     better = min(rolling, sliding, key=lambda fit: fit.aic)
     rows = []
@@ -119,11 +119,11 @@ def _state(fit):
 
 
 def notes_words(notes, each=1):
-    """What was left out of a table, of whose file it has every so-manieth row."""
+    """What was left out of a table, which contains every each-th row of its file."""
     return "".join(f"<div>{html.escape(say(f'measure.notes.{code}', **in_file(numbers, each)), quote=False)}</div>"
                    for code, numbers in notes)  # fmt: skip
 
 
 def in_file(numbers, each):
-    """What stands in a sentence of a table; its line is that of the file."""
+    """The numbers of a sentence about a table, with the line number of the file."""
     return numbers | {"line": line_in_file(numbers["line"], each)} if "line" in numbers else numbers

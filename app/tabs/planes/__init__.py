@@ -1,1 +1,1 @@
-"""Three planes: one top on a smooth, a rough and a sliding one."""
+"""Three planes: one top on a smooth, a rough and a sliding plane."""

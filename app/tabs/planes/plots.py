@@ -1,4 +1,5 @@
-"""The pictures of the three planes: the motion over time, the well that the top is a bead in, the map of all tops."""
+"""The figures of the three planes: the motion over time, the well in which the top moves like a bead, the map of all
+tops."""
 
 import numpy as np
 from bokeh.models import BoxAnnotation, ColumnDataSource, Label, MultiLine, Range1d, Scatter, Segment, Span, Text
@@ -21,13 +22,13 @@ IN_RIBBON = (ROLLS, SLIPS, GLIDES, FLIES, WOULD_LIFT, ENDS)
 LEDGER = {"spin": COLOURS["omega"], "precession and nutation": COLOURS["momentum"], "motion of G": FAINT,
           "height": COLOURS["jellett"], "heat": COLOURS["friction"]}  # fmt: skip
 MAP_X, MAP_Y = (-0.6, 0.8), (0.45, 1.75)
-MAP_PX, LETTER_PX = (300, 300), 6  # about, to keep names apart
-NEAR = 0.035  # of the map's width: a click so near to a known top is meant for it
-SAME = 1e-3  # two tops so near each other on the map are one mark
+MAP_PX, LETTER_PX = (300, 300), 6  # the map's size, and the width of a letter, approximate, to keep names apart
+NEAR = 0.035  # of the map's width: a click this near to a known top selects it
+SAME = 1e-3  # two tops this near each other on the map share one mark
 
 
 class Figures:
-    """Quantities over time, the ledger and the ribbon, each with a line at the clock's time."""
+    """Quantities over time, the energies and the ribbon of regimes, each with a line at the time of the clock."""
 
     def __init__(self):
         self.x_range = Range1d(0, 1)
@@ -62,7 +63,7 @@ class Figures:
         )  # fmt: skip
 
     def show(self, picture):
-        """All curves of a new picture."""
+        """Draws all curves of a new Picture."""
         scales = picture.settings.scales
         ribbons = []
         for plane in PLANES:
@@ -86,7 +87,7 @@ class Figures:
         self.x_range.update(start=0, end=picture.settings.seconds)
 
     def look(self, picture, plane):
-        """At one plane, the others faintly where that tells something, or at all."""
+        """Shows one plane, and the others faintly where the comparison is useful; or all planes."""
         for (which, name), line in self.lines.items():
             line.visible = plane in (which, "compare") or name in ("theta", "omega3")
             line.glyph.line_alpha = 1 if plane in (which, "compare") else 0.3
@@ -112,8 +113,8 @@ class Figures:
 
 
 class Well:
-    """V_J over theta, its steady states, and the top as a bead in it, with the energy that it has left above: of the
-    wells that it has in turn the clock shows the present one."""
+    """V_J over theta with its steady states; the top moves in it as a bead, and the energy that it has left is shown
+    above. If there are several wells in succession, the one at the time of the clock is shown."""
 
     def __init__(self):
         self.figure = fig = plain(x_range=Range1d(-5, 185), y_range=Range1d(0, 1), name="planes-well")
@@ -121,7 +122,7 @@ class Well:
         fig.xaxis.ticker = [0, 30, 60, 90, 120, 150, 180]
         self.wells = ColumnDataSource({name: [] for name in ("theta", "V", "alpha", "low", "high")})
         self.steady = ColumnDataSource({name: [] for name in ("theta", "V", "stable", "well", "fill", "alpha")})
-        # what the browser's clock reads, and what it moves; well: which one, -1 for none
+        # read and written by the browser's clock; well: the index of the present well, -1 for none
         self.path = ColumnDataSource({name: [] for name in ("t", "theta", "V", "E", "well")}, tags=[1.0])
         self.bead = ColumnDataSource({"theta": [], "V": [], "E": []})
         draw(fig, MultiLine, xs="theta", ys="V", source=self.wells, line_color=COLOURS["theta"], line_alpha="alpha",
@@ -157,13 +158,13 @@ class Well:
 
 
 def padded(low, high):
-    """With some room below and above."""
+    """The range with some margin below and above."""
     pad = 0.08 * (high - low) or 0.05
     return low - pad, high + pad
 
 
 def beside(place, name, taken):
-    """(dx, dy) in px and the side on which a name stands free of those in taken, to which it is added."""
+    """(dx, dy) in px and the side at which a name does not overlap those in taken, to which it is added."""
     ends = zip(MAP_PX, place, (MAP_X, MAP_Y), strict=True)
     x, y = (size * (value - low) / (high - low) for size, value, (low, high) in ends)
     width = LETTER_PX * len(name)
@@ -180,7 +181,8 @@ def beside(place, name, taken):
 
 
 class Map:
-    """The three groups over a/R and I1/I3; pick: takes (a, I1/I3) from a click, pick_body the name of a known top."""
+    """The three groups over a/R and I1/I3. pick: called with (a, I1/I3) of a click; pick_body: with the name of a known
+    top."""
 
     def __init__(self, pick, pick_body):
         self._pick, self._pick_body = pick, pick_body
@@ -198,7 +200,7 @@ class Map:
         fig.text(x, y, text=[listed("planes.groups")[group] for group in places], text_align="center",
                  text_color=INK, text_font_size="12px", text_font_style="italic")  # fmt: skip
         fig.ygrid.visible = fig.xgrid.visible = False
-        # a top far to the left stands at the edge, with its place beside its name
+        # a top far to the left is drawn at the edge, with its position beside its name
         self.known, marks, taken = {}, [], []
         for body in BODIES:
             top = body.top
@@ -237,7 +239,8 @@ class Map:
 
 
 def follow_clock(figures, well):
-    """In the browser: the lines of the Figures and the bead of the Well go with the clock, which a hand on one sets."""
+    """Has the browser move the lines of the Figures and the bead of the Well with the clock; dragging one of them sets
+    the clock."""
     follow = call("followPlanes", spans=figures.spans, path=well.path, bead=well.bead, wells=well.wells,
                   steady=well.steady, none=well.none, range=well.figure.y_range, clock=CLOCK)  # fmt: skip
     well.figure.js_on_change("inner_width", follow)

@@ -1,4 +1,4 @@
-"""What is set of the start that the three planes have, of the friction and of a flight; and how far a run is."""
+"""The inputs of the start on the three planes, of friction and of hops; and the progress of a run."""
 
 import numpy as np
 import panel as pn
@@ -13,14 +13,15 @@ from app.widgets.controls import Control, Wish
 NUMBERS = {"contact": ("mu", "patch"), "coulomb": ("mu", "mu_s"), "viscous": ("gamma",), "smoothed": ("mu", "eps")}
 NUMBERS_SET = ("spin", "tilt", "slip", "seconds", "mu", "mu_s", "gamma", "eps", "patch")
 SWITCHES = ("by", "law", "landing")
-SLIDES = ("sliding", "compare")  # where there is friction to set, and it can fly
+SLIDES = ("sliding", "compare")  # planes with friction, on which the top can also hop
 NARROW = BUTTON | {"sx": BUTTON["sx"] | {"whiteSpace": "nowrap", "padding": "2px 8px", "minWidth": 0}}
 
 
 class StartCard:
     """view: a card.
 
-    inputs: of a Planes; ask: takes others; choose: takes the name of a preset; stop: ends the run under way.
+    inputs: those of a Planes; ask: called with new ones; choose: called with the name of a preset; stop: stops the
+    present run.
     """
 
     def __init__(self, inputs, ask, choose, stop):
@@ -38,7 +39,7 @@ class StartCard:
                         for name in dict.fromkeys(name for names in NUMBERS.values() for name in names)}  # fmt: skip
         self._bar, end = words(margin=(10, 8)), pmui.Button(label=say("planes.run.stop"), **NARROW)
         on_click(end, lambda event: stop())
-        # its place is kept free, so that nothing below moves when it comes
+        # room is reserved for it, so that nothing below moves when it appears
         self.progress = pn.Row(self._bar, end, sizing_mode="stretch_width", margin=(0, 14, 0, 16))
         self.show_progress(None)
         self.view = card(
@@ -66,12 +67,12 @@ class StartCard:
         return flow(*buttons, margin=(6, 14, 8, 16))
 
     def show_progress(self, percent):
-        """How much of a run is done; None without one."""
+        """Shows how much of a run is done; None if there is no run."""
         self._bar.object = progress(percent or 0, say("planes.run.progress"))
         self.progress.styles = {"visibility": "hidden" if percent is None else "visible"}
 
     def look(self, plane):
-        """What is set of the friction and of a flight stands there where there is any."""
+        """Shows the inputs of friction and hops only on planes that have them."""
         self._plane, slides = plane, plane in SLIDES
         for part in (self.switches["law"].view, self._said["law"], self._lands, self.switches["landing"].view):
             part.visible = slides
@@ -79,7 +80,7 @@ class StartCard:
             number.visible = slides and name in NUMBERS[self._law]
 
     def show(self, picture, *, busy):
-        """What a Picture was made of, unless something newer is asked for, and what could not be."""
+        """Shows the inputs of a Picture, unless newer ones have been requested, and those that were refused."""
         settings, inputs, messages = picture.settings, picture.inputs, picture.messages
         self._law = inputs["law"]
         self._starts.visible = inputs["by"] == "spin"

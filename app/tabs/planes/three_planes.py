@@ -1,4 +1,4 @@
-"""The tab of the three planes: why a tippe top turns over, and that it takes sliding friction."""
+"""The room of the three planes: why a tippe top turns over, and that this needs sliding friction."""
 
 import panel as pn
 
@@ -17,14 +17,14 @@ from app.widgets.cards import card, first, framed, later, note, staged, swatch, 
 from app.widgets.moments import Moments
 from app.widgets.top3d import Top3D, pack_frames
 
-BELOW = 310  # px: what stands under the stage
+BELOW = 310  # px: the height of what is below the stage
 BESIDE = """
 :host { display: grid; gap: 12px } .scroll-button { display: none !important }
 @media (min-width: 700px) { :host { grid-template-columns: minmax(0, 5fr) minmax(0, 3fr) } }
 """
-SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # a motion is to play for so many seconds at least
-POLL = 200  # ms between looks at a run under way
-# Three bars side by side have room for what matters only.
+SLOWEST, SHORTEST_SHOW = 1 / 64, 12  # the slowest playback, and the shortest time (s) for which a motion should play
+POLL = 200  # ms between two checks of a run under way
+# Three bars side by side have room only for the most important controls.
 SMALL_BAR = [":host .bar .shows, :host .bar .view, :host .bar .back, :host .bar .forward { display: none }"]
 TABLE = (
     f":host {{ --kept: {COLOURS['normal']} }}"
@@ -38,11 +38,11 @@ th { color: var(--faint, #5b6875) } .kept { font-weight: 600 } .kept::before { c
 
 
 class ThreePlanes:
-    """main: the tab. show(picture), look(plane) and wait() say what is to be seen.
+    """main: the content of the room, which show(picture), look(plane) and wait() update.
 
-    inputs: of a Planes, as they are at first, with its plane; ask: takes others; ask_top: takes inputs of the Explorer;
-    choose: the name of a body; work: the Planes' run under way, with busy, elapsed, share and stop(); playing: the
-    Playing of what rolls, which runs, stands and goes as fast as these.
+    inputs: the first inputs of a Planes, with its plane; ask: called with new ones; ask_top: called with inputs of the
+    Explorer; choose: with the name of a body; work: the Planes' present run, with busy, elapsed, share and stop();
+    playing: the Playing of the rolling top, which the motions here follow.
     """
 
     def __init__(self, inputs, ask, ask_top, choose, work, playing=None):
@@ -66,10 +66,10 @@ class ThreePlanes:
         self._force = words(styles={"min-height": "36px"})
         self._build()
 
-    # ---- what a person asks ----
+    # ---- requests by hand ----
 
     def pick(self, a, ratio):
-        """Asks for the top of this a and I1/I3, with I3 as it is."""
+        """Asks for the top with this a and I1/I3, and the present I3."""
         self._ask_top(a=a, I1=ratio * self._picture.settings.top.I3)
 
     def _choose(self, name):
@@ -78,7 +78,7 @@ class ThreePlanes:
         self._ask(**inputs)
 
     def _on_speed(self, event):
-        if event.new != self._speed:  # a hand's: that of what rolls, too
+        if event.new != self._speed:  # set by hand: also for the rolling top
             self._playing.speed = event.new
 
     def _set_speed(self, speed):
@@ -111,7 +111,7 @@ class ThreePlanes:
         self._row = pn.Column(
             sizing_mode="stretch_both", margin=0,
             styles={"display": "grid", "gap": "10px"},
-            stylesheets=[".scroll-button { display: none !important }"],  # it would take the first place
+            stylesheets=[".scroll-button { display: none !important }"],  # it would cover the first button
         )  # fmt: skip
         return first(framed(say("planes.cards.stage"), self._row, self._force), below=BELOW + 12)
 
@@ -142,10 +142,10 @@ class ThreePlanes:
             height="max-content",
         )
 
-    # ---- what is shown ----
+    # ---- showing ----
 
     def wait(self):
-        """A run under way is looked at now and then, and shown where it takes long."""
+        """Follows a run under way, and shows its progress if it takes long."""
         if self._work.busy and self._poll is None:
             self._poll = pn.state.add_periodic_callback(self._look_at_run, period=POLL)
         elif not self._work.busy and self._poll is not None:
@@ -160,7 +160,7 @@ class ThreePlanes:
             self._age(True)
 
     def _age(self, old):
-        """What is still of the run before is pale, and said to be."""
+        """Shows results of the previous run pale and marked as such."""
         if old == self._is_old:
             return
         self._is_old = old
@@ -191,7 +191,7 @@ class ThreePlanes:
     _is_old = False
 
     def _tempo(self, settings):
-        """The speed that somebody chose; else one at which the motion can be watched, when its length is new."""
+        """The speed that was chosen by hand; else, for a motion of a new length, one at which it can be watched."""
         if self._playing.speed != Playing.param.speed.default:
             self._set_speed(self._playing.speed)
         elif self._paced != settings.seconds:
@@ -201,7 +201,7 @@ class ThreePlanes:
             self._set_speed(speed)
 
     def look(self, plane):
-        """At this plane, or at all that are to "compare"."""
+        """Shows one plane, or all of them to "compare"."""
         picture, self._plane = self._picture, plane
         if picture is None:
             return
@@ -214,7 +214,7 @@ class ThreePlanes:
                 top.stylesheets = SMALL_BAR if compare else []
                 if top.visible:
                     self._show_top(top, picture, name)
-            # a picture in 3-D is made when it is first looked at
+            # a picture in 3-D is created when it is first shown
             row = [top for top in self._tops.values() if top.visible or top in self._row.objects]
             if row != self._row.objects:
                 self._row.objects = row
@@ -229,7 +229,8 @@ class ThreePlanes:
             ]
 
     def _spread(self, compare):
-        """Three tops need the width of the page: what answers them then stands below, side by side."""
+        """Lays out the tops: three need the full width of the page, and the other cards then stand below, side by
+        side."""
         left, right = self.main.objects
         columns = "repeat(auto-fit, minmax(min(100%, {}px), 1fr))"
         self._row.styles = self._row.styles | {"grid-template-columns": columns.format(280) if compare else "1fr"}

@@ -1,4 +1,4 @@
-"""What is said of a Picture of the three planes: every sentence of a motion is read from that motion's own result."""
+"""The sentences about a Picture of the three planes; each is determined from the motion's own result."""
 
 import html
 from itertools import groupby
@@ -14,15 +14,15 @@ from app.text import listed, say, written
 from app.widgets.cards import swatch
 from app.widgets.typeset import power
 
-# A plane's own colour, the same in all pictures of this tab.
+# The colour of each plane, the same in all pictures of this room.
 LOOKS = {"rough": COLOURS["normal"], "smooth": COLOURS["jellett"], "sliding": COLOURS["friction"]}
 SURVIVES = ("J", "Routh", "E", "L_3", "L_z")
-# Below this a drift is that of the computation; what physics changes changes by more.
+# A smaller drift is numerical error; physics changes a quantity by more.
 ROUNDING = 1e-7
-MOST_SPELLS = 5  # on ball, stem or both are told one by one
-# What has less energy of motion (MgR) lies; what begins before AT_ONCE (s) begins at 0.00 s.
+MOST_SPELLS = 5  # intervals on the ball, the stem or both that are listed one by one
+# A top with less kinetic energy (MgR) lies still; what begins before AT_ONCE (s) begins at 0.00 s.
 AT_REST, AT_ONCE = 1e-6, 0.005
-# A nudge of the start that grows so many times makes of the tenth of a degree that no hand holds ten degrees.
+# A nudge that grows by this factor turns a tenth of a degree, the accuracy of a hand, into ten degrees.
 SCATTERS, HAND = 100.0, 0.1
 
 
@@ -35,7 +35,7 @@ def milliseconds(seconds):
 
 
 def in_force(picture, plane):
-    """The friction law in force, with its numbers."""
+    """The present friction law, with its parameters."""
     law, velocity, kind = picture.friction, picture.settings.scales.velocity, picture.settings.law
     if plane in ("rough", "smooth"):
         return say(f"planes.force.{plane}")
@@ -50,7 +50,7 @@ def in_force(picture, plane):
 
 
 def part(settings):
-    """What touches beside the ball."""
+    """The name of the part that touches in addition to the ball."""
     return say(f"planes.parts.{settings.part}")
 
 
@@ -62,11 +62,11 @@ def _frictionless(picture):
     return picture.settings.law == "viscous" and picture.friction.gamma == 0
 
 
-# ---- what became of the top ----
+# ---- how the motion ended ----
 
 
 def fate(picture, plane):
-    """What became of the top on a plane, in a few sentences."""
+    """How the motion on a plane ended, in a few sentences."""
     motion = picture.motions[plane]
     if motion is None:
         return html.escape(picture.messages.get(plane, say("planes.fate.nothing")))
@@ -85,7 +85,7 @@ def fate(picture, plane):
 
 
 def _gripped(picture):
-    """What the rough plane takes where the start does not roll."""
+    """The energy that the rough plane takes if the start does not roll."""
     before, after = (float(motion.trajectory.energy[0]) for motion in (
         picture.motions["sliding"], picture.motions["rough"]))  # fmt: skip
     taken = before - after
@@ -93,7 +93,7 @@ def _gripped(picture):
 
 
 def _where(picture, motion):
-    """Where it is at the end, and when it passed a right angle."""
+    """The tilt at the end, and when it passed a right angle."""
     moved, found, seconds = motion.trajectory, motion.ending, picture.settings.scales.time
     at_the_end = say("planes.fate.end", tilt=degrees(moved.theta[-1]), time=moved.t[-1] * seconds)
     if degrees(found.least) != degrees(found.most):
@@ -108,8 +108,8 @@ def _where(picture, motion):
 
 
 def spells(motion, seconds):
-    """What it stood on, in s: (start, end, on), and for three or more in turn that are shorter than SHORT (start, end,
-    on what first, how long that, how many more, the longest of all)."""
+    """What the top stood on, in s: (start, end, on); three or more consecutive intervals shorter than SHORT are joined
+    to (start, end, on at first, its length, the number of others, the length of the longest)."""
     found = [(s.start * seconds, s.end * seconds, s.on) for s in motion.ending.stretches]
     told = []
     for short, group in groupby(found, key=lambda spell: spell[1] - spell[0] < SHORT):
@@ -123,7 +123,7 @@ def spells(motion, seconds):
 
 
 def _touched(picture, motion):
-    """On what it stood, from when to when."""
+    """What the top stood on, from when to when."""
     told = spells(motion, picture.settings.scales.time)
     if len(motion.trajectory.t) == 1:
         return ""
@@ -156,7 +156,7 @@ def _spell(spell, place, second):
 
 
 def _goes_on(picture, motion):
-    """Whether it still changes, or what ended it."""
+    """Whether the motion is still changing, or what ended it."""
     found, moved, seconds = motion.ending, motion.trajectory, picture.settings.scales.time
     kind = became(picture, motion)
     if kind in ("balances", "flat"):
@@ -165,7 +165,7 @@ def _goes_on(picture, motion):
         time = motion.trajectory.events[-1][0] * seconds
         return say("planes.goes_on.ended", time=time, happens=happens(motion.ended, picture.settings))
     if kind == "rolls":
-        since = moved.events[-1][0] if moved.events else moved.t[0]  # what falls between two samples ends it too
+        since = moved.events[-1][0] if moved.events else moved.t[0]  # an event between two samples can end it too
         theta = moved.theta[moved.t >= since]
         if not found.settled:
             return say("planes.goes_on.rolls_yet", since=since * seconds)
@@ -181,11 +181,11 @@ def _goes_on(picture, motion):
     return say("planes.goes_on.cut", seconds=picture.settings.seconds, how=say(f"planes.goes_on.{trend(motion)}"))
 
 
-# ---- what friction does to the ball alone, and how much a run can tell ----
+# ---- what friction does to the ball alone, and how predictable a run is ----
 
 
 def outcome_words(goes, scales):
-    """tippe_core's sentence of an Outcome, in the page's language."""
+    """tippe_core's sentence about an Outcome, in the page's language."""
     limits, unit = goes.thresholds, scales.angular_velocity / (2 * np.pi)
 
     def spin(value):
@@ -204,7 +204,7 @@ def outcome_words(goes, scales):
 
 
 def ball_words(picture):
-    """What friction would do to the ball alone, and how far that holds for this run."""
+    """What friction would do to the ball alone, and how far that applies to this run."""
     settings, sliding = picture.settings, picture.motions["sliding"]
     if _frictionless(picture):
         heat = sliding.trajectory.heat[-1] if sliding else 0.0
@@ -222,13 +222,13 @@ def ball_words(picture):
         return says + say("planes.verdict.clear", angle=degrees(settings.shape.touch_angle), part=part(settings))
     if touched == sliding.trajectory.t[0]:
         return says + say("planes.verdict.never", part=part(settings))
-    void = "void" if sliding.drift["J"] > ROUNDING else "void_alone"  # without spin it was 0 and is
+    void = "void" if sliding.drift["J"] > ROUNDING else "void_alone"  # without spin J was and remains 0
     return says + say(f"planes.verdict.{void}", time=touched * settings.scales.time, drift=100 * sliding.drift["J"],
                       part=part(settings))  # fmt: skip
 
 
 def scatter_words(picture):
-    """What the run beside the run tells, where that is much."""
+    """What the disturbed run shows, if the disturbance grows much."""
     growth = picture.growth
     if growth is None or growth < SCATTERS:
         return ""
@@ -236,7 +236,7 @@ def scatter_words(picture):
 
 
 def run_words(picture):
-    """What the sliding run is a run of: who quotes it needs all of that."""
+    """The model and inputs of the sliding run, for anyone who quotes it."""
     settings, state = picture.settings, picture.state
     touches = "stem" if settings.edge else "ball"
     start = "start" if settings.rolling is None else "rolling"
@@ -257,11 +257,11 @@ def verdict_words(picture):
     )
 
 
-# ---- what stays ----
+# ---- what is conserved ----
 
 
 def table_words(picture):
-    """What stays on each plane: the measured drift."""
+    """What is conserved on each plane: the measured drift."""
     head = "".join(f"<th>{swatch(LOOKS[plane], say(f'planes.plane.{plane}'))}</th>" for plane in PLANES)
     rows = []
     for name in SURVIVES:

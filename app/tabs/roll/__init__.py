@@ -1,1 +1,1 @@
-"""Roll: a top that rolls without slipping."""
+"""A top that rolls without slipping."""

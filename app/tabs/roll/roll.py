@@ -1,4 +1,4 @@
-"""A view of the Lab: a top that rolls, as Figs. 5 and 6, over time, and in 3-D."""
+"""The room of a top that rolls: Figs. 5 and 6, the motion over time and in 3-D."""
 
 from functools import partial
 
@@ -22,7 +22,7 @@ from app.widgets.surface3d import Surface3D, show_surface
 from app.widgets.top3d import Top3D, show_top
 from app.widgets.typeset import power
 
-BELOW = 300  # px: Fig. 5, below the top
+BELOW = 300  # px: Fig. 5 below the top
 
 
 def plane_symbols():
@@ -61,12 +61,12 @@ def unit_words(scene):
 
 
 def kept_words(scene):
-    """How well the constants, recomputed from the motion, stay what they are."""
+    """How well the constants, recomputed from the motion, are conserved."""
     return f'<div class="axis key">{say("roll.says.kept", drift=power(scene.drift))}</div>'
 
 
 class Switch:
-    """A card whose one picture at a time is chosen; a picture is made when it is first looked at."""
+    """A card with a choice of several pictures, one at a time; each picture is created when it is first shown."""
 
     def __init__(self, title, *kinds, soon):
         self._kinds, self._made, self._scene = kinds, {}, None
@@ -101,7 +101,7 @@ class Switch:
             place.visible = i == chosen
 
     def show(self, scene):
-        """Draws the picture that is looked at."""
+        """Draws the chosen picture."""
         self._scene = scene
         chosen = self._switch.value
         if chosen not in self._made:
@@ -111,9 +111,9 @@ class Switch:
 
 
 class Roll:
-    """main: the pictures and the controls. pacer: a Pacer, which shows them scenes and is asked; playing: what the top
-    goes with; controls: the card of what sets the motion; slip: shows this motion on a table where it slips; runs: the
-    page's Runs."""
+    """main: the pictures and the controls. pacer: a Pacer, which shows scenes and takes requests; playing: the playback
+    of the top; controls: the card with the inputs of the motion; slip: shows this motion on a table on which it slips;
+    runs: the page's Runs."""
 
     def __init__(self, pacer, playing, controls, slip=lambda: None, runs=None):
         self._pacer, self._scene = pacer, None
@@ -122,7 +122,7 @@ class Roll:
         self._card = PlaneCard(self._motion, pacer.ask, slip, runs)
         self._plane = self._card.plane
         self._says = said()
-        # What each round of pictures draws; it grows as the cards are made.
+        # The functions for each round of pictures; more are added as cards are created.
         self._planes = [self._motion.show, self._plane.show_plane, partial(show_top, self._top)]
         self._times, self._portraits = [], []
         together(playing, self._top)
@@ -151,7 +151,7 @@ class Roll:
                                                              for switch in (self._tilt, self._table))):  # fmt: skip
             pacer.later(make)
 
-    # ---- what is made later ----
+    # ---- created later ----
 
     def _make_times(self):
         figures = TimeFigures()
@@ -170,19 +170,19 @@ class Roll:
         switch.make()
 
     def _add(self, shows, card, show):
-        """Of a card, from now on, where it can be seen."""
+        """From now on shows scenes in a card while it is near the screen."""
         shown = WhenNear(card, self._pacer.soon, show)
         shown.show(self._scene)
         shows.append(shown.show)
 
-    # ---- what a hand asks ----
+    # ---- requests by hand ----
 
     def _grabbed(self, grip, theta, K_J, limit):
-        """A hand on the (K_J, theta) plane; limit: the one that the picture's tielines have."""
+        """A request from the (K_J, theta) plane; limit: that of the tielines in the picture."""
         self._pacer.ask(**pulled(self._scene, grip, theta, K_J, limit))
 
     def _on_plane(self, attr, old, new):
-        match new:  # whoever speaks past the page may send anything
+        match new:  # a client other than the page may send anything
             case {"grip": [str() as grip], "theta": [int() | float() as theta], "K_J": [int() | float() as K_J]}:
                 self._grabbed(grip, theta, K_J, "slip")
 
@@ -195,11 +195,11 @@ class Roll:
 
     def _on_axis(self, event):
         theta, t, grasp = asked.parts(event.new, asked.number, asked.number, asked.number)
-        if grasp != self._grasp:  # from then on the hand moves theta alone
+        if grasp != self._grasp:  # from then on the hand changes only theta
             self._grasp, self._held = grasp, held(self._scene, t)
         self._pacer.ask(theta=theta, **self._held, given="state")
 
-    # ---- what a scene shows ----
+    # ---- showing a scene ----
 
     def _show_hand(self, scene):
         self._scene = scene
