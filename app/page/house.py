@@ -116,7 +116,7 @@ class House:
     # ---- the rooms, each created when it is first shown ----
 
     def lab(self):
-        return lab_view(self.lab_of, self.keep, lambda: self._look_at(room.USUAL))
+        return lab_view(self.lab_of, lambda: self._look_at(room.USUAL))
 
     def roll(self):
         controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
