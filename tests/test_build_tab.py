@@ -8,7 +8,8 @@ import pytest
 from house import builder_of
 
 from app.model.build.builder import Rocking
-from app.model.build.dimensions import FAMILIES, changed, sentence, value_of
+from app.model.build.dimensions import FAMILIES, INSIDES, changed, sentence, value_of
+from app.model.build.inside import filled, inside
 from app.model.build.verdict import Verdict, verdict
 from app.model.explorer import Explorer
 from app.model.lab.run import TooLong, shape_of
@@ -71,6 +72,26 @@ def test_the_bench_says_what_is_printed_and_goes_back_to_a_preset(builder, explo
     assert "STL" not in bench.derived.object and bench.families.value != "loaded sphere"
     bench.families.value = "loaded sphere"
     assert builder.draft.name == "Loaded sphere"
+
+
+def test_the_inside_is_chosen_where_a_body_has_one(builder, explorer):
+    bench = Build(builder)
+    assert bench.inside.view.visible and bench.inside.switch.value == "solid" and not bench.inside.steel.visible
+    bench.inside.switch.value = "both"
+    assert {"hole", "depth", "disc", "thickness", "height"} <= {*bench._knobs} and bench.inside.steel.visible
+    assert explorer.scene.shape.disc > 0 and "the disc is not in it" in bench.derived.object
+    builder.choose(PRESETS[0].name)
+    assert bench.inside.switch.value == "solid" and "hole" not in bench._knobs
+    builder.choose("Uniform ball")
+    assert not bench.inside.view.visible and builder.draft.name == "Uniform ball"
+
+
+def test_every_dimension_of_an_inside_is_within_its_slider():
+    for preset in PRESETS:
+        if inside(preset.shape):
+            shape = filled(preset.shape, "both")
+            for dimension in INSIDES["both"]:
+                assert dimension.low <= value_of(shape, dimension.name) * dimension.factor <= dimension.high
 
 
 def test_nothing_of_it_is_to_go_from_panel(builder):

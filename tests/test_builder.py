@@ -6,9 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from house import builder_of
+from hypothesis import given
+from hypothesis import strategies as st
 
 from app.model.build.builder import Rocking
 from app.model.build.dimensions import changed, handles, pulled, value_of
+from app.model.build.inside import INSIDE, KINDS, filled, inside
 from app.model.explorer import Explorer
 from tippe_core import (
     PRESETS,
@@ -196,9 +199,10 @@ def test_stl(builder):
 
 @pytest.mark.parametrize(
     "shape",
-    [*(preset.shape for preset in PRESETS), replace(TruncatedSphere.paper(), l=0.0, r=0.0)],
+    [*(preset.shape for preset in PRESETS), replace(TruncatedSphere.paper(), l=0.0, r=0.0),
+     *(filled(TruncatedSphere.paper(), kind) for kind in KINDS)],
     ids=lambda s: type(s).__name__,
-)
+)  # fmt: skip
 def test_a_handle_pulled_to_where_it_is_changes_nothing(shape):
     for name, (x, z) in handles(shape).items():
         assert pulled(shape, name, x, z) == pytest.approx(value_of(shape, name), abs=5e-4 if name == "a" else 5.1e-6)
@@ -232,6 +236,47 @@ def test_a_density_sets_the_mass_and_a_mass_the_densities(builder):
     for name, value in (("density", -1.0), ("M", 0.0)):
         builder.set(name, value)
         assert builder.draft.shape == after and name in builder.draft.messages
+
+
+# --- what is inside ---
+
+
+def test_a_hole_and_a_disc_come_and_go_in_the_same_wood(builder, explorer):
+    paper = TruncatedSphere.paper()
+    seen = {}
+    for kind in ("hole", "both", "disc", "solid"):
+        builder.fill(kind)
+        shape = seen[kind] = builder.draft.shape
+        assert inside(shape) == kind and explorer.scene.shape == shape
+        assert shape.density == pytest.approx(paper.density, rel=1e-12)
+        assert {name for name in INSIDE if name in [each.name for each in builder.draft.dimensions]} == {*KINDS[kind]}
+        assert (set(handles(shape)) & {*INSIDE}) == {*KINDS[kind]}
+    hole, both, disc, solid = seen.values()
+    assert (both.hole, both.depth) == (hole.hole, hole.depth) and (disc.disc, disc.height) == (both.disc, both.height)
+    assert hole.mass < paper.mass < disc.mass and solid.mass == pytest.approx(paper.mass, rel=1e-12)
+    # what is taken away above lowers G, and so does steel at the bottom
+    assert paper.top.a < hole.top.a < both.top.a and paper.top.a < disc.top.a
+    # a wider hole takes wood away, and leaves its density
+    builder.fill("hole")
+    builder.set("hole", 0.011)
+    wider = builder.draft.shape
+    assert hole.mass - wider.mass == pytest.approx(paper.density * np.pi * (0.011**2 - hole.hole**2) * hole.depth)
+    builder.set("hole", 0.02)
+    assert builder.draft.shape == wider and "hole = 20 mm" in builder.draft.messages["hole"]
+    builder.choose("Uniform ball")
+    builder.fill("hole")
+    assert builder.draft.name == "Uniform ball" and inside(builder.draft.shape) == ""
+
+
+@given(st.floats(0.002, 0.04), st.floats(-0.8, 1), st.floats(0.001, 0.9), st.floats(0, 4), st.sampled_from([*KINDS]),
+       st.sampled_from([*KINDS]))  # fmt: skip
+def test_there_is_room_for_a_hole_and_a_disc_in_any_toy(R, c, thin, l, first, then):
+    r = thin * R * np.sqrt(1 - c * c) if l > 0.01 else 0.0
+    if l > 0.01 and r < 1e-4:
+        return
+    shape = TruncatedSphere.from_density(700.0, R=R, c=c * R, l=l * R if r else 0.0, r=float(r))
+    filled_twice = filled(filled(shape, first), then)
+    assert inside(filled_twice) == then and filled_twice.density == pytest.approx(700.0)
 
 
 # --- free profiles and pieces ---

@@ -3,12 +3,15 @@
 import json
 import re
 import struct
+from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
 from playwright.sync_api import expect
 from visiting import PATIENCE, Visit, go_to, wait
 
+from app.model.build.inside import inside
+from app.state.codecs import Body
 from tippe_core import PRESETS, TruncatedSphere, load_top, save_top
 
 pytestmark = pytest.mark.served
@@ -186,6 +189,29 @@ def test_a_point_of_a_free_profile_is_dragged_and_another_added(bench):
     points = load_top(download(bench, "Save this top")).points
     assert len(points) == len(preset.shape.points) + 1
     assert max(points)[0] == pytest.approx(0.028, abs=1e-3)
+
+
+def test_a_hole_and_a_disc_are_chosen_and_dragged_and_are_in_the_link(bench):
+    choose(bench, PRESETS[1])
+    choose(bench, PRESETS[0])
+    bench.page.get_by_role("button", name="both", exact=True).click()
+    bench.page.get_by_text("The disc is of steel.").locator("visible=true").wait_for()
+    bench.page.wait_for_function("Bokeh.documents[0].is_idle")
+    first = load_top(download(bench, "Save this top"))
+    assert inside(first) == "both"
+    middle = 1e3 * (first.c - first.depth / 2)
+    drag(bench, (-1e3 * first.hole, middle), (-12, middle))
+    bench.page.wait_for_function(
+        "Math.abs(new URLSearchParams(location.search).get('body').split('_')[7] - 0.012) < 3e-4"
+    )
+    top = load_top(download(bench, "Save this top"))
+    assert top.hole == pytest.approx(0.012, abs=3e-4) and (top.depth, top.disc) == (first.depth, first.disc)
+    assert top.density == pytest.approx(TruncatedSphere.paper().density, rel=1e-9)
+    bench.page.wait_for_function(f"z => Math.abs(({DRAWN})() - z) < 1e-6", arg=(top.c + top.l) / top.R)
+    address = bench.page.evaluate("location.search")
+    assert Body.value(parse_qs(address[1:])["body"][0]) == top
+    bench.page.get_by_role("button", name="solid", exact=True).click()
+    expect(bench.page.get_by_text("The disc is of steel.").locator("visible=true")).to_have_count(0)
 
 
 def test_who_explores_sees_the_top_beside_its_section_without_greek(server, chromium):

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from dataclasses import replace
 from pathlib import Path
 from string import Formatter
 
@@ -137,6 +138,12 @@ BAD = [
     ("cut-misses", lambda: TruncatedSphere(R=0.016, c=0.5, l=0.0192, r=0.0032, M=0.0115)),
     ("stem-too-wide", lambda: TruncatedSphere(R=0.016, c=0.0082, l=0.0192, r=0.015, M=0.0115)),
     ("half-a-stem", lambda: TruncatedSphere(R=0.016, c=0.0082, l=0.0, r=0.0032, M=0.0115)),
+    ("half-a-hole", lambda: replace(PAPER, hole=0.009)),
+    ("hole-too-deep", lambda: replace(PAPER, hole=0.009, depth=0.03)),
+    ("hole-too-wide", lambda: replace(PAPER, hole=0.014, depth=0.008)),
+    ("half-a-disc", lambda: replace(PAPER, disc=0.004, thickness=0.003)),
+    ("disc-sticks-out", lambda: replace(PAPER, disc=0.009, thickness=0.003, height=0.002)),
+    ("lighter-than-its-disc", lambda: replace(PAPER, M=0.001, disc=0.004, thickness=0.003, height=0.002)),
     ("core-sticks-out", lambda: LoadedSphere(R=0.02, b=0.008, d=0.02, density=700.0, core_density=7800.0)),
     ("hangs-on-a-point", lambda: OrdinaryTop(R=0.003, h=0.01, r1=0.0, r2=0.02, t=0.005, r=0.0, l=0.0, M=0.02)),
     ("does-not-fit", lambda: BareSphere(R=0.02, M=0.02, a=0.9, I1=0.37, I3=0.4)),

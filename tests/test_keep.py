@@ -272,3 +272,7 @@ def test_a_rounded_stem_is_said_in_a_link_and_a_sharp_one_goes_without_saying():
     rounded = replace(sharp, rounding=0.002)
     assert Body.text(sharp) == "TruncatedSphere_.016_.0082_.0192_.0032_.0115"
     assert Body.text(rounded) == Body.text(sharp) + "_.002" and Body.value(Body.text(rounded)) == rounded
+    bored = replace(sharp, hole=0.009, depth=0.008)  # of which the rounding goes without saying no more
+    assert Body.text(bored) == Body.text(sharp) + "_0_.009_.008" and Body.value(Body.text(bored)) == bored
+    filled = replace(rounded, disc=0.004, thickness=0.003, height=0.002)
+    assert Body.text(filled) == Body.text(rounded) + "_0_0_.004_.003_.002" and Body.value(Body.text(filled)) == filled

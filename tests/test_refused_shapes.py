@@ -30,6 +30,7 @@ from tippe_core import (
 # --- what is refused ---
 
 GOOD = {"R": 0.016, "c": 0.0082, "l": 0.0192, "r": 0.0032, "M": 0.0115}
+FILLED = GOOD | {"hole": 0.009, "depth": 0.008, "disc": 0.004, "thickness": 0.003, "height": 0.002}
 PEG = {"R": 0.002, "h": 0.01, "r1": 0.02, "r2": 0.02, "t": 0.004, "r": 0.002, "l": 0.01, "M": 0.02}
 CORE = {"R": 0.02, "b": 0.008, "d": 0.01, "density": 700.0, "core_density": 7800.0}
 SPHERE = {"R": 0.02, "M": 0.02, "a": 0.3, "I1": 0.37, "I3": 0.4}
@@ -44,6 +45,14 @@ TOY = {"R": 0.015, "M": 0.006, "a": 0.2, "I1": 0.593, "I3": 0.519, "r": 0.005, "
         (TruncatedSphere, GOOD, "c", -0.016), (TruncatedSphere, GOOD, "l", -0.01), (TruncatedSphere, GOOD, "l", 0.0),
         (TruncatedSphere, GOOD, "l", np.inf), (TruncatedSphere, GOOD, "r", 0.0145), (TruncatedSphere, GOOD, "r", 0.0),
         (TruncatedSphere, GOOD, "r", "thick"), (TruncatedSphere, GOOD, "M", 0.0), (TruncatedSphere, GOOD, "M", 1e9),
+        (TruncatedSphere, FILLED, "hole", 0.0032), (TruncatedSphere, FILLED, "hole", 0.0138),
+        (TruncatedSphere, FILLED, "hole", 0.0), (TruncatedSphere, FILLED, "hole", -0.009),
+        (TruncatedSphere, FILLED, "depth", 0.0), (TruncatedSphere, FILLED, "depth", 0.0242),
+        (TruncatedSphere, FILLED, "disc", 0.0), (TruncatedSphere, FILLED, "disc", 0.0078),
+        (TruncatedSphere, FILLED, "disc", np.nan), (TruncatedSphere, FILLED, "thickness", 0.0),
+        (TruncatedSphere, FILLED, "thickness", 0.0143), (TruncatedSphere, FILLED, "thickness", -0.001),
+        (TruncatedSphere, FILLED, "height", 0.0), (TruncatedSphere, FILLED, "height", 0.02),
+        (TruncatedSphere, FILLED, "M", 0.0011),
         (OrdinaryTop, PEG, "h", -0.001), (OrdinaryTop, PEG, "r1", 0.0), (OrdinaryTop, PEG, "r2", 0.001),
         (OrdinaryTop, PEG, "t", 0.0), (OrdinaryTop, PEG, "r", 0.03), (OrdinaryTop, PEG, "l", 0.0),
         (LoadedSphere, CORE, "b", 0.02), (LoadedSphere, CORE, "d", 0.012), (LoadedSphere, CORE, "d", -0.013),

@@ -39,7 +39,13 @@ VASE = Lathe(R=0.005, points=((0.003, -0.003), (0.018, 0.004), (0.018, 0.009), (
              density=(7800.0, 2700.0, 2700.0, 1.0, 700.0))  # fmt: skip
 SHAPES = {preset.name: preset.shape for preset in PRESETS} | {
     "bored": BORED, "hollow": HOLLOW, "undercut": UNDERCUT, "cavity": CAVITY, "vase": VASE,
-    "no stem": TruncatedSphere(R=0.02, c=0.004, l=0.0, r=0.0, M=0.02)}  # fmt: skip
+    "no stem": TruncatedSphere(R=0.02, c=0.004, l=0.0, r=0.0, M=0.02),
+    "a hole": replace(PAPER, hole=0.009, depth=0.008), "a bowl": TruncatedSphere(
+        R=0.02, c=0.004, l=0.0, r=0.0, M=0.02, hole=0.012, depth=0.015),
+    "a disc": replace(PAPER, disc=0.004, thickness=0.003, height=0.002),
+    "a hole and a disc": TruncatedSphere.from_density(
+        720.0, R=0.015, c=0.0116, l=0.0064, r=0.0045, rounding=0.0045, hole=0.009, depth=0.008, disc=0.004,
+        thickness=0.003, height=0.002)}  # fmt: skip
 SOLID = {name: shape for name, shape in SHAPES.items() if not isinstance(shape, BareSphere)}
 
 PRINTED = 5e-4  # half of the third digit
@@ -134,6 +140,20 @@ def cone_density(rho, z):
     return shape.density * (peg | cone | ((z > 0.025) & (z < 0.045) & (rho < 0.004)))
 
 
+def hole_density(rho, z):
+    shape = SHAPES["a hole"]
+    wood = (rho**2 + z**2 < 0.016**2) & (z < 0.0082) & ((rho > 0.009) | (z < 0.0002))
+    return shape.density * (wood | ((rho < 0.0032) & (z > 0) & (z < 0.0274)))
+
+
+def filled_density(rho, z):
+    turn = np.linspace(0, pi / 2, 17)  # the facets of its round end
+    stem = (z > 0) & (rho < np.interp(z, 0.0135 + 0.0045 * np.sin(turn), 0.0045 * np.cos(turn), right=0))
+    wood = (rho**2 + z**2 < 0.015**2) & (z < 0.0116) & ((rho > 0.009) | (z < 0.0036))
+    steel = (rho < 0.004) & (z > -0.013) & (z < -0.010)
+    return np.where(steel, 7850.0, 720.0 * (wood | stem))
+
+
 GRIDS = {
     "paper": (PAPER, paper_density, 0.016, -0.016, 0.0274),
     "bored": (BORED, lambda rho, z: paper_density(rho, z) * ((rho > 0.002) | (z < 0.010)), 0.016, -0.016, 0.0274),
@@ -144,6 +164,8 @@ GRIDS = {
                0.02, -0.02, 0.02),
     "vase": (VASE, vase_density, 0.018, -0.005, 0.03),
     "cone": (SHAPES["Wooden cone"], cone_density, 0.022, -0.006, 0.045),
+    "a hole": (SHAPES["a hole"], hole_density, 0.016, -0.016, 0.0274),
+    "a hole and a disc": (SHAPES["a hole and a disc"], filled_density, 0.015, -0.015, 0.018),
     "undercut": (UNDERCUT, lambda rho, z: 700.0 * (((rho**2 + z**2 < 0.004**2) & (z < 0)) | ((z > 0) & (z < 0.014)
                  & (rho < 0.004)) | ((z > 0.004) & (z < 0.014) & (rho < 0.015) & ((rho > 0.013) | (z > 0.011)))),
                  0.015, -0.004, 0.014),
@@ -207,17 +229,57 @@ def test_scaling(name, factor):
         kept = {"density", "core_density", "a", "I1", "I3"}
         sizes = {f.name: grow(getattr(shape, f.name)) for f in fields(shape) if f.name not in kept}
         larger = replace(shape, **sizes | ({"M": factor**3 * shape.M} if "M" in sizes else {}))
-    for other in (larger, shape.with_mass(factor * shape.mass)):
+    filled = getattr(shape, "disc", 0)  # steel, which has the one density
+    for other in (larger,) if filled else (larger, shape.with_mass(factor * shape.mass)):
         assert (other.top.a, other.top.I1, other.top.I3) == pytest.approx(
             (shape.top.a, shape.top.I1, shape.top.I3), rel=1e-9, abs=1e-12)  # fmt: skip
     assert larger.mass == pytest.approx(factor**3 * shape.mass, rel=1e-10)
     assert larger.volume == pytest.approx(factor**3 * shape.volume, rel=1e-9)
-    assert shape.with_mass(factor * shape.mass).mass == pytest.approx(factor * shape.mass, rel=1e-12)
+    if not filled:
+        assert shape.with_mass(factor * shape.mass).mass == pytest.approx(factor * shape.mass, rel=1e-12)
 
 
 def test_density_from_mass_and_mass_from_density():
     assert TruncatedSphere.from_density(PAPER.density, R=0.016, c=0.0082, l=0.0192, r=0.0032).M == pytest.approx(0.0115)
     assert Ball.from_density(1190.0, R=0.02).M == pytest.approx(1190 * 4 / 3 * pi * 0.02**3, rel=1e-13)
+
+
+def test_a_hole_takes_its_wood_and_a_disc_is_steel():
+    """What a cylinder takes away is its volume; the steel that comes in weighs its own, whatever the wood does."""
+    dimensions = {name: getattr(PAPER, name) for name in ("R", "c", "l", "r")}
+    hole, disc = {"hole": 0.009, "depth": 0.008}, {"disc": 0.004, "thickness": 0.003, "height": 0.002}
+    drilled, steel = pi * (0.009**2 - 0.0032**2) * 0.008, pi * 0.004**2 * 0.003
+    assert replace(PAPER, **hole).volume == pytest.approx(PAPER.volume - drilled, rel=1e-13)
+    assert replace(PAPER, **disc).volume == pytest.approx(PAPER.volume, rel=1e-13)
+    for density in (300.0, 720.0, 9000.0):
+        wood = density * (PAPER.volume - drilled - steel)
+        both = TruncatedSphere.from_density(density, **dimensions, **hole, **disc)
+        assert (both.density, both.mass) == pytest.approx((density, wood + 7850 * steel), rel=1e-12)
+        heavier = both.with_mass(both.mass + 0.001)
+        assert heavier.mass - heavier.density * (heavier.volume - steel) == pytest.approx(7850 * steel, rel=1e-11)
+    assert TruncatedSphere.from_density(720.0, **dimensions, **hole).M == pytest.approx(
+        720 * (PAPER.volume - drilled), rel=1e-12)  # fmt: skip
+
+
+@given(st.floats(-0.9, 1), st.floats(0, 0.99), st.floats(0.01, 0.99), st.floats(0.01, 0.99), st.floats(0.01, 0.99))
+def test_any_hole_around_a_stem_by_shells(c, thin, wide, deep, length):
+    """Cylindrical shells again: of the wall, the floor below the hole, and the stem."""
+    floor = c - deep * (c + 1)
+    most = min(sqrt(1 - c * c), sqrt(1 - floor * floor))
+    hole = wide * most
+    r = thin * hole
+    if r < 1e-6 or hole > most * (1 - 1e-6):
+        return
+    shape = TruncatedSphere(R=1, c=c, l=length, r=r, M=1, hole=hole, depth=c - floor)
+
+    def high(rho):
+        return c + length if rho < r else floor if rho < hole else min(c, sqrt(1 - rho * rho)) if c > 0 else c
+
+    widest = 1.0 if c > 0 else sqrt(1 - c * c)
+    breaks = [x for x in (r, hole, sqrt(1 - c * c)) if 0 < x < widest]
+    expected = by_shells(lambda rho: -sqrt(1 - rho * rho), high, widest, breaks)
+    assert of(shape.form) == pytest.approx(expected, rel=1e-8, abs=1e-9)
+    assert len(shape.solid.outlines) == 1
 
 
 def test_presets():

@@ -85,7 +85,10 @@ class Body:
     @classmethod
     def text(cls, shape):
         """The text of any Shape."""
-        dimensions = list(given(shape).values())
+        names = names_of(type(shape))[0]
+        while names[-1] not in given(shape):  # those at the end that go without saying
+            names.pop()
+        dimensions = [getattr(shape, name) for name in names]
         if all(isinstance(value, float) for value in dimensions):
             return "_".join([type(shape).__name__, *map(Number.text, dimensions)])
         return cls.PACKED + base64.urlsafe_b64encode(zlib.compress(save_top(shape).encode(), 9)).decode().rstrip("=")

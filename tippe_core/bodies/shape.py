@@ -128,7 +128,8 @@ class Shape:
         return (angle, edge) if angle < pi - 1e-9 else (None, None)
 
     def with_mass(self, M: float) -> Self:
-        """The same body with its density, or densities, scaled so that its mass is M (kg)."""
+        """The same body with its density, or densities, scaled so that its mass is M (kg); what is let into it
+        keeps its own."""
         factor = weight(finite("M", M)) / self.mass
         return replace(self, **{name: _times(factor, getattr(self, name)) for name in self._weights})
 
@@ -142,7 +143,7 @@ class Shape:
 
 
 class OneMaterial(Shape):
-    """A shape of uniform density, given by its mass M (kg)."""
+    """A shape of uniform density, but for what is let into it, given by its mass M (kg)."""
 
     _weights = ("M",)
 
@@ -157,8 +158,9 @@ class OneMaterial(Shape):
         super().__post_init__()
         weight(self.M)
         if not 0 < self.density <= DENSEST:
+            most = DENSEST * self.form.volume + self.inlay.mass
             raise TopError("M", self.M, "at most {most:g} {unit} for this body ({densest:g} kg/m^3)",
-                           code="too-dense", most=DENSEST * self.form.volume, densest=DENSEST, unit="kg")  # fmt: skip
+                           code="too-dense", most=most, densest=DENSEST, unit="kg")  # fmt: skip
 
     @classmethod
     def from_density(cls, density: float, **dimensions: float) -> Self:
@@ -167,9 +169,14 @@ class OneMaterial(Shape):
         body = cls(M=1e-3, **dimensions)  # type: ignore[call-arg]  # a field of each kind
         return replace(body, M=density * body.form.mass)  # type: ignore[call-arg]
 
+    @property
+    def inlay(self) -> Solid:
+        """What is let into it, of another material; `form` has no room there."""
+        return Solid(())
+
     @cached_property
     def solid(self) -> Solid:
-        return self.density * self.form
+        return self.density * self.form + self.inlay
 
     @property
     def mass(self) -> float:
@@ -178,7 +185,7 @@ class OneMaterial(Shape):
     @property
     def density(self) -> float:
         """Density, kg/m^3."""
-        return self.M / self.form.mass
+        return (self.M - self.inlay.mass) / self.form.mass
 
 
 @dataclass(frozen=True, kw_only=True)

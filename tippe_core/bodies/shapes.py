@@ -1,6 +1,6 @@
 """The kinds of bodies: the tippe top of Fig. 7, the loaded sphere of Fig. 2, ordinary tops, arbitrary outlines."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import acos, atan2, hypot, sqrt
 from typing import Self
@@ -10,6 +10,7 @@ import numpy as np
 from ..errors import TopError, finite
 from ..paper.top import Top
 from ..types import Number, Rim
+from .inside import STEEL, check_disc, check_hole
 from .ranges import LONG, MOST_POINTS, SMALLEST, THINNEST, check_stem, in_range, rows_of, weight
 from .shape import OneMaterial, Shape, Turned, check_one_piece
 from .slices import DENSEST, LARGEST
@@ -25,6 +26,9 @@ class TruncatedSphere(OneMaterial):
     The stem has the radius r and the length l. All lengths in m, M in kg. r = l = 0: no stem. c = R: the whole sphere.
     rounding: the radius of the edge of the stem's end, from 0 (sharp) to r (half a ball). For the mass it is replaced
     by 16 facets, which remove half a percent more material than the rounding; for contact it is exactly round.
+    hole, depth: the radius and the depth below the cut of a hole around the stem, which stands on its floor.
+    disc, thickness, height: of a steel disc (7850 kg/m^3) in the wood, with its lower face at the height above the
+    contact point. 0: no hole, no disc. M is the mass of all of it, density that of the wood.
     """
 
     R: float
@@ -33,11 +37,26 @@ class TruncatedSphere(OneMaterial):
     r: float
     M: float
     rounding: float = 0.0
+    hole: float = 0.0
+    depth: float = 0.0
+    disc: float = 0.0
+    thickness: float = 0.0
+    height: float = 0.0
 
     @classmethod
     def paper(cls) -> Self:
         """Appendix A: R = 1.6 cm, c = 0.82 cm, l = 1.92 cm, r = 0.32 cm, M = 11.5 g."""
         return cls(R=0.016, c=0.0082, l=0.0192, r=0.0032, M=0.0115)
+
+    @classmethod
+    def from_density(cls, density: float, **dimensions: float) -> Self:
+        """The shape whose wood has this density (kg/m^3), instead of a mass."""
+        let_in = {name: dimensions.pop(name, 0.0) for name in ("disc", "thickness", "height")}
+        whole = super().from_density(density, **dimensions)
+        if not any(let_in.values()):
+            return whole
+        disc, thickness = (finite(name, let_in[name]) for name in ("disc", "thickness"))
+        return replace(whole, M=whole.M + (STEEL - whole.density) * np.pi * disc**2 * thickness, **let_in)
 
     def _check(self) -> None:
         in_range("c", self.c, -self.R, self.R, "m", above=True, code="cut-misses",
@@ -48,12 +67,33 @@ class TruncatedSphere(OneMaterial):
         in_range("l", self.l, 0, LONG, "m")
         check_stem(self.r, self.l)
         in_range("rounding", self.rounding, SMALLEST if self.rounding > 0 else 0, min(self.r, self.l), "m")
+        check_hole(self.R, self.c, self.r, self.hole, self.depth)
+        # checked before it is a solid: that of what cannot be is none
+        weighs = STEEL * np.pi * self.disc**2 * self.thickness
+        check_disc(self.R, self.floor, self.M, self.disc, self.thickness, self.height, weighs)
+
+    @property
+    def floor(self) -> float:
+        """The height above O on which the stem stands, m: of the cut, or of the hole's floor."""
+        return self.c - self.depth
+
+    @property
+    def _place_of_disc(self) -> Solid:
+        return cylinder(self.disc, self.height - self.R, self.height - self.R + self.thickness)
+
+    @cached_property
+    def inlay(self) -> Solid:
+        return STEEL * self._place_of_disc if self.disc else Solid(())
 
     @cached_property
     def form(self) -> Solid:
         form, top, b = zone(self.R, -self.R, self.c), self.c + self.l, self.rounding
-        if self.l > b:
-            form += cylinder(self.r, self.c, top - b)
+        if self.hole:
+            form -= cylinder(self.hole, self.floor, self.c)
+        if self.disc:
+            form -= self._place_of_disc
+        if self.l and top - b > self.floor:
+            form += cylinder(self.r, self.floor, top - b)
         if not b:
             return form
         angle = np.linspace(0, np.pi / 2, FACETS + 1)

@@ -11,7 +11,8 @@ from typing import TypeAlias
 import numpy as np
 import param
 
-from app.model.build.dimensions import FAMILIES, MASS, Dimension, Value, changed, density_dimension, sentence
+from app.model.build.dimensions import FAMILIES, INSIDES, MASS, Dimension, Value, changed, density_dimension, sentence
+from app.model.build.inside import filled, inside
 from app.model.scene import Scene
 from app.text import listed, say
 from tippe_core import (
@@ -26,6 +27,7 @@ from tippe_core import (
     Solid,
     Top,
     TopError,
+    TruncatedSphere,
     Turned,
     a_from_rocking,
     ball,
@@ -69,7 +71,7 @@ class Draft:
     @property
     def dimensions(self) -> tuple[Dimension, ...]:
         """The Dimensions that can be set."""
-        dimensions = FAMILIES[type(self.shape)][1]
+        dimensions = FAMILIES[type(self.shape)][1] + INSIDES[inside(self.shape)]
         if isinstance(self.shape, Lathe) and isinstance(self.shape.density, tuple):
             last = self.shape.points[0][1]
             pieces = [density_dimension("density 0", "peg_density")]
@@ -175,6 +177,12 @@ class Builder(param.Parameterized):
     def choose_family(self, family: str) -> None:
         """The first preset of a family, thrown anew."""
         self._take(next(preset for preset in PRESETS if FAMILIES[type(preset.shape)][0] == family))
+
+    def fill(self, kind: str) -> None:
+        """What a truncated sphere has inside, of app.model.build.inside.KINDS, in the same wood."""
+        shape = self._body
+        if isinstance(shape, TruncatedSphere):
+            self._try("inside", lambda: filled(shape, kind))
 
     def load(self, text: str | bytes) -> None:
         """The body in a file that save() wrote, thrown anew."""

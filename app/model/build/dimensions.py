@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from app.model.build.inside import INSIDE, inside_handles, inside_pulled, with_inside
 from app.text import listed, say, told
 from tippe_core import (
     Ball,
@@ -60,6 +61,12 @@ _WEIGHT = (MASS, density_dimension("density", "weight"))
 # of a body whose inside is not known
 _MEASURED = (MASS, Dimension("a", "a", "", 1.0, -0.9, 0.9, 0.005), Dimension("I1", "I1", "", 1.0, 0.05, 0.7, 0.001),
              Dimension("I3", "I3", "", 1.0, 0.05, 0.7, 0.001))  # fmt: skip
+
+_HOLE = (_length("hole", "hole", 0.5, 30), _length("depth", "hole_depth", 0.5, 40))
+_DISC = (_length("disc", "disc", 0.5, 30), _length("thickness", "disc_thickness", 0.2, 20),
+         _length("height", "disc_height", 0.1, 40))  # fmt: skip
+INSIDES = {"": (), "solid": (), "hole": _HOLE, "disc": _DISC, "both": (*_HOLE, *_DISC)}
+"""{what is inside, of inside.py: the Dimensions of it}."""
 
 FAMILIES: dict[type[Shape], tuple[str, tuple[Dimension, ...]]]
 FAMILIES = {
@@ -118,13 +125,15 @@ def value_of(shape: Shape, name: str) -> Value:
 
 def changed(shape: Shape, name: str, value: Value) -> Shape:
     """The shape with another value of that dimension; a mass where densities are given, or the other way round, keeps
-    the form."""
+    the form, and what is inside is changed in the same wood."""
     field, index = _field(name)
     given = {one.name: getattr(shape, one.name) for one in fields(shape)}
     if name == "M" and "M" not in given:
         return shape.with_mass(value)
     if name == "density" and isinstance(shape, OneMaterial):
         return type(shape).from_density(value, **{key: size for key, size in given.items() if key != "M"})
+    if name in INSIDE and isinstance(shape, TruncatedSphere):
+        return with_inside(shape, **{name: value})
     if index is not None:
         rows = list(getattr(shape, field))
         rows[index] = value
@@ -146,7 +155,7 @@ def handles(shape: Shape) -> dict[str, tuple[float, float]]:
     side = (R * np.sqrt(0.5), -R * np.sqrt(0.5))
     if isinstance(shape, TruncatedSphere):
         cut = np.sqrt((R - shape.c) * (R + shape.c))
-        at = {"R": side, "c": (-cut, shape.c)}
+        at = {"R": side, "c": (-cut, shape.c)} | inside_handles(shape)
         return at | {"r": (shape.r, shape.c + shape.l / 2), "l": (0.0, shape.c + shape.l)} if shape.l else at
     if isinstance(shape, LoadedSphere):
         return {"R": side, "b": (shape.b, -shape.d), "d": (0.0, -shape.d)}
@@ -173,7 +182,9 @@ def pulled(shape: Shape, name: str, x: float, z: float) -> float | tuple[float, 
         low = points[index - 1][1] if index else -shape.R
         high = points[index + 1][1] if index + 1 < len(points) else LARGEST
         return (max(0.0, round(float(x), 5)), min(max(round(float(z), 5), low), high))
-    if name == "R" and isinstance(shape, Lathe):
+    if name in INSIDE and isinstance(shape, TruncatedSphere):
+        value = inside_pulled(shape, name, x, z)
+    elif name == "R" and isinstance(shape, Lathe):
         value = np.hypot(x, z)
     elif name == "R":
         value = (x - z) * np.sqrt(0.5)

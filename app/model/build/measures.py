@@ -22,8 +22,20 @@ class Measure(NamedTuple):
         """Whether it is measured along axis 3, beside the body."""
         return self.name in HEIGHTS
 
+    @property
+    def is_left(self) -> bool:
+        """Of heights: whether it stands left of the body."""
+        return self.name in LEFT
 
-HEIGHTS = ("a", "c", "d", "h", "l", "t")
+    @property
+    def is_shown(self) -> bool:
+        """Whether it is drawn also while a hand has not hold of it."""
+        return self.name not in WHILE_HELD
+
+
+HEIGHTS = ("a", "c", "d", "h", "l", "t", "depth", "thickness", "height")
+LEFT = ("depth",)
+WHILE_HELD = ("hole", "thickness", "height")  # for which there is no room
 
 
 def measures(shape: Shape) -> list[Measure]:
@@ -35,6 +47,7 @@ def measures(shape: Shape) -> list[Measure]:
         found.append(Measure("c", (0.0, 0.0), (rim, shape.c)))
         if shape.l:
             found += _stem(shape.r, shape.c, shape.l, rim)
+        found += _inside(shape)
     elif isinstance(shape, LoadedSphere):
         core = (0.0, -shape.d)
         found += [Measure("d", (0.0, 0.0), core), Measure("b", core, (shape.b, -shape.d))]
@@ -61,3 +74,18 @@ def _stem(r: float, foot: float, length: float, rim: float) -> list[Measure]:
     """Of a stem that begins at a foot, on a face of this radius."""
     return [Measure("l", (rim, foot), (r, foot + length)),
             Measure("r", (0.0, foot + length / 2), (-r, foot + length / 2))]  # fmt: skip
+
+
+def _inside(shape: TruncatedSphere) -> list[Measure]:
+    """Of a hole and of a disc."""
+    found = []
+    if shape.hole:
+        found.append(Measure("hole", (0.0, shape.floor), (shape.hole, shape.floor)))
+        found.append(Measure("depth", (-shape.hole, shape.c), (-shape.hole, shape.floor)))
+    if shape.disc:
+        low = shape.height - shape.R
+        high, middle = low + shape.thickness, low + shape.thickness / 2
+        found += [Measure("disc", (0.0, middle), (-shape.disc, middle)),
+                  Measure("thickness", (shape.disc, low), (shape.disc, high)),
+                  Measure("height", (0.0, -shape.R), (shape.disc, low))]  # fmt: skip
+    return found

@@ -11,17 +11,19 @@ import panel_material_ui as pmui
 from app.borrowed import WholeFile, at_once
 from app.model.build.builder import LARGEST_FILE
 from app.model.build.dimensions import FAMILIES, named, value_of
+from app.model.build.inside import inside
 from app.state import asked
 from app.tabs.build.fields import grid, symbol
 from app.tabs.build.section import Section
 from app.text import listed, say, written
-from app.widgets.cards import BUTTON, alert, beside, field, flow, note, on_click, words
+from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, words
 from app.widgets.controls import Dial, asked_of, number, typed_number, wording
-from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, Turned
+from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
 
 KNOBS = 32  # made at a time
 SAYS = "calc(55px * var(--type, 1))"  # three lines of where a preset comes from
 NARROW = {"max-width": "max(326px, min(100%, 100vh - 300px))"}  # so that what follows from the section is in sight
+IN_A_ROW = "fieldset { flex-direction: row !important; align-items: center; gap: 10px }"
 OWN = ""  # a select has no way to show that nothing is chosen
 
 
@@ -113,6 +115,28 @@ class Pieces:
         self.builder.compose(self.kind.value, sign * density, *(values[name] / 1e3 for name in self.entries))
 
 
+class Inside:
+    """Which of the insides a truncated sphere has. choose: a function of one of KINDS."""
+
+    def __init__(self, choose):
+        self._silent = False
+        options = {says: kind for kind, says in listed("build.inside").items()}
+        self.switch = pmui.RadioButtonGroup(
+            label=say("build.bench.inside"), options=options, value="solid", size="small", margin=0, sx=PLAIN,
+            stylesheets=[IN_A_ROW]
+        )  # fmt: skip
+        self.switch.param.watch(lambda event: None if self._silent else choose(event.new), "value")
+        self.steel = words(note(say("build.bench.steel")), sizing_mode=None)
+        self.view = pn.Column(flow(self.switch, self.steel), sizing_mode="stretch_width", margin=0)
+
+    def show(self, shape):
+        kind = inside(shape)
+        self._silent = True
+        self.view.visible, self.switch.value = bool(kind), kind or "solid"
+        self._silent = False
+        self.steel.visible = kind in ("disc", "both")
+
+
 class TopFile(WholeFile):
     LARGEST = LARGEST_FILE
 
@@ -129,6 +153,7 @@ class Build:
         self.source = words(styles={"min-height": SAYS})  # so that nothing below it moves when a hand changes the body
         self.presets = self._choice("presets", builder.choose)
         self.families = self._choice("family", builder.choose_family)
+        self.inside = Inside(builder.fill)
         self.dimensions = pn.Column(sizing_mode="stretch_width", margin=0)
         self.section.figure.on_event("doubletap", self._tapped_twice)
         self.parting = self._button("parts", lambda event: builder.part_densities())
@@ -195,7 +220,16 @@ class Build:
         """What a person sets."""
         files = flow(self.saved, self.file, self.stl)
         choices = grid(self.presets, self.families)
-        return [choices, self.source, self.dimensions, self.points, *self.pieces.view, files, self.file_words]
+        return [
+            choices,
+            self.source,
+            self.inside.view,
+            self.dimensions,
+            self.points,
+            *self.pieces.view,
+            files,
+            self.file_words,
+        ]
 
     def _loaded(self, event):
         if event.new:
@@ -224,6 +258,7 @@ class Build:
         if free:
             self.parting.label = say(f"build.bench.{'one' if isinstance(draft.shape.density, tuple) else 'parts'}")
         self.pieces.show(draft.shape)
+        self.inside.show(draft.shape)
         for name, knob in self._knobs.items():
             if name in draft.messages:
                 knob.say(draft.messages[name])
@@ -276,4 +311,6 @@ def derived_words(shape):
     prints = "unknown" if isinstance(shape, BareSphere) else ""
     if isinstance(shape, LoadedSphere) and shape.core_density:  # a cavity is in it
         prints = "outside"
+    if isinstance(shape, TruncatedSphere) and shape.disc:
+        prints = "outside_disc"
     return f"<div>{numbers}</div><div>{touch}{say(f'build.body.{prints}') if prints else ''}</div>"

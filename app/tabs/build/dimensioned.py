@@ -40,13 +40,18 @@ class Dimensioned:
         lines, tips, words, heights = [], [], {False: [], True: []}, 0
         for measure in measures(shape):
             dimension = known.get(measure.name)
-            if dimension is None:
+            if dimension is None or not (measure.is_shown or measure.name == held):
                 continue
             (x, z), (x1, z1) = ((1e3 * a, 1e3 * b) for a, b in (measure.start, measure.end))
             colour, thick = (COLOURS["chosen"], 2) if measure.name == held else (FAINT, 1)
             said = words[measure.name == held]
             text = self._text(dimension, value_of(shape, measure.name))
-            if measure.is_height:
+            if measure.is_left:
+                at = -wide - STEP * span
+                lines += [(x, z, at, z, FAINT, 0.5), (x1, z1, at, z1, FAINT, 0.5), (at, z, at, z1, colour, thick)]
+                tips += [(at, max(z, z1), 0, colour), (at, min(z, z1), math.pi, colour)]
+                said.append((at, (z + z1) / 2, text.replace(" ", "\n", 1), -6, 0, "right"))
+            elif measure.is_height:
                 at = wide + (COLUMN + STEP * (heights % 2)) * span
                 heights += 1
                 lines += [(x, z, at, z, FAINT, 0.5), (x1, z1, at, z1, FAINT, 0.5), (at, z, at, z1, colour, thick)]

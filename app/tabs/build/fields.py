@@ -4,7 +4,8 @@ import panel as pn
 
 SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
            "I3": "<i>I</i><sub>3</sub>"}  # fmt: skip
-WORDS = ("density", "core_density")  # which have no letter in the paper
+# which have no letter in the paper
+WORDS = ("density", "core_density", "rounding", "hole", "depth", "disc", "thickness", "height")
 
 
 def symbol(name):

@@ -13,7 +13,7 @@ from app.tabs.build.dimensioned import Dimensioned
 from app.text import say
 from app.widgets.controls import number
 from app.widgets.plots import PAPER, draw, plain
-from tippe_core import LoadedSphere, Turned
+from tippe_core import LoadedSphere, TruncatedSphere, Turned
 
 PARTS = {"body": "#d9b98c", "hollow": PAPER, "core": "#8a96a3"}  # of the section, in the order they are drawn
 FRAME = 276  # px, where the browser has not said how large it is; square, so that both axes have one scale
@@ -95,6 +95,10 @@ class Section:
         if isinstance(shape, LoadedSphere):
             core = np.column_stack([shape.b * np.sin(turn), shape.b * np.cos(turn) - shape.d])
             parts["core" if shape.core_density else "hollow"].append(1e3 * core)
+        if isinstance(shape, TruncatedSphere) and shape.disc:
+            low, wide = shape.height - shape.R, shape.disc
+            high = low + shape.thickness
+            parts["core"].append(1e3 * np.array([(0, low), (wide, low), (wide, high), (0, high)]))
         for part, outlines in parts.items():
             x, z = _closed(outlines)
             self.parts[part].data = {"x": x, "z": z}
