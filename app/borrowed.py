@@ -92,10 +92,7 @@ def thawed(freeze):
 def to_the_last(dispatch):
     """3. Panel's function that writes what waits for a document's page. If two writes had begun, the first to end
     removed the mark that they share, and the second then found nothing to write: its changes waited until something
-    else was sent.
-
-    It was introduced by https://github.com/holoviz/panel/pull/6667; we found no issue about the loss.
-    """
+    else was sent. It came with https://github.com/holoviz/panel/pull/6667; we found no issue about the loss."""
     module = panel.io.document
     waiting = module._WRITE_EVENTS if hasattr(module, "_WRITE_EVENTS") else module._WRITE_MSGS  # Panel 1.10, 1.9
 
@@ -295,23 +292,18 @@ class Direct(JSComponent):
                 super()._param_change(*events)
                 return
             told = self._in_process__events.get(document, {})
-            before = self._changing.get(ref)
             news = {name: value for name, value in values.items() if name not in told or told[name] != value}
             self._changing[ref] = [*news]
             try:
                 model.data.update(**news)
             finally:
-                if before is None:
-                    del self._changing[ref]
-                else:
-                    self._changing[ref] = before
+                del self._changing[ref]
 
     @classmethod
     @cache
     def own(cls):
-        """The names of its plain values: not those of Panel's base classes, events or children."""
-        others = (param.Event, panel.custom.Child, panel.custom.Children)
-        return {name for name in set(cls.param) - set(JSComponent.param) if not isinstance(cls.param[name], others)}
+        """The names of its values, none of which is a part of the page or an event."""
+        return set(cls.param) - set(JSComponent.param)
 
 
 def _take(component, process, properties, changes):
