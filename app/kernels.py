@@ -1,4 +1,4 @@
-"""Kernels that nobody has compiled yet are compiled beside the server, which runs them as Python until then."""
+"""Kernels that are not compiled yet are compiled in the background, and run as plain Python until then."""
 
 import logging
 import os
@@ -14,21 +14,21 @@ from tippe_core import kept
 from tippe_core.ahead import compile_all
 from tippe_core.compiled import ahead, why_not
 
-NICE = 5  # how far the compiler stands back behind visitors; until it is done they are answered more slowly
+NICE = 5  # the lower priority of the compiler; visitors are answered more slowly until it is done
 log = logging.getLogger("tippe")
 _compiling = threading.Event()
 
 
 def compiling() -> bool:
-    """Whether they are compiled just now."""
+    """Whether kernels are being compiled now."""
     return _compiling.is_set()
 
 
 @cache
 def compile_beside() -> None:
-    """Begins it where it is needed, and says so in the log. To be called before anything is computed; a second call
-    does nothing."""
-    if log.level == logging.NOTSET:  # panel serve, which lets only warnings through
+    """Starts compiling if needed, and writes so in the log. To be called before anything is computed; a second call has
+    no effect."""
+    if log.level == logging.NOTSET:  # under panel serve, which shows only warnings
         log.setLevel(logging.INFO)
     if reason := why_not():
         log.info("kernels run as Python, some hundred times slower than compiled: %s", reason)
@@ -45,12 +45,12 @@ def _compile(begun: threading.Event) -> None:
     with ahead():
         _compiling.set()
         begun.set()
-        if sys.platform == "linux":  # elsewhere a thread has no priority of its own
+        if sys.platform == "linux":  # on other systems a thread has no priority of its own
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICE)
         try:
             if kept.folder() is not None:
                 _compile_in_a_process()
-            reason = compile_all()  # all that is kept by now is only read
+            reason = compile_all()  # kernels that are stored already are only read
         except Exception:
             log.exception("compiling ahead ended early; the rest is compiled when it is needed")
             return
@@ -60,7 +60,7 @@ def _compile(begun: threading.Event) -> None:
 
 
 def _compile_in_a_process() -> None:
-    """A thread that compiles would take turns with this process's others at the interpreter."""
+    """A thread that compiles would take turns with the other threads of this process at the interpreter."""
     home = Path(tippe_core.__file__).parent.parent
     path = os.pathsep.join(filter(None, (str(home), os.environ.get("PYTHONPATH"))))
     low = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)  # Windows

@@ -1,6 +1,7 @@
-"""`panel serve app` finds the page here.
+"""The page for `panel serve app`.
 
-This is run for each session, and emptied when the session ends; so nothing that others use may be made here.
+This file is run for each session, and its contents are deleted when the session ends, so nothing that others use may be
+created here.
 """
 
 from app.page.page import show

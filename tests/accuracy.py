@@ -1,8 +1,9 @@
-"""Random states of Sobol's sequence over the sliders' whole box (a from -10 on, where the page lets one type it): each
-quantity that tippe_core returns for such a state, its constants or its time against the paper's formulas in fifty
-digits, with the floats that go in taken as exact. An error is given twice: as a share of the value itself, and as a
-share of the largest of the terms that the paper's formula adds up (for an angle pi). Where a sum of large terms passes
-through zero only the second can be small, for the last digit of any term is there already larger than the value.
+"""Random states from a Sobol sequence over the whole range of the sliders (a from -10, which can be typed): each
+quantity that tippe_core returns for a state, its constants or its time is compared with the paper's formulas in fifty
+digits, in which the given floats are taken as exact. An error is given twice: relative to the value itself, and
+relative to the largest of the terms that the paper's formula adds up (for an angle, to pi). Where a sum of large
+terms passes through zero only the second can be small, because there the last digit of any term is larger than the
+value.
 """
 
 import numpy as np

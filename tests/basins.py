@@ -125,16 +125,21 @@ def page(cells, starts, found, last, rtol=None):
     the same starts that end otherwise where steps are a thousand times as exact, where that was asked."""
     rng, others = np.random.default_rng(5), {spins: ends[:, 1:] != ends[:, :1] for spins, ends in found.items()}
     yield from ("# Where the paper’s top ends", "")
-    yield (f"The paper’s top with its stem, `SmoothedCoulomb(0.3, 0.1)`, {SECONDS:g} s: {cells} × {cells} runs of "
-           f"`slide_many`, each cell one run. `python tests/basins.py {cells}` makes them. `make proof` makes "
-           f"{CELLS} × {CELLS}, 1.3 hours of one core, and goes on where it was stopped.")  # fmt: skip
+    yield (f"The final state of the paper’s top with its stem after {SECONDS:g} s, with `SmoothedCoulomb(0.3, 0.1)`: "
+           f"{cells} × {cells} runs of `slide_many`, one for each cell. `python tests/basins.py {cells}` computes "
+           f"them; `make proof` computes {CELLS} × {CELLS}, which takes 1.3 hours of one core and can be stopped and "
+           "continued."
+           )  # fmt: skip
     yield from ("", "![Ends over spin and tilt](basins.png)", "")
     fastest = ", ".join(f"{spin:.0f} rev/s below {tilt} degrees" for tilt, spin in last.items())
-    yield (f"Above some 28 rev/s the ends interleave. The fastest start beside which one ends otherwise has {fastest}; "
-           "all that are faster end on the stem. Is the border between the ends a fractal? Of two starts at one tilt, "
-           "one of them faster by ε, the share that end differently goes like ε to the power α, and the border has the "
-           f"dimension 2 − α: 1 where it is smooth, more where it is a fractal. {starts} starts at random in each "
-           "range, each with its neighbours; errors are one standard error, those of α by the bootstrap over starts."
+    yield ("Above about 28 rev/s different ends alternate. The fastest start that ends differently from a neighbour "
+           f"has {fastest}; all faster ones end on the stem.")  # fmt: skip
+    yield ""
+    yield ("Is the boundary between the ends a fractal? Take two starts with the same tilt, one of them faster by ε. "
+           "The share of such pairs that end differently scales as ε to the power α, and the boundary has the "
+           f"dimension 2 − α: 1 if it is smooth, more if it is a fractal. The table is for {starts} random starts in "
+           "each range, each with its neighbours; errors are one standard error, those of α from a bootstrap over "
+           "the starts."
            )  # fmt: skip
     yield ""
     yield "| ε, rev/s | " + " | ".join(f"{low:g} to {high:g} rev/s" for low, high in found) + " |"
@@ -149,16 +154,16 @@ def page(cells, starts, found, last, rtol=None):
                   else "too few differ" for other in others.values()]  # fmt: skip
         yield f"| α, {name} | " + " | ".join(powers) + " |"
     yield ""
-    yield ("So there is no one power. From 1 down to 0.03 rev/s the border looks like a fractal: halving a distance "
-           "hardly makes the end surer. Below some 0.01 rev/s the power is not told from 1, that of a smooth border, "
-           "and pairs that are closer than 0.001 rev/s hardly ever end differently. So would it be if each hop of the "
-           "top folded the border once more, for it hops a few times only and then comes to rest; that was not tried."
-           )  # fmt: skip
+    yield ("So there is no single power. From 1 down to 0.03 rev/s the boundary looks like a fractal: halving the "
+           "distance hardly makes the end more predictable. Below about 0.01 rev/s the power is consistent with 1, "
+           "that of a smooth boundary, and pairs closer than 0.001 rev/s hardly ever end differently. A possible "
+           "explanation, which was not tested: each hop of the top folds the boundary once more, but the top hops "
+           "only a few times before it comes to rest.")  # fmt: skip
     if rtol is not None:
         yield ""
-        yield (f"With steps a thousand times as exact (`rtol` 1e-9) {rtol:.1%} of the starts from {SPINS[0]:g} to "
-               f"{SPLIT:g} rev/s end otherwise. So where a single cell near a border ends is not certain; how often "
-               "neighbours differ, among runs all made in one way, is.")  # fmt: skip
+        yield (f"With a tolerance a thousand times smaller (`rtol` 1e-9) {rtol:.1%} of the starts from {SPINS[0]:g} to "
+               f"{SPLIT:g} rev/s end differently. So the end of a single cell near a boundary is uncertain, but how "
+               "often neighbours differ, if all are computed in the same way, is not.")  # fmt: skip
 
 
 def main(cells=CELLS, folder=KEPT):

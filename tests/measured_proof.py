@@ -87,14 +87,14 @@ def lines(rows):
     same = np.array([abs(slopes[row["seed"]][name]) for row in rows for name in row["off"]])
     unknown = [value for row in rows for value in row["unknown"].values()]
     others = sum(value is not None for value in unknown)
-    yield (f"{len(rows)} of the {len(ALL)} films, whose seeds were fixed beforehand. Of {known} numbers that the fits "
-           f"say they know, {share:.1%} have the truth within two standard errors (95.4 % are expected, 92 to 98 % "
-           f"wanted); of {len(unknown)} that they say they do not know, another value fits as well for {others}."
-           )  # fmt: skip
+    yield (f"{len(rows)} of the {len(ALL)} films, whose seeds were fixed beforehand. Of {known} fitted numbers that "
+           f"the fits call determined, {share:.1%} are within two standard errors of the true value (95.4 % are "
+           f"expected, 92 to 98 % accepted); of {len(unknown)} that they call undetermined, {others} have another "
+           "value that fits as well.")  # fmt: skip
     yield ""
-    yield (f"An estimate by the slopes at the truth, with no fit at all, is within two of its errors for "
-           f"{np.mean(same < 2):.1%} of the same numbers: as far as the two agree, what differs from 95.4 % is the "
-           "noise that these seeds drew, not the errors.")  # fmt: skip
+    yield ("A linear estimate at the true values, without a fit, is within two of its errors for "
+           f"{np.mean(same < 2):.1%} of the same numbers. As far as the two shares agree, the difference from 95.4 % "
+           "comes from the noise of these seeds, not from wrong errors.")  # fmt: skip
 
 
 if __name__ == "__main__":

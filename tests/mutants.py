@@ -306,12 +306,12 @@ def page(results, chosen):
     yield "# Mutants"
     yield ""
     yield ("Would the tests notice a wrong formula? `make proof` changes one sign and one factor (times for divided "
-           "by, a power by one) in each statement that computes something, one at a time, and runs the tests until one "
-           "fails. Left out are iterations and tests of convergence, where a wrong step is slow or refused. Tried from "
-           f"{oldest} to {newest['date']}, the last at commit {newest['commit']}; `tests/data/mutants.jsonl` has each "
-           "with its date, its commit and the test that noticed it.")  # fmt: skip
+           "by, a power by one) in each statement that computes something, one at a time, and runs the tests until "
+           "one fails. Iterations and tests of convergence are left out, because a wrong step there is slow or "
+           f"refused. The changes were tried from {oldest} to {newest['date']}, the last at commit {newest['commit']}; "
+           "`tests/data/mutants.jsonl` has each with its date, its commit and the test that noticed it.")  # fmt: skip
     yield ""
-    yield f"Of {chosen:,} changes chosen {len(results):,} have been tried."
+    yield f"{len(results):,} of the {chosen:,} chosen changes have been tried."
     yield ""
     yield "| file | changes tried | noticed | not noticed, explained | not noticed |"
     yield "|---|---|---|---|---|"

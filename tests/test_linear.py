@@ -93,6 +93,19 @@ def test_rolling_about_a_precession_turns_as_the_nutation_does():
     assert np.abs(modes.real).max() < 1e-9 and modes.imag.max() == pytest.approx(2 * np.pi / period, rel=1e-3)
 
 
+@pytest.mark.parametrize("inverted", [False, True])
+@pytest.mark.parametrize(("top", "spin"), [(PAPER, 9.0), (S, -6.0), (TOY, 12.0)])
+def test_rolling_beside_a_pole_has_the_two_modes(top, spin, inverted):
+    """By friction that holds: e_x + i e_y of a rolling run obeys the linear recursion of two exponentials."""
+    modes = spinning_modes(top, Coulomb(0.3), spin, inverted)
+    step, pole = 0.05, np.pi if inverted else 0.0
+    moved = roll(top, None, np.arange(0, 20, step), State(abs(pole - 1e-4), 0, 0, spin))
+    xi = np.sin(moved.theta) * np.exp(1j * moved.phi)
+    found, *_ = np.linalg.lstsq(np.column_stack([xi[1:-1], -xi[:-2]]), xi[2:])
+    expected = np.exp(step * modes)
+    np.testing.assert_allclose(found, [expected.sum(), expected.prod()], atol=1e-6)
+
+
 def test_what_has_no_steady_tumbling():
     with pytest.raises(TopError):
         tumbling_modes(PAPER, Viscous(0.3), 0.0)

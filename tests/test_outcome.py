@@ -6,7 +6,18 @@ import sliding_body as sb
 from cases import BALL, PAPER
 from scipy.optimize import brentq, minimize_scalar
 
-from tippe_core import Scales, State, Top, TopError, jellett_potential, outcome, steady_states, thresholds
+from tippe_core import (
+    Scales,
+    State,
+    Top,
+    TopError,
+    Viscous,
+    jellett_potential,
+    outcome,
+    slide,
+    steady_states,
+    thresholds,
+)
 
 S = Top(a=0.3, I1=131 / 350, I3=0.4)
 S_SCALES = Scales(R=0.02, M=0.02, g=9.82)
@@ -109,6 +120,15 @@ def test_the_three_regimes_of_S_in_one_sentence():
                                "below 4.4 rev/s and inverted is stable only above 12.2 rev/s.")  # fmt: skip
     assert outcome(PAPER, State(0.1, 0, 0, 42 / Scales.paper().angular_velocity)).verdict == "goes upright"
     assert outcome(BALL, State(0.7, 0, 0, 3.0)).theta == 0.7
+
+
+@pytest.mark.parametrize("spin", [25.0, 60.0, 90.0])
+def test_the_last_tilt_and_spin_are_those_of_a_run(spin):
+    """Goes upright, hangs, turns over: what a run comes to, by a law that leaves C_J as it was."""
+    start = State(0.1, 0, 0, spin / S_SCALES.angular_velocity)
+    found, moved = outcome(S, start), slide(S, start, Viscous(0.3), np.linspace(0, 1500, 9), rtol=1e-9)
+    assert moved.theta[-1] == pytest.approx(found.theta, abs=1e-6)
+    assert moved.omega[-1, 2] == pytest.approx(found.omega3, rel=1e-6)
 
 
 def test_a_start_with_energy_for_both_ends_says_so():

@@ -82,6 +82,9 @@ def test_a_dimension_from_the_period():
     assert found.value == pytest.approx(0.0071, rel=1e-10)
     apart = [dimension_from_rocking(loaded, T=T + dT, low=0.0, high=0.0119).value for dT in (-0.002, 0.002)]
     assert found.uncertainty == pytest.approx(abs(apart[1] - apart[0]) / 2, rel=0.01)
+    apart = [dimension_from_rocking(loaded, T=T, g=9.81 + dg, low=0.0, high=0.0119).value for dg in (-0.01, 0.01)]
+    found = dimension_from_rocking(loaded, T=T, dg=0.01, low=0.0, high=0.0119)
+    assert found.shares["g"] == found.uncertainty == pytest.approx(abs(apart[1] - apart[0]) / 2, rel=0.01)
     with pytest.raises(TopError, match=r"T = 0.2 .* reached once"):
         dimension_from_rocking(loaded, T=0.2, low=0.0, high=0.0119)
 

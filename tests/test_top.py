@@ -5,7 +5,7 @@ import pytest
 import rigid_body as rb
 from cases import PAPER, TOPS
 
-from tippe_core import Constants, Scales, State, Top, TopError, limit_energy, roll, tielines, turning_points
+from tippe_core import BareSphere, Constants, Scales, State, Top, TopError, limit_energy, roll, tielines, turning_points
 
 
 def test_paper():
@@ -107,3 +107,12 @@ def test_records_do_not_change():
         name = next(iter(record.__dataclass_fields__))
         with pytest.raises(AttributeError):
             setattr(record, name, 1.0)
+
+
+@pytest.mark.parametrize(("a", "I1", "I3"), [(0.0, 2 / 3, 2 / 3), (0.0, 0.5, 1.0), (0.5, 5 / 12, 2 / 3)])
+def test_a_body_may_have_all_its_mass_at_its_surface(a, I1, I3):
+    """A spherical shell, a ring around the equator, the shell of the lower half: all as far from O as can be."""
+    part = 1 - 1e-9
+    BareSphere(R=0.02, M=0.02, a=part * a, I1=part * I1, I3=part * I3)
+    with pytest.raises(TopError, match="fit into the body"):
+        BareSphere(R=0.02, M=0.02, a=1.001 * a, I1=1.001 * I1, I3=1.001 * I3)

@@ -61,10 +61,10 @@ def table(rows, found):
 def page(found, accuracy_lines):
     yield "# Validation"
     yield ""
-    yield ("Written by `make validation` from the results of the tests; not typed. Each row is a thing that the paper "
-           "says, what of tippe_core it is about, what that was compared with, and the largest difference found. "
-           "Differences are absolute in units of R, M and g, or shares of the terms' size where these are large; "
-           "“allowed” is what the test would still pass.")  # fmt: skip
+    yield ("Written by `make validation` from the results of the tests, not by hand. Each row has a statement of the "
+           "paper, the functions of tippe_core that it concerns, what they were compared with, and the largest "
+           "difference found. Differences are absolute, in units of R, M and g, or relative to the size of the terms "
+           "if these are large; “allowed” is the largest difference that the test accepts.")  # fmt: skip
     yield ""
     yield (f"{datetime.date.today()}, {platform.machine()}, Python {platform.python_version()}, "
            f"numpy {np.__version__}, scipy {scipy.__version__}, mpmath {mpmath.__version__}, "

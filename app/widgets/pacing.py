@@ -160,7 +160,7 @@ class Pacer:
             return
         scene = self._explorer.scene
         self._say(scene)
-        self._see_to_it()
+        self._finish_later()
         after(STILL_AFTER - REST_AFTER, partial(self._stay, scene))
 
     def _stay(self, scene):
@@ -173,14 +173,14 @@ class Pacer:
         if scene is self._explorer.scene:
             _each(self._shows["still"], scene)
 
-    def _see_to_it(self):
+    def _finish_later(self):
         if self._round or self._round_is_due or self._others or (self._begun and self._later):
             after(ANSWER_WITHIN, self._finish)
 
     def _finish(self):
         """Also shows the pictures of a tab that does not answer, after a time."""
         self._advance()
-        self._see_to_it()
+        self._finish_later()
 
     def _send(self, draw, in_flight):
         self._sent = number = self._sent + 1

@@ -1,7 +1,7 @@
 """The track on the table
 
-Where a rolling top touches, over six nutations, and the path of its centre of mass above. Each nutation is the first
-one, turned and moved on.
+The points where a rolling top touches the table, over six nutations, and the path of its centre of mass above. Each
+nutation is a copy of the first one, rotated and displaced.
 """
 
 import matplotlib.pyplot as plt

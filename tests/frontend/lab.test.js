@@ -98,10 +98,8 @@ test("of what a hand asks for the newest waits, one wish at a time is under way,
 });
 
 test("the track is the contact of each frame, in seconds and R", () => {
-  const rows = new Float32Array(40);
-  rows.set([2, 0, 0, 0, 1, 0.5, -0.25], 0);
-  rows.set([4, 0, 0, 0, 1, 0.75, 1], 20);
-  assert.deepEqual(trackOf(rows, 0.5), [[1, 0.5, -0.25], [2, 0.75, 1]]);
+  const rows = [[2, 0, 0, 0, 1, 0.5, -0.25], [4, 0, 0, 0, 1, 0.75, 1]].map((row) => [...row, ...Array(21 - row.length).fill(0)]);
+  assert.deepEqual(trackOf(new Float32Array(rows.flat()).buffer, 0.5), [[1, 0.5, -0.25], [2, 0.75, 1]]);
 });
 
 const BEFORE = { inputs: { spin: { name: "Spin" }, mu: { name: "Friction" } }, toy: "Top", decimal: ".",
@@ -113,9 +111,9 @@ test("the run before is that before the gesture, until it is dismissed or gone b
   const before = new Before(BEFORE), stands = [[1, "over", "turns over", ""], [1.5, "stands", "stands on its stem", ""]];
   const slow = scene(20, 0.3, []), middle = scene(24, 0.3, []), fast = scene(28, 0.3, stands);
   assert.equal(before.follow(null, slow), null);
-  before.touch("spin", slow, 0);
+  before.touch("spin", slow, 0, 0);
   assert.equal(before.follow(slow, middle).what, "Spin 20.0 rev/s");
-  before.touch("spin", middle, 500); // the same hand
+  before.touch("spin", middle, 0, 500); // the same hand
   const found = before.follow(middle, fast);
   assert.equal(found.headline, "Spin: 20.0 rev/s → 28.0 rev/s");
   assert.equal(found.why, "Now: stands on its stem (1.5 s). Before: Nods.");
@@ -124,10 +122,10 @@ test("the run before is that before the gesture, until it is dismissed or gone b
   assert.deepEqual(asked, [["spin", 20]]);
   assert.equal(before.follow(fast, slow), null); // which is no change of a hand's
   before.follow(slow, fast);
-  before.touch("mu", fast, 9000);
+  before.touch("mu", fast, 0, 9000);
   assert.equal(before.follow(fast, scene(28, 0.1, stands)).what, "Friction 0.3");
   assert.equal(before.follow(scene(28, 0.1, stands), fast), null); // as it was
-  before.touch("spin", fast, 20000);
+  before.touch("spin", fast, 0, 20000);
   before.follow(fast, slow);
   before.forget();
   assert.equal(before.follow(slow, slow), null);
@@ -137,6 +135,16 @@ test("the run before is that before the gesture, until it is dismissed or gone b
   assert.equal(rough.headline, ""); // the stage says what another table does
   assert.equal(rough.table, "ordinary");
   assert.equal(before.follow(scene(28, 0.3, [], "rough"), scene(28, 0.3, [], "three")), null);
+});
+
+test("a hand that stays down makes one change, however long it rests; one that comes again another", () => {
+  const before = new Before(BEFORE), [first, second, third, last] = [20, 24, 28, 30].map((spin) => scene(spin, 0.3, []));
+  before.touch("spin", first, 1, 0);
+  before.follow(first, second);
+  before.touch("spin", second, 1, 60_000);
+  assert.equal(before.follow(second, third).what, "Spin 20.0 rev/s");
+  before.touch("spin", third, 2, 60_100);
+  assert.equal(before.follow(third, last).what, "Spin 28.0 rev/s");
 });
 
 test("a press has no strength of its own, a hold the more the longer, to the greatest", () => {

@@ -87,14 +87,9 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def lab_view(lab, keep, go):
-    """The tab. lab: a Lab; keep: the Keep of its start; go: shows the paper's figures of it."""
-
-    def rests():
-        keep.at_rest()
-        lab.rest()
-
-    tab = LabTab(lab, go, rests)
+def lab_view(lab, go):
+    """The tab. lab: a Lab; go: shows the paper's figures of its start."""
+    tab = LabTab(lab, go, lab.rest)
     if lab.inputs == FIRST:
         lab.show()  # it is kept, so that it is there with the page
     if pn.state.loaded:

@@ -1,9 +1,9 @@
 // One picture at a time that answers a question of the run: where the height comes from, which way it turns, where it
 // touches the table.
-import { ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "./curves.js";
+import { ENERGY, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
 import { lineOf } from "./numbers.js";
 import { Choice, drawn, part, say } from "./parts.js";
-import { float32 } from "../data.js";
+import { Frames } from "../motion/frames.js";
 
 const NAMES = ["energy", "spin", "path"];
 const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }; // of numbers.js
@@ -216,7 +216,7 @@ export class Answer {
     const { before } = this.scene;
     if (!before?.curves[before.table].count) return [];
     const share = before.state.R / R;
-    return trackOf(float32(before.frames[before.table]), before.unit).map(([t, x, y]) => [t, share * x, share * y]);
+    return trackOf(before.frames[before.table], before.unit).map(([t, x, y]) => [t, share * x, share * y]);
   }
 
   path() {
@@ -275,10 +275,9 @@ function thinned(line) {
   return line.filter((_, i) => i % step === 0 || i === line.length - 1);
 }
 
-// The point of contact over time, of frames as app/widgets/top3d.py packs them: [s, x, y], lengths in R.
-/** @param {Float32Array} rows @param {number} unit s in one unit of time @returns {number[][]} */
-export function trackOf(rows, unit) {
-  const width = 20, found = [];
-  for (let i = 0; i + width <= rows.length; i += width) found.push([unit * rows[i + TIME], rows[i + 5], rows[i + 6]]);
-  return found;
+// The point of contact over time: [s, x, y], lengths in R.
+/** @param {Bytes} bytes as of a Top3D's frames @param {number} unit s in one unit of time @returns {number[][]} */
+export function trackOf(bytes, unit) {
+  const frames = new Frames(bytes);
+  return Array.from({ length: frames.count }, (_, i) => [unit * frames.time(i), ...frames.contact(i)]);
 }

@@ -13,14 +13,17 @@ export class Before {
     this.isBack = false; // what comes next is the run that was gone back to
     this.name = "";
     this.touched = -Infinity;
+    this.press = 0;
   }
 
-  // A hand asks for something while a scene is shown.
-  /** @param {string} name @param {any} shown @param {number} now in ms */
-  touch(name, shown, now = performance.now()) {
-    if (name !== this.name || now - this.touched > GESTURE) this.last = shown;
+  // A hand asks for something while a scene is shown. However long a hand stays down, it makes one change.
+  /** @param {string} name @param {any} shown @param {number} press which one it is, from 1; 0 where none is down @param {number} now in ms */
+  touch(name, shown, press = 0, now = performance.now()) {
+    const isSame = name === this.name && (press ? press === this.press : now - this.touched <= GESTURE);
+    if (!isSame) this.last = shown;
     this.name = name;
     this.touched = now;
+    this.press = press;
     this.isBack = false;
   }
 

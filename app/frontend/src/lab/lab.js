@@ -13,6 +13,7 @@ import { style } from "./style.js";
 import { Time } from "./time.js";
 import { Keeps, Words } from "./words.js";
 import { coalesce, float32 } from "../data.js";
+import { Press } from "../widgets/press.js";
 
 const PATIENCE = 100; // ms: so long the old picture may stand beside the new start unsaid
 
@@ -29,6 +30,7 @@ class Lab {
     this.state = {};
     this.time = new Time(coalesce(() => this.at()));
     this.asking = new Asking((...asked) => (model.asked = asked));
+    this.press = new Press();
     const ask = (name, value) => this.ask(name, value);
     this.before = new Before(texts);
     this.stage = new Stage(texts, this.time, ask, { forget: () => this.forget(), hand: this.hand() });
@@ -61,7 +63,7 @@ class Lab {
       this.anew = value; // the same start on another table, from its beginning
       this.stage.choice.show(value);
     }
-    this.before.touch(name, this.scene);
+    this.before.touch(name, this.scene, this.press.now);
     this.asking.ask(name, value);
     this.patience ||= setTimeout(() => this.show(), PATIENCE);
   }
@@ -120,7 +122,7 @@ class Lab {
       state, texts: model.texts, table, curves, runs, run: runs[alone], unit: model.seconds, a: model.a,
       frames: each((name) => model[`frames_${name}`]), profile: float32(model.profile),
       end: Math.max(...Object.values(curves).map(({ end }) => end)), waits: this.waits,
-      track: (name) => trackOf(float32(model[`frames_${name}`]), model.seconds),
+      track: (name) => trackOf(model[`frames_${name}`], model.seconds),
     };
   }
 
@@ -155,7 +157,7 @@ class Lab {
   leave() {
     clearTimeout(this.patience);
     this.show.cancel();
-    for (const gone of [this.time, this.stage, this.strip, this.answer]) gone.leave();
+    for (const gone of [this.time, this.stage, this.strip, this.answer, this.press]) gone.leave();
     window.removeEventListener("tippe:look", this.look);
   }
 }

@@ -1,5 +1,6 @@
 // The page's own address and keys: what a person set stands in it without a step in the browser's history.
-const LETTING_GO = ["pointerup", "pointercancel", "dragend", "blur", "keyup"]; // of a hand's being down
+import { onLettingGo } from "./press.js";
+
 const MUTE = ["Control", "Shift", "Alt", "Meta", "Tab"]; // keys that set nothing
 
 const isWriting = (target) => target.isContentEditable || target.matches?.(
@@ -25,7 +26,8 @@ export function renderAddress({ model }) {
     if (model.held) model.held = false;
   };
   window.addEventListener("pointerdown", down, options);
-  for (const type of LETTING_GO) window.addEventListener(type, up, options);
+  window.addEventListener("keyup", up, options);
+  onLettingGo(up, listening.signal);
   const onKey = (/** @type {KeyboardEvent} */ event) => {
     const writing = isWriting(event.composedPath()[0]), step = writing ? null : stepOf(event);
     if (step) {
