@@ -1,5 +1,6 @@
 """What of a body can be set, pulled and told: its dimensions, SI; to a reader each in a unit of its own."""
 
+import math
 import re
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeAlias
@@ -141,6 +142,32 @@ def changed(shape: Shape, name: str, value: Value) -> Shape:
     else:
         given[field] = value
     return replace(shape, **{field: given[field]})
+
+
+def nearest(shape: Shape, dimension: Dimension, wanted: float) -> float | None:
+    """Of a dimension that cannot be as it is wanted, in its unit, the last that can be on the way there from what it
+    is, in steps of its slider; None where that is what it is."""
+    name, factor, step = dimension.name, dimension.factor, dimension.step
+    present = value_of(shape, name) * factor
+
+    def can_be(value: float) -> bool:
+        try:
+            changed(shape, name, value / factor).top  # noqa: B018  (a body may be sound and still stand on no peg)
+        except TopError:
+            return False
+        return True
+
+    far = 1e6 * dimension.high
+    good, bad = present, min(max(wanted, -far), far)
+    while abs(bad - good) > 0.01 * step:
+        middle = (good + bad) / 2
+        good, bad = (middle, bad) if can_be(middle) else (good, middle)
+    way = 1 if wanted > present else -1
+    last = way * math.floor(way * good / step + 0.02)  # a limit itself may be one that can be
+    for found in (round(steps * step, 6) for steps in (last, last - way)):
+        if (found - present) * way > 0 and can_be(found):
+            return found
+    return None
 
 
 def _field(name: str) -> tuple[str, int | None]:

@@ -14,8 +14,9 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled, pack
-from app.model.build.dimensions import FAMILIES, changed, sentence, value_of
-from app.model.lab.lab import FIRST, SHOWN, Lab
+from app.model.build.dimensions import FAMILIES, changed, nearest, sentence, value_of
+from app.model.lab.allowed import SHOWN
+from app.model.lab.lab import FIRST, Lab
 from app.model.lab.run import shape_of
 from app.state import asked
 from app.text import listed, say, speaking, spoken
@@ -142,7 +143,7 @@ class LabTab:
 
     def __init__(self, lab, research, rests):
         self._lab, self._research, self._quiet, self._looks = lab, research, Quiet(rests), 0
-        self._answered, self._said, self._shown, self._tried, self._wrong = 0, None, None, {}, {}
+        self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
         self.view.param.watch(asked.heard(self._heard), "asked")
@@ -158,7 +159,7 @@ class LabTab:
         elif name == "stop":
             self._lab.stop()
         elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
-            self._tried[name], self._wrong = value, {}
+            self._tried[name], self._wrong, self._near = value, {}, {}
             self._lab.ask(**{name: value} if name in Lab.INPUTS else self._of_body(name, value))
         else:
             raise asked.Unasked(name)
@@ -184,6 +185,8 @@ class LabTab:
             return {"toy": changed(shape_of(toy), dimension.name, number / dimension.factor)}
         except TopError as error:
             self._wrong[name] = sentence(error)
+            near = nearest(shape_of(toy), dimension, number)
+            self._near = {} if near is None else {name: near}
             return {}
 
     def _changed(self, *events):
@@ -237,6 +240,7 @@ class LabTab:
             if start.law == "contact"
             else spelled(say("lab.inputs.law", law=listed("planes.law")[start.law])),
             "refused": {name: self._tried.get(name) for name in messages},
+            "nearest": {name: value for name, value in (lab.nearest | self._near).items() if name in messages},
             "old": next((self._named(scene, name) for name in messages if name in INPUTS), ""),
             "was": self._differ(scene, scene, start),
             "wants": self._differ(start, scene, start),
