@@ -1,4 +1,4 @@
-"""Whether the body on the bench turns over, in words beside it, and how far it gets at each spin."""
+"""Whether the present body turns over, in words, and how its runs end at each spin."""
 
 import html
 from functools import partial
@@ -44,7 +44,7 @@ STRIP = (
 
 class VerdictWords:
     """view: the words; strip: the ends of its runs over spin; runs: the page's Runs. show() is for each scene of a
-    hand at rest; what has ended before it was done is asked for again then."""
+    hand at rest; it also repeats computations that ended early."""
 
     def __init__(self, runs):
         self._runs, self._shape, self._said, self._asked = runs, None, "", None
@@ -52,7 +52,7 @@ class VerdictWords:
         self.strip = words(strip_of(None), style=STRIP)
 
     def show(self, scene):
-        """Computes it, where the body is another; until then what is there is old."""
+        """Computes the verdict on a new body; until it is done, the previous one is shown as old."""
         shape = scene.shape
         if shape is None:
             return
@@ -64,7 +64,7 @@ class VerdictWords:
         self._runs.begin(Run(lambda run: verdict(shape), partial(self._done, shape)), "verdict")
 
     def _ends(self, *key):
-        """Where the runs of all spins end: known, or computed beside; the Lab's are the same."""
+        """How the runs at all spins end: stored, or computed in a thread; the same as in the Lab."""
         if key == self._asked:
             return
         self._asked = key
@@ -81,7 +81,7 @@ class VerdictWords:
             elif isinstance(result, TopError):
                 self.strip.object = strip_of(None, say("build.verdict.strip_refused", why=told(result)))
             else:
-                self._asked = None  # to be asked again
+                self._asked = None  # so that it is computed again
                 self.strip.object = strip_of(None, ended(result))
         if isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
             raise result
@@ -90,7 +90,7 @@ class VerdictWords:
         if shape != self._shape:
             return
         if isinstance(result, Exception):
-            self._shape = None  # to be asked again
+            self._shape = None  # so that it is computed again
             self.view.object = self._written("old", ended(result))
             if not isinstance(result, Stopped):
                 raise result
@@ -104,8 +104,8 @@ class VerdictWords:
 
 
 def strip_of(ends, why=""):
-    """The ends of runs over the spin, with the spin of the verdict on it; None: they are still to come, or why they
-    will not."""
+    """The ends of runs over the spin, with a mark at the spin of the verdict; None: they are not computed yet, or, with
+    why, they cannot be."""
     low, high = float(SPINS[0]), float(SPINS[-1])
     says = say("build.verdict.strip", count=len(SPINS), seconds=float(TIMES[-1]), tilt=TILT, mu=MU)
     waits = html.escape(spelled(why or say("build.verdict.strip_waits")))
