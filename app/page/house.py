@@ -49,6 +49,7 @@ TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"
 BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
 DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}
 HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
+WHY = "arms"  # the step that says why rubbing lifts a top
 PLAIN = ".tippe :is(.verdict, .scales, .time, .shows) { display: none !important }"
 
 
@@ -67,6 +68,7 @@ class House:
         self.builder = Builder(self.explorer.scene, self.pacer.ask)
         self.pacer.shows(self.builder.follow, "hand")
         self.playing, self._look_at = Playing(), look_at
+        self._learn, self._step = None, ""
         self.keep = kept(
             self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
         )
@@ -116,7 +118,14 @@ class House:
     # ---- the rooms, each created when it is first shown ----
 
     def lab(self):
-        return lab_view(self.lab_of, lambda: self._look_at(room.USUAL))
+        return lab_view(self.lab_of, lambda: self._look_at(room.USUAL), self._explain)
+
+    def _explain(self):
+        """The lesson's step that says why rubbing lifts it."""
+        self._step = WHY
+        if self._learn is not None:
+            self._learn.param.update(step=WHY, section="lesson")
+        self._look_at("learn")
 
     def roll(self):
         controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
@@ -196,9 +205,11 @@ class House:
         self._look_at("build-a-top")
 
     def learn(self):
-        learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
+        self._learn = learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
         self.pacer.shows(learn.show, "rest")
         self.keep.add(learn)
+        if self._step:
+            learn.step = self._step
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
         return learn.view
 

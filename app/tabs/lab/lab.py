@@ -49,7 +49,8 @@ def digits_of(dimension):
 
 
 def _word(dimension):
-    return say("lab.inputs.ballast") if dimension.name == "a" else dimension.words
+    said = listed("lab.dimensions").get(dimension.key, dimension.words)
+    return said[0].upper() + said[1:]
 
 
 class LabView(Bundled):
@@ -78,7 +79,7 @@ class LabView(Bundled):
     curves_ice = param.Bytes(default=b"")
     asked = param.List(
         default=[], doc="[count, name, value] of what a person asks for, the browser writes it; state tells the last "
-        "count that was answered. The names are a Lab's inputs, and research: the paper's figures."
+        "count that was answered. The names are a Lab's inputs; research: the paper's figures; why: the lesson."
     )  # fmt: skip
 
     @classmethod
@@ -86,9 +87,9 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def lab_view(lab, go):
-    """The tab. lab: a Lab; go: shows the paper's figures of its start."""
-    tab = LabTab(lab, go, lab.rest)
+def lab_view(lab, go, explain):
+    """The tab. lab: a Lab; go: shows the paper's figures of its start; explain: the lesson's step that says why."""
+    tab = LabTab(lab, go, lab.rest, explain)
     if lab.inputs == FIRST:
         lab.show()  # it is kept, so that it is there with the page
     if pn.state.loaded:
@@ -138,10 +139,10 @@ class Quiet:
 
 class LabTab:
     """view: the tab. lab: the Lab it shows and asks; research: called for the paper's figures of this top and start;
-    rests: called when a hand that has changed something rests."""
+    rests: called when a hand that has changed something rests; explain: called for why it turns over."""
 
-    def __init__(self, lab, research, rests):
-        self._lab, self._research, self._quiet, self._looks = lab, research, Quiet(rests), 0
+    def __init__(self, lab, research, rests, explain=None):
+        self._lab, self._leads, self._quiet, self._looks = lab, {"research": research, "why": explain}, Quiet(rests), 0
         self._answered, self._said, self._shown, self._tried, self._wrong = 0, None, None, {}, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
@@ -153,8 +154,8 @@ class LabTab:
         """A wish of the browser."""
         count, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
         self._answered, looks = int(count), self._looks
-        if name == "research":
-            self._research()
+        if name in self._leads:
+            self._leads[name]()
         elif name == "stop":
             self._lab.stop()
         elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
