@@ -177,7 +177,7 @@ export class Control {
       if ((room || at * WIDTH > WIDE * left[3].length + APART) && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
         line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));
       }
-      line.append(part("span", {}, right[3]));
+      line.append(part("span", { style: "margin-left: auto" }, right[3]));
     }
     return line;
   }

@@ -324,7 +324,7 @@ class Lesson {
       this.showCrumbs();
       this.showQuestion();
     }
-    this.question.plays(time.playing, step.events.some(([when]) => when < time.t) && time.end - time.t > LONG);
+    this.question.plays(time.playing, step.events[1]?.[0] < time.t && time.end - time.t > LONG);
     this.stage.at(time.t);
     this.bar.at(time.t);
     this.graph.at(time.t);
