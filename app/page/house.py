@@ -58,7 +58,7 @@ class House:
     the Builder of bodies; the Lab; the playback; the Keep; and the Runs.
 
     look_at(name) shows a room, and level is how much the page shows; the page sets both, and `told`, which is called
-    when runs_shown() may have changed.
+    when runs_shown() may have changed, and `rests`, when a hand does, which may still be down.
     """
 
     def __init__(self, texts, sentence, look_at, level):
@@ -74,7 +74,7 @@ class House:
         )
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
-        self.told = lambda: None
+        self.told, self.rests = lambda: None, self.keep.at_rest
         self.lab_of = Lab(self.runs, self.explorer)
         self.lab_of.param.watch(lambda *events: self.told(), ["scene", "busy"])
         self.start = OneStart(self.explorer, self.lab_of)
@@ -118,7 +118,7 @@ class House:
     # ---- the rooms, each created when it is first shown ----
 
     def lab(self):
-        return lab_view(self.lab_of, lambda: self._look_at(room.USUAL), self._explain)
+        return lab_view(self.lab_of, lambda: self.rests(), lambda: self._look_at(room.USUAL), self._explain)
 
     def _explain(self):
         """The lesson's step that says why rubbing lifts it."""

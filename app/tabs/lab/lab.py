@@ -87,9 +87,15 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def lab_view(lab, go, explain):
-    """The tab. lab: a Lab; go: shows the paper's figures of its start; explain: the lesson's step that says why."""
-    tab = LabTab(lab, go, lab.rest, explain)
+def lab_view(lab, keep, go, explain):
+    """The tab. lab: a Lab; keep: called when its start is to be kept, as it is then; go: shows the paper's figures of
+    it; explain: the lesson's step that says why."""
+
+    def rests():
+        keep()
+        lab.rest()
+
+    tab = LabTab(lab, go, rests, explain)
     if lab.inputs == FIRST:
         lab.show()  # it is kept, so that it is there with the page
     if pn.state.loaded:
