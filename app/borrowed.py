@@ -18,14 +18,19 @@ import panel.layout.grid
 import panel.reactive
 import panel_material_ui as pmui
 import param
-from bokeh.core.serialization import Serializer
+from bokeh.core.serialization import Deserializer, Serializer, UnknownReferenceError
+from bokeh.document import Document
+from bokeh.document.events import DocumentPatchedEvent
 from bokeh.document.models import DocumentModelManager
 from bokeh.model import Model
 from bokeh.protocol.messages.patch_doc import patch_doc
 from bokeh.server.connection import ServerConnection
 from bokeh.server.session import ServerSession
 from bokeh.server.tornado import BokehTornado
+from panel.custom import JSComponent
 from panel.io.resources import LOCAL_DIST
+
+from app.together import set_together
 
 FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that use Panel's freeze_doc
 MADE = WeakKeyDictionary()  # event -> the message that begins with it
@@ -35,7 +40,7 @@ WAITING = WeakKeyDictionary()  # connection -> messages that were made and not y
 # --- for any server
 
 
-class Here(ThreadPoolExecutor):
+class InThisThread(ThreadPoolExecutor):
     """An executor that runs a function at once, in the calling thread."""
 
     def submit(self, function, /, *arguments, **named):
@@ -57,7 +62,7 @@ def in_one_thread(loop, context):
     computations are given to app.model.runs. https://github.com/bokeh/bokeh/pull/15239,
     https://github.com/holoviz/panel/pull/8675
     """
-    here = Here(1)
+    here = InThisThread(1)
     loop.set_default_executor(here)
     executor = getattr(context, "_executor", None)  # Bokeh 3.9 has none
     if executor is not None:
@@ -88,10 +93,7 @@ def thawed(freeze):
 def to_the_last(dispatch):
     """3. Panel's function that writes what waits for a document's page. If two writes had begun, the first to end
     removed the mark that they share, and the second then found nothing to write: its changes waited until something
-    else was sent.
-
-    It was introduced by https://github.com/holoviz/panel/pull/6667; we found no issue about the loss.
-    """
+    else was sent. It came with https://github.com/holoviz/panel/pull/6667; we found no issue about the loss."""
     module = panel.io.document
     waiting = module._WRITE_EVENTS if hasattr(module, "_WRITE_EVENTS") else module._WRITE_MSGS  # Panel 1.10, 1.9
 
@@ -124,6 +126,31 @@ class Known(Serializer):
     def get_ref(self, thing):
         known = isinstance(thing, Model) and self._models.get_by_id(thing.id) is thing
         return thing.ref if known and thing not in self._models._new_models else super().get_ref(thing)
+
+
+def named_in(part):
+    """The ids in a part of a message."""
+    if isinstance(part, dict):
+        yield from (part["id"],) if isinstance(part.get("id"), str) else ()
+        part = [*part.values()]
+    for each in part if isinstance(part, list) else ():
+        yield from named_in(each)
+
+
+def apply(document, patch, *, setter=None):
+    """9. What Bokeh's method of a Document does with a message. That lists the names of all models first, and takes it
+    that the page now knows them all, those too that are still to be sent."""
+    models, names = document.models, {*named_in(getattr(patch, "content", patch))}
+    reader = Deserializer([model for model in map(models.get_by_id, names) if model], setter=setter)
+    try:
+        events = reader.deserialize(patch)["events"]
+    except UnknownReferenceError as error:
+        if models.seen(error.id):  # of a model that has gone meanwhile
+            return
+        raise
+    for event in events:
+        DocumentPatchedEvent.handle_event(document, event, setter)
+    models.flush_synced(lambda model: model.id not in names)
 
 
 def message_of(events):
@@ -194,9 +221,9 @@ def lost_at_once(connect):
 
 @cache
 def mend():
-    """Applies 2, 3, 10, and 4: the source of Panel's style sheets for a part that never entered a document, because its
-    view failed. Panel would request them from another host; and since all parts share their sheets, the page would lose
-    them. https://github.com/holoviz/panel/issues/7073, https://github.com/holoviz/panel/pull/8408"""
+    """Applies 2, 3, 9, 10, and 4: the source of Panel's style sheets for a part that never entered a document, because
+    its view failed. Panel would request them from another host; and since all parts share their sheets, the page would
+    lose them. https://github.com/holoviz/panel/issues/7073, https://github.com/holoviz/panel/pull/8408"""
     DocumentModelManager.freeze = thawed(DocumentModelManager.freeze)
     for module in FREEZES:
         module.freeze_doc = thawed(module.freeze_doc)
@@ -206,6 +233,7 @@ def mend():
     else:
         ServerSession._send_pending_patches = behind(ServerSession._send_pending_patches)
     BokehTornado.new_connection = lost_at_once(BokehTornado.new_connection)
+    Document.apply_json_patch = apply
     panel.reactive.CDN_DIST = LOCAL_DIST
 
 
@@ -250,6 +278,33 @@ def at_once(component, *properties):
     component._process_events = partial(_take, component, component._process_events, {*properties})
 
 
+class Direct(JSComponent):
+    """6. A component whose values go out without the two holds that Panel makes for each component, where the page's
+    messages are held already: those cost more than the values."""
+
+    def _param_change(self, *events):
+        values = {event.name: event.new for event in events}
+        for ref, (model, _) in self._models.items():
+            document = model.document
+            if not (document and document is panel.state.curdoc and document.callbacks.hold_value
+                    and values.keys() <= self.own()):  # fmt: skip
+                super()._param_change(*events)
+                return
+            told = self._in_process__events.get(document, {})
+            news = {name: value for name, value in values.items() if name not in told or told[name] != value}
+            self._changing[ref] = [*news]
+            try:
+                model.data.update(**news)
+            finally:
+                del self._changing[ref]
+
+    @classmethod
+    @cache
+    def own(cls):
+        """The names of its values, none of which is a part of the page or an event."""
+        return set(cls.param) - set(JSComponent.param)
+
+
 def _take(component, process, properties, changes):
     """Applies what a page has changed of a component; process: Panel's own method, for other properties."""
     document = panel.state.curdoc
@@ -258,7 +313,7 @@ def _take(component, process, properties, changes):
         return
     component._in_process__events[document] = changes  # so that the page is not told what it has sent
     try:
-        component.param.update(**changes)
+        set_together(component, **changes)
     finally:
         component._in_process__events.pop(document, None)
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import param
 from bokeh.models import CustomJS
-from panel.custom import JSComponent
 
+from app.borrowed import Direct
 from app.text import listed
 from app.together import set_together
 
@@ -36,7 +36,7 @@ def inlined(path):
     return f"{{\n{path.read_text(encoding='utf-8')}}}"
 
 
-class Bundled(JSComponent):
+class Bundled(Direct):
     """A component whose JavaScript is in the bundle; a common base class, so that a page loads the bundle once."""
 
     texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")

@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 
 from app.model.measured.data import Data, Series
 from app.model.measured.fit import fit
-from app.model.measured.motion import BOUNDS, left_over, model_of
+from app.model.measured.motion import BOUNDS, model_of, residuals_of
 from tippe_core import Scales, Top, TopError
 
 FRAMES, RATE = 72, 60
@@ -111,9 +111,9 @@ def other_value(found, data, name, truth):
 
         def rest(x, held=held):
             try:
-                return left_over(held.with_values(dict(zip(names, map(float, x), strict=True))), data).row
+                return residuals_of(held.with_values(dict(zip(names, map(float, x), strict=True))), data).row
             except TopError:
-                return np.full(len(found.left.row), 1e4)
+                return np.full(len(found.residuals.row), 1e4)
 
         for start in (here, mirrored, {**here, **truth}):
             x = np.clip([start[each] for each in names], limits[0] + 1e-6, limits[1] - 1e-6)

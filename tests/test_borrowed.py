@@ -17,7 +17,7 @@ import panel.reactive
 import panel_material_ui as pmui
 import param
 import pytest
-from bokeh.core.serialization import Serializer
+from bokeh.core.serialization import Serializer, UnknownReferenceError
 from bokeh.document import Document
 from bokeh.document.events import ModelChangedEvent
 from bokeh.document.models import DocumentModelManager
@@ -226,6 +226,29 @@ def test_a_message_says_what_bokehs_own_would_and_a_new_model_once():
     assert not document.models.synced_references ^ {*document.models}
 
 
+@pytest.mark.parametrize("act", [Document.apply_json_patch, borrowed.apply])
+def test_a_message_of_a_page_does_what_bokeh_does_with_it(act):
+    """9. With a new model, one that is still to be sent, one that has gone, and one that never was."""
+    document, known, gone = Document(), Div(text="before"), Div()
+    page, other = Row(known, gone), Row()
+    for root in (page, other):
+        document.add_root(root)
+    document.models.flush_synced()
+    other.children.append(Div(name="unsent"))
+    brought = {"type": "object", "name": "Div", "id": "mine", "attributes": {"text": "brought"}}
+    act(document, {"events": [
+        {"kind": "ModelChanged", "model": known.ref, "attr": "text", "new": "after"},
+        {"kind": "ModelChanged", "model": page.ref, "attr": "children", "new": [known.ref, brought]}]})  # fmt: skip
+    assert known.text == "after" and page.children == [known, document.get_model_by_id("mine")]
+    assert page.children[1].text == "brought"
+    new = {*document.models} - document.models.synced_references
+    assert {each.name for each in new} == ({"unsent"} if act is borrowed.apply else set())  # which the page then lacks
+    act(document, {"events": [{"kind": "ModelChanged", "model": gone.ref, "attr": "text", "new": "late"}]})
+    assert gone.text == ""
+    with pytest.raises(UnknownReferenceError):
+        act(document, {"events": [{"kind": "ModelChanged", "model": {"id": "no"}, "attr": "text", "new": ""}]})
+
+
 def test_what_writes_to_a_page_waits_under_these_names():
     """3. What it does is tested in test_server.py."""
     module = panel.io.document
@@ -314,6 +337,46 @@ def test_a_property_arrives_without_waiting(monkeypatch):
         component._process_events({"asked": 2})
         assert component.asked == 2
     assert waits == [50, 0] and len(busy) == 1
+
+
+class Direct(borrowed.Direct):
+    asked = param.Integer(default=0)
+    told = param.List(default=[])
+    _esm = "export function render() {}"
+
+
+class Slow(JSComponent):
+    asked = param.Integer(default=0)
+    told = param.List(default=[])
+    _esm = "export function render() {}"
+
+
+def sent_of(kind, monkeypatch):
+    """What is held for the page after a component was told some things and asked others by the page, and its state."""
+    document = Document()
+    monkeypatch.setattr(pn.state, "_unblocked", lambda document: True)
+    monkeypatch.setattr(type(pn.state), "_thread_id", threading.get_ident())
+    with set_curdoc(document):
+        component = kind()
+        document.add_root(component.get_root(document))
+        monkeypatch.setattr(Document, "session_context", Mock())
+        panel.state._loaded[document] = True
+        document.hold("combine")
+        component.param.update(told=[1], asked=1)
+        component._in_process__events[document] = {"asked": 3}
+        component.param.update(told=[2], asked=3)
+        component.asked = 4
+        component.visible = False
+        found = {event.attr: event.new for event in document.callbacks._held_events}
+        [(model, _)] = component._models.values()
+        return found, model.data.told, model.data.asked, model.visible, component._changing, component._events
+
+
+def test_what_is_set_goes_out_as_panel_would_send_it(monkeypatch):
+    """6. But not back to the page that said it."""
+    assert borrowed.Direct in Bundled.__mro__ and Direct.own() == {"asked", "told"}
+    mine, theirs = sent_of(Direct, monkeypatch), sent_of(Slow, monkeypatch)
+    assert mine == theirs == ({"told": [2], "asked": 4, "visible": False}, [2], 4, False, {}, {})
 
 
 def test_a_bundle_is_where_panel_says():

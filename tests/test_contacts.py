@@ -92,6 +92,16 @@ def test_the_height_of_a_rounded_edge():
         assert gap(edge, np.cos(theta), np.sin(theta)) == pytest.approx(lowest(edge, theta), abs=1e-12)
 
 
+@pytest.mark.parametrize("edge", [EDGE, (0.1, 1.6, 0.1), (0.0, 1.5, 0.2)])
+def test_on_a_rounded_end_the_lowest_point_is_on_the_table(edge):
+    """O is then as far below 1 as that point would be below the table if the sphere stood on it."""
+    moved = slide(PAPER, State(2.9, 0, 0, -9.0), VISCOUS, np.linspace(0, 1, 11), rtol=1e-10, edge=edge)
+    assert moved.supports == ((0.0, "stem"),) and np.ptp(moved.theta) > 1e-3
+    O = [1 - lowest(edge, theta) for theta in moved.theta]
+    np.testing.assert_allclose(moved.com[:, 2], O - PAPER.a * np.cos(moved.theta), rtol=0, atol=1e-9)
+    np.testing.assert_allclose(np.ptp(sum(moved.ledger)), 0, atol=1e-8)
+
+
 # ---- on the stem, and on both ----
 
 ON_BOTH = State(TOUCH, 0.0, 0.31, -1.32, vx=0.58, vy=-0.31)

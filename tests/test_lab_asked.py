@@ -7,8 +7,9 @@ import pytest
 
 from app.model.arrival import ARRIVAL, MU, SPIN, TILT, TOY
 from app.model.lab import life
+from app.model.lab.allowed import LIMITS
 from app.model.lab.ends import SPINS, Ends
-from app.model.lab.lab import LIMITS, Lab
+from app.model.lab.lab import Lab
 from app.model.lab.run import PATCH, TOYS, whole_on
 from app.model.runs import Runs
 from app.model.story import marks, story
@@ -33,13 +34,13 @@ def test_before_somebody_looks_nothing_is_computed(monkeypatch):
 
 
 @pytest.mark.parametrize(("name", "value", "says"), [
-    ("tilt", 185, "Tilt goes from 0° (stem up) to 180° (stem down); 185° is out of range."),
+    ("tilt", 185, "Tilt goes from 0° (stem up) to 180° (stem down). 185° is the same as 175°."),
     ("tilt", float("nan"), "nan is not a number. Type a number from 0 to 180."),
     ("spin", " ", "Nothing is not a number. Type a number from −100 to 100."),
     ("spin", "fast", "fast is not a number. Type a number from −100 to 100."),
-    ("spin", 1e9, "Spin goes from −100 to 100 turns a second; 1e+09 is out of range. "
+    ("spin", 1e9, "Spin goes from −100 to 100 turns a second. 1e+09 is out of range. "
                   "A negative number spins it the other way."),
-    ("mu", 0, "Friction goes from 0.01 (nearly ice) to 1.5 (rubber); 0 is out of range."),
+    ("mu", 0, "Friction goes from 0.01 (nearly ice) to 1.5 (rubber). 0 is out of range."),
     ("mu", None, "None is not a number. Type a number from 0.01 to 1.5."),
     ("toy", "a yo-yo", "a yo-yo is not one of the choices here. Choose one from the list."),
     ("table", [], "[] is not one of the choices here. Choose one from the list."),
@@ -50,6 +51,17 @@ def test_what_cannot_be_is_told_and_all_else_stays(lab, name, value, says):
     assert dict(lab.scene.messages) == {name: says} and lab.inputs == before and lab.scene.motions is motions
     lab.ask(spin=28.65)
     assert not lab.scene.messages
+
+
+@pytest.mark.parametrize(("name", "value", "near"), [
+    ("tilt", 185, 175), ("tilt", -5.0, 5), ("tilt", 725.0, 5), ("spin", 1e9, 100), ("spin", -101, -100),
+    ("mu", 0, 0.01), ("mu", 7.0, 1.5), ("patch", 0.0, 0.01), ("patch", 80.0, 5),
+])  # fmt: skip
+def test_the_nearest_value_that_can_be_is_offered_and_is_taken(lab, name, value, near):
+    lab.ask(**{name: value})
+    assert lab.nearest == {name: pytest.approx(near)}
+    lab.ask(**lab.nearest)
+    assert getattr(lab.start, name) == pytest.approx(near) and not lab.scene.messages and not lab.nearest
 
 
 @pytest.mark.parametrize(("name", "value"), [("tilt", 185.0), ("spin", 1e9), ("mu", -1.0), ("patch", np.inf)])
@@ -94,6 +106,7 @@ def test_a_life_that_is_longer_than_what_is_computed_says_so(monkeypatch):
 def test_a_body_that_would_be_in_the_table_is_told_at_the_tilt(lab):
     lab.ask(toy="Disc on a peg", tilt=120.0)
     assert lab.scene.messages["tilt"].startswith("At 120° a part of this body would be below the table.")
+    assert lab.nearest == {"tilt": 90.0} and "90° or less" in lab.scene.messages["tilt"]
     assert (lab.scene.toy, lab.start.tilt) == ("Disc on a peg", TILT)
     lab.ask(tilt=80.0)
     assert lab.scene.tilt == 80 and not lab.scene.messages

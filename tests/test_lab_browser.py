@@ -99,6 +99,11 @@ def test_what_cannot_be_is_said_beside_it_and_the_motion_stays(page):
     page.get_by_role("button", name="Back to 5.7°").click()
     page.get_by_text("Old picture").first.wait_for(state="hidden")
     assert entry(page, "Tilt, in degrees").input_value() == "5.7"
+    put(page, "Tilt, in degrees", 185)
+    page.get_by_role("button", name="Take 175°").click()
+    expect(page.get_by_role("alert").filter(has_text="Tilt goes")).to_be_hidden()
+    expect(entry(page, "Tilt, in degrees")).to_have_value("175.0")
+    page.get_by_text("Old picture").first.wait_for(state="hidden")
     put(page, "Tilt, in degrees", "half")
     page.get_by_role("alert").filter(has_text="half is not a number").wait_for()
     put(page, "Tilt, in degrees", "5,73")

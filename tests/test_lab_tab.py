@@ -92,7 +92,21 @@ def test_what_cannot_be_is_said_and_the_motion_stays(tab):
     assert list(state["messages"]) == ["tilt"] and state["refused"] == {"tilt": 185.0}
     assert state["values"]["tilt"] == TILT and "5.7°" in state["old"]
     assert tab.view.frames_ordinary == frames
-    assert wish(tab, 2, "tilt", state["values"]["tilt"])["messages"] == {}
+    assert state["nearest"] == {"tilt": 175.0}
+    state = wish(tab, 2, "tilt", state["nearest"]["tilt"])
+    assert state["messages"] == state["nearest"] == {} and state["values"]["tilt"] == 175.0
+
+
+def test_the_nearest_size_that_can_be_is_offered_and_can_be_taken(tab):
+    """A stem's end of 5 mm cannot be wider than its ball of 15 mm, nor 20 mm above that, where the two only touch."""
+    for number, (name, wanted, near) in enumerate([("dim:r", 16.0, 15.0), ("dim:h", 1e300, 19.9)]):
+        state = wish(tab, 3 * number + 1, name, wanted)
+        assert state["nearest"] == {name: near} and state["values"][name] != near
+        was = state["values"][name]
+        state = wish(tab, 3 * number + 2, name, near)
+        assert not state["messages"] and state["values"][name] == near
+        wish(tab, 3 * number + 3, name, was)
+    assert not wish(tab, 99, "dim:r", "round")["nearest"]
 
 
 def test_another_table_has_its_own_motion_and_the_same_start(tab):

@@ -10,7 +10,7 @@ from app.model.measured.data import Data, Series
 from app.model.measured.fit import Fit, Problem, verdict
 from app.model.measured.kept import kept
 from app.model.measured.known import known
-from app.model.measured.motion import Left, model_of
+from app.model.measured.motion import Residuals, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import shown
 from app.tabs.measure.words import numbers_table
@@ -124,7 +124,8 @@ def alike(quality, others=()):
     row = np.random.default_rng(9).normal(0, 1, len(T)) * np.sqrt(quality)
     model = replace(TRUE, free=(*TRUE.free, *others))
     size = len(model.free)
-    return Fit(model, dict.fromkeys(model.free, (0.1, 0.1)), np.eye(size), Left({"tilt": row}, dict(data.series)), 0,
+    residuals = Residuals({"tilt": row}, dict(data.series))
+    return Fit(model, dict.fromkeys(model.free, (0.1, 0.1)), np.eye(size), residuals, 0,
                {"tilt": 0.0}, (), (), True)  # fmt: skip
 
 

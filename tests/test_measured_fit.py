@@ -14,7 +14,7 @@ from measured_proof import kept as kept_films
 from app.model.measured.data import Data, Series
 from app.model.measured.fit import fit, runs, verdict
 from app.model.measured.kept import kept
-from app.model.measured.motion import Left, left_over, model_of
+from app.model.measured.motion import Residuals, model_of, residuals_of
 from app.model.runs import Run, Runs, Stopped
 from tippe_core import Scales, Top, TopError
 
@@ -128,7 +128,7 @@ def test_a_false_minimum_is_left(seed):
     """What the beginning of these films says of the law's second number leads astray: the truth fits far better."""
     (kind, top, scales, truth), data = film(seed)
     found = fit(model_of(kind, top, scales), data)
-    row = left_over(found.model.with_values(truth), data).row
+    row = residuals_of(found.model.with_values(truth), data).row
     assert found.chi2 <= row @ row and found.sure and not found.refused
     for name, value in truth.items():
         assert abs(found.model.values[name] - value) < 4 * found.errors[name]
@@ -138,7 +138,7 @@ def test_a_false_minimum_is_left(seed):
 def test_a_refusal_that_may_not_be_of_the_best_is_none():
     (_, top, scales, _), data = film(1003)
     found = fit(model_of("rolling", top, scales), data)
-    bad = replace(found, left=Left({name: 3 * row for name, row in found.left.residuals.items()}))
+    bad = replace(found, residuals=Residuals({name: 3 * row for name, row in found.residuals.of.items()}))
     assert bad.refused and verdict(bad, bad) == "neither"
     assert verdict(replace(bad, sure=False), bad) == verdict(bad, replace(bad, sure=False)) == "unsure"
 
@@ -170,7 +170,7 @@ def test_where_a_film_looks_from_makes_no_difference():
     turned = (seen["x"] + 1j * seen["y"]) * np.exp(0.7j) + 3 - 2j
     shown = {"azimuth": seen["azimuth"] + 4.0, "x": turned.real, "y": turned.imag}
     data = Data(MappingProxyType({name: Series(t, values, 1e-3) for name, values in shown.items()}))
-    assert np.abs(left_over(model, data).row).max() < 1e-6
+    assert np.abs(residuals_of(model, data).row).max() < 1e-6
 
 
 def test_a_film_sees_what_a_body_in_space_shows():

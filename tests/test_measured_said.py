@@ -11,7 +11,7 @@ from app.model.measured import fit as fits
 from app.model.measured.data import Data, Series, settled
 from app.model.measured.film import Film, opened, written
 from app.model.measured.kept import Kept, kept
-from app.model.measured.motion import left_over, model_of, shifted
+from app.model.measured.motion import model_of, residuals_of, shifted
 from app.model.measured.report import program, residuals_table
 from app.model.measured.shown import shown
 from app.model.measured.table import MeasuredError, read
@@ -139,7 +139,7 @@ def test_residuals_are_what_was_measured_less_what_was_fitted():
         assert name == "tilt" and float(time) == pytest.approx(t, abs=1e-5)
         assert float(measured) == pytest.approx(value, rel=1e-6)
         assert float(rest) == pytest.approx((value - float(fitted_)) / data.series["tilt"].error, abs=1e-3)
-    assert np.abs(left_over(found.model, data).row).max() < 6
+    assert np.abs(residuals_of(found.model, data).row).max() < 6
 
 
 def test_a_saved_film_says_its_part_to_the_frame():

@@ -11,7 +11,7 @@ from app.model.explorer import Explorer
 from app.model.planes.picture import LEAST_FRAMES, MOST_TURN, PLANES
 from app.model.planes.planes import PRESETS
 from app.model.planes.run import THROWN, nudged, solve, touches
-from app.model.planes.wells import whiles
+from app.model.planes.wells import intervals
 from app.model.regimes import ENDS, FLIES, ROLLS, SLIPS
 from app.model.runs import Runs
 from app.tabs.planes.words import fate, scatter_words
@@ -246,7 +246,7 @@ def test_a_run_of_which_no_while_is_on_the_ball_has_the_well_of_its_start_at_no_
     end = motion.ending
     on_stem = replace(end, stretches=(Stretch(0.0, motion.t[-1], "stem"),))
     moved = replace(picture, motions={"sliding": replace(motion, ending=on_stem)})
-    (well,) = whiles(moved, "sliding")
+    (well,) = intervals(moved, "sliding")
     assert well.end < 0 and well.C_J == picture.outcome.C_J
 
 

@@ -9,7 +9,7 @@ from house import of, planes_of, ran
 from app.model.explorer import Explorer
 from app.model.planes.run import THROWN, solve
 from app.model.planes.tracks import BUCKETS, extremes, tracks
-from app.model.planes.wells import whiles
+from app.model.planes.wells import intervals
 from app.tabs.planes import plots
 from app.tabs.planes.words import ball_words, fate
 from app.text import speaking
@@ -122,7 +122,7 @@ def test_no_bead_is_above_the_energy_that_it_has(usual):
     times, _, stem = heights(picture)
     touching = np.abs(np.interp(t, times, stem)) < 1e-6
     assert np.all(which[touching & (t > 2.45) & (t < 3.1)] == -1) and set(which) == {-1, 0, 1}
-    C_J = [found.C_J for found in whiles(picture, "sliding")]
+    C_J = [found.C_J for found in intervals(picture, "sliding")]
     assert C_J == pytest.approx([2.37, 0.165], abs=0.005)  # of the issue
 
 

@@ -135,7 +135,7 @@ class House:
         slip = lambda: self._look_at(self.start.table("ordinary"))  # noqa: E731
         return Roll(self.pacer, self.playing, controls.card(), slip, self.runs).main
 
-    def _road(self, says, goes, **layout):
+    def _leads_on(self, says, goes, **layout):
         """A button that leads to another room."""
         button = pmui.Button(label=say(says), **BUTTON | layout)
         on_click(button, lambda event: goes())
@@ -152,7 +152,7 @@ class House:
         self.pacer.shows(partial(show_top, top), "rest")
         told = VerdictWords(self.runs)
         self.pacer.shows(told.show, "rest")
-        spin = self._road("build.spin.it", self._spin, margin=(8, 0, 0, 0), variant="contained", sx=DARK)
+        spin = self._leads_on("build.spin.it", self._spin, margin=(8, 0, 0, 0), variant="contained", sx=DARK)
         parts = {"section": bench.section_view, "built": (top, told.view, told.strip, spin), "bench": bench.bench_view}
         section, built, measures = (
             card(say(f"main.cards.{name}"), *shown, height="max-content") for name, shown in parts.items()

@@ -33,7 +33,7 @@ text.ask(lambda: SPEAKS.get(pn.state.curdoc, text.DEFAULT) if pn.state.curdoc el
 BARE = {"theme_toggle": False, "busy_indicator": None}
 
 
-class Tongue(param.Parameterized):
+class PageLanguage(param.Parameterized):
     """The language of the page; for another one the page is loaded again, with its state."""
 
     lang = param.Selector(default="", objects=["", *text.LANGUAGES], doc='"": the one the browser prefers')
@@ -51,7 +51,7 @@ def page():
                          stylesheets=[*STYLE, HEADLESS[0]], **BARE)  # fmt: skip
     house = House(texts, sentence, lambda name: setattr(rooms, "room", name), room.level(texts, search))
     pacer, keep = house.pacer, house.keep
-    look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), Tongue()
+    look, guide, tongue = Look(width=0, height=0, margin=0), Guide(width=0, height=0, margin=0), PageLanguage()
     share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
                   lambda: house.start.busy(rooms.room), house.explorer.settle, lambda: house.explorer.shape,
                   worksheet)  # fmt: skip

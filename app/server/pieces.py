@@ -8,7 +8,7 @@ from base64 import b64encode
 from tornado.locks import Lock
 
 REFERENCE = re.compile(r'"data":\{"id":"([^"\\]*)"\}')  # in a text it would have backslashes
-SMALL = 4096  # bytes of an array that costs more as two pieces of its own than among the words
+SMALL = 6144  # bytes of an array that costs more as two pieces of its own than among the words: a curve has up to 5,128
 
 
 class Pieces(list):

@@ -1,4 +1,4 @@
-"""What is shared is made of these: the address and keys, the link and its code, a photo, the time."""
+"""The components of Share: the address and keys, the link and its code, a photo, the time."""
 
 import param
 
@@ -6,8 +6,8 @@ from app.bundle import Bundled
 
 
 class Address(Bundled):
-    """The page's own address and keys: puts `search` there without a step in the browser's history, and says when a
-    hand is down and which gesture it is."""
+    """The page's own address and keys: sets its query to `search` without adding to the browser's history, and tells
+    whether a hand is down and which gesture it makes."""
 
     search = param.String(default="", doc="what follows the path; written to the address bar")
     page = param.String(default="", doc="the address without it, prefix included; the browser writes it")
@@ -29,14 +29,14 @@ class ShareHead(Bundled):
 
 
 class Paper(Bundled):
-    """A button that has a page of its own printed."""
+    """A button that prints a page of its own."""
 
     label = param.String(default="")
     page = param.String(default="", doc="in HTML")
 
 
 class Photo(Bundled):
-    """A button that saves the top as it is seen, as a PNG with the caption below."""
+    """A button that saves the picture of the top as a PNG with the caption below."""
 
     caption = param.List(default=[], doc="lines of plain text")
     wide = param.Integer(default=2400, doc="of the picture, in px")
@@ -44,7 +44,7 @@ class Photo(Bundled):
 
 
 class Clock(param.Parameterized):
-    """The time at which a Playing stands."""
+    """The present time of a Playing."""
 
     at = param.Number(default=None, allow_None=True, doc="in (R/g)^1/2; None while it plays")
 

@@ -96,7 +96,7 @@ ROWS = (
     Name("face", "Controls", "face", _words("constants", "state"), undoable=False),
     Name("dark", "Look", "dark", _SWITCH, undoable=False),
     Name("large", "Look", "large", _SWITCH, undoable=False),
-    Name(LANGUAGE, "Tongue", "lang", _words(*LANGUAGES), undoable=False),
+    Name(LANGUAGE, "PageLanguage", "lang", _words(*LANGUAGES), undoable=False),
     # the maps
     Name("map", "MapChoice", "asked", MapText),
     Name("mapby", "MapChoice", "colour", _words(*COLOURS_BY)),

@@ -10,6 +10,7 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled
+from app.together import set_together
 from app.widgets.failure import after, attempt
 
 # Two, so that one can be on its way while the browser paints the other.
@@ -115,7 +116,7 @@ class Pacer:
         self._drawing = [sent for sent in self._drawing if sent[1] > late]
         if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
             inputs, self._wanted = self._wanted, {}
-            self._explorer.param.update(**inputs)
+            set_together(self._explorer, **inputs)
         if self._others and len(self._hands) < HANDS_IN_FLIGHT:
             others, self._others = self._others, {}
             for take, inputs in others.items():
@@ -160,7 +161,7 @@ class Pacer:
             return
         scene = self._explorer.scene
         self._say(scene)
-        self._see_to_it()
+        self._finish_later()
         after(STILL_AFTER - REST_AFTER, partial(self._stay, scene))
 
     def _stay(self, scene):
@@ -173,14 +174,14 @@ class Pacer:
         if scene is self._explorer.scene:
             _each(self._shows["still"], scene)
 
-    def _see_to_it(self):
+    def _finish_later(self):
         if self._round or self._round_is_due or self._others or (self._begun and self._later):
             after(ANSWER_WITHIN, self._finish)
 
     def _finish(self):
         """Also shows the pictures of a tab that does not answer, after a time."""
         self._advance()
-        self._see_to_it()
+        self._finish_later()
 
     def _send(self, draw, in_flight):
         self._sent = number = self._sent + 1

@@ -4,15 +4,16 @@ Only the newest request is computed, in a thread. The previous scene is shown un
 be computed.
 """
 
-import math
 from dataclasses import dataclass, field, replace
 from functools import partial
+from math import floor
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import param
 
 from app.model.arrival import TABLE, TILT
+from app.model.lab.allowed import LIMITS, POSSIBLE, fault, nearest
 from app.model.lab.ends import Ends, Key, ends_once, known_ends
 from app.model.lab.keeps import Row, keeps
 from app.model.lab.life import SECONDS
@@ -20,7 +21,6 @@ from app.model.lab.run import (
     PATCH,
     SHIPS,
     TABLES,
-    TOYS,
     TableMotion,
     TooLong,
     Toy,
@@ -34,16 +34,9 @@ from app.model.start import Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, story
 from app.text import say, told
 from app.together import set_together
-from tippe_core import Shape, State, TopError
+from tippe_core import State, TopError
 from tippe_core.types import Array
 
-LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5), "patch": (0.01, 5.0)})
-"""{input: the range in which the Lab lets it be set}, in rev/s, degrees and mm; the sliders have smaller ranges."""
-POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0), "mu": (0.0, 1e3), "patch": (0.0, 1e3)})
-"""The same for a start that comes from elsewhere, for example from a link: within it the start is kept and shown."""
-CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
-Limits: TypeAlias = MappingProxyType[str, tuple[float, float]]
-SHOWN = 30  # characters of an input that is not a number, as quoted in a sentence
 PATIENCE = 0.5  # s: a run may still finish within this time after a newer one was requested
 Inputs: TypeAlias = tuple[str, Toy, float, float, float, State | None, float]
 """table, toy, spin, tilt, mu; the State of a start that is not made by hand with G at rest, else None; and the radius
@@ -144,19 +137,6 @@ def _sentence(error: TopError) -> str:
     return told(error)
 
 
-def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
-    """Why an input cannot have this value, in a sentence; "" if it can."""
-    if name == "toy" and isinstance(value, Shape):
-        return ""
-    if name in CHOICES:
-        return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])
-    least, most = limits[name]
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        typed = str(value).strip()[:SHOWN] or say("lab.inputs.nothing")
-        return say("lab.inputs.number", value=typed, least=least, most=most)
-    return "" if least <= value <= most else say(f"lab.inputs.{name}", value=value, least=least, most=most)
-
-
 class Lab(param.Parameterized):
     """Computes what the page's Start does on the Lab's tables; each result is one `scene` event. An input that is
     refused goes back to its previous value.
@@ -177,6 +157,7 @@ class Lab(param.Parameterized):
         self._run: Run | None = None
         self._shown = self.begun = self._again = self.rests = False
         self._messages: dict[str, str] = {}
+        self.nearest: dict[str, float] = {}  # what can be, of each input that was refused as a number
         self._good, self._back = FIRST, {"table": TABLE} | arrives()  # and the inputs that set the Start back to it
         self._strip: Key | None = None
         self._seen: Inputs | None = None  # the inputs at the last call of _follow()
@@ -204,6 +185,7 @@ class Lab(param.Parameterized):
         toy, spin or tilt makes the start one by hand."""
         faults = {name: fault(name, value) for name, value in inputs.items()}
         self._messages = {name: said for name, said in faults.items() if said}
+        self.nearest = {name: near for name in self._messages if (near := nearest(name, inputs[name])) is not None}
         self._set_start({name: value for name, value in inputs.items() if not faults[name]})
         self._tell()
 
@@ -330,6 +312,8 @@ class Lab(param.Parameterized):
         default."""
         name = error.name if error.name in LIMITS else "tilt"
         self._messages[name] = _sentence(error)
+        if error.code == "body-below-table":
+            self.nearest[name] = floor(10 * error.numbers["most"]) / 10  # its slider's digits
         if self.inputs != inputs:
             return  # another start has been requested meanwhile
         known = self._good[1] == self.start.toy and self.scene

@@ -11,7 +11,7 @@ from scipy.stats import norm
 
 from app.model.measured.data import Data
 from app.model.measured.known import RISE, known
-from app.model.measured.motion import BODY, BOUNDS, NO_MOTION, Left, Model, left_over, shifted
+from app.model.measured.motion import BODY, BOUNDS, NO_MOTION, Model, Residuals, residuals_of, shifted
 from app.model.measured.starts import around, scattered, starts
 from app.model.runs import look
 from tippe_core import Constants, TopError
@@ -35,15 +35,15 @@ CLEARLY = 6.0  # difference in AIC above which one model is said to be better
 @dataclass(frozen=True, eq=False)
 class Fit:
     """model: with the best parameters. sides: one standard error of each free parameter, downwards and upwards, inf if
-    chi-square never rises enough; covariance: (k, k), from the curvature of chi-square. left: the residuals. runs:
-    {quantity: the deviation of the number of runs of one sign from its expectation, in standard errors}. unknown: free
-    parameters that the data do not determine; together: (one, other, correlation) of strongly correlated parameters.
-    sure: whether this is certainly the global minimum, because the fit is good or several starts ended here."""
+    chi-square never rises enough; covariance: (k, k), from the curvature of chi-square. runs: {quantity: the deviation
+    of the number of runs of one sign from its expectation, in standard errors}. unknown: free parameters that the data
+    do not determine; together: (one, other, correlation) of strongly correlated parameters. sure: whether this is
+    certainly the global minimum, because the fit is good or several starts ended here."""
 
     model: Model
     sides: dict[str, tuple[float, float]]
     covariance: Array
-    left: Left
+    residuals: Residuals
     hidden: int
     runs: dict[str, float]
     unknown: tuple[str, ...]
@@ -58,17 +58,17 @@ class Fit:
     @property
     def chi2(self) -> float:
         """Chi-square of all residuals."""
-        return float(self.left.row @ self.left.row)
+        return float(self.residuals.row @ self.residuals.row)
 
     @property
     def chi2_of(self) -> dict[str, tuple[float, int]]:
         """{quantity: (chi-square, number of values)}."""
-        return {name: (float(row @ row), len(row)) for name, row in self.left.residuals.items()}
+        return {name: (float(row @ row), len(row)) for name, row in self.residuals.of.items()}
 
     @property
     def freedom(self) -> int:
         """The number of degrees of freedom."""
-        return max(len(self.left.row) - len(self.model.free) - self.hidden, 1)
+        return max(len(self.residuals.row) - len(self.model.free) - self.hidden, 1)
 
     @property
     def aic(self) -> float:
@@ -178,7 +178,7 @@ class Problem:
         look()
         values = dict(zip(self.model.free, map(float, x), strict=True))
         try:
-            row = left_over(self.model.with_values(values), self.data).row
+            row = residuals_of(self.model.with_values(values), self.data).row
         except TopError:
             return np.full(self.count, NO_MOTION)
         return np.nan_to_num(row, nan=NO_MOTION, posinf=NO_MOTION, neginf=-NO_MOTION)
@@ -217,7 +217,7 @@ def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, 
             break
         _, x = problem.followed(found.better, 60, exactly=True)
     model = model.with_values(dict(zip(names, map(float, x), strict=True)))
-    left = left_over(model, data)
+    residuals = residuals_of(model, data)
     tells = found.tells(x, problem.bounds)
     for other in others:  # equally good minima outside the valley around the best one
         tells = np.all([tells, other > x - 2 * found.below, other < x + 2 * found.above], axis=0)
@@ -227,8 +227,8 @@ def _judged(model: Model, data: Data, problem: "Problem", x: Array, sure: bool, 
              if abs(correlation[i, j]) > TOGETHER]  # fmt: skip
     sides = {name: (float(below), float(above))
              for name, below, above in zip(names, found.below, found.above, strict=True)}  # fmt: skip
-    return Fit(model, sides, found.covariance, left, shifted(data),
-               {name: runs(row) for name, row in left.residuals.items()},
+    return Fit(model, sides, found.covariance, residuals, shifted(data),
+               {name: runs(row) for name, row in residuals.of.items()},
                tuple(name for name, so in zip(names, tells, strict=True) if not so), tuple(pairs), sure)  # fmt: skip
 
 

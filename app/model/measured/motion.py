@@ -103,23 +103,23 @@ class Model:
 
 
 @dataclass(frozen=True, eq=False)
-class Left:
+class Residuals:
     """The residuals of a Model, in standard errors, and the model's values at the times of the data, fitted to the
     position of the camera; {quantity: (n,)} each."""
 
-    residuals: dict[str, Array] = field(default_factory=dict)
+    of: dict[str, Array] = field(default_factory=dict)
     values: dict[str, Array] = field(default_factory=dict)
 
     @property
     def row(self) -> Array:
         """All residuals, (n,)."""
-        return np.concatenate(list(self.residuals.values()))
+        return np.concatenate(list(self.of.values()))
 
 
-def left_over(model: Model, data: Data) -> Left:
+def residuals_of(model: Model, data: Data) -> Residuals:
     """The residuals of a model; raises TopError if it gives no motion."""
     times = data.t
-    seen, left = model.seen(times), Left()
+    seen, residuals = model.seen(times), Residuals()
     at = {name: np.searchsorted(times, series.t) for name, series in data.series.items()}
     shown = {name: seen[name][at[name]] for name in data.series}
     if "azimuth" in shown:
@@ -128,9 +128,9 @@ def left_over(model: Model, data: Data) -> Left:
         if x in shown and len(at[x]) == len(at[y]):
             shown[x], shown[y] = _turned(shown[x], shown[y], data.series[x].values, data.series[y].values)
     for name, series in data.series.items():
-        left.values[name] = shown[name]
-        left.residuals[name] = (series.values - shown[name]) / series.error
-    return left
+        residuals.values[name] = shown[name]
+        residuals.of[name] = (series.values - shown[name]) / series.error
+    return residuals
 
 
 def _turned(x: Array, y: Array, x_seen: Array, y_seen: Array) -> tuple[Array, Array]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from app.model.measured.data import Data
 from app.model.measured.fit import TOGETHER, Fit, Problem, runs
-from app.model.measured.motion import BOUNDS, Model, left_over, shifted
+from app.model.measured.motion import BOUNDS, Model, residuals_of, shifted
 
 DIGITS = 9
 
@@ -45,7 +45,7 @@ def checked(said: Any, model: Model) -> dict[str, Any]:
 def remembered(model: Model, data: Data, said: dict[str, Any]) -> Fit:
     """The Fit for the result of checked(). Raises TopError if its parameters give no motion."""
     model = model.with_values({name: float(value) for name, value in said["values"].items()})
-    left, names = left_over(model, data), model.free
+    residuals, names = residuals_of(model, data), model.free
     J = Problem(model, data).slopes(np.array([model.values[name] for name in names]))
     norms = np.maximum(np.linalg.norm(J, axis=0), 1e-300)
     covariance = np.linalg.pinv((J / norms).T @ (J / norms)) / np.outer(norms, norms)
@@ -54,6 +54,6 @@ def remembered(model: Model, data: Data, said: dict[str, Any]) -> Fit:
         (i, j, float(covariance[i, j] / (size[i] * size[j]))) for i, j in itertools.combinations(range(len(names)), 2)
     )
     together = tuple((names[i], names[j], how) for i, j, how in pairs if abs(how) > TOGETHER)
-    return Fit(model, said["sides"], covariance, left, shifted(data),
-               {name: runs(row) for name, row in left.residuals.items()}, said["unknown"], together,
+    return Fit(model, said["sides"], covariance, residuals, shifted(data),
+               {name: runs(row) for name, row in residuals.of.items()}, said["unknown"], together,
                said["sure"])  # fmt: skip

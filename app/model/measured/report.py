@@ -30,7 +30,7 @@ def residuals_table(data: Data, fit: Fit) -> str:
     in standard errors."""
     rows = ["t_s,quantity,measured,fitted,residual_in_errors"]
     for name, series in data.series.items():
-        parts = zip(series.t, series.values, fit.left.values[name], fit.left.residuals[name], strict=True)
+        parts = zip(series.t, series.values, fit.residuals.values[name], fit.residuals.of[name], strict=True)
         rows += [f"{t:.6g},{name},{seen:.8g},{fitted:.8g},{rest:.5g}" for t, seen, fitted, rest in parts]
     return "\n".join(rows) + "\n"
 

@@ -7,7 +7,7 @@ import numpy as np
 from app.model.frames import MOST_FRAMES, MOST_TURN, axes
 from app.model.measured.data import TOGETHER, Data
 from app.model.measured.fit import Problem
-from app.model.measured.motion import Left, Model, left_over
+from app.model.measured.motion import Model, Residuals, residuals_of
 from app.model.measured.starts import starts
 from app.model.measured.table import MeasuredError
 from tippe_core import TopError, Trajectory
@@ -19,13 +19,13 @@ LOOK = 3.0  # s of the film, from its beginning, by which a guess is chosen
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """left: the residuals of the data from the model's start on. t (n,): time of the film, s; motion: the model's at
-    these times. curves: {quantity: (t, values)} in s, rad, rad/s and m. axis: rows (t, x, y, z) of its measured
-    directions; azimuths: whether the azimuth was measured too; otherwise it is the motion's own."""
+    """residuals: those of the data from the model's start on. t (n,): time of the film, s; motion: the model's at these
+    times. curves: {quantity: (t, values)} in s, rad, rad/s and m. axis: rows (t, x, y, z) of its measured directions;
+    azimuths: whether the azimuth was measured too; otherwise it is the motion's own."""
 
     model: Model
     data: Data
-    left: Left
+    residuals: Residuals
     t: Array
     motion: Trajectory
     curves: dict[str, tuple[Array, Array]]
@@ -40,32 +40,32 @@ class Shown:
 
 def shown(model: Model, data: Data) -> Shown:
     """The model beside the data, which begin where it starts. Raises TopError if there is no such motion."""
-    left, times = left_over(model, data), data.t
+    residuals, times = residuals_of(model, data), data.t
     first, last, unit = times[0], times[-1], model.scales.time
     fastest = abs(model.values["spin"]) + abs(model.values["across"]) + 1.0
     count = int(np.clip((last - first) / unit * fastest / MOST_TURN, len(times), MOST_FRAMES))
     t = np.linspace(first, last, count + 1)
     motion = model.moved(t)
     t = t[: len(motion.t)]
-    axis, azimuths = _axis(model, data, left, t, motion)
-    return Shown(model, data, left, t, motion, _curves(model, data, left), axis, azimuths)
+    axis, azimuths = _axis(model, data, residuals, t, motion)
+    return Shown(model, data, residuals, t, motion, _curves(model, data, residuals), axis, azimuths)
 
 
-def _curves(model: Model, data: Data, left: Left) -> dict[str, tuple[Array, Array]]:
+def _curves(model: Model, data: Data, residuals: Residuals) -> dict[str, tuple[Array, Array]]:
     times = data.t
     fine = np.union1d(times, np.linspace(times[0], times[-1], POINTS))
     seen, tracks = model.seen(fine), {name for pair in TOGETHER for name in pair}
     curves = {}
     for name, series in data.series.items():
         if name in tracks:
-            curves[name] = series.t, left.values[name]
+            curves[name] = series.t, residuals.values[name]
             continue
-        moved = left.values[name][0] - seen[name][np.searchsorted(fine, series.t[0])] if name == "azimuth" else 0.0
+        moved = residuals.values[name][0] - seen[name][np.searchsorted(fine, series.t[0])] if name == "azimuth" else 0.0
         curves[name] = fine, seen[name] + moved
     return curves
 
 
-def _axis(model: Model, data: Data, left: Left, t: Array, motion: Trajectory) -> tuple[Array, bool]:
+def _axis(model: Model, data: Data, residuals: Residuals, t: Array, motion: Trajectory) -> tuple[Array, bool]:
     series = data.series
     if "tilt" in series:
         times, theta = series["tilt"].t, series["tilt"].values
@@ -77,7 +77,7 @@ def _axis(model: Model, data: Data, left: Left, t: Array, motion: Trajectory) ->
     phi, seen = np.interp(times, t, motion.phi), "azimuth" in series
     if seen:
         turn = series["azimuth"]
-        moved = np.interp(turn.t, t, motion.phi) - left.values["azimuth"]
+        moved = np.interp(turn.t, t, motion.phi) - residuals.values["azimuth"]
         phi = np.interp(times, turn.t, turn.values + float(np.mean(moved)))
     return np.column_stack([times, axes(theta, phi)[2]]), seen
 

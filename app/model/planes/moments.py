@@ -12,14 +12,14 @@ from app.model.story import marks
 from app.text import listed, say
 
 TOLD = ("over", "topples", "stands", "inverted", "falls", "back", "leans", "upright", "lies", "rolls")
-"""Of the marks, those that no event of the contact tells already."""
+"""Marks that are not events of a contact, which are listed anyway."""
 MOST = 16
 ON = {"both": "both", "stem": "stem", "none": "air"}
 TABLE = {plane: table for table, plane in TABLES.items()}
 
 
 class Moment(NamedTuple):
-    """t in units of the run's time and in s, what happened in words, and how it was right after, as HTML."""
+    """t in units of the run's time and in s, what happened, in words, and the state right after it, as HTML."""
 
     t: float
     seconds: float
@@ -28,7 +28,7 @@ class Moment(NamedTuple):
 
 
 def moments(motion: Motion | None, settings: Settings, plane: str) -> tuple[Moment, ...]:
-    """The Moments of a motion, in the page's language; MOST at most, and then the last."""
+    """The Moments of a motion, in the page's language; at most MOST of them, and the last one."""
     if motion is None:
         return ()
     watched = Watched(**vars(motion), start=settings, table=TABLE[plane])
@@ -42,7 +42,7 @@ def moments(motion: Motion | None, settings: Settings, plane: str) -> tuple[Mome
 
 
 def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
-    """The first time that the spin about its own axis is zero, and K_R with it."""
+    """The first time at which the spin about its own axis, and K_R with it, is zero."""
     spin, t = motion.trajectory.omega[:, 2], motion.trajectory.t
     at = np.flatnonzero(spin[:-1] * spin[1:] < 0)
     if not len(at):
@@ -53,7 +53,8 @@ def _turns(motion: Motion, unit: float) -> list[tuple[float, str]]:
 
 
 def _touches(motion: Motion, unit: float, part: str) -> list[tuple[float, str]]:
-    """The events of its contacts; of those that an eye does not follow the first, and how many more."""
+    """The events of its contacts; of series that are too fast to be seen only the first event, and the number of the
+    others."""
     events = [(unit * t, say(f"planes.events.{event}", part=part)) for t, event in motion.trajectory.events]
     found: list[tuple[float, str]] = []
     last, more = -np.inf, 0
@@ -70,7 +71,7 @@ def _touches(motion: Motion, unit: float, part: str) -> list[tuple[float, str]]:
 
 
 def _after(motion: Watched, t: float, part: str) -> str:
-    """How it is right after a time."""
+    """The state right after a time."""
     moved = motion.trajectory
     i = min(int(np.searchsorted(moved.t, t, side="right")), len(moved.t) - 1)
     carried = str(motion.carried_at(np.asarray(t))) if moved.supports else "ball"

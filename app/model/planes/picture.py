@@ -34,11 +34,11 @@ BY = {True: "spin", False: "constants"}
 KEPT = {"J": "jellett", "Routh": "routh", "E": "energy", "L_3": "L_3", "L_z": "L_z"}
 
 MOST_SECONDS = 60.0
-# A frame turns the top by MOST_TURN rad at most, unless that takes more than MOST_FRAMES; by FARTHEST_TURN it may not.
+# A frame turns the top by at most MOST_TURN rad, or FARTHEST_TURN if that would take more than MOST_FRAMES.
 MOST_TURN, MOST_FRAMES, FARTHEST_TURN = 0.3, 16_000, 1.0
 LEAST_FRAMES = 600
-NEAR_TOUCH = 0.02  # rad: so near to the touch angle a lift-off is the touch's
-SHORT = 0.05  # s of the real top: a touch, or a hop, that an eye does not follow
+NEAR_TOUCH = 0.02  # rad: a lift-off this near to the touch angle counts as caused by the touch
+SHORT = 0.05  # s: a touch or hop that is too short to be seen
 RTOL = 1e-9  # of slide()
 
 
@@ -58,12 +58,12 @@ class Setup:
 
     @property
     def turns(self) -> float:
-        """rev/s in one unit of angular velocity."""
+        """The spin in rev/s for one unit of angular velocity."""
         return self.scales.angular_velocity / (2 * np.pi)
 
     @property
     def friction(self) -> Friction:
-        """The law of the table on which it slides."""
+        """The friction law of the table on which it slides."""
         raise NotImplementedError
 
     @property
@@ -73,30 +73,30 @@ class Setup:
 
     @property
     def edge(self) -> Rim | None:
-        """The stem's edge where it takes part."""
+        """The edge of the stem, if it takes part."""
         return self.shape.edge if self.stem and self.shape is not None else None
 
     @property
     def touch_angle(self) -> float:
-        """theta from which that edge touches, inf where none takes part."""
+        """The tilt from which that edge touches, inf if none takes part."""
         found = self.shape.touch_angle if self.edge and self.shape else None
         return np.inf if found is None else found
 
     @property
     def drawn(self) -> Array:
-        """The outline that is drawn, as profile: of the ball alone where the stem takes no part and might go into the
+        """The outline that is drawn, like profile: only the ball if the stem takes no part and might go through the
         table."""
         alone = self.shape is not None and self.shape.touch_angle is not None and self.edge is None
         return outline(self.top) if alone else self.profile
 
     @property
     def part(self) -> str:
-        """What touches beside the ball, "stem" or "rim"."""
+        """The part that touches in addition to the ball, "stem" or "rim"."""
         return second_part(self.shape)
 
     @property
     def times(self) -> Array:
-        """(n,), short enough a step that the top turns little in it."""
+        """(n,), in steps in which the top turns little."""
         if not 0 < self.seconds <= MOST_SECONDS:
             raise TopError("seconds", self.seconds, f"0 < seconds <= {MOST_SECONDS:g} (s)")
         start, end = self.state, self.seconds / self.scales.time
@@ -130,7 +130,7 @@ class Settings(Setup):
 
     @property
     def inputs(self) -> MappingProxyType[str, Any]:
-        """What a person set, by the names of the Planes."""
+        """The inputs, by their names in the Planes."""
         return MappingProxyType({name: getattr(self, name) for name in SET} | {"by": BY[self.rolling is None]})
 
     @property
@@ -143,13 +143,13 @@ class Settings(Setup):
 
     @property
     def state(self) -> State:
-        """The State at t = 0, before any table grips it."""
+        """The State at t = 0, before a table grips it."""
         return self.rolling or by_hand(self.spin, self.tilt, self.slip, self.scales)
 
 
 def by_hand(spin: float, tilt: float, slip: float, scales: Scales) -> State:
-    """The State of a top that a hand lets go: spin in rev/s, tilt in degrees. slip 1: G at rest; 0: G moves as rolling
-    needs; in between and beyond in proportion. Raises TopError, whose name is an input."""
+    """The State of a top that is released by hand: spin in rev/s, tilt in degrees. slip = 1: G at rest; slip = 0: G
+    moves as in rolling; other values interpolate or extrapolate. Raises TopError, whose name is an input."""
     if not 0 <= tilt <= 180:
         raise TopError("tilt", tilt, "0 <= tilt <= 180 (°)")
     for name, value in (("spin", spin), ("slip", slip)):
@@ -161,14 +161,14 @@ def by_hand(spin: float, tilt: float, slip: float, scales: Scales) -> State:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Motion:
-    """One top on one plane. trajectory: as far as it goes; ended: the event that it stopped at, or "".
+    """One top on one plane. trajectory: as far as it goes; ended: the event at which it stopped, or "".
 
-    t (n,) to the end asked for: where the trajectory ends earlier, its last row stands once more at the end. frames:
-    the arguments of top3d.pack_frames. stretches: (start, end, one of regimes.py) in turn. drift: of KEPT, the largest
-    difference between two instants, over the largest size; alone: the time to which the sphere alone is on the table,
-    what ends that ("" if nothing), and the drift of J until then, which no more than one contact keeps. The events have
-    tippe_core's names, but THROWN where the stem's first touch is what lifts it off, and ANOTHER. ending: on the
-    sliding plane, what became of it.
+    t (n,) extends to the requested end: if the trajectory ends earlier, its last row is repeated there. frames: the
+    arguments of top3d.pack_frames. stretches: (start, end, one of regimes.py), in order. drift: for each of KEPT, the
+    largest difference between two instants relative to the largest value; alone: the time up to which only the sphere
+    touches, what ends that ("" if nothing), and the drift of J up to then, which only a single contact conserves.
+    Events have tippe_core's names, except THROWN if the stem's first touch lifts the top off, and ANOTHER. ending: on
+    the sliding plane, how the motion ends.
     """
 
     trajectory: Trajectory
@@ -187,7 +187,8 @@ class Motion:
 
     @property
     def ledger(self) -> dict[str, Array]:
-        """Energies in MgR that add up to what it started with, {name: (n,)}; height above G's lowest place."""
+        """Energies in MgR whose sum is the energy at the start, {name: (n,)}; the height is that above G's lowest
+        position."""
         entries, a = self.trajectory.ledger, self.trajectory.top.a
         return {
             "spin": entries.spin,
@@ -206,24 +207,25 @@ class Motion:
 
     @property
     def _from_right_angle(self) -> tuple[Array, Array]:
-        """theta less a right angle, and the time, where that is not 0."""
+        """theta minus a right angle, and the time, where that is not 0."""
         theta = self.trajectory.theta - np.pi / 2
         off = np.abs(theta) > 1e-12
         return theta[off], self.trajectory.t[off]
 
     @property
     def starts_below(self) -> bool:
-        """Whether it starts below a right angle, or goes below it from there."""
+        """Whether it starts below a right angle, or moves below it from there."""
         return bool(np.all(self._from_right_angle[0][:1] < 0))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Picture:
-    """All that the views show. motions: {plane: Motion or None}; None: the sentence why is in messages at the plane.
+    """Everything that the views show. motions: {plane: Motion or None}; if None, messages has the reason under the
+    plane.
 
-    outcome: of the ball alone. growth: how many times NUDGE grew in the run beside the sliding one, None without that.
-    inputs: what is set in the Planes, by their names. messages: a sentence for each control that was given what cannot
-    be, "run" for a run that was stopped; the rest but for the inputs is then the last good one.
+    outcome: that of the ball alone. growth: the factor by which NUDGE grew in the disturbed sliding run, None without
+    one. inputs: those of the Planes, by name. messages: a sentence for each control whose value was refused, and "run"
+    for a run that was stopped; everything but the inputs is then that of the last valid Picture.
     """
 
     settings: Settings
@@ -237,12 +239,12 @@ class Picture:
 
     @property
     def turns(self) -> float:
-        """The spin of the start, rev/s."""
+        """The spin at the start, rev/s."""
         return self.state.omega3 * self.settings.turns
 
     @property
     def slip(self) -> float:
-        """The speed of the slip at the start, m/s."""
+        """The slip speed at the start, m/s."""
         state, a = self.state, self.settings.top.a
         s, c = np.sin(state.theta), np.cos(state.theta)
         vx, vy = state.vx or 0.0, state.vy or 0.0

@@ -21,15 +21,15 @@ from tippe_core import (
 )
 from tippe_core.types import Number
 
-# A run that a newer one replaces may still finish within this, s; later it is stopped.
+# s: a run may still finish within this time after a newer one was requested; later it is stopped.
 PATIENCE = 0.5
 
 
-# ---- what a person sets ----
+# ---- the inputs ----
 
 
 def _preset(body: str, spin: float, tilt: float, seconds: float, **law: object) -> dict[str, Number]:
-    """Of no table: it stays on that where it is looked at, of which one has no friction."""
+    """An example. It sets no table, so that the one that is shown stays."""
     start = {"given": "hand", "spin": spin, "tilt": tilt, "slip": 1.0, "seconds": seconds}
     return {"body": body} | start | law
 
@@ -55,11 +55,11 @@ def preset(name: str) -> tuple[str, dict[str, Number]]:
 
 
 class Planes(param.Parameterized):
-    """What the page's start does on three planes: one run of it, and one `picture` event when it is done.
+    """Computes what the page's start does on the three planes; each result is one `picture` event.
 
-    start: the Explorer, which ask() sets. runs: the page's Runs; of several asked for while one is under way only the
-    newest is made. follow() is to be called with the scene of a hand at rest. Nothing is computed before show(), nor
-    after hide().
+    start: the Explorer, which ask() sets. runs: the page's Runs; if several runs are requested while one is under way,
+    only the newest is computed. follow() is to be called with the scene of a hand at rest. Nothing is computed before
+    show() or after hide().
     """
 
     busy = param.Boolean(False, constant=True, doc="whether a run is under way")
@@ -98,20 +98,20 @@ class Planes(param.Parameterized):
         return {name: getattr(start, name) for name in SET} | {"by": BY[start.given == "hand"]}
 
     def ask(self, by: str | None = None, **inputs: Any) -> None:
-        """Sets inputs; by: "spin" or "constants", the same start by the other."""
+        """Sets inputs; by: "spin" or "constants", which give the same start."""
         if by:
             self._start.settle()
             inputs["given"] = "hand" if by == "spin" else "state"
         self._start.later(**inputs)
 
     def follow(self, scene: Scene) -> None:
-        """Runs again if the top, or the motion that rolls, is another than the one last asked for; when what is set
-        together with it is set too, as by an undo."""
+        """Starts a run if the top or the rolling motion differs from the last request; waits until inputs that are set
+        together, as by undo, are all set."""
         self._runs.post(self._run_anew)
 
     @property
     def elapsed(self) -> float:
-        """How long the present run has taken, s; 0 without one."""
+        """The time taken by the present run, s; 0 if there is none."""
         return self._run.elapsed if self._run else 0.0
 
     @property
@@ -121,11 +121,11 @@ class Planes(param.Parameterized):
 
     @property
     def _reached(self) -> float:
-        """s of the real top."""
+        """The time of the motion reached so far, s."""
         return self._run.reached * self._running.scales.time if self._run else 0.0
 
     def stop(self) -> None:
-        """Ends the present run; the last picture stays, with a sentence."""
+        """Stops the present run; the last picture stays, with a sentence."""
         self._wanted = None
         if self._run:
             self._told_to_stop = True
@@ -198,12 +198,12 @@ class Planes(param.Parameterized):
             self._runs.begin(self._beside, "nudged")
 
     def _nudged(self, picture: Picture, growth: object) -> None:
-        """What the run beside the run tells of it, if that is still what is shown."""
+        """Adds the growth of the disturbed run to the picture, if that is still shown."""
         if isinstance(growth, float) and self.picture is not None and self.picture.motions is picture.motions:
             with param.edit_constant(self):
                 self.picture = replace(self.picture, growth=growth)
 
 
 def _same(one: Settings, other: Settings) -> bool:
-    """Whether two runs would be the same; the profile is the shape's, or the top's."""
+    """Whether two runs would be the same; the profile follows from the shape or the top."""
     return all(getattr(one, part.name) == getattr(other, part.name) for part in fields(one) if part.name != "profile")

@@ -44,7 +44,7 @@ from tippe_core import (
 from tippe_core.types import Array, Bools, Number
 
 THROWN, ANOTHER = "stem throws it up", "another part touches"
-NUDGE, BESIDE = 1e-6, 3.0  # rad, s: a run beside the run starts so much further tilted, and goes so far past a touch
+NUDGE, BESIDE = 1e-6, 3.0  # rad, s: the additional tilt of the disturbed run, and how long it continues after a touch
 
 Progress: TypeAlias = Callable[[float], object]
 
@@ -82,7 +82,7 @@ def slid(settings: Setup, state: State, times: Array, progress: Progress | None)
 
 
 def check_room(settings: Setup, state: State) -> None:
-    """TopError where a part of the body that is neither ball nor edge would be below the table at the start."""
+    """Raises TopError if a part of the body other than the ball and the edge would be below the table at the start."""
     if settings.edge is None:
         return
     if _below(settings, np.array([state.theta]))[0]:
@@ -94,7 +94,7 @@ def check_room(settings: Setup, state: State) -> None:
 
 
 def _below(settings: Setup, theta: Array) -> Bools:
-    """Whether a part of the body is below the table, where it stands on ball or edge with these tilts."""
+    """Whether a part of the body is below the table when it stands on its ball or edge at these tilts."""
     assert settings.edge is not None
     radius, height, rounding = settings.edge
     stands = np.maximum(1, rounding - height * np.cos(theta) + radius * np.sin(theta))
@@ -102,7 +102,7 @@ def _below(settings: Setup, theta: Array) -> Bools:
 
 
 def cut(trajectory: Trajectory, rows: slice | Bools, so_far: Callable[[float], bool]) -> Trajectory:
-    """These rows of a Trajectory, with the events and supports whose time is so_far."""
+    """These rows of a Trajectory, with the events and supports whose times satisfy so_far."""
     arrays: dict[str, Number]
     arrays = {part.name: value[rows] for part in fields(trajectory)
               if isinstance(value := getattr(trajectory, part.name), np.ndarray)}  # fmt: skip
@@ -111,23 +111,23 @@ def cut(trajectory: Trajectory, rows: slice | Bools, so_far: Callable[[float], b
 
 
 def _until(trajectory: Trajectory, count: int, time: float, event: str) -> Trajectory:
-    """The first rows of a Trajectory, which ends at that time with that event."""
+    """The first rows of a Trajectory, which then ends at that time with that event."""
     found = cut(trajectory, slice(count), lambda t: t < time)
     return replace(found, events=(*found.events, (time, event)))
 
 
 def nudged(picture: Picture, progress: Progress | None = None) -> float:
-    """How many times NUDGE, added to the tilt of the start, grows in theta on the sliding plane, at most; BESIDE after
-    the first touch is as long as it takes to tell."""
+    """The largest factor by which NUDGE, added to the initial tilt, grows in theta on the sliding plane; BESIDE after
+    the first touch is long enough to tell."""
     settings, state, motion = picture.settings, picture.state, picture.motions["sliding"]
-    assert motion is not None and motion.ending is not None  # it hits something there
+    assert motion is not None and motion.ending is not None  # something touched there
     moved, until = motion.trajectory, motion.ending.stretches[0].end + BESIDE / settings.scales.time
     near = slid(settings, beside(state, NUDGE), moved.t[moved.t <= until], progress)
     return growth(moved, near, NUDGE)
 
 
 def clear(motion: Callable[[], Trajectory], settings: Setup, state: State) -> Trajectory:
-    """A motion on the ball alone, motion(), as far as the stem is clear of the table; TopError where it never is."""
+    """A motion of the ball alone, motion(), as long as the stem is clear of the table; TopError if it never is."""
     angle = settings.touch_angle
     if state.theta >= angle:
         raise TopError("tilt", float(np.degrees(state.theta)),
@@ -144,7 +144,7 @@ def clear(motion: Callable[[], Trajectory], settings: Setup, state: State) -> Tr
 
 
 def for_reader(error: TopError, scales: Scales) -> TopError:
-    """A TopError of tippe_core in what stands beside the controls: degrees, rev/s, s."""
+    """A TopError of tippe_core in the units of the controls: degrees, rev/s, s."""
     names = {"theta": ("tilt", 180 / np.pi), "omega3": ("spin", scales.angular_velocity / (2 * np.pi)),
              "times": ("seconds", scales.time)}  # fmt: skip
     name, size = names.get(error.name, (error.name, 1.0))
@@ -164,7 +164,7 @@ def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str)
     if plane == "rough":
         code[trajectory.force[:, 2] < 0] = WOULD_LIFT
     elif plane == "smooth":
-        code[code == SLIPS] = GLIDES  # where nothing rubs
+        code[code == SLIPS] = GLIDES  # without friction
     frames = [trajectory.t, trajectory.quaternion, trajectory.contact, trajectory.com, trajectory.theta,
               *in_space(trajectory), code]  # fmt: skip
     ended = n < len(times)
@@ -192,7 +192,7 @@ def motion_of(trajectory: Trajectory, settings: Setup, times: Array, plane: str)
 
 
 def touches(trajectory: Trajectory, time: float, settings: Setup) -> bool:
-    """Whether the top is so far tilted at that time, before which it was on its sphere, that the stem touches."""
+    """Whether at that time, up to which it was on its sphere, the top is tilted so far that the stem touches."""
     before = max(int(np.searchsorted(trajectory.t, time)) - 1, 0)
     theta = trajectory.theta[before] + (time - trajectory.t[before]) * trajectory.omega[before, 0]
     return bool(abs(theta - settings.touch_angle) < NEAR_TOUCH)
@@ -204,6 +204,6 @@ def _drift(values: Array) -> float:
 
 
 def hits(picture: Picture) -> bool:
-    """Whether anything but its ball touched, which is what makes a motion depend on the last digit of its start."""
+    """Whether anything but its ball touched; that makes a motion sensitive to its start."""
     motion = picture.motions["sliding"]
     return motion is not None and motion.ending is not None and len(motion.ending.stretches) > 1

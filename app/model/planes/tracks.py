@@ -1,5 +1,5 @@
-"""What the three planes show over time, in the units of the page: degrees, rev/s, cm/s, s; forces in M g, energies in
-M g R."""
+"""The quantities that the three planes show over time, in the units of the page: degrees, rev/s, cm/s, s; forces in M
+g, energies in M g R."""
 
 from itertools import pairwise
 from typing import NamedTuple
@@ -11,11 +11,11 @@ from tippe_core import Scales
 from tippe_core.types import Array
 
 QUANTITIES = ("theta", "omega3", "normal", "slip")
-BUCKETS, POINTS = 500, 500  # of a curve, of the ledger
+BUCKETS, POINTS = 500, 500  # of a curve, and of the energies
 
 
 class Track(NamedTuple):
-    """A quantity at t (n,), in s."""
+    """One quantity at the times t (n,), in s."""
 
     t: Array
     value: Array
@@ -34,7 +34,7 @@ def tracks(motion: Motion, scales: Scales) -> dict[str, Track]:
 
 
 def extremes(t: Array, values: Array) -> Track:
-    """The least and the largest of each of BUCKETS stretches: a fast swing keeps its width."""
+    """The least and the largest value in each of BUCKETS intervals, so that a fast oscillation keeps its width."""
     if len(t) <= 2 * BUCKETS:
         return Track(t, values)
     buckets = pairwise(np.linspace(0, len(t), BUCKETS + 1).astype(int))
@@ -43,6 +43,6 @@ def extremes(t: Array, values: Array) -> Track:
 
 
 def ledger(motion: Motion, scales: Scales) -> tuple[Array, dict[str, Array]]:
-    """(t, {name: energy}) at POINTS times, as Motion.ledger."""
+    """(t, {name: energy}) at POINTS times, like Motion.ledger."""
     every = np.unique(np.linspace(0, len(motion.trajectory.t) - 1, POINTS).astype(int))
     return motion.trajectory.t[every] * scales.time, {name: part[every] for name, part in motion.ledger.items()}

@@ -14,11 +14,12 @@ from tippe_core import SteadyStates, Stretch, Top, jellett_potential, steady_sta
 from tippe_core.types import Array, Bools, Indices
 
 POINTS = 361  # of a curve, a half degree apart
-BEADS = 4000  # of the path of the bead, at most
+BEADS = 4000  # points of the bead's path, at most
 
 
-class While(NamedTuple):
-    """In which the ball alone was at the table: start to end in (R/g)^1/2, C_J, and the steady states at it."""
+class Interval(NamedTuple):
+    """An interval in which only the ball touches: from start to end in (R/g)^1/2, its C_J, and the steady states for
+    that."""
 
     start: float
     end: float
@@ -28,8 +29,8 @@ class While(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Well:
-    """V_J of one While over theta (n,). low, high: what of V_J is worth showing, with the energies that the bead has
-    in it. places (k,): the steady states, at the heights (k,); stable (k,)."""
+    """V_J of one Interval over theta (n,). low, high: the range of V_J to be shown, which includes the bead's energies.
+    places (k,): the tilts of the steady states, heights (k,): their V_J; stable (k,)."""
 
     theta: Array
     V: Array
@@ -41,11 +42,11 @@ class Well:
 
 
 class Path(NamedTuple):
-    """Where the bead is: theta, the height V of the well there and up to E what energy it has left, at t (n,). which:
-    the place of the well among the wells, -1 while a stem touches.
+    """The path of the bead: at t (n,) its tilt theta, the height V of the well there, and V plus the energy that it has
+    left, E; which: the index of the present well, -1 while a stem touches.
 
-    Pivoting changes C_J a little within a While, whose well is that of the middle one: what is left is what it has over
-    V_J of its own C_J then, which is never less than none.
+    Pivoting changes C_J a little within an Interval, whose well is that of the median C_J. The energy left is that
+    above V_J for the present C_J, so it is never negative.
     """
 
     t: Array
@@ -59,14 +60,15 @@ NONE = np.zeros(0)
 NOWHERE = Path(NONE, NONE, NONE, NONE, np.zeros(0, int))
 
 
-def whiles(picture: Picture, plane: str) -> tuple[While, ...]:
-    """Of the motion on a plane, each of more than SHORT: a second contact changes C_J. Of none, that of the start."""
+def intervals(picture: Picture, plane: str) -> tuple[Interval, ...]:
+    """The Intervals of the motion on a plane that are longer than SHORT, because a second contact changes C_J; if there
+    is none, one with the C_J of the start."""
     motion, shortest = picture.motions[plane], SHORT / picture.settings.scales.time
     at_first = picture.outcome.C_J, picture.outcome.steady
     if motion is None:
-        return (While(0.0, 0.0, *at_first),)
+        return (Interval(0.0, 0.0, *at_first),)
     moved = motion.trajectory
-    found: list[While] = []
+    found: list[Interval] = []
     spells = motion.ending.stretches if motion.ending else (Stretch(moved.t[0], moved.t[-1], "ball"),)
     for free, group in groupby(spells, key=lambda spell: spell.on in ("ball", "air")):
         group = list(group)
@@ -74,11 +76,11 @@ def whiles(picture: Picture, plane: str) -> tuple[While, ...]:
         inside = (moved.t >= start) & (moved.t <= end)
         if free and inside.any() and (end - start > shortest or not found):
             C_J = float(np.median(moved.jellett[inside]))
-            found.append(While(start, end, C_J, steady_states(moved.top, C_J)))
-    return tuple(found) or (While(-1.0, -1.0, *at_first),)
+            found.append(Interval(start, end, C_J, steady_states(moved.top, C_J)))
+    return tuple(found) or (Interval(-1.0, -1.0, *at_first),)
 
 
-def path(motion: Motion | None, found: tuple[While, ...]) -> Path:
+def path(motion: Motion | None, found: tuple[Interval, ...]) -> Path:
     if motion is None:
         return NOWHERE
     moved = motion.trajectory
@@ -89,11 +91,11 @@ def path(motion: Motion | None, found: tuple[While, ...]) -> Path:
         inside = (t >= one.start) & (t <= one.end)
         V[inside], which[inside] = jellett_potential(theta[inside], moved.top, one.C_J), k
     left = moved.energy[every] - jellett_potential(theta, moved.top, moved.jellett[every])
-    return Path(t, theta, V, V + np.maximum(left, 0.0), which)  # its last digit may be below
+    return Path(t, theta, V, V + np.maximum(left, 0.0), which)  # may be negative in its last digit
 
 
-def well(top: Top, one: While, E: Array) -> Well:
-    """E: the energies that the bead has in it, the first of them at its start."""
+def well(top: Top, one: Interval, E: Array) -> Well:
+    """E: the energies of the bead in it, beginning with that at the start."""
     theta = np.linspace(0, np.pi, POINTS)
     V = jellett_potential(theta, top, one.C_J)
     low, high = float(V.min()), max(float(np.min([V.max(), 4 * np.median(V)])), *E[:1], E.max(initial=-np.inf))
@@ -102,8 +104,8 @@ def well(top: Top, one: While, E: Array) -> Well:
 
 
 def wells(picture: Picture, plane: str) -> tuple[tuple[Well, ...], Path]:
-    """Those of a plane, the sliding one where it is none of them, and the bead's path through them."""
+    """The wells of a plane (for "compare", of the sliding one), and the path of the bead through them."""
     plane = plane if plane in PLANES else "sliding"
-    motion, found = picture.motions[plane], whiles(picture, plane)
+    motion, found = picture.motions[plane], intervals(picture, plane)
     bead = path(motion, found)
     return tuple(well(picture.settings.top, one, bead.E[bead.which == k]) for k, one in enumerate(found)), bead

@@ -147,7 +147,7 @@ class _Picture:
         if fit is None:
             self.left.data, self.head.object = NOTHING, self._head(say("measure.not_fitted"))
             return
-        rest = shown.left.residuals[name]
+        rest = shown.residuals.of[name]
         most = max(3.5, float(np.abs(rest).max()) * 1.1)
         self.rest.y_range.update(start=-most, end=most)
         chi2, count = fit.chi2_of[name]

@@ -76,9 +76,9 @@ def _drawn(title, high, parts):
 
 def _picture(name, data, fit):
     series, size = data.series[name], size_of(name)
-    y, curve, error = series.values * size, fit.left.values[name] * size, series.error * size
+    y, curve, error = series.values * size, fit.residuals.values[name] * size, series.error * size
     axes = _Axes(series.t, min(y.min(), curve.min()) - error, max(y.max(), curve.max()) + error)
-    x, left = axes.x(series.t), fit.left.residuals[name]
+    x, left = axes.x(series.t), fit.residuals.of[name]
     middle, one = HEIGHT + REST / 2, REST / 2 / max(3.5, np.abs(left).max())
     band = f'<rect x="{LEFT}" y="{middle - one:.1f}" width="{WIDTH - LEFT - 16}" height="{2 * one:.1f}" fill="{GRID}"/>'
     line = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, axes.y(curve), strict=True))

@@ -86,9 +86,18 @@ export class Control {
     this.number.setAttribute("aria-invalid", String(Boolean(message)));
     this.element.classList.toggle("bad", Boolean(message));
     this.wrong.hidden = !message;
-    const back = say(this.texts, this.texts.back, { value: `${written(kept, this.limits.digits, this.texts.decimal)}${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}` });
-    if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), part("span", {}, message, " ",
-      part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, kept) }, back)));
+    if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), this.why(message, state.nearest[this.name], kept));
+  }
+
+  // What can be, in bold, what else there is to say, and the ways out: one press each.
+  /** @param {string} message @param {number | undefined} nearest what can be @param {number} kept what it was */
+  why(message, nearest, kept) {
+    const [first, ...more] = message.split(/(?<=[.]) /), unit = `${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}`;
+    const way = (says, value, text) => part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, value) },
+      say(this.texts, says, { value: `${text}${unit}` }));
+    return part("span", {}, part("b", {}, first), ` ${more.join(" ")} `,
+      ...(nearest === undefined ? [] : [way(this.texts.take, nearest, this.typed(nearest)), " "]),
+      way(this.texts.back, kept, written(kept, this.limits.digits, this.texts.decimal)));
   }
 
   // What else there is to say of it.

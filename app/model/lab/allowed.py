@@ -1,0 +1,55 @@
+"""The values that the Lab accepts: the range of each input, the sentence about another value, and the nearest accepted
+one."""
+
+import math
+from types import MappingProxyType
+from typing import TypeAlias
+
+from app.model.lab.run import TABLES, TOYS
+from app.text import say
+from tippe_core import Shape
+
+LIMITS = MappingProxyType({"spin": (-100.0, 100.0), "tilt": (0.0, 180.0), "mu": (0.01, 1.5), "patch": (0.01, 5.0)})
+"""{input: the range in which the Lab lets it be set}, in rev/s, degrees and mm; the sliders have smaller ranges."""
+POSSIBLE = MappingProxyType({"spin": (-1e6, 1e6), "tilt": (0.0, 180.0), "mu": (0.0, 1e3), "patch": (0.0, 1e3)})
+"""The same for a start that comes from elsewhere, for example from a link: within it the start is kept and shown."""
+CHOICES = MappingProxyType({"table": (*TABLES, "three"), "toy": tuple(TOYS)})
+Limits: TypeAlias = MappingProxyType[str, tuple[float, float]]
+SHOWN = 30  # characters of an input that is not a number, as quoted in a sentence
+
+
+def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
+    """Why an input cannot have this value, in a sentence; "" if it can."""
+    if name == "toy" and isinstance(value, Shape):
+        return ""
+    if name in CHOICES:
+        return "" if value in CHOICES[name] else say("lab.inputs.unknown", value=str(value)[:SHOWN])
+    least, most = limits[name]
+    number = _number(value)
+    if number is None:
+        typed = str(value).strip()[:SHOWN] or say("lab.inputs.nothing")
+        return say("lab.inputs.number", value=typed, least=least, most=most)
+    if least <= number <= most:
+        return ""
+    said = say(f"lab.inputs.{name}", value=number, least=least, most=most)
+    return f"{said} {say('lab.inputs.same', value=number, same=_folded(number))}" if name == "tilt" else said
+
+
+def nearest(name: str, value: object) -> float | None:
+    """The accepted value that is nearest to this one; for a tilt, the equivalent one; None if it is not a number."""
+    number = _number(value)
+    if name not in LIMITS or number is None:
+        return None
+    least, most = LIMITS[name]
+    return _folded(number) if name == "tilt" else min(max(number, least), most)
+
+
+def _number(value: object) -> float | None:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        return None
+    return float(value)
+
+
+def _folded(tilt: float) -> float:
+    """The equivalent tilt from 0 to 180 degrees."""
+    return abs((tilt + 180) % 360 - 180)
