@@ -68,8 +68,8 @@ class LabView(Bundled):
     REGIMES = "here"
 
     # JSON, because Panel and Bokeh search each part of a dict again and again, which was a quarter of a move
-    state = param.String(default="{}", doc="The inputs, what was refused, how far a run is that is computed.")
-    told = param.String(default="{}", doc="Of what is shown: its inputs, and its runs in words.")
+    state = param.String(default="{}", doc="The inputs, what was refused, the progress of the present run.")
+    told = param.String(default="{}", doc="The inputs of what is shown, and its runs in words.")
     profile = param.Bytes(default=b"", doc="As of a Top3D.")
     a = param.Number(default=0.0, doc="G's distance below O, in R.")
     seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
@@ -80,7 +80,7 @@ class LabView(Bundled):
     curves_rough = param.Bytes(default=b"")
     curves_ice = param.Bytes(default=b"")
     asked = param.List(
-        default=[], doc="[count, name, value] of what a person asks for, the browser writes it; state tells the last "
+        default=[], doc="[count, name, value] of a request, the browser writes it; state tells the last "
         "count that was answered. The names are a Lab's inputs; research: the paper's figures; why: the lesson."
     )  # fmt: skip
 

@@ -90,7 +90,7 @@ const stage = `
 .tops { position: absolute; inset: 0; display: flex; }
 .place { flex: 1 1 0; min-width: 0; position: relative; } .top { position: absolute; inset: 0; }
 .lab.old .top { opacity: .38; }
-@container (max-width: 1180px) { .top { top: 20px; } } /* handle under switch */
+@container (max-width: 1180px) { .top { top: 20px; } }
 @container (max-width: 700px) { .top { top: 44px; } }
 .on { position: absolute; left: 12px; right: 12px; top: 12px; display: flex; justify-content: space-between; align-items: flex-start; gap: 8px; pointer-events: none; }
 .on > * { pointer-events: auto; }
