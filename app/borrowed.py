@@ -6,7 +6,6 @@ used anywhere else in the page. The issues are those of the libraries.
 
 import inspect
 from collections import deque
-from collections.abc import Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import cache, partial, wraps
@@ -30,6 +29,8 @@ from bokeh.server.session import ServerSession
 from bokeh.server.tornado import BokehTornado
 from panel.custom import JSComponent
 from panel.io.resources import LOCAL_DIST
+
+from app.together import set_together
 
 FREEZES = (panel.custom, panel.layout.base, panel.layout.grid)  # the modules that use Panel's freeze_doc
 MADE = WeakKeyDictionary()  # event -> the message that begins with it
@@ -130,12 +131,10 @@ class Known(Serializer):
 def named_in(part):
     """The ids in a part of a message."""
     if isinstance(part, dict):
-        if isinstance(part.get("id"), str):
-            yield part["id"]
-        part = part.values()
-    if not isinstance(part, str | bytes) and isinstance(part, Iterable):
-        for each in part:
-            yield from named_in(each)
+        yield from (part["id"],) if isinstance(part.get("id"), str) else ()
+        part = [*part.values()]
+    for each in part if isinstance(part, list) else ():
+        yield from named_in(each)
 
 
 def apply(document, patch, *, setter=None):
@@ -314,7 +313,7 @@ def _take(component, process, properties, changes):
         return
     component._in_process__events[document] = changes  # so that the page is not told what it has sent
     try:
-        component.param.update(**changes)
+        set_together(component, **changes)
     finally:
         component._in_process__events.pop(document, None)
 

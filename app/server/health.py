@@ -12,7 +12,7 @@ class Liveness(Handler):
 
 
 class Readiness(Handler):
-    """Whether a new page would be let in by any worker: status 200, else 503 and the reason."""
+    """Whether a new page would be let in, whichever worker gets it: status 200, else 503 and the reason."""
 
     def get(self):
         workers = self.application.watch.now()

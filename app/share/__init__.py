@@ -1,1 +1,1 @@
-"""What is taken home: the link, files, prints, the mailed page."""
+"""What can be saved or sent: links, files, prints, a page to mail."""

@@ -1,4 +1,4 @@
-"""A Scene to take home as tables (CSV, NPZ), with units and constants; glb.py and programs.py have its other files."""
+"""A Scene as tables (CSV, NPZ), with units and constants; its other files are made by glb.py and programs.py."""
 
 import io
 import json
@@ -10,7 +10,7 @@ from app.model.scene import Scene
 from app.text import DEFAULT, listed
 
 REGIMES = listed("regimes.here", DEFAULT)
-# name: (what it is, unit, the scale of that unit in SI, the SI unit)
+# name: (what it is, unit, scale of that unit in SI, SI unit)
 UNITS = {
     "t": ("time", "(R/g)^1/2", "time", "s"),
     "theta": ("angle of axis 3 with the vertical", "rad", None, ""),
@@ -44,7 +44,7 @@ TIELINES = {
 
 
 def parameters(scene: Scene):
-    """What the motion is, every number to the last digit: {name: (value, unit)}."""
+    """The parameters of the motion, every number to the last digit: {name: (value, unit)}."""
     top, constants, scales = scene.top, scene.constants, scene.scales
     inner, outer = scene.turning
     return {
@@ -73,7 +73,7 @@ def motion_table(scene):
 
 
 def tieline_table(scene):
-    """{name: (n,) array} of the tielines shown, in the units of TIELINES."""
+    """{name: (n,) array} of the tielines, in the units of TIELINES."""
     plane = scene.plane
     table = {"tieline_K_J": plane.K_J}
     for limit in ("lift", "slip"):
@@ -83,7 +83,7 @@ def tieline_table(scene):
 
 
 def header(scene, link=""):
-    """The lines above a table: what it is, the parameters, where it is from."""
+    """The lines above a table: its contents, the parameters, and the link."""
     lines = ["Tippe top explorer: a top that rolls without slipping (Gray and Nickel, Am. J. Phys. 68, 821 (2000))"]
     lines += [f"{name} = {value!r} {unit}".rstrip() for name, (value, unit) in parameters(scene).items()]
     return lines + [link] * bool(link)
@@ -96,7 +96,8 @@ def _unit_line(name, scales):
 
 
 def motion_csv(scene, link=""):
-    """The motion as CSV (bytes), a row a frame, numbers to the last digit; lines that begin with # say the units."""
+    """The motion as CSV (bytes), one row for each frame, numbers to the last digit; lines that begin with # give the
+    units."""
     table = motion_table(scene)
     lines = header(scene, link) + [_unit_line(name, scene.scales) for name in table]
     return csv(lines, dict(columns(table)))
@@ -120,7 +121,7 @@ def columns(table):
 
 
 def csv(lines, columns):
-    """Lines that begin with #, and columns below their names, as bytes."""
+    """Lines that begin with #, then columns below their names, as bytes."""
     text = "".join(f"# {line}\n" for line in lines) + ",".join(columns) + "\n"
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     return (text + "".join(",".join(map(_word, row)) + "\n" for row in rows)).encode()
@@ -131,7 +132,7 @@ def _word(value):
 
 
 def arrays_npz(scene, link=""):
-    """Motion and tielines as NPZ (bytes); `header`, a string, is JSON with parameters, units and the link."""
+    """Motion and tielines as NPZ (bytes); `header`, a string, is JSON with the parameters, the units and the link."""
     said = {
         "about": header(scene)[0],
         "link": link,

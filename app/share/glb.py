@@ -7,18 +7,18 @@ import numpy as np
 
 from app.share.export import parameters
 
-AROUND = 48  # corners of the body's rings in the glTF animation
+AROUND = 48  # points around each ring of the body
 GLTF_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 FLOAT, UNSIGNED, ARRAY, ELEMENTS = 5126, 5125, 34962, 34963
-PAINT = ((0.72, 0.45, 0.20), (0.95, 0.90, 0.80))  # wood, in two tones, so that a turn shows
+PAINT = ((0.72, 0.45, 0.20), (0.95, 0.90, 0.80))  # wood, in two tones, so that the rotation is visible
 
 
 def animation_glb(scene, slower=16.0, said=None, name="rolling"):
     """The trajectory as a glTF 2.0 binary (bytes): the body, its track and the table, in m, y up.
 
-    slower: how many times longer than the real motion the animation takes; the asset's extras say so too. scene: or
-    what has as much of one as saved_runs.Shown; said: its parameters; name: of the animation.
-    The keyframes are the frames of the scene; the body's origin is O, a above G along the axis.
+    slower: how many times longer than the real motion the animation takes; this is also in the asset's extras. scene: a
+    Scene, or an object with the same attributes, such as saved_runs.Shown; said: its parameters; name: that of the
+    animation. The keyframes are the frames of the scene; the body's origin is O, which is a above G along the axis.
     """
     R, motion, said = scene.scales.R, scene.trajectory, said or parameters(scene)
     file = _Gltf()
@@ -40,7 +40,7 @@ def animation_glb(scene, slower=16.0, said=None, name="rolling"):
     centre = (motion.com + motion.top.a * axis) * R
     seconds = file.accessor((motion.t - motion.t[0]) * scene.scales.time * slower, bounds=True)
     channels = [("translation", file.accessor(centre)), ("rotation", file.accessor(_unbroken(motion.quaternion)))]
-    # physics has z up, glTF y
+    # physics has z up, glTF has y up
     upright = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
     document = {
         "asset": {
@@ -135,7 +135,7 @@ class _Gltf:
 
 
 def _revolved(profile):
-    """(points, normals, colours, corners) of a profile (k, 2) turned about axis 3; each edge has its own two rings."""
+    """(points, normals, colours, corners) of a profile (k, 2) rotated about axis 3; each edge has its own two rings."""
     if profile[0, 1] > profile[-1, 1]:
         profile = profile[::-1]
     edges = np.stack([profile[:-1], profile[1:]], axis=1)
@@ -167,6 +167,7 @@ def _around(points, margin):
 
 
 def _unbroken(quaternion):
-    """q and -q are one turn; with no change of sign from frame to frame what lies between is the shorter one."""
+    """q and -q are the same rotation; without changes of sign from frame to frame the interpolation takes the shorter
+    way."""
     flips = np.sign(np.sum(quaternion[1:] * quaternion[:-1], axis=1))
     return quaternion * np.concatenate([[1.0], np.cumprod(np.where(flips < 0, -1.0, 1.0))])[:, None]

@@ -1,6 +1,6 @@
-"""The present state as one HTML file to mail: it opens with no server and no network, and the top in it rolls.
+"""The present state as one HTML file to mail: it opens without a server or a network, and its top rolls.
 
-In it are the page's own parts: Bokeh and its figures, the bundle with three.js, and the bytes that Python computed.
+It contains the page's own parts: Bokeh and its figures, the bundle with three.js, and the bytes that Python computed.
 """
 
 import base64
@@ -52,9 +52,9 @@ LABELS = {
 
 
 def letter(scene, link="", look=None):
-    """The page (bytes, UTF-8). look: {parameter of Top3D: value} of what is shown of the top, and when.
+    """The page (bytes, UTF-8). look: {parameter of Top3D: value}, how the top is shown, and at which time.
 
-    In the language of text.spoken(): in a thread of its own, inside text.speaking().
+    It is in the language of text.spoken(); in a thread of its own, call it within text.speaking().
     """
     motion = Motion()
     plane, times = PlaneFigure(motion), TimeFigures()
@@ -107,7 +107,7 @@ def letter(scene, link="", look=None):
         bokeh=f"<script>{(settings.bokehjs_path() / 'js' / 'bokeh.min.js').read_text(encoding='utf-8')}</script>",
         figures=script,
         script=SCRIPT,
-        # no end of a script, and no comment, inside a script
+        # no end tag of a script, and no comment, inside a script
         data=json.dumps(data).replace("<", "\\u003c"),
     ).encode()
 

@@ -1,4 +1,4 @@
-"""What is saved of what is shown: a row for each kind of file, and the paper's figures folded away."""
+"""The rows of Share: one for each kind of file, and the paper's figures in a fold."""
 
 import panel as pn
 import panel_material_ui as pmui
@@ -30,7 +30,8 @@ ROLLING = {
     "glb": lambda scene, link, slower: glb.animation_glb(scene, slower),
     "py": lambda scene, link, slower: _program(programs.PYTHON["The motion"](scene), link),
 }
-"""{kind of file: its bytes, of what is shown, its link, and how many times slower it is played}."""
+"""{kind of file: a function that gives its bytes, of what is shown, its link, and how many times slower it is
+played}."""
 ROWS = {"pictures": ("png", "svg"), "data": ("csv", "npz"), "solid": ("glb",), "code": ("py",)}
 NAMES = {kind: kind.upper() for kind in (*RUN, "stl", "html")} | {"npz": "NumPy", "py": ".py"}
 ROW = """
@@ -50,9 +51,9 @@ def _program(text, link):
 
 
 class Files:
-    """view: the rows. runs: the page's Runs; playing: its Playing; body: gives the body that can be printed, or None;
-    sheet: gives the page of a class to print. show(scene, shown, link) is for what is on the page now, and the address
-    that opens it; shown: {table: Shown}, none where what rolls is looked at."""
+    """view: the rows. runs: the page's Runs; playing: its Playing; body: returns the body that can be printed, or None;
+    sheet: returns the worksheet for a class. show(scene, shown, link) sets what is now on the page, and the link that
+    opens it; shown: {table: Shown}, empty if the rolling motion is shown."""
 
     def __init__(self, runs, playing, body, sheet):
         self._runs, self._playing, self._body = runs, playing, body
@@ -112,7 +113,7 @@ class Files:
 
     @property
     def _what(self):
-        """What is shown of which the files are."""
+        """The motion from which the files are made."""
         return self._shown.get(self._table.value, self._scene) if self._shown else self._scene
 
     def show(self, scene, shown, link):
@@ -130,7 +131,7 @@ class Files:
             self._show_python()
 
     def _name(self):
-        """Says which motion they are of, and calls them so."""
+        """The caption that says which motion the files contain, and their names."""
         table = self._table.value if self._shown else ""
         said = (
             say("share.panel.of_table", table=say(f"share.tables.{table}")) if table else say("share.panel.of_rolling")
@@ -140,7 +141,7 @@ class Files:
             save.filename = f"tippe-top-{table or 'motion'}.{kind}"
 
     def _caption(self):
-        """Of what is in sight: of three tops the words that all have."""
+        """The caption of what is shown; for three tops, the words that they share."""
         shown = list(self._shown.values())
         lines = saved_runs.caption(shown[0])[: 1 if len(shown) > 1 else 2] if shown else caption(self._scene)
         return list(plain(lines))
@@ -172,7 +173,7 @@ def _row(says, *buttons):
 
 
 def plain(lines):
-    """Lines without their mathtext."""
+    """The lines without mathtext."""
     marks = {
         "$": "",
         r"\mu": "μ",

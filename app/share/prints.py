@@ -1,7 +1,7 @@
 """The figures for print, PNG and SVG: drawn by matplotlib from a Scene, with the parameters in the caption.
 
-The same colours as on the page. Nothing is shared with a screen, so it may run in a thread beside the server.
-matplotlib is imported when a figure is asked for: it wants a place to write, which the page does without.
+The colours are those of the page. Nothing is shared with a screen, so it can run in a thread. matplotlib is imported
+when a figure is requested, because it needs a place to write, which the page does not.
 """
 
 import io
@@ -12,7 +12,7 @@ from app.model.colours import COLOURS, FAINT, INK
 from app.model.roll import portraits
 from app.text import listed, say
 
-# 89 and 183 mm are what journals print: one column and two. 600 dpi is what they ask of lines.
+# Journals print columns of 89 mm and pages of 183 mm, and ask for 600 dpi for line drawings.
 WIDTH = 183 / 25.4
 DPI = 600
 FIGURES = ("plane", "surface", "motion", "phase", "f", "potential", "track", "force")
@@ -21,7 +21,7 @@ FONT = {"font.size": 9, "font.family": "DejaVu Sans", "mathtext.fontset": "dejav
 
 
 def caption(scene):
-    """The parameters, in two lines of mathtext: those of the top and the table, those of the motion."""
+    """The parameters, in two lines of mathtext: those of the top and the table, and those of the motion."""
     top, constants, scales = scene.top, scene.constants, scene.scales
     inner, outer = scene.turning
     return (
@@ -39,14 +39,14 @@ def draw(scene, name, kind):
     with matplotlib.rc_context(FONT):
         figure = DRAWN[name](scene)
         file = io.BytesIO()
-        # a date would make two files of one figure differ
+        # with a date, two files of the same figure would differ
         metadata = {"Title": say("main.title")} | ({"Date": None} if kind == "svg" else {})
         figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
     return file.getvalue()
 
 
 def curves(seconds, rows, words, kind):
-    """Rows {what is on the axis: values} over the seconds, two lines of words below, as the bytes of a file."""
+    """Curves {quantity: values} over the time in s, above two lines of words, as the bytes of a file."""
     import matplotlib
     from matplotlib.figure import Figure
 
@@ -55,7 +55,7 @@ def curves(seconds, rows, words, kind):
         figure.get_layout_engine().set(rect=(0, 0.12, 1, 0.88))
         for axes, (named, values) in zip(np.ravel(figure.subplots(len(rows), sharex=True)), rows.items(), strict=True):
             axes.plot(seconds, values, color=INK, linewidth=0.9)
-            if np.ptp(values) < 1e-6 * np.abs(values).max():  # what is kept is no noise
+            if np.ptp(values) < 1e-6 * np.abs(values).max():  # a conserved quantity is not to look like noise
                 axes.set_ylim(*sorted((0, 1.2 * values[0])))
             axes.set_ylabel(named)
             axes.ticklabel_format(useOffset=False)
@@ -68,7 +68,7 @@ def curves(seconds, rows, words, kind):
 
 
 def _page(scene, height, title):
-    """A figure of that height in inches, its title above and its caption below."""
+    """A figure of this height (inches), with its title above and its caption below."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(WIDTH, height), layout="constrained")

@@ -1,4 +1,4 @@
-"""Ten lines of Python that give a picture's numbers."""
+"""Ten lines of Python that compute a picture's numbers."""
 
 import numpy as np
 
@@ -20,7 +20,7 @@ plt.savefig("fig6.png")
 
 
 def python_of_surface(scene):
-    """Ten lines of Python whose `theta` and `height` are Fig. 5's surface, on the rows where something limits E."""
+    """Ten lines of Python whose `theta` and `height` are Fig. 5's surface, on the rows where E is limited."""
     plane, K_R = scene.plane, scene.constants.K_R
     which = ["lift-off", "slip"].index(plane.limit)
     share = f"(1 - np.cos(np.linspace(0, np.pi, {plane.theta.shape[1]}))) / 2"
@@ -57,7 +57,7 @@ plt.savefig("motion.png")
 
 
 def _given(scene):
-    """How roll() is told of the motion, at the times t."""
+    """The arguments of roll() for this motion, at the times t."""
     constants, state = scene.constants, scene.state
     if scene.rolling.start is state:
         names = ("theta", "theta_dot", "omega2", "omega3", "phi", "psi")
@@ -95,7 +95,8 @@ plt.savefig("{name}.png")
 
 
 def python_of_potential(scene):
-    """Ten lines of Python whose `x` and `y` are the effective potential: the energy at which f, linear in it, is 0."""
+    """Ten lines of Python whose `x` and `y` are the effective potential: the energy at which f, which is linear in it,
+    is 0."""
     theta, _ = scene.potential
     K_J, K_R, E = scene.constants.K_J, scene.constants.K_R, scene.constants.E
     return f"""import matplotlib.pyplot as plt

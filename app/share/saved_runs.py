@@ -1,5 +1,5 @@
-"""The runs on the tables that are shown, to take home: as a table, as arrays, as a picture, in 3-D, and the Python that
-computes one again."""
+"""Files of the runs on the tables that are shown: tables, arrays, figures, 3-D animations, and the Python that computes
+a run again."""
 
 import io
 import json
@@ -24,18 +24,18 @@ UNITS = {
     "jellett": ("C_J, in MR^2 (g/R)^1/2", "", None), "routh": ("K_R, in (MR^2)^1/2 (g/R)^1/2", "", None),
     "energy": ("energy", "J", "energy"), "heat": ("heat since the start", "J", "energy"),
 }  # fmt: skip
-"""{array of a Trajectory: (what it is, unit, the scale that makes it SI)}."""
+"""{array of a Trajectory: (what it is, unit, its scale in SI)}."""
 ORDINARY, ROUGH, ICE = "ordinary", "rough", "ice"
 OF_ONE = "in units of M, R and g"
 PLANES = {"sliding": ORDINARY, "smooth": ICE}
-"""What the three planes call two of the tables."""
-LONGEST = 60.0  # s that an animation takes
-NODS = 12  # drawn of a motion that nods alike for ever
+"""The names that the three planes have for two of the tables."""
+LONGEST = 60.0  # s: the longest animation
+NODS = 12  # how many nods are drawn of a motion that repeats them for ever
 
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """One of them: the table, the motion, and what it began with."""
+    """One of these runs: the table, the motion, and its start."""
 
     table: str
     trajectory: Trajectory
@@ -48,7 +48,7 @@ class Shown:
 
     @property
     def parameters(self):
-        """{name: (value, unit)} of what it is, every number to the last digit."""
+        """{name: (value, unit)} of its parameters, every number to the last digit."""
         top, scales = self.setup.top, self.setup.scales
         law = (repr(self.setup.friction), OF_ONE) if self.name == ORDINARY else (self.name, "")
         return {
@@ -57,7 +57,7 @@ class Shown:
             "M": (scales.M, "kg"), "g": (scales.g, "m/s^2"),
         }  # fmt: skip
 
-    # what glb.py takes of a Scene
+    # the attributes of a Scene that glb.py needs
 
     @property
     def scales(self):
@@ -76,7 +76,7 @@ def columns(shown):
 
 
 def run_csv(shown, link=""):
-    """A run as CSV (bytes), a row a frame; lines that begin with # say what it is."""
+    """A run as CSV (bytes), one row for each frame; lines that begin with # describe it."""
     lines = ["Tippe top explorer: a top on a table"]
     lines += [f"{name} = {value} {unit}".rstrip() for name, (value, unit) in shown.parameters.items()]
     lines += [link] * bool(link) + [f"{name}: {what}" + f", in {unit}" * bool(unit)
@@ -85,7 +85,7 @@ def run_csv(shown, link=""):
 
 
 def run_npz(shown, link=""):
-    """A run as NPZ (bytes); `header`, a string, is JSON with parameters, units and the link."""
+    """A run as NPZ (bytes); `header`, a string, is JSON with the parameters, the units and the link."""
     said = {"parameters": {name: list(pair) for name, pair in shown.parameters.items()}, "link": link,
             "units": {name: f"{what} ({unit})" for name, (what, unit, _) in UNITS.items()}}  # fmt: skip
     file = io.BytesIO()
@@ -94,7 +94,7 @@ def run_npz(shown, link=""):
 
 
 def run_glb(shown, slower):
-    """A run as a glTF animation (bytes), so many times slower than it was, but not longer than LONGEST."""
+    """A run as a glTF animation (bytes), this many times slower than in reality, but not longer than LONGEST."""
     seconds = shown.trajectory.t[-1] * shown.setup.scales.time
     slower = max(1.0, min(slower, LONGEST / seconds))
     name = {ORDINARY: "on an ordinary table", ROUGH: "rolling", ICE: "on ice"}[shown.name]
@@ -107,7 +107,7 @@ def run_print(shown, kind):
 
 
 def drawn(shown):
-    """What run_print draws: (s, {what it is: values}, two lines of mathtext)."""
+    """What run_print draws: (s, {quantity: values}, two lines of mathtext)."""
     moved, words = shown.trajectory, caption(shown)
     seconds = moved.t * shown.setup.scales.time
     rows = {r"$\theta$ (°)": np.degrees(moved.theta), r"$F_z$ ($Mg$)": moved.force[:, 2], r"$E$ ($MgR$)": moved.energy}
@@ -117,20 +117,21 @@ def drawn(shown):
     t = moved.t[:count]
     smooth = np.linspace(0, t[-1], 40 * NODS)
     rows = {name: CubicSpline(t, values[:count])(smooth) for name, values in rows.items()}
-    # the tilt has its speed in each frame, omega_1
+    # the rate of the tilt is in each frame, omega_1
     rows[next(iter(rows))] = np.degrees(CubicHermiteSpline(t, moved.theta[:count], moved.omega[:count, 0])(smooth))
     said = say("share.first", first=seconds[count - 1], whole=seconds[-1])
     return smooth * shown.setup.scales.time, rows, (words[0], words[1] + said)
 
 
 def _first_nods(shown):
-    """How many frames show the first NODS nods of such a motion, where all of them would be one black area; else 0."""
+    """The number of frames of the first NODS nods if the motion has so many that all of them would be a black area;
+    else 0."""
     turns = np.flatnonzero(np.diff(np.sign(np.diff(shown.trajectory.theta)))) + 2
     return 0 if shown.name == ORDINARY or len(turns) <= 4 * NODS else int(turns[2 * NODS])
 
 
 def caption(shown):
-    """What it is, in two lines of mathtext."""
+    """Its description, in two lines of mathtext."""
     top, state, scales = shown.setup.top, shown.setup.state, shown.setup.scales
     spin = state.omega3 * scales.angular_velocity / (2 * np.pi)
     return (
@@ -141,7 +142,7 @@ def caption(shown):
 
 
 def _law(shown):
-    """What rubs, in words, lengths in mm and speeds in cm/s."""
+    """The friction law in words, lengths in mm and speeds in cm/s."""
     law, scales = shown.setup.friction, shown.setup.scales
     if shown.name != ORDINARY:
         return say(f"share.laws.{shown.name}")

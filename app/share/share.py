@@ -1,4 +1,4 @@
-"""What is taken home: the link with its QR code, undo and redo, and the files to save."""
+"""Share: the link with its QR code, undo and redo, and the files to save."""
 
 import html
 import time
@@ -18,9 +18,9 @@ from app.text import say
 from app.widgets.cards import words
 from app.widgets.failure import after
 
-# Nothing may move for so long before the address of the page is changed and a step is made, s.
+# s without any change after which the address is updated and a step of undo is made
 REST = 0.25
-# Over what answers the stage, never over the stage itself: as wide as that is in the Lab.
+# It covers the cards beside the stage, never the stage itself; as wide as those are in the Lab.
 PLACE = """
 :host { position: fixed; z-index: 15; inset: calc(48px * var(--type, 1)) 0 0 auto; width: 488px; height: auto;
   max-height: none; align-self: auto; overflow: auto; padding: 12px 24px 24px; box-sizing: border-box;
@@ -34,12 +34,12 @@ UNROLLED = ":host { max-height: none !important } .scroll-button { display: none
 
 
 class Share(param.Parameterized):
-    """main: what was wrong with the link, and what is laid over the page.
+    """main: errors in the link, and the panel that is laid over the page.
 
-    keep: the page's Keep; playing: its Playing; scene: the first; runs: the page's Runs; shown: gives the
-    saved_runs.Shown of the tables that are looked at; busy: whether others are being computed; settle: solves the scene
-    of what is set, where that waits; body: gives the body of the page's top; sheet: gives the page of a class to print.
-    show() is for the scene of a hand at rest.
+    keep: the page's Keep; playing: its Playing; scene: the first one; runs: the page's Runs; shown: returns the
+    saved_runs.Shown of the tables that are shown; busy: whether others are being computed; settle: solves the scene of
+    the present inputs, if that was postponed; body: returns the body of the page's top; sheet: returns the worksheet
+    for a class. show() is for the scene of a hand at rest.
     """
 
     is_open = param.Boolean(default=False)
@@ -72,11 +72,11 @@ class Share(param.Parameterized):
 
     @property
     def link(self):
-        """The address of the page as it is now, for anybody."""
+        """The present address of the page, without secrets."""
         return self.address.page + shared(self.keep.query)
 
     def reload(self):
-        """Loads the page anew, with its state; where that cannot be, with the last that could."""
+        """Reloads the page with its state, or, if that is impossible, with the last valid one."""
         if self._scene.messages:
             self.keep.undo()
         self.keep.at_rest()
@@ -111,7 +111,7 @@ class Share(param.Parameterized):
     # --- what is laid over the page, beside the stage ---
 
     def toggle(self):
-        """Opens it, of what is shown now, or closes it."""
+        """Opens it for what is shown now, or closes it."""
         self.close() if self.is_open else self.open()
 
     def open(self):
@@ -125,7 +125,8 @@ class Share(param.Parameterized):
         self.panel.visible = self.is_open = False
 
     def refresh(self, *events):
-        """What is shown may be another; while a hand is at it the link is not yet, and what it opens waits for that."""
+        """To be called when something else may be shown. While a hand is moving, the link does not have that yet, so
+        the panel waits for the link."""
         if self.is_open and not self._waiting:
             self._show()
 
@@ -141,7 +142,7 @@ class Share(param.Parameterized):
             say("share.panel.local") if is_local(urlsplit(link).hostname or "") else "",
         ]
         self._head.param.update(link=link, picture=picture, said=[each for each in said if each])
-        if not self._busy():  # else they are of what was, with its own link
+        if not self._busy():  # else the files are still those of the previous motion, with its own link
             self._files.show(self._scene, {shown.name: shown for shown in self._shown()}, link)
             self._saves.visible = True
 
@@ -159,7 +160,7 @@ class Share(param.Parameterized):
 
 
 def _code(link):
-    """The link's QR code as an SVG; none where it is too long for one."""
+    """The link's QR code as an SVG; none if the link is too long."""
     try:
         code = segno.make(link, error="m", micro=False)
     except segno.DataOverflowError:

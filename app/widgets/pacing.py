@@ -10,6 +10,7 @@ import param
 
 from app.borrowed import at_once
 from app.bundle import Bundled
+from app.together import set_together
 from app.widgets.failure import after, attempt
 
 # Two, so that one can be on its way while the browser paints the other.
@@ -115,7 +116,7 @@ class Pacer:
         self._drawing = [sent for sent in self._drawing if sent[1] > late]
         if self._wanted and len(self._hands) < HANDS_IN_FLIGHT:
             inputs, self._wanted = self._wanted, {}
-            self._explorer.param.update(**inputs)
+            set_together(self._explorer, **inputs)
         if self._others and len(self._hands) < HANDS_IN_FLIGHT:
             others, self._others = self._others, {}
             for take, inputs in others.items():

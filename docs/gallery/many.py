@@ -9,7 +9,7 @@ import numpy as np
 
 from tippe_core import SmoothedCoulomb, State, Top, slide_many
 
-LINK = "?v=1&tab=families"
+LINK = "?v=2&tab=maps"
 spin, mu = np.meshgrid(np.linspace(0.3, 4, 20), np.linspace(0.05, 0.6, 20))
 throws = [State(0.1, 0, 0, each) for each in spin.ravel()]
 tables = [SmoothedCoulomb(each, eps=1.0) for each in mu.ravel()]

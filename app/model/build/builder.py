@@ -1,6 +1,6 @@
-"""The top builder without its widgets: dimensions, presets and files -> a shape, and the motion it is given.
+"""The top builder without its widgets: from dimensions, presets and files to a shape and the motion that it is given.
 
-SI, as in tippe_core.bodies. Where a person reads or sets a dimension it is in the unit of its Dimension.
+In SI, as in tippe_core.bodies; dimensions that are shown or set are in the unit of their Dimension.
 """
 
 from collections.abc import Callable
@@ -39,23 +39,23 @@ from tippe_core import (
 )
 from tippe_core.paper.curve import f3_squared
 
-# What a new body is thrown with: the spin near theta = 0 that the paper's top has at K_R = 10, and a tippe top's K_J at
-# the share of P that it has at K_J = 7. An ordinary top is let go at a tilt, or it would not stay up.
+# The throw of a new body: the spin near theta = 0 that the paper's top has at K_R = 10; for a tippe top also K_J at the
+# share of P that it has at K_J = 7. An ordinary top is released at a tilt, or it would not stay up.
 THROWN_SHARE = 7 / pole_constants(Top.paper(), 10.0)[0]
 THROWN_SPIN = 10.0 / f3_squared(0.0, Top.paper()) ** 0.5 * Scales.paper().angular_velocity  # rad/s
 THROWN_TILT = 0.3
 
-LARGEST_FILE = 64 * 1024  # bytes, of a saved top
+LARGEST_FILE = 64 * 1024  # bytes of a saved top
 Motion: TypeAlias = Callable[[Shape], tuple[float, float]]  # K_J and K_R
 Edit: TypeAlias = Callable[[tuple[Value, ...], Callable[[tuple[Value, ...], int], Value]], tuple[Value, ...]]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Draft:
-    """The body as it stands on the bench: all that its views show.
+    """The body that is being built, with everything that its views show.
 
-    messages: a sentence for each field ("file" and "stl" among them) that was given what cannot be; the shape is then
-    the last good one. name and source: of the preset it is, else empty; the name is tippe_core's.
+    messages: a sentence for each field (also "file" and "stl") whose value was refused; the shape is then the last
+    valid one. name and source: those of the preset, else empty; the name is tippe_core's.
     """
 
     shape: Shape
@@ -65,7 +65,7 @@ class Draft:
 
     @property
     def family(self) -> str:
-        """What kind of body it is: a key in build.toml."""
+        """The kind of body, a key in build.toml."""
         return FAMILIES[type(self.shape)][0]
 
     @property
@@ -76,7 +76,7 @@ class Draft:
             last = self.shape.points[0][1]
             pieces = [density_dimension("density 0", "peg_density")]
             for index, (_, height) in enumerate(self.shape.points[1:], 1):
-                if height > last:  # a step is no piece
+                if height > last:  # a step in the radius is not a piece
                     pieces.append(
                         density_dimension(f"density {index}", "piece_density", low=1e3 * last, high=1e3 * height)
                     )
@@ -86,26 +86,26 @@ class Draft:
 
 
 class Builder(param.Parameterized):
-    """Asks for other bodies. What stands on the bench, `draft`, is the body of the last scene that it was given, and
-    what was refused since; one event a change.
+    """Requests other bodies. The present body, `draft`, is that of the last scene, with what has been refused since;
+    each change is one event.
 
-    ask: takes inputs of the Explorer; follow() is to be called with each of its scenes.
+    ask: called with inputs of the Explorer; follow() is to be called with each of its scenes.
     """
 
     # __init__ makes the first one
     draft: param.ClassSelector[Draft] = param.ClassSelector(  # type: ignore[assignment]
-        class_=Draft, constant=True, doc="the body as it stands"
+        class_=Draft, constant=True, doc="the present body"
     )
 
     def __init__(self, scene: Scene, ask: Callable[..., object]) -> None:
         super().__init__()  # type: ignore[no-untyped-call]  # of param
         self._ask, self._scene = ask, scene
-        self._coming: Shape | None = None  # asked for, and not in a scene yet: a next edit is of this one
+        self._coming: Shape | None = None  # requested, but not in a scene yet: the next edit starts from it
         self._top = scene.top
         self._publish(_draft(scene.inputs["shape"], scene.top))
 
     def follow(self, scene: Scene) -> None:
-        """Shows the body of this scene, whoever asked for it."""
+        """Takes over the body of this scene, whoever requested it."""
         self._scene, self._coming, shape = scene, None, scene.inputs["shape"]
         if (shape, scene.top) != (self.draft.shape, self._top):
             now = _draft(shape, scene.top)
@@ -114,17 +114,17 @@ class Builder(param.Parameterized):
             self._top = scene.top
 
     def set(self, name: str, value: float | tuple[float, float]) -> None:
-        """One dimension, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
+        """Sets one dimension, in SI; "point 2" and "density 2" belong to row 2 of a Lathe."""
         self._try(name, lambda: changed(self._body, name, value))
 
     @property
     def _lathe(self) -> Lathe:
-        """The body, where it is one of points."""
+        """The body, if it is a Lathe."""
         assert isinstance(self._body, Lathe)
         return self._body
 
     def add_point(self, x: float = 0.0, z: float | None = None) -> None:
-        """A point of a Lathe's profile: at radius |x| and height z, or in the middle of its longest piece."""
+        """Adds a point to a Lathe's profile: at radius |x| and height z, or in the middle of its longest piece."""
         points = self._lathe.points
         if z is None:
             rows = np.array(points)
@@ -135,11 +135,11 @@ class Builder(param.Parameterized):
         self._rows("points", lambda rows, fill: (*rows[:index], fill(rows, index), *rows[index:]), (abs(x), z))
 
     def remove_point(self, index: int) -> None:
-        """Takes the point away."""
+        """Removes a point."""
         self._rows("points", lambda rows, fill: (*rows[:index], *rows[index + 1 :]), ())
 
     def _rows(self, name: str, edit: Edit, point: tuple[float, ...]) -> None:
-        """The Lathe whose points, and densities if it has one a point, are edited alike."""
+        """Applies the same edit to the points of a Lathe and to its densities, if it has one for each point."""
         shape = self._lathe
         rows: dict[str, Value] = {
             "points": edit(shape.points, lambda rows, index: tuple(round(float(x), 5) for x in point))
@@ -149,14 +149,14 @@ class Builder(param.Parameterized):
         self._try(name, lambda: replace(shape, **rows))
 
     def part_densities(self) -> None:
-        """A density for each piece of a Lathe instead of one for all, or back to the first."""
+        """Switches a Lathe between one density and one for each piece."""
         shape = self._lathe
         density = shape.density[0] if isinstance(shape.density, tuple) else (shape.density,) * len(shape.points)
         self._try("density", lambda: replace(shape, density=density))
 
     def compose(self, kind: str, density: float, r: float, low: float, high: float) -> None:
-        """Puts a piece on the body, or takes it away where the density (kg/m^3) is negative: a "cylinder" or "cone"
-        (its point up) from the height low to high (m), or a "ball" of radius r about (low + high)/2."""
+        """Adds a piece to the body, or removes it if the density (kg/m^3) is negative: a "cylinder" or "cone" (apex
+        upwards) from the height low to high (m), or a "ball" of radius r about (low + high)/2."""
 
         def made() -> Shape:
             form = {"cylinder": lambda: cylinder(r, low, high), "cone": lambda: frustum(r, 0.0, low, high),
@@ -166,30 +166,30 @@ class Builder(param.Parameterized):
         self._try("piece", made)
 
     def take_off(self) -> None:
-        """Undoes the last compose of a Turned body."""
+        """Undoes the last compose() of a Turned body."""
         shape = self._body
         self._try("piece", lambda: Turned(R=shape.R, solid=Solid(shape.solid.slices[:-1])))
 
     def choose(self, name: str) -> None:
-        """The preset of this name, thrown anew."""
+        """Takes the preset with this name, with a new throw."""
         self._take(next(preset for preset in PRESETS if preset.name == name))
 
     def choose_family(self, family: str) -> None:
-        """The first preset of a family, thrown anew."""
+        """Takes the first preset of a family, with a new throw."""
         self._take(next(preset for preset in PRESETS if FAMILIES[type(preset.shape)][0] == family))
 
     def fill(self, kind: str) -> None:
-        """What a truncated sphere has inside, of app.model.build.inside.KINDS, in the same wood."""
+        """Sets what a truncated sphere has inside, one of app.model.build.inside.KINDS, in the same wood."""
         shape = self._body
         if isinstance(shape, TruncatedSphere):
             self._try("inside", lambda: filled(shape, kind))
 
     def load(self, text: str | bytes) -> None:
-        """The body in a file that save() wrote, thrown anew."""
+        """Takes the body in a file that save() wrote, with a new throw."""
         self._try("file", lambda: load_top(text), thrown)
 
     def refuse_file(self, largest: int) -> None:
-        """Says that a file was larger than so many bytes."""
+        """Says that a file was larger than this many bytes."""
         self._refuse("file", TopError(
             "file", "too large", "at most {most} bytes", "A saved top is far smaller.", code="file-too-large",
             most=largest))  # fmt: skip
@@ -199,7 +199,7 @@ class Builder(param.Parameterized):
         return save_top(self.draft.shape)
 
     def stl(self) -> bytes | None:
-        """The body as the bytes of an STL file, in mm; None, and a sentence at "stl", where there is none."""
+        """The body as the bytes of an STL file, in mm; None, and a sentence at "stl", if that is impossible."""
         try:
             return self.draft.shape.stl()
         except TopError as error:
@@ -207,17 +207,18 @@ class Builder(param.Parameterized):
             return None
 
     def measured(self, *, M: float, R: float, a: float) -> None:
-        """A sphere of this M and R with a/R as measured and the inertia, in MR^2, of the body on the bench."""
+        """Takes a sphere with the measured M, R and a/R, and with the moments of inertia, in MR^2, of the present
+        body."""
         own = self._body.top
         self._try("measured", lambda: BareSphere(R=R, M=M, a=a, I1=own.I1, I3=own.I3))
 
     def attach(self) -> None:
-        """Gives the Explorer the body's own a, I1 and I3 back."""
+        """Sets the Explorer back to the body's own a, I1 and I3."""
         self._adopt(self._body, self._keep)
 
     @property
     def _body(self) -> Shape:
-        """What an edit begins with."""
+        """The body from which an edit starts."""
         return self._coming or self.draft.shape
 
     def _take(self, preset: Preset) -> None:
@@ -238,7 +239,7 @@ class Builder(param.Parameterized):
     def _adopt(self, shape: Shape, motion: Motion | None = None, top: Top | None = None) -> None:
         top = top or shape.top
         self._coming, constants = shape, {}
-        if self._scene.inputs.get("given") != "hand":  # which lets go any body alike
+        if self._scene.inputs.get("given") != "hand":  # which releases any body in the same way
             constants = dict(zip(("K_J", "K_R"), motion(shape) if motion else thrown(shape, top), strict=True))
         self._ask(shape=shape, a=top.a, I1=top.I1, I3=top.I3, **constants)
         if self.draft.messages:
@@ -249,7 +250,7 @@ class Builder(param.Parameterized):
             self.draft = draft
 
     def _keep(self, shape: Shape) -> tuple[float, float]:
-        """K_J and K_R of the same spin in rad/s near theta = 0, and the same share of P, as the scene has now."""
+        """K_J and K_R for the same spin in rad/s near theta = 0 and the same share of P as in the present scene."""
         scene = self._scene
         K_J, K_R = scene.inputs["K_J"], scene.inputs["K_R"]
         if scene.top == shape.top and scene.scales == shape.scales:
@@ -262,7 +263,7 @@ class Builder(param.Parameterized):
 
 
 def thrown(shape: Shape, top: Top | None = None) -> tuple[float, float]:
-    """(K_J, K_R) of the throw that a new body is given."""
+    """(K_J, K_R) of the throw of a new body."""
     spin, top = THROWN_SPIN * shape.scales.time, top or shape.top
     if top.a < 0:
         constants = Constants.from_state(top, THROWN_TILT, 0.0, 0.0, spin)
@@ -281,7 +282,7 @@ def _draft(shape: Shape, top: Top) -> Draft:
 
 @dataclass(frozen=True, kw_only=True)
 class Rocking:
-    """What a stopwatch, a balance and a caliper say: SI, each with its standard uncertainty."""
+    """Measurements with a stopwatch, a balance and a caliper, in SI, each with its standard uncertainty."""
 
     T: float
     dT: float
@@ -294,7 +295,7 @@ class Rocking:
         try:
             return a_from_rocking(T=self.T, R=self.D / 2, I1=shape.top.I1, dT=self.dT, dR=self.dD / 2)
         except TopError as error:
-            # what was measured is the diameter
+            # the diameter was measured
             if error.name == "R":
                 raise TopError(
                     say("build.own.diameter"), self.D, "{range} ({unit})", range="2e-09 <= D <= 2e+09", unit="m"

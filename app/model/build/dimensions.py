@@ -1,4 +1,4 @@
-"""What of a body can be set, pulled and told: its dimensions, SI; to a reader each in a unit of its own."""
+"""The dimensions of a body that can be set, dragged and shown: in SI, and for a reader each in its own unit."""
 
 import math
 import re
@@ -24,14 +24,15 @@ from tippe_core import (
 from tippe_core.bodies.shape import OneMaterial
 from tippe_core.bodies.slices import LARGEST
 
-Value: TypeAlias = Any  # of a field: a number, a tuple of them or of points, a Solid
+Value: TypeAlias = Any  # the type of a field: a number, a tuple of numbers or of points, a Solid
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """A field of a shape as a person reads it: factor is the number of units in one of SI; low to high, the slider.
+    """A field of a shape as a reader sees it: factor is the number of its units in one of SI; low to high is the range
+    of the slider.
 
-    key: of its words, in build.toml; numbers: what stands in them, (name, value).
+    key: that of its words in build.toml; numbers: the values that these quote, (name, value).
     """
 
     name: str
@@ -57,9 +58,9 @@ def density_dimension(name: str, key: str, **numbers: float) -> Dimension:
 
 
 MASS = Dimension("M", "mass", "g", 1e3, 0.5, 200, 0.1)
-# of one material: each sets the other
+# in a body of one material each of them determines the other
 _WEIGHT = (MASS, density_dimension("density", "weight"))
-# of a body whose inside is not known
+# of a body with an unknown interior
 _MEASURED = (MASS, Dimension("a", "a", "", 1.0, -0.9, 0.9, 0.005), Dimension("I1", "I1", "", 1.0, 0.05, 0.7, 0.001),
              Dimension("I3", "I3", "", 1.0, 0.05, 0.7, 0.001))  # fmt: skip
 
@@ -67,7 +68,7 @@ _HOLE = (_length("hole", "hole", 0.5, 30), _length("depth", "hole_depth", 0.5, 4
 _DISC = (_length("disc", "disc", 0.5, 30), _length("thickness", "disc_thickness", 0.2, 20),
          _length("height", "disc_height", 0.1, 40))  # fmt: skip
 INSIDES = {"": (), "solid": (), "hole": _HOLE, "disc": _DISC, "both": (*_HOLE, *_DISC)}
-"""{what is inside, of inside.py: the Dimensions of it}."""
+"""{what is inside, as in inside.py: its Dimensions}."""
 
 FAMILIES: dict[type[Shape], tuple[str, tuple[Dimension, ...]]]
 FAMILIES = {
@@ -91,16 +92,16 @@ FAMILIES = {
     Lathe: ("turned from points", (_length("R", "peg", 0.5, 40), density_dimension("density", "density"), MASS)),
     Turned: ("turned from pieces", (MASS,)),
 }  # fmt: skip
-"""{kind of shape: the name of its family, a key in build.toml, and the Dimensions that can be set}."""
+"""{kind of shape: (the name of its family, a key in build.toml, the Dimensions that can be set)}."""
 
 
 def named(preset: str) -> str:
-    """What a preset of tippe_core is called on the page."""
+    """The name on the page of a preset of tippe_core."""
     return listed("build.presets")[preset]["name"]
 
 
 def sentence(error: TopError) -> str:
-    """A TopError in the units of the sliders: what is in m becomes mm, what is in kg becomes g."""
+    """A TopError in the units of the sliders: m becomes mm, kg becomes g."""
     unit = {"m": "mm", "kg": "g"}.get(error.numbers.get("unit", ""))
     if unit is None or not isinstance(error.value, float):
         return told(error)
@@ -110,14 +111,14 @@ def sentence(error: TopError) -> str:
 
 
 def _thousandfold(number: Value) -> Value:
-    """A number, or all those in a formula such as 0 < R <= 0.5, a thousand times as large."""
+    """A number, or every number in a formula such as 0 < R <= 0.5, times a thousand."""
     if not isinstance(number, str):
         return 1e3 * number
     return re.sub(r"(?<![\w./[])-?\d+(\.\d+)?(e[+-]?\d+)?(?![\w.])", lambda x: f"{1e3 * float(x[0]):g}", number)
 
 
 def value_of(shape: Shape, name: str) -> Value:
-    """The dimension of that name, in SI; "point 2" and "density 2" are those of a Lathe's row 2."""
+    """The dimension with that name, in SI; "point 2" and "density 2" belong to row 2 of a Lathe."""
     field, index = _field(name)
     if name == "M":
         return shape.mass
@@ -125,8 +126,8 @@ def value_of(shape: Shape, name: str) -> Value:
 
 
 def changed(shape: Shape, name: str, value: Value) -> Shape:
-    """The shape with another value of that dimension; a mass where densities are given, or the other way round, keeps
-    the form, and what is inside is changed in the same wood."""
+    """The shape with another value of that dimension. Its form does not change if a mass is set where densities are
+    given, or the other way round; what is inside is changed in the same wood."""
     field, index = _field(name)
     given = {one.name: getattr(shape, one.name) for one in fields(shape)}
     if name == "M" and "M" not in given:
@@ -145,8 +146,8 @@ def changed(shape: Shape, name: str, value: Value) -> Shape:
 
 
 def nearest(shape: Shape, dimension: Dimension, wanted: float) -> float | None:
-    """Of a dimension that cannot be as it is wanted, in its unit, the last that can be on the way there from what it
-    is, in steps of its slider; None where that is what it is."""
+    """The last possible value on the way from the present value of a dimension to an impossible one, in its unit and in
+    steps of its slider; None if that is the present value."""
     name, factor, step = dimension.name, dimension.factor, dimension.step
     present = value_of(shape, name) * factor
 
@@ -163,7 +164,7 @@ def nearest(shape: Shape, dimension: Dimension, wanted: float) -> float | None:
         middle = (good + bad) / 2
         good, bad = (middle, bad) if can_be(middle) else (good, middle)
     way = 1 if wanted > present else -1
-    last = way * math.floor(way * good / step + 0.02)  # a limit itself may be one that can be
+    last = way * math.floor(way * good / step + 0.02)  # the limit itself may be possible
     for found in (round(steps * step, 6) for steps in (last, last - way)):
         if (found - present) * way > 0 and can_be(found):
             return found
@@ -171,13 +172,13 @@ def nearest(shape: Shape, dimension: Dimension, wanted: float) -> float | None:
 
 
 def _field(name: str) -> tuple[str, int | None]:
-    """The field of a shape that a dimension is in, and its row there or None."""
+    """The field of a shape that contains a dimension, and the row there, or None."""
     field, _, index = name.partition(" ")
     return {"point": "points"}.get(field, field), int(index) if index else None
 
 
 def handles(shape: Shape) -> dict[str, tuple[float, float]]:
-    """Where the section can be taken hold of: {dimension: (x, z)}, m, x across axis 3 and z above O along it."""
+    """The handles of the section: {dimension: (x, z)}, m, x perpendicular to axis 3 and z above O along it."""
     R = shape.R
     side = (R * np.sqrt(0.5), -R * np.sqrt(0.5))
     if isinstance(shape, TruncatedSphere):
@@ -202,9 +203,9 @@ def handles(shape: Shape) -> dict[str, tuple[float, float]]:
 
 
 def pulled(shape: Shape, name: str, x: float, z: float) -> float | tuple[float, float]:
-    """The dimension (SI, to 0.01 mm) at which its handle is nearest to (x, z)."""
+    """The value of the dimension (SI, to 0.01 mm) for which its handle is nearest to (x, z)."""
     if name.startswith("point ") and isinstance(shape, Lathe):
-        # no further than its neighbours: the heights of a profile rise
+        # not beyond its neighbours, because the heights of a profile ascend
         points, index = shape.points, int(name[6:])
         low = points[index - 1][1] if index else -shape.R
         high = points[index + 1][1] if index + 1 < len(points) else LARGEST

@@ -8,15 +8,15 @@ from tippe_core import Shape, TruncatedSphere
 HOLE, DISC = ("hole", "depth"), ("disc", "thickness", "height")
 INSIDE = (*HOLE, *DISC)
 KINDS = {"solid": (), "hole": HOLE, "disc": DISC, "both": INSIDE}
-"""{what is inside, a key in build.toml: the dimensions that it has}."""
+"""{what is inside, a key in build.toml: its dimensions}."""
 
-# Of the first hole and disc: in R, and in the least and the most of the room there is.
+# The first hole and the first disc: in R, and the least and the largest share of the available room.
 TOY = {"hole": 9 / 15, "depth": 8 / 15, "disc": 4 / 15, "thickness": 3 / 15, "height": 2 / 15}
 QUARTER, HALF, MOST = 0.25, 0.5, 0.9
 
 
 def inside(shape: Shape) -> str:
-    """A key of KINDS; "" of a body that cannot have one of them."""
+    """One of KINDS; "" for a body that cannot have any of them."""
     if not isinstance(shape, TruncatedSphere):
         return ""
     sizes = tuple(name for name in INSIDE if getattr(shape, name))
@@ -24,18 +24,18 @@ def inside(shape: Shape) -> str:
 
 
 def with_inside(shape: TruncatedSphere, **sizes: float) -> TruncatedSphere:
-    """The shape of the same wood with these dimensions of its inside."""
+    """The shape in the same wood, with these dimensions of its inside."""
     given = {one.name: getattr(shape, one.name) for one in fields(shape) if one.name != "M"}
     return TruncatedSphere.from_density(shape.density, **given | sizes)
 
 
 def filled(shape: TruncatedSphere, kind: str) -> TruncatedSphere:
-    """The shape with that inside: what it has of it already stays, what is new is a toy's, or smaller."""
+    """The shape with that inside: it keeps what it has of it, and the rest is as in a toy, or smaller."""
     names = KINDS[kind]
     sizes = {name: getattr(shape, name) if name in names else 0.0 for name in INSIDE}
     R, c = shape.R, shape.c
     if "hole" in names and not shape.hole:
-        below = sizes["height"] + sizes["thickness"]  # what a disc leaves of the sphere
+        below = sizes["height"] + sizes["thickness"]  # the room that a disc leaves in the sphere
         depth = sizes["depth"] = _mm(min(TOY["depth"] * R, HALF * (c + R - below)))
         room = min(_across(R, c), _across(R, c - depth)) - shape.r
         sizes["hole"] = _mm(min(max(TOY["hole"] * R, shape.r + QUARTER * room), shape.r + MOST * room))
@@ -49,7 +49,7 @@ def filled(shape: TruncatedSphere, kind: str) -> TruncatedSphere:
 
 
 def inside_handles(shape: TruncatedSphere) -> dict[str, tuple[float, float]]:
-    """Where its hole and its disc can be taken hold of, as in dimensions.handles."""
+    """The handles of its hole and its disc, as in dimensions.handles()."""
     at = {}
     if shape.hole:
         at = {"hole": (-shape.hole, shape.c - shape.depth / 2), "depth": (-(shape.hole + shape.r) / 2, shape.floor)}
@@ -61,7 +61,7 @@ def inside_handles(shape: TruncatedSphere) -> dict[str, tuple[float, float]]:
 
 
 def inside_pulled(shape: TruncatedSphere, name: str, x: float, z: float) -> float:
-    """The dimension at which its handle is nearest to (x, z)."""
+    """The value of the dimension for which its handle is nearest to (x, z)."""
     if name == "depth":
         return shape.c - z
     return {"height": z + shape.R, "thickness": z + shape.R - shape.height}.get(name, abs(x))
@@ -73,5 +73,5 @@ def _across(R: float, z: float) -> float:
 
 
 def _mm(length: float) -> float:
-    """To 0.01 mm, where that leaves some of it."""
+    """The length rounded to 0.01 mm, unless that is zero."""
     return round(length, 5) or length

@@ -1,4 +1,4 @@
-"""Where a body's dimensions stand in its section: from where to where each is measured."""
+"""The dimensions of a body in its section: the two points between which each is measured."""
 
 import math
 from typing import NamedTuple, TypeAlias
@@ -10,8 +10,8 @@ LOWER_LEFT = (-math.sqrt(0.5), -math.sqrt(0.5))
 
 
 class Measure(NamedTuple):
-    """A dimension by its name, measured from one point of the section to another, (x, z) in m. Of heights both points
-    are on the body: the line that says it stands beside that."""
+    """A dimension by name, measured between two points of the section, (x, z) in m. Both points of a height are on the
+    body; its dimension line is beside them."""
 
     name: str
     start: Point
@@ -24,22 +24,22 @@ class Measure(NamedTuple):
 
     @property
     def is_left(self) -> bool:
-        """Of heights: whether it stands left of the body."""
+        """For a height: whether it is to the left of the body."""
         return self.name in LEFT
 
     @property
     def is_shown(self) -> bool:
-        """Whether it is drawn also while a hand has not hold of it."""
+        """Whether it is also drawn when it is not being dragged."""
         return self.name not in WHILE_HELD
 
 
 HEIGHTS = ("a", "c", "d", "h", "l", "t", "depth", "thickness", "height")
 LEFT = ("depth",)
-WHILE_HELD = ("hole", "thickness", "height")  # for which there is no room
+WHILE_HELD = ("hole", "thickness", "height")  # otherwise there is no room for them
 
 
 def measures(shape: Shape) -> list[Measure]:
-    """Of a body those that can be drawn, from below."""
+    """The Measures of a body that can be drawn, from below."""
     R = shape.R
     found = [] if isinstance(shape, Lathe | Turned) else [Measure("R", (0.0, 0.0), _along(R, LOWER_LEFT))]
     if isinstance(shape, TruncatedSphere):
@@ -71,13 +71,13 @@ def _along(length: float, way: Point) -> Point:
 
 
 def _stem(r: float, foot: float, length: float, rim: float) -> list[Measure]:
-    """Of a stem that begins at a foot, on a face of this radius."""
+    """Those of a stem that begins at the height foot, on a face of this radius."""
     return [Measure("l", (rim, foot), (r, foot + length)),
             Measure("r", (0.0, foot + length / 2), (-r, foot + length / 2))]  # fmt: skip
 
 
 def _inside(shape: TruncatedSphere) -> list[Measure]:
-    """Of a hole and of a disc."""
+    """Those of a hole and of a disc."""
     found = []
     if shape.hole:
         found.append(Measure("hole", (0.0, shape.floor), (shape.hole, shape.floor)))

@@ -1,4 +1,4 @@
-"""Whether a body turns over, read from its own run: let go as the arrival's toy is, on the ordinary table."""
+"""Whether a body turns over, determined from its own run: released like the arrival's toy, on the ordinary table."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ from tippe_core.types import Number
 
 @dataclass(frozen=True)
 class Verdict:
-    """code: "over", "not", or "refused" where there is no such run; headline and why: in words."""
+    """code: "over", "not", or "refused" if there is no such run; headline and why: in words."""
 
     code: str
     headline: str

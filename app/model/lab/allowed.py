@@ -1,4 +1,5 @@
-"""What can be asked of the Lab: the range of each input, what is said of another value, and which is nearest to it."""
+"""The values that the Lab accepts: the range of each input, the sentence about another value, and the nearest accepted
+one."""
 
 import math
 from types import MappingProxyType
@@ -35,8 +36,7 @@ def fault(name: str, value: object, limits: Limits = LIMITS) -> str:
 
 
 def nearest(name: str, value: object) -> float | None:
-    """The value that the Lab lets be set and that is nearest to this one, for a tilt the one that is the same; None
-    where this is no number."""
+    """The accepted value that is nearest to this one; for a tilt, the equivalent one; None if it is not a number."""
     number = _number(value)
     if name not in LIMITS or number is None:
         return None
@@ -51,5 +51,5 @@ def _number(value: object) -> float | None:
 
 
 def _folded(tilt: float) -> float:
-    """The tilt from 0 to 180 degrees that an axis so turned has."""
+    """The equivalent tilt from 0 to 180 degrees."""
     return abs((tilt + 180) % 360 - 180)

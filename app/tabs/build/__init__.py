@@ -1,1 +1,1 @@
-"""Build a top."""
+"""The tab Build a top."""

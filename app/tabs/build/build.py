@@ -1,4 +1,4 @@
-"""The builder's widgets: the section with its handles, the dimensions, presets, files, and a measured top."""
+"""The widgets of the builder: the section with its handles, the dimensions, presets, files, and a measured top."""
 
 import html
 import io
@@ -20,15 +20,15 @@ from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, o
 from app.widgets.controls import Dial, asked_of, number, typed_number, wording
 from tippe_core import PRESETS, BareSphere, Lathe, LoadedSphere, TruncatedSphere, Turned
 
-KNOBS = 32  # made at a time
-SAYS = "calc(55px * var(--type, 1))"  # three lines of where a preset comes from
-NARROW = {"max-width": "max(326px, min(100%, 100vh - 300px))"}  # so that what follows from the section is in sight
+KNOBS = 32  # created at a time
+SAYS = "calc(55px * var(--type, 1))"  # room for three lines about the source of a preset
+NARROW = {"max-width": "max(326px, min(100%, 100vh - 300px))"}  # so that the results below the section are in sight
 IN_A_ROW = "fieldset { flex-direction: row !important; align-items: center; gap: 10px }"
-OWN = ""  # a select has no way to show that nothing is chosen
+OWN = ""  # because a select cannot show that nothing is chosen
 
 
 class Knob:
-    """One dimension of the body: a Dial. pull: a function of its name and the value that is wanted, in SI."""
+    """One dimension of the body: a Dial. pull: called with its name and the requested value, in SI."""
 
     def __init__(self, dimension, pull):
         self.dimension, self._pull, self._heard = dimension, pull, 0
@@ -60,9 +60,9 @@ class Knob:
 
 
 class Pieces:
-    """Putting pieces on the body and taking them away: hollow and stemmed bodies."""
+    """Adds pieces to the body and removes them: hollow and stemmed bodies."""
 
-    # name, what stands there at first
+    # name, initial value
     FIELDS = (("r", "4"), ("from", "0"), ("to", "6"))
 
     def __init__(self, builder):
@@ -97,7 +97,7 @@ class Pieces:
         self.undo.visible = isinstance(shape, Turned) and len(shape.solid.slices) > 1
         if self._view.visible:
             density = getattr(shape, "density", shape.mass / shape.volume)
-            # what is taken away has to be all there is: the number itself, not the digits shown
+            # what is removed must be exactly what was added: the number itself, not its displayed digits
             self._exact = density[0] if isinstance(density, tuple) else density
             self.density.value = number(self._exact)
         self.words.object = ""
@@ -116,7 +116,7 @@ class Pieces:
 
 
 class Inside:
-    """Which of the insides a truncated sphere has. choose: a function of one of KINDS."""
+    """The choice of what a truncated sphere has inside. choose: called with one of KINDS."""
 
     def __init__(self, choose):
         self._silent = False
@@ -142,8 +142,8 @@ class TopFile(WholeFile):
 
 
 class Build:
-    """The builder's cards. builder: a Builder; soon: of a Pacer; a body of many pieces has its knobs in portions,
-    others' work between. show() is for each scene of a hand at rest."""
+    """The builder's cards. builder: a Builder; soon: that of a Pacer; if a body has many pieces, its knobs are created
+    in portions, so that other work comes in between. show() is for each scene of a hand at rest."""
 
     def __init__(self, builder, soon=lambda make: make()):
         self.builder, self._soon = builder, soon
@@ -193,7 +193,7 @@ class Build:
         self.builder.remove_point(last if held is None else min(held, last))
 
     def _tapped_twice(self, event):
-        """On a point of a free profile: takes it away; elsewhere: adds one."""
+        """On a point of a free profile: removes it; elsewhere: adds one."""
         if isinstance(self.builder.draft.shape, Lathe):
             name = self.section.handle_at(event.x, event.y) or ""
             if name.startswith("point "):
@@ -206,18 +206,18 @@ class Build:
         given = {name: value for name, value in BUTTON.items() if name != "variant"}
         button = pmui.FileDownload(label=say(f"build.bench.{key}"), filename=filename,
                                    callback=lambda: io.BytesIO(content()), **given)  # fmt: skip
-        button.variant = BUTTON["variant"]  # given at once, Panel takes it for two that contradict, and warns
+        button.variant = BUTTON["variant"]  # given to the constructor, Panel takes it for a contradiction, and warns
         return button
 
     @property
     def section_view(self):
-        """The section, what follows from it, and whether the explorer's numbers are still its own."""
+        """The section, the results, and whether the explorer's numbers are still those of the body."""
         figure = pn.pane.Bokeh(self.section.figure, margin=0, sizing_mode="scale_width", styles=NARROW)
         return [figure, self.derived, self.parted]
 
     @property
     def bench_view(self):
-        """What a person sets."""
+        """The inputs."""
         files = flow(self.saved, self.file, self.stl)
         choices = grid(self.presets, self.families)
         return [
@@ -265,7 +265,7 @@ class Build:
             elif not draft.messages:
                 knob.show(draft.shape)
         self._silent = True
-        # what is chosen already cannot be chosen: a changed body has an entry of its own, beside those to go back to
+        # the chosen entry cannot be chosen again, so a changed body has an entry of its own
         own = {} if draft.name else {say("build.bench.none"): OWN}
         presets = {named(preset.name): preset.name for preset in PRESETS}
         self.presets.param.update(options=own | presets, value=draft.name)
@@ -277,7 +277,7 @@ class Build:
         self.stl.disabled = isinstance(draft.shape, BareSphere)
 
     def _add_knobs(self, shown):
-        """The next KNOBS of them, unless others are shown by now."""
+        """Creates the next KNOBS of them, unless others are shown by now."""
         draft = self.builder.draft
         more = draft.dimensions[len(self._knobs) :]
         if shown is not self._shown or not more:
@@ -291,7 +291,7 @@ class Build:
             self._soon(partial(self._add_knobs, shown))
 
     def show(self, scene):
-        """Whether the scene's numbers are the body's."""
+        """Says whether the scene's numbers are those of the body."""
         self.parted.visible = scene.shape is None
 
 
@@ -304,12 +304,12 @@ def derived_words(shape):
         (say("build.body.mass"), f"{written(1e3 * shape.mass, '.4g')} g"),
     ]
     if not isinstance(shape, BareSphere):
-        # one number where it is of one material, else the mean
+        # one number if it is of one material, else the mean
         rows.append((say("build.body.density"), f"{shape.mass / shape.volume:.0f} kg/m³"))
     numbers = "&emsp;".join(f'<span style="white-space: nowrap">{name} {value}</span>' for name, value in rows)
     touch = say("build.body.never") if angle is None else say("build.body.touches", angle=math.degrees(angle))
     prints = "unknown" if isinstance(shape, BareSphere) else ""
-    if isinstance(shape, LoadedSphere) and shape.core_density:  # a cavity is in it
+    if isinstance(shape, LoadedSphere) and shape.core_density:  # unless the core is a cavity
         prints = "outside"
     if isinstance(shape, TruncatedSphere) and shape.disc:
         prints = "outside_disc"

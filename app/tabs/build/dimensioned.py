@@ -1,4 +1,4 @@
-"""The dimensions of the body in its section, as a drawing has them: a line from where to where, and the number."""
+"""The dimensions of the body in its section, as in a technical drawing: a line between two points, and the number."""
 
 import math
 
@@ -11,17 +11,17 @@ from app.text import say
 from app.widgets.controls import number
 from app.widgets.plots import PAPER, draw
 
-COLUMN, STEP = 0.10, 0.035  # of the span of the figure: from the body to the first of the heights, and between two
-SIZE = 7  # px of an arrow's head
+COLUMN, STEP = 0.10, 0.035  # relative to the figure: from the body to the first of the heights, and between two of them
+SIZE = 7  # px, the head of an arrow
 
 
 class Dimensioned:
-    """fig: the Section's figure, which has these drawn in it."""
+    """Draws them in fig, the Section's figure."""
 
     def __init__(self, fig):
         self.lines = ColumnDataSource({name: [] for name in ("x", "z", "x1", "z1", "colour", "width")})
         self.tips = ColumnDataSource({name: [] for name in ("x", "z", "angle", "colour")})
-        # what is held has words of its own: the look of the page changes one colour of a Text, not a column of them
+        # the dragged one has a Text of its own: the look of the page can change one colour, not a column of them
         self.said, self.held = (
             ColumnDataSource({name: [] for name in ("x", "z", "text", "dx", "dy", "align")}) for _ in range(2)
         )
@@ -34,8 +34,8 @@ class Dimensioned:
                  background_fill_color=PAPER, background_fill_alpha=0.8, padding=2)  # fmt: skip
 
     def show(self, shape, dimensions, held, wide, span):
-        """The measures of a shape; dimensions: of a Draft; held: the name of what a hand has; wide: how far the body
-        reaches aside, mm; span: of the figure."""
+        """Draws the measures of a shape; dimensions: those of a Draft; held: the name of the one being dragged; wide:
+        the half-width of the body, mm; span: that of the figure."""
         known = {dimension.name: dimension for dimension in dimensions}
         lines, tips, words, heights = [], [], {False: [], True: []}, 0
         for measure in measures(shape):

@@ -4,19 +4,19 @@ import panel as pn
 
 SYMBOLS = {"r1": "<i>r</i><sub>1</sub>", "r2": "<i>r</i><sub>2</sub>", "I1": "<i>I</i><sub>1</sub>",
            "I3": "<i>I</i><sub>3</sub>"}  # fmt: skip
-# which have no letter in the paper
+# these have no letter in the paper
 WORDS = ("density", "core_density", "rounding", "hole", "depth", "disc", "thickness", "height")
 
 
 def symbol(name):
-    """The letter of a dimension; "" where a word says it."""
+    """The letter of a dimension; "" if a word names it."""
     if name.startswith("density ") or name in WORDS:
         return ""
     return SYMBOLS.get(name, f"<i>{name}</i>")
 
 
 def grid(*content):
-    """Side by side where there is room."""
+    """A row that wraps."""
     return pn.Column(
         *content, sizing_mode="stretch_width", margin=(6, 0),
         styles={"display": "grid", "grid-template-columns": "repeat(auto-fit, minmax(min(100%, 215px), 1fr))",

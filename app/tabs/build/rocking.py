@@ -1,4 +1,4 @@
-"""A top of one's own, from what a stopwatch, a balance and a caliper say."""
+"""A top of one's own, measured with a stopwatch, a balance and a caliper."""
 
 import panel as pn
 import panel_material_ui as pmui
@@ -13,9 +13,9 @@ from tippe_core import TopError
 
 
 class RockingFields:
-    """A top of one's own: mass, diameter and the period of small rocking at rest -> a/R."""
+    """A top of one's own: mass, diameter and the period of small rocking without spin -> a/R."""
 
-    # name, what stands there at first, and SI in one of the unit
+    # name, initial value, size of the unit in SI
     FIELDS = (("D", "32.0", 1e-3), ("dD", "0.1", 1e-3), ("T", "1.08", 1.0), ("dT", "0.01", 1.0), ("M", "11.5", 1e-3))
 
     def __init__(self, builder):

@@ -1,4 +1,4 @@
-"""The section of the body that is built: the cut through axis 3, with handles."""
+"""The section of the body that is being built, along axis 3, with handles."""
 
 import math
 
@@ -15,20 +15,20 @@ from app.widgets.controls import number
 from app.widgets.plots import PAPER, draw, plain
 from tippe_core import LoadedSphere, TruncatedSphere, Turned
 
-PARTS = {"body": "#d9b98c", "hollow": PAPER, "core": "#8a96a3"}  # of the section, in the order they are drawn
-FRAME = 276  # px, where the browser has not said how large it is; square, so that both axes have one scale
-BORDERS = {"left": 40, "right": 10, "above": 20, "below": 30}  # px; the same both ways, for the figure is square, too
-ROOM = 1.9  # widths of a body, its dimensions beside it included
-ASIDE = 0.06  # of what is in view, more of it right of the axis, where the heights are written
-REACH = 16  # px from a handle that still take hold of it
+PARTS = {"body": "#d9b98c", "hollow": PAPER, "core": "#8a96a3"}  # of the section, in drawing order
+FRAME = 276  # px, until the browser has reported the size; square, so that both axes have the same scale
+BORDERS = {"left": 40, "right": 10, "above": 20, "below": 30}  # px; both sums are equal, because the figure is square
+ROOM = 1.9  # widths of a body, including its dimensions beside it
+ASIDE = 0.06  # of the width, by which the view extends further to the right, where the heights are written
+REACH = 16  # px from a handle within which it can be grabbed
 
 
 class Section:
-    """The cut through axis 3, to scale in mm, with handles. pull: what takes (dimension, value in SI) from a hand."""
+    """The section along axis 3, to scale in mm, with handles. pull: called with (dimension, value in SI) by a hand."""
 
     def __init__(self, pull):
         self._pull, self._held, self._shape, self._span = pull, None, None, 0.0
-        self.last_point = None  # index of the point of a Lathe that was held last
+        self.last_point = None  # index of the point of a Lathe that was dragged last
         self.figure = fig = plain(x_range=Range1d(-1, 1), y_range=Range1d(-1, 1), name="section")
         borders = {
             f"min_border_{side}": px
@@ -36,7 +36,7 @@ class Section:
         }
         fig.update(sizing_mode="scale_width", aspect_ratio=1, **borders)
         fig.xaxis.ticker.desired_num_ticks = fig.yaxis.ticker.desired_num_ticks = 5
-        # A patch each: of patches Bokeh 3.10 may draw as many as there were before.
+        # One Patch each: of Patches Bokeh 3.10 may draw only as many as there were before.
         self.parts = {part: ColumnDataSource({"x": [], "z": []}) for part in PARTS}
         self.lines = ColumnDataSource({"x": [], "z": [], "colour": [], "dash": [], "width": []})
         self.points = ColumnDataSource({"x": [], "z": [], "colour": []})
@@ -69,7 +69,7 @@ class Section:
             self.last_point = int(self._held[6:])
 
     def handle_at(self, x, y):
-        """The name of the handle that a hand at (x, y) in mm takes hold of, or None."""
+        """The name of the handle that a hand at (x, y) in mm grabs, or None."""
         places = {name: np.hypot(1e3 * across - x, 1e3 * z - y) for name, (across, z) in handles(self._shape).items()}
         nearest = min(places, key=places.get, default=None)
         return nearest if places and places[nearest] < REACH * self._span / (self.figure.inner_width or FRAME) else None
@@ -136,7 +136,7 @@ class Section:
         }  # fmt: skip
 
     def _frame(self):
-        """All of the body in view; in coarse steps, so that it does not swim."""
+        """Ranges that show all of the body, in coarse steps, so that the view does not move all the time."""
         profile = 1e3 * self._shape.R * body(self._shape)
         low, high = profile[:, 1].min(), profile[:, 1].max()
         needed = max(ROOM * 2 * profile[:, 0].max(), 1.3 * (high - low))
@@ -147,7 +147,7 @@ class Section:
 
 
 def _closed(outlines):
-    """x and z of a Patch of outlines (k, 2) of bodies of revolution, gaps between them."""
+    """x and z of a Patch for outlines (k, 2) of bodies of revolution, with gaps between them."""
     rows = [np.vstack([half, half[::-1] * (-1, 1), [[np.nan, np.nan]]]) for half in outlines]
     return np.vstack(rows)[:-1].T if rows else np.empty((2, 0))
 

@@ -1,7 +1,7 @@
-"""The Lab: a top that is let go by a hand flips on an ordinary table, and does not on a rough one or on ice.
+"""The Lab: a top released by hand flips on an ordinary table, but not on a rough one or on ice.
 
-The picture, its controls and its words are one component of the browser; here its wishes become a Lab's, and what the
-Lab then has becomes what the component draws.
+The picture, its controls and its words are one component in the browser; its requests are passed to a Lab, and the
+state of the Lab to the component, which draws it.
 """
 
 import json
@@ -27,47 +27,49 @@ from tippe_core import TopError
 
 INPUTS = ("spin", "tilt", "mu", "patch")
 SLIDERS = {"spin": (0, 50, 0.1, 1), "tilt": (0, 60, 0.1, 1), "mu": (0.01, 1, 0.01, 2), "patch": (0.05, 2, 0.05, 2)}
-"""{input: (least, most, step, digits) of its slider}; more can be typed."""
-SOON = 0.05  # s: a run that is done before that is not said to be under way
-LOOKS = 0.3  # s between two looks at how far a run is
-RESTS = 0.4  # s after its last wish a hand is taken to rest
+"""{input: (least, most, step, decimals) of its slider}; values outside can be typed."""
+SOON = 0.05  # s: a run that is done sooner is not shown as under way
+LOOKS = 0.3  # s between two updates of the progress of a run
+RESTS = 0.4  # s after its last request after which a hand is at rest
 
 
 def dimensions(toy):
-    """{wish: Dimension} of what can be set here of a toy."""
+    """{input: Dimension} of the body's dimensions that can be set here."""
     family = FAMILIES[type(shape_of(toy))][1]
     return {f"dim:{each.name}": each for each in family if each.unit == "mm" or each.name == "a"}
 
 
 def sizes(toy):
-    """{wish: how large that is now, in its unit}."""
+    """{input: its present value, in its unit}."""
     return {name: round(each.factor * value_of(shape_of(toy), each.name), 6) for name, each in dimensions(toy).items()}
 
 
 def digits_of(dimension):
-    """After the point."""
+    """The number of decimals."""
     return max(0, -math.floor(math.log10(dimension.step)))
 
 
 def _word(dimension):
-    return say("lab.inputs.ballast") if dimension.name == "a" else dimension.words
+    said = listed("lab.dimensions").get(dimension.key, dimension.words)
+    return said[0].upper() + said[1:]
 
 
 class LabView(Bundled):
-    """The whole tab: the top on its table, the tilt over time, what happens and why, one picture that answers, and the
+    """The whole tab: the top on its table, the tilt over time, what happens and why, a figure that answers, and the
     controls of the start.
 
-    Each table has the frames of its motion, as `pack_frames` packs them, and its curves: float32 rows of the time (s),
-    the tilt (degrees), the height of G, the energy and the heat so far (mm of height), the spin about its own axis and
-    the turning seen from above (rev/s), and the code of the regime. Both are empty where there is no such motion.
+    For each table it has the frames of the motion, as `pack_frames` packs them, and its curves: float32 rows of the
+    time (s), the tilt (degrees), the height of G, the energy and the heat so far (as mm of height), the spin about the
+    top's own axis and its rotation seen from above (rev/s), and the code of the regime. Both are empty if there is no
+    such motion.
     """
 
     SAYS = ("Stage", "Top3D")
     REGIMES = "here"
 
-    # JSON: Panel and Bokeh look at each part of a dict again and again, which was a quarter of a move.
-    state = param.String(default="{}", doc="The inputs, what was refused, how far a run is that is computed.")
-    told = param.String(default="{}", doc="Of what is shown: its inputs, and its runs in words.")
+    # JSON, because Panel and Bokeh search each part of a dict again and again, which was a quarter of a move
+    state = param.String(default="{}", doc="The inputs, what was refused, the progress of the present run.")
+    told = param.String(default="{}", doc="The inputs of what is shown, and its runs in words.")
     profile = param.Bytes(default=b"", doc="As of a Top3D.")
     a = param.Number(default=0.0, doc="G's distance below O, in R.")
     seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
@@ -78,8 +80,8 @@ class LabView(Bundled):
     curves_rough = param.Bytes(default=b"")
     curves_ice = param.Bytes(default=b"")
     asked = param.List(
-        default=[], doc="[count, name, value] of what a person asks for, the browser writes it; state tells the last "
-        "count that was answered. The names are a Lab's inputs, and research: the paper's figures."
+        default=[], doc="[count, name, value] of a request, the browser writes it; state tells the last "
+        "count that was answered. The names are a Lab's inputs; research: the paper's figures; why: the lesson."
     )  # fmt: skip
 
     @classmethod
@@ -87,11 +89,17 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def lab_view(lab, go):
-    """The tab. lab: a Lab; go: shows the paper's figures of its start."""
-    tab = LabTab(lab, go, lab.rest)
+def lab_view(lab, keep, go, explain):
+    """The tab. lab: a Lab; keep: called when its start is to be kept, as it is then; go: shows the paper's figures for
+    it; explain: shows the lesson's step that says why a top turns over."""
+
+    def rests():
+        keep()
+        lab.rest()
+
+    tab = LabTab(lab, go, rests, explain)
     if lab.inputs == FIRST:
-        lab.show()  # it is kept, so that it is there with the page
+        lab.show()  # stored, so that it is there as soon as the page
     if pn.state.loaded:
         begin(lab)
     else:
@@ -100,8 +108,8 @@ def lab_view(lab, go):
 
 
 def begin(lab):
-    """What takes a thread, which a page has once it is there. What no hand of the tab has asked for, as an undo, comes
-    to rest too."""
+    """Starts what needs a thread, which a page has once it has loaded. Changes that do not come from this tab, such as
+    undo, also end in rest()."""
 
     def still():
         if not lab.rests:
@@ -114,7 +122,7 @@ def begin(lab):
 
 
 class Quiet:
-    """Calls act() once nothing has moved for RESTS; one timer for all that moves meanwhile."""
+    """Calls act() once nothing has moved for RESTS, with one timer for all movements."""
 
     def __init__(self, act):
         self._act, self._last, self._waits = act, 0.0, False
@@ -138,11 +146,12 @@ class Quiet:
 
 
 class LabTab:
-    """view: the tab. lab: the Lab it shows and asks; research: called for the paper's figures of this top and start;
-    rests: called when a hand that has changed something rests."""
+    """view: the tab. lab: the Lab that it shows and controls; research: called to show the paper's figures for this top
+    and start; rests: called when a hand that has changed something is at rest; explain: called to show why it turns
+    over."""
 
-    def __init__(self, lab, research, rests):
-        self._lab, self._research, self._quiet, self._looks = lab, research, Quiet(rests), 0
+    def __init__(self, lab, research, rests, explain=None):
+        self._lab, self._leads, self._quiet, self._looks = lab, {"research": research, "why": explain}, Quiet(rests), 0
         self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
@@ -151,11 +160,11 @@ class LabTab:
         self.show()
 
     def _heard(self, event):
-        """A wish of the browser."""
+        """A request from the browser."""
         count, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
         self._answered, looks = int(count), self._looks
-        if name == "research":
-            self._research()
+        if name in self._leads:
+            self._leads[name]()
         elif name == "stop":
             self._lab.stop()
         elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):
@@ -168,12 +177,12 @@ class LabTab:
             return
         if not self._lab.busy:
             self.show()
-        elif self._looks == looks:  # the run tells, or the look at it
+        elif self._looks == looks:  # else the run itself, or the next look at it, will show it
             self._wait(SOON)
 
     def _of_body(self, name, value):
-        """What the Lab is to be asked for by a dimension of the body, in its unit; nothing, and a sentence at it, where
-        there is no such body."""
+        """The inputs of the Lab for a dimension of the body, in its unit; none, and a sentence at that input, if there
+        is no such body."""
         toy, dimension = self._lab.start.toy, dimensions(self._lab.start.toy)[name]
         try:
             number = asked.number(value)
@@ -190,14 +199,14 @@ class LabTab:
             return {}
 
     def _changed(self, *events):
-        """Tells how far a run is, too, as long as one is computed."""
+        """Shows a change; while a run is being computed, also its progress."""
         if all(event.name == "busy" and event.new for event in events):
             self._wait(SOON)
         else:
             self.show()
 
     def _wait(self, seconds):
-        """Until a look at what is computed; it takes the place of the one that was waited for."""
+        """Looks at the run after this time, instead of at the time set before."""
         self._looks += 1
         after(seconds, partial(self._look, self._looks))
 
@@ -207,10 +216,10 @@ class LabTab:
             self._wait(LOOKS)
 
     def show(self):
-        """What the Lab has now."""
+        """Shows the present state of the Lab."""
         if self._lab.scene is not None:
             self._said = self._answered
-            with speaking(spoken()):  # asked once, not for each word
+            with speaking(spoken()):  # set once, not for each word
                 self._show(self._lab.scene)
 
     def _show(self, scene):
@@ -274,16 +283,16 @@ class LabTab:
 
     @staticmethod
     def _sized(dimension, size):
-        """A dimension in words."""
+        """A dimension with its value, in words."""
         return spelled(f"{_word(dimension)} {size:.{digits_of(dimension)}f} {dimension.unit}".strip())
 
     def _differ(self, said, one, other):
-        """What differs in two that have these inputs, in words, as one of them has it."""
+        """The inputs in which two starts differ, in words, with the values of `one`."""
         return ", ".join(self._named(said, name) for name in INPUTS if getattr(one, name) != getattr(other, name))
 
     @staticmethod
     def _named(scene, name):
-        """An input of the scene in words."""
+        """An input of the scene with its value, in words."""
         said, digits = listed(f"lab_view.view.inputs.{name}"), SLIDERS[name][-1]
         gap = "" if said["unit"] in ("", "°") else " "
         number = f"{getattr(scene, name):.{digits}f}".replace("-", "\N{MINUS SIGN}")
@@ -291,7 +300,7 @@ class LabTab:
 
     @staticmethod
     def _run(scene, table):
-        """A table's run in words; None where it is not watched."""
+        """The run on a table in words; None if the table is not watched."""
         if table in scene.refused:
             return {"events": [], "stages": [], "keeps": [], "caption": "", "why": spelled(scene.refused[table])}
         if table not in scene.stories:

@@ -1,1 +1,1 @@
-"""Learn: the lesson, the derivation, and what a teacher and a class have."""
+"""Learn: the lesson, the derivation, and the pages for a teacher and a class."""

@@ -1,4 +1,4 @@
-"""The tab "Learn": the lesson, what is for theorists, and the pages beside it."""
+"""The tab Learn: the lesson, the part for theorists, and the pages beside them."""
 
 import panel as pn
 import panel_material_ui as pmui
@@ -19,14 +19,14 @@ from app.widgets.cards import PLAIN, card, first, later, staged, words
 from app.widgets.top3d import Top3D, show_top
 
 CLOCK, SPEED = "learn", 1 / 16
-WISHES = ("present", "reveal", "reset")  # of who stands at the big screen
+WISHES = ("present", "reveal", "reset")  # requests of the teacher at the big screen
 
 
 class Learn(param.Parameterized):
-    """The lesson, and beside it the derivation, the teacher's page and the history.
+    """The lesson, the derivation, the teacher's page and the history.
 
-    scene: the first, show() is for others; runs: the page's Runs; lab: leads there. What a link
-    keeps: step, section, and of a vote that is open the teacher's key, room.
+    scene: the first one, show() sets others; runs: the page's Runs; lab: shows the Lab. A link stores step, section
+    and, while a vote is open, the teacher's key, room.
     """
 
     step = param.Selector(default=lesson.NAMES[0], objects=list(lesson.NAMES))
@@ -59,7 +59,7 @@ class Learn(param.Parameterized):
                               for key in ("intro", "smooth", "vectors")))  # fmt: skip
         lines = later(card(say("derivation.page.title"), intro, self.derivation.place, height="max-content"), 1)
         top = first(card(say("learn.page.top"), self.top))
-        # a hidden Column inside, since a grid that is told how to be laid out cannot be hidden
+        # a hidden Column inside, because a grid with a layout of its own cannot be hidden
         self.pair = pn.Column(staged([top], [lines], mirrored=True), sizing_mode="stretch_width", margin=0)
         self.others = pn.Column(sizing_mode="stretch_width", margin=0)
         self._made = {}
@@ -69,7 +69,7 @@ class Learn(param.Parameterized):
     # ---- the lesson ----
 
     def _begin(self):
-        """The first step at once, which ships; the others when they are there."""
+        """Shows the first step, which ships, at once, and the others when they have been computed."""
         first = lesson.STEPS[0]
         if not self._runs.beside:
             self._take(self._found(self._scene, lesson.STEPS))
@@ -79,7 +79,7 @@ class Learn(param.Parameterized):
 
     @staticmethod
     def _found(scene, steps):
-        """(words, runs): of these steps by this scene."""
+        """(words, runs) of these steps for this scene."""
         return {step.name: said(step, scene) for step in steps}, runs_of(steps, scene)
 
     def _find(self, steps):
@@ -101,7 +101,7 @@ class Learn(param.Parameterized):
         )
 
     def _heard(self, event):
-        """A wish of the browser."""
+        """A request from the browser."""
         _, name, value = asked.parts(event.new, asked.number, asked.text, asked.text)
         if name == "step" and value in lesson.NAMES:
             self.step = value
@@ -117,7 +117,7 @@ class Learn(param.Parameterized):
     # ---- the sections ----
 
     def _look(self):
-        """Shows the section; the teacher's page and the history are made when first looked at."""
+        """Shows the section; the teacher's page and the history are created when they are first shown."""
         section = self.section
         makers = {"teach": lambda: teach_view(self._present, self.teacher.close), "history": history_view}
         if section in makers and section not in self._made:
@@ -129,7 +129,7 @@ class Learn(param.Parameterized):
         self.show(self._scene)
 
     def _present(self):
-        """From the teacher's page to the big screen."""
+        """Goes from the teacher's page to the big screen."""
         self.section = "lesson"
         self._tell(presents=self.lesson.state.get("presents", 0) + 1)
 
@@ -141,7 +141,7 @@ class Learn(param.Parameterized):
         self.lesson.state = self.lesson.state | {"step": self.step} | more
 
     def show(self, scene):
-        """The page's own top is another: what is of it is found again."""
+        """Recomputes what depends on the page's own top, if that has changed."""
         new = scene.top != self._scene.top or scene.inputs["shape"] != self._scene.inputs["shape"]
         self._scene = scene
         if new:

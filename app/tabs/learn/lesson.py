@@ -1,6 +1,6 @@
-"""The lesson as the browser has it: its steps in words, and the runs that it plays.
+"""The lesson for the browser: its steps in words, and the runs that it plays.
 
-A page has all of it after a moment, so that it goes on where the network does not.
+After a moment a page has all of it, so that it continues without a network.
 """
 
 from contextlib import suppress
@@ -23,26 +23,26 @@ from app.widgets.spelling import spelled
 from app.widgets.top3d import pack_frames
 from tippe_core import TopError
 
-SLOW = 8.0  # s in which a nutation is watched, which takes some hundredths
+SLOW = 8.0  # s in which a nutation is shown, which takes some hundredths of a second
 FIRST = "ordinary"
 
 
 class LessonView(Bundled):
-    """The lesson: the steps, the question, the top that answers it, and the picture of this step.
+    """The lesson: the steps, the question, the top that answers it, and the figure of the present step.
 
-    A run is {"frames", "profile", "a", "seconds"} as of a Top3D, "curves" as of a LabView, and "arms": float32 rows of
+    A run is {"frames", "profile", "a", "seconds"} as in a Top3D, "curves" as in a LabView, and "arms": float32 rows of
     the points of levers.Levers, for each row of the curves.
     """
 
     SAYS = ("Stage", "Top3D")
     REGIMES = "here"
 
-    steps = param.List(default=[], doc="Each step in words; a number of JavaScript's where it is drawn.")
+    steps = param.List(default=[], doc="Each step in words; JavaScript inserts the numbers that it computes.")
     runs = param.Dict(default={}, doc="{name: run}, of the lesson.")
     others = param.Dict(default={}, doc="{name: run}, those of theory and of the page's own top.")
     worksheet = param.String(default="", doc="A page to print, in HTML.")
     state = param.Dict(default={}, doc='step: which is looked at; role: "phone" in a class; room: of a class.')
-    asked = param.List(default=[], doc="[count, name, value] of what a person asks for, the browser writes it.")
+    asked = param.List(default=[], doc="[count, name, value] of a request, the browser writes it.")
 
     @classmethod
     def says(cls, language=None):
@@ -57,7 +57,7 @@ class LessonView(Bundled):
 
 
 def cut(motion, end):
-    """A run as it is played, until s."""
+    """A run as it is played, up to `end` (s)."""
     n = int(np.searchsorted(motion.t * motion.start.scales.time, end)) + 2
     rows = motion.curves[: int(np.searchsorted(motion.curves[:, 0], end)) + 2]
     return played(motion.start, [part[:n] for part in motion.frames], rows, levers(motion.trajectory), motion.seconds)
@@ -73,13 +73,14 @@ def played(start, frames, rows, arms=None, times=()):
 
 
 def runs_of(steps, scene, hidden=False):
-    """{name: run} of some steps, the page's own top and theory by this scene; hidden: as far as before the answer."""
+    """{name: run} of some steps; those of the page's own top and of the theory are for this scene. hidden: only up to
+    the time before the answer."""
     ends, found = {}, {}
     for step in steps:
         for name in step.tops:
             ends[name] = max(step.before if hidden else step.end, ends.get(name, 0.0))
     for name, end in ends.items():
-        with suppress(TopError):  # its step says so
+        with suppress(TopError):  # the step says that there is none
             found[name] = cut(own(scene) if name == "yours" else named(name), end)
     for step in steps:
         if step.inputs:
@@ -93,8 +94,8 @@ TELLS = {"told": [], "learned": "", "truth": None, "graph": None, "events": [], 
 
 
 def said(step, scene, hidden=False):
-    """A step in words and numbers, its answer too unless that is hidden; where it cannot be for this top, the sentence
-    why."""
+    """A step in words and numbers, with its answer unless that is hidden; if it is impossible for this top, the
+    sentence that says why."""
     head = {"name": step.name, "title": say(f"learn.{step.name}.title"), "theory": step in lesson.THEORY}
     try:
         plan = lesson.planned(step, scene)
@@ -136,12 +137,12 @@ def _events(motion):
 
 
 def truth_of(truth):
-    """As the browser has it: None where there is no such number."""
+    """The true value for the browser: None if there is no such number."""
     return truth if isinstance(truth, str) else None if np.isnan(truth) else float(truth)
 
 
 def asks(step, truth=None):
-    """What a step asks, for the browser: options with their words, or a slider. truth: not told where it is None."""
+    """The question of a step for the browser: options with their words, or a slider. truth: left out if it is None."""
     if isinstance(step.asks, Choice):
         words = listed(f"learn.{step.name}.options")
         options = [[key, words.get(key) or say("learn.view.unsure_option")] for key in step.asks.options]
@@ -154,7 +155,7 @@ def asks(step, truth=None):
 
 
 def _graph(picture):
-    """A Picture, for the browser."""
+    """A Picture for the browser."""
     if picture is None:
         return None
     return {

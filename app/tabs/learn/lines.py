@@ -1,4 +1,5 @@
-"""The derivation on the page: each equation typeset, both its sides now, and the symbols that can be pointed at."""
+"""The derivation on the page: each equation typeset, the present values of both its sides, and symbols that can be
+pointed at."""
 
 import numpy as np
 import panel as pn
@@ -13,15 +14,16 @@ PLANES = ("rough", "smooth")
 
 
 class Lines(Bundled):
-    """The lines. The tables hold a row an instant of one nutation, t first; the browser picks the row of its clock.
+    """The equations. The tables have one row for each instant of one nutation, with t first; the browser picks the row
+    for its clock.
 
-    It listens to `tippe:clock:<clock>`, and says with `tippe:highlight:<clock>` what is pointed at:
-    `{vector, start, label}`, a vector along 1', y, z from "com" or "contact", or null.
+    It listens to `tippe:clock:<clock>`, and sends `tippe:highlight:<clock>` with what is pointed at: `{vector, start,
+    label}`, a vector along 1', y, z from "com" or "contact", or null.
     """
 
     clock = param.String(default="", constant=True)
-    lines = param.List(default=[], doc="number, tex, words, symbols, plane, and where the sides stand in its table")
-    symbols = param.Dict(default={}, doc="name: texts, words, and where value and arrow stand in a table")
+    lines = param.List(default=[], doc="number, tex, words, symbols, plane, and the columns of its sides in the table")
+    symbols = param.Dict(default={}, doc="name: texts, words, and the columns of value and arrow in a table")
     words = param.Dict(default={})
     rough = param.Bytes(default=b"", doc="float64 rows of the rough plane")
     smooth = param.Bytes(default=b"", doc="float64 rows of the smooth plane")
@@ -30,7 +32,7 @@ class Lines(Bundled):
 
 
 def rows(m, plane):
-    """What stands in a table: [(key, (n, k))], all instants of a Window away from its ends."""
+    """The contents of a table: [(key, (n, k))], for all instants of a Window except those near its ends."""
     inner = slice(stretches.EDGE, -stretches.EDGE)
     yield "t", m.t[inner, None]
     for name, symbol in derivation.SYMBOLS.items():
@@ -61,7 +63,7 @@ LABELS = {"omega": "ω", "w1": "ω₁′", "w2": "ω₂′", "w3": "ω₃", "wz"
 
 
 class Derivation:
-    """The lines, kept at the scene's motion while they are looked at."""
+    """The equations for the scene's motion, updated while they are shown."""
 
     def __init__(self, clock):
         self._scene = None
@@ -90,7 +92,7 @@ class Derivation:
                    "arrow": places[f"arrow {name}"][0] if symbol.arrow else -1}
             for name, symbol in derivation.SYMBOLS.items()
         }  # fmt: skip
-        # built anew with the scene: the numbers and the scales of the differences belong together
+        # built anew with the scene, because the numbers and the scales of the differences belong together
         self.place.objects = [Lines(
             clock=self._clock, lines=lines, symbols=symbols, words=listed("derivation.page"),
             rough=tables["rough"][0].tobytes(), smooth=tables["smooth"][0].tobytes(),

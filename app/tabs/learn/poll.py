@@ -1,4 +1,4 @@
-"""What the teacher's side of a class and a phone's share: a question, and the way to the votes."""
+"""What the pages of the teacher and of the students share: a question, and access to the votes."""
 
 from dataclasses import asdict
 
@@ -17,13 +17,13 @@ MOST_ASKED = 4
 
 
 def page_address():
-    """Of this page, without a query."""
+    """The address of this page, without a query."""
     location = pn.state.location
     return f"{location.protocol}//{location.hostname}{f':{location.port}' if location.port else ''}{location.pathname}"
 
 
 def asked_of(step, scene):
-    """A question to a class about this step on the scene's top, as data; its words come with each page."""
+    """A question to a class about this step for the scene's top, as data; each page adds its own words."""
     top = scene.top
     given = {"shape": scene.inputs["shape"], "a": top.a, "I1": top.I1, "I3": top.I3}
     return {"step": step.name, "asks": asdict(step.asks),
@@ -31,12 +31,13 @@ def asked_of(step, scene):
 
 
 def scene_of(room):
-    """The Scene of the top that a Room is about; None where there is no room, or it is of another version of this."""
+    """The Scene of the top of a Room's question; None if there is no room, or if it is of another version of this
+    program."""
     return solved(**inputs_of(room.top)[0]) if room is not None and room.step in lesson.OF_NAME else None
 
 
 class Counter:
-    """Through which a page asks the DESK: one thing at a time, and told what comes of it on its session's thread."""
+    """A page's access to the DESK: one request at a time, with the results on its session's thread."""
 
     def __init__(self):
         document = pn.state.curdoc
@@ -48,7 +49,7 @@ class Counter:
             document.on_session_destroyed(lambda context: self.leave())
 
     def ask(self, work, done):
-        """Has done(result of work(Rooms)) called, or of a Refused or an Away; after what is asked already, of which
+        """Calls done() with the result of work(Rooms), or with a Refused or an Away; after earlier requests, of which
         there are a few at most."""
         if len(self._asked) < MOST_ASKED:
             self._asked.append((work, done))
@@ -70,12 +71,12 @@ class Counter:
         DESK.ask(work, lambda result: self._post(lambda: answered(result)))
 
     def watch(self, code, done, votes=True):
-        """Has done called with what there is now and later, until leave()."""
+        """Calls done() with the present state of the room and with each later one, until leave()."""
         self.leave()
 
         def news(room):
             with pn.io.hold():
-                if self._end is end:  # else it is another room's, come late
+                if self._end is end:  # else it is late news of another room
                     done(room)
 
         end = DESK.watch(code, lambda room: self._post(lambda: news(room)), votes)
@@ -87,5 +88,5 @@ class Counter:
 
 
 def refusal(who, error):
-    """The sentence for a Refused or an Away. who: "vote", the teacher, or "student"."""
+    """The sentence for a Refused or an Away. who: "vote" for the teacher, or "student"."""
     return say(f"teach.{who}.{error if isinstance(error, Refused) else 'away'}")

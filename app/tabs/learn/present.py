@@ -1,4 +1,5 @@
-"""The teacher's side of a class: a room that asks the step which is on the big screen, and what this may show of it."""
+"""The teacher's side of a class: a room that asks the question of the step on the big screen, and what the screen may
+show of it."""
 
 from itertools import pairwise
 
@@ -17,7 +18,7 @@ BINS = 12
 
 
 def counts(step, votes):
-    """[what, how many]: of options by their keys, of numbers by the range."""
+    """[what, how many]: of the options by their keys, of numbers by intervals."""
     if isinstance(step.asks, Choice):
         return [[key, votes.count(key)] for key in step.asks.options]
     found, edges = np.histogram(votes, bins=BINS, range=(step.asks.low, step.asks.high))
@@ -27,10 +28,10 @@ def counts(step, votes):
 
 
 class Teacher:
-    """kept: whose `room` is the key of the room, or "", and whose `step` is on the screen; now: the present scene;
-    show: takes what the screen has of the room, a dict, {} where none is open.
+    """kept: its `room` is the key of the room, or "", its `step` the one on the screen; now: the present scene; show:
+    called with what the screen has of the room, a dict, {} if none is open.
 
-    What is wished is asked of the room one thing after the other, and the step that is on the screen by then.
+    Requests are passed to the room one after the other, each with the step that is on the screen by then.
     """
 
     def __init__(self, kept, now, show):
@@ -39,13 +40,13 @@ class Teacher:
         self.come_back()
 
     def come_back(self):
-        """To the room of the key that is kept, where that came with the address."""
+        """Returns to the room whose key came with the address."""
         key = self._kept.room
         if key and self._room is None and not self._busy:
             self._do(lambda rooms: rooms.owned(key))
 
     def present(self):
-        """Opens a room, unless one is."""
+        """Opens a room, unless one is open."""
         if self._room is None and not self._busy and not self._kept.room:
             question, address = self._question(), self._counter.address
 
@@ -62,14 +63,14 @@ class Teacher:
         self._wishes(lambda rooms: rooms.reset(self._kept.room))
 
     def close(self):
-        """Ends the class: its votes are forgotten."""
+        """Ends the class: its votes are deleted."""
         key = self._kept.room
         if key:
             self._forget("")
             self._counter.ask(lambda rooms: rooms.close(key), lambda result: None)
 
     def follow(self):
-        """The step on the screen may be another."""
+        """To be called when the step on the screen may have changed."""
         if self._room is not None and self._room.step != self._kept.step:
             self._wishes(None)
 
@@ -84,7 +85,7 @@ class Teacher:
             self._next()
 
     def _next(self):
-        """The step first, then what was wished of it."""
+        """Sends first the step, then the requests."""
         if self._room is not None and self._room.step != self._kept.step:
             question = self._question()
             self._do(lambda rooms: rooms.ask(self._kept.room, **question))
@@ -114,7 +115,7 @@ class Teacher:
         if self._kept_key:
             self._kept.room, self._kept_key = self._kept_key, ""
         if first and not new and room.step in lesson.OF_NAME:
-            self._kept.step = room.step  # the class goes on where it was
+            self._kept.step = room.step  # the class continues where it was
         if first:
             self._counter.watch(room.code, self._news)
         self._tell("")
@@ -134,7 +135,7 @@ class Teacher:
             self._show({"said": sentence} if sentence else {})
             return
         address = page_address() + link(**{VOTE: room.code})
-        # nobody sees how the others voted before the answer is shown
+        # nobody sees the votes of others before the answer is shown
         found = counts(lesson.OF_NAME[room.step], list(room.votes)) if room.shown else []
         self._show({
             "code": room.code, "address": address, "step": room.step, "shown": room.shown, "counts": found,
@@ -144,7 +145,7 @@ class Teacher:
         })  # fmt: skip
 
     def _forget(self, sentence):
-        """No room is open here any more, and why."""
+        """Drops the room, which no longer exists, and says why."""
         self._counter.leave()
         self._room, self._wish, self._kept.room = None, None, ""
         self._tell(sentence)

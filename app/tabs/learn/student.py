@@ -18,7 +18,7 @@ from app.widgets.failure import full, waits
 
 
 class Phone(Bundled):
-    """Knows this phone again after a reload, by a number that it keeps."""
+    """Recognizes this phone after a reload, by a number that it stores."""
 
     mark = param.String(default="", regex=rf"({MARK.pattern})?", doc="the number; the browser writes it")
 
@@ -31,7 +31,7 @@ class Ballot:
         self._room, self._mine, self._mark, self._made = None, None, "", ()
         self.phone = Phone(width=0, height=0, margin=0)
         self.lesson = LessonView(sizing_mode="stretch_width", margin=0, state={"role": "phone", "said": ""})
-        # what is held and sent together before the page says that it is there is lost
+        # changes that are held back and sent together before the page has loaded would be lost
         self.phone.param.watch(self._known, "mark")
         self.lesson.param.watch(asked.heard(self._heard), "asked")
         self._tell(say("teach.vote.wait"))
@@ -43,13 +43,14 @@ class Ballot:
                          css_classes=["learn"])  # fmt: skip
 
     def _known(self, event):
-        """By what the phone says first: a page that says something else later would vote as another."""
+        """Uses only the first identifier that the phone sends: a page that sends another one later would vote as
+        somebody else."""
         if not self._mark:
             self._mark = event.new
             pn.state.onload(self._come)
 
     def _come(self, again=True):
-        """Asks for the room, and for what this phone has voted there."""
+        """Asks for the room, and for this phone's vote there."""
         code, mark, address = self._code, self._mark, self._counter.address
 
         def done(result):
@@ -71,7 +72,7 @@ class Ballot:
             self._tell(say("teach.student.closed"))
         elif self._room is None or room.step != self._room.step or (room.phones == 0 and self._room.phones):
             self._room = room
-            self._come(again=False)  # what this phone has said of that one; a new class: it comes anew
+            self._come(again=False)  # for its vote on that question; in a new class it joins again
         else:
             self._take(room)
 
@@ -105,7 +106,7 @@ class Ballot:
                              "said": sentence, "again": again, "alone": link(tab="learn")}  # fmt: skip
 
     def _heard(self, event):
-        """A wish of the browser."""
+        """A request from the browser."""
         _, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
         if name == "vote" and self._room is not None:
             self._vote(value)
@@ -126,7 +127,7 @@ class Ballot:
 
 
 def student_page(code):
-    """The page behind a student's link."""
+    """The page that a student's link opens."""
     document = pn.state.curdoc
     runs = Runs(to_session(document), connected_to(document), waits, full)
     document.on_session_destroyed(lambda context: runs.leave())

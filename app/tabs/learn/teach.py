@@ -1,4 +1,4 @@
-"""For teachers: a class, links, plans, what goes wrong, the Olympiad's problem, and the toy."""
+"""For teachers: a class, links, plans, common errors, the Olympiad's problem, and the toy."""
 
 import re
 
@@ -22,7 +22,7 @@ def bullets(items, ordered=False):
 
 
 def class_view(present, close):
-    """What begins a class, and what ends it."""
+    """The buttons that begin and end a class."""
     buttons = [pmui.Button(label=say(f"teach.vote.{name}"), variant=variant, size="small", sx=PLAIN)
                for name, variant in (("present", "contained"), ("close", "outlined"))]  # fmt: skip
     for button, does in zip(buttons, (present, close), strict=True):
@@ -42,7 +42,7 @@ def teach_view(present, close):
     )
 
     def tall(*cards):
-        # its own height: a phone's page is lower than these cards, and the next column would lie over them
+        # its own height: these cards are higher than a phone's page, and the next column would cover them
         styles = {"gap": "12px", "height": "max-content", "max-height": "none"}
         return pn.Column(*cards, sizing_mode="stretch_width", margin=0, styles=styles)
 
@@ -79,6 +79,6 @@ def history_view():
 
 
 def listed_all(name):
-    """By year, the first that a source names."""
+    """The sources, sorted by the first year that each one names."""
     year = re.compile(r"(18|19|20)\d\d")
     return sorted(listed(name).values(), key=lambda source: year.search(source["short"] + source["full"]).group())

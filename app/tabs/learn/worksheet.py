@@ -1,10 +1,10 @@
-"""A worksheet for a class, one page of A4, as a page of its own that a browser prints."""
+"""A worksheet for a class, one page of A4, as a separate page that a browser prints."""
 
 from html import escape
 
 from app.text import listed, say, spoken
 
-WHY = {"height": ("why",), "arms": ("why",)}  # what asks for a reason too
+WHY = {"height": ("why",), "arms": ("why",)}  # questions that also ask for a reason
 STYLE = (
     "@page { size: A4; margin: 12mm } body { font: 10pt/1.3 sans-serif; color: #000;"
     " background: #fff; max-width: 182mm; margin: 0 auto; padding: 0 } h1 { font-size: 17pt; margin: 0 }"
