@@ -39,7 +39,7 @@ def inlined(path):
 class Bundled(Direct):
     """A component whose JavaScript is in the bundle; a common base class, so that a page loads the bundle once."""
 
-    texts = param.Dict(default={}, constant=True, doc="What it says by itself: under SAYS in browser.toml.")
+    texts = param.Dict(default={}, constant=True, doc="Its own words: under SAYS in browser.toml.")
     SAYS = ()  # tables of words that it needs in addition to that of its own name
     REGIMES = ""  # a table of regimes.toml, which it gets as `regimes`
     _last = None

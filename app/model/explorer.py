@@ -28,7 +28,7 @@ class Explorer(Start):
         default=True, objects=[True, False, PAPER], doc="which part of the (K_J, theta) plane is shown: region.Upper"
     )
     limit: param.Selector[str] = param.Selector(
-        default="lift-off", objects=["lift-off", "slip"], doc="which limit Fig. 5 is drawn at"
+        default="lift-off", objects=["lift-off", "slip"], doc="the limit for which Fig. 5 is drawn"
     )
     # __init__ makes the first one
     scene: param.ClassSelector[Scene] = param.ClassSelector(  # type: ignore[assignment]

@@ -1,4 +1,4 @@
-"""How the rolling top is played and looked at: what of it stands in a link, whoever draws it."""
+"""How the rolling top is played and viewed: what a link stores of it, whichever view shows it."""
 
 from functools import partial
 
@@ -6,19 +6,19 @@ import param
 
 
 class Playing(param.Parameterized):
-    """What a person chose. A picture goes with it both ways: together(playing, picture)."""
+    """The playback settings. together(playing, picture) keeps those of a picture and these equal."""
 
-    time = param.Number(default=0.0, doc="where it stands, in (R/g)^1/2, as of the last that a person moved it")
+    time = param.Number(default=0.0, doc="its time, in (R/g)^1/2, when it was last set by hand")
     playing = param.Boolean(default=True, doc="whether it plays")
-    speed = param.Number(default=1 / 16, bounds=(0, None), doc="1 is the real top's own")
-    camera = param.List(default=[], doc="azimuth, height and distance of a view that was chosen; empty: the first")
+    speed = param.Number(default=1 / 16, bounds=(0, None), doc="1 is that of the real top")
+    camera = param.List(default=[], doc="azimuth, height and distance of the chosen view; empty: the first one")
     show_track = param.Boolean(default=True)
     show_com_path = param.Boolean(default=True)
     show_force = param.Boolean(default=True)
     show_cone = param.Boolean(default=True)
     show_omega = param.Boolean(default=True)
     show_momentum = param.Boolean(default=True)
-    follow = param.Boolean(default=True, doc="whether the camera goes along with the top")
+    follow = param.Boolean(default=True, doc="whether the camera follows the top")
 
     NAMES = ("time", "playing", "speed", "camera", "show_track", "show_com_path", "show_force", "show_cone",
              "show_omega", "show_momentum", "follow")  # fmt: skip
@@ -29,13 +29,13 @@ class Playing(param.Parameterized):
 
 
 def together(playing: Playing, picture: param.Parameterized, names: tuple[str, ...] = Playing.NAMES) -> None:
-    """From now on a picture that has these parameters goes with a Playing, and the Playing with it."""
+    """From now on keeps the parameters of a picture and of a Playing equal, in both directions."""
     picture.param.update(**{name: getattr(playing, name) for name in names})
     for one, other in ((playing, picture), (picture, playing)):
         one.param.watch(partial(_pass_on, other), list(names))
 
 
 def _pass_on(other: param.Parameterized, *events: param.parameterized.Event) -> None:
-    # not what came from there: two lists with a nan in them are never equal
+    # not the values that came from there, because lists with a nan never compare equal
     new = {event.name: event.new for event in events if getattr(other, event.name) is not event.new}
     other.param.update(**new)

@@ -1,7 +1,7 @@
-"""What a top does at a moment, or would do were its table no rougher than it is. A motion's frames hold the codes.
+"""What a top does at a moment, or would do if the table were no rougher. The frames of a motion contain the codes.
 
-regimes.json is the one list, which frontend/src/regimes.js reads too: a code is a place in it, a colour a name in
-colours.json. What is said of a regime stands under its name in regimes.toml.
+regimes.json is the only list, which frontend/src/regimes.js reads too: a code is an index in it, a colour a name in
+colours.json. The words for a regime are under its name in regimes.toml.
 """
 
 import json
@@ -17,4 +17,4 @@ NAMES = tuple(regime["name"] for regime in _LIST)
 COLOUR = tuple(COLOURS[regime["colour"]] for regime in _LIST)
 """By their codes, the same in every picture."""
 OF_CORE = {regime["in_core"]: code for code, regime in enumerate(_LIST) if "in_core" in regime}
-"""{what a Trajectory calls it: its code}"""
+"""{name in a Trajectory: code}"""

@@ -29,9 +29,9 @@ SAY = 0.5  # s: visitors who wait longer are told their place in the queue, and 
 _NOW: ContextVar["Run | None"] = ContextVar("run", default=None)
 Piece: TypeAlias = Callable[[], None]
 Post: TypeAlias = Callable[[Piece], None]  # calls it on a session's own thread
-Place: TypeAlias = Callable[[int], None]  # told a place in a queue; 0: in none any more
-Result: TypeAlias = Any  # whatever a work returns, or the exception that it raised: who began it knows which
-Document: TypeAlias = Any  # Bokeh's, which is not known here
+Place: TypeAlias = Callable[[int], None]  # called with a place in a queue, or with 0 when it is left
+Result: TypeAlias = Any  # the result of some work, or its exception; whoever began the work knows its type
+Document: TypeAlias = Any  # Bokeh's, which is not imported here
 log = logging.getLogger("tippe")
 
 
@@ -62,12 +62,12 @@ class Pool:
     def __init__(self, threads: int, name: str, most: int = 400, begin: Piece | None = None) -> None:
         self.threads, self.most = threads, most
         self._executor = ThreadPoolExecutor(threads, thread_name_prefix=name, initializer=begin)
-        self._waiting: dict[Hashable, list[Piece]] = {}  # visitor -> his pieces that wait
+        self._waiting: dict[Hashable, list[Piece]] = {}  # visitor -> waiting pieces
         self._working: Counter[Hashable] = Counter()  # how many are under way
-        self._since: dict[Piece, float] = {}  # of those that wait
-        self.turns, self.waited = 0, 0.0  # how many were begun, and s that these waited
-        self._places: dict[Hashable, Place] = {}  # visitor who waits -> what tells him his place
-        self._told: dict[Hashable, int] = {}  # those who know it
+        self._since: dict[Piece, float] = {}  # when each waiting piece was added
+        self.turns, self.waited = 0, 0.0  # how many pieces were begun, and s that these had waited
+        self._places: dict[Hashable, Place] = {}  # visitor who waits -> the function to tell the place
+        self._told: dict[Hashable, int] = {}  # the place that was told last
         self._telling = False  # whether _tell() is to be called
         self._changing = threading.Lock()
 
@@ -137,7 +137,7 @@ class Pool:
             self._put_last(visitor, later)
             self.turns, self.waited = self.turns + 1, self.waited + time.monotonic() - self._since.pop(piece)
             self._working[visitor] += 1
-            with suppress(RuntimeError):  # Python ends, and takes no more
+            with suppress(RuntimeError):  # Python is ending and accepts nothing more
                 self._executor.submit(self._do, visitor, piece).add_done_callback(_logged)
 
     def _do(self, visitor: Hashable, piece: Piece) -> None:
@@ -157,10 +157,10 @@ class Pool:
             self._waiting[visitor] = waiting
 
 
-# Who asks while all are busy waits, and sees that nothing is done yet.
+# With all threads busy a visitor waits, and sees that nothing is computed yet.
 WORK = Pool(max(2, min(cores() + 1, 4)), "run")
 FILES = Pool(1, "file", 100)  # matplotlib draws one figure at a time
-# Each piece of a map takes all cores, and some seconds, so that more at a time would only all be later.
+# Each piece of a map takes all cores for some seconds; with more threads all maps would only be later.
 MAPS = Pool(2, "map", 40, stand_back)
 
 
@@ -286,7 +286,7 @@ class Runs:
                 with speaking(language):
                     result = run.result()
             finally:
-                _NOW.reset(now)  # else the thread would keep the page
+                _NOW.reset(now)  # otherwise the thread would keep the page alive
             tell(result)
 
         def drop() -> None:

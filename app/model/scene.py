@@ -48,15 +48,14 @@ LEAST_INERTIA = 1e-12
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Scene:
-    """Everything that the views show. Trajectory arrays have one row for each frame; vectors are in axes fixed in
+    """Everything that the views show. Trajectory arrays have one row for each frame; vectors are along axes fixed in
     space.
 
-    ratio is F_h/F_z; regime a code a frame, of regimes.py; upright_spin omega_3 at theta = 0; profile (k, 2) the
-    radius of the body drawn and its height above O along axis 3; shape the body, None where a, I1, I3 were set apart
-    from it, and then scales are still its R and M. lost: the energy that the rough table took when it gripped. inputs:
-    all that was asked for, by the names of the Explorer. messages: a sentence for each control that was given what
-    cannot be; the rest of the scene, but for the inputs, is then the last good one. notes: sentences about what is
-    shown.
+    ratio is F_h/F_z; regime, for each frame, a code of regimes.py; upright_spin, omega_3 at theta = 0; profile (k, 2),
+    the radius of the body that is drawn and its height above O along axis 3; shape, the body, None if a, I1, I3 were
+    set independently of it (scales are then still its R and M). lost: the energy that the grip of the rough table has
+    taken. inputs: those of the Explorer, by name. messages: a sentence for each control whose value was refused;
+    everything but the inputs is then that of the last valid Scene. notes: sentences about what is shown.
     """
 
     top: Top
@@ -95,8 +94,8 @@ class Scene:
 
     @property
     def drift(self) -> float:
-        """By how much K_J, K_R and E, each computed from the motion, differ between two frames at most: of their size
-        where that is more than 1."""
+        """The largest difference of K_J, K_R or E, each computed from the motion, between two frames; relative if the
+        value is larger than 1."""
         return float(max(np.ptp(each) / max(1, np.abs(each).max()) for each in (self.K_J, self.K_R, self.E)))
 
     # Quantities that not every picture shows are computed when first needed.
@@ -164,10 +163,10 @@ def solve(
     state: State | None = None,
     let_go: State | None = None,
 ) -> Scene:
-    """The Scene of one top and one motion; shape: the body, appendix A's where none is given.
+    """The Scene of one top and one motion; shape: the body, by default that of appendix A.
 
-    E, where given, is the energy, whatever the share; state, where given, the motion at t = 0, whatever the constants;
-    let_go, where given, what the rough table grips at t = 0. Raises TopError, whose name is the input at fault.
+    E, if given, is the energy, instead of share; state, if given, the motion at t = 0, instead of the constants;
+    let_go, if given, the State that the rough table grips at t = 0. Raises TopError, whose name is the input at fault.
     """
     shape, lost = shape or TruncatedSphere.paper(), 0.0
     if let_go is not None:
@@ -229,7 +228,7 @@ def _scene(
     turning: tuple[float, float],
     trajectory: Trajectory,
 ) -> Scene:
-    """The Scene of what was solved, with everything that is shown."""
+    """The Scene of a solution, with everything that is shown."""
     top, shape, mu_s = rolling.top, asked["shape"], asked["mu_s"]
     drawn = shape if fits(shape, top) else None
     F_x, F_y, F_z = trajectory.force.T

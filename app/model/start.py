@@ -20,7 +20,7 @@ from tippe_core.paper.equations import rolling_velocity
 
 TABLES = ("ordinary", "rough", "ice", "three")
 PLANE = MappingProxyType({"ordinary": "sliding", "rough": "rough", "ice": "smooth", "three": "compare"})
-"""{table: what the three planes call it}."""
+"""{table: its name in the three planes}."""
 
 
 class Start(param.Parameterized):
@@ -31,11 +31,11 @@ class Start(param.Parameterized):
         class_=Shape, default=TruncatedSphere.paper(), allow_None=False, doc="the body; a, I1, I3 are set with it"
     )
     a = param.Number(0.070, doc="distance of G below the centre O of the sphere, in R")
-    I1 = param.Number(0.399, doc="moment of inertia about an axis through G across the axis of symmetry, in MR^2")
+    I1 = param.Number(0.399, doc="moment of inertia about an axis through G perpendicular to axis 3, in MR^2")
     I3 = param.Number(0.408, doc="moment of inertia about the axis of symmetry, in MR^2")
     # its motion
     given: param.Selector[str] = param.Selector(
-        default="share", objects=["share", "E", "state", "hand"], doc="which of GIVEN holds"
+        default="share", objects=["share", "E", "state", "hand"], doc="which set of GIVEN determines the motion"
     )
     K_J = param.Number(7.0, doc="Jellett's constant, in (g/R)^1/2")
     K_R = param.Number(10.0, doc="Routh's constant, in (MR^2)^1/2 (g/R)^1/2")
@@ -46,26 +46,28 @@ class Start(param.Parameterized):
     omega2 = param.Number(0.0, doc="the angular velocity about 2' at t = 0, in (g/R)^1/2")
     omega3 = param.Number(0.0, doc="the angular velocity about the axis of symmetry at t = 0, in (g/R)^1/2")
     phi = param.Number(0.0, doc="the azimuth of 1' at t = 0, in rad")
-    psi = param.Number(0.0, doc="the turn about the axis of symmetry at t = 0, in rad")
-    spin = param.Number(20.0, doc="about its axis as a hand lets it go, rev/s")
-    tilt = param.Number(10.0, doc="as a hand lets it go, degrees")
-    slip = param.Number(1.0, doc="as a hand lets it go, of what it is with G at rest")
+    psi = param.Number(0.0, doc="the angle of rotation about the axis of symmetry at t = 0, in rad")
+    spin = param.Number(20.0, doc="of a start by hand, about its axis, rev/s")
+    tilt = param.Number(10.0, doc="of a start by hand, degrees")
+    slip = param.Number(1.0, doc="of a start by hand, relative to that with G at rest")
     # its table
-    table: param.Selector[str] = param.Selector(default="ordinary", objects=list(TABLES), doc="on what it is watched")
+    table: param.Selector[str] = param.Selector(
+        default="ordinary", objects=list(TABLES), doc="the table on which it is watched"
+    )
     mu_s = param.Number(0.5, doc="coefficient of static friction")
     mu = param.Number(0.3, doc="coefficient of sliding friction")
     law: param.Selector[str] = param.Selector(
-        default="smoothed", objects=list(LAWS), doc="the law of friction of the ordinary table"
+        default="smoothed", objects=list(LAWS), doc="the friction law of the ordinary table"
     )
-    gamma = param.Number(0.3, doc="viscous friction, in (gR)^-1/2")
-    eps = param.Number(0.1, doc="slip at which smoothed friction is 0.7 of its full size, in (gR)^1/2")
+    gamma = param.Number(0.3, doc="coefficient of viscous friction, in (gR)^-1/2")
+    eps = param.Number(0.1, doc="slip at which smoothed friction is 0.7 of its limit, in (gR)^1/2")
     patch = param.Number(PATCH, doc="radius of the patch of a real contact, mm")
     # a run on it
     landing: param.Selector[str] = param.Selector(
-        default="plastic", objects=["stop", "plastic"], doc="what follows where it lifts off"
+        default="plastic", objects=["stop", "plastic"], doc="what happens after it lifts off"
     )
     stem = param.Boolean(True, doc="whether the stem can touch the table")
-    seconds = param.Number(5.0, doc="how long a time is computed, s of the real top")
+    seconds = param.Number(5.0, doc="the computed time, s of the real top")
 
     GIVEN = MappingProxyType(
         {
@@ -83,7 +85,7 @@ class Start(param.Parameterized):
         return {name: getattr(self, name) for name in names}
 
     def later(self, **inputs: Any) -> None:
-        """Takes inputs, as `param.update` does."""
+        """Sets inputs, like `param.update`."""
         self.param.update(**inputs)
 
     @property
@@ -91,7 +93,7 @@ class Start(param.Parameterized):
         """The body's name in TOYS; otherwise the body itself, or a sphere with these a, I1 and I3."""
         try:
             top = Top(self.a, self.I1, self.I3)
-        except TopError:  # said at the control that was given it
+        except TopError:  # reported at the control that caused it
             top = self.shape.top
         toy = toy_of(self.shape, top)
         if isinstance(toy, str) or fits(self.shape, top):
@@ -126,7 +128,7 @@ def of_toy(toy: Toy) -> dict[str, Any]:
 
 
 def arrives() -> dict[str, Any]:
-    """{input of a Start: value} for what is shown on arrival, where it differs from the default."""
+    """{input of a Start: value} of the arrival, where it differs from the default."""
     return of_toy(arrival.TOY) | {
         "given": "hand", "spin": arrival.SPIN, "tilt": arrival.TILT, "mu": arrival.MU, "law": "contact",
     }  # fmt: skip

@@ -1,7 +1,7 @@
-"""What a motion on a table did, read from itself: marks in time, and what is said at each stage of it.
+"""What a motion on a table did, determined from the motion itself: marks in time, and the words for each stage.
 
-Marks are found in the tilt, in what carried the top and in how its run ended, for any toy and start; the words for them
-are in text/<language>/lab.toml.
+Marks are found in the tilt, in what carried the top and in how its run ended, for any toy and start; their words are in
+text/<language>/lab.toml.
 """
 
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ from app.model.regimes import WOULD_LIFT
 from app.text import listed, say
 from tippe_core.types import Array, Number
 
-ON_ITS_SIDE, STANDS = 90.0, 170.0  # degrees: past the first it is over, past the second it stands
-UPRIGHT, LEANS = 10.0, 20.0  # degrees: below the first it is upright, from the second on it leans
-NODS = 10.0  # degrees: swings by less are nodding
-WHILE, PASSING = 0.2, 0.1  # s: what lasts is longer; a stand that is left for less goes on
+ON_ITS_SIDE, STANDS = 90.0, 170.0  # degrees: past the first it has turned over, past the second it stands
+UPRIGHT, LEANS = 10.0, 20.0  # degrees: below the first it is upright, above the second it leans
+NODS = 10.0  # degrees: smaller oscillations are called nodding
+WHILE, PASSING = 0.2, 0.1  # s: what lasts is longer; an interruption of a stand may be this long
 HOP = 0.05  # s: a shorter flight is not seen
-AT_ONCE = 0.05  # s: what is so from so early on, it began with
-AT_REST = 1e-6  # MgR: with less energy of motion it lies
-LEAST_SPIN = 0.5  # rev/s, of what is called spinning
+AT_ONCE = 0.05  # s: what has begun by then was so from the beginning
+AT_REST = 1e-6  # MgR: with less kinetic energy it lies still
+LEAST_SPIN = 0.5  # rev/s: less is not called spinning
 TENTH = (0.05, 0.15)  # degrees
 UNSTAGED = ("flies",)
 
@@ -35,7 +35,7 @@ COME_FROM = (
     "falls",
     "off",
     "back",
-)  # with more to come, had the run gone on
+)  # after these another event would have followed, had the run gone on
 SPINS_ON = ("stands", "stays", "inverted", "leans")
 
 
@@ -47,7 +47,7 @@ class Mark(NamedTuple):
 
 
 class Event(NamedTuple):
-    """A Mark in words, whole and short."""
+    """A Mark in words, full and short."""
 
     t: float
     code: str
@@ -56,7 +56,7 @@ class Event(NamedTuple):
 
 
 class Stage(NamedTuple):
-    """What is said from t (s) on: a headline, why, and a word for the picture."""
+    """The words from t (s) on: a headline, the reason, and a word for the picture."""
 
     t: float
     headline: str
@@ -66,7 +66,7 @@ class Stage(NamedTuple):
 
 @dataclass(frozen=True)
 class Story:
-    """What a motion did. caption: a few words below it where it stands beside others; "" on the ordinary table, where
+    """What a motion did. caption: a few words below it when it is shown beside others; "" on the ordinary table, where
     that is the stage's short word."""
 
     events: tuple[Event, ...]
@@ -90,14 +90,14 @@ def story(motion: TableMotion) -> Story:
 
 
 def marks(motion: Watched) -> tuple[Mark, ...]:
-    """The marks of a motion in turn; at its very start only that it ends."""
+    """The marks of a motion, in order; at its very beginning only the one that it ends."""
     t, ended = motion.seconds, _ended(motion)
     found = [*_over(motion), *_touches(motion)]
     if motion.table == "ordinary":
         found += [*_stands(motion), *_settles(motion)]
     if ended:
         found = [mark for mark in found if mark.t <= ended.t] + [ended]
-    elif motion.ending and motion.rolls_since >= 0.0:  # what it passes while it rolls it passes again and again
+    elif motion.ending and motion.rolls_since >= 0.0:  # while rolling, it passes the same tilts again and again
         found = [mark for mark in found if mark.t < motion.rolls_since]
         lies = motion.trajectory.ledger.kinetic[-1] < AT_REST
         found.append(Mark(motion.rolls_since, "lies" if lies else "rolls"))
@@ -105,7 +105,7 @@ def marks(motion: Watched) -> tuple[Mark, ...]:
 
 
 def _over(motion: Watched) -> list[Mark]:
-    """It passes a right angle for the first time; or comes back for the last time, for good."""
+    """It passes a right angle for the first time, or comes back for the last time."""
     theta, times, a = motion.tilt, motion.crossings * motion.start.scales.time, motion.start.top.a
     found: list[Mark] = []
     if not a:  # a uniform ball has no heavy side
@@ -118,7 +118,8 @@ def _over(motion: Watched) -> list[Mark]:
 
 
 def _touches(motion: Watched) -> list[Mark]:
-    """The stem touches for the first time; the table is left for longer than a hop; the stem comes off it for good."""
+    """The stem touches for the first time; the top leaves the table for longer than a hop; the stem lifts off for the
+    last time."""
     scale, stretches = motion.start.scales.time, motion.ending.stretches if motion.ending else ()
     touch = next((each.start for each in stretches if each.on in ("stem", "both")), None)
     flight = next(
@@ -134,7 +135,7 @@ def _touches(motion: Watched) -> list[Mark]:
 
 
 def _stands(motion: Watched) -> list[Mark]:
-    """It comes to stand, past STANDS, for a while; and falls again."""
+    """It begins to stand, that is, stays above STANDS for a while; and falls again."""
     t, theta, found = motion.seconds, motion.tilt, list[Mark]()
     if not motion.start.top.a:
         return found
@@ -148,7 +149,7 @@ def _stands(motion: Watched) -> list[Mark]:
 
 
 def lasting(t: Array, theta: Array, level: float) -> list[tuple[float, float]]:
-    """From when to when theta is above a level: whiles longer than WHILE, over gaps shorter than PASSING."""
+    """The intervals in which theta is above a level: those longer than WHILE, ignoring gaps shorter than PASSING."""
     above = np.concatenate([[False], theta > level, [False]])
     starts, ends = np.flatnonzero(~above[:-1] & above[1:]), np.flatnonzero(above[:-1] & ~above[1:])
     spells: list[tuple[float, float]] = []
@@ -162,7 +163,7 @@ def lasting(t: Array, theta: Array, level: float) -> list[tuple[float, float]]:
 
 
 def _settles(motion: Watched) -> list[Mark]:
-    """It comes to lean at a tilt that it keeps, or upright."""
+    """It comes to rest at a tilt, or upright."""
     t, theta = motion.seconds, motion.tilt
     last = theta[-1]
     away = np.flatnonzero(np.abs(theta - last) > (NODS / 2 if last < UPRIGHT else NODS))
@@ -173,14 +174,14 @@ def _settles(motion: Watched) -> list[Mark]:
 
 
 def _ended(motion: Watched) -> Mark | None:
-    """What ended it before its time."""
+    """What ended it early."""
     if not motion.ended or len(motion.trajectory.t) == len(motion.t):
         return None
     time = motion.trajectory.events[-1][0] * motion.start.scales.time
     return Mark(time, "flat" if motion.ended == "stands upright" else "ends")
 
 
-# ---- what is said ----
+# ---- the words ----
 
 
 class _Ordinary:
@@ -192,7 +193,7 @@ class _Ordinary:
         staged = [mark for mark in found if mark.code not in UNSTAGED and (mark.code != "stem" or mark.t < rests)]
         first = staged[0] if staged and staged[0].t <= 0.0 else Mark(0.0, self._first(staged))
         all_marks = [first, *(mark for mark in staged if mark is not first)]
-        # what is over before it can be read says nothing, but what comes at last does
+        # a stage that is too short to be read is skipped, but not the last one
         self.marks = [mark for mark, after in pairwise(all_marks) if after.t - mark.t > WHILE or mark is first]
         self.marks += all_marks[-1:] if len(all_marks) > 1 else [first]
 
@@ -228,7 +229,7 @@ class _Ordinary:
         code = "circles" if steady else mark.code
         why = say(f"lab.stages.{code}.why", **numbers)
         if mark.code in ("stands", "inverted") and not any(each.code == "over" for each in self.marks):
-            why = ""  # nothing turned it over: so it was put down
+            why = ""  # nothing turned it over, so it was put down that way
         if then:
             why += " " + say(f"lab.next.{then.code}", **self._numbers(then))
         elif mark.code in SPINS_ON and abs(numbers["last"]) >= LEAST_SPIN:
@@ -243,7 +244,7 @@ class _Ordinary:
         return Stage(mark.t, say(f"lab.stages.{code}.headline", **numbers), why.strip(), short[:1].upper() + short[1:])
 
     def _numbers(self, mark: Mark) -> dict[str, Number]:
-        """All numbers that the words of a mark may have."""
+        """All numbers that the words of a mark may quote."""
         motion = self.motion
         t, theta, curves = motion.seconds, motion.tilt, motion.curves
         at = min(int(np.searchsorted(curves[:, 0], mark.t)), len(curves) - 1)

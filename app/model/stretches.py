@@ -1,7 +1,7 @@
-"""A motion in stretches, each with its vectors in space and their time derivatives, and the motions that are looked at.
+"""A motion in intervals, each with its vectors in space and their time derivatives, and the motions of the derivation.
 
-Derivatives are those of the polynomial through the motion's own poses at 48 times (barycentric, in the longest float),
-the angular velocity that of its quaternions.
+Derivatives are those of the polynomial through the motion's own poses at 48 times (barycentric, with the longest
+float); the angular velocity is that of its quaternions.
 """
 
 from collections.abc import Callable, Iterator
@@ -24,12 +24,12 @@ from tippe_core import (
 from tippe_core.types import Array, Complex, Number
 
 LONG = np.longdouble
-Long: TypeAlias = NDArray[np.floating]  # of long floats, or where these are not needed of floats
+Long: TypeAlias = NDArray[np.floating]  # arrays of the longest float, or of floats where that is enough
 Of = TypeVar("Of")
-Run: TypeAlias = Callable[[Array], Trajectory]  # of times
-NODES, EDGE = 48, 8  # of each window; next to its ends a derivative is mostly the rounding of its samples
-TURN = 6.0  # rad in a window: so much its polynomial follows
-RESOLVED = 1e-12  # of the largest: below it the last Chebyshev coefficients of a window are rounding
+Run: TypeAlias = Callable[[Array], Trajectory]  # a function of times
+NODES, EDGE = 48, 8  # of each window; near its ends a derivative is mostly rounding error
+TURN = 6.0  # rad in a window: as much as its polynomial can follow
+RESOLVED = 1e-12  # relative to the largest: smaller last Chebyshev coefficients of a window are rounding errors
 MOST_WINDOWS, NARROWEST = 48, 1e-5
 STEP = 1e-20  # in the imaginary direction, where nothing cancels
 Z = np.array([0.0, 0.0, 1.0])
@@ -56,10 +56,11 @@ def column(x: Long) -> Long:
 
 
 class Window:
-    """A stretch of a motion: its vectors in space, a row a time, and d(x), the time derivative of any of it.
+    """An interval of a motion: its vectors in space, one row for each time, and d(x), the time derivative of any of
+    them.
 
-    Names are the paper's: r, v, L, F, omega; omega and axis by differentiating the quaternions returned, w1, w2, w3 and
-    L as the motion says. e1, e2, axis are the unit vectors 1', 2', 3; y = z x 1'.
+    The names are the paper's: r, v, L, F, omega. omega and axis come from differentiating the quaternions, w1, w2, w3
+    and L from the motion. e1, e2, axis are the unit vectors 1', 2', 3; y = z x 1'.
     """
 
     def __init__(self, top: Top, motion: Trajectory, constants: Constants, state: State) -> None:
@@ -97,7 +98,7 @@ class Window:
         """Components along 1', y, z."""
         return np.column_stack([dot(x, self.e1), dot(x, self.y), x[:, 2]])
 
-    # ---- what several lines need ----
+    # ---- what several equations need ----
 
     @cached_property
     def L_dot(self) -> Long:
@@ -115,7 +116,7 @@ class Window:
     def r_dot(self) -> Long:
         return self.d(self.r)
 
-    # theta itself turns sharply next to a pole, cos(theta) does not.
+    # theta itself changes abruptly near a pole, cos(theta) does not
 
     @cached_property
     def theta_dot(self) -> Long:
@@ -147,7 +148,7 @@ class Window:
         return dot(self.omega, e)
 
     def of(self, function: Callable[[Array, Top, Constants], Of]) -> Of:
-        """f, omega2, ... of tippe_core at these tilts, by the constants alone."""
+        """f, omega2, ... of tippe_core at these tilts, from the constants alone."""
         return function(self.theta, self.top, self.constants)
 
     @property
@@ -179,12 +180,13 @@ class Window:
 
     @cached_property
     def Lz_pointed(self) -> Long:
-        """L_z by (13) as R -> 0, less its value at the first of these tilts."""
+        """L_z by (13) as R -> 0, minus its value at the first of these tilts."""
         return self.a * (self.L3_slope - self.L3_slope[0])
 
 
 def resolved(motion: Trajectory) -> bool:
-    """Whether the polynomial through a window's samples has ended: its last Chebyshev coefficients are rounding."""
+    """Whether the polynomial through the samples of a window has converged: its last Chebyshev coefficients are
+    rounding errors."""
     samples = np.column_stack([motion.quaternion, motion.omega[:, 2], motion.com])
     size = np.abs(dct(samples, type=1, axis=0)) / np.maximum(1, np.abs(samples).max(axis=0))
     return size[-6:].max() < RESOLVED
@@ -217,7 +219,7 @@ def glided(scene: Scene) -> list[Window]:
 
 
 def _from_zero(series: Rolling | Gliding) -> Run:
-    """A Rolling or Gliding as a function of the time since its start: called, it starts at the first of its times."""
+    """A Rolling or Gliding as a function of the time since its start; the first of the given times is its start."""
 
     def run(times: Array) -> Trajectory:
         motion = series(np.concatenate([[0.0], times]))

@@ -18,7 +18,7 @@ from app.state.names import LANGUAGE
 PIECE = 64 * 1024  # bytes of a file
 HEADERS = {
     "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "same-origin",  # the address holds what a person set
+    "Referrer-Policy": "same-origin",  # the address contains the state of the page
     "Cross-Origin-Opener-Policy": "same-origin",
     "Permissions-Policy": "camera=(), geolocation=(), microphone=(), payment=(), usb=()",
 }
@@ -28,7 +28,7 @@ POLICY = (
     "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' ws://{host} wss://{host} blob: data:; "
     "worker-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames}"
 )
-# Where a page is not let in.
+# The sentences for pages that are not let in.
 SENTENCE = Path(__file__).with_name("sentence.html").read_text(encoding="utf-8")
 
 
@@ -75,7 +75,7 @@ class Component(Files, ComponentResourceHandler):
 
 
 class Handler(Answer, RequestHandler):
-    """Base of this project's few plain answers, none of which may be cached."""
+    """Base class of the few plain answers of this project, none of which may be cached."""
 
     def set_default_headers(self):
         super().set_default_headers()
@@ -113,7 +113,7 @@ class Root(Handler):
 
 
 def routes(application):
-    """All routes besides the page: of those of Bokeh and Panel only the static files."""
+    """All routes except the page; of those of Bokeh and Panel only the static files."""
     prefix = application.tippe.prefix
     files = [(pattern, type(handler.__name__, (Files, handler), {}), *more) for pattern, handler, *more
              in toplevel_patterns if issubclass(handler, StaticFileHandler)]  # fmt: skip

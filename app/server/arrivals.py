@@ -20,7 +20,7 @@ except ImportError:  # Windows, where connections are not counted with the files
 log = logging.getLogger("tippe")
 
 FILES = (65_536, 10_240, 4_096)  # limits to ask for; macOS allows 10,240 whatever it reports
-OTHERS = 64  # of them are not for connections, or a quarter where there are few
+OTHERS = 64  # of them are reserved for other things, or a quarter if there are few
 STALLED = 10.0  # s without a byte read, after which a connection may be closed to make room
 LOOK_AGAIN = 0.25  # s
 SAY_AGAIN = 60.0  # s

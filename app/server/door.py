@@ -13,8 +13,8 @@ LONGEST_WAIT = 0.25  # s, in addition to the cost of the message itself, so that
 
 
 class Turns:
-    """Lets things be made one at a time, in turn among the addresses that ask. pause: the time after each in which the
-    admitted visitors are served, as a multiple of what it took."""
+    """Lets things be created one at a time, in turn among the addresses that ask. pause: the time after each in which
+    the admitted visitors are served, as a multiple of the time that it took."""
 
     def __init__(self, pause):
         self._pause, self._waiting, self._busy = pause, OrderedDict(), False  # address -> deque of futures
@@ -54,7 +54,7 @@ class Door:
 
     def __init__(self, settings, context):
         self.settings, self._context = settings, context
-        self.sockets = set()  # that were let in
+        self.sockets = set()  # of pages that were let in
         self.making, self.pages = Turns(pause=0.25), Turns(pause=4)
         self.stopping, self.refused = False, Counter()  # why -> how often
 
@@ -83,7 +83,7 @@ class Door:
             return "stopping"
         if len(self.sessions) + self.making.waiting() >= self.settings.sessions:
             for session in self.sessions:
-                if not session.connection_count:  # his page has gone: Bokeh need not keep it in case he comes back
+                if not session.connection_count:  # its page has closed: Bokeh need not keep it for a reconnection
                     session.request_expiration()
             return "full"
         if sum(socket.address == address for socket in self.sockets) >= self.settings.sessions_per_address:
@@ -94,7 +94,7 @@ class Door:
 class Budget:
     """A session's share of the processor. A session over its share waits, and nothing is read from it meanwhile."""
 
-    _running = None  # the one whose work is being done; there is one thread
+    _running = None  # the one being charged now; there is only one thread
 
     def __init__(self):
         self.left, self.at, self.spent, self.told = SAVED, time.monotonic(), 0.0, False
@@ -153,7 +153,7 @@ class Budget:
 
 
 def budget(session):
-    """The one of a Bokeh session."""
+    """The Budget of a Bokeh session."""
     if not hasattr(session, "budget"):
         session.budget = Budget()
     return session.budget

@@ -17,7 +17,7 @@ from app.model.build.builder import LARGEST_FILE
 MOST_EVENTS, MOST_PARTS, DEEPEST = 100, 10_000, 16
 KINDS = {"PATCH-DOC", "PULL-DOC-REQ"}  # a browser never pushes a document
 
-LARGEST = 1e15  # number; a whole one keeps its last digit as far
+LARGEST = 1e15  # number; up to it integers are exact
 LONGEST = 16 * 1024  # letters; the longest address of a page is 12,000
 MOST = 1_000  # entries of a list
 
@@ -122,7 +122,7 @@ TYPED = Value("text as long as its field takes", lambda value, of: text(of.max_l
 ON_SLIDER = Value("a number on the slider", lambda value, of: _is_number(value, of.start, of.end))
 
 
-# --- who may be told what
+# --- what each part may be sent
 
 
 SIZES = {name: NUMBER for name in ("inner_width", "inner_height", "outer_width", "outer_height")}
@@ -220,7 +220,7 @@ MESSAGES = {
 }
 
 
-# --- the looking
+# --- the check
 
 
 def look_at(message, document):

@@ -26,7 +26,7 @@ SCRIPT = inlined(Path(__file__).with_name("waiting.js"))
 class Sheet:
     """The HTML of the page, generated once in each language; what differs between visitors is inserted."""
 
-    TOKEN, NONCE = secrets.token_hex(), secrets.token_hex()  # stand in for them
+    TOKEN, NONCE = secrets.token_hex(), secrets.token_hex()  # placeholders for those of a visitor
 
     def __init__(self, session, resources):
         document = session.document

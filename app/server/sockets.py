@@ -29,9 +29,9 @@ log = logging.getLogger("tippe")
 
 LARGEST_FRAGMENT = 256 * 1024  # bytes
 MOST_FRAGMENTS = 5  # of one message: header, metadata, content, and one buffer with a header
-EACH_MESSAGE, WHOLE_PAGE = 0.002, 0.08  # s: what a message costs at least, and one that asks for the whole page
+EACH_MESSAGE, WHOLE_PAGE = 0.002, 0.08  # s: the least cost of a message, and of one that asks for the whole page
 
-SOCKETS = 3  # of one session: its page's, and what is left of one that was lost
+SOCKETS = 3  # of one session: that of its page, and remains of lost ones
 
 
 def ours(error):
@@ -62,7 +62,7 @@ def prepare(document):
 
 
 class Socket(Answer, WSHandler):
-    """Bokeh's handler, with a limit wherever a browser could take more than its share."""
+    """Bokeh's handler, with a limit for everything of which a browser could take more than its share."""
 
     token, fragments, refused = "", 0, False  # fragments: of the message that is coming in
 
@@ -86,7 +86,7 @@ class Socket(Answer, WSHandler):
         return super().select_subprotocol(subprotocols)
 
     def open(self):
-        IOLoop.current().add_callback(self._let_in)  # what comes meanwhile is read, so that it is seen who leaves
+        IOLoop.current().add_callback(self._let_in)  # reads meanwhile, so as to notice a visitor who leaves
 
     async def _let_in(self):
         try:

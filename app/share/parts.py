@@ -9,20 +9,22 @@ class Address(Bundled):
     """The page's own address and keys: sets its query to `search` without adding to the browser's history, and tells
     whether a hand is down and which gesture it makes."""
 
-    search = param.String(default="", doc="what follows the path; written to the address bar")
+    search = param.String(default="", doc="the part after the path; written to the address bar")
     page = param.String(default="", doc="the address without it, prefix included; the browser writes it")
-    held = param.Boolean(default=False, doc="whether a hand is down; the browser writes it, like all below")
-    gesture = param.Integer(default=0, doc="how many times a hand came down")
+    held = param.Boolean(
+        default=False, doc="whether a mouse button or finger is down; the browser writes it, like all below"
+    )
+    gesture = param.Integer(default=0, doc="how often that happened")
     undone = param.Integer(default=0, doc="how often Ctrl+Z was pressed")
     redone = param.Integer(default=0, doc="how often Ctrl+Shift+Z or Ctrl+Y was pressed")
-    reloads = param.Integer(default=0, doc="one more: the page is loaded anew, from its address")
+    reloads = param.Integer(default=0, doc="when it grows, the page is reloaded from its address")
 
 
 class ShareHead(Bundled):
     """The link, a button that copies it, and its QR code, which can fill the screen."""
 
     link = param.String(default="", doc="the address of what is shown")
-    picture = param.String(default="", doc="its QR code as an SVG; none where it is too long for one")
+    picture = param.String(default="", doc="its QR code as an SVG; empty if the link is too long")
     said = param.List(default=[], doc="sentences about it")
     opened = param.Integer(default=0, doc="how often it was opened")
     closed = param.Integer(default=0, doc="how often it was closed; the browser writes it")
@@ -40,7 +42,7 @@ class Photo(Bundled):
 
     caption = param.List(default=[], doc="lines of plain text")
     wide = param.Integer(default=2400, doc="of the picture, in px")
-    none = param.String(default="", doc="what is said where no top is in sight")
+    none = param.String(default="", doc="the words if no top is in sight")
 
 
 class Clock(param.Parameterized):

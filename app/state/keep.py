@@ -129,11 +129,11 @@ class Keep(param.Parameterized):
     a query to those that are needed.
     """
 
-    query = param.String(default="", doc="the state, from the question mark on; empty where all is the default")
+    query = param.String(default="", doc="the state, from the question mark on; empty if all of it is the default")
     can_undo = param.Boolean(default=False, doc="whether there is a step back")
     can_redo = param.Boolean(default=False, doc="whether there is a step forward")
-    sentence = param.String(default="", doc="what was wrong with the link, until something is changed")
-    changed = param.Event(doc="something that is kept was set; a hand may still be at it")
+    sentence = param.String(default="", doc="the errors in the link, until something is changed")
+    changed = param.Event(doc="a stored parameter was set; the gesture may still go on")
 
     def __init__(self, texts=None, sentence="", allowed=lambda: True, shortest=lambda texts: texts):
         super().__init__(sentence=sentence)

@@ -1,8 +1,9 @@
-"""All the words of the page, a folder a language: say("learn.free.title") is `title` under [free] in learn.toml.
+"""All the words of the page, one folder for each language: say("learn.free.title") is `title` under [free] in
+learn.toml.
 
-Words are HTML; a number stands in them as {name:.2f} and is written as the language has it, on the page; in files that
-are saved it has a decimal point in every language. English is complete by definition, and the tests compare every other
-language with it.
+Words are HTML, and {name:.2f} stands for a number, which the page writes in the notation of its language; saved files
+have a decimal point in every language. English is complete by definition, and the tests compare every other language
+with it.
 """
 
 import re
@@ -27,16 +28,16 @@ CODES = {
     "body-below-table": "a tilt at which another part is",
     "too-few-values": "fewer measured values than the numbers that are fitted need",
 }
-"""{code: what is wrong}: those of the page itself, beside tippe_core.errors.CODES."""
-Found: TypeAlias = Any  # what stands under a key: words, a list of them, or a table
+"""{code: what is wrong} for errors of the page itself; the others are in tippe_core.errors.CODES."""
+Found: TypeAlias = Any  # what a key leads to: words, a list of them, or a table
 
 
 MARKS = {"en": str.maketrans("-", "−"), "de": str.maketrans("-.,", "−,\N{NARROW NO-BREAK SPACE}")}
-"""{language: what it writes for the sign, the point and the groups of three}."""
+"""{language: its minus sign, decimal point and thousands separator}."""
 
 
 def decimal_point() -> str:
-    """What the page's language writes for it."""
+    """The decimal point of the page's language."""
     return ".".translate(MARKS[spoken()])
 
 
@@ -59,7 +60,7 @@ _inside: ContextVar[str | None] = ContextVar("language", default=None)
 
 
 def ask(language: Callable[[], str]) -> None:
-    """From now on language() tells in which one a page speaks when it says something."""
+    """From now on language() returns the language in which a page speaks."""
     _ask[0] = language
 
 
@@ -82,7 +83,7 @@ _WISH = re.compile(r"\s*([a-z]{1,8}|\*)(?:-[a-z\d-]+)?\s*(?:;\s*q=(0(?:\.\d{0,3}
 
 
 def preferred(header: str) -> str:
-    """The one of LANGUAGES that a browser likes best, by its Accept-Language (RFC 9110); de-AT is as good as de."""
+    """The one of LANGUAGES that a browser prefers, from its Accept-Language (RFC 9110); de-AT counts as de."""
     likes: dict[str, tuple[float, int]] = {}  # "de" or "*" -> (weight, the earlier the larger)
     for place, wish in enumerate(header.split(",")[:20]):
         if found := _WISH.fullmatch(wish):
@@ -94,7 +95,7 @@ def preferred(header: str) -> str:
 
 
 def listed(key: str, language: str | None = None) -> Found:
-    """What stands under a key, as it is: words, a list of them, or a table."""
+    """What is stored under a key: words, a list of them, or a table."""
     name, *path = key.split(".")
     found = _file(language or spoken(), name)
     for part in path:
@@ -103,21 +104,22 @@ def listed(key: str, language: str | None = None) -> Found:
 
 
 def say(key: str, language: str | None = None, **numbers: object) -> str:
-    """The words under a key, with these numbers in them. KeyError where there are none, or one lacks its number."""
+    """The words under a key, with these numbers. KeyError if there are none, or if a number is missing."""
     words: str = listed(key, language)
     return _Numbers(language or spoken()).format(words, **numbers) if "{" in words else words
 
 
 def written(value: object, form: str = "", language: str | None = None) -> str:
-    """A number outside of a sentence, as format() has it and the page's language writes it."""
+    """A number that is not part of a sentence, in this format and in the notation of the page's language."""
     return _Numbers(language or spoken()).format_field(value, form)
 
 
 def told(error: TopError, language: str | None = None, unit: str = "") -> str:
-    """The sentence of a TopError in the page's language, as plain text, not HTML; unit: what its value is shown in.
+    """The sentence of a TopError in the page's language, as plain text, not HTML; unit: that in which its value is
+    shown.
 
-    English is the core's own. Another language has words for each code in errors.toml: what is allowed and what to do
-    where the core says these in words, or a whole sentence.
+    In English it is the core's own. Another language has words for each code in errors.toml: the allowed range and the
+    remedy if the core gives these in words, or a whole sentence.
     """
     language = language or spoken()
     value = shown(error.value)
@@ -135,8 +137,8 @@ def told(error: TopError, language: str | None = None, unit: str = "") -> str:
 
 
 def called(name: str, language: str | None = None) -> str:
-    """What the quantity of a TopError is called on the page: as in the core where [names] of errors.toml has no word
-    for it; points[2] is a row of points[]."""
+    """The name on the page of the quantity of a TopError: as in the core unless [names] of errors.toml has a word for
+    it; points[2] is a row of points[]."""
     language = language or spoken()
     if language == DEFAULT:
         return name

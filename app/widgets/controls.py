@@ -100,20 +100,20 @@ class Dial(Bundled):
     counts its requests; `told` names the last request that it answers, and is ignored if there has been another since.
     """
 
-    input = param.String(constant=True, doc="Which input it is of.")
+    input = param.String(constant=True, doc="The name of its input.")
     title = param.String(constant=True, doc="Its symbol and name, as HTML.")
     hint = param.String(constant=True, doc="What it is, shown on hover.")
     spoken = param.String(constant=True, doc="Its name in plain words.")
     unit = param.String(constant=True, doc="Its unit in plain words.")
-    marks = param.List(constant=True, doc="[value, word] of the places on the slider that have a name.")
-    lines = param.Integer(default=0, constant=True, doc="Lines kept free for the words.")
+    marks = param.List(constant=True, doc="[value, word] of the named positions on the slider.")
+    lines = param.Integer(default=0, constant=True, doc="Lines reserved for the words.")
     step = param.Number(default=0.01, constant=True, doc="Of the slider and of the arrow keys.")
     start = param.Number(default=0.0, doc="Of the slider.")
     end = param.Number(default=1.0, doc="Of the slider.")
     told = param.List(default=[0, 0.0, "0"], doc="[count, value, text]: for the slider and for the entry.")
     asked = param.List(default=[], doc="[count, number or text, whether it was typed].")
     words = param.String(default="", doc="HTML.")
-    wrong = param.Boolean(default=False, doc="Whether what was typed cannot be.")
+    wrong = param.Boolean(default=False, doc="Whether what was typed is refused.")
 
 
 def wording(words, wrong=False):

@@ -11,4 +11,4 @@ class Copy(Bundled):
     text = param.String(default="")
     label = param.String(default="")
     rows = param.Integer(default=1)
-    button = param.List(default=[], doc="what its button says, and what it says once that is done")
+    button = param.List(default=[], doc="the words of its button, before and after copying")

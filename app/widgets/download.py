@@ -18,8 +18,8 @@ class Download(Bundled):
 
     label = param.String(constant=True)
     filename = param.String()
-    clicks = param.Integer(default=0, doc="the browser's")
-    file = param.List(default=[0, "", ""], doc="[how many so far, the newest in base64, its name]")
+    clicks = param.Integer(default=0, doc="the browser counts them")
+    file = param.List(default=[0, "", ""], doc="[number of files so far, the newest one in base64, its name]")
     making = param.Boolean(default=False)
 
     def __init__(self, runs, state, make, **params):

@@ -21,7 +21,7 @@ class Failure(Bundled):
     words = param.String(doc="What it says.")
     close = param.String(constant=True, doc="Of the button that closes it.")
     times = param.Integer(default=0, doc="How often something has failed so far.")
-    waits = param.String(doc="Where in the queue the page is; empty where it is in none.")
+    waits = param.String(doc="The page's place in a queue, in words; empty if it is in none.")
 
     def __init__(self):
         super().__init__(words=say("main.failed"), close=say("main.close"), width=0, height=0, margin=0)

@@ -14,16 +14,16 @@ class FilmStage(Bundled):
     SAYS = ("Stage", "Top3D", "FilmStage")
     REGIMES = "here"
 
-    clock = param.String(default="film", constant=True, doc="The name of its clock: each has another one.")
-    label = param.String(default="", constant=True, doc="What it shows, to the ear")
-    none = param.String(default="", constant=True, doc="What is said while there is no motion")
-    frames = param.Bytes(default=b"", doc="The motion, from pack_frames, its times in s; empty where there is none.")
+    clock = param.String(default="film", constant=True, doc="The name of its clock, different for each.")
+    label = param.String(default="", constant=True, doc="What it shows, for screen readers")
+    none = param.String(default="", constant=True, doc="The words while there is no motion")
+    frames = param.Bytes(default=b"", doc="The motion, from pack_frames, with times in s; empty if there is none.")
     profile = param.Bytes(default=b"", doc="The body's outline, as of Top3D.")
     tilts = param.Bytes(default=b"", doc="float32: its tilt at each frame, in degrees")
     measured = param.Bytes(default=b"", doc="float32 rows (t, x, y, z): where the film saw the axis")
     measured_label = param.String(default="")
     a = param.Number(default=None, doc="G's distance below O, in R")
-    start = param.Number(default=0.0, doc="s, where the clock stands first")
+    start = param.Number(default=0.0, doc="s, the first time of the clock")
 
 
 def put_motion(stage, t, motion, outline, start, **others):

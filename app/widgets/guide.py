@@ -12,8 +12,8 @@ class Guide(Bundled):
     """The tour and the list of keys, which the head opens; the keys themselves; and a description of the motion, read
     aloud."""
 
-    tour = param.Boolean(default=True, doc="Whether what the tour shows is looked at.")
-    said = param.String(default="", doc="What the motion on display is, in plain words; for a hand at rest.")
+    tour = param.Boolean(default=True, doc="Whether the room of the tour is shown.")
+    said = param.String(default="", doc="The present motion in plain words; for a hand at rest.")
     seconds = param.Number(default=1.0, doc="Seconds of the real top in one unit of time.")
 
     def show(self, scene):

@@ -14,8 +14,8 @@ from app.text import LANGUAGES, listed, say, spoken
 
 
 class Head(Bundled):
-    state = param.Dict(default={}, doc="All that it shows; HeadBar says what.")
-    asked = param.List(default=[], doc="[count, name, value] of what a person asks for; the browser writes it.")
+    state = param.Dict(default={}, doc="Everything that it shows; set by HeadBar.")
+    asked = param.List(default=[], doc="[count, name, value] of a request; the browser writes it.")
 
 
 class HeadBar:

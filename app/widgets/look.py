@@ -57,8 +57,8 @@ def widgets():
 
 
 class Look(Bundled):
-    dark = param.Boolean(default=None, allow_None=True, doc="Light on dark; None: as the visitor's system has it.")
-    large = param.Boolean(default=False, doc="Large type and stronger contrast, to be read across a room.")
+    dark = param.Boolean(default=None, allow_None=True, doc="Light on dark; None: as set in the visitor's system.")
+    large = param.Boolean(default=False, doc="Large type and stronger contrast, legible across a room.")
     on_dark = param.Dict(
         default={name: dark for name, (_, dark) in _variables()},
         constant=True,

@@ -8,5 +8,5 @@ from app.bundle import Bundled
 class Moments(Bundled):
     """The list, which is drawn in the browser."""
 
-    clock = param.String(constant=True, doc="Which clock goes to the moment that is clicked.")
-    rows = param.List(default=[], doc="[t, when, what, how it then was, as HTML] in turn, t as the clock has it")
+    clock = param.String(constant=True, doc="The clock that is set to the moment that is clicked.")
+    rows = param.List(default=[], doc="[t, when, what, the state then, as HTML], in order, t in the unit of the clock")

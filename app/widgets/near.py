@@ -10,7 +10,7 @@ OVER = {"position": "absolute", "inset": "0", "z-index": "-1", "pointer-events":
 class Near(Bundled):
     """Whether the card in which it lies is near the screen."""
 
-    near = param.Boolean(default=True, doc="The browser writes it; until it has, everything is.")
+    near = param.Boolean(default=True, doc="The browser writes it; until then everything counts as near.")
 
 
 class WhenNear:

@@ -65,8 +65,8 @@ class Rooms(param.Parameterized):
     view is then created with the page. soon: that of a Pacer.
     """
 
-    room = param.Selector(doc="a name of makers")
-    level = param.Selector(doc="a name of levels; some tabs have other rooms at another one")
+    room = param.Selector(doc="a key of makers")
+    level = param.Selector(doc="a name of levels; some tabs have other rooms at another level")
 
     def __init__(self, makers, tabs, keep, soon, at_once, opened, usual, level):
         super().__init__()

@@ -22,10 +22,10 @@ class Surface3D(Bundled):
     energy = param.Bytes(default=b"", doc="(n,) E")
     verge = param.Bytes(default=b"", doc="(k, 2) theta, K_J: where the limit is reached, on the floor")
     steady = param.Bytes(default=b"", doc="(k, 2) theta, K_J: the steady precessions, on the floor")
-    P = param.Bytes(default=b"", doc="(3,) theta, K_J, height of the point P; empty where it is not shown")
+    P = param.Bytes(default=b"", doc="(3,) theta, K_J, height of the point P; empty if it is not shown")
     selected = param.Bytes(default=b"", doc="(4,) K_J, inner, outer theta, worst regime of the motion on display")
     selected_curve = param.Bytes(default=b"", doc="(m, 2) theta, height of the motion on display")
-    theta_max = param.Number(default=np.pi / 2, doc="Where the theta axis ends.")
+    theta_max = param.Number(default=np.pi / 2, doc="The end of the theta axis.")
     limit = param.Selector(default="lift-off", objects=["lift-off", "slip"], doc="Which limit `verge` is of.")
     hand = param.List(
         default=[],

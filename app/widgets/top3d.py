@@ -39,16 +39,18 @@ class Top3D(Bundled):
     SAYS = ("Stage",)
     REGIMES = "here"
 
-    frames = param.Bytes(default=b"", doc="The motion, from `pack_frames`; empty where there is none.")
+    frames = param.Bytes(default=b"", doc="The motion, from `pack_frames`; empty if there is none.")
     profile = param.Bytes(
         default=b"", doc="The body's outline: float32 rows (radius, height above O along axis 3), in R."
     )
-    mu_s = param.Number(default=0.5, bounds=(0, None), doc="Coefficient of static friction: the cone's tangent.")
+    mu_s = param.Number(
+        default=0.5, bounds=(0, None), doc="Coefficient of static friction: the tangent of the cone's half angle."
+    )
     seconds = param.Number(default=1.0, bounds=(0, None), doc="Seconds of the real top in one unit of time.")
     time = param.Number(
         default=0.0, doc="The cursor. The browser writes it when a person moves it, not while it plays."
     )
-    label = param.String(default="", constant=True, doc="Its name; empty: the one of the rolling top.")
+    label = param.String(default="", constant=True, doc="Its name; empty: that of the rolling top.")
     clock = param.String(default="", constant=True, doc="The name of the clock that several tops share.")
     a = param.Number(
         default=None,
@@ -61,10 +63,10 @@ class Top3D(Bundled):
         "it took hold, and a number that is another one for each grasp.",
     )
     playing = param.Boolean(
-        default=True, doc="Whether it plays. Where a person prefers reduced motion it starts paused."
+        default=True, doc="Whether it plays. It starts paused if the visitor prefers reduced motion."
     )
     speed = param.Number(default=1 / 16, bounds=(0, None), doc="1 is the real top's own speed.")
-    show_track = param.Boolean(default=True, doc="The path of the point of contact on the table.")
+    show_track = param.Boolean(default=True, doc="The path of the contact point on the table.")
     show_com_path = param.Boolean(default=True, doc="G and its path.")
     show_force = param.Boolean(default=True, doc="The table's force on the top.")
     show_cone = param.Boolean(default=True, doc="The friction cone at the contact.")
@@ -75,7 +77,7 @@ class Top3D(Bundled):
         doc="[azimuth, height, distance] of a view that a person chose, in rad and in terms of the first view's; the "
         "browser writes it; empty: the first view.",
     )
-    follow = param.Boolean(default=True, doc="Whether the camera goes along with the top.")
+    follow = param.Boolean(default=True, doc="Whether the camera follows the top.")
 
 
 def show_top(top, scene):

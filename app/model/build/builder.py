@@ -94,7 +94,7 @@ class Builder(param.Parameterized):
 
     # __init__ makes the first one
     draft: param.ClassSelector[Draft] = param.ClassSelector(  # type: ignore[assignment]
-        class_=Draft, constant=True, doc="the body as it stands"
+        class_=Draft, constant=True, doc="the present body"
     )
 
     def __init__(self, scene: Scene, ask: Callable[..., object]) -> None:

@@ -146,8 +146,8 @@ class Lab(param.Parameterized):
     """
 
     busy = param.Boolean(False, constant=True, doc="whether a newer start is being computed")
-    scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last answer; None before show()")
-    ends = param.Parameter(None, constant=True, doc="Ends over the slider's spins; None until they are there")
+    scene = param.ClassSelector(class_=LabScene, constant=True, doc="the last result; None before show()")
+    ends = param.Parameter(None, constant=True, doc="Ends over the slider's spins; None until they are computed")
 
     INPUTS = ("table", "toy", "spin", "tilt", "mu", "patch")
 

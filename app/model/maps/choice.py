@@ -17,7 +17,10 @@ class MapChoice(param.Parameterized):
     INPUTS: ClassVar = ("asked", "colour", "place")
 
     asked = param.ClassSelector(class_=Map, default=Map(), doc="the map")
-    colour: Any = param.Selector(default="end", objects=[*COLOURS_BY], doc="what its colours say")
+    colour: Any = param.Selector(default="end", objects=[*COLOURS_BY], doc="what its colours show")
     place = param.List(
-        default=[*AT], item_type=float, bounds=(2, 2), doc="across and up of the bead, in units of the axes"
+        default=[*AT],
+        item_type=float,
+        bounds=(2, 2),
+        doc="the position of the bead, in the units of the axes",
     )

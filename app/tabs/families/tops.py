@@ -26,7 +26,7 @@ class TopsMap(Bundled):
     state = param.Dict(default={}, doc="tops: name, label, a, ratio and outline of each; here: a, ratio and outline of "
                        "the page's own; chosen: the name of the one that is looked at.")  # fmt: skip
     picked = param.List(default=[], doc="[count, name] of a click.")
-    moved = param.List(default=[], doc="[count, a, I1/I3] of the ring, where a hand has it.")
+    moved = param.List(default=[], doc="[count, a, I1/I3] of the ring while it is dragged.")
 
     @classmethod
     def says(cls, language=None):

@@ -37,12 +37,12 @@ class LessonView(Bundled):
     SAYS = ("Stage", "Top3D")
     REGIMES = "here"
 
-    steps = param.List(default=[], doc="Each step in words; a number of JavaScript's where it is drawn.")
+    steps = param.List(default=[], doc="Each step in words; JavaScript inserts the numbers that it computes.")
     runs = param.Dict(default={}, doc="{name: run}, of the lesson.")
     others = param.Dict(default={}, doc="{name: run}, those of theory and of the page's own top.")
     worksheet = param.String(default="", doc="A page to print, in HTML.")
     state = param.Dict(default={}, doc='step: which is looked at; role: "phone" in a class; room: of a class.')
-    asked = param.List(default=[], doc="[count, name, value] of what a person asks for, the browser writes it.")
+    asked = param.List(default=[], doc="[count, name, value] of a request, the browser writes it.")
 
     @classmethod
     def says(cls, language=None):

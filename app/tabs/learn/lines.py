@@ -22,8 +22,8 @@ class Lines(Bundled):
     """
 
     clock = param.String(default="", constant=True)
-    lines = param.List(default=[], doc="number, tex, words, symbols, plane, and where the sides stand in its table")
-    symbols = param.Dict(default={}, doc="name: texts, words, and where value and arrow stand in a table")
+    lines = param.List(default=[], doc="number, tex, words, symbols, plane, and the columns of its sides in the table")
+    symbols = param.Dict(default={}, doc="name: texts, words, and the columns of value and arrow in a table")
     words = param.Dict(default={})
     rough = param.Bytes(default=b"", doc="float64 rows of the rough plane")
     smooth = param.Bytes(default=b"", doc="float64 rows of the smooth plane")

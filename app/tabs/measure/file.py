@@ -10,7 +10,9 @@ from app.model.measured.table import HEAD, MOST
 class MeasuredFile(Bundled):
     """The newest text of a table. It is stored only in this session."""
 
-    most = param.Integer(default=180_000, constant=True, doc="characters of a text; of a longer one rows are left out")
-    rows = param.Integer(default=MOST, constant=True, doc="rows of a table; of a longer one rows are left out")
-    head = param.Integer(default=HEAD, constant=True, doc="first lines, of which none is left out")
-    table = param.List(default=["", 1, 0], doc="[the text, each how-manieth row of the file it has, how many so far]")
+    most = param.Integer(default=180_000, constant=True, doc="characters of a text; rows of a longer one are left out")
+    rows = param.Integer(default=MOST, constant=True, doc="rows of a table; if there are more, some are left out")
+    head = param.Integer(default=HEAD, constant=True, doc="first lines, which are always kept")
+    table = param.List(
+        default=["", 1, 0], doc="[the text, n if it has every n-th row of the file, how many texts so far]"
+    )

@@ -44,7 +44,7 @@ LAWS = ("contensou", "smoothed", "viscous")
 class Filmed(param.Parameterized):
     """What a link stores of the tab, if wanted."""
 
-    film = param.String(default="", doc="the data and their settings, packed; empty: not in the link")
+    film = param.String(default="", doc="the data and their settings, compressed; empty: not in the link")
 
 
 class Measure:

@@ -76,7 +76,8 @@ class Look {
     let wanted = Object.entries(this.own(part)).map(([property, value]) => [property, exchange(value, isColour(property) ? ink : size)]);
     // The theme of the widgets gives these values of its own, whatever the figure was made with.
     if (part.type.endsWith("Axis")) {
-      wanted = [["major_label_text_color", text], ["major_label_text_font_size", px], ["axis_line_color", faint], ["major_tick_line_color", faint]];
+      wanted = [["major_label_text_color", text], ["major_label_text_font_size", px], ["axis_line_color", faint], ["major_tick_line_color", faint],
+        ["axis_label_text_color", text], ["axis_label_text_font_size", px]];
     } else if (part.type === "Grid") wanted = [["grid_line_color", line]];
     if (wanted.length) part.setv(Object.fromEntries(wanted), { sync: false });
   }
