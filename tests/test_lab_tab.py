@@ -63,7 +63,7 @@ def test_the_stem_and_the_ballast_are_ordinary_controls(tab):
     assert state["values"]["dim:r"] == 5.0 and state["sliders"]["dim:r"][3] == 1
     state = wish(tab, 1, "dim:r", 3.0)
     assert state["values"]["dim:r"] == 3.0 and tab.lab.scene.motions["ordinary"].start.shape.r == pytest.approx(3e-3)
-    assert state["of"]["dim:r"][:2] == [3.0, "radius of the stem's end 3.0\u00a0mm"]
+    assert state["of"]["dim:r"][:2] == [3.0, "Radius of the stem's end 3.0\u00a0mm"]
     motion = tab.lab.scene.motions["ordinary"]
     for number, (value, said) in enumerate(
         [("round", "round is not a number"), (1e9, "1000000000"), ("nan", "nan")], 2

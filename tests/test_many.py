@@ -1,6 +1,7 @@
 """slide_many() against slide(), run by run, and against what is known of its ends."""
 
 import os
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,6 +19,7 @@ from tippe_core import (
     Viscous,
     beside,
     ending,
+    roll,
     slide,
     slide_many,
 )
@@ -43,6 +45,7 @@ def test_run_by_run(friction):
             k = passed[0]
             t90 = np.interp(0, (moved.theta - np.pi / 2)[k : k + 2] * np.sign(moved.omega[k, 0]), times[k : k + 2])
         assert many.time_90[i, j] == pytest.approx(t90, abs=1e-3, nan_ok=True)
+        assert moved.time_90 == pytest.approx(t90, abs=1e-3, nan_ok=True)
         assert many.end[i, j] == ending(moved).end, (i, j)
         assert abs(many.energy_error[i, j]) < 1e-6
         if moved.events and moved.events[-1][1] == "stands upright":
@@ -67,6 +70,23 @@ def test_rolling_for_good_is_the_exact_motion():
     for mine, other in ((now.phi, moved.phi), (now.psi, moved.psi)):
         np.testing.assert_allclose(np.exp(1j * mine), np.exp(1j * other[-1]), rtol=0, atol=1e-5)
     assert abs(many.energy_error) < 1e-8 and many.C_J_drift < 1e-8
+
+
+ROLLS = Coulomb(5.0)  # enough friction to roll from the start
+
+
+@pytest.mark.parametrize("theta, theta_dot, spin", [(0.9, 0.0, 0.3), (2.2, 0.0, 0.3), (1.0, 0.8, 1.0), (0.3, 0.1, 6.0)])
+def test_a_top_that_rolls_passes_90_degrees_when_the_exact_motion_does(theta, theta_dot, spin):
+    """Rolling is not followed in steps; slide(), asked for two times, tells it all the same."""
+    state, close = State(theta, theta_dot, 0.2, spin), np.linspace(0, 60, 60_001)
+    exact = roll(PAPER, None, close, state)
+    c = np.cos(exact.theta)
+    passed = np.flatnonzero(np.diff(np.sign(c)))[:1]
+    t90 = close[passed] + c[passed] / (c[passed] - c[passed + 1]) * (close[1] - close[0])
+    rolls = replace(state, vx=float(exact.velocity[0, 0]), vy=float(exact.velocity[0, 1]))
+    moved = slide(PAPER, rolls, ROLLS, [0, 60.0])
+    assert (moved.regime == "roll").all()
+    assert moved.time_90 == pytest.approx(t90[0] if t90.size else np.nan, abs=1e-6, nan_ok=True)
 
 
 def test_ends_of_the_paper_and_of_the_three_regimes_of_S():

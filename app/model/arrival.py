@@ -18,13 +18,12 @@ TABLE, TOY, SPIN, TILT, MU = ARRIVAL = "ordinary", "Leine and Glocker's toy", 28
 """The table, the toy, its spin (rev/s: 180 rad/s), its tilt (degrees: 0.1 rad) and the friction. That it ends up
 standing does not depend on the last digits of these."""
 HAPPENS = "events", "supports"
+NO_ROWS = "top", "time_90", *HAPPENS
 
 
 def write(trajectory: Trajectory, ends: tuple[str, ...]) -> None:
     """Stores a Trajectory, its numbers as float32, and the codes of Ends in lab/ends.py."""
-    rows = {
-        part.name: getattr(trajectory, part.name) for part in fields(trajectory) if part.name not in ("top", *HAPPENS)
-    }
+    rows = {part.name: getattr(trajectory, part.name) for part in fields(trajectory) if part.name not in NO_ROWS}
     kept = {name: value if name == "regime" else value.astype(np.float32) for name, value in rows.items()}
     for name in HAPPENS:
         times, words = zip(*getattr(trajectory, name), strict=True)

@@ -49,6 +49,7 @@ TABS = {"learn": alike("learn"), "lab": room.VIEWS, "build": alike("build-a-top"
 BARE = {f"show_{what}": False for what in ("track", "com_path", "force", "cone", "omega", "momentum")}
 DARK = BUTTON["sx"] | {"backgroundColor": "var(--ink, #22303c) !important", "color": "var(--card, #fff) !important"}
 HIGH = ":host { height: clamp(330px, 52vh, 640px) !important }"
+WHY = "arms"  # the step that says why rubbing lifts a top
 PLAIN = ".tippe :is(.verdict, .scales, .time, .shows) { display: none !important }"
 
 
@@ -57,7 +58,7 @@ class House:
     the Builder of bodies; the Lab; the playback; the Keep; and the Runs.
 
     look_at(name) shows a room, and level is how much the page shows; the page sets both, and `told`, which is called
-    when runs_shown() may have changed.
+    when runs_shown() may have changed, and `rests`, when a hand does, which may still be down.
     """
 
     def __init__(self, texts, sentence, look_at, level):
@@ -67,12 +68,13 @@ class House:
         self.builder = Builder(self.explorer.scene, self.pacer.ask)
         self.pacer.shows(self.builder.follow, "hand")
         self.playing, self._look_at = Playing(), look_at
+        self._learn, self._step = None, ""
         self.keep = kept(
             self.explorer, texts, " ".join(filter(None, (sentence, wrong))), self._explores, shortest=room.shortest
         )
         post = to_session(pn.state.curdoc)
         self.runs = Runs(lambda function: post(partial(attempt, function)), connected_to(pn.state.curdoc), waits, full)
-        self.told = lambda: None
+        self.told, self.rests = lambda: None, self.keep.at_rest
         self.lab_of = Lab(self.runs, self.explorer)
         self.lab_of.param.watch(lambda *events: self.told(), ["scene", "busy"])
         self.start = OneStart(self.explorer, self.lab_of)
@@ -116,7 +118,14 @@ class House:
     # ---- the rooms, each created when it is first shown ----
 
     def lab(self):
-        return lab_view(self.lab_of, lambda: self._look_at(room.USUAL))
+        return lab_view(self.lab_of, lambda: self.rests(), lambda: self._look_at(room.USUAL), self._explain)
+
+    def _explain(self):
+        """The lesson's step that says why rubbing lifts it."""
+        self._step = WHY
+        if self._learn is not None:
+            self._learn.param.update(step=WHY, section="lesson")
+        self._look_at("learn")
 
     def roll(self):
         controls = Controls(self.scene, self.pacer.ask, self.pacer.soon)
@@ -196,9 +205,11 @@ class House:
         self._look_at("build-a-top")
 
     def learn(self):
-        learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
+        self._learn = learn = Learn(self.scene, self.runs, lambda: self._look_at(room.FIRST))
         self.pacer.shows(learn.show, "rest")
         self.keep.add(learn)
+        if self._step:
+            learn.step = self._step
         learn.param.watch(lambda event: self.keep.at_rest(), "room")  # at once: a reload would lose it
         return learn.view
 

@@ -55,7 +55,7 @@ def page():
     share = Share(keep, house.playing, house.scene, house.runs, lambda: house.runs_shown(rooms.room),
                   lambda: house.start.busy(rooms.room), house.explorer.settle, lambda: house.explorer.shape,
                   worksheet)  # fmt: skip
-    house.told = share.refresh
+    house.told, house.rests = share.refresh, lambda: keep.at_rest(share.address.gesture)
     for owner in (look, tongue):
         keep.add(owner)
     for show in (share.show, guide.show):

@@ -36,6 +36,7 @@ from .preparing import (
 from .records import Record
 from .rolling import Rolling
 from .smooth import first_below
+from .tally import begin_tally
 from .trajectory import Trajectory, checked_times
 
 MOST_EVENTS = 10_000
@@ -150,6 +151,7 @@ class _Run:
         self.log = np.zeros((MOST_EVENTS + 2, 3))
         self.times, self.rows = times, np.zeros((len(times), WIDTH))
         stands_on, goes_on = start(W, P, state.theta)
+        begin_tally(W, P, np.inf)
         first = carried(*W.modes) if goes_on else 1 + stands_on
         supports = [(float(times[0]), SUPPORTS[first])]
         if not goes_on:
@@ -176,7 +178,8 @@ class _Run:
         for name in ("t", "theta", "phi", "psi", "heat"):
             parts[name] = parts[name][:, 0]
         regime = REGIMES[parts.pop("regime")[:, 0].astype(int)]
-        return Trajectory(top=self.top, events=events, supports=tuple(supports), regime=regime, **parts)
+        return Trajectory(top=self.top, events=events, supports=tuple(supports), regime=regime,
+                          time_90=float(W.tally.time_90), **parts)  # fmt: skip
 
     def _follow(self) -> None:
         W, P, times = self.motion, self.P, self.times
@@ -236,6 +239,11 @@ class _Run:
         ends, event = min(found)
         done = int(W.samples)
         last = y[12] + ends
+        if np.isnan(W.tally.time_90):
+            side = np.sign(np.cos(state.theta))
+            passes = first_below(lambda t: side * np.cos(tilt(t)), rolling.period)
+            if y[12] + passes <= min(last, times[-1]):
+                W.tally.time_90 = y[12] + passes
         count = len(times) if not np.isfinite(ends) else max(int(np.searchsorted(times, last)), done)
         moved = rolling(np.array([y[12], *times[done:count]]))
         self.rows[done:count] = _rows(moved, y[13])[1:]

@@ -42,7 +42,8 @@ class Trajectory:
     sphere. heat (n,), in MgR: the energy lost since t[0] by friction, rolling resistance, air drag and impacts,
     integrated along with the motion; 0 by default. supports: a tuple of (time, name), where name, "ball", "stem",
     "both" or "none", is what carries the top from that time on. The first is at t[0], the others at each change,
-    located like events. By default the ball alone.
+    located like events. By default the ball alone. time_90: when theta first passes 90 degrees in a run of slide(),
+    located within its steps, even if it passes twice between two of the times; nan if it never does.
 
     If the stem touches, contact, slip and force are those of the loaded contact. If both are loaded, the force is the
     sum, and contact and slip are means weighted by the normal forces. In the air slip and force are 0, and contact is
@@ -68,6 +69,7 @@ class Trajectory:
     velocity: Array = None  # type: ignore[assignment]  # never None after __post_init__, nor is heat
     heat: Array = None  # type: ignore[assignment]
     supports: tuple[tuple[float, str], ...] = ()
+    time_90: float = np.nan
 
     def __post_init__(self) -> None:
         if self.velocity is None:

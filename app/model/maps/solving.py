@@ -135,12 +135,10 @@ def run(asked: Map, across: float, up: float, look: Progress | None = None) -> F
     times, time = np.linspace(0, cell.t_end, frames), cell.scales.time
     moved = slide(cell.top, cell.state, cell.friction, times, rtol=asked.rtol, landing="plastic", edge=cell.edge,
                   progress=look)  # fmt: skip
-    # as in its cell: between two frames of the film the tilt may go past 90 degrees and back
-    time_90 = slide_many(cell.top, cell.state, cell.friction, cell.t_end, cell.edge, rtol=asked.rtol).time_90
     stems = [start for start, on in moved.supports if on == "stem"]
     return Found(
         end=ending(moved).end,
-        time_90=float(time_90) * time,
+        time_90=moved.time_90 * time,
         time_stem=float(stems[0]) * time if stems else np.nan,
         hops=sum(what == "lifts off" for _, what in moved.events),
         t=moved.t * time,

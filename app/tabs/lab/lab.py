@@ -50,7 +50,8 @@ def digits_of(dimension):
 
 
 def _word(dimension):
-    return say("lab.inputs.ballast") if dimension.name == "a" else dimension.words
+    said = listed("lab.dimensions").get(dimension.key, dimension.words)
+    return said[0].upper() + said[1:]
 
 
 class LabView(Bundled):
@@ -80,7 +81,7 @@ class LabView(Bundled):
     curves_ice = param.Bytes(default=b"")
     asked = param.List(
         default=[], doc="[count, name, value] of a request, the browser writes it; state tells the last "
-        "count that was answered. The names are a Lab's inputs, and research: the paper's figures."
+        "count that was answered. The names are a Lab's inputs; research: the paper's figures; why: the lesson."
     )  # fmt: skip
 
     @classmethod
@@ -88,9 +89,15 @@ class LabView(Bundled):
         return super().says(language) | listed("lab_view.view", language)
 
 
-def lab_view(lab, go):
-    """The tab. lab: a Lab; go: shows the paper's figures for its start."""
-    tab = LabTab(lab, go, lab.rest)
+def lab_view(lab, keep, go, explain):
+    """The tab. lab: a Lab; keep: called when its start is to be kept, as it is then; go: shows the paper's figures for
+    it; explain: shows the lesson's step that says why a top turns over."""
+
+    def rests():
+        keep()
+        lab.rest()
+
+    tab = LabTab(lab, go, rests, explain)
     if lab.inputs == FIRST:
         lab.show()  # stored, so that it is there as soon as the page
     if pn.state.loaded:
@@ -140,10 +147,11 @@ class Quiet:
 
 class LabTab:
     """view: the tab. lab: the Lab that it shows and controls; research: called to show the paper's figures for this top
-    and start; rests: called when a hand that has changed something is at rest."""
+    and start; rests: called when a hand that has changed something is at rest; explain: called to show why it turns
+    over."""
 
-    def __init__(self, lab, research, rests):
-        self._lab, self._research, self._quiet, self._looks = lab, research, Quiet(rests), 0
+    def __init__(self, lab, research, rests, explain=None):
+        self._lab, self._leads, self._quiet, self._looks = lab, {"research": research, "why": explain}, Quiet(rests), 0
         self._answered, self._said, self._shown, self._tried, self._wrong, self._near = 0, None, None, {}, {}, {}
         self.view = LabView(sizing_mode="stretch_width", margin=0)
         at_once(self.view, "asked")
@@ -155,8 +163,8 @@ class LabTab:
         """A request from the browser."""
         count, name, value = asked.parts(event.new, asked.number, asked.text, asked.anything)
         self._answered, looks = int(count), self._looks
-        if name == "research":
-            self._research()
+        if name in self._leads:
+            self._leads[name]()
         elif name == "stop":
             self._lab.stop()
         elif name in Lab.INPUTS or name in dimensions(self._lab.start.toy):

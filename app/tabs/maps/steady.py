@@ -13,7 +13,6 @@ from app.model.colours import ACCENT, INK
 from app.model.maps.rates import rates
 from app.model.maps.steady import at_place, bifurcation, spins_of
 from app.model.runs import MAPS, Run, Stopped
-from app.tabs.maps.picture import DARK
 from app.tabs.maps.words import unit_of
 from app.text import listed, say, told
 from app.widgets.cards import alert, note, words
@@ -40,9 +39,9 @@ class Steady:
         self.life = ColumnDataSource({"x": [], "y": []})
         self.here = ColumnDataSource({"x": [0.0, 0.0], "y": [0.0, 184.0]})
         draw(fig, Line, "x", "y", source=self.life, line_color="#c77d2b", line_width=1.5)
-        draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color=DARK, line_width=2, line_dash="dash")
+        draw(fig, MultiLine, xs="xs", ys="ys", source=self.lines, line_color=INK, line_width=2, line_dash="dash")
         for source, shade in zip(self.dots, SHADES, strict=True):
-            draw(fig, Scatter, "x", "y", source=source, size=6, fill_color=shade, line_color=DARK, line_width=0.8)
+            draw(fig, Scatter, "x", "y", source=source, size=6, fill_color=shade, line_color=INK, line_width=0.8)
         for source, marker in zip(self.sweeps, ("triangle", "inverted_triangle"), strict=True):
             draw(fig, Line, "x", "y", source=source, line_color=ACCENT, line_width=1, line_alpha=0.6)
             draw(fig, Scatter, "x", "y", source=source, marker=marker, size=7, fill_color=None, line_color=ACCENT)
@@ -53,7 +52,7 @@ class Steady:
             line, runs = ColumnDataSource({"x": [], "growth": [], "turning": []}), ColumnDataSource({"x": [], "y": []})
             draw(self.grow, Line, "x", "growth", source=line, line_color=colour, line_width=2)
             draw(self.turn, Line, "x", "turning", source=line, line_color=colour, line_width=2)
-            draw(self.grow, Scatter, "x", "y", source=runs, size=6, fill_color=colour, line_color=DARK)
+            draw(self.grow, Scatter, "x", "y", source=runs, size=6, fill_color=colour, line_color=INK)
             self.branches[name] = line, runs
 
     @property

@@ -8,7 +8,7 @@ import { Frames } from "../motion/frames.js";
 const NAMES = ["energy", "spin", "path"];
 const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }; // of numbers.js
 const LEFT = 46, RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
-const ROOM = 30; // px that words in a picture need
+const ROOM = 30, LINE = 24; // px that words in a picture need; a line of them between two curves
 const MOST_POINTS = 2400;
 const NAMED = [0.3, 0.15, 0.45, 0.6, 0.75, 0.02]; // shares of the run before at which its name may stand
 const JUMP = 0.5; // R: from one frame to the next the contact goes so far only where another part takes over
@@ -171,8 +171,8 @@ export class Answer {
     const wide = 130 / (this.right - LEFT), lost = [0.42, 0.3, 0.55].find((share) => Math.min(at(share, ENERGY), at(share + wide, ENERGY)) - y(start) > 2 * ROOM);
     if (lost) put(lost, (Math.min(at(lost, ENERGY), at(lost + wide, ENERGY)) + y(start)) / 2, said.heat, said.heat_by, "");
     const long = 112 / (this.right - LEFT);
-    const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > ROOM);
-    const free = [0.4, 0.3, 0.2, 0.08].find(isFree), stands = free ?? 0.4;
+    const isFree = (share) => [0, 0.5, 1].map((of) => of * long).every((more) => at(share + more, HEIGHT) - at(share + more, ENERGY) > LINE);
+    const free = [0.4, 0.3, 0.2, 0.08, 0.02].find(isFree), stands = free ?? 0.4;
     const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
     const over = (column) => Math.min(...[0, 0.5, 1].map((of) => at(stands + of * long, column))) - 8;
     const isHigh = this.bottom - at(stands, HEIGHT) > ROOM && this.bottom - at(stands + long, HEIGHT) > ROOM;

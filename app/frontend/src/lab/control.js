@@ -178,13 +178,15 @@ export class Control {
     const [large, next] = [...ends].sort((a, b) => size(b) - size(a)), line = part("div", { class: "words" });
     if (!next || next[3] === large[3]) line.append(part("span", {}, large[3]));
     else {
-      const [left, right] = large[0] < next[0] ? [large, next] : [next, large], at = (right[0] - low) / (high - low);
+      const [left, right] = large[0] < next[0] ? [large, next] : [next, large];
+      const [from, at] = [left, right].map(([start]) => (start - low) / (high - low));
       line.append(part("span", {}, left[3]));
-      const letters = WIDE * (left[3].length + right[3].length);
-      if (at * WIDTH > WIDE * left[3].length + APART && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
+      const letters = WIDE * (left[3].length + right[3].length), room = (at - from) * WIDTH > WIDE * left[3].length + APART;
+      if (room) Object.assign(line.children[0].style, { position: "absolute", left: this.along(from) }); // under its own stretch
+      if ((room || at * WIDTH > WIDE * left[3].length + APART) && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
         line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));
       }
-      line.append(part("span", {}, right[3]));
+      line.append(part("span", { style: "margin-left: auto" }, right[3]));
     }
     return line;
   }

@@ -6,7 +6,7 @@ import { SPEEDS } from "./time.js";
 
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
 const GAP = 6; // px left of it
-const LETTER = 0.56; // how wide a letter is, in its size
+const LETTER = 0.51; // how wide a letter is, in its size
 const NARROW = 400; // px of a strip
 const NEED = 100; // px of a stage in which the top is drawn as it then stands
 const ICONS = {

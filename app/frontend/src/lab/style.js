@@ -79,7 +79,7 @@ const places = `
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
-  .strip, .say, .answer, .keeps { padding: 8px 16px 0; }
+  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link { min-height: var(--touch); }
   .dock { order: 1; position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
   :is(.body, .numbers) :is(summary, input, button) { scroll-margin: calc(var(--stage) + 60px) 0 190px; } /* between stage and dock */
@@ -90,6 +90,8 @@ const stage = `
 .tops { position: absolute; inset: 0; display: flex; }
 .place { flex: 1 1 0; min-width: 0; position: relative; } .top { position: absolute; inset: 0; }
 .lab.old .top { opacity: .38; }
+@container (max-width: 1180px) { .top { top: 20px; } }
+@container (max-width: 700px) { .top { top: 44px; } }
 .on { position: absolute; left: 12px; right: 12px; top: 12px; display: flex; justify-content: space-between; align-items: flex-start; gap: 8px; pointer-events: none; }
 .on > * { pointer-events: auto; }
 .switch, .on > select { background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }

@@ -3,6 +3,7 @@ import { latest } from "./curves.js";
 import { drawn, part, say } from "./parts.js";
 import { TABLES } from "./stage.js";
 
+const LIFTED = ["over", "stands", "inverted"]; // events of a run that rubbing has turned over
 const NEXT = { ordinary: "rough", rough: "research", ice: "three", three: "research" };
 
 export class Words {
@@ -16,14 +17,17 @@ export class Words {
       const to = NEXT[this.scene.table];
       ask(to === "research" ? "research" : "table", to);
     } });
+    this.lesson = part("button", { class: "link", type: "button", hidden: true, onclick: () => ask("why", "") });
     // Spoken once a stage, not at each picture of it.
-    this.element = part("section", { class: "say" }, part("div", { role: "status" }, this.headline, part("p", {}, this.why, " ", this.back)), this.next);
+    this.element = part("section", { class: "say" }, part("div", { role: "status" }, this.headline, part("p", {}, this.why, " ", this.back, this.lesson)), this.next);
   }
 
   show(scene) {
     const { texts } = this;
     this.scene = scene;
     this.next.replaceChildren(part("span", {}, texts.next), part("b", {}, `${texts.nexts[NEXT[scene.table]]} →`));
+    const isLifted = scene.table === "three" || (scene.run?.events ?? []).some(([, code]) => LIFTED.includes(code));
+    this.lesson.textContent = (isLifted && texts.whys[scene.table]) || "";
     this.said = undefined;
   }
 
@@ -37,6 +41,7 @@ export class Words {
     this.back.hidden = !before?.canGoBack || Boolean(state.old);
     if (scene.waits) said = [say(texts, texts.working, { what: state.wants }), say(texts, texts.working_why, { what: state.old })];
     else if (state.old) said = [say(texts, texts.still, { what: state.old }), texts.still_why];
+    this.lesson.hidden = !this.lesson.textContent || !this.back.hidden || scene.waits || Boolean(state.old);
     const key = said.join();
     if (key === this.said) return;
     this.said = key;

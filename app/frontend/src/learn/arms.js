@@ -65,8 +65,13 @@ export class Arms {
     const clear = 14 / this.scale; // px above the table's line
     const side = G[0] <= 0 ? 1 : -1, [near, far] = side > 0 ? ["start", "end"] : ["end", "start"];
     this.word(words.push, [0, 0], 0, 20, "middle");
-    this.word(words.upright, [G[0], 0], -14 * side, -8, far);
-    this.word(words.own, [0.6 * foot[0], Math.max(0.6 * foot[1], clear)], 12 * side, 4, near);
+    if (foot[0] * side < 0 && foot[1] < 0.5) { // both arms lie on one side: the longer has its word there, the other not
+      this.word(words.upright, [0, 0], 14 * side, -8, near);
+      this.word(words.own, [foot[0], Math.max(foot[1], clear)], -12 * side, 4, far);
+    } else {
+      this.word(words.upright, [G[0], 0], -14 * side, -8, far);
+      this.word(words.own, [0.6 * foot[0], Math.max(0.6 * foot[1], clear)], 12 * side, 4, near);
+    }
     this.word(words.axis, tip, 8, 4, "start");
     this.word(words.mass, G, -10 * side, 4, far);
   }

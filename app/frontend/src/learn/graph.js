@@ -4,7 +4,7 @@ import { drawn, part, say } from "../lab/parts.js";
 import { float32 } from "../data.js";
 import { Arms } from "./arms.js";
 
-const LEFT = 46, RIGHT = 12, TOP = 10, FOOT = 22, APART = 15, CLOSE = 24; // px
+const LEFT = 46, RIGHT = 12, TOP = 10, FOOT = 22, APART = 15, CLOSE = 24, LETTER = 6; // px
 
 // Words beside points of a drawing, pushed apart where they would lie over each other.
 /** @template {{ y: number }} T @param {T[]} words @param {number} least @param {number} most */
@@ -95,7 +95,7 @@ export class Graph {
     const all = [...lines.flatMap(({ points }) => points), ...marks.map(([, x, y]) => [x, y])].filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y));
     const span = (i) => [Math.min(...all.map((point) => point[i])), Math.max(...all.map((point) => point[i]))];
     const [x0, x1] = time ? [0, step.end] : span(0), [low, high] = span(1), pad = 0.08 * (high - low || 1);
-    const [y0, y1] = [zero ? Math.min(low - (low < 0 ? pad : 0), 0) : low - pad, high + pad];
+    const [y0, y1] = [zero ? Math.min(low - (low < 0 ? 2 * pad : 0), 0) : low - 2 * pad, high + pad]; // words below too
     const x = (value) => LEFT + ((right - LEFT) * (value - x0)) / (x1 - x0 || 1), y = (value) => bottom - ((bottom - TOP) * (value - y0)) / (y1 - y0);
     const found = [];
     const marked = ticks(y0, y1, Math.max(2, height / 60)), places = digits(marked);
@@ -127,7 +127,8 @@ export class Graph {
     const found = this.words.map((word) => {
       const point = word.at ?? word.points.findLast(([t]) => t <= seen + 1e-6) ?? word.points[0], px = x(point[0]);
       const py = y(point[1]);
-      return { word, px, py, y: py + (word.below ? 16 : word.above || px >= middle ? -8 : 4) };
+      const falls = px >= middle && !word.above && this.heightBefore(word, px) < py - 2;
+      return { word, px, py, y: py + (word.below || falls ? 16 : word.above || px >= middle ? -8 : 4) };
     });
     // of two lines that end close together the lower has its word below
     const ends = found.filter(({ word, px }) => px >= middle && !word.below && !word.above).sort((one, other) => one.py - other.py);
@@ -138,6 +139,13 @@ export class Graph {
       word.element.setAttribute("y", String(py));
       word.element.setAttribute("text-anchor", after ? "start" : "end");
     }
+  }
+
+  // px: where the line is that a word before its end would lie beside.
+  /** @param {any} word @param {number} end */
+  heightBefore({ points, word }, end) {
+    const { x, y } = this.scale, before = points.filter(([t]) => x(t) <= end - LETTER * word.length);
+    return before.length ? y(before.at(-1)[1]) : Infinity;
   }
 
   /** @param {number} t */

@@ -13,7 +13,7 @@ import { Stage } from "./stage.js";
 import { style } from "./style.js";
 
 const SECTIONS = ["derivation", "teach", "history"];
-const NEARLY = 0.03; // s
+const NEARLY = 0.03, LONG = 3; // s: before the end it is over; what is left that need not be waited for
 
 class Lesson {
   /** @param {Rendering<LessonModel>} rendering */
@@ -32,7 +32,7 @@ class Lesson {
     this.stage = new Stage(texts, this.time);
     this.bar = new Bar(texts, this.time);
     this.question = new Question(texts, {
-      guess: (value) => this.guess(value), watch: () => this.watch(), next: () => this.go(1), lab: () => this.ask("lab", ""),
+      guess: (value) => this.guess(value), watch: () => this.watch(), skip: () => this.skip(), next: () => this.go(1), lab: () => this.ask("lab", ""),
     });
     this.graph = new Graph(texts);
     this.presenting = this.lost = this.back = false;
@@ -41,7 +41,7 @@ class Lesson {
     this.more = part("nav", { class: "more", "aria-label": texts.lesson.more });
     this.right = part("div", { class: "right" }, this.question.element, this.graph.element);
     this.element = part("div", { class: "lesson" }, this.crumbs, this.heading, this.stage.element, this.bar.element, this.right,
-      this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.more);
+      this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.phone.follows, this.more);
     this.frame = part("div", { class: "frame", tabindex: -1 }, this.element);
     el.replaceChildren(part("style", {}, style), this.frame);
     this.look();
@@ -185,6 +185,12 @@ class Lesson {
     time.play(true);
   }
 
+  // What decides it has been seen; the rest need not be waited for.
+  skip() {
+    this.time.play(false);
+    this.time.seek(this.time.end);
+  }
+
   curvesOf(run) {
     if (!this.read.has(run.curves)) this.read.set(run.curves, new Curves(run.curves));
     return this.read.get(run.curves);
@@ -246,7 +252,7 @@ class Lesson {
     this.shown = shown;
     if (tops.length) Object.assign(time, { unit: tops[0].run.seconds, tops: this.stage.tops });
     const curves = tops.map(({ run }) => this.curvesOf(run)), { t } = time; // a top that is drawn first begins at 0
-    this.stage.show(tops, step, curves);
+    this.stage.show(tops, step, curves, Boolean(record.asked));
     this.scene = { step, tops, curves, record, inClass: this.presenting };
     this.bar.show(this.scene);
     this.graph.show(this.scene);
@@ -309,7 +315,7 @@ class Lesson {
   }
 
   at() {
-    const { scene, time, record } = this;
+    const { scene, time, record, step } = this;
     if (!scene?.tops.length) return;
     if (time.t > record.seen) record.seen = time.t;
     if (record.asked && !record.done && !time.playing && !time.held && time.t >= time.end - NEARLY) {
@@ -318,7 +324,7 @@ class Lesson {
       this.showCrumbs();
       this.showQuestion();
     }
-    this.question.plays(time.playing);
+    this.question.plays(time.playing, step.events[1]?.[0] < time.t && time.end - time.t > LONG);
     this.stage.at(time.t);
     this.bar.at(time.t);
     this.graph.at(time.t);

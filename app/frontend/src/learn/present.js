@@ -35,7 +35,8 @@ export class Presenter {
     this.board = part("section", { class: "board" }, this.options, this.told, this.code, this.link, this.warning,
       part("div", { class: "counted" }, this.count, this.show, this.next));
     this.dots = part("span", { class: "dots" });
-    this.foot = part("footer", { class: "foot" }, this.dots, part("span", {}, room.hidden),
+    this.hidden = part("span");
+    this.foot = part("footer", { class: "foot" }, this.dots, this.hidden,
       part("span", { class: "keys" }, ...KEYS.map(([key, name]) => part("button", { type: "button", onclick: () => wish(name) }, part("kbd", {}, key), room.keys[name]))));
   }
 
@@ -52,6 +53,7 @@ export class Presenter {
     this.link.textContent = open && !done ? room.address.replace(/^https?:\/\//, "") : "";
     this.warning.textContent = back ? said.back : lost ? said.lost : room.said || (room.local && !done ? said.local : "");
     this.count.replaceChildren(...(open ? room.phones ? [part("b", {}, String(room.voted)), ` ${say(texts, said.voted, { phones: room.phones })}`] : [said.nobody] : []));
+    this.hidden.textContent = done || !step.asks ? "" : record.asked ? said.soon : said.hidden;
     this.show.hidden = Boolean(record.asked) || !step.asks;
     this.next.hidden = !done || steps.at(-1) === step;
     this.dots.replaceChildren(...steps.map((each) => part("i", { class: each === step ? "here" : "" })), ` ${say(texts, said.place, { i: steps.indexOf(step) + 1, n: steps.length })}`);

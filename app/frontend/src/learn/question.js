@@ -16,7 +16,7 @@ const digitsOf = (step) => (step < 1 ? 1 : 0);
 export class Question {
   /**
    * @param {Record<string, any>} texts
-   * @param {{ guess(value: any): void, watch(): void, next(): void, lab(): void }} hand
+   * @param {{ guess(value: any): void, watch(): void, skip(): void, next(): void, lab(): void }} hand
    */
   constructor(texts, hand) {
     this.texts = texts;
@@ -27,8 +27,9 @@ export class Question {
     this.watch = part("button", { class: "primary", type: "button", onclick: () => hand.watch() });
     this.next = part("button", { class: "primary", type: "button", onclick: () => hand.next() }, `${texts.lesson.next} →`);
     this.guess = part("span", { class: "small" }, texts.lesson.guess);
+    this.skip = part("button", { class: "link", type: "button", hidden: true, onclick: () => hand.skip() }, texts.lesson.skip);
     this.end = part("div", { class: "end" });
-    this.dock = part("div", { class: "dock" }, this.watch, this.next, this.guess);
+    this.dock = part("div", { class: "dock" }, this.watch, this.next, this.guess, this.skip);
     this.element = part("section", { class: "side" }, this.hint, this.place, this.verdict, this.end, this.dock);
   }
 
@@ -53,10 +54,11 @@ export class Question {
     this.plays(playing);
   }
 
-  // While it is watched there is nothing to press.
-  plays(playing) {
+  // While it is watched there is nothing to press, until what decides it has been seen.
+  plays(playing, isDecided = false) {
     const { record, texts: { lesson } } = this, watching = record.asked && !record.done;
     this.watch.disabled = record.guess === undefined || (watching && playing);
+    this.skip.hidden = !(watching && playing && isDecided);
     if (watching) this.watch.textContent = playing ? lesson.watching : lesson.watch;
   }
 

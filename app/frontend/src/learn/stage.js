@@ -27,10 +27,11 @@ export class Stage {
     this.element = part("section", { class: "stage", "aria-label": texts.stage }, part("div", { class: "tops" }, ...this.places), this.pill, this.ways.element, this.wait);
   }
 
-  /** @param {any[]} tops @param {any} step @param {any[]} curves */
-  show(tops, step, curves) {
+  /** @param {any[]} tops @param {any} step @param {any[]} curves @param {boolean} isAsked whether the guess is made */
+  show(tops, step, curves, isAsked) {
     const { lesson } = this.texts;
     this.step = step;
+    this.isAsked = isAsked;
     this.curves = curves;
     this.names = tops.map(({ name }) => name);
     this.ways.element.hidden = step.picture !== "spin" || !tops.length;
@@ -54,7 +55,7 @@ export class Stage {
     const { step, names, texts } = this, word = names.length === 1 && latest(step.stages?.[names[0]] ?? [], t)?.[1];
     this.pill.hidden = !word;
     if (!this.ways.element.hidden) this.ways.at(this.curves[0], t);
-    if (word) this.pill.textContent = say(texts, texts.lesson.pill, { word, tilt: [this.curves[0].at(t, TILT), 0] });
+    if (word) this.pill.textContent = say(texts, this.isAsked ? texts.lesson.pill : texts.lesson.pill_before, { word, tilt: [this.curves[0].at(t, TILT), 0] }); // the word tells the answer
   }
 
   leave() {

@@ -29,7 +29,7 @@ function nameButtons(library) {
   return () => doc.remove_on_change(onOpen);
 }
 
-// What the top does now, to the ear.
+// What the rolling top does now, to the ear, while that is looked at: the Lab has words of its own.
 /** @param {GuideModel} model @param {AbortSignal} signal */
 function speak(model, signal) {
   const { texts } = model, live = document.createElement("div");
@@ -42,7 +42,8 @@ function speak(model, signal) {
   const say = (words) => {
     clearTimeout(later);
     later = setTimeout(() => {
-      if (live.textContent !== words) live.textContent = words;
+      const heard = model.tour ? words : "";
+      if (live.textContent !== heard) live.textContent = heard;
     }, SAY_MS);
   };
   const now = () => fill(playing ? texts.playing : texts.paused, { said: model.said });
@@ -57,6 +58,7 @@ function speak(model, signal) {
   };
   window.addEventListener("tippe:clock", onClock, { signal });
   model.on("said", () => say(now()));
+  model.on("tour", () => say("")); // not what was said in another room
   signal.addEventListener("abort", () => {
     clearTimeout(later);
     live.remove();
