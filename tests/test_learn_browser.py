@@ -184,6 +184,13 @@ def ends(page):
     bar.press("End")
 
 
+def sent(page, answer, language=None):
+    """Waits until a phone says beside its answer that it is sent, and below that it can be changed."""
+    said = re.compile(f"{re.escape(answer)}.*{re.escape(say('teach.room.sent', language))}")
+    expect(page.get_by_role("radio", name=said)).to_be_checked()
+    page.get_by_text(say("teach.room.change", language)).wait_for()
+
+
 def test_a_class_with_two_phones(browser, phones, server):
     """They follow the big screen from question to question; how they voted is seen when it is revealed, and not before;
     another class begins with no votes. Each phone speaks its own language."""
@@ -200,7 +207,7 @@ def test_a_class_with_two_phones(browser, phones, server):
     for visiting, option, language in zip(students, ("over", "falls"), languages, strict=True):
         words = listed("learn.flips.options", language)[option]
         visiting.page.get_by_role("radio", name=words).check(force=True)
-        visiting.page.get_by_text(say("teach.room.sent", language)).wait_for()
+        sent(visiting.page, words, language)
         assert visiting.page.locator(".told > *").count() == 0
     page.locator(".count b", has_text="2").wait_for()
     assert page.locator(".votes").count() == 0 and page.locator(".letters li").count() == 4
@@ -217,10 +224,11 @@ def test_a_class_with_two_phones(browser, phones, server):
     for visiting, language in zip(students, languages, strict=True):
         visiting.page.get_by_role("heading", name=say("learn.way.question", language)).wait_for()
         assert visiting.page.locator(".option :checked").count() == 0
-    students[0].page.get_by_role("radio", name=listed("learn.way.options")["other"]).check(force=True)
-    students[0].page.get_by_text(say("teach.room.sent")).wait_for()
+    other = listed("learn.way.options")["other"]
+    students[0].page.get_by_role("radio", name=other).check(force=True)
+    sent(students[0].page, other)
     students[0].page.reload()
-    students[0].page.get_by_text(say("teach.room.sent")).wait_for()
+    sent(students[0].page, other)
     page.keyboard.press("0")
     page.locator(".count b", has_text=re.compile("^0$")).wait_for()
     for visiting, language in zip(students, languages, strict=True):

@@ -12,6 +12,7 @@ from app.widgets.controls import number
 from app.widgets.plots import PAPER, draw
 
 COLUMN, STEP = 0.10, 0.035  # relative to the figure: from the body to the first of the heights, and between two of them
+ALONG = 0.75  # of a slanted line: where its length is written, clear of G
 SIZE = 7  # px, the head of an arrow
 
 
@@ -62,7 +63,8 @@ class Dimensioned:
                 lines.append((x, z, x1, z1, colour, thick))
                 slanted, left = z != z1, x1 < x
                 said.append((x1, z1, text, -12 if left else 12, 0, "right" if left else "left")
-                            if not slanted else ((x + x1) / 2, (z + z1) / 2, text, 0, 0, "center"))  # fmt: skip
+                            if not slanted
+                            else (x + ALONG * (x1 - x), z + ALONG * (z1 - z), text, 0, 0, "center"))  # fmt: skip
         drawn = (self.lines, lines), (self.tips, tips), (self.said, words[False]), (self.held, words[True])
         for source, rows in drawn:
             source.data = {name: [row[i] for row in rows] for i, name in enumerate(source.column_names)}

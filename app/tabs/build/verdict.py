@@ -1,11 +1,10 @@
-"""Whether the body on the bench turns over, in words beside it, and how far it gets at each spin."""
+"""Whether the present body turns over, in words, and how its runs end at each spin."""
 
 import html
 from functools import partial
 
 from app.model.arrival import MU, SPIN, TILT
 from app.model.build.verdict import verdict
-from app.model.colours import COLOURS
 from app.model.ends import COLOUR_IN_LAB
 from app.model.lab.ends import SPINS, TIMES, Ends, ends_once, known_ends
 from app.model.lab.run import toy_of
@@ -22,29 +21,26 @@ h3 { margin: 8px 0 4px; font-size: calc(26px * var(--type, 1)); line-height: 1.2
 """
 
 
-STRIP = (
-    """
-.ends { position: relative; height: 20px; margin: 4px 0 0 }
+STRIP = """
+.ends { position: relative; height: calc(20px * var(--type, 1)); margin: 4px 0 0 }
 .end { position: absolute; top: 0; bottom: 0; background: var(--of) }
-.end.mixed { background: repeating-linear-gradient(45deg, HIGH 0 3px, LOW 3px 6px) }
-.mark { position: absolute; top: -5px; height: 30px; width: 3px; margin-left: -1px; background: ACCENT;
+.end.mixed { background: repeating-linear-gradient(45deg, var(--end-stands) 0 3px, var(--end-leans) 3px 6px) }
+.mark { position: absolute; top: -5px; bottom: -5px; width: 3px; margin-left: -1px; background: var(--accent);
   outline: 1px solid var(--card, #fff) }
 .under { position: relative; display: flex; justify-content: space-between; min-height: 1.5em; padding-top: 5px }
 .under b { position: absolute; transform: translateX(-50%); background: var(--card, #fff);
-  color: color-mix(in srgb, ACCENT 60%, var(--ink, #22303c)) }
+  color: color-mix(in srgb, var(--accent) 60%, var(--ink, #22303c)) }
 .kinds { display: flex; flex-wrap: wrap; gap: 0 16px }
-.kinds .end { position: static; display: inline-block; width: 12px;
-  height: 12px; margin-right: 6px; vertical-align: -1px; outline: 1px solid var(--rule, #d8dce0) }
+.kinds .end { position: static; display: inline-block; width: calc(12px * var(--type, 1));
+  height: calc(12px * var(--type, 1)); margin-right: 6px; vertical-align: -1px;
+  outline: 1px solid var(--rule, #d8dce0) }
 .strip { min-height: calc(92px * var(--type, 1)) }
-""".replace("HIGH", COLOUR_IN_LAB["stands"])
-    .replace("LOW", COLOUR_IN_LAB["leans"])
-    .replace("ACCENT", COLOURS["accent"])
-)
+"""
 
 
 class VerdictWords:
     """view: the words; strip: the ends of its runs over spin; runs: the page's Runs. show() is for each scene of a
-    hand at rest; what has ended before it was done is asked for again then."""
+    hand at rest; it also repeats computations that ended early."""
 
     def __init__(self, runs):
         self._runs, self._shape, self._said, self._asked = runs, None, "", None
@@ -52,7 +48,7 @@ class VerdictWords:
         self.strip = words(strip_of(None), style=STRIP)
 
     def show(self, scene):
-        """Computes it, where the body is another; until then what is there is old."""
+        """Computes the verdict on a new body; until it is done, the previous one is shown as old."""
         shape = scene.shape
         if shape is None:
             return
@@ -64,7 +60,7 @@ class VerdictWords:
         self._runs.begin(Run(lambda run: verdict(shape), partial(self._done, shape)), "verdict")
 
     def _ends(self, *key):
-        """Where the runs of all spins end: known, or computed beside; the Lab's are the same."""
+        """How the runs at all spins end: stored, or computed in a thread; the same as in the Lab."""
         if key == self._asked:
             return
         self._asked = key
@@ -81,7 +77,7 @@ class VerdictWords:
             elif isinstance(result, TopError):
                 self.strip.object = strip_of(None, say("build.verdict.strip_refused", why=told(result)))
             else:
-                self._asked = None  # to be asked again
+                self._asked = None  # so that it is computed again
                 self.strip.object = strip_of(None, ended(result))
         if isinstance(result, Exception) and not isinstance(result, Stopped | TopError):
             raise result
@@ -90,7 +86,7 @@ class VerdictWords:
         if shape != self._shape:
             return
         if isinstance(result, Exception):
-            self._shape = None  # to be asked again
+            self._shape = None  # so that it is computed again
             self.view.object = self._written("old", ended(result))
             if not isinstance(result, Stopped):
                 raise result
@@ -104,12 +100,11 @@ class VerdictWords:
 
 
 def strip_of(ends, why=""):
-    """The ends of runs over the spin, with the spin of the verdict on it; None: they are still to come, or why they
-    will not."""
+    """The ends of runs over the spin, with a mark at the spin of the verdict; None: they are not computed yet, or, with
+    why, they cannot be."""
     low, high = float(SPINS[0]), float(SPINS[-1])
     says = say("build.verdict.strip", count=len(SPINS), seconds=float(TIMES[-1]), tilt=TILT, mu=MU)
     waits = html.escape(spelled(why or say("build.verdict.strip_waits")))
-    unit = say("build.verdict.strip_unit")
     at = f"{100 * (SPIN - low) / (high - low):.2f}%"
     mark = f'<i class="mark" style="left: {at}"></i>'
     parts = ends.segments if ends else ()
@@ -125,7 +120,7 @@ def strip_of(ends, why=""):
     key = "".join(
         f'<span><i class="end {code}" style="{_colour(code)}"></i>{word}</span>' for code, word in kinds.items()
     )
-    axis = f'<span>{low:.0f}</span><b style="left: {at}">{written(SPIN, ".1f")}</b><span>{high:.0f} {unit}</span>'
+    axis = f'<span>{low:.0f}</span><b style="left: {at}">{written(SPIN, ".1f")}</b><span>{high:.0f}</span>'
     return (
         f'<div class="strip"><div>{html.escape(spelled(says))}</div><div class="ends" role="img" '
         f'aria-label="{html.escape(spelled(stretches)) or waits}">{drawn}{mark}</div>'
@@ -134,4 +129,4 @@ def strip_of(ends, why=""):
 
 
 def _colour(code):
-    return f"--of: {COLOUR_IN_LAB[code]}; " if code in COLOUR_IN_LAB else ""
+    return f"--of: var(--end-{code}); " if code in COLOUR_IN_LAB else ""

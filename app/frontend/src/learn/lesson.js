@@ -41,7 +41,7 @@ class Lesson {
     this.more = part("nav", { class: "more", "aria-label": texts.lesson.more });
     this.right = part("div", { class: "right" }, this.question.element, this.graph.element);
     this.element = part("div", { class: "lesson" }, this.crumbs, this.heading, this.stage.element, this.bar.element, this.right,
-      this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.more);
+      this.presenter.board, this.presenter.foot, this.phone.head, this.phone.foot, this.phone.follows, this.more);
     this.frame = part("div", { class: "frame", tabindex: -1 }, this.element);
     el.replaceChildren(part("style", {}, style), this.frame);
     this.look();

@@ -12,8 +12,8 @@ export class PhoneSide {
     this.said = part("p", { role: "alert" });
     this.again = part("button", { type: "button", class: "primary", onclick: () => ask("again", "") }, room.again);
     this.alone = part("a", { target: "_blank" }, room.alone);
-    this.foot = part("footer", { class: "phone-foot" }, this.count, this.said, this.again, part("p", { class: "small" }, room.follows, " ",
-      this.alone));
+    this.foot = part("div", { class: "phone-foot" }, this.count, this.said, this.again);
+    this.follows = part("footer", { class: "follows" }, part("span", { class: "small" }, room.follows), this.alone);
   }
 
   /** @param {any} state @param {Record<string, any>} texts */
@@ -25,7 +25,9 @@ export class PhoneSide {
     this.again.hidden = !again;
     this.alone.href = alone;
     this.count.replaceChildren(...(open ? [part("b", {}, `${room.voted} ${say(texts, words.voted, { phones: room.phones })}.`), " ",
-      room.shown ? words.shown : mine ? `${words.sent} ${words.change}` : words.vote] : []));
-    this.head.parentElement?.classList.toggle("empty", !open);
+      room.shown ? words.shown : mine ? words.change : words.vote] : []));
+    const lesson = this.head.parentElement;
+    lesson?.classList.toggle("empty", !open);
+    lesson?.style.setProperty("--sent", mine ? JSON.stringify(words.sent) : "none"); // beside the answer that was chosen
   }
 }

@@ -66,7 +66,7 @@ svg text.own { fill: var(--q-spin); stroke: none; } svg text { stroke: none; } s
 
 const present = `
 .frame.presenting { position: fixed; inset: 0; z-index: 1400; overflow: auto; }
-.board, .foot, .phone-head, .phone-foot { display: none; }
+.board, .foot, .phone-head, .phone-foot, .follows { display: none; }
 .lesson.present { --t-m: 24px; --t-s: 18px; --t-l: 30px; --touch: 48px; font-size: var(--t-m); min-height: 100vh; padding: 24px 40px 12px; gap: 16px 40px; --side: 30vw;
   grid-template: "question question" auto "stage board" minmax(0, 1fr) "bar board" auto "foot foot" auto / minmax(0, 1fr) var(--side); }
 .present > :is(.crumbs, .right, .more) { display: none; } .present .question { font-size: clamp(32px, 3.1vw, 64px); } .present .stage { height: auto; position: relative; min-height: 320px; }
@@ -79,11 +79,13 @@ const present = `
 .warning { border-left: 4px solid var(--ink); padding-left: 12px; } .counted { margin-top: auto; display: flex; align-items: center; justify-content: space-between; gap: 16px; } .count b { font-size: 2em; } .present .primary { min-height: 64px; padding: 0 36px; }
 .present .told { overflow: auto; } .present .bar .plot { height: 150px; } .keys { display: flex; gap: 4px; flex-wrap: wrap; } .keys button { min-height: 36px; padding: 0 8px; } kbd { font: inherit; border: 1px solid var(--line-2); border-radius: 4px; padding: 0 6px; margin-right: 6px; }
 .dots i { display: inline-block; width: 12px; height: 12px; border-radius: 6px; margin-right: 8px; box-shadow: inset 0 0 0 1.5px var(--line-2); } .dots .here { width: 32px; background: var(--accent); box-shadow: none; }
-.lesson[data-role=phone] { display: flex; flex-direction: column; gap: 8px; padding: 0 0 72px; --stage: 280px; } .lesson[data-role=phone] > :is(.crumbs, .more, .bar) { display: none; } .lesson[data-role=phone] :is(.dock, .picture, .end) { display: none; } .lesson[data-role=phone] .right { display: contents; }
+.lesson[data-role=phone] { display: flex; flex-direction: column; gap: 8px; padding: 0; --stage: 280px; min-height: 100vh; min-height: 100svh; } .lesson[data-role=phone] > :is(.crumbs, .more, .bar) { display: none; } .lesson[data-role=phone] :is(.dock, .picture, .end) { display: none; } .lesson[data-role=phone] .right { display: contents; }
 .lesson[data-role=phone][data-picture=arms] .picture { display: flex; order: 1; flex: none; height: var(--stage); padding: 8px 16px; }
 .lesson[data-role=phone] .stage { order: 1; height: var(--stage); flex: none; } .lesson[data-role=phone] :is(.phone-head, .phone-foot) { display: flex; align-items: center; gap: 12px; padding: 8px 16px; }
-.lesson[data-role=phone] .phone-head { order: 0; } .lesson[data-role=phone] .question { order: 2; font-size: 20px; padding: 0 16px; } .lesson[data-role=phone] .side { display: flex; order: 3; padding: 0 16px; } .lesson[data-role=phone] .side > * { padding: 0; }
-.lesson[data-role=phone] .phone-foot { order: 4; flex-direction: column; align-items: stretch; } .phone-foot a { color: var(--accent); } .phone-head .round { margin-left: auto; width: 44px; height: 44px; font-size: 20px; }
+.lesson[data-role=phone] .phone-head { order: 0; position: relative; height: 48px; padding: 0 16px; margin-bottom: -8px; } .lesson[data-role=phone] .question { order: 2; font-size: 20px; padding: 0 16px; } .lesson[data-role=phone] .side { display: flex; order: 3; padding: 0 16px; } .lesson[data-role=phone] .side > * { padding: 0; }
+.lesson[data-role=phone] .phone-foot { order: 4; flex-direction: column; align-items: stretch; } .phone-head b { font-size: 18px; } .phone-head .round { position: absolute; right: 12px; top: calc(48px + var(--stage) - 60px); z-index: 3; font-size: 20px; }
+.lesson[data-role=phone] .hint { color: var(--ink-2); } .lesson[data-role=phone] .option { min-height: 52px; } .lesson[data-role=phone] .option:has(:checked)::after { content: var(--sent, none); margin-left: auto; white-space: nowrap; }
+.lesson[data-role=phone] .follows { order: 9; display: flex; align-items: center; justify-content: space-between; gap: 16px; margin-top: auto; position: sticky; bottom: 0; z-index: 4; min-height: 60px; padding: 0 16px; background: var(--ground); border-top: 1px solid var(--line); } .follows a { color: inherit; font-weight: 600; text-decoration: none; display: flex; align-items: center; min-height: 44px; }
 .lesson.empty > :is(.stage, .side, .question) { display: none !important; }
 `;
 

@@ -2,6 +2,7 @@
 // of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
 import { colours, onDark } from "../colours.js";
 import { coalesce } from "../data.js";
+import { endColours } from "../ends.js";
 import { words } from "../three/scene.js";
 
 const LARGER = 1.35;
@@ -29,7 +30,7 @@ function setVariables(model, name, dark) {
   const values = {
     "--ink": ink, "--faint": FAINT_TYPE[name], "--rule": line, "--card": paper, "--alert": dark ? "#ffb4ab" : "#b3261e",
     "--focus": (dark ? onDark : colours).chosen, "--link": dark ? "#8ec7f5" : "#0b5cad",
-    "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
+    "--accent": (dark ? onDark : colours).accent, ...endColours(dark), "--type": model.large ? LARGER : "", ...words[dark ? "dark" : "light"],
   };
   for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));
   for (const [property, value] of Object.entries(model.on_dark)) {
