@@ -9,7 +9,7 @@ import pytest
 from app.model.measured.data import Data, Series
 from app.model.measured.fit import Fit, Problem, verdict
 from app.model.measured.kept import kept
-from app.model.measured.known import known
+from app.model.measured.known import Known, known
 from app.model.measured.motion import Residuals, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import shown
@@ -55,6 +55,17 @@ def test_the_errors_of_a_fit_and_of_its_constants_are_the_scatter_of_many():
     assert np.all(abs(spread - 1) < CHANCE), spread
     scatter = np.corrcoef(np.array(off)[:, : len(TRUE.free)].T)
     assert np.abs(scatter - found.correlation).max() < 0.4
+
+
+@pytest.mark.parametrize(("value", "error", "bounds", "tells"), [
+    (1.0, 0.45, (0, 9), True), (1.0, 0.55, (0, 9), False), (1.0, 0.7, (-9, 9), True), (1.0, 2.0, (-9, 9), False),
+    (1.8, 0.09, (0, 2), True), (1.8, 0.11, (0, 2), False),
+])  # fmt: skip
+def test_a_number_is_known_to_half_of_it_and_where_95_of_100_lie_within_its_bounds(value, error, bounds, tells):
+    """Of one that may be of either sign, to a tenth of its range; two standard errors hold 95 of 100."""
+    one = np.array([error])
+    found = Known(one[:, None] ** 2, one, one, np.array([False]))
+    assert found.tells(np.array([value]), np.array(bounds, float)[:, None]).tolist() == [tells]
 
 
 def test_what_is_known_is_the_same_where_chi_square_is_a_parabola():
