@@ -95,7 +95,7 @@ const stage = `
 .on { position: absolute; left: 12px; right: 12px; top: 12px; display: flex; justify-content: space-between; align-items: flex-start; gap: 8px; pointer-events: none; }
 .on > * { pointer-events: auto; }
 .switch, .on > select { background: color-mix(in srgb, var(--ink) 7%, var(--ground)); border-radius: 8px; padding: 3px; }
-.switch { display: inline-flex; } .switch > b { align-self: center; padding: 0 4px 0 10px; }
+.switch { display: inline-flex; } .switch > b { align-self: center; padding: 0 8px 0 10px; }
 .on > select { padding: 0 8px; min-height: calc(var(--touch) + 2px); min-width: 0; max-width: 46%; text-overflow: ellipsis; font-weight: 600; }
 .chip { position: absolute; left: 16px; top: 64px; display: flex; align-items: center; background: var(--ground); border-radius: 16px; padding-left: 12px; font-variant-numeric: tabular-nums; }
 .chip button { padding: 0; width: var(--touch); font-size: var(--t-l); border-radius: 16px; }
