@@ -15,7 +15,7 @@ from app.model.maps.maps import OWN, QUANTITIES, Map, of_page
 from app.model.maps.solving import run as one_run
 from app.model.maps.solving import solve
 from app.model.maps.throw import throw_of
-from app.model.runs import MAPS, Run, Runs, Stopped
+from app.model.runs import MAPS, WORK, Run, Runs, Stopped
 from app.state import asked as sent
 from app.tabs.maps.asking import Settings, spans
 from app.tabs.maps.export import KINDS, made, python
@@ -159,7 +159,7 @@ class Maps:
         self.stop.disabled, self.bar.visible, self.bar.object = known is not None, known is None, _bar(0)
         if known is not None:
             self._show(known)
-        self._runs.begin(self._run, "maps", MAPS)
+        self._runs.begin(self._run, "maps", MAPS if known is None else WORK)
         self._go(self._within(asked, before))
 
     def _within(self, asked, before):

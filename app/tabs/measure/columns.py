@@ -10,7 +10,7 @@ import panel_material_ui as pmui
 from app.model.measured.data import corrected
 from app.model.measured.table import UNITS
 from app.text import say, written
-from app.widgets.cards import field, flow, note, words
+from app.widgets.cards import beside, field, flow, note, words
 from app.widgets.controls import typed_number
 
 SELECT = {"size": "small", "margin": 0}
@@ -75,7 +75,7 @@ class Columns:
 
         for entry in (quantity, unit, error):
             entry.param.watch(corrects, "value")
-        return flow(name, quantity, unit, words("±", sizing_mode=None), error, guessed, margin=(4, 0))
+        return flow(name, quantity, unit, beside("±", error), guessed, margin=(4, 0))
 
 
 def _guessed(column):

@@ -21,7 +21,7 @@ export class Stage {
     this.time = time;
     /** @type {Record<string, HTMLElement>} */
     this.lines = {}; // under three tops, what each does
-    const words = { ...texts, handle: texts.axis, handle_hint: texts.axis_hint };
+    const words = { ...texts, hint: texts.turn_hint, handle: texts.axis, handle_hint: texts.axis_hint };
     this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand });
     this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75 }));
     this.captions = TABLES.map(() => part("p", { class: "caption" }));

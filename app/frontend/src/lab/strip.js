@@ -166,7 +166,7 @@ export class Strip {
   // The top as it stands in the middle of each long stage, where the curve leaves room.
   shapes() {
     const { scene } = this, run = scene.runs[scene.table], n = scene.profile.length >> 1, curves = scene.curves[scene.table];
-    if (!run || !n || !curves.count || this.width < 500) return [];
+    if (!run || !n || !curves.count || this.before || this.width < 500) return []; // the run before takes their room
     const outline = Array.from({ length: 2 * n }, (_, i) => {
       const at = i < n ? i : 2 * n - 1 - i;
       return [(i < n ? 1 : -1) * scene.profile[2 * at], -scene.profile[2 * at + 1]];
