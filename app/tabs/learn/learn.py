@@ -18,6 +18,7 @@ from app.text import say
 from app.widgets.cards import PLAIN, card, first, later, staged, words
 from app.widgets.top3d import Top3D, show_top
 
+ABOVE = "@media (min-width: 1000px) { :host { margin-left: 24px !important } }"  # as the cards below it
 CLOCK, SPEED = "learn", 1 / 16
 WISHES = ("present", "reveal", "reset")  # requests of the teacher at the big screen
 
@@ -44,6 +45,7 @@ class Learn(param.Parameterized):
         self.sections = pmui.RadioButtonGroup.from_param(
             self.param.section, label="", options={say(f"learn.sections.{name}"): name for name in SECTIONS},
             size="small", sx=PLAIN, margin=(10, 12, 0, 12), styles={"max-width": "calc(100% - 24px)"},
+            stylesheets=[ABOVE],
         )  # fmt: skip
         self.teacher = Teacher(self, lambda: self._scene, lambda room: self._tell(room=room))
         self.param.watch(lambda event: self._on_step(), "step")

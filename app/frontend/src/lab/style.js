@@ -193,7 +193,8 @@ const controls = `
 .ends .mark { position: absolute; top: -6px; height: 20px; width: 2px; margin-left: -1px; background: var(--accent); }
 .ends .was { position: absolute; top: -4px; height: 18px; border-left: 2px dashed var(--ink); margin-left: -1px; }
 .launch { min-width: 116px; text-align: right; } .launch .primary { touch-action: none; user-select: none; -webkit-user-select: none; } .wait { display: flex; align-items: center; gap: 12px; } .wait .small { min-width: 4ch; font-variant-numeric: tabular-nums; } .wait .outline { min-height: 40px; }
-.wait progress { width: 110px; height: 6px; accent-color: var(--ink); }
+.wait progress { -webkit-appearance: none; appearance: none; width: 110px; height: 6px; border: 0; border-radius: 3px; overflow: hidden; background: var(--line); }
+.wait progress::-webkit-progress-bar { background: var(--line); } .wait progress::-webkit-progress-value { background: var(--ink); } .wait progress::-moz-progress-bar { background: var(--ink); }
 :is(.numbers, .body) { border-top: 1px solid var(--line); border-bottom: 1px solid var(--line); } :is(.numbers, .body) summary { min-height: var(--touch); padding: 8px 0; cursor: pointer; list-style: none; display: flex; justify-content: space-between; } :is(.numbers, .body) summary::after { content: "+"; } :is(.numbers, .body)[open] summary::after { content: "−"; }
 .body .ctl { margin-bottom: 8px; } .body + :is(.body, .numbers) { border-top: 0; }
 .numbers th { font-weight: 400; color: var(--ink-2); } .numbers td { text-align: right; padding-right: 0; } .numbers :is(th, td) { padding-block: 2px; }
@@ -208,6 +209,7 @@ const controls = `
   .picks [aria-pressed=true] { box-shadow: inset 0 -3px 0 var(--accent); }
   .chip { top: 60px; left: 8px; max-width: calc(100% - 118px); } .chip span { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; } .chip button { flex: none; height: 44px; }
   .pill { max-width: calc(100% - 184px); line-height: 1.2; }
+  .wait { gap: 6px; } .wait progress { width: 32px; } .wait .small { white-space: nowrap; } .wait .outline { min-height: 44px; padding: 0 10px; }
   .primary { min-height: 44px; } .dock .ctl:not(.picked) { display: none; }
   .dock label { display: none; } .dock .ctl > span { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
   .dock .ctl.bad > span { position: static; width: auto; height: auto; clip-path: none; grid-column: 1 / -1; }
