@@ -17,7 +17,7 @@ export class Words {
       const to = NEXT[this.scene.table];
       ask(to === "research" ? "research" : "table", to);
     } });
-    this.lesson = part("button", { class: "link lesson", type: "button", hidden: true, onclick: () => ask("why", "") });
+    this.lesson = part("button", { class: "link", type: "button", hidden: true, onclick: () => ask("why", "") });
     // Spoken once a stage, not at each picture of it.
     this.element = part("section", { class: "say" }, part("div", { role: "status" }, this.headline, part("p", {}, this.why, " ", this.back, this.lesson)), this.next);
   }
