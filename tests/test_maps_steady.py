@@ -9,11 +9,11 @@ from app.model.maps.kept import SHIPPED, recall
 from app.model.maps.maps import Map
 from app.model.maps.rates import POINTS, REACH, powers
 from app.model.maps.solving import run
-from app.model.maps.steady import at_place, bifurcation, fixed, launch, steady_lines
+from app.model.maps.steady import _brought, at_place, bifurcation, fixed, launch, steady_lines
 from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.words import of_run
 from app.text import listed
-from tippe_core import Scales, slide
+from tippe_core import Scales, State, slide, slide_many
 
 UNIT = Scales(R=0.02, M=0.02, g=9.82)
 TOP_S = Map(body="Top S", law="viscous", values=(("mu", UNIT.velocity),), across_range=(2.0, 16.0), seconds=25.0)
@@ -83,3 +83,16 @@ def test_a_word_on_the_map_stands_on_its_own_colour_and_is_not_cut_off():
             assert listed("maps.ends")[level.end[i, j]] == word.text and 0 < i < len(level.y) - 1
             share = j / len(level.x)
             assert word.text_align == ("left" if share < 0.2 else "right" if share > 0.8 else word.text_align)
+
+
+def test_what_a_sweep_brings_on_slips_in_proportion():
+    """All velocities of the end of one run, with that of its contact, by the same factor."""
+    one, next_one = (Map().at(spin, 5.7) for spin in (20.0, 30.0))
+    ended = slide_many(one.top, one.state, one.friction, one.t_end / 4, one.edge).state_end
+    brought = _brought(ended, next_one)
+    before, after = (
+        slide(one.top, State(*map(float, each)), one.friction, [0.0], edge=one.edge) for each in (ended, brought)
+    )
+    by = after.omega[0, 2] / before.omega[0, 2]
+    assert after.jellett[0] / before.jellett[0] == pytest.approx(by) and abs(by - 1) > 0.1
+    np.testing.assert_allclose(after.slip[0], by * before.slip[0], rtol=1e-9)

@@ -1,7 +1,7 @@
 """Errors of what Measure says, against the scatter of many films that differ by their noise alone; and its verdicts."""
 
 from dataclasses import replace
-from types import MappingProxyType
+from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ import pytest
 from app.model.measured.data import Data, Series
 from app.model.measured.fit import Fit, Problem, verdict
 from app.model.measured.kept import kept
-from app.model.measured.known import known
+from app.model.measured.known import Known, _far, known
 from app.model.measured.motion import Residuals, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import shown
@@ -55,6 +55,27 @@ def test_the_errors_of_a_fit_and_of_its_constants_are_the_scatter_of_many():
     assert np.all(abs(spread - 1) < CHANCE), spread
     scatter = np.corrcoef(np.array(off)[:, : len(TRUE.free)].T)
     assert np.abs(scatter - found.correlation).max() < 0.4
+
+
+@pytest.mark.parametrize("way", [-1, 1])
+@pytest.mark.parametrize("bend, close", [(0.0, 1e-9), (0.1, 0.05), (-0.1, 0.05)])
+def test_a_valley_is_followed_to_where_chi_square_has_risen_by_4(way, bend, close):
+    """Of one number x whose residual is x + bend x^2: to half of the x at which that is 2 or -2."""
+    problem = SimpleNamespace(bounds=np.array([[-9.0], [9.0]]), residuals=lambda x: x + bend * x**2)
+    found, _, better = _far(problem, np.zeros(1), 0.0, 0, way, np.ones(1), [])
+    roots = np.roots([bend, 1.0, -2.0 * way])
+    assert found == pytest.approx(np.abs(roots).min() / 2, rel=close) and better is None
+
+
+@pytest.mark.parametrize(("value", "error", "bounds", "tells"), [
+    (1.0, 0.45, (0, 9), True), (1.0, 0.55, (0, 9), False), (1.0, 0.7, (-9, 9), True), (1.0, 2.0, (-9, 9), False),
+    (1.8, 0.09, (0, 2), True), (1.8, 0.11, (0, 2), False),
+])  # fmt: skip
+def test_a_number_is_known_to_half_of_it_and_where_95_of_100_lie_within_its_bounds(value, error, bounds, tells):
+    """Of one that may be of either sign, to a tenth of its range; two standard errors hold 95 of 100."""
+    one = np.array([error])
+    found = Known(one[:, None] ** 2, one, one, np.array([False]))
+    assert found.tells(np.array([value]), np.array(bounds, float)[:, None]).tolist() == [tells]
 
 
 def test_what_is_known_is_the_same_where_chi_square_is_a_parabola():
