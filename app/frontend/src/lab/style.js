@@ -79,7 +79,7 @@ const places = `
   .lab, .lab[data-table=three] { --touch: 44px; --stage: 300px; --bar: 132px; display: flex; flex-direction: column; gap: 0; padding: 0; }
   .stage { height: var(--stage); flex: none; border-radius: 0; position: sticky; top: calc(48px * var(--type, 1)); z-index: 2; }
   .lab[data-table=three] .stage { height: 340px; position: relative; top: 0; }
-  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link { min-height: var(--touch); }
+  .strip, .say, .answer, .keeps { padding: 8px 16px 0; } .say .link { min-height: var(--touch); } .say .link + .link { display: none; }
   .dock { order: 1; position: sticky; bottom: 0; z-index: 3; background: var(--ground); border-top: 1px solid var(--line); padding: 4px 16px 8px; margin-top: 16px; }
   :is(.body, .numbers) { margin: 0 16px; } .body { margin-top: 16px; }
   :is(.body, .numbers) :is(summary, input, button) { scroll-margin: calc(var(--stage) + 60px) 0 190px; } /* between stage and dock */
