@@ -1,6 +1,7 @@
 """The numbers beside the section are those of the body: what is measured in the drawing is the dimension."""
 
 import math
+import re
 
 import pytest
 
@@ -12,7 +13,7 @@ from app.model.build.measures import measures
 from app.model.explorer import Explorer
 from app.model.lab.ends import SPINS, Ends
 from app.tabs.build.section import Section
-from app.tabs.build.verdict import strip_of
+from app.tabs.build.verdict import STRIP, strip_of
 from app.text import written
 from tippe_core import PRESETS
 
@@ -78,3 +79,6 @@ def test_the_strip_of_ends_has_each_of_them_and_the_spin_of_the_verdict():
     assert "left: 57.30%" in drawn and TOY not in drawn  # 28.65 of 50 rev/s
     assert all(each.word in drawn for each in ends.segments)
     assert 'class="end ' not in strip_of(None)
+    assert re.search(r"var\(--of\)", STRIP) and not re.search(
+        r"var\(--(?!of)[\w-]+\)", STRIP + drawn
+    )  # light sets none

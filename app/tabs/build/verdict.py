@@ -5,6 +5,7 @@ from functools import partial
 
 from app.model.arrival import MU, SPIN, TILT
 from app.model.build.verdict import verdict
+from app.model.colours import COLOURS
 from app.model.ends import COLOUR_IN_LAB
 from app.model.lab.ends import SPINS, TIMES, Ends, ends_once, known_ends
 from app.model.lab.run import toy_of
@@ -21,21 +22,26 @@ h3 { margin: 8px 0 4px; font-size: calc(26px * var(--type, 1)); line-height: 1.2
 """
 
 
-STRIP = """
+STRIP = (
+    """
 .ends { position: relative; height: calc(20px * var(--type, 1)); margin: 4px 0 0 }
 .end { position: absolute; top: 0; bottom: 0; background: var(--of) }
-.end.mixed { background: repeating-linear-gradient(45deg, var(--end-stands) 0 3px, var(--end-leans) 3px 6px) }
-.mark { position: absolute; top: -5px; bottom: -5px; width: 3px; margin-left: -1px; background: var(--accent);
+.end.mixed { background:
+  repeating-linear-gradient(45deg, var(--end-stands, HIGH) 0 3px, var(--end-leans, LOW) 3px 6px) }
+.mark { position: absolute; top: -5px; bottom: -5px; width: 3px; margin-left: -1px; background: var(--accent, ACCENT);
   outline: 1px solid var(--card, #fff) }
 .under { position: relative; display: flex; justify-content: space-between; min-height: 1.5em; padding-top: 5px }
 .under b { position: absolute; transform: translateX(-50%); background: var(--card, #fff);
-  color: color-mix(in srgb, var(--accent) 60%, var(--ink, #22303c)) }
+  color: color-mix(in srgb, var(--accent, ACCENT) 60%, var(--ink, #22303c)) }
 .kinds { display: flex; flex-wrap: wrap; gap: 0 16px }
 .kinds .end { position: static; display: inline-block; width: calc(12px * var(--type, 1));
   height: calc(12px * var(--type, 1)); margin-right: 6px; vertical-align: -1px;
   outline: 1px solid var(--rule, #d8dce0) }
 .strip { min-height: calc(92px * var(--type, 1)) }
-"""
+""".replace("HIGH", COLOUR_IN_LAB["stands"])
+    .replace("LOW", COLOUR_IN_LAB["leans"])
+    .replace("ACCENT", COLOURS["accent"])
+)  # in the light look, which sets no variables
 
 
 class VerdictWords:
@@ -129,4 +135,4 @@ def strip_of(ends, why=""):
 
 
 def _colour(code):
-    return f"--of: var(--end-{code}); " if code in COLOUR_IN_LAB else ""
+    return f"--of: var(--end-{code}, {COLOUR_IN_LAB[code]}); " if code in COLOUR_IN_LAB else ""
