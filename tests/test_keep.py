@@ -17,7 +17,7 @@ from app.share.parts import Clock
 from app.state.codecs import Body, Number
 from app.state.keep import EXPLORER, LONGEST_QUERY, STEPS, Keep, explorer_of, read, usual
 from app.state.names import of
-from app.text import say
+from app.text import say, speaking
 from app.widgets.controls import Controls
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
 
@@ -265,6 +265,14 @@ def test_what_was_paused_plays_on_when_it_is_played():
         top.playing = playing
         keep.at_rest()
         assert top.playing is playing and ("t=" in keep.query) is not playing
+
+
+def test_the_words_that_a_link_may_have_are_written_as_in_the_link():
+    """Not as numbers, whose points and signs each language has of its own."""
+    for language in ("en", "de"):
+        with speaking(language):
+            _, sentence = explorer_of({"limit": "sideways"})
+        assert "lift, slip" in sentence
 
 
 def test_a_rounded_stem_is_said_in_a_link_and_a_sharp_one_goes_without_saying():

@@ -33,6 +33,16 @@ PLACE = """
 UNROLLED = ":host { max-height: none !important } .scroll-button { display: none !important }"
 
 
+# Over the page, so that nothing moves when it goes.
+NOTICE = """
+:host { position: fixed; z-index: 15; inset: calc(48px * var(--type, 1) + 8px) 24px auto auto;
+  width: auto !important; max-width: 560px }
+[role=alert] { background: #fff4e5; color: #5c3b00; padding: 8px 16px; border-radius: 8px;
+  box-shadow: 0 2px 8px rgb(0 0 0 / 30%) }
+@media (max-width: 700px) { :host { inset: auto 8px 64px } }
+"""
+
+
 class Share(param.Parameterized):
     """main: errors in the link, and the panel that is laid over the page.
 
@@ -85,8 +95,7 @@ class Share(param.Parameterized):
     def _say(self, *events):
         text = self.keep.sentence
         self._notice.objects = [
-            words(f'<div role="alert"><b>{html.escape(text)}</b></div>',
-                  styles={"background": "#fff4e5", "padding": "8px 20px", "color": "#5c3b00"})
+            words(f'<div role="alert"><b>{html.escape(text)}</b></div>', NOTICE)
         ] if text else []  # fmt: skip
 
     def _changed(self, event):

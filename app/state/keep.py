@@ -60,7 +60,7 @@ def values(texts, known, skip=()):
             found[parameter] = name.codec.value(texts[name.key])
         except ValueError as error:
             impossible = isinstance(error, TopError)
-            wrong.append(told(error) if impossible else say("share.link.to_be", name=name.key, what=error))
+            wrong.append(told(error) if impossible else say("share.link.to_be", name=name.key, what=str(error)))
     return found, say("share.link.unreadable", wrong=" ".join(wrong)) if wrong else ""
 
 
