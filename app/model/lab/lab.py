@@ -232,7 +232,8 @@ class Lab(param.Parameterized):
         """Has the rest of the toy's life computed, if no hand moves and nothing else is being computed."""
         scene, inputs = self.scene, self._good
         if self.rests and scene is not None and not scene.whole and self._run is None:
-            self._runs.begin(Run(lambda run: scene_of(*inputs, whole=True), partial(self._lived, inputs)), "life", LATER)
+            work = Run(lambda run: scene_of(*inputs, whole=True), partial(self._lived, inputs))
+            self._runs.begin(work, "life", LATER)
 
     def _lived(self, inputs: Inputs, result: Result) -> None:
         """Shows the whole life in place of its beginning, if that is still what is shown."""
