@@ -433,5 +433,5 @@ if __name__ == "__main__":
 # With two visitors who keep maps of 2,601 runs coming: Explore, 100, one worker p95 252 and 390 ms without them, 210
 # and 678 with; Research, 60, one worker 87 and 100. Generator, maps and server share the two cores. The aim of p95 250
 # is met by 100 of Explore on one worker where the machine is quiet, by 100 on two workers in both, and not by 200, nor
-# by 100 of Research on one: their moves ask for more than there is. A session that looks has 1.9 MB, one that moved 2.3;
+# by 100 of Research on one: their moves ask for more than there is. A session that looks has 1.9 MB, one moved 2.3;
 # of Research 5 to 7.2 and 8.9.
