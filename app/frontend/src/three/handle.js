@@ -1,4 +1,4 @@
-// The handle at the end of the axis of a paused top: dragged, or moved by the arrow keys, it asks for another tilt.
+// The handle at the end of a paused top's axis: dragging it, or the arrow keys, request another tilt.
 import { Vector3 } from "three";
 import { local } from "../data.js";
 /** @import { Body } from "./body.js" */
@@ -7,7 +7,7 @@ import { local } from "../data.js";
 /** @import { Stage } from "./stage.js" */
 
 const BEYOND = 0.25; // how far beyond the body, in R
-const LEAST = 0.01; // rad from the vertical, where a lean has no direction
+const LEAST = 0.01; // rad: closer to the vertical, the axis has no direction to lean to
 const TRIES = 400;
 const KEY_STEP = 0.01;
 
@@ -45,14 +45,14 @@ export class Handle {
       const step = { ArrowUp: -KEY_STEP, ArrowLeft: -KEY_STEP, ArrowDown: KEY_STEP, ArrowRight: KEY_STEP }[event.key];
       if (!step) return;
       event.preventDefault();
-      event.stopPropagation(); // the arrows are not the clock's here
+      event.stopPropagation(); // here the arrow keys do not move the clock
       this.take();
       this.ask(this.theta + step);
       this.asked = true;
     });
   }
 
-  // The tilt as it is spoken.
+  // The tilt for a screen reader.
   /** @param {number} theta */
   said(theta) {
     return this.model.degrees ? ((180 / Math.PI) * theta).toFixed(0) : local(theta.toFixed(3));
@@ -64,7 +64,7 @@ export class Handle {
     this.model.letGo?.();
   }
 
-  // What is under the hand now: the upright plane of the axis, and the instant.
+  // What is being dragged: the vertical plane through the axis, and the moment.
   take() {
     this.grasp += 1;
     this.t = this.player.t;
@@ -78,7 +78,7 @@ export class Handle {
     this.model.tilted = [Math.min(Math.max(theta, LEAST), most), this.t, this.grasp];
   }
 
-  // The tilt whose handle is nearest to the pointer on the screen.
+  // The tilt at which the handle is closest to the pointer on the screen.
   /** @param {PointerEvent} event */
   under({ clientX, clientY }) {
     const { camera, width, height, holder } = this.stage, box = holder.getBoundingClientRect(), point = new Vector3();
@@ -92,14 +92,14 @@ export class Handle {
     return found;
   }
 
-  // Whether the motion that came is the hand's, which holds its beginning.
+  // Whether the new motion is the one that was requested here; then it stays at its beginning.
   begins() {
     const mine = this.held || this.asked;
     this.asked = false;
     return mine;
   }
 
-  // Where the body is now, and its tilt.
+  // The present position of the body, and its tilt.
   /** @param {Body} body @param {number} theta @param {boolean} shown */
   follow(body, theta, shown) {
     this.label.visible = shown;
