@@ -16,14 +16,14 @@ export function scalesOf(fig) {
   return { x, y };
 }
 
-/** 4. The element that gets the mouse and touch events; the scales are in px of it. No issue found. @param {Figure} fig @returns {HTMLElement} */
+/** 4. The element that gets the mouse and touch events; the scales are in px of it. No issue that we found. @param {Figure} fig @returns {HTMLElement} */
 export const eventsOf = (fig) => viewOf(fig).canvas_view.events_el;
 
 /** @param {Figure} fig @param {string} cursor a CSS cursor */
 export const setCursor = (fig, cursor) => (eventsOf(fig).style.cursor = cursor);
 
 // 5. If a pointer rests for 300 ms before it moves, Bokeh takes that for a press and does not drag. No figure here uses
-// presses, so a press never counts as one. No issue found.
+// presses, so a press never counts as one. No issue that we found.
 /** @param {Figure} fig */
 export function pressNever(fig) {
   viewOf(fig).canvas_view.ui_event_bus.ui_gestures.constructor.press_threshold = 2 ** 31 - 1;
