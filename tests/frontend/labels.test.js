@@ -56,7 +56,7 @@ test("the handle asks for the tilt that is under the pointer, in the plane of th
     assert.ok(handle.label.at.distanceTo(body.position) > body.top);
     lean(tilt + 0.4, towards);
     handle.take();
-    near(handle.under({ clientX: x + 30, clientY: y + 7 }), tilt, 0.02);
+    near(handle.under({ clientX: x + 30, clientY: y + 7 }), tilt, 0.01);
   }
   handle.ask(-3);
   handle.ask(9);
@@ -67,4 +67,26 @@ test("the handle asks for the tilt that is under the pointer, in the plane of th
   assert.deepEqual([handle.begins(), handle.begins()], [true, false]);
   handle.held = true;
   assert.deepEqual([handle.begins(), handle.begins()], [true, true]);
+});
+
+test("beyond the vertical the axis stays upright, and comes back with the hand", () => {
+  const stage = stageOf(), labels = new Labels(stage), model = { texts: {}, degrees: true }, body = new Group();
+  const handle = new Handle(stage, labels, model, { t: 0 }), round = [];
+  body.quaternion.setFromAxisAngle(new Vector3(-1, 0, 0), 0.1); // towards y, across the picture
+  handle.follow(body, 0.1, true);
+  labels.place();
+  handle.take();
+  for (const turn of [0.1, 0, -0.5, -1, -1.5, -1, 0, 0.2, 1]) {
+    const [y, z] = [30 * Math.sin(turn), 30 * Math.cos(turn)];
+    handle.ask(handle.under({ clientX: 30 + 200 + 10 * y, clientY: 7 + 100 - 10 * z }));
+    round.push(model.tilted[0]);
+  }
+  near(round, [0.1, 0, 0, 0, 0, 0, 0, 0.2, 1], 0.002);
+  body.quaternion.identity(); // upright it leans where it leaned
+  handle.follow(body, 0, true);
+  handle.take();
+  near(handle.lean, [0, 1]);
+  model.degrees = false;
+  handle.ask(-1);
+  assert.ok(model.tilted[0] > 0); // the paper's rolling has no such motion
 });
