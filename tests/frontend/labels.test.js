@@ -5,7 +5,7 @@ import { Handle } from "../../app/frontend/src/three/handle.js";
 import { Labels } from "../../app/frontend/src/three/labels.js";
 import { element, near } from "./helping.js";
 
-// A camera on the x axis that looks at O, with z up: 90 degrees high, and the picture twice as wide as high.
+// A camera on the x axis that looks at O, with z up: a vertical angle of 90 degrees, a picture twice as wide as high.
 function stageOf() {
   const camera = new PerspectiveCamera(90, 2, 0.1, 100);
   camera.up.set(0, 0, 1);
@@ -15,9 +15,9 @@ function stageOf() {
 }
 const placeOf = ({ element: { style } }) => style.transform.match(/-?[\d.]+(?=px)/g).map(Number);
 
-test("a text stands where its point is seen", () => {
+test("a text is placed where its point appears", () => {
   const stage = stageOf(), labels = new Labels(stage), label = labels.add("G");
-  // At 10 from the eye the picture is 20 high and 40 wide; y is to the right, z up.
+  // At a distance of 10 the picture is 20 high and 40 wide; y points to the right, z up.
   for (const [at, seen] of [[[0, 0, 0], [200, 100]], [[0, 20, 0], [400, 100]], [[0, 0, 10], [200, 0]], [[5, -5, -2.5], [100, 150]]]) {
     label.at.set(...at);
     labels.place();
@@ -28,7 +28,7 @@ test("a text stands where its point is seen", () => {
   near(placeOf(label), [112, 143], 0.06);
 });
 
-test("a text behind the eye, and one that is not to be seen, is not there", () => {
+test("a text behind the camera, or an invisible one, is hidden", () => {
   const stage = stageOf(), labels = new Labels(stage), label = labels.add("G");
   const shown = () => (labels.place(), label.element.style.display !== "none");
   assert.equal(shown(), true);
@@ -39,7 +39,7 @@ test("a text behind the eye, and one that is not to be seen, is not there", () =
   assert.equal(shown(), false);
 });
 
-test("the handle asks for the tilt that is under the pointer, in the plane of the axis", () => {
+test("the handle requests the tilt under the pointer, in the plane of the axis", () => {
   const stage = stageOf(), labels = new Labels(stage), model = { texts: {} }, body = new Group();
   const handle = new Handle(stage, labels, model, { t: 2.5 });
   body.top = 1.7;
