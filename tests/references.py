@@ -18,7 +18,7 @@ REMAKE = False  # set by conftest.py
 
 
 def kept(*oracles):
-    """Decorates a function of tops, states, laws, numbers and arrays that returns a tuple of such values and strings."""
+    """Decorates a function of tops, states, laws, numbers and arrays whose result is a tuple of numbers and arrays."""
 
     def decorate(function):
         file = FOLDER / f"{function.__name__}.npz"
