@@ -1,4 +1,4 @@
-"""What a hand moves, types and pulls in the Lab, in Chromium."""
+"""Moving, typing and dragging in the Lab, in Chromium."""
 
 import re
 from urllib.parse import parse_qs, urlsplit

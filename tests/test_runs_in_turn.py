@@ -1,4 +1,4 @@
-"""Long work of many visitors: whose turn it is, which piece answers, and what stands back."""
+"""Long work of many visitors: whose turn it is, which answer belongs to whom, and what has to wait."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""`python -m app`: whom it lets in, what it sends, and how it ends."""
+"""`python -m app`: who may connect, what it sends, and how it stops."""
 
 import asyncio
 import gzip
