@@ -120,8 +120,11 @@ def read(data: bytes | str) -> Table:
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, between)), None)
     if first is None:
         raise MeasuredError("no-numbers", line=rows[0][0], text=rows[0][1][0][:40])
-    heads = [cells for _, cells in rows[:first] if len(cells) == len(rows[first][1])]
-    return _table(_names(heads), rows[first:], between)
+    width = len(rows[first][1])
+    heads = [cells for _, cells in rows[:first] if len(cells) == width]
+    if first and not heads and len(rows[first - 1][1]) > 1:
+        raise MeasuredError("width", line=rows[first][0], found=width, expected=len(rows[first - 1][1]))
+    return _table(_names(heads), rows[first:], between, whole=text[-1] in "\r\n")
 
 
 def _decoded(data: bytes) -> str:
@@ -171,7 +174,22 @@ def _is_data(cells: list[str], between: str) -> bool:
     return numbers > 0 and numbers >= len(cells) / 2
 
 
-def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: str) -> Table:
+def _decimals(cell: str) -> int:
+    """The number of characters behind the decimal mark."""
+    return len(re.split("[.,]", cell, maxsplit=1)[-1]) if re.search("[.,]", cell) else 0
+
+
+def _is_cut(rows: list[tuple[int, list[str]]]) -> bool:
+    """Whether the last cell of a text that does not end with a line is only the beginning of a number: it has fewer
+    decimals than all cells above it, or is no number."""
+    above, last = [cells[-1] for _, cells in rows[:-1] if cells[-1].lower() not in _GAP], rows[-1][1][-1]
+    if not above or last.lower() in _GAP:
+        return False
+    return not _NUMBER.fullmatch(last) or _decimals(last) < min(map(_decimals, above))
+
+
+def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: str, whole: bool = True) -> Table:
+    """whole: the text ends with the end of a line."""
     notes: list[tuple[str, dict[str, object]]] = []
     width = len(names or rows[0][1])
     if names is None:
@@ -179,6 +197,9 @@ def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: 
         names = [str(i + 1) for i in range(width)]
     if len(rows[-1][1]) < width and len(rows) > 1:
         notes.append(("cut-short", {"line": rows[-1][0], "found": len(rows[-1][1]), "expected": width}))
+        rows = rows[:-1]
+    elif not whole and _is_cut(rows):
+        notes.append(("cut-cell", {"line": rows[-1][0], "text": rows[-1][1][-1][:40]}))
         rows = rows[:-1]
     for number, cells in rows:
         # a gap at the end of a row may have lost its separator
