@@ -355,3 +355,8 @@ if __name__ == "__main__":
 # 2026-11-25, 21:40, nothing else running, six visits and three rounds, Research in a window of 1400 x 2000 px, so
 # that all of it is sent: first page 2.86 times bare (python -m app), cpu 2.67; p95 in times bare's: steps figure
 # 0.78, page 2.84; drag figure 1.84, page 6.43 (panel serve: 1.26, 3.95; 1.93, 6.49).
+#
+# 2026-11-26, 08:53, nothing else running, three rounds, the same window, p95 in times bare's: steps figure 0.73, page
+# 2.59; drag figure 1.43, page 5.08 (panel serve: 1.08, 3.62; 1.52, 5.18).
+# A phone (390 x 844, the processor slowed 4 times by Chromium; WebGL is drawn by the same slowed processor): a top that
+# moves after 3.7 s, the whole page after 4.7 s, 16 frames a second while it plays; at full speed 1.6 s, 1.9 s and 20.

@@ -419,3 +419,19 @@ if __name__ == "__main__":
 # The same day, 07:49, 100 sessions on one worker, nothing else running, each moves a slider every 2 s for 40 s:
 # Explore p50 69, p95 346 ms, 19.2 ms of the processor a move, 1.9 MB a session that looks, 2.3 MB one that has moved;
 # Research p50 325, p95 929 ms, 21.5 ms, 4.9 MB a session that looks. The aims were p95 250 ms and 3 MB.
+#
+# 2026-11-26, 09:00 to 09:35, nothing else running, each moves a slider every 2 s for 30 s, before and after what a hand
+# waits for no longer waited for the rest of other runs (threads of their own, with a lower priority). p50 and p95 ms of
+# a move, and ms of the processor; the machine's other guests make the same run differ by half (several runs: a range).
+#
+#                                     before               after
+#   Explore, 100, one worker      69-755 346-1750 19-23   16-93 130-390 17-23
+#   Explore, 100, two workers        13 282 21               10 51 16
+#   Explore, 200, two workers        93 538 16              111 457 16
+#   Research, 100, one worker       325 929 22              411 993 22
+#   Research, 100, two workers       19  90 26               16  55 25
+# With two visitors who keep maps of 2,601 runs coming: Explore, 100, one worker p95 252 and 390 ms without them, 210
+# and 678 with; Research, 60, one worker 87 and 100. Generator, maps and server share the two cores. The aim of p95 250
+# is met by 100 of Explore on one worker where the machine is quiet, by 100 on two workers in both, and not by 200, nor
+# by 100 of Research on one: their moves ask for more than there is. A session that looks has 1.9 MB, one moved 2.3;
+# of Research 5 to 7.2 and 8.9.

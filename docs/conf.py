@@ -43,7 +43,9 @@ ENTRY = re.compile(r"(\w+(?: \([^)]*\))?(?:, \w+(?: \([^)]*\))?)*)(:(?= )| {2,})
 
 def as_written(app, what, name, obj, options, lines):
     """Docstrings are plain text: nothing in them is markup, each entry is a paragraph, and what is otherwise indented
-    keeps its lines."""
+    keeps its lines. A constant's docstring is that of its type, so docs/api.md describes it instead."""
+    if what == "data":
+        lines.clear()
     found, literal, entry = [""], False, False
     for line in lines:
         plain, start = escaped(line.strip()), ENTRY.match(line)
@@ -64,6 +66,11 @@ def as_written(app, what, name, obj, options, lines):
     lines[:] = found
 
 
+def skipped(app, what, name, obj, skip, options):
+    """Skips the fields of named tuples, which have no docstring of their own: the class describes them."""
+    return skip or (getattr(obj, "__doc__", None) or "").startswith("Alias for field number")
+
+
 def escaped(text):
     return re.sub(r"([\\*`|_])", r"\\\1", text)
 
@@ -71,3 +78,4 @@ def escaped(text):
 def setup(app):
     app.add_html_math_renderer("mathml", (mathml("inline"), None), (mathml("block"), None))
     app.connect("autodoc-process-docstring", as_written)
+    app.connect("autodoc-skip-member", skipped)

@@ -1,5 +1,5 @@
-"""Hypothesis draws the same examples on every run, so that a failure is a failure of the commit. One browser and one
-server for all tests that need them."""
+"""Fixtures for all tests, which share one browser and one server. Hypothesis draws the same examples in every run, so
+a new failure is due to a change of the code."""
 
 import os
 import shutil
@@ -25,7 +25,7 @@ settings.load_profile("repeatable")
 
 
 def pytest_addoption(parser):
-    parser.addoption("--remake", action="store_true", help="ask the slow oracles again, and keep what they find")
+    parser.addoption("--remake", action="store_true", help="compute the slow oracles' answers again and store them")
 
 
 def pytest_configure(config):
@@ -34,7 +34,7 @@ def pytest_configure(config):
 
 @pytest.fixture(scope="session", autouse=True)
 def votes():
-    """Where the servers of the tests keep votes: not in this user's own file."""
+    """The servers of the tests store votes in a temporary file, not in that of the user."""
     folder = tempfile.mkdtemp()
     os.environ["TIPPE_VOTES"] = f"{folder}/votes.sqlite"
     yield
@@ -60,7 +60,7 @@ def chromium():
 
 @pytest.fixture(scope="session")
 def server():
-    """The address of the page, served as a person serves it."""
+    """The address of the page, served by `panel serve app`."""
     port = free_port()
     process = subprocess.Popen(
         [sys.executable, "-m", "panel", "serve", "app", "--port", str(port), "--address", "localhost"],
@@ -84,7 +84,7 @@ def server():
 
 @pytest.fixture(scope="module", params=[(1400, 900)], ids=["1400x900"])
 def visit(request, server, chromium):
-    """A Visit in a window of this size, for all tests of a file; an error in the page fails the last of them."""
+    """A Visit that all tests of a file share, in a window of this size. An error in the page fails the last test."""
     width, height = request.param
     page = chromium.new_page(viewport={"width": width, "height": height})
     visit = Visit(page, server)

@@ -1,4 +1,4 @@
-"""View-models and views put together as the page does it, but without a page: what is asked is done at once."""
+"""Models and views put together as on the page, but without a page: every request is carried out at once."""
 
 import re
 from dataclasses import replace
@@ -12,14 +12,14 @@ from app.tabs.planes.words import fate
 
 
 def builder_of(explorer):
-    """A Builder that asks this Explorer, and follows its scenes."""
+    """A Builder that sends its requests to this Explorer, and follows its scenes."""
     builder = Builder(explorer.scene, explorer.param.update)
     explorer.param.watch(lambda event: builder.follow(event.new), "scene")
     return builder
 
 
 def planes_of(explorer, runs=None):
-    """Planes that are looked at, with this Explorer's top let go by a hand as Start has it."""
+    """Visible Planes with the top of this Explorer, started as in Start."""
     explorer.param.update(given="hand", **{name: Explorer.param[name].default for name in Explorer.GIVEN["hand"]})
     planes = Planes(explorer, runs)
     planes.show()
@@ -27,7 +27,7 @@ def planes_of(explorer, runs=None):
 
 
 def choose(name, explorer, planes):
-    """A preset of the three planes."""
+    """Chooses a preset of the three planes."""
     body, inputs = preset(name)
     builder_of(explorer).choose(body)
     planes.ask(**inputs)
@@ -41,14 +41,14 @@ def chosen(explorer, planes, name):
 
 
 def ran(usual, **settings):
-    """A Picture with other settings than the first look's, and what is said of it, without its marks."""
+    """A Picture with some settings changed, and the sentence about it, without markup."""
     picture = solve(replace(usual.settings, **settings))
     return picture, re.sub(r"<[^>]*>", "", fate(picture, "sliding"))
 
 
 @cache
 def first_of(body):
-    """The Settings of the first look with this body."""
+    """The default Settings with this body."""
     explorer = Explorer()
     builder = builder_of(explorer)
     builder.choose(body)
@@ -56,12 +56,12 @@ def first_of(body):
 
 
 def of(body, **settings):
-    """The Settings of the first look with another body."""
+    """The default Settings with this body, and some changed."""
     return replace(first_of(body), **settings)
 
 
 def keeping(made, make):
-    """The __init__ of a class, which puts what it makes into made, {class: the newest}."""
+    """Wraps the __init__ of a class: each new object is stored in made, {class: newest object}."""
 
     @wraps(make)
     def making(view, *inputs, **named):
@@ -72,7 +72,7 @@ def keeping(made, make):
 
 
 class Shown:
-    """In the place of a Pacer about a stored scene: asked has what was asked, shown what shows scenes, and when."""
+    """Stands in for a Pacer, with a stored scene. asked: the requests; shown: functions that show scenes, and when."""
 
     def __init__(self, scene):
         self.scene, self.asked, self.shown, self.waits = scene, [], [], []
@@ -91,7 +91,7 @@ class Shown:
         self.waits.append(make)
 
     def show(self, scene):
-        """Another scene, to all; what waited to be made comes first."""
+        """Shows another scene to all views; views that are still to be created come first."""
         self.scene = scene
         while self.waits:
             self.waits.pop(0)()

@@ -1,4 +1,4 @@
-"""The page served within the tests' own process, so that they can look into it, and break it."""
+"""Serves the page in the process of the tests, so that they can inspect it, and make it fail."""
 
 import asyncio
 import threading
@@ -11,28 +11,28 @@ from serving import until
 from tornado.ioloop import IOLoop
 
 APP = Path(__file__).parent.parent / "app"
-LINGER = 1  # ms that a session is kept after its page has gone
+LINGER = 1  # ms that a session is kept after its page has closed
 
 
 class Inside:
-    """A server of this process."""
+    """A server in this process."""
 
     def __init__(self, server, loop):
         self.url, self.loop, self._server = f"http://localhost:{server.port}/app", loop, server
 
     @property
     def sessions(self):
-        """Those that live, Bokeh's."""
+        """Bokeh's live sessions."""
         return self._server.get_sessions("/app")
 
     def wait_for_sessions(self, count):
-        """Until there are so many."""
+        """Waits until there are this many sessions."""
         until(lambda: len(self.sessions) == count, 120)
 
 
 @contextmanager
 def inside(linger=LINGER):
-    """An Inside, until the end of the block."""
+    """Runs an Inside until the end of the block."""
     there, found = threading.Event(), []
 
     async def serve():

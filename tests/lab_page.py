@@ -1,4 +1,4 @@
-"""The Lab in Chromium: what its browser tests read of it and do to it."""
+"""The Lab in Chromium: what its browser tests read and do."""
 
 from visiting import Visit
 
@@ -11,14 +11,14 @@ UNIT = TOYS["Leine and Glocker's toy"].shape.scales.time  # s
 
 
 def come(page, url):
-    """A page at this address, once its top is drawn."""
+    """Opens a page at this address, and waits until its top is drawn."""
     visit = Visit(page, url, whole=False)
     page.wait_for_function(DRAWN)
     return visit
 
 
 def one_visit(server, chromium):
-    """The page as it comes, the same for all tests here, in this order; they fail on an error in it."""
+    """The page on arrival. All tests of a file share it, in order, and fail if it has an error."""
     visit = come(chromium.new_page(viewport={"width": 1400, "height": 900}), f"{server}?")
     yield visit
     visit.page.close()
@@ -41,5 +41,5 @@ def put(page, name, value):
 
 
 def line(page):
-    """The points of the tilt over time."""
+    """The points of the curve of the tilt."""
     return page.locator(".strip .rest").first.get_attribute("points")

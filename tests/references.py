@@ -1,8 +1,7 @@
-"""What slow oracles have found, kept: data/<function>.npz, remade by make proof (pytest --remake).
+"""Stores the answers of slow oracles in data/<function>.npz; make proof (pytest --remake) computes them again.
 
-A function with @kept(oracle, ...) is asked for its answer once. It is looked up by the numbers it is given and by the
-code of the oracles, so another start or a changed oracle has no answer yet; then it is computed, which takes the
-oracle's time and is said among the warnings.
+The key of an answer contains the arguments and the source code of the oracles. So with new arguments or a changed
+oracle, even a changed comment in it, the answer is computed, which takes time and gives a warning.
 """
 
 import functools
@@ -19,11 +18,11 @@ REMAKE = False  # set by conftest.py
 
 
 def kept(*oracles):
-    """Decorates a function of tops, states, laws, numbers and arrays; it returns a tuple of numbers, words, arrays."""
+    """Decorates a function of tops, states, laws, numbers and arrays whose result is a tuple of numbers and arrays."""
 
     def decorate(function):
         file = FOLDER / f"{function.__name__}.npz"
-        found = {}  # what is kept, and in a remake what will be
+        found = {}  # the stored answers; with --remake, those that will be stored
 
         @functools.cache
         def code():
@@ -38,7 +37,7 @@ def kept(*oracles):
             names = sorted((name for name in found if name.startswith(key)), key=lambda name: int(name.split(".")[1]))
             if not names:
                 if not REMAKE:
-                    warnings.warn(f"{function.__name__}: no such answer is kept; make proof keeps it", stacklevel=2)
+                    warnings.warn(f"{function.__name__}: this answer is not stored; make proof stores it", stacklevel=2)
                 parts = {f"{key}.{i}": np.asarray(part) for i, part in enumerate(function(*given, **named))}
                 found.update(parts)
                 names = [*parts]
@@ -52,7 +51,7 @@ def kept(*oracles):
 
 
 def text(given):
-    """All digits of what a function is given."""
+    """The arguments of a function as text, with all digits."""
     if isinstance(given, np.ndarray):
         return text(given.tolist())
     if isinstance(given, list | tuple):

@@ -1,4 +1,4 @@
-"""The Runs of a page without a page, and threads that are all busy."""
+"""The Runs of a page without a browser, and a state in which all threads are busy."""
 
 import threading
 from queue import Queue
@@ -12,14 +12,14 @@ PATIENCE = 60  # s
 
 
 class Page:
-    """A page's Runs, and what they have posted to its session."""
+    """The Runs of a page, and the calls that they have posted to its session."""
 
     def __init__(self):
         self.posted = Queue()
         self.runs = Runs(self.posted.put)
 
     def next(self):
-        """Does what was posted first, as a session does."""
+        """Runs the first posted call, as a session does."""
         self.posted.get(timeout=PATIENCE)()
 
 
@@ -30,7 +30,7 @@ def one_page():
 
 
 def all_busy():
-    """All threads are, each with another visitor's work, until end()."""
+    """Keeps every thread busy with the work of another visitor, until end()."""
     go, pages = threading.Event(), [Page() for _ in range(WORK.threads)]
     for page in pages:
         page.runs.begin(Run(lambda run: go.wait(PATIENCE), lambda result: None), "a")
@@ -46,5 +46,5 @@ def all_busy():
 
 
 def told(results):
-    """What is called when a run is done."""
+    """The function to call when a run is done."""
     return results.append

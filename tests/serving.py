@@ -23,7 +23,7 @@ class Served:
 
     @property
     def log(self):
-        """All lines so far."""
+        """Everything logged so far."""
         return self.output.read_text(encoding="utf-8")
 
     @property
@@ -34,8 +34,8 @@ class Served:
 
 @contextmanager
 def served(output, wait=True, before=(), arguments=(), **settings):
-    """`python -m app` with these settings, until the end of the block; output: the file that takes its log. It answers
-    by then, or, without wait, soon. before: a command that starts the rest of its arguments."""
+    """Runs `python -m app` with these settings until the end of the block. output: the file for its log. wait: begin
+    the block when the server answers. before: a command that runs the rest of its arguments."""
     settings = {"port": free_port(), "address": "127.0.0.1"} | settings
     environment = {**os.environ, **{f"TIPPE_{name.upper()}": str(value) for name, value in settings.items()}}
     with output.open("a") as file:
@@ -54,7 +54,7 @@ def served(output, wait=True, before=(), arguments=(), **settings):
 
 @contextmanager
 def redis_serving(port):
-    """A Redis that keeps nothing on the disk, until the end of the block; its URL."""
+    """Runs a Redis without files until the end of the block, and gives its URL."""
     process = subprocess.Popen(["redis-server", "--port", str(port), "--bind", "127.0.0.1", "--save", "",
                                 "--appendonly", "no"], stdout=subprocess.DEVNULL)  # fmt: skip
     try:
@@ -66,14 +66,14 @@ def redis_serving(port):
 
 
 def listens(port):
-    """Whether somebody takes connections there."""
+    """Whether a server accepts connections on this port."""
     with socket.socket() as probe:
         return probe.connect_ex(("127.0.0.1", port)) == 0
 
 
 @contextmanager
 def serving(command, output, folder):
-    """A command that serves the page, run in a folder until the end of the block; it answers by then, or has ended."""
+    """Runs a command that serves the page until the end of the block. Waits until it answers or has ended."""
     port = free_port()
     with output.open("w") as file:
         process = subprocess.Popen([*command, "--port", str(port), "--address", "localhost"], cwd=folder, stdout=file,
@@ -88,12 +88,12 @@ def serving(command, output, folder):
 
 
 def megabytes(pid):
-    """Resident, of a process."""
+    """The resident memory of a process."""
     return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 def answers(url):
-    """Whether anybody is there."""
+    """Whether a GET request succeeds."""
     try:
         return get(url)[0] == 200
     except OSError:
@@ -101,7 +101,7 @@ def answers(url):
 
 
 def until(condition, seconds=20):
-    """Waits for a condition, and gives what it gave."""
+    """Waits until a condition is true, and returns its value."""
     end = time.monotonic() + seconds
     while not (found := condition()):
         assert time.monotonic() < end, "waited too long"

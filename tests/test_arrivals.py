@@ -1,4 +1,5 @@
-"""More connections than the system gives files: they wait, one line says so, and those that ask nothing are let go."""
+"""More connections than the system allows open files: they wait, the log says so in one line, and idle ones are
+closed."""
 
 import asyncio
 import os

@@ -1,4 +1,4 @@
-"""What a browser may send in the place of a number: one line in the log, and the page stays as it is."""
+"""A browser that sends something else instead of a number: one line in the log, and the page is unchanged."""
 
 import math
 

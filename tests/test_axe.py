@@ -1,4 +1,4 @@
-"""The page as axe-core sees it, by WCAG 2.2 A and AA: every tab and what is in it, in every look, and on a phone."""
+"""The page checked by axe-core for WCAG 2.2 A and AA: every tab and its contents, in every look, and on a phone."""
 
 import pytest
 from axe_playwright_python.base import AXE_SCRIPT

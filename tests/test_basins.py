@@ -1,4 +1,4 @@
-"""The picture of the basins goes on where it was stopped, and its power is that of a border whose power is known."""
+"""The computation of the basins continues where it was stopped, and finds the known exponent of a known boundary."""
 
 import basins
 import numpy as np

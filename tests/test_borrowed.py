@@ -1,5 +1,5 @@
-"""What is borrowed from the insides of Panel and Bokeh: each part is still there and does what is relied on, each patch
-does what it is for, and no other module of the page borrows anything."""
+"""Private parts of Panel and Bokeh: each still exists and behaves as we need, each patch has its effect, and no
+other module of the page uses private parts."""
 
 import ast
 import asyncio

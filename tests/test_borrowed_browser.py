@@ -1,5 +1,5 @@
-"""What is borrowed of the scripts of Bokeh, Panel and three.js, each tried in Chromium on a page of its library: it
-still does what is relied on, and is still needed. tests/test_borrowed.py has the Python ones."""
+"""Private parts of the scripts of Bokeh, Panel and three.js, each tried in Chromium on a page of its library: it
+still works, and is still needed. Those of the Python code are in tests/test_borrowed.py."""
 
 import re
 from pathlib import Path

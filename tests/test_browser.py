@@ -1,5 +1,5 @@
-"""The whole page in Chromium: it shows tippe_core's numbers, plays with no server. In this order: a test that moves
-something puts it back or needs it moved."""
+"""The whole page in Chromium: it shows the numbers of tippe_core, and plays without the server. The tests run in
+this order: a test that moves something puts it back, or the next one needs it moved."""
 
 import numpy as np
 import pytest

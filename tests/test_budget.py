@@ -1,4 +1,4 @@
-"""A session's share of the processor, and whose turn it is."""
+"""How much processor time a session gets, and whose turn it is."""
 
 import asyncio
 from contextlib import suppress

@@ -1,4 +1,4 @@
-"""The tab that builds a body, without a browser: its fields, its sentences, and whether that body turns over."""
+"""The tab for building a body, without a browser: its fields, its sentences, and whether the body turns over."""
 
 import warnings
 from dataclasses import replace

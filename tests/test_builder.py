@@ -1,4 +1,4 @@
-"""The builder without a browser: a body changes in one event, and the explorer's numbers are the body's."""
+"""The builder without a browser: a body changes in one event, and the explorer has the numbers of the body."""
 
 import json
 from dataclasses import replace

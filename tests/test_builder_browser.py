@@ -1,4 +1,4 @@
-"""The builder in Chromium: handles, presets, files and STL, as a person uses them."""
+"""The builder in Chromium: handles, presets, files and STL."""
 
 import json
 import re

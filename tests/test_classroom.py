@@ -1,4 +1,5 @@
-"""Votes of a class, in a file and in a Redis: one a phone, alike for all workers, bounded, forgotten in time."""
+"""Votes of a class, in a file and in a Redis: one for each phone, the same for all workers, limited, and deleted in
+time."""
 
 import json
 import os

@@ -1,4 +1,5 @@
-"""Kernels: compiled once and kept, never stale, wherever files can or cannot be written, and the same as Python."""
+"""Kernels: compiled once and stored, never stale, whether files can be written or not, and with the same results as
+Python."""
 
 import ast
 import json

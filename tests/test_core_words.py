@@ -1,4 +1,4 @@
-"""Every event, verdict and preset of the core has words on the page, in every language; its errors: test_text.py."""
+"""Every event, verdict and preset of tippe_core has words on the page, in every language. Errors: test_text.py."""
 
 import inspect
 import re

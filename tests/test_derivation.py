@@ -1,4 +1,4 @@
-"""Both sides of every equation of the paper, by different routes, on ten random motions of ten random tops."""
+"""Both sides of every equation of the paper, computed in different ways, for ten random motions of ten random tops."""
 
 from dataclasses import replace
 

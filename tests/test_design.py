@@ -1,4 +1,4 @@
-"""What the page's design gives to its components: what Panel Material UI's gives, worked out once."""
+"""The style sheets that the page's design gives to its components equal those of Panel Material UI, computed once."""
 
 import panel as pn
 import panel_material_ui as pmui

@@ -1,4 +1,4 @@
-"""The one thread that talks to the store of votes: what is new is told, and a store that hangs keeps nobody."""
+"""The one thread that talks to the store of votes: changes are passed on, and a store that hangs blocks nobody."""
 
 import threading
 

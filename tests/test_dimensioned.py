@@ -1,4 +1,4 @@
-"""The numbers beside the section are those of the body: what is measured in the drawing is the dimension."""
+"""The dimensions drawn in the section are those of the body: lengths measured in the drawing equal them."""
 
 import math
 import re

@@ -1,4 +1,5 @@
-"""What is read from a sliding motion, against the heights of ball and stem above the table and its own curve."""
+"""ending() of a sliding motion, compared with the heights of ball and stem above the table, and with the motion
+itself."""
 
 from itertools import pairwise
 

@@ -1,4 +1,4 @@
-"""Errors have codes: each that is raised is documented, and has words in every language that need no English."""
+"""Errors have codes: each one is documented, and has words in every language that do not rely on the English ones."""
 
 import ast
 import re

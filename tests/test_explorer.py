@@ -1,4 +1,4 @@
-"""The view-model without a browser: one solve and one event a change; what cannot be is said beside its control."""
+"""The Explorer without a browser: each change is one solve and one event, and an error is shown at its control."""
 
 import dataclasses
 import time

@@ -1,4 +1,4 @@
-"""What is taken home, without a browser: read by others' readers, compared with tippe_core's own numbers."""
+"""Saved files, without a browser: read by other programs' readers, and compared with tippe_core's own numbers."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""Families of tops: how much of a table is allowed, against a slow search, and their map, row by row."""
+"""Families of tops: the allowed fraction of the plane compared with a slow search, and their map, row by row."""
 
 import numpy as np
 import pytest

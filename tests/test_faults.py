@@ -1,4 +1,4 @@
-"""What a person sees when something breaks, on `python -m app`: a sentence, and after it what had been set."""
+"""What a person sees when something breaks, with `python -m app`: a sentence, and afterwards all settings are back."""
 
 import os
 import re

@@ -1,4 +1,5 @@
-"""What is seen before Bokeh and the session have come: little has to arrive for it, it moves, and is taken over."""
+"""What is shown before Bokeh and the session have arrived: it needs little data, it moves, and the session takes it
+over."""
 
 import gzip
 import json

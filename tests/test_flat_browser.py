@@ -1,4 +1,4 @@
-"""A browser without WebGL: the top is drawn flat; all that moves its clock, keeps or saves it is there as well."""
+"""A browser without WebGL: the top is drawn flat, and everything that controls its clock or saves it still works."""
 
 import io
 

@@ -1,4 +1,4 @@
-"""A slip that begins from nothing, or ends in nothing: what random starts found."""
+"""Slips that begin or end at zero velocity: cases that random starts found."""
 
 import numpy as np
 import pytest

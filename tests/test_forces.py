@@ -1,4 +1,5 @@
-"""The force at the contact: against the rigid body's equations, and in the paper's forms with f' by differences."""
+"""The force at the contact, compared with the rigid body's equations, and with the paper's forms with f' from
+differences."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The laws of friction: Contensou's against Coulomb's law summed over the patch, its limits, and what is refused."""
+"""The laws of friction: Contensou's compared with Coulomb's law summed over the patch, its limits, and bad input."""
 
 import numpy as np
 import pytest

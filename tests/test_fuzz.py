@@ -1,5 +1,5 @@
-"""Whoever speaks to the server without its page: each message is answered or the connection closed, in words, and
-another visitor notices nothing. `python tests/test_fuzz.py 10000` sends as many messages as it is told."""
+"""A client that is not the page: each message is answered, or the connection is closed with a reason, and another
+visitor notices nothing. `python tests/test_fuzz.py 10000` sends that many messages."""
 
 import asyncio
 import base64

@@ -1,4 +1,4 @@
-"""A hand on the pictures, in Chromium: what is dragged follows, and everything else with it."""
+"""Dragging in the pictures, in Chromium: what is dragged follows, and everything else with it."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""grip() against a rigid body in space, stopped by an impulse at its contact; and what it has to keep."""
+"""grip() compared with a rigid body in space that is stopped by an impulse at its contact, and what it conserves."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The map of the groups of tops, against the core's own word on tops drawn at random."""
+"""The map of the groups of tops, compared with the core's verdict on random tops."""
 
 import numpy as np
 from matplotlib.path import Path

@@ -1,4 +1,4 @@
-"""What a hand asks for, and what is said of a motion, against the motion itself."""
+"""What dragging requests, and what is said of a motion, compared with the motion itself."""
 
 from dataclasses import replace
 

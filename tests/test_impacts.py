@@ -1,4 +1,4 @@
-"""Painleve's limit, what holds of every motion, flight and impact, against Newton's law of the body as a whole."""
+"""Painlevé's limit, properties of every motion, flight and impact, compared with Newton's law for the whole body."""
 
 from itertools import pairwise
 

@@ -1,4 +1,4 @@
-"""The state in a URL without a browser: to the last digit there and back, hostile ones refused in a sentence; undo."""
+"""The state in a URL, without a browser: it keeps every digit, bad input is refused in a sentence, and undo works."""
 
 import base64
 import zlib

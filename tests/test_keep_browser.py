@@ -1,4 +1,4 @@
-"""Keeping the picture, in Chromium, as a person does it: link, QR code, undo, and files opened and compared."""
+"""Keeping the state, in Chromium: link, QR code, undo, and files that are opened and compared."""
 
 import io
 import re

@@ -1,4 +1,4 @@
-"""The map of the tops that have a name: what decides whether one can turn over, and what is said of it."""
+"""The map of the tops with names: what decides whether one can turn over, and what is said of it."""
 
 import re
 from xml.etree import ElementTree

@@ -1,4 +1,5 @@
-"""The Lab without a browser: the arrival stands, the curves are energies, a run goes on until it has ended."""
+"""The Lab without a browser: the motion on arrival stands, the curves are energies, a run continues until it has
+ended."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a hand asks of the Lab without a browser: what is computed then, what is kept, and what cannot be."""
+"""Requests to the Lab without a browser: what is computed, what is kept, and what is impossible."""
 
 from queue import Queue
 

@@ -1,4 +1,4 @@
-"""The Lab in Chromium: on arrival it flips, with nothing clicked; what is chosen is shown, on any screen."""
+"""The Lab in Chromium: on arrival the top flips without a click, and what is chosen is shown, on any screen."""
 
 from urllib.parse import parse_qs, urlsplit
 

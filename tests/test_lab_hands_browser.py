@@ -1,4 +1,4 @@
-"""What a hand moves, types and pulls in the Lab, in Chromium."""
+"""Moving, typing and dragging in the Lab, in Chromium."""
 
 import re
 from urllib.parse import parse_qs, urlsplit
@@ -93,6 +93,10 @@ def test_the_axis_is_pulled_after_a_rest_and_let_go_with_the_hand(page):
     pulled = float(parse_qs(urlsplit(page.url).query)["tilt"][0])
     assert pulled > 10
     assert float(entry(page, "Tilt, in degrees").input_value()) == pytest.approx(pulled, abs=0.06)
+    page.mouse.move(x + 90, y + 60, steps=3)  # beyond the vertical
+    page.wait_for_function("new URLSearchParams(location.search).get('tilt') == '0'")
+    page.mouse.move(x - 60, y + 40, steps=3)
+    page.wait_for_function(f"location.search.includes('tilt={pulled:g}')")
     page.mouse.up()
     page.get_by_role("button", name="Pause").wait_for()
     pause(page)

@@ -1,4 +1,4 @@
-"""What the Lab says of a run is what the run did; where the runs of all spins end."""
+"""What the Lab says of a run is what the run did, and where runs end for all spins."""
 
 import re
 import threading

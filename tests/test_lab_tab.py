@@ -1,4 +1,4 @@
-"""The Lab's tab without a browser: what a wish of the browser does, and what a link keeps."""
+"""The Lab's tab without a browser: the effect of a browser's request, and what a link stores."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Learn in Chromium, as a student and a teacher would use it."""
+"""Learn in Chromium, used by a student and by a teacher."""
 
 import re
 from contextlib import ExitStack

@@ -1,5 +1,5 @@
-"""Nobody takes anything from anybody: pages that come, go and are collected in every order, on one server; who floods;
-and what fails, which is told to whom it failed."""
+"""Visitors do not affect each other: pages on one server are opened, closed and collected in every order, one floods
+the server, and an error is told only to the visitor whom it concerns."""
 
 import asyncio
 import gc

@@ -1,4 +1,5 @@
-"""Each number of the lesson against the paper's, a peer's, a closed form, or a motion that knows no constant."""
+"""Each number of the lesson, compared with the paper's, another program's, a closed form, or a simulation that does
+not use the constants."""
 
 import re
 

@@ -1,4 +1,5 @@
-"""Growth and turning of small motions: against central differences of another formulation, runs, and thresholds."""
+"""Growth and rotation of small motions, compared with central differences of another formulation, runs, and
+thresholds."""
 
 from functools import partial
 

@@ -1,4 +1,4 @@
-"""A link opens what it opened when it was made; links.py has them, and says what that is."""
+"""A link opens what it opened when it was made; links.py has the links and what they opened."""
 
 import pytest
 from links import in_effect, known, opened

@@ -1,4 +1,4 @@
-"""How the page looks and gives way, in Chromium: by the system's wish for dark, by language, under wheel and hand."""
+"""How the page looks and adapts, in Chromium: the system's dark look, the language, the wheel, and dragging."""
 
 import re
 

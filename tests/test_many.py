@@ -1,4 +1,4 @@
-"""slide_many() against slide(), run by run, and against what is known of its ends."""
+"""slide_many() compared with slide(), run by run, and with what is known of the ends."""
 
 import os
 from dataclasses import replace

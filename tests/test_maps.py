@@ -1,4 +1,5 @@
-"""Maps: their cells against single runs of slide(), their lines against published thresholds, what cannot be asked."""
+"""Maps: cells compared with single runs of slide(), lines compared with published thresholds, and impossible
+requests."""
 
 import csv
 import io

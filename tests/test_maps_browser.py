@@ -1,4 +1,4 @@
-"""The tab Maps in Chromium: the map comes, a click and a drag lead to runs, what cannot be leaves it as it is."""
+"""The tab Maps in Chromium: the map appears, a click and a drag lead to runs, impossible requests change nothing."""
 
 import re
 

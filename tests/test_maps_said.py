@@ -1,4 +1,5 @@
-"""What is said and drawn of a map's runs: why they do otherwise than a formula, what becomes of them, of which body."""
+"""The words and drawings about a map's runs: why they differ from a formula, how they end, and which body they are
+for."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Below a map: steady motions as lines, what becomes of runs in the long, and the powers of the time of inversion."""
+"""Below a map: steady motions as lines, how runs end after a long time, and the exponents of the time of inversion."""
 
 from dataclasses import replace
 

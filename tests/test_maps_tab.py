@@ -1,4 +1,4 @@
-"""The tab of maps without a browser: what is asked, clicked, kept in the address, and said."""
+"""The tab Maps without a browser: requests, clicks, the address, and the sentences."""
 
 import re
 from pathlib import Path

@@ -1,5 +1,5 @@
-"""Several visitors of Maps on one server: who waits knows his place, who leaves costs nothing more, and a map that was
-drawn for one is there for the next."""
+"""Several visitors of Maps on one server: a visitor who waits sees his place, one who leaves costs nothing more, and
+a map drawn for one visitor is there for the next."""
 
 import asyncio
 import hashlib

@@ -1,4 +1,5 @@
-"""The tab Measure without a browser: the examples, what is refused, what is taken home; and the tab in Chromium."""
+"""The tab Measure: the examples, what is refused, and what can be saved, without a browser; then the tab in
+Chromium."""
 
 import re
 import subprocess

@@ -1,4 +1,5 @@
-"""Errors of what Measure says, against the scatter of many films that differ by their noise alone; and its verdicts."""
+"""The errors that Measure states, compared with the scatter of many films that differ only in their noise; its
+verdicts."""
 
 from dataclasses import replace
 from types import MappingProxyType, SimpleNamespace

@@ -1,4 +1,4 @@
-"""A film's data as a file and as a link: it opens again as it was, and what a stranger wrote there is refused."""
+"""A film as a file and as a link: it opens as it was saved, and manipulated content is refused."""
 
 import base64
 import json

@@ -1,4 +1,5 @@
-"""Fits to films of the tests' own rigid bodies, with noise: the truth is found, and what cannot be told is said."""
+"""Fits to films of the tests' own rigid bodies with noise: the true values are found, and undetermined ones are
+named."""
 
 import queue
 from dataclasses import replace

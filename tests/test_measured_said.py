@@ -1,4 +1,4 @@
-"""What Measure makes of its units, of a turn that is missed, of a drift, and of what is taken home."""
+"""What Measure says of units, of a missed turn, of a drift, and of the files that it saves."""
 
 from dataclasses import replace
 from types import MappingProxyType

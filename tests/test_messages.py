@@ -1,5 +1,5 @@
-"""What a browser may say: each part of the page takes what it is made for, and nothing that costs the server more than
-it cost the sender. Through the websocket, as anybody could."""
+"""What a browser may send: each part of the page accepts what it is made for, and nothing that costs the server more
+than the sender. All through the websocket, as anybody could."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""What happened in a run of the three planes is read from the run, and stands where it can be seen and clicked."""
+"""The list of what happened in a run of the three planes is read from the run, and can be seen and clicked."""
 
 from types import SimpleNamespace
 

@@ -1,4 +1,4 @@
-"""What an address can say stands in one table, and nowhere else."""
+"""Everything that an address can contain is in one table, and nowhere else."""
 
 import ast
 import re

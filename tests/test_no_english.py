@@ -1,4 +1,4 @@
-"""No English stands beside the words of app/text/."""
+"""No English text exists outside app/text/."""
 
 import ast
 import re

@@ -1,4 +1,4 @@
-"""The example notebooks run as they are, and what they show comes out."""
+"""The example notebooks run unchanged, and have the results that they show."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,5 @@
-"""Each equation has one source: with a sign of it changed, floats, arrays, Decimals and compiled code change alike."""
+"""Each equation has one source: if one of its signs is changed, floats, arrays, Decimals and compiled code all
+change."""
 
 import ast
 import inspect

@@ -1,4 +1,5 @@
-"""Which tab an address opens: today's addresses open what they opened; an address with no query opens the Lab."""
+"""Which tab an address opens: today's addresses open what they opened before, an address without a query opens the
+Lab."""
 
 from urllib.parse import parse_qsl
 

@@ -1,4 +1,4 @@
-"""What those who run a server ask: whether it is ready, how it is, what it logs, and how it ends or is replaced."""
+"""What an operator needs: readiness, metrics, the log, how a server stops, and how a worker is replaced."""
 
 import asyncio
 import json

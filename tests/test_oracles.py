@@ -1,4 +1,5 @@
-"""The oracles are judged first: against the equations themselves, a peer, published numbers and their own halving."""
+"""Tests of the oracles: compared with the equations themselves, another program, published numbers, and half their
+steps."""
 
 import numpy as np
 import pytest

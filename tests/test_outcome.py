@@ -1,4 +1,5 @@
-"""Thresholds and steady states against linearised equations of motion that know neither, and published numbers."""
+"""Thresholds and steady states, compared with linearised equations of motion that contain neither, and published
+numbers."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a stream of requests comes to: the newest is solved, pictures follow in turn, and what waits is said at rest."""
+"""A stream of requests: only the newest is solved, pictures follow in turn, and what has to wait is shown at rest."""
 
 import numpy as np
 import pytest

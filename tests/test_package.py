@@ -1,4 +1,4 @@
-"""What is installed: bounds that are kept, a lock that is theirs, and a source archive that can be worked with."""
+"""Installation: dependency bounds, a lock file that fits them, and a source archive that can be worked with."""
 
 import ast
 import os

@@ -1,4 +1,4 @@
-"""The pieces of a message: few, and Bokeh's own receiver reads from them what was sent."""
+"""The pieces of a message: they are few, and Bokeh's own receiver reads from them what was sent."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Fig. 6 and the roads out of it, without a browser."""
+"""Fig. 6 and what follows when a motion leaves its tieline, without a browser."""
 
 import numpy as np
 import pytest

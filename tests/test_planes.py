@@ -1,4 +1,4 @@
-"""The three planes without a browser: the motions are tippe_core's, and do what physics.md and the paper say."""
+"""The three planes without a browser: the motions are those of tippe_core, and do what the paper says."""
 
 from dataclasses import replace
 from queue import Queue

@@ -1,4 +1,4 @@
-"""What is asked of the three planes: what is refused and in which words, what is stopped, what is drawn."""
+"""Requests to the three planes: what is refused and in which words, what is stopped, what is drawn."""
 
 import re
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The tab of the three planes in Chromium: what a person switches, picks, stops and types is what is shown."""
+"""The tab of the three planes in Chromium: the page shows what a person switches, picks, stops and types."""
 
 import re
 

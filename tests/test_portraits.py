@@ -1,4 +1,4 @@
-"""What the portraits show, against the motion as it was integrated and the geometry of a ring."""
+"""What the portraits show, compared with the integrated motion and the geometry of a ring."""
 
 import numpy as np
 import pytest

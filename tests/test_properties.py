@@ -1,4 +1,4 @@
-"""What holds for every top and every motion: hypothesis draws them."""
+"""Properties of every top and every motion, for examples drawn by hypothesis."""
 
 import numpy as np
 import rigid_body as rb

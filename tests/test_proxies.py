@@ -1,4 +1,4 @@
-"""deploy/nginx.conf and deploy/apache.conf as they are, with https, a prefix and a login that runs out."""
+"""deploy/nginx.conf and deploy/apache.conf unchanged, with https, a prefix and a login that expires."""
 
 import os
 import re

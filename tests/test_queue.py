@@ -1,4 +1,4 @@
-"""What takes long waits for its turn: who waits sees his place, and not all may."""
+"""Long work waits its turn: a visitor who waits sees his place, and the number of waiting ones is limited."""
 
 import math
 import threading

@@ -1,5 +1,4 @@
-"""The page without a mouse, without eyes, without patience, without English: by keyboard, on a first
-visit, and in German."""
+"""The page for people who use the keyboard or a screen reader, for first visitors, and in German."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The README's lines of code, run as they stand, print what stands below them."""
+"""The code in the README runs unchanged, and prints what the README says."""
 
 import contextlib
 import io

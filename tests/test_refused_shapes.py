@@ -1,4 +1,4 @@
-"""Bodies that cannot be, and files: each refused by the name of what is wrong, or read as it was."""
+"""Impossible bodies, and files: each is refused with the name of what is wrong, or read as it was saved."""
 
 import json
 from math import asin, cos

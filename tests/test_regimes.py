@@ -1,4 +1,5 @@
-"""Regimes and colours: one list of each, for Python and for JavaScript; tests/frontend/regimes.test.js has its side."""
+"""Regimes and colours: one list of each, for Python and JavaScript; tests/frontend/regimes.test.js tests the other
+side."""
 
 import colorsys
 import json

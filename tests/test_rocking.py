@@ -1,4 +1,4 @@
-"""A body that rocks on a table: its period, and what a measured one tells of it."""
+"""A body that rocks on a table: its period, and what follows from a measured one."""
 
 from math import pi, sqrt
 

@@ -1,4 +1,4 @@
-"""roll() against the rigid body that knows no constants."""
+"""roll() compared with the rigid body, which does not use the constants."""
 
 import numpy as np
 import pytest

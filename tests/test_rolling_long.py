@@ -1,4 +1,4 @@
-"""roll() against itself: what a long run keeps, and where the motion has a symmetry."""
+"""roll() compared with itself: what a long run conserves, and symmetries of the motion."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,5 @@
-"""Long work: beside the server, ended where nobody wants it any more, and each run as if it were alone."""
+"""Long work: it runs beside the server, stops when nobody wants it any more, and each run is independent of the
+others."""
 
 import asyncio
 import gc

@@ -1,4 +1,4 @@
-"""Long work of many visitors: whose turn it is, which piece answers, and what stands back."""
+"""Long work of many visitors: whose turn it is, which answer belongs to whom, and what has to wait."""
 
 import os
 import sys
@@ -14,8 +14,9 @@ from serving import until
 
 from app.model.explorer import Explorer
 from app.model.families.family import share_map
+from app.model.lab.lab import Lab
 from app.model.lesson import lesson
-from app.model.runs import MAPS, NICE, TURN, WORK, Pool, Run, Runs
+from app.model.runs import LATER, MAPS, NICE, TURN, WORK, Pool, Run, Runs
 from app.tabs.families.compare import Compare
 from app.tabs.learn.learn import Learn
 
@@ -151,6 +152,24 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
         assert not compare.cancel.disabled
         page.next()
     assert "Cancelled" in compare.said.object and not compare.start.disabled
+
+
+def test_what_a_hand_waits_for_does_not_wait_for_the_rest_of_other_runs(page):
+    """Nor is who has asked for nothing told that he waits."""
+    go, places = threading.Event(), []
+    for name in range(LATER.threads + 1):
+        LATER.add(name, lambda: go.wait(PATIENCE), places.append)
+    lab = Lab(page.runs)
+    lab.show()
+    lab.ask(spin=33.0, tilt=12.0)
+    lab.rest()
+    page.next()
+    assert lab.scene.spin == 33.0 and not (lab.scene.whole or lab.busy)
+    assert LATER.waiting() == 3  # with the rest of this run, and where all spins end
+    go.set()
+    while not (lab.scene.whole and lab.ends):
+        page.next()
+    assert lab.scene.spin == 33.0 and not places
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a thread has no priority of its own here")

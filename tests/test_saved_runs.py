@@ -1,4 +1,4 @@
-"""What is saved of a run on each table is that run, and the Python that goes with it computes it again."""
+"""The saved files of a run on each table describe that run, and the saved Python program computes it again."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""Every file that Share saves of the run on each table: pressed in Chromium, and read by other programs."""
+"""Every file that Share saves of the run on each table: saved in Chromium, and read by other programs."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""A Scene, whose numbers are tippe_core's: the planes, limits and frames that the pictures show."""
+"""A Scene, whose numbers are those of tippe_core: planes, limits and frames for the pictures."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What the scripts use of Bokeh, Panel and three.js without their promise: all in one module, and still there."""
+"""The private parts of Bokeh, Panel and three.js that the scripts use: all are in one module, and still exist."""
 
 import ast
 import re

@@ -1,6 +1,7 @@
-"""`python -m app`: whom it lets in, what it sends, and how it ends."""
+"""`python -m app`: who may connect, what it sends, and how it stops."""
 
 import asyncio
+import gzip
 import os
 import re
 import signal
@@ -108,12 +109,40 @@ def test_a_page_is_written_once_and_has_a_token_and_a_nonce_of_its_own(server):
         assert f'"{escape(say("main.server.made", language))}"' in page[2]
 
 
+def fetch(server, method, path, **headers):
+    """An answer to any method, and its bytes as they are sent."""
+    connection = HTTPConnection(server.root.removeprefix("http://"), timeout=60)
+    connection.request(method, path, headers={name.replace("_", "-"): value for name, value in headers.items()})
+    answer = connection.getresponse()
+    return answer, answer.read()
+
+
 def ask(server, method, path):
     """An answer to any method, and its text."""
-    connection = HTTPConnection(server.root.removeprefix("http://"), timeout=60)
-    connection.request(method, path)
-    answer = connection.getresponse()
-    return answer, answer.read().decode()
+    answer, body = fetch(server, method, path)
+    return answer, body.decode()
+
+
+@pytest.mark.parametrize(
+    "path", ["/static/js/bokeh.min.js", "/components/app.bundle/Bundled/_bundle_path/static/tippe.js"]
+)
+def test_scripts_are_sent_compressed_to_who_takes_that(path, server):
+    plain, whole = fetch(server, "GET", path)
+    answer, packed = fetch(server, "GET", path, Accept_Encoding="gzip, deflate, br")
+    head, _ = fetch(server, "HEAD", path, Accept_Encoding="gzip")
+    assert gzip.decompress(packed) == whole and len(packed) < 0.4 * len(whole)
+    assert answer.headers["Content-Encoding"] == head.headers["Content-Encoding"] == "gzip"
+    assert int(head.headers["Content-Length"]) == len(packed)
+    assert "Content-Encoding" not in plain.headers
+    for name in ("Content-Type", "Last-Modified", "Vary"):  # a cache keeps the two apart
+        assert plain.headers[name] == answer.headers[name]
+    assert plain.headers["Vary"] == "Accept-Encoding" and plain.headers["Etag"] != answer.headers["Etag"]
+    part, body = fetch(server, "GET", path, Accept_Encoding="gzip", Range="bytes=5-14")
+    assert (part.status, body) == (206, whole[5:15]) and "Content-Encoding" not in part.headers
+    for given in (plain, answer):
+        kept, _ = fetch(server, "GET", path, Accept_Encoding=given.headers.get("Content-Encoding", "identity"),
+                        If_None_Match=given.headers["Etag"])  # fmt: skip
+        assert kept.status == 304
 
 
 @pytest.mark.parametrize("path", ["/app", "/app/", "/", "/liveness", "/nothing", "/static/js/bokeh.min.js"])

@@ -1,4 +1,4 @@
-"""What an operator sets, and the files and docs that set it."""
+"""What an operator can set, and the files and docs that contain settings."""
 
 import os
 import re

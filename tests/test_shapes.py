@@ -1,4 +1,4 @@
-"""Shapes: masses and moments against other ways of integrating, outlines and STL files read back, rocking, files."""
+"""Shapes: masses and moments compared with other integrations, outlines and STL files read back, rocking, files."""
 
 from dataclasses import fields, replace
 from math import acos, cos, degrees, pi, sin, sqrt

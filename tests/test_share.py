@@ -1,4 +1,4 @@
-"""Share stays open beside the stage, and what it gives to take home is what its link opens."""
+"""Share stays open beside the stage, and what it saves is what its link opens."""
 
 import base64
 import re

@@ -1,5 +1,5 @@
-"""A file that is read in one sitting, a function that is seen at one look: at most 350 and 60 lines, as CONTRIBUTING.md
-says. ESLint counts the functions of the scripts."""
+"""A file has at most 350 lines and a function at most 60, as CONTRIBUTING.md says. ESLint counts the functions of
+the scripts."""
 
 import ast
 import json

@@ -1,4 +1,4 @@
-"""slide() against a rigid body that shares no formula with it, published motions, and what friction must keep."""
+"""slide() compared with a rigid body that shares no formula with it, published motions, and conserved quantities."""
 
 from dataclasses import replace
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""What Fig. 6 shows of a motion that is let slip at its tieline's end."""
+"""What Fig. 6 shows of a motion that starts to slip at the end of its tieline."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""glide() against the rigid body in space without friction, over many nutations, and against its own constants."""
+"""glide() compared with the rigid body in space without friction, over many nutations, and with its own constants."""
 
 import numpy as np
 import pytest

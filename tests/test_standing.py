@@ -1,4 +1,5 @@
-"""When a top that stands on its stem cannot tip any more: by plain geometry, matrices and rotations of others."""
+"""When a top that stands on its stem can no longer tip: by plain geometry, and matrices and rotations of other
+libraries."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""One top, one start, three tables: every view of the Lab shows the same one, and none has another of its own."""
+"""One top, one start, three tables: every view of the Lab shows the same start, and none has its own."""
 
 from contextlib import contextmanager
 from dataclasses import astuple, replace

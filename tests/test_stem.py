@@ -1,4 +1,4 @@
-"""slide() with a stem, flight and landing against a body on a table that yields; that oracle is judged first."""
+"""slide() with a stem, flight and landing, compared with a body on an elastic table; that oracle is tested first."""
 
 from collections import Counter
 from dataclasses import replace

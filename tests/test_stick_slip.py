@@ -1,4 +1,4 @@
-"""Where slide() sticks, slips and lets go: events, their times, and limits in which they come."""
+"""Where slide() sticks, slips and leaves the table: events, their times, and limiting cases."""
 
 from dataclasses import replace
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""The body as a mesh for a printer: closed, outward, of its volume, centre and inertia."""
+"""The body as a mesh for a 3-D printer: closed, facing outwards, with the right volume, centre and inertia."""
 
 from collections import Counter
 from dataclasses import replace

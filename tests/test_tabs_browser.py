@@ -1,4 +1,4 @@
-"""Tabs in Chromium, on a server with something wrong in it: a click is answered at once, a failure costs nothing."""
+"""Tabs in Chromium, on a server with faults: a click is answered at once, and an error breaks nothing else."""
 
 import re
 import sys

@@ -1,4 +1,4 @@
-"""Every language says the same things with the same numbers; what the code asks for is there."""
+"""Every language says the same with the same numbers, and has everything that the code asks for."""
 
 import ast
 import importlib

@@ -1,4 +1,4 @@
-"""Limit energies and tielines against bisection over the trajectories of a rigid body (limits.py)."""
+"""Limit energies and tielines, compared with bisection over the trajectories of a rigid body (limits.py)."""
 
 from itertools import pairwise
 

@@ -1,4 +1,4 @@
-"""Top, Scales, Constants, State: what they accept, and that what they refuse is named with value and range."""
+"""Top, Scales, Constants, State: what they accept, and that errors name the value and the allowed range."""
 
 import numpy as np
 import pytest

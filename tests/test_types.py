@@ -1,4 +1,5 @@
-"""Every public name of tippe_core says its types, and the package says that it does. (That they are right: mypy.)"""
+"""Every public name of tippe_core has type annotations, and the package declares them. (mypy checks that they are
+right.)"""
 
 import importlib
 import inspect

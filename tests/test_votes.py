@@ -1,4 +1,4 @@
-"""A class's vote on servers that run: people at several workers and hosts, who come, are cut off, and return."""
+"""A vote of a class on running servers: people at several workers and hosts arrive, lose the connection, and return."""
 
 import asyncio
 import json

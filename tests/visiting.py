@@ -15,7 +15,7 @@ FLAGS = [
     "--disable-sync",
 ]
 
-# A number array of a source, as the page holds it: by the name of its figure, the renderer and the column.
+# A column of a data source in the browser, given the name of its figure, the index of the renderer and the column.
 COLUMN = """
 ([figure, renderer, column]) => {
   const models = [...Bokeh.documents[0]._all_models.values()]
@@ -25,7 +25,7 @@ COLUMN = """
 """
 
 
-# Where on the page a point of a figure is.
+# The position on the page of a point of a figure.
 PIXEL = """
 ([figure, x, y]) => {
   const model = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == figure && m.renderers)
@@ -35,7 +35,7 @@ PIXEL = """
 """
 
 
-# What waits with its drawing until it is nearly in sight takes all of the page to be.
+# Makes parts of the page that are drawn only when they are nearly visible believe that they are.
 ALL_IS_NEAR = """
 const Seen = window.IntersectionObserver, FAR = "10000px"
 window.IntersectionObserver = class extends Seen {
@@ -44,7 +44,7 @@ window.IntersectionObserver = class extends Seen {
 """
 
 
-# In the middle of the window, and there since the picture before.
+# Scrolls a part to the middle of the window, and waits until it stays there.
 IN_SIGHT = """
 part => new Promise((done) => {
   part.scrollIntoView({block: "center"})
@@ -60,7 +60,7 @@ part => new Promise((done) => {
 """
 
 
-# Whether the last of the cards that are made after the page has come is there.
+# Whether the last card that is created after the page has loaded exists.
 WHOLE = """
 () => window.Bokeh?.documents?.[0]?.is_idle
   && [...Bokeh.documents[0]._all_models.values()].some((m) => m.name == "track")
@@ -72,11 +72,11 @@ DRAWN = "window.__tippe?.top3d?.pictures > 0"
 
 
 def of_roll(url):
-    """An address that says nothing, as Roll's; another as it is."""
+    """The address of Roll if the address has no query, otherwise the address itself."""
     return url if "?" in url else f"{url}?tab=roll"
 
 
-# Where in the head a room of the page is.
+# The buttons in the head that lead to each room.
 ROOMS = {
     "Lab": ("Lab", "Explore", None),
     "Roll": ("Lab", "Research", "Rough"),
@@ -90,7 +90,7 @@ ROOMS = {
 
 
 def go_to(page, room):
-    """Clicks what leads to a room, as far as it is not seen already."""
+    """Clicks the buttons that lead to a room, except those that are already chosen."""
     for role, name in zip(("tab", "radio", "radio"), ROOMS[room], strict=True):
         button = page.get_by_role(role, name=name or "none", exact=True).locator("visible=true").first
         if button.count() and not is_chosen(button):
@@ -98,7 +98,7 @@ def go_to(page, room):
 
 
 def is_seen(page, room):
-    """Whether the head marks the last of what leads to a room."""
+    """Whether the last of the buttons that lead to a room is chosen."""
     role, name = [(role, name) for role, name in zip(("tab", "radio", "radio"), ROOMS[room], strict=True) if name][-1]
     return is_chosen(page.get_by_role(role, name=name, exact=True).locator("visible=true").first)
 
@@ -118,7 +118,7 @@ def launch(playwright):
 
 
 def wait(page, ready):
-    """Until it is so, of what only Python can tell, or what is read in two steps."""
+    """Waits for a condition that cannot be written as one JavaScript expression."""
     for _ in range(800):
         if ready():
             return
@@ -127,11 +127,11 @@ def wait(page, ready):
 
 
 class Visit:
-    """A page that is open, and what it asked for, said and sent."""
+    """An open page, with its requests, its errors, and its websocket frames."""
 
     def __init__(self, page, url, whole=True, near=False):
-        """An address without a query is Roll's here. whole: wait for all of the tab. near: draw only what is, as for
-        anybody; else all is, and can be read wherever it stands."""
+        """An address without a query opens Roll. whole: wait until the whole tab is there. near: draw only what is
+        nearly visible, as usual; otherwise everything is drawn, so that tests can read it."""
         self.page, self.requests, self.errors, self.sent = page, [], [], []
         page.set_default_timeout(PATIENCE)
         page.on("request", lambda request: self.requests.append(request.url))
@@ -155,7 +155,7 @@ class Visit:
         return np.array(self.page.evaluate(COLUMN, place))
 
     def until_column(self, figure, renderer, column, first):
-        """Waits until a column of a source begins with this number."""
+        """Waits until a column of a data source starts with this number."""
         self.page.wait_for_function(
             f"([place, first]) => Math.abs(({COLUMN})(place)[0] - first) < 1e-9",
             arg=[[figure, renderer, column], first],
@@ -165,7 +165,7 @@ class Visit:
         return self.page.evaluate(PIXEL, [figure, float(x), float(y)])
 
     def drag(self, start, end, moves=6, rest=0):
-        """The mouse goes down at start, rests for so many ms, to end in some moves, and stays down."""
+        """Presses the mouse at start, rests for `rest` ms, and moves to end without releasing it."""
         self.page.mouse.move(*start)
         self.page.mouse.down()
         self.page.wait_for_timeout(rest)

@@ -1,9 +1,9 @@
-"""Visitors by websocket to a server that runs: they come together, move a slider, open the rooms, and leave one by one.
+"""Visits a running server by websocket: visitors arrive together, move a slider, open all rooms, and leave one by one.
 
     python tests/visitors.py http://localhost:5006/app [VISITORS]
 
-Exit 1 where one of them is turned away, is told an error, or is not answered. Needs only what the page itself needs:
-for the Pythons of this machine (tests/pythons.py), and for a server that somebody has just set up.
+Exits with 1 if one of them is refused, or gets an error or no answer. It needs only the libraries of the page itself,
+so that tests/pythons.py can run it on each Python, and anybody can check a new server with it.
 """
 
 import asyncio
@@ -14,19 +14,19 @@ from wire import Page, Visitor, run
 
 MOVES = 12  # of each visitor's slider
 ROOMS = ("three-planes", "build-a-top", "families", "learn", "lab", "maps", "measure")
-"""Beside Roll, where a visitor comes, as an address names them."""
+"""All rooms except Roll, where a visitor arrives, by their names in an address."""
 PATIENCE = 300  # s
 
 
 async def come(url, language="en"):
-    """A Page whose document is there; an address without a query is Roll's here."""
+    """A Page that has loaded; an address without a query opens Roll."""
     page = Page(await Visitor.enter(of_roll(url), headers={"Accept-Language": language}))
     await page.visitor.ready()
     return page
 
 
 async def stay(page, K_J):
-    """Does what a person does: moves the first slider, and looks at each room."""
+    """Moves the first slider, and opens each room."""
     dial = page.visitor.find("Dial")[0]
     for i in range(MOVES):
         await page.set(dial, "asked", [i + 1, K_J + 0.05 * i, False])
@@ -34,10 +34,10 @@ async def stay(page, K_J):
 
 
 async def open_rooms(page):
-    """Each room after the other, until it stands where it was said that it is being made."""
+    """Opens one room after the other, and waits until each has replaced the sentence that announces it."""
 
     def stands(place):
-        """The ids of what does: of the room alone, or of a sentence."""
+        """The ids of the children: the room, or the sentence."""
         return [child["id"] for child in page.now(place, "children")]
 
     for room in ROOMS:
@@ -49,7 +49,7 @@ async def open_rooms(page):
 
 
 async def visit(url, count):
-    """So many come at once, every other one in German; one leaves while the others stay, and one more comes last."""
+    """`count` visitors arrive at once, every other one in German; the first leaves early, and one more arrives."""
     pages = await asyncio.gather(*(come(url, "de" if i % 2 else "en") for i in range(count)))
     first, *others = pages
     await stay(first, 5.0)

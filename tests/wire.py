@@ -1,4 +1,4 @@
-"""A visitor without a browser: Bokeh's protocol over a websocket, as a page speaks it, or as somebody who means ill."""
+"""A visitor without a browser: Bokeh's protocol over a websocket, as a page uses it, or as an attacker might."""
 
 import asyncio
 import html
@@ -21,14 +21,14 @@ def get(url, **headers):
     try:
         with urlopen(Request(url, headers=headers), timeout=60) as answer:
             return answer.status, answer.headers, answer.read().decode(errors="replace")
-    except OSError as error:  # an answer that is no page is one too
+    except OSError as error:  # an error status is an answer too
         if not hasattr(error, "code"):
             raise
         return error.code, error.headers, error.read().decode(errors="replace")
 
 
 def event(name, model, **values):
-    """What a browser says where something happens to a model; values: as they are in a message, dicts as such."""
+    """The message that a browser sends for an event of a model. values: as in a message, but dicts may be plain."""
     packed = [[key, {"type": "map", "entries": [*map(list, value.items())]} if isinstance(value, dict) else value]
               for key, value in values.items()]  # fmt: skip
     values = {"type": "map", "entries": [["model", {"id": model}], *packed]}
@@ -37,23 +37,23 @@ def event(name, model, **values):
 
 
 class Closed(Exception):
-    """The server closed the connection: its code and its words."""
+    """The server closed the connection, with this code and reason."""
 
 
 @dataclass
 class Visitor:
-    """One page's end of a session. models: {id: (type, attributes)} of the page as it is now."""
+    """The browser's side of a session. models: {id: (type, attributes)}, the present models of the page."""
 
     socket: object
     token: str
     models: dict = field(default_factory=dict)
     bytes_in: int = 0
     count: int = 0
-    turn: asyncio.Lock = field(default_factory=asyncio.Lock)  # the pieces of two messages must not mix
+    turn: asyncio.Lock = field(default_factory=asyncio.Lock)  # the fragments of two messages must not interleave
 
     @classmethod
     async def enter(cls, url, token=None, headers=None, pull=True):
-        """Loads the page and opens its session; raises Closed where it is not let in."""
+        """Loads the page and opens its session; raises Closed if the server refuses."""
         if token is None:
             page = await AsyncHTTPClient().fetch(HTTPRequest(url, headers=headers or {}, request_timeout=300))
             token = TOKEN.search(page.body.decode()).group(1)
@@ -66,7 +66,7 @@ class Visitor:
                               request_timeout=300, connect_timeout=300)  # fmt: skip
         socket = await websocket_connect(request, subprotocols=["bokeh", token], max_message_size=2**27)
         visitor = cls(socket, token)
-        visitor.socket.protocol.set_nodelay(True)  # as a browser does: a message is several writes
+        visitor.socket.protocol.set_nodelay(True)  # as browsers do, because a message consists of several writes
         kind, _, _ = await visitor.receive()
         assert kind == "ACK"
         if pull:
@@ -75,7 +75,7 @@ class Visitor:
         return visitor
 
     def note(self, part):
-        """Remembers the models in what the server says."""
+        """Stores the models in what the server sends."""
         if isinstance(part, list):
             for each in part:
                 self.note(each)
@@ -88,22 +88,22 @@ class Visitor:
                 self.note(each)
 
     def unknown(self, part):
-        """The ids of models that are named there and were not brought: a browser throws away the whole message."""
+        """The ids of models that are referenced but were never sent: a browser discards such a message."""
         if isinstance(part, list):
             return {id for each in part for id in self.unknown(each)}
-        if not isinstance(part, dict) or part.get("type") == "bytes":  # whose id is a buffer's
+        if not isinstance(part, dict) or part.get("type") == "bytes":  # its id is that of a buffer
             return set()
         if set(part) == {"id"} and re.fullmatch(r"p\d+", str(part["id"])):
             return {part["id"]} - set(self.models)
         return {id for each in part.values() for id in self.unknown(each)}
 
     def find(self, kind, *names):
-        """The ids of the models of this type that have these attributes, in the order of the document."""
+        """The ids of the models of this type with these attributes, in document order."""
         return [id for id, (name, attributes) in self.models.items()
                 if re.fullmatch(kind + r"\d*", name) and all(each in attributes for each in names)]  # fmt: skip
 
     def component(self, kind):
-        """The id of the first component of Panel's whose data are a model of this type, None where there is none."""
+        """The id of the first Panel component whose data model has this type, or None."""
         data = self.find(kind)
         for id, (_, attributes) in self.models.items():
             if isinstance(attributes.get("data"), dict) and attributes["data"].get("id") in data:
@@ -124,19 +124,19 @@ class Visitor:
         return message
 
     async def set(self, model, attribute, value):
-        """As if the browser had changed a model; returns the message's id."""
+        """Changes a model as a browser does; returns the id of the message."""
         event = {"kind": "ModelChanged", "model": {"id": model}, "attr": attribute, "new": value}
         return await self.say("PATCH-DOC", {"events": [event]})
 
     async def ready(self):
-        """Says what a browser says when the page is there: what is made after the page then comes."""
+        """Reports that the page is complete, as a browser does; then the server sends what it creates afterwards."""
         event = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
         await self.say("PATCH-DOC", {"events": [
             {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": event}
         ]})  # fmt: skip
 
     async def click(self, label):
-        """As if somebody had clicked the button that says so."""
+        """Clicks the button with this label."""
         [data] = [id for id, (name, attributes) in self.models.items()
                   if name.startswith("Button") and attributes.get("label") == label]  # fmt: skip
         [button] = [id for id, (_, attributes) in self.models.items()
@@ -149,7 +149,7 @@ class Visitor:
 
     @property
     def says(self):
-        """All that stands on the page as HTML."""
+        """All text of the page that is HTML."""
         texts = (attributes.get("text") for _, attributes in self.models.values())
         return "\n".join(html.unescape(text) for text in texts if isinstance(text, str))
 
@@ -161,7 +161,7 @@ class Visitor:
         return fragment
 
     async def receive(self):
-        """(kind, content, id of what it answers) of the next message."""
+        """The next message: (kind, content, id of the message that it answers)."""
         header, _, content = json.loads(await self._fragment()), await self._fragment(), await self._fragment()
         for _ in range(2 * header.get("num_buffers", 0)):
             await self._fragment()
@@ -175,7 +175,7 @@ class Visitor:
                 return kind, content
 
     async def ask(self, kind, content):
-        """Sends a message and reads until its answer: (kind, content, s it took)."""
+        """Sends a message and reads until its answer: (kind, content, seconds)."""
         start = time.monotonic()
         answered = await self.answer(await self.say(kind, content))
         return *answered, time.monotonic() - start
@@ -186,7 +186,7 @@ class Visitor:
 
 
 class Page:
-    """A Visitor who reads all the time and answers as a page does. lost: why he reads no more, else None."""
+    """A Visitor that reads continuously and answers as a page does. lost: why it has stopped reading, or None."""
 
     def __init__(self, visitor):
         self.visitor, self.lost = visitor, None
@@ -219,10 +219,10 @@ class Page:
                 self._heard.notify_all()
 
     def heard(self, content):
-        """Something new to show has come."""
+        """Called with each change that the server sends."""
 
     async def until(self, condition):
-        """Waits until something that the server says makes it so; raises what ended the reading."""
+        """Waits until messages of the server make the condition true; raises the error if reading ended."""
         async with self._heard:
             await self._heard.wait_for(lambda: self.lost or condition())
         if self.lost:
@@ -234,22 +234,22 @@ class Page:
         return found
 
     async def head(self, name, value=""):
-        """As if something in the page's head had been clicked."""
+        """Clicks something in the head of the page."""
         [head] = self.visitor.find("Head")
         self._clicks = getattr(self, "_clicks", 0) + 1
         await self.set(head, "asked", [self._clicks, name, value])
 
     def now(self, model, attribute, default=None):
-        """What the server has said of it so far."""
+        """The present value of an attribute, as far as the server has sent it."""
         return self.visitor.models[model][1].get(attribute, default)
 
     async def set(self, model, attribute, value):
-        """As if the browser had changed a model, and waits for the answer."""
+        """Changes a model as a browser does, and waits for the answer."""
         message = await self.visitor.set(model, attribute, value)
         await self.until(lambda: message in self._replies)
 
     async def click(self, button):
-        """As if the browser had clicked one of Panel's, and waits for the answer."""
+        """Clicks a Panel button, and waits for the answer."""
         [view] = [id for id, (_, attributes) in self.visitor.models.items()
                   if isinstance(attributes.get("data"), dict) and attributes["data"].get("id") == button]  # fmt: skip
         values = {"type": "map", "entries": [["model", {"id": view}], ["node", "click"], ["data", None]]}
@@ -265,12 +265,12 @@ class Page:
         self.visitor.leave()
 
     async def vanish(self):
-        """Is gone at once, without the words with which a connection ends."""
+        """Drops the connection without closing it properly."""
         self.reading.cancel()
         self.visitor.socket.protocol.stream.close()
 
 
 def run(coroutine, seconds=120):
-    """Runs it, for so long at most; in a thread of its own, for in the tests' own Playwright's loop is running."""
+    """Runs a coroutine with a time limit, in its own thread, because Playwright's loop runs in that of the tests."""
     with ThreadPoolExecutor(1) as thread:
         return thread.submit(asyncio.run, asyncio.wait_for(coroutine, seconds)).result()

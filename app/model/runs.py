@@ -57,10 +57,13 @@ def stand_back() -> None:
 class Pool:
     """A few threads, and a queue for them. Visitors take turns: next is the one with the fewest pieces of work under
     way, and of these the one whose turn was longest ago. The last free thread is reserved for a visitor with none under
-    way. most: the number of pieces that may wait; begin: called first in each thread."""
+    way. most: the number of pieces that may wait; begin: called first in each thread; unasked: whether no visitor has
+    asked for this work, so that nobody is told that it waits."""
 
-    def __init__(self, threads: int, name: str, most: int = 400, begin: Piece | None = None) -> None:
-        self.threads, self.most = threads, most
+    def __init__(
+        self, threads: int, name: str, most: int = 400, begin: Piece | None = None, *, unasked: bool = False
+    ) -> None:
+        self.threads, self.most, self.unasked = threads, most, unasked
         self._executor = ThreadPoolExecutor(threads, thread_name_prefix=name, initializer=begin)
         self._waiting: dict[Hashable, list[Piece]] = {}  # visitor -> waiting pieces
         self._working: Counter[Hashable] = Counter()  # how many are under way
@@ -80,7 +83,7 @@ class Pool:
             self._waiting.setdefault(visitor, []).append(piece)
             self._since[piece] = time.monotonic()
             self._fill()
-            if piece in self._since:
+            if piece in self._since and not self.unasked:
                 self._places[visitor] = place
                 self._tell_later()
 
@@ -159,6 +162,8 @@ class Pool:
 
 # With all threads busy a visitor waits, and sees that nothing is computed yet.
 WORK = Pool(max(2, min(cores() + 1, 4)), "run")
+# The rest of a run, for example, which is computed when a hand rests, gives way to what hands wait for.
+LATER = Pool(2, "later", begin=stand_back, unasked=True)
 FILES = Pool(1, "file", 100)  # matplotlib draws one figure at a time
 # Each piece of a map takes all cores for some seconds; with more threads all maps would only be later.
 MAPS = Pool(2, "map", 40, stand_back)
@@ -303,7 +308,8 @@ class Runs:
         except Full as full:
             waiting = full.args[0]
             tell(full)
-            self.post(lambda: self._full(waiting))
+            if not pool.unasked:
+                self.post(lambda: self._full(waiting))
 
     def post(self, function: Piece) -> None:
         """Calls a function on the session's thread, unless the page has closed."""

@@ -11,7 +11,7 @@ import numpy as np
 from tornado.ioloop import IOLoop
 
 from app.kernels import compiling
-from app.model.runs import FILES, MAPS, WORK
+from app.model.runs import FILES, LATER, MAPS, WORK
 
 try:
     import resource
@@ -22,7 +22,7 @@ STEP = 1.0  # s
 HEARD = 15.0  # s after which a worker that reports nothing counts as ended
 REMEMBERED = 15  # steps over which the longest delay is reported
 REFUSALS = ("stranger", "full", "crowded", "hurried", "stopping", "ended", "connection", "message")
-POOLS = {"run": WORK, "file": FILES, "map": MAPS}
+POOLS = {"run": WORK, "later": LATER, "file": FILES, "map": MAPS}
 QUEUES = ("page", "session", *POOLS)  # each reports how many wait, how many had their turn, and how long those waited
 STATES = ("full", "stopping", "compiling")
 FIELDS = ("at", *STATES, "sessions", "connections", "delay", "memory", "files",

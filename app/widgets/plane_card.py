@@ -9,7 +9,7 @@ from app.model.colours import COLOURS, FAINT
 from app.model.explorer import Explorer
 from app.model.regimes import WOULD_SLIP
 from app.model.roll.slipping import slipping
-from app.model.runs import Run, Runs, Stopped
+from app.model.runs import LATER, Run, Runs, Stopped
 from app.text import say
 from app.widgets.cards import BUTTON, on_click, swatch, words
 from app.widgets.controls import SPIN, SYMBOLS, named
@@ -65,7 +65,7 @@ class PlaneCard:
     def show_path(self, scene):
         self._trajectory = scene.rolling
         # takes as long as ten moves, so not in the thread that answers everybody
-        self._runs.begin(Run(lambda run: slipping(scene), partial(self._show_slipping, scene)), "slipping")
+        self._runs.begin(Run(lambda run: slipping(scene), partial(self._show_slipping, scene)), "slipping", LATER)
         self.near.show(scene)
         self.slip.visible = bool(scene.regime.max() == WOULD_SLIP)
         self.paper.visible = self.near.view.visible and scene.top != Top.paper()

@@ -1,7 +1,7 @@
 """The track on the table
 
 The points where a rolling top touches the table, over six nutations, and the path of its centre of mass above. Each
-nutation is a copy of the first one, rotated and displaced.
+nutation is a copy of the first one, rotated and displaced. A fast top rolls almost straight on, so y is stretched here.
 """
 
 import matplotlib.pyplot as plt
@@ -15,7 +15,6 @@ rolling = Rolling(Top.paper(), Constants(K_J, K_R, E))
 motion = rolling(np.linspace(0, 6 * rolling.period, 3000))
 plt.plot(*motion.contact.T, lw=0.9, label="contact point")
 plt.plot(*motion.com[:, :2].T, lw=0.9, label="centre of mass")
-plt.axis("equal")
 plt.xlabel("x, R")
 plt.ylabel("y, R")
 plt.legend()

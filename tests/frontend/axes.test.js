@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { Scale } from "../../app/frontend/src/three/axes.js";
 import { near } from "./helping.js";
 
-test("ticks are round numbers, all that there are from end to end", () => {
+test("ticks are all the round numbers of the range", () => {
   const known = [
     [0, 1, [0, 0.2, 0.4, 0.6, 0.8, 1]],
     [-1, 1, [-1, -0.5, 0, 0.5, 1]],
@@ -18,17 +18,17 @@ test("ticks are round numbers, all that there are from end to end", () => {
   }
 });
 
-test("the ends of the values are at the ends of the side, and what is between in proportion", () => {
+test("the ends of the range are at the ends of the edge, and values between are in proportion", () => {
   const scale = new Scale(-2, 6);
   assert.equal(scale.set(10, 30), true);
   near([10, 15, 30, 40].map(scale.at), [-2, 0, 6, 10]);
   near([-2, 0, 6, 10].map(scale.value), [10, 15, 30, 40]);
-  assert.equal(scale.set(10, 30), false); // no news
-  scale.set(5, 5); // a single value stands in the middle
+  assert.equal(scale.set(10, 30), false); // nothing has changed
+  scale.set(5, 5); // a single value is in the middle
   near(scale.at(5), 2);
 });
 
-test("from 0 it ends just above the most, at a tick", () => {
+test("a scale from 0 ends at a tick just above the greatest value", () => {
   const scale = new Scale(0, 1);
   for (const [most, high] of [[0.97, 1], [1, 1], [1.01, 1.25], [130, 150], [0, 1]]) {
     scale.setAbove(most);
@@ -36,7 +36,7 @@ test("from 0 it ends just above the most, at a tick", () => {
   }
 });
 
-test("a tick is written with the digits that tell it from the next", () => {
+test("a tick has as many digits as distinguish it from the next", () => {
   const written = (low, high) => {
     const scale = new Scale(0, 1);
     scale.set(low, high);

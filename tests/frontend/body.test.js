@@ -19,12 +19,12 @@ function bodyOf(profile) {
 }
 const sphere = Array.from({ length: 201 }, (_, i) => [Math.sin((i * Math.PI) / 200), -Math.cos((i * Math.PI) / 200)]);
 
-test("a half circle makes a sphere, whichever way it is told", () => {
+test("a half circle makes a sphere, whether given upwards or downwards", () => {
   for (const profile of [sphere, sphere.toReversed()]) {
     const { body, position, normal, uv, volume, area } = bodyOf(profile);
-    assert.equal(position.count, 201 * 57); // no edge anywhere
-    near([volume, area], [(4 / 3) * Math.PI, 4 * Math.PI], 0.02); // 56 flat pieces round it: 0.2 % less
-    // At the top the last piece's own direction is taken.
+    assert.equal(position.count, 201 * 57); // no edges
+    near([volume, area], [(4 / 3) * Math.PI, 4 * Math.PI], 0.02); // 56 flat facets around it: 0.2 % less
+    // At the top, the direction of the last piece is used.
     const at = (attribute, i) => new Vector3().fromBufferAttribute(attribute, i).toArray();
     for (let i = 0; i < position.count; i++) near(at(normal, i), at(position, i), i < position.count - 57 ? 1e-5 : 0.01);
     for (let i = 57; i < position.count - 57; i++) { // painted by longitude and latitude

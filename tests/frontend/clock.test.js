@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { motion, near } from "./helping.js";
 
 const window = (globalThis.window = new EventTarget());
-let still = false; // whether a person prefers less motion
+let still = false; // whether the system asks for reduced motion
 globalThis.matchMedia = () => ({ matches: still });
 const { photosOf, Place, timeOf } = await import("../../app/frontend/src/motion/clock.js");
 
@@ -18,7 +18,7 @@ function topOn(clock, { inView = true, wide = 1, rows = [0, 1, 2, 4], ...more } 
   return { place, model, player: place.player, told: (name, value) => listeners[name]((model[name] = value)) };
 }
 
-// Runs with so many tops of one clock, and takes them off it.
+// Runs a test with this many tops on one clock, and removes them afterwards.
 function together(tops, run) {
   try {
     run(...tops);
@@ -27,7 +27,7 @@ function together(tops, run) {
   }
 }
 
-test("tops of one clock play, stop and stand as one; others do not", () =>
+test("tops of one clock play, stop and move together; others do not", () =>
   together([topOn("a"), topOn("a"), topOn("b"), topOn(""), topOn("")], (one, two, other, alone, beside) => {
     one.player.setPlaying(true);
     assert.deepEqual([two, other, alone].map(({ model }) => model.playing), [true, false, false]);
@@ -35,7 +35,7 @@ test("tops of one clock play, stop and stand as one; others do not", () =>
     assert.equal(one.model.playing, false);
     one.player.step(2);
     assert.deepEqual([one, two, other].map(({ player }) => player.t), [2, 2, 0]);
-    one.place.take(true); // a new motion, from its beginning, is the one top's own
+    one.place.take(true); // a new motion that starts from its beginning affects only this top
     assert.deepEqual([one, two].map(({ player }) => player.t), [0, 2]);
     one.place.leave();
     assert.equal(timeOf("a"), 2);
@@ -45,7 +45,7 @@ test("tops of one clock play, stop and stand as one; others do not", () =>
     assert.deepEqual([alone, beside].map(({ player }) => player.t), [1, 0]);
   }));
 
-test("one that comes later is where the others are", () =>
+test("a top that joins later takes the time of the others", () =>
   together([topOn("a", { playing: true, time: 1 })], (first) => {
     assert.deepEqual([first.player.t, first.player.playing], [1, true]);
     const second = topOn("a");
@@ -53,7 +53,7 @@ test("one that comes later is where the others are", () =>
     second.place.leave();
   }));
 
-test("the first in view that has a motion moves the time, at the model's speed", () =>
+test("the first visible top that has a motion moves the time, at the model's speed", () =>
   together([topOn("a", { rows: [0] }), topOn("a", { inView: false }), topOn("a"), topOn("a")], (...tops) => {
     const [, , leader, last] = tops;
     assert.deepEqual(tops.map(({ place }) => place.leads), [false, false, true, false]);
@@ -62,14 +62,14 @@ test("the first in view that has a motion moves the time, at the model's speed",
     for (const now of [0, 40]) assert.deepEqual(pass(now), [false, false]);
     near([leader.player.t, last.player.t], [1, 1]); // 40 ms at half speed are 20 ms of the real top, one unit
     assert.deepEqual([leader, tops[0]].map(({ place }) => place.moves), [true, false]);
-    assert.deepEqual(pass(180), [true, true]); // both begin anew
+    assert.deepEqual(pass(180), [true, true]); // both start again
     near([leader.player.t, last.player.t], [0.5, 0.5]);
     assert.equal(timeOf("a"), leader.player.t);
-    assert.deepEqual(photosOf(6), ["a 2", "a 2", "a 2"]); // of those in sight
+    assert.deepEqual(photosOf(6), ["a 2", "a 2", "a 2"]); // of the visible ones
     assert.equal(timeOf("nobody's"), 0);
   }));
 
-test("what is shown is said once, by the one that moves the time; a seek is heard", () =>
+test("each moment is announced once, by the top that moves the time; a seek moves it", () =>
   together([topOn("a"), topOn("a")], (one, two) => {
     const heard = [], listen = ({ detail }) => heard.push(detail);
     window.addEventListener("tippe:clock:a", listen);
@@ -80,7 +80,7 @@ test("what is shown is said once, by the one that moves the time; a seek is hear
     window.removeEventListener("tippe:clock:a", listen);
   }));
 
-test("the keys of the page reach the top that is on it", () =>
+test("the keys of the page reach the visible top", () =>
   together([topOn("", { wide: 0 }), topOn("")], (hidden, { player }) => {
     const command = (detail) => window.dispatchEvent(new CustomEvent("tippe:command", { detail }));
     command({ step: 1 });
@@ -89,7 +89,7 @@ test("the keys of the page reach the top that is on it", () =>
     assert.deepEqual([player.playing, hidden.player.playing, hidden.player.t], [true, false, 0]);
   }));
 
-test("Python is told where a hand left the time, and its own echo moves nothing", ({ mock }) => {
+test("Python gets the time at which it was released, and its echo moves nothing", ({ mock }) => {
   mock.timers.enable({ apis: ["setTimeout"] });
   together([topOn("a")], ({ player, model, told }) => {
     player.step(1);
@@ -103,18 +103,18 @@ test("Python is told where a hand left the time, and its own echo moves nothing"
     told("time", 3.6);
     assert.deepEqual([player.t, player.held], [4, false]);
     player.seek(1, true);
-    mock.timers.tick(1000); // not while the hand is on it
+    mock.timers.tick(1000); // not while it is held
     assert.equal(model.time, 3.6);
   });
 });
 
-test("who prefers less motion gets none by itself", () => {
+test("with reduced motion nothing plays by itself", () => {
   still = true;
   together([topOn("a", { playing: true })], ({ player, model }) => assert.deepEqual([player.playing, model.playing], [false, false]));
   still = false;
 });
 
-test("a view of the page's start that comes into sight goes on where the last one stood, in seconds", () =>
+test("a view of the page's start that appears continues at the time of the last one, in seconds", () =>
   together([topOn("lab", { rows: [0, 1, 2, 3], seconds: 1 }), topOn("planes", { wide: 0, rows: [0, 10, 20, 30], seconds: 0.1 }),
     topOn("", { wide: 0, rows: [0, 1, 2, 3], seconds: 0.5 })], (...tops) => {
     const [lab, planes, rolls] = tops;
@@ -126,9 +126,9 @@ test("a view of the page's start that comes into sight goes on where the last on
     see(lab);
     see(planes);
     assert.deepEqual(tops.map(({ player }) => player.t), [2, 20, 0]);
-    see(rolls); // 2 s are 4 of its time, of which it has 3, for ever
+    see(rolls); // 2 s are 4 units of its time, and its motion repeats every 3
     assert.deepEqual(tops.map(({ player }) => player.t), [2, 20, 1]);
-    see(lab); // and nobody moved it there
+    see(lab); // and nobody has moved it
     assert.equal(lab.player.t, 2);
     see(rolls);
     rolls.player.seek(3);

@@ -7,17 +7,17 @@ import { near } from "./helping.js";
 
 const same = { compute: (value) => value, invert: (px) => px };
 
-test("a value between two rows is the straight line's, and at the ends that of the ends", () => {
+test("values are interpolated linearly between rows, and constant beyond the ends", () => {
   const t = [10, 12, 14, 16], values = [0, 1, 4, 9];
   for (const [now, wanted] of [[10, 0], [11, 0.5], [13.5, 3.25], [16, 9], [99, 9], [-5, 0]]) near(valueAt(values, spotOf(t, now)), wanted);
 });
 
-test("one nutation is gone through again and again", () => {
+test("one nutation repeats", () => {
   const t = [0, 1, 2], values = [5, 6, 7];
   for (const [now, wanted] of [[-3, 5], [0.5, 5.5], [2, 7], [2.5, 5.5], [101.25, 6.25]]) near(valueAt(values, spotInTurn(t, now)), wanted);
 });
 
-test("a row is found among times spaced in any way, in columns and in tables", () => {
+test("a row is found among unevenly spaced times, in columns and in tables", () => {
   const t = [0, 1, 4, 4.5, 30];
   for (const now of [-1, 0, 0.5, 1, 3.9, 4, 4.49, 29, 30, 31]) {
     const wanted = Math.max(0, t.slice(0, -1).findLastIndex((time) => time <= now));
@@ -26,26 +26,26 @@ test("a row is found among times spaced in any way, in columns and in tables", (
   }
 });
 
-test("of rows the nearest, of two the first", () => {
+test("the nearest row is found, and the first of two", () => {
   assert.deepEqual([nearestRow([1, 2, 3], 2.4), nearestRow([1, 2, 3], 1.5), nearestRow([1, 2, 3], 99)], [1, 0, 2]);
 });
 
-test("a hand at a tilt finds the time next to now, of the many at which the motion is there", () => {
+test("of the many times at which a motion has a tilt, the one closest to now is found", () => {
   const t = Float64Array.from({ length: 401 }, (_, i) => i / 20), theta = t.map(Math.sin); // three turns
-  const half = Math.PI / 6; // sin is 1/2 there, and at pi less that
+  const half = Math.PI / 6; // sin is 1/2 there, and at pi minus that
   for (const [now, wanted] of [[0, half], [2, Math.PI - half], [7, 2 * Math.PI + half], [15, 5 * Math.PI - half]]) {
     near(timeAtTilt({ t, theta }, 0.5, now), wanted, 1e-3);
   }
   near(timeAtTilt({ t, theta }, 1, 1), Math.PI / 2, 0.05);
 });
 
-test("a hand beyond all tilts finds the nearest one", () => near(timeAtTilt({ t: [0, 1, 2], theta: [1, 2, 1] }, 5, 0), 1));
+test("beyond all tilts, the nearest one is found", () => near(timeAtTilt({ t: [0, 1, 2], theta: [1, 2, 1] }, 5, 0), 1));
 
-test("a motion at rest in its tilt stays at its time", () => {
+test("a motion of constant tilt stays at its time", () => {
   near(timeAtTilt({ t: [0, 1, 2], theta: [1, 1, 1] }, 1, 0), 0);
 });
 
-test("a hand near a curve finds its time, of a nutation in the turn of now", () => {
+test("near a curve its time is found, and on one nutation in the present repetition", () => {
   const t = Float64Array.from({ length: 101 }, (_, i) => i / 100);
   const curve = { t, x: t.map((s) => 100 * Math.cos(2 * Math.PI * s)), y: t.map((s) => 100 * Math.sin(2 * Math.PI * s)) };
   near(timeAtPoint(curve, [0, 130], 0.1, true, { x: same, y: same }), 0.25);
@@ -60,7 +60,7 @@ test("the bead is in the well of its time, and in none between two", () => {
   assert.deepEqual(beadAt(path, 9), { which: 1, theta: 30, V: 2, E: 1 });
 });
 
-test("a section stands upright at no tilt and lies at a right angle, on the table each time", () => {
+test("a section is upright at zero tilt and horizontal at 90 degrees, and touches the table in both", () => {
   const circle = Array.from({ length: 360 }, (_, k) => (k * Math.PI) / 180);
   const outline = { across: circle.map(Math.sin), along: circle.map(Math.cos) };
   const at = (theta) => [Math.sin(theta), Math.cos(theta)];

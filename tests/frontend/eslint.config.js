@@ -1,8 +1,8 @@
-// Patterns are from the project's folder, where ESLint is started.
+// Patterns are relative to the project's folder, where ESLint is started.
 import js from "@eslint/js";
 import globals from "globals";
 
-// What leaves its file says what it takes: @param or @type, which tsc checks.
+// Exported functions must document their parameters with @param or @type, which tsc checks.
 const typed = {
   create(context) {
     const look = (node, made) => {
@@ -37,13 +37,13 @@ export default [
       "no-shadow": "error",
       "no-throw-literal": "error",
       "no-unmodified-loop-condition": "error",
-      // Functions may call what stands below them.
+      // Functions may be used before they are defined.
       "no-use-before-define": ["error", { functions: false, classes: false, variables: false }],
       "no-var": "error",
       "prefer-const": "error",
     },
   },
-  // Bodies of functions, with the names that Bokeh calls them with.
+  // Function bodies, whose parameters are named by Bokeh.
   {
     files: ["app/call.js"],
     languageOptions: {
@@ -58,7 +58,7 @@ export default [
       globals: Object.fromEntries(["basic", "ticks", "index", "point"].map((name) => [name, "readonly"])),
     },
   },
-  { files: ["app/*.js", "app/{page,server,share}/*.js"], languageOptions: { sourceType: "commonjs" } }, // they stand in a page
+  { files: ["app/*.js", "app/{page,server,share}/*.js"], languageOptions: { sourceType: "commonjs" } }, // they are inlined in a page
   { files: ["app/frontend/src/**/*.js"], plugins: { ours: { rules: { typed } } }, rules: { "ours/typed": "error" } },
   { files: ["tests/frontend/*.js"], languageOptions: { globals: globals.node } },
 ];

@@ -7,7 +7,7 @@ import { motion, near } from "./helping.js";
 const times = [1, 2, 4, 4.5, 8];
 const frames = new Frames(motion(times.map((t) => ({ t }))));
 
-test("a time's place is the row, and as a fraction how far it is to the next", () => {
+test("the position of a time is its row, plus the fraction of the way to the next", () => {
   assert.deepEqual([frames.start, frames.end, frames.count], [1, 8, 5]);
   for (const [t, place] of [[1, 0], [1.25, 0.25], [3, 1.5], [4, 2], [4.5, 3], [7.125, 3.75], [8, 4]]) near(frames.place(t), place);
   assert.deepEqual([-5, 20, NaN].map((t) => frames.place(t)), [0, 4, 0]);
@@ -20,7 +20,7 @@ const row = {
 const arrays = ({ quaternion, contact, com, theta, force, omega, momentum }) =>
   [quaternion.toArray(), contact.toArray(), com.toArray(), [theta], ...[force, omega, momentum].map((vector) => vector.toArray())];
 
-test("on a row the pose is that row", () => {
+test("on a row the pose is that of the row", () => {
   const two = new Frames(motion([{ t: 0 }, row])), pose = emptyPose();
   two.read(1, pose);
   assert.deepEqual(arrays(pose), [row.quaternion, [...row.contact, 0], row.com, [row.theta], row.force, row.omega, row.momentum]);
@@ -30,9 +30,9 @@ test("on a row the pose is that row", () => {
   assert.deepEqual(two.scales, { force: 13, omega: 7, momentum: 3 }); // Pythagoras in whole numbers
 });
 
-test("between two rows it is the turn in equal steps, the shorter way, and the straight line", () => {
+test("between two rows the pose is interpolated: at a constant rate of rotation, the shorter way, and along a line", () => {
   const turned = (angle, sign = 1) => [0, 0, sign * Math.sin(angle / 2), sign * Math.cos(angle / 2)]; // about z
-  for (const sign of [1, -1]) { // both are the same turn
+  for (const sign of [1, -1]) { // both are the same rotation
     const other = { ...row, contact: [-1, 6], com: [1, 1, 1], theta: 0.5, force: [0, 2, 0], omega: [5, 5, 5], momentum: [-3, 0, 1], regime: 1 };
     const rows = [row, { ...other, quaternion: turned(0.4) }, { ...row, quaternion: turned(2.4, sign) }, other];
     const four = new Frames(motion(rows)), pose = emptyPose();
@@ -41,17 +41,17 @@ test("between two rows it is the turn in equal steps, the shorter way, and the s
       four.read(1 + share, pose);
       near(pose.quaternion.toArray(), turned(0.4 + 2 * share));
       near(arrays(pose).slice(1).flat(), vectors(row).map((value, i) => share * value + (1 - share) * vectors(other)[i]));
-      assert.equal(pose.regime, 1); // until the row that has another
+      assert.equal(pose.regime, 1); // until the row with another one
     }
   }
 });
 
-test("no motion has no rows", () => {
+test("without a motion there are no rows", () => {
   const none = new Frames();
   assert.deepEqual([none.count, none.start, none.end, none.scales.force], [0, 0, 0, 0]);
 });
 
-test("the sphere's centre is over the contact, or where G and the axis say", () => {
+test("the centre of the sphere is above the contact, or follows from G and the axis", () => {
   const pose = emptyPose();
   pose.contact.set(0.5, -0.25, 0);
   pose.com.set(1, 2, 3);

@@ -21,33 +21,33 @@ test("on a short tieline there is room for bead, end and the line itself", () =>
   assert.deepEqual([1, 1.07, 1.15, 1.22, 1.3, 1.34, 1.45].map(taken), ["bead", "bead", "line", "line", "end", "end", "end"]);
 });
 
-test("a hand takes hold of the bead, an end, the tieline, another one, or a point beyond", () => {
+test("one can grab the bead, an end, the tieline, another tieline, or a point beyond", () => {
   assert.deepEqual([[2, 10], [2.13, 10], [1, 10], [3.1, 10.5], [1.5, 10], [1.5, 11], [0.7, 15.5], [2, 19], [5, 19]].map(([x, y]) => at(x, y)),
     ["bead", "bead", "end", "end", "line", "line", "tieline", "tieline", "point"]);
 });
 
-test("a hand that has gone on holds what it went down on", () => {
+test("what was under the pointer when it was pressed stays grabbed", () => {
   assert.equal(gripAt(shown, limits, [100, 100], [2, 50], scales), "end");
 });
 
-test("the tieline on display is as far as its nearest point", () => {
+test("the distance of the selected tieline is that of its nearest point", () => {
   const away = (px, py) => awayFromTieline(shown, px, py, scales);
   assert.deepEqual([away(200, 100), away(200, 113), away(97, 104), away(303, 96)], [0, 13, 5, 5]);
   assert.ok(REACH > 5);
 });
 
-test("what follows the clock begins to once", () => {
+test("a figure starts to follow the clock only once", () => {
   const [one, other] = [{}, {}];
   assert.deepEqual([isFollowed(one), isFollowed(one), isFollowed(other)], [false, true, false]);
 });
 
-test("the keys that take back and make anew, on every system", () => {
+test("the keys for undo and redo, on every system", () => {
   const key = (name, ...held) => stepOf(/** @type {any} */ ({ key: name, ...Object.fromEntries(held.map((each) => [`${each}Key`, true])) }));
   assert.deepEqual([key("z", "ctrl"), key("z", "meta"), key("Z", "ctrl", "shift"), key("y", "ctrl")], ["undone", "undone", "redone", "redone"]);
   assert.deepEqual([key("z"), key("z", "ctrl", "alt"), key("y", "ctrl", "shift"), key("x", "ctrl")], [null, null, null, null]);
 });
 
-test("a phone keeps its number, gets another for what is none, and has one where nothing is kept", () => {
+test("a phone keeps its number, gets a new one for an invalid one, and has one even without storage", () => {
   const kept = new Map(), store = { getItem: (key) => kept.get(key) ?? null, setItem: (key, mark) => kept.set(key, mark) };
   const mark = markOf(store);
   assert.match(mark, /^[0-9a-f]{32}$/);
@@ -65,19 +65,19 @@ test("numbers of the derivation are short, and a vector has its brackets", () =>
   assert.equal(said(Float64Array.of(1, -2), 6), "(1; −2)");
 });
 
-test("the row of a time is the nearest, in its nutation", () => {
+test("the row of a time is the nearest one within its nutation", () => {
   const table = { values: Float64Array.of(0, 10, 1, 11, 2, 12), width: 2, period: 2 };
   assert.deepEqual([0, 0.4, 0.6, 1.9, 2.4, -0.9, 7].map((now) => rowAt(table, now)[1]), [10, 10, 11, 12, 10, 11, 11]);
 });
 
-test("a letter's model tells who asked when a value is new", () => {
+test("the model of a letter calls its listeners when a value changes", () => {
   const model = modelOf({ time: 1 }), heard = [];
   model.on("time", () => heard.push(model.time));
   for (const time of [1, 2, 2, 3]) model.time = time;
   assert.deepEqual(heard, [2, 3]);
 });
 
-test("the tour's words stand beside their place where there is room, and never outside the window", () => {
+test("the words of the tour are beside their place if there is room, and always inside the window", () => {
   const page = { wide: 1000, high: 800 }, words = { wide: 300, high: 200 };
   const box = (left, top, right, bottom) => ({ left, top, right, bottom });
   assert.deepEqual(beside(box(0, 100, 400, 700), words, page), { left: 414, top: 100 });

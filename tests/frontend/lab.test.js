@@ -10,7 +10,7 @@ import { near } from "./helping.js";
 
 const curves = (...rows) => new Curves(new Float32Array(rows.flatMap(([t, tilt]) => [t, tilt, 0, 0, 0, 0, 0, 0])).buffer);
 
-test("a curve is straight between its rows, and stays at its ends", () => {
+test("a curve is linear between its rows, and constant beyond its ends", () => {
   const line = curves([0, 10], [1, 20], [3, 60]);
   near([-1, 0, 0.5, 1, 2, 3, 9].map((t) => line.at(t, TILT)), [10, 10, 15, 20, 40, 60, 60]);
   assert.equal(line.end, 3);
@@ -18,20 +18,20 @@ test("a curve is straight between its rows, and stays at its ends", () => {
   assert.equal(line.points((t) => 10 * t, (tilt) => -tilt, TILT), "0.0,-10.0 10.0,-20.0 30.0,-60.0");
 });
 
-test("no curve has no value and no end", () => {
+test("an empty curve has no value and no end", () => {
   const none = new Curves(null);
   assert.ok(Number.isNaN(none.at(1, TILT)));
   assert.equal(none.end, 0);
   assert.equal(none.points(Number, Number, TILT), "");
 });
 
-test("the stage of a time is the last that has begun", () => {
+test("the stage at a time is the last that has begun", () => {
   const stages = [[0, "rises"], [1, "over"], [1.5, "stands"]];
   assert.deepEqual([0, 0.99, 1, 5].map((t) => latest(stages, t)[1]), ["rises", "rises", "over", "stands"]);
   assert.equal(latest([], 1), undefined);
 });
 
-test("marks of a scale are round and within it", () => {
+test("ticks are round numbers within the scale", () => {
   near(ticks(0, 6, 7), [0, 1, 2, 3, 4, 5, 6]);
   near(ticks(0, 5.9999, 7).at(-1), 6);
   near(ticks(0, 211, 4), [0, 100, 200]);
@@ -40,7 +40,7 @@ test("marks of a scale are round and within it", () => {
 
 const LIFE = [[0.98, "over"], [1.37, "stem"], [1.47, "stands"], [4.5, "falls"], [5.57, "off"], [8.59, "back"], [9.22, "leans"], [9.96, "rolls"]];
 
-test("it plays slowly until it has turned over and stood a moment, and always where nothing happens", () => {
+test("it plays slowly until the top has turned over and stood for a moment, and always if nothing happens", () => {
   assert.deepEqual([0, 1.4, 2].map((t) => tempo(LIFE, t, 12)), [0.25, 0.25, 0.25]);
   assert.deepEqual([0, 6].map((t) => tempo([], t, 6)), [0.25, 0.25]);
   const watched = (end) => {
@@ -52,21 +52,21 @@ test("it plays slowly until it has turned over and stood a moment, and always wh
   assert.ok(watched(12) < 30, "and its life within half a minute");
 });
 
-test("where for long nothing new happens it plays at the real speed or faster, and what happens is not passed over", () => {
+test("it plays in real time or faster while nothing happens for long, and does not skip what happens", () => {
   assert.deepEqual([2.5, 4.4, 4.6, 5.6, 7].map((t) => tempo(LIFE, t, 12)), [1, 0.5, 0.5, 0.5, 1]);
   const long = [[1.4, "over"], [2.2, "stands"], [25, "falls"]];
   assert.deepEqual([2.7, 3, 24.6, 24.8].map((t) => tempo(long, t, 27)), [0.25, 8, 8, 0.5]);
   assert.deepEqual([1, 3, 8, 9].map((t) => tempo([[8, "rolls"]], t, 10)), [0.25, 2, 0.5, 1]);
 });
 
-test("words of events stand where there is room, in short where there is little, and never over another", () => {
+test("the words of events are placed where there is room, short where there is little, and never overlap", () => {
   const wide = (word) => 6 * word.length;
   const [over, stands, falls] = placed([[120, "turns over 1.0 s", "over 1.0 s"], [170, "stands 1.5 s", "stands 1.5 s"], [500, "starts to fall 4.5 s", "falls 4.5 s"]], 0, 580, wide);
   assert.deepEqual([over.word, over.side], ["turns over 1.0 s", "end"]);
   assert.deepEqual([stands.word, stands.side], ["stands 1.5 s", "start"]);
   assert.deepEqual([falls.word, falls.side], ["starts to fall 4.5 s", "end"]);
   const two = placed([[80, "stands 1.5 s", "stands 1.5 s"], [187, "falls 4.5 s", "falls 4.5 s"], [224, "off its stem 5.6 s", "off its stem 5.6 s"]], 0, 340, wide);
-  assert.deepEqual(two.map(({ side, row }) => [side, row]), [["start", 0], ["end", 1], ["start", 0]]); // a second row where one has no room
+  assert.deepEqual(two.map(({ side, row }) => [side, row]), [["start", 0], ["end", 1], ["start", 0]]); // a second row if one has no room
   assert.equal(placed([[5, "a long word", "short one"], [9, "a long word", "short one"], [13, "a long word", "short one"]], 0, 20, wide).length, 0);
 });
 
@@ -78,7 +78,7 @@ test("numbers are written and read in the page's language", () => {
   assert.equal(say({ decimal: "," }, "{t} s, {what}", { t: [2.5, 2], what: "leans" }), "2,50 s, leans");
 });
 
-test("of what a hand asks for the newest waits, one wish at a time is under way, and none is lost", () => {
+test("one request at a time is sent, the newest of each input waits, and none is lost", () => {
   const sent = [], asking = new Asking((...wish) => sent.push(wish));
   asking.ask("spin", 1);
   asking.ask("spin", 2);
@@ -107,20 +107,20 @@ const BEFORE = { inputs: { spin: { name: "Spin" }, mu: { name: "Friction" } }, t
 const scene = (spin, mu, events, table = "ordinary") => ({ table, runs: {}, run: { events, stages: [[0, "", "", "Nods"]], why: "" },
   state: { of: { spin: [spin, `Spin ${spin}.0 rev/s`], mu: [mu, `Friction ${mu}`], table: [table, `Table ${table}`, "Table"] }, runs: {} } });
 
-test("the run before is that before the gesture, until it is dismissed or gone back to, on another table too", () => {
+test("the earlier run is the one before the gesture, until it is dismissed or restored, also on another table", () => {
   const before = new Before(BEFORE), stands = [[1, "over", "turns over", ""], [1.5, "stands", "stands on its stem", ""]];
   const slow = scene(20, 0.3, []), middle = scene(24, 0.3, []), fast = scene(28, 0.3, stands);
   assert.equal(before.follow(null, slow), null);
   before.touch("spin", slow, 0, 0);
   assert.equal(before.follow(slow, middle).what, "Spin 20.0 rev/s");
-  before.touch("spin", middle, 0, 500); // the same hand
+  before.touch("spin", middle, 0, 500); // the same gesture
   const found = before.follow(middle, fast);
   assert.equal(found.headline, "Spin: 20.0 rev/s → 28.0 rev/s");
   assert.equal(found.why, "Now: stands on its stem (1.5 s). Before: Nods.");
   const asked = [];
   before.goBack((...wish) => asked.push(wish), fast);
   assert.deepEqual(asked, [["spin", 20]]);
-  assert.equal(before.follow(fast, slow), null); // which is no change of a hand's
+  assert.equal(before.follow(fast, slow), null); // no person changed that
   before.follow(slow, fast);
   before.touch("mu", fast, 0, 9000);
   assert.equal(before.follow(fast, scene(28, 0.1, stands)).what, "Friction 0.3");
@@ -137,7 +137,7 @@ test("the run before is that before the gesture, until it is dismissed or gone b
   assert.equal(before.follow(scene(28, 0.3, [], "rough"), scene(28, 0.3, [], "three")), null);
 });
 
-test("a hand that stays down makes one change, however long it rests; one that comes again another", () => {
+test("one press makes one change, however long it lasts; the next press makes another", () => {
   const before = new Before(BEFORE), [first, second, third, last] = [20, 24, 28, 30].map((spin) => scene(spin, 0.3, []));
   before.touch("spin", first, 1, 0);
   before.follow(first, second);
@@ -147,6 +147,6 @@ test("a hand that stays down makes one change, however long it rests; one that c
   assert.equal(before.follow(third, last).what, "Spin 28.0 rev/s");
 });
 
-test("a press has no strength of its own, a hold the more the longer, to the greatest", () => {
+test("a press has no strength, a longer hold has more, up to the greatest", () => {
   assert.deepEqual([0, 299, 300, 1300, 2300, 9000].map(strengthOf), [null, null, 0, 0.5, 1, 1]);
 });

@@ -5,7 +5,7 @@ import { Handle } from "../../app/frontend/src/three/handle.js";
 import { Labels } from "../../app/frontend/src/three/labels.js";
 import { element, near } from "./helping.js";
 
-// A camera on the x axis that looks at O, with z up: 90 degrees high, and the picture twice as wide as high.
+// A camera on the x axis that looks at O, with z up: a vertical angle of 90 degrees, a picture twice as wide as high.
 function stageOf() {
   const camera = new PerspectiveCamera(90, 2, 0.1, 100);
   camera.up.set(0, 0, 1);
@@ -15,9 +15,9 @@ function stageOf() {
 }
 const placeOf = ({ element: { style } }) => style.transform.match(/-?[\d.]+(?=px)/g).map(Number);
 
-test("a text stands where its point is seen", () => {
+test("a text is placed where its point appears", () => {
   const stage = stageOf(), labels = new Labels(stage), label = labels.add("G");
-  // At 10 from the eye the picture is 20 high and 40 wide; y is to the right, z up.
+  // At a distance of 10 the picture is 20 high and 40 wide; y points to the right, z up.
   for (const [at, seen] of [[[0, 0, 0], [200, 100]], [[0, 20, 0], [400, 100]], [[0, 0, 10], [200, 0]], [[5, -5, -2.5], [100, 150]]]) {
     label.at.set(...at);
     labels.place();
@@ -28,7 +28,7 @@ test("a text stands where its point is seen", () => {
   near(placeOf(label), [112, 143], 0.06);
 });
 
-test("a text behind the eye, and one that is not to be seen, is not there", () => {
+test("a text behind the camera, or an invisible one, is hidden", () => {
   const stage = stageOf(), labels = new Labels(stage), label = labels.add("G");
   const shown = () => (labels.place(), label.element.style.display !== "none");
   assert.equal(shown(), true);
@@ -39,7 +39,7 @@ test("a text behind the eye, and one that is not to be seen, is not there", () =
   assert.equal(shown(), false);
 });
 
-test("the handle asks for the tilt that is under the pointer, in the plane of the axis", () => {
+test("the handle requests the tilt under the pointer, in the plane of the axis", () => {
   const stage = stageOf(), labels = new Labels(stage), model = { texts: {} }, body = new Group();
   const handle = new Handle(stage, labels, model, { t: 2.5 });
   body.top = 1.7;
@@ -56,7 +56,7 @@ test("the handle asks for the tilt that is under the pointer, in the plane of th
     assert.ok(handle.label.at.distanceTo(body.position) > body.top);
     lean(tilt + 0.4, towards);
     handle.take();
-    near(handle.under({ clientX: x + 30, clientY: y + 7 }), tilt, 0.02);
+    near(handle.under({ clientX: x + 30, clientY: y + 7 }), tilt, 0.01);
   }
   handle.ask(-3);
   handle.ask(9);
@@ -67,4 +67,26 @@ test("the handle asks for the tilt that is under the pointer, in the plane of th
   assert.deepEqual([handle.begins(), handle.begins()], [true, false]);
   handle.held = true;
   assert.deepEqual([handle.begins(), handle.begins()], [true, true]);
+});
+
+test("beyond the vertical the axis stays upright, and comes back with the hand", () => {
+  const stage = stageOf(), labels = new Labels(stage), model = { texts: {}, degrees: true }, body = new Group();
+  const handle = new Handle(stage, labels, model, { t: 0 }), round = [];
+  body.quaternion.setFromAxisAngle(new Vector3(-1, 0, 0), 0.1); // towards y, across the picture
+  handle.follow(body, 0.1, true);
+  labels.place();
+  handle.take();
+  for (const turn of [0.1, 0, -0.5, -1, -1.5, -1, 0, 0.2, 1]) {
+    const [y, z] = [30 * Math.sin(turn), 30 * Math.cos(turn)];
+    handle.ask(handle.under({ clientX: 30 + 200 + 10 * y, clientY: 7 + 100 - 10 * z }));
+    round.push(model.tilted[0]);
+  }
+  near(round, [0.1, 0, 0, 0, 0, 0, 0, 0.2, 1], 0.002);
+  body.quaternion.identity(); // upright it leans where it leaned
+  handle.follow(body, 0, true);
+  handle.take();
+  near(handle.lean, [0, 1]);
+  model.degrees = false;
+  handle.ask(-1);
+  assert.ok(model.tilted[0] > 0); // the paper's rolling has no such motion
 });

@@ -5,26 +5,26 @@ import { wishOf } from "../../app/frontend/src/learn/present.js";
 import { verdictOf } from "../../app/frontend/src/learn/question.js";
 import { arrow } from "../../app/frontend/src/learn/ways.js";
 
-test("a guess is right or not, and not to know yet is neither", () => {
+test("a guess is right or wrong, and “not sure” is neither", () => {
   const asks = { options: [["over", ""], ["falls", ""], ["unsure", ""]], unsure: "unsure" };
   assert.deepEqual(["over", "falls", "unsure"].map((guess) => verdictOf(asks, "over", guess)), ["right", "off", "unsure"]);
 });
 
-test("a number is right within what a good guess may be off, near within thrice that, and never where there is none", () => {
+test("a number is right within a tolerance, close within three times that, and never right if there is no such value", () => {
   const asks = { low: 0, high: 180, step: 0.5, near: 3 };
   assert.deepEqual([60, 63, 57, 69, 70].map((guess) => verdictOf(asks, 60, guess)), ["right", "right", "right", "near", "off"]);
   assert.equal(verdictOf(asks, null, 60), "never");
   assert.equal(verdictOf(asks, 60, NaN), "unsure"); // nobody guessed
 });
 
-test("words that would lie over each other are pushed apart, and stay within the picture", () => {
+test("words that would overlap are pushed apart, and stay within the picture", () => {
   const words = [{ y: 50, of: "b" }, { y: 45, of: "a" }, { y: 200, of: "c" }];
   apart(words, 10, 100);
   const [b, a, c] = words.map(({ y }) => y);
   assert.ok(b - a >= 15 && c <= 100 && c - b >= 15);
 });
 
-test("keys are for the class only while it is presented to, and never with Ctrl", () => {
+test("keys control the class only while presenting, and never with Ctrl", () => {
   const press = (key, presenting, more = {}) => wishOf({ key, ctrlKey: false, metaKey: false, altKey: false, ...more }, presenting);
   assert.deepEqual(["p", "P", "r", "ArrowRight"].map((key) => press(key, false)), ["present", "present", "", ""]);
   assert.deepEqual(["ArrowLeft", "ArrowRight", " ", "r", "0", "Escape", "p", "x"].map((key) => press(key, true)),
@@ -32,10 +32,10 @@ test("keys are for the class only while it is presented to, and never with Ctrl"
   assert.equal(press("r", true, { ctrlKey: true }), "");
 });
 
-test("an arrow goes as far as it turns fast, counterclockwise where that is positive, and there is none at rest", () => {
+test("an arrow is as long as the rotation is fast, counterclockwise if positive, and absent at rest", () => {
   const end = (share) => arrow(share).line.split(" ").slice(-2).map((value) => Number(value) + 0);
   assert.deepEqual(arrow(0), { line: "", head: "" });
-  assert.deepEqual(end(0.3), [-24, 0]); // a quarter, to the left
+  assert.deepEqual(end(0.3), [-24, 0]); // a quarter turn, to the left
   assert.deepEqual(end(-0.3), [24, 0]);
-  assert.deepEqual(end(2), end(1)); // never a whole circle
+  assert.deepEqual(end(2), end(1)); // never a full circle
 });

@@ -12,14 +12,14 @@ const put = (path) => (i, each) => each(...path[i]);
 const ends = ({ geometry: { attributes } }, count) => ["instanceStart", "instanceEnd"].map((name) =>
   Array.from({ length: count }, (_, i) => ["getX", "getY", "getZ"].map((of) => attributes[name][of](i))));
 
-test("a path of a wide line is what three.js makes of the same points", () => {
+test("a wide line through points equals the one that three.js makes", () => {
   const line = new WideLine({}), theirs = new LineGeometry().setPositions(points.flat());
   line.setPath(4, put(points));
   assert.equal(line.geometry.instanceCount, 3);
   assert.deepEqual(ends(line, 3), ends({ geometry: theirs }, 3));
 });
 
-test("a shorter path keeps the buffer, a longer one gets another, none is not drawn", () => {
+test("a shorter path keeps the buffer, a longer one gets a new one, an empty one is not drawn", () => {
   const line = new WideLine({});
   line.setPath(4, put(points));
   const { geometry } = line;
@@ -33,7 +33,7 @@ test("a shorter path keeps the buffer, a longer one gets another, none is not dr
   assert.deepEqual(ends(line, 4)[1][3], [3, 1, 0]);
 });
 
-test("a thread has the points that it was given, of which the first can be drawn alone", () => {
+test("a thread has the given points, and a first part of them can be drawn", () => {
   const thread = new Thread({});
   thread.setPath(4, put(points));
   assert.deepEqual([...thread.geometry.attributes.position.array], points.flat());
@@ -44,7 +44,7 @@ test("a thread has the points that it was given, of which the first can be drawn
   assert.equal(thread.visible, false);
 });
 
-test("a ribbon along a circle is the ring between two others, seen from above", () => {
+test("seen from above, a ribbon along a circle is a ring", () => {
   const N = 400, ribbon = new Ribbon(0.2, {});
   const turn = (i) => (2 * Math.PI * i) / (N - 1);
   ribbon.setPath(N, (i) => [3 * Math.cos(turn(i)), 3 * Math.sin(turn(i))], 0.5);
@@ -60,7 +60,7 @@ test("a ribbon along a circle is the ring between two others, seen from above", 
   assert.ok(position.array.every((value, i) => i % 3 < 2 || value === 0.5));
 });
 
-test("an arrow ends where its vector does, and one too short is not drawn", () => {
+test("an arrow ends where its vector ends, and is not drawn if it is too short", () => {
   const arrow = new Arrow(0), tip = new Vector3(), from = new Vector3(1, 2, 3);
   for (const [x, y, z] of [[0, 0, 2], [1, -2, 0.5], [0, 0, -1], [0.01, 0, 0]]) {
     arrow.point(from, x, y, z, tip);
@@ -74,7 +74,7 @@ test("an arrow ends where its vector does, and one too short is not drawn", () =
         geometry.computeBoundingBox();
         near([geometry.boundingBox.min, geometry.boundingBox.max].flatMap((corner) => corner.toArray()), [-1, -1, 0, 1, 1, 1]);
       }
-      assert.ok(head.scale.x > shaft.scale.x || head.scale.z < shaft.scale.x); // a head is wider, but for one too short
+      assert.ok(head.scale.x > shaft.scale.x || head.scale.z < shaft.scale.x); // the head is wider, unless the arrow is too short
       assert.ok(head.scale.z <= 0.5 * Math.hypot(x, y, z) + 1e-9);
     }
   }

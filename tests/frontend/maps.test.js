@@ -10,7 +10,7 @@ test("an arrow key moves the bead by a cell, with Shift by a tenth of one", () =
   assert.deepEqual(keyed("ArrowUp", true, [5, 20], RANGES, CELLS), [5, 20.1]);
 });
 
-test("it stays on the map", () => {
+test("the bead stays on the map", () => {
   assert.deepEqual(keyed("ArrowLeft", false, [0.5, 20], RANGES, CELLS), [0, 20]);
   assert.deepEqual(keyed("ArrowUp", false, [5, 34], RANGES, CELLS), [5, 34]);
 });

@@ -7,7 +7,7 @@ import { encodingOf, readFile, thinned } from "../../app/frontend/src/widgets/me
 const LIMITS = { most: 10_000, rows: 5000, head: 12 };
 const table = (rows, end = "\n") => ["# a film", "t (s)\ttilt (°)", ...Array.from({ length: rows }, (_, i) => `${(i / 240).toFixed(4)}\t${i}`)].join(end);
 
-test("a measured axis is shown between the frames that saw it, and nowhere else", () => {
+test("a measured axis is shown only between frames that show it", () => {
   const rows = new Float32Array([0, 1, 2, 9, 10].flatMap((t) => [t, 0, 0, 1]));
   assert.deepEqual(rowAt(rows, 1.25), [1, 0.25]);
   assert.deepEqual(rowAt(rows, 0), [0, 0]);
@@ -20,7 +20,7 @@ test("a measured axis is shown between the frames that saw it, and nowhere else"
   assert.equal(rowAt(rows.subarray(0, 4), 0), null);
 });
 
-test("a table of short rows is thinned to as many rows as are taken", () => {
+test("a table of short rows is thinned to the permitted number of rows", () => {
   const rows = (count) => ["t,tilt", ...Array.from({ length: count }, (_, i) => `${i},1`), ""].join("\n");
   assert.deepEqual(thinned(rows(5000), { ...LIMITS, most: 100_000 }), [rows(5000), 1]);
   for (const count of [5100, 12_345, 100_000]) {
@@ -31,7 +31,7 @@ test("a table of short rows is thinned to as many rows as are taken", () => {
 
 test("a short table is left as it is", () => assert.deepEqual(thinned(table(20), LIMITS), [table(20), 1]));
 
-test("of a long one each so-manieth row is left, and its names", () => {
+test("of a long table every n-th row is kept, and the names", () => {
   const [text, each] = thinned(table(5000), LIMITS), lines = text.split("\n");
   assert.ok(each > 1 && text.length <= LIMITS.most);
   assert.equal(lines[1], "t (s)\ttilt (°)");
@@ -39,20 +39,20 @@ test("of a long one each so-manieth row is left, and its names", () => {
   last.slice(1).forEach((row, i) => assert.equal(row - last[i], each));
 });
 
-test("digits that no film has go first", () => {
+test("superfluous digits are removed first", () => {
   const long = Array.from({ length: 400 }, (_, i) => `${i}.123456789012345,2.5E-3`).join("\n");
   const [text, each] = thinned(long, LIMITS);
   assert.equal(each, 1);
   assert.equal(text.split("\n")[399], "399.1234567,2.5E-3");
 });
 
-test("how a file is written is seen from its beginning", () => {
+test("the encoding of a file is recognised from its beginning", () => {
   assert.equal(encodingOf(new TextEncoder().encode("t\ttilt (°)\n0\t1\n")), "utf-8");
   assert.equal(encodingOf(new Uint8Array([0xff, 0xfe, 0x74, 0])), "utf-16le");
   assert.equal(encodingOf(new Uint8Array([0x74, 0xb0, 0x74, 0x74, 0x74, 0x74])), "windows-1252");
 });
 
-// A file that is larger than what is read of it at once, without having it whole in memory here either.
+// A file larger than one piece, which is never completely in memory here either.
 function large(size, end) {
   const row = (i) => `${(i / 1000).toFixed(6).padStart(12, "0")}\t${String(i).padStart(9, "0")}${end}`, long = row(0).length;
   const head = `t (s)\tµ count${end}`, bytes = new TextEncoder().encode(head).length;
@@ -81,7 +81,7 @@ for (const end of ["\n", "\r\n"]) {
   });
 }
 
-test("what is no text comes as its beginning, for which there is a sentence", async () => {
+test("of a file that is not text only the beginning is sent, for which there is an error message", async () => {
   const film = new Blob([new Uint8Array(5_000_000).fill(0).map((_, i) => i % 251)]);
   const [text, each] = await readFile(film, LIMITS, () => {});
   assert.ok(text.includes("\0") && text.length < LIMITS.most);

@@ -10,7 +10,7 @@ function playerOf(...times) {
   return { player, heard };
 }
 
-test("a playing top goes on by the wall clock and begins anew at the end", () => {
+test("a playing top follows the wall clock and starts again at the end", () => {
   const { player } = playerOf(1, 2, 5);
   player.seek(1);
   player.setPlaying(true);
@@ -21,17 +21,17 @@ test("a playing top goes on by the wall clock and begins anew at the end", () =>
   near(player.t, 4);
   assert.equal(player.advance(1450, 0.01), true);
   near(player.t, 1.5);
-  player.advance(9000, 0.01); // the page had stopped: a quarter of a second
+  player.advance(9000, 0.01); // the page was suspended: at most a quarter of a second counts
   near(player.t, 4);
 });
 
-test("any time is a time of the motion, which repeats itself", () => {
+test("any time belongs to the motion, because it repeats", () => {
   const { player } = playerOf(1, 2, 5);
   for (const [t, within] of [[1, 1], [5, 5], [5.5, 1.5], [0.5, 4.5], [13.25, 1.25], [-7.5, 4.5]]) near(player.wrap(t), within);
   assert.equal(playerOf(3).player.wrap(8), 3);
 });
 
-test("steps go from row to row, and round", () => {
+test("steps go from row to row, and from the end to the start", () => {
   const { player, heard } = playerOf(1, 2, 5), seen = [];
   for (const by of [1, 1, 1, -1, -1]) {
     player.step(by);
@@ -43,20 +43,20 @@ test("steps go from row to row, and round", () => {
   assert.equal(player.t, 5);
 });
 
-test("paused it stands on a row, playing it goes on from where it is put", () => {
+test("a paused top is on a row, a playing one continues from where it is moved", () => {
   const { player, heard } = playerOf(1, 2, 5);
   player.seek(4);
   assert.deepEqual([player.t, player.index, heard.landed], [5, 2, 1]);
   player.setPlaying(true);
   player.seek(4);
   assert.deepEqual([player.t, player.index, heard.landed, heard.playingChanged], [4, 1, 1, 1]);
-  player.setPlaying(true); // no news
+  player.setPlaying(true); // nothing has changed
   assert.equal(heard.playingChanged, 1);
   player.setPlaying(false);
   assert.deepEqual([player.t, heard.landed, heard.playingChanged], [5, 2, 2]);
 });
 
-test("while a hand holds the time it stands, and then goes on without a jump", () => {
+test("while the time is held it does not advance, and then it continues without a jump", () => {
   const { player } = playerOf(1, 2, 5);
   player.setPlaying(true);
   player.advance(1000, 0.01);
@@ -68,12 +68,12 @@ test("while a hand holds the time it stands, and then goes on without a jump", (
   assert.equal(player.t, 3);
   player.advance(1210, 0.01);
   near(player.t, 3.1);
-  player.seek(2); // by no hand: the clock goes on
+  player.seek(2); // not held: the clock continues
   player.advance(1310, 0.01);
   near(player.t, 3);
 });
 
-test("a new motion keeps the moment, and one that follows another has its time", () => {
+test("a new motion keeps the time, and one that follows another player takes its time", () => {
   const { player } = playerOf(1, 2, 5);
   player.seek(5);
   player.setFrames(motion([0, 4.5, 7].map((t) => ({ t }))));
@@ -85,7 +85,7 @@ test("a new motion keeps the moment, and one that follows another has its time",
   assert.deepEqual([player.follow(3), player.t, player.follow(2), player.t], [false, 3, true, 2]);
 });
 
-test("no motion can be asked anything", () => {
+test("everything works without a motion", () => {
   const { player, heard } = playerOf();
   player.step(1);
   player.show(3);

@@ -8,7 +8,7 @@ const page = { wide: 390, high: 800 }, size = { wide: 180, high: 110 };
 const covers = ({ left, top }, box) =>
   left < box.right && left + size.wide > box.left && top < box.bottom && top + size.high > box.top;
 
-test("the box is in the window and covers nothing that is to be seen, wherever the hand is", () => {
+test("the box is in the window and covers nothing that must stay visible, wherever the pointer is", () => {
   const line = { left: 60, right: 140, top: 300, bottom: 330 };
   for (let x = 4; x < 390; x += 13) {
     for (let y = 4; y < 800; y += 13) {
@@ -19,11 +19,11 @@ test("the box is in the window and covers nothing that is to be seen, wherever t
   }
 });
 
-test("with room it stands to the right of the hand, at its height", () => {
+test("if there is room it is to the right of the pointer, at its height", () => {
   assert.deepEqual(placeBeside([500, 400], size, { wide: 1400, high: 900 }, []), { left: 514, top: 345 });
 });
 
-test("a place has the number of its cell, and beyond the picture that of the next one", () => {
+test("a place has the value of its cell, and beyond the picture that of the nearest cell", () => {
   const frame = { x: [0], y: [-1], w: [4], h: [3] }, values = Object.assign(Float32Array.from({ length: 12 }, (_, i) => i), { shape: [3, 4] });
   assert.equal(valueIn(frame, values, [0.5, -0.5]), 0);
   assert.equal(valueIn(frame, values, [3.5, 1.9]), 11);
@@ -31,7 +31,7 @@ test("a place has the number of its cell, and beyond the picture that of the nex
   assert.equal(valueIn(frame, values, [9, -7]), 3);
 });
 
-test("a place is said by the limit that it keeps or breaks", () => {
+test("the text for a place names the limit that it keeps or exceeds", () => {
   const limits = { K_J: [0, 1], slip_E: [2, 3], lift_E: [4, 5], slip_by: ["slip", "slip"], lift_by: ["lift-off", "lift-off"] };
   const words = { place: "{K_J} {verdict} {ratio}", then_slip: "rolls", not_slip: "slips", not_lift: "lifts", no_contact: "none" };
   const read = (E) => readPlane(limits, words, { x: 1, y: 0.9, E, ratio: Infinity });

@@ -7,24 +7,24 @@ import { colourOf, nameOf, ROLLS, wordOf } from "../../app/frontend/src/regimes.
 
 const listed = (name) => JSON.parse(readFileSync(new URL(`../../app/model/${name}.json`, import.meta.url), "utf8"));
 
-test("the browser has the one list of regimes", () => {
+test("the browser uses the common list of regimes", () => {
   const regimes = listed("regimes");
   assert.deepEqual(regimes.map((_, code) => nameOf(code)), regimes.map(({ name }) => name));
   assert.deepEqual(regimes.map((_, code) => colourOf(code)), regimes.map(({ colour }) => colours[colour]));
   assert.equal(nameOf(ROLLS), "rolls");
 });
 
-test("a regime is said in the words of a picture", () => {
+test("a regime is named in the words of a picture", () => {
   assert.equal(wordOf(ROLLS, { rolls: "it rolls" }), "it rolls");
 });
 
-test("the browser has the one list of colours", () => {
+test("the browser uses the common list of colours", () => {
   const { on_light, on_dark, ...all } = listed("colours");
   assert.deepEqual(colours, all);
   assert.deepEqual([onLight, onDark], [{ ...all, ...on_light }, { ...all, ...on_dark }]);
 });
 
-test("the browser has the one list of ends", () => {
+test("the browser uses the common list of ends", () => {
   const inLab = listed("ends").filter((end) => end.in_lab);
   for (const { in_lab: name, colour, on_dark } of inLab) {
     assert.ok(endsOnLight.includes(`--end-${name}: ${colour};`) && endsOnDark.includes(`--end-${name}: ${on_dark};`));

@@ -11,20 +11,20 @@ const file = (heads, ...numbers) => {
   return all.buffer;
 };
 
-test("arrays come column by column, and what is not in the file is zero", () => {
+test("arrays are stored column by column, and missing columns are zero", () => {
   const found = numbersIn(file([["frames", 3, 4, 2], ["profile", 1, 2, 2]], 1, 2, 3, 10, 20, 30, 7, 8));
   near([...new Float32Array(found.frames)], [1, 10, 0, 0, 2, 20, 0, 0, 3, 30, 0, 0]);
   near([...new Float32Array(found.profile)], [7, 8]);
 });
 
-test("what a hand did before reaches the session's model, which tells from then on what is new in it", () => {
+test("earlier changes reach the session's model, which from then on announces its own", () => {
   const heard = [], { model, become } = standIn(/** @type {any} */ ({ asked: [], state: { mu: 0.3 }, a: 1 }));
   for (const name of ["asked", "state", "a"]) model.on(name, () => heard.push(name));
   model.asked = [1, "spin", 30];
   const runs = {}, its = /** @type {any} */ ({ asked: [], state: { mu: 0.2 }, a: 1, on: (name, run) => (runs[name] = run) });
   become(its);
   assert.deepEqual(its.asked, [1, "spin", 30]);
-  assert.deepEqual(heard, ["state"]); // the same number is no news
+  assert.deepEqual(heard, ["state"]); // an equal number is no change
   assert.equal(model.state.mu, 0.2);
   its.state = { mu: 0.1 };
   runs.state();

@@ -12,7 +12,7 @@ const grid = (heights) => new Grid({
   energy: new Float32Array(3),
 });
 
-test("a surface has two triangles between each two points, and a gap where there is no motion", () => {
+test("a surface has two triangles in each cell, and a gap where there is no motion", () => {
   const whole = new Uint32Array(12).fill(99), torn = new Uint32Array(12).fill(99);
   grid([0, 0, 1, 1, 2, 2]).fillTriangles(whole);
   assert.deepEqual([...whole], [0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5]);
@@ -20,7 +20,7 @@ test("a surface has two triangles between each two points, and a gap where there
   assert.ok(torn.every((i) => i === 0));
 });
 
-test("a ray from above meets the surface at its nearest point", () => {
+test("a ray from above finds the nearest point of the surface", () => {
   const scales = { x: new Scale(0, 1), y: new Scale(0, 2), z: new Scale(0, 1) };
   scales.y.set(0, 2);
   const mesh = new SurfaceMesh(scales, []);
@@ -30,7 +30,7 @@ test("a ray from above meets the surface at its nearest point", () => {
   assert.deepEqual([from(0.1, 0.9), from(0.9, 0.9), from(0.9, 1.8), from(5, 5)].map((ray) => mesh.nearest(ray)), [2, 3, 5, null]);
 });
 
-test("a hand takes an end before the line, and neither from afar", () => {
+test("near an end the pointer grabs the end rather than the line, and far away neither", () => {
   assert.equal(gripBetween([10, 0], [200, 0]), "end");
   assert.equal(gripBetween([-90, 3], [110, 3]), "line");
   assert.equal(gripBetween([-90, 9], [110, 9]), null);
@@ -46,13 +46,13 @@ function eyeOf(view = []) {
   return { eye, camera, model, stands };
 }
 
-test("the camera begins where it was told, and tells where it is", () => {
+test("the camera starts at the given position, and reports where it is", () => {
   const { eye, model } = eyeOf([0.5, 0.4, 1.2]);
   eye.tell();
   near(model.camera, [0.5, 0.4, 1.2], 2e-3);
 });
 
-test("the camera keeps its direction while it goes along with the top", () => {
+test("the camera keeps its direction while it follows the top", () => {
   const { eye, stands } = eyeOf(), before = eye.direction;
   eye.follow(0, true);
   stands.set(4, 5, 1);
@@ -61,7 +61,7 @@ test("the camera keeps its direction while it goes along with the top", () => {
   near(eye.direction, before);
 });
 
-test("a narrow window takes the camera further off, and a wide one gives it back", () => {
+test("a narrow window moves the camera away, and a wide one back", () => {
   const { eye, camera } = eyeOf(), away = () => camera.position.distanceTo(eye.seen), before = away();
   eye.fit(0.5);
   near(away(), 2 * before, 1e-9);

@@ -4,7 +4,7 @@ import test from "node:test";
 import { sketchOf } from "../../app/frontend/src/widgets/sketches.js";
 import { symbolOf } from "../../app/frontend/src/widgets/symbols.js";
 
-// What is needed of the elements of <i>K</i><sub>J</sub>.
+// The parts that are needed of the elements of <i>K</i><sub>J</sub>.
 function symbol(letter, below) {
   const i = { nodeName: "I", textContent: letter, matches: (tag) => tag === "i", nextSibling: null };
   const sub = { nodeName: "SUB", textContent: below, matches: (tag) => tag === "sub", previousSibling: i, previousElementSibling: i };
@@ -12,7 +12,7 @@ function symbol(letter, below) {
   return { i, sub };
 }
 
-test("a symbol is known by its letter and by what stands below it", () => {
+test("a symbol is recognised by its letter and its subscript", () => {
   const K_J = symbol("K", "J"), tilt = symbol("θ"), word = symbol("toy");
   assert.equal(symbolOf(K_J.i), "K_J");
   assert.equal(symbolOf(K_J.sub), "K_J");
@@ -22,7 +22,7 @@ test("a symbol is known by its letter and by what stands below it", () => {
   assert.equal(symbolOf({ matches: () => false }), undefined);
 });
 
-test("every symbol that has a meaning has a sketch", () => {
+test("every symbol with an explanation has a sketch", () => {
   const text = readFileSync(new URL("../../app/text/en/controls.toml", import.meta.url), "utf8");
   const [, hints] = text.split("[hints]\n"), names = [...hints.split("\n[")[0].matchAll(/^(\w+) = /gm)].map(([, name]) => name);
   assert.ok(names.length > 20);

@@ -11,14 +11,14 @@ const TERMS = {
 };
 const names = (text) => finder(TERMS)(text).map(({ name, at, end }) => [name, text.slice(at, end)]);
 
-test("a term is found as a whole word, in any of its forms, the longest first", () => {
+test("a term is found as a whole word, in any of its forms, longest first", () => {
   assert.deepEqual(names("Tilts of a steady precession, and precession."), [["angle", "Tilts"], ["steady", "steady precession"], ["precession", "precession"]]);
   assert.deepEqual(names("tilted, overtilt, tilt-rate, precessions"), []);
   assert.deepEqual(names("χ² of it; er hebt ab."), [["chi", "χ²"], ["lift", "hebt ab"]]);
   assert.deepEqual(names(""), []);
 });
 
-test("a term that is a symbol too brings its sketch", () => {
+test("a term that is also a symbol has its sketch", () => {
   assert.match(saidOf(TERMS, "angle"), /^<svg.*<b>tilt<\/b>: the angle\.<\/div>$/);
   assert.equal(saidOf(TERMS, "steady"), "<div><b>steady precession</b>: the tilt stays.</div>");
 });

@@ -1,4 +1,4 @@
-// The sources lie where three.js is only once the bundle was built; here they get the one of this folder.
+// Next to the sources, three.js is installed only once the bundle has been built; the tests use the one of this folder.
 import { registerHooks } from "node:module";
 
 registerHooks({

@@ -4,14 +4,14 @@ import { placeNames, scalesOf, silhouette } from "../../app/frontend/src/widgets
 
 const size = { wide: 800, high: 600, type: 1 };
 
-test("a place on the map is the one whose numbers it has", () => {
+test("positions on the map and values convert into each other", () => {
   const { x, y, a, ratio, split } = scalesOf(size);
   for (const each of [-0.02, 0, 0.2, 0.4]) assert.ok(Math.abs(a(x(each)) - each) < 1e-9);
   for (const each of [0.4, 1, 1.4]) assert.ok(Math.abs(ratio(y(each)) - each) < 1e-9);
   assert.ok(x(-10) < x(-3) && x(-3) < split && split < x(0) && a(0) === -0.03 && ratio(-50) === 1.4);
 });
 
-test("a silhouette has both sides of its outline, as large as all", () => {
+test("a silhouette has both sides of its outline, and the size of all silhouettes", () => {
   const numbers = silhouette([[0, -1], [1, 0], [0, 1]]).match(/-?[\d.]+/g).map(Number);
   assert.equal(Math.max(...numbers), 18);
   assert.equal(Math.min(...numbers), -18);

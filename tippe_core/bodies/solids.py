@@ -176,6 +176,7 @@ def zone(R: float, low: float, high: float, centre: float = 0.0) -> Solid:
 
 
 def ball(R: float, centre: float = 0.0) -> Solid:
+    """A whole ball of radius R with its centre at the height centre (m), with the density 1 kg/m^3."""
     return zone(R, centre - R, centre + R, centre)
 
 
@@ -185,4 +186,5 @@ def frustum(r_low: float, r_high: float, low: float, high: float) -> Solid:
 
 
 def cylinder(r: float, low: float, high: float) -> Solid:
+    """A cylinder of radius r between the heights low and high (m), with the density 1 kg/m^3."""
     return frustum(r, r, low, high)

@@ -1,18 +1,18 @@
-// Arrays come as bytes: an ArrayBuffer on the wire, so nothing passes through JSON.
+// Arrays are sent as bytes and arrive as an ArrayBuffer, so nothing passes through JSON.
 /** @param {Bytes} [bytes] */
 export function float32(bytes) {
   if (!bytes) return new Float32Array(0);
   if (bytes instanceof ArrayBuffer) return new Float32Array(bytes);
-  // A view may start off a multiple of four: then only a copy can be read as floats.
+  // A view may start at an offset that is not a multiple of four: then floats can be read only from a copy.
   if (bytes.byteOffset % 4) return new Float32Array(bytes.slice().buffer);
   return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength >> 2);
 }
 
-// Bytes that came in base64.
+// Decodes base64.
 /** @param {string} text */
 export const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
-// The least of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is at least x: a number to put on a scale.
+// The smallest of 1, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten that is at least x: a round number for a scale.
 /** @param {number} x */
 export function niceAbove(x) {
   if (!(x > 0) || !isFinite(x)) return 1;
@@ -20,11 +20,11 @@ export function niceAbove(x) {
   return decade * ([1, 1.5, 2, 3, 4, 5, 6, 8].find((digits) => digits * decade >= x * (1 - 1e-9)) ?? 10);
 }
 
-// A text of browser.toml with its numbers put in.
+// Puts numbers into a text of browser.toml.
 /** @param {string} text @param {Record<string, any>} values */
 export const fill = (text, values) => text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
 
-// Calls run once before the next paint, however often it was asked for in between.
+// Runs once before the next paint, however often it was called before then.
 /** @param {() => void} run @returns {Later} */
 export function coalesce(run) {
   let asked = 0;
@@ -41,7 +41,7 @@ export function coalesce(run) {
   return later;
 }
 
-// What draws in the plane of a canvas. There is none only where the canvas was given to WebGL.
+// The 2-D context of a canvas. It is null only if the canvas is used by WebGL.
 /** @param {HTMLCanvasElement} canvas */
 export const penOf = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
 
@@ -49,14 +49,14 @@ export const penOf = (canvas) => /** @type {CanvasRenderingContext2D} */ (canvas
 const points = { "": "." };
 const pointOf = (language) => new Intl.NumberFormat(language).formatToParts(0.5).find(({ type }) => type === "decimal")?.value ?? ".";
 
-// A number's text as the page's language writes it, with a true minus sign.
+// Writes the text of a number as in the language of the page, with a true minus sign.
 /** @param {string} text @param {string} language */
 export function local(text, language = typeof document === "undefined" ? "" : (document.documentElement?.lang ?? "")) {
   points[language] ??= pointOf(language);
   return text.replaceAll("-", "−").replace(".", points[language]);
 }
 
-// In three digits.
+// With three significant digits.
 /** @param {number} number */
 export function tidy(number) {
   return local(String(Number(number.toPrecision(3))));

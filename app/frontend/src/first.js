@@ -1,22 +1,22 @@
-// The Lab as it is on arrival, moving before the session has come: app/page/first.py says what its model will say, and why.
-// A stand-in for that model draws it, and hands the picture over when the model is there.
+// The Lab on arrival, moving before the session has started: see app/page/first.py. A stand-in for the Lab's model
+// draws the picture, which is handed over when the model arrives.
 import { renderLab } from "./lab/lab.js";
 import { numbersIn, standIn } from "./stand_in.js";
 import { pace, REST } from "./three/stage.js";
 
-const MEANWHILE = 5 * REST; // where the processor draws, it has a page to make
+const MEANWHILE = 5 * REST; // where the processor draws, it also has to build the page
 const SOON = 50; // ms
-let isLate = false; // the session was faster
+let isLate = false; // the session came first
 /** @type {Omit<Rendering<LabModel>, "model"> & { values: LabModel, become: (model: LabModel) => void, place: HTMLElement } | null} */
 let early = null; // the picture that waits for its model
 
-// The address's language, else of those that the browser prefers, as the server chooses.
+// The language of the address, otherwise one that the browser prefers: the same choice as the server's.
 function inOneLanguage(words, asked) {
   const preferred = navigator.languages.map((tag) => tag.split("-")[0].toLowerCase());
   return words[asked || preferred.find((language) => language in words) || "en"];
 }
 
-/** @param {Promise<Response>} numbers the file, on its way @param {string} language of the address; empty: the browser's */
+/** @param {Promise<Response>} numbers the file, still loading @param {string} language of the address; empty: the browser's */
 export async function first(numbers, language) {
   const { body } = await numbers;
   const bytes = await new Response(body?.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
@@ -25,18 +25,18 @@ export async function first(numbers, language) {
   const part = (id) => document.getElementById(id);
   const place = part("first"), values = { ...inOneLanguage(JSON.parse(part("first-words").textContent), language), ...numbersIn(bytes) };
   const { dataset } = document.documentElement;
-  if (window.matchMedia("(prefers-color-scheme: dark)").matches) dataset.look ??= "dark"; // look.js says it again
+  if (window.matchMedia("(prefers-color-scheme: dark)").matches) dataset.look ??= "dark"; // look.js sets it again
   const { model, become } = standIn(values), view = {}, el = document.createElement("div");
   place.attachShadow({ mode: "open" }).append(el);
   place.dataset.title = document.title;
   place.hidden = false;
   pace.rest = MEANWHILE;
   renderLab({ model, el, view });
-  view.tippe?.hold?.(true); // nobody answers yet
+  view.tippe?.hold?.(true); // there is no session yet to answer
   early = { values, become, place, el, view };
 }
 
-// As renderLab, and the first one takes over what is drawn already.
+// Like renderLab, but the first call takes over what is already drawn.
 /** @param {Rendering<LabModel>} rendering */
 export function renderFirst({ model, el, view }) {
   isLate = true;
@@ -55,7 +55,8 @@ export function renderFirst({ model, el, view }) {
   whenHeard(() => view.tippe?.hold?.(false));
 }
 
-// What the server is told before the page has said that it is whole, it answers only after the next word.
+// If the server hears something before the page has reported that it is complete, it answers only after the next
+// message.
 function whenHeard(run) {
   if (Bokeh.documents.some((doc) => doc.is_idle)) run();
   else setTimeout(() => whenHeard(run), SOON);

@@ -30,7 +30,7 @@ import { renderPhoto } from "./widgets/photo.js";
 
 offerCallbacks();
 
-// Panel looks a component up by its Python class's name.
+// Panel finds a component by the name of its Python class.
 export default {
   Address: { render: renderAddress },
   Connection: { render: renderConnection },

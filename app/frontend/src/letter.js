@@ -1,11 +1,11 @@
-// The pictures in 3-D of a letter: a page that opens with no server. It has the values of their models.
+// The 3-D pictures in a letter: a page that works without a server. It contains the values of their models.
 import { bytesOf } from "./data.js";
 import { renderSurface3D } from "./three/surface3d.js";
 import { renderTop3D } from "./three/top3d.js";
 
 const pictures = { Surface3D: renderSurface3D, Top3D: renderTop3D };
 
-// What Panel gives a component: its values, which tell who asked when they are set.
+// A stand-in for the model that Panel passes to a component: values, with listeners that run when one is set.
 /** @param {Record<string, any>} values */
 export function modelOf(values) {
   const asked = {};
@@ -20,7 +20,7 @@ export function modelOf(values) {
   });
 }
 
-/** @param {Record<string, Record<string, any>>} models by the names of their pictures, and of the elements that hold these */
+/** @param {Record<string, Record<string, any>>} models by the id of the element that holds the picture */
 export function letter(models) {
   for (const [name, said] of Object.entries(models)) {
     const values = Object.fromEntries(Object.entries(said).map(([key, value]) =>

@@ -1,4 +1,4 @@
-// What a top does at a moment: app/model/regimes.json is the one list, for Python too. A code is a place in it.
+// What a top does at a moment: app/model/regimes.json is the only list, also for Python. A code is an index into it.
 import { colours } from "./colours.js";
 import regimes from "../../model/regimes.json" with { type: "json" };
 
@@ -9,5 +9,5 @@ export const ROLLS = codes.rolls;
 export const nameOf = (code) => regimes[code].name;
 /** @param {number} code */
 export const colourOf = (code) => colours[regimes[code].colour];
-/** @param {number} code @param {Record<string, string>} words by the names of regimes */
+/** @param {number} code @param {Record<string, string>} words by the name of the regime */
 export const wordOf = (code, words) => words[nameOf(code)];

@@ -1,10 +1,10 @@
-// What stands in for a model that has not come yet, and the file that its numbers are read from.
+// A stand-in for a model that has not arrived yet, and the file from which its numbers are read.
 import { float32 } from "./data.js";
 
-// What a view asks of a model, until become() puts the session's own behind it.
+// Behaves like a model; become() puts the session's own model behind it.
 /** @param {LabModel} values */
 export function standIn(values) {
-  const listeners = [], changed = new Set(); // what a person did before
+  const listeners = [], changed = new Set(); // what a person set before that
   /** @type {LabModel | null} */
   let own = null;
   const on = (name, run) => (own ? own.on(name, run) : listeners.push([name, run]));
@@ -32,7 +32,7 @@ function isSame(a, b) {
   return one.length === other.length && one.every((value, i) => value === other[i]);
 }
 
-// The arrays of the file, row by row.
+// Reads the arrays of the file; it stores them column by column, the result has them row by row.
 /** @param {ArrayBuffer} bytes @returns {Record<string, ArrayBuffer>} */
 export function numbersIn(bytes) {
   const all = new Uint8Array(bytes), end = all.indexOf(10), found = {};

@@ -1,4 +1,4 @@
-// One sheet for both pictures. Text and lines take the page's own colour, so a dark page needs no second sheet.
+// One style sheet for both pictures. Text and lines use the colour of the page, so a dark page needs no second sheet.
 import { colours } from "./colours.js";
 
 export const style = `
@@ -64,7 +64,7 @@ export const style = `
 }
 `;
 
-// The frame both components share: a sheet, and a box for the picture.
+// Creates what both components need: a style sheet, and a box for the picture.
 /** @param {HTMLElement} el */
 export function frameIn(el) {
   const sheet = document.createElement("style");

@@ -1,4 +1,4 @@
-// What Python, the page and these scripts hand one another, for the checks by tsc: nothing of this is in the bundle.
+// The types of what Python, the page and these scripts exchange, checked by tsc; not in the bundle.
 
 type Put = (x: number, y: number, z: number) => void;
 type Points = (i: number, put: Put) => void;
@@ -6,26 +6,26 @@ type Axis = "x" | "y" | "z";
 type XYZ = [x: number, y: number, z: number];
 type Later = { (): void; cancel(): void };
 
-// The top at one moment, in the axes of space; app/widgets/top3d.py says what each is.
+// The top at one moment, in space-fixed axes; app/widgets/top3d.py explains each.
 type Pose = Record<"contact" | "com" | "force" | "omega" | "momentum", import("three").Vector3> & {
   quaternion: import("three").Quaternion;
   theta: number;
   regime: number;
 };
 
-// A text at a point in space; shift: where it stands from there, in px.
+// A text at a point in space; shift: its offset from there, in px.
 type Label = { element: HTMLElement; at: import("three").Vector3; shift: [number, number]; visible: boolean };
 
-// What a text points at, alone: a vector along the turning axes 1', y, z, from G or from the contact.
+// What a text points at, shown alone: a vector along the turning axes 1', y, z, from G or from the contact.
 type Pointed = { label: string; start: "com" | "contact"; vector: [number, number, number] };
 
-// The model of a component has its parameters, which the class of the same name in Python explains.
+// A component's model has its parameters, which the Python class of the same name explains.
 interface Model {
   texts: Record<string, any>;
   on(name: string, run: () => void): void;
 }
 
-// Panel calls render with these; view is its own, and stays when the same view is rendered anew.
+// Panel calls render with these. The view stays the same object when it is rendered again.
 interface Rendering<M extends Model> {
   model: M;
   el: HTMLElement;
@@ -34,13 +34,13 @@ interface Rendering<M extends Model> {
 
 type Bytes = ArrayBuffer | Uint8Array<ArrayBuffer> | null;
 
-// A run that was, to be seen beside the present one.
+// An earlier run, shown beside the present one.
 type Before = { frames: Bytes; profile: Bytes; a: number; seconds: number };
 
 interface TopModel extends Model, Record<Shown, boolean> {
   before?: Before | null;
-  degrees?: boolean; // what the handle says
-  letGo?(): void; // the hand on the axis
+  degrees?: boolean; // the text of the handle
+  letGo?(): void; // called when the axis is released
   frames: Bytes;
   profile: Bytes;
   mu_s: number;
@@ -224,20 +224,20 @@ interface LinesModel extends Model {
   widths: number[];
 }
 
-// A column of a figure's source, and between two of its rows.
+// A column of a figure's data source; a position between two of its rows.
 type Column = ArrayLike<number> & { reduce(take: (best: number, value: number, row: number) => number, first: number): number };
 type Spot = [row: number, share: number];
 type PixelScale = { compute(value: number): number; invert(px: number): number };
 type Tieline = { K_J: number; inner: number; outer: number };
 
-// app/tabs/lab/lab.py says what each holds.
+// app/tabs/lab/lab.py says what each contains.
 type LabModel = Model & Record<"state" | "told", string> & Record<`${"frames" | "curves"}_${"ordinary" | "rough" | "ice"}` | "profile", Bytes> & {
   a: number;
   seconds: number;
   asked: [count: number, name: string, value: any] | [];
 };
 
-// app/tabs/learn/lesson.py says what each holds.
+// app/tabs/learn/lesson.py says what each contains.
 type LessonRun = Record<"frames" | "profile" | "curves" | "arms", Bytes> & { a: number; seconds: number };
 type LessonModel = Model & Record<"state", any> & {
   worksheet: string;
@@ -247,7 +247,7 @@ type LessonModel = Model & Record<"state", any> & {
   asked: [count: number, name: string, value: string | number] | [];
 };
 
-// Bokeh's models, as far as they are used here. What is not synced stays in this browser.
+// Bokeh's models, as far as they are used here. Changes that are not synced stay in this browser.
 interface BokehModel {
   setv(values: Record<string, any>, how: { sync: false }): void;
   properties: Record<string, { change: { connect(run: () => void): void } }>;
@@ -262,21 +262,21 @@ interface Source<Names extends string = string> extends BokehModel {
   data: Record<Names, any>;
   tags: any[];
 }
-// What a hand did on a figure: where, in its numbers and in px.
+// What a person did on a figure: where, in data coordinates and in px.
 type Happened = { event_name: string; x: number; y: number; sx: number; sy: number };
 
 declare const Bokeh: { documents: any[]; index: any; require(path: string): any };
 
-// What app/call.js and app/ticks.js are given by Bokeh, which runs them.
+// What Bokeh passes to app/call.js and app/ticks.js, which it runs.
 declare const run: string, given: any, cb_obj: any, basic: any, ticks: number[], index: number, point: string;
 
 interface Window {
-  // The report of what is drawn, for tests alone: they ask it, and nothing of the program does.
+  // A report of what is drawn, only for tests: nothing in the program reads it.
   __tippe: Record<string, any>;
-  tippeCallbacks: Record<string, (given: any, what: any) => unknown>; // of figures/callbacks.js
+  tippeCallbacks: Record<string, (given: any, what: any) => unknown>; // from figures/callbacks.js
   importShim: any; // Panel's import()
   katex?: { render(tex: string, el: HTMLElement, options: object): void };
-  // Our own events; what they carry stands where they are sent.
+  // Our own events; their contents are described where they are sent.
   addEventListener(type: `tippe:${string}`, run: (event: CustomEvent) => void, options?: AddEventListenerOptions): void;
   removeEventListener(type: `tippe:${string}`, run: (event: CustomEvent) => void): void;
 }

@@ -29,7 +29,7 @@ from app.model.lab.run import (
     start_of,
     whole_on,
 )
-from app.model.runs import Result, Run, Runs, Stopped
+from app.model.runs import LATER, Result, Run, Runs, Stopped
 from app.model.start import Start, arrives, of_toy
 from app.model.story import Event, Stage, Story, story
 from app.text import say, told
@@ -220,18 +220,20 @@ class Lab(param.Parameterized):
 
     def rest(self) -> None:
         """To be called when no hand moves: looks up how the runs at all spins end, or has it computed in a thread."""
+        self.rests = True
+        self._live()  # before the ends at all spins, which take far longer
         key = self._strip = self._key
         self._set(ends=key and known_ends(*key))
         if key and self.ends is None:
-            self._runs.begin(Run(lambda run: ends_once(*key, look=run.look), partial(self._ended, key)), "ends")
-        self.rests = True
-        self._live()
+            work = Run(lambda run: ends_once(*key, look=run.look), partial(self._ended, key))
+            self._runs.begin(work, "ends", LATER)
 
     def _live(self) -> None:
         """Has the rest of the toy's life computed, if no hand moves and nothing else is being computed."""
         scene, inputs = self.scene, self._good
         if self.rests and scene is not None and not scene.whole and self._run is None:
-            self._runs.begin(Run(lambda run: scene_of(*inputs, whole=True), partial(self._lived, inputs)), "life")
+            work = Run(lambda run: scene_of(*inputs, whole=True), partial(self._lived, inputs))
+            self._runs.begin(work, "life", LATER)
 
     def _lived(self, inputs: Inputs, result: Result) -> None:
         """Shows the whole life in place of its beginning, if that is still what is shown."""

@@ -11,7 +11,7 @@ import param
 from app.model.explorer import Explorer
 from app.model.planes.picture import BY, SET, Picture, Settings
 from app.model.planes.run import for_reader, hits, nudged, solve
-from app.model.runs import Result, Run, Runs, Stopped
+from app.model.runs import LATER, Result, Run, Runs, Stopped
 from app.model.scene import Scene
 from app.model.start import PLANE
 from app.text import say, told
@@ -195,7 +195,7 @@ class Planes(param.Parameterized):
             self.picture = result
         if not messages and self._runs.beside and not self.busy and hits(result):
             self._beside = Run(lambda run: nudged(result, run.look), partial(self._nudged, result))
-            self._runs.begin(self._beside, "nudged")
+            self._runs.begin(self._beside, "nudged", LATER)
 
     def _nudged(self, picture: Picture, growth: object) -> None:
         """Adds the growth of the disturbed run to the picture, if that is still shown."""

@@ -9,7 +9,7 @@ from app.model.colours import COLOURS
 from app.model.ends import COLOUR_IN_LAB
 from app.model.lab.ends import SPINS, TIMES, Ends, ends_once, known_ends
 from app.model.lab.run import toy_of
-from app.model.runs import Run, Stopped
+from app.model.runs import LATER, Run, Stopped
 from app.text import say, told, written
 from app.widgets.cards import words
 from app.widgets.failure import ended
@@ -74,7 +74,7 @@ class VerdictWords:
         self.strip.object = strip_of(found)
         if found is None:
             work = Run(lambda run: ends_once(*key, look=run.look), partial(self._ended, key))
-            self._runs.begin(work, "verdict-ends")
+            self._runs.begin(work, "verdict-ends", LATER)
 
     def _ended(self, key, result):
         if key == self._asked:

@@ -1,4 +1,4 @@
-// What Python has Bokeh call, by its name: app/bundle.py. Each takes what it was given there, then what happened.
+// The functions that Python has Bokeh call, by name: see app/bundle.py. Arguments: what Python passed, then the event.
 import { keepFinger, moveBead, pullBead } from "./maps.js";
 import { moveLines, nameFigure } from "./common.js";
 import { followFilm, pullFilm } from "./measured.js";

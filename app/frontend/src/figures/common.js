@@ -1,9 +1,9 @@
-// What all figures share. Not synced, so playing sends nothing to the server.
+// Used by all figures. Their models are not synced, so playing sends nothing to the server.
 import { elementOf, pressNever } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
 import { followClock, isFollowed } from "./seeking.js";
 
-// To the ear a canvas is a picture with a name.
+// To a screen reader a canvas is an image with a name.
 /** @param {{ fig: Figure, label: string }} given */
 export function nameFigure({ fig, label }) {
   const el = elementOf(fig);
@@ -14,7 +14,7 @@ export function nameFigure({ fig, label }) {
   el.dataset.figure = fig.name;
 }
 
-// Lines at the clock's time.
+// Lines at the time of the clock.
 /** @param {{ spans: BokehModel[], clock?: string }} given */
 export function moveLines({ spans, clock }) {
   if (isFollowed(spans[0])) return;

@@ -1,20 +1,20 @@
-// Curves as Python sent them, columns of numbers, and a clock or a hand on them. Nothing here knows of a page.
+// Curves, as columns of numbers sent by Python, and positions on them. Nothing here knows about the page.
 
 /** @param {number} value @param {number} least @param {number} most */
 export const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
-// A row and the share of the way to the next one, at a share of all rows, which are evenly spaced in time.
-/** @param {number} last row @param {number} share @returns {Spot} */
+// A row and the fraction of the way to the next row, at a fraction of all rows.
+/** @param {number} last its number @param {number} share @returns {Spot} */
 function spotAt(last, share) {
   const at = clamp(share, 0, 1) * last, row = Math.min(Math.floor(at), last - 1);
   return [row, at - row];
 }
 
-// Where a time stands in t, evenly spaced; before it and after it, at its ends.
+// The position of a time in t, which is evenly spaced. Times before the start or after the end are moved there.
 /** @param {Column} t @param {number} now */
 export const spotOf = (t, now) => spotAt(t.length - 1, (now - t[0]) / (t[t.length - 1] - t[0]));
 
-// The same on a curve that is gone through again and again.
+// The same on a curve that repeats.
 /** @param {Column} t @param {number} now */
 export function spotInTurn(t, now) {
   const last = t.length - 1, span = t[last] - t[0], since = now - t[0];
@@ -24,7 +24,8 @@ export function spotInTurn(t, now) {
 /** @param {Column} values @param {Spot} spot */
 export const valueAt = (values, [row, share]) => values[row] + share * (values[row + 1] - values[row]);
 
-// The last row, but for the last of all, of which the time is not after now. t may be spaced in any way; width: of a row.
+// The last row whose time is not after now; the last but one at most. t may be unevenly spaced; width: numbers in a
+// row.
 /** @param {Column} t @param {number} now */
 export function rowBefore(t, now, width = 1) {
   let low = 0, high = t.length / width - 1;
@@ -40,7 +41,7 @@ export function rowBefore(t, now, width = 1) {
 export const nearestRow = (values, value) =>
   values.reduce((best, _, row) => (Math.abs(values[row] - value) < Math.abs(values[best] - value) ? row : best), 0);
 
-// Of the times at which a motion is nearest to a tilt, the one next to now.
+// The time at which a motion is closest to a tilt; of several, the one closest to now.
 /** @param {{ t: Column, theta: Column }} motion @param {number} aim @param {number} now */
 export function timeAtTilt({ t, theta }, aim, now) {
   const last = t.length - 1;
@@ -54,8 +55,8 @@ export function timeAtTilt({ t, theta }, aim, now) {
   return found;
 }
 
-// The time whose point of a curve is nearest to a hand; of several as near, the one next to now. whole: the curve is of all
-// the motion; otherwise it is gone through again and again.
+// The time of the point of a curve closest to the pointer; of several, the one closest to now. whole: the curve shows
+// the whole motion; otherwise it repeats.
 /** @param {{ t: Column, x: Column, y: Column }} curve @param {[x: number, y: number]} hand @param {{ x: PixelScale, y: PixelScale }} scales */
 export function timeAtPoint({ t, x, y }, hand, now, whole, scales) {
   const span = t[t.length - 1] - t[0], px = scales.x.compute(hand[0]), py = scales.y.compute(hand[1]);

@@ -1,4 +1,4 @@
-// The top without WebGL: seen from the side, so that its tilt is to scale, drawn in the plane; the same bar plays it.
+// The top without WebGL: seen from the side, so that its tilt is true to scale, and played by the same bar.
 import { Vector3 } from "three";
 import { Bar } from "../widgets/bar.js";
 import { Place } from "../motion/clock.js";
@@ -8,14 +8,14 @@ import { centreOf, emptyPose } from "../motion/frames.js";
 import { wordOf } from "../regimes.js";
 import { followLook } from "../three/scene.js";
 
-const LEAST_REACH = 1.6, BELOW = 0.6; // from O upwards, and below the table, in R
-const WIDTH = 640; // px, of a picture for print whose place on the page has no size
+const LEAST_REACH = 1.6, BELOW = 0.6; // R: the least height shown above O, and what is shown below the table
+const WIDTH = 640; // px: width of a printed picture if the one on the page has no size
 
 const centre = new Vector3();
 
 const hex = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
 
-// The outline of a body with R px for its radius, turned about O at (x, y); with a mark that goes round with the body.
+// The outline of a body whose radius is R px, tilted about O at (x, y), with a mark that turns with the body.
 /** @param {CanvasRenderingContext2D} pen @param {Float32Array} profile @param {{ x: number, y: number, R: number, tilt: number, turn: number, edge: string }} place */
 function drawBody(pen, profile, { x, y, R, tilt, turn, edge }) {
   const n = profile.length >> 1;
@@ -70,7 +70,7 @@ class Flat {
     });
     this.player = this.place.player;
     this.bar = new Bar(root, picture, model, this.player, () => {});
-    for (const part of root.querySelectorAll(".shows, .view")) part.remove(); // there is nothing of that to see
+    for (const part of root.querySelectorAll(".shows, .view")) part.remove(); // a flat picture cannot show these
   }
 
   tick() {
@@ -151,7 +151,7 @@ class Flat {
   }
 }
 
-// What is drawn, for tests.
+// A report of what is drawn, for tests.
 /** @param {Flat} flat */
 function reportOf(flat) {
   return {

@@ -1,19 +1,20 @@
-// What a hand on Fig. 6 takes hold of. The bead moves the clock, all in the browser; an end of the tieline on display is the
-// energy, the tieline itself K_J; any other tieline becomes the motion, and beyond the tielines the motion that turns there.
+// What the pointer grabs on Fig. 6. Dragging the bead moves the clock, in the browser alone; dragging an end of the
+// selected tieline changes the energy, dragging the tieline itself changes K_J. Pressing on another tieline selects its
+// motion, and beyond the tielines the motion that has its turning point there.
 import { clamp, nearestRow } from "./curves.js";
 
 export const REACH = 14; // px
 const LEAST = 5; // px
 
-// How far a point of the screen is from the tieline on display, in px.
+// The distance of a point on the screen from the selected tieline, in px.
 /** @param {Tieline} shown @param {number} px @param {number} py @param {{ x: PixelScale, y: PixelScale }} scales */
 export function awayFromTieline({ inner, outer, K_J }, px, py, { x, y }) {
   return Math.hypot(Math.max(x.compute(inner) - px, 0, px - x.compute(outer)), y.compute(K_J) - py);
 }
 
-// point: on the screen; hand: theta and K_J there, or where it went to meanwhile.
+// point: on the screen; hand: theta and K_J there, or where the pointer has moved since.
 /**
- * @param {Tieline & { theta: number }} shown the motion on display, and where its bead is
+ * @param {Tieline & { theta: number }} shown the selected motion, and where its bead is
  * @param {{ K_J: Column, slip_in: Column, slip_out: Column }} limits
  * @param {[px: number, py: number]} point
  * @param {[theta: number, K_J: number]} hand
@@ -23,7 +24,7 @@ export function awayFromTieline({ inner, outer, K_J }, px, py, { x, y }) {
 export function gripAt(shown, limits, [px, py], [theta, K_J], { x, y }) {
   const away = (tilt) => Math.hypot(x.compute(tilt) - px, y.compute(shown.K_J) - py);
   const inner = x.compute(shown.inner), outer = x.compute(shown.outer);
-  // on a short tieline bead and ends leave room for the line itself
+  // on a short tieline, the bead and the ends leave room to grab the line itself
   const near = px > inner && px < outer ? clamp((outer - inner) / 4, LEAST, REACH) : REACH;
   if (away(shown.theta) < near) return "bead";
   if (Math.min(away(shown.inner), away(shown.outer)) < near) return "end";

@@ -1,21 +1,21 @@
-// A map: a hand near the bead takes hold of it, from anywhere else it draws a box, a click goes to the cell; `hand` takes
-// all of it to Python, of a box two opposite corners. The arrow keys move the bead from cell to cell.
+// A map. Dragging moves the bead if it starts near it, and draws a box elsewhere; a click chooses a cell. `hand` sends
+// all of this to Python, a box as two opposite corners. The arrow keys move the bead from cell to cell.
 import { elementOf, eventsOf, scalesOf } from "../borrowed.js";
 import { clamp } from "./curves.js";
 import { isFollowed } from "./seeking.js";
 
 const REACH = 40; // px
-const LEAST = 12; // px: no box is smaller
-const WAIT = 80; // ms between two places that are sent while a hand moves
+const LEAST = 12; // px: the smallest box
+const WAIT = 80; // ms between two positions that are sent while the pointer moves
 
-// hand -> whether it holds the bead, the corner where a box begins, and when a place was sent last.
+// For each hand: whether it holds the bead, the corner where its box begins, and when a position was last sent.
 /** @typedef {{ x: number, y: number, sx: number, sy: number }} Corner */
 /** @typedef {{ held: boolean, from: Corner | null, sent: number }} Hand */
 /** @typedef {{ setv(values: object, options: object): void }} Settable */
 /** @type {WeakMap<object, Hand>} */
 const hands = new WeakMap();
 
-// How far the bead is from a place, in px.
+// The distance of the bead from a place, in px.
 /** @param {Pick<Source<"x" | "y">, "data">} bead @param {number[]} place @param {Record<"x" | "y", Pick<PixelScale, "compute">>} scales */
 function awayFromBead({ data }, [px, py], { x, y }) {
   return Math.hypot(x.compute(data.x[0]) - px, y.compute(data.y[0]) - py);
@@ -42,7 +42,7 @@ export function pullBead({ fig, hand, bead, box }, { event_name: name, sx, sy, x
   hand.data = { ...at, cell: [Number(clicked)] };
 }
 
-// The box from where the hand began to where it is; at its end it is sent.
+// Draws the box from where the drag began to where it is; sends it when the drag ends.
 /** @param {Hand} own @param {Source} hand @param {Settable} box @param {string} name @param {Corner} to */
 function drawBox(own, hand, box, name, to) {
   const { from } = own, done = name === "panend";
@@ -57,7 +57,7 @@ function drawBox(own, hand, box, name, to) {
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 
-// Where a key takes the bead: a cell further, with Shift a tenth of one; it stays on the map.
+// Where a key moves the bead: by one cell, with Shift by a tenth of one, and never off the map.
 /**
  * @param {string} key @param {boolean} fine @param {[x: number, y: number]} place @param {Record<"x_range" | "y_range", { start: number, end: number }>} ranges
  * @param {[across: number, up: number]} cells
@@ -86,7 +86,7 @@ export function moveBead({ fig, hand, bead, map }) {
   };
 }
 
-// A finger near the bead moves it, and scrolls the page from everywhere else.
+// A finger near the bead moves the bead; anywhere else it scrolls the page.
 /** @param {{ fig: Figure, bead: Source<"x" | "y"> }} given */
 export function keepFinger({ fig, bead }) {
   if (isFollowed(bead)) return;

@@ -1,12 +1,12 @@
-// The pictures of a film's data: the line at the film's time, and a hand that pulls the moment at which a motion begins.
+// The figures of a measured film: a line at the time of the film, and a handle for the moment at which a motion begins.
 import { scalesOf, setCursor } from "../borrowed.js";
 import { timeOf } from "../motion/clock.js";
 import { followClock, isDown, isFollowed, seek } from "./seeking.js";
 
 const CLOCK = "film";
-const REACH = 16; // px: a hand so near to the line of the start takes that, else the time
+const REACH = 16; // px: a drag that starts this close to the line of the start moves the start, any other one the time
 
-// A figure's hand -> whether it has the start, and where each curve was before it was pulled.
+// For each hand that has grabbed the start: where the start and the curves were before.
 /** @type {WeakMap<object, { first: number, curves: number[][] }>} */
 const pulls = new WeakMap();
 

@@ -1,4 +1,4 @@
-// Fig. 6: the bead at the clock's time, and a hand, which `hand` takes to Python.
+// Fig. 6: the bead at the time of the clock, and the pointer, which `hand` sends to Python.
 import { eventsOf, scalesOf, setCursor } from "../borrowed.js";
 import { fill, local } from "../data.js";
 import { timeOf } from "../motion/clock.js";
@@ -10,7 +10,7 @@ import { followClock, isFollowed, seek } from "./seeking.js";
 
 const CURSORS = { bead: "grab", end: "ew-resize", line: "ns-resize" };
 
-// hand -> what is known of it. pressed: where it went down; scrolls: a finger there moves the page; at: where it is.
+// For each hand: where it was pressed, whether it is a finger that scrolls the page, and where it is now.
 /** @type {WeakMap<object, { grip: string | null, pressed?: [number, number], scrolls: boolean, at?: [number, number] }>} */
 const hands = new WeakMap();
 
@@ -38,7 +38,7 @@ export function followMotion({ fig, hand, motion, selected }) {
     placeBead();
   });
   now = timeOf();
-  placeBead(); // a clock that stands says nothing
+  placeBead(); // a paused clock sends no events
   const events = eventsOf(fig);
   const onTieline = ({ clientX, clientY }) => {
     const { left, top } = events.getBoundingClientRect();
@@ -50,7 +50,7 @@ export function followMotion({ fig, hand, motion, selected }) {
     own.scrolls = event.pointerType === "touch" && !onTieline(event);
   };
   events.addEventListener("pointerdown", press, { capture: true });
-  // A finger pulls the tieline on display, and scrolls the page from everywhere else.
+  // A finger on the selected tieline drags it; anywhere else it scrolls the page.
   const keep = (event) => {
     if (event.touches.length === 1 && onTieline(event.touches[0])) event.preventDefault();
   };
@@ -71,7 +71,7 @@ export function pullPlane(given, event) {
     setCursor(fig, CURSORS[over()] ?? "pointer");
     return sayPlace(given);
   }
-  // a quick hand is elsewhere by the time it counts as dragging
+  // a fast pointer has moved on by the time Bokeh calls it a drag
   if (name === "panstart") own.grip = own.scrolls ? null : own.pressed ? at(own.pressed) : over();
   if (name === "tap") own.grip = over();
   const taken = own.grip, done = name === "tap" || name === "panend";
@@ -91,7 +91,7 @@ function moveClock({ motion }, { inner, outer }, theta, held) {
   seek(timeAtTilt(motion.data, aim, timeOf()), held);
 }
 
-// A place of the plane and the tieline on display, on the window.
+// A place in the plane and the selected tieline, in px of the window.
 function onWindow(fig, [x, y], { inner, outer, K_J }) {
   const { left, top } = eventsOf(fig).getBoundingClientRect(), scales = scalesOf(fig);
   const across = (theta) => left + scales.x.compute(theta), down = (value) => top + scales.y.compute(value);
@@ -108,7 +108,7 @@ function say(given, words) {
   showReadout(hand, words, place.at, [place.line]);
 }
 
-// Why not, where a hand pulls.
+// While the pointer drags: why the motion there is impossible.
 /** @param {Record<string, any>} given */
 export function sayPull(given) {
   const { hand, selected, pulled } = given, { at, grip } = handOf(hand), [worst] = selected.data.worst;
@@ -118,14 +118,14 @@ export function sayPull(given) {
   else if (grip) hideReadout(hand);
 }
 
-// The number that a field, an image of rows from below, has at a place.
+// The value of a field at a place. The field is an image whose first row is the lowest.
 /** @param {Record<"x" | "y" | "w" | "h", number[]>} frame @param {{ shape: number[] } & Column} values @param {[x: number, y: number]} place */
 export function valueIn({ x: [x], y: [y], w: [w], h: [h] }, values, [across, up]) {
   const [rows, columns] = values.shape, inside = (share, all) => clamp(Math.floor(share * all), 0, all - 1);
   return values[inside((up - y) / h, rows) * columns + inside((across - x) / w, columns)];
 }
 
-// What stands where a hand points.
+// Says what is at the place under the pointer.
 function sayPlace(given) {
   const { fig, hand, limits, field, words } = given, own = handOf(hand), [x, y] = /** @type {[number, number]} */ (own.at);
   const { x_range: { end }, y_range: high } = fig;

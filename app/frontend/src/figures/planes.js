@@ -1,10 +1,10 @@
-// The three planes: lines at the clock's time, and the top as a bead in its present well. Not synced.
+// The three planes: lines at the time of the clock, and the top as a bead in its present well. Not synced.
 import { clamp, rowBefore, valueAt } from "./curves.js";
 import { followClock, isFollowed } from "./seeking.js";
 
 const quietly = (part, values) => part.setv(values, { sync: false });
 
-// The number of the well at a time, -1 for none, and of the bead theta, V and E there.
+// The index of the well at a time, -1 for none, and the bead's theta, V and E there.
 /** @param {Record<"t" | "theta" | "V" | "E" | "well", Column>} path @param {number} now */
 export function beadAt({ t, theta, V, E, well }, now) {
   const last = t.length - 1, low = rowBefore(t, now), high = low + 1;
@@ -29,7 +29,7 @@ export function followPlanes(given) {
   if (isFollowed(path)) return;
   let now = 0;
   /** @type {number | null} */
-  let shown = null; // the number of a well
+  let shown = null; // the index of a well
   const placeBead = () => {
     if (path.data.t.length < 2) return quietly(none, { visible: false });
     const { which, theta, V, E } = beadAt(path.data, now);

@@ -1,7 +1,7 @@
-// What stands at a place of a picture, in one box for all of them: beside the hand, in the window, and never over what it
-// is about.
+// The values at a place of a figure, in one box for all figures: beside the pointer, inside the window, and never over
+// what it describes.
 
-const GAP = 14, EDGE = 6; // px from the hand or from what is kept clear, and from the window's edge
+const GAP = 14, EDGE = 6; // px from the pointer or from what must stay visible, and from the edge of the window
 const STYLE = {
   position: "fixed", zIndex: "1500", pointerEvents: "none", maxWidth: "min(280px, calc(100vw - 12px))", padding: "6px 10px",
   borderRadius: "6px", font: "calc(13px * var(--type, 1))/1.5 var(--family, system-ui, sans-serif)", color: "var(--ink, #22303c)",
@@ -14,8 +14,8 @@ const STYLE = {
 const shared = (a, b) =>
   Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) * Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top));
 
-// Where a box of a size is to stand: of the places beside the hand, then over and under what is kept clear, the first that
-// covers none of it, else the one that covers least.
+// Where to put a box of a given size: beside the pointer, or above or below what must stay visible. The first place
+// that covers none of it is taken, otherwise the one that covers least.
 /**
  * @param {[x: number, y: number]} hand
  * @param {{ wide: number, high: number }} size
@@ -53,8 +53,8 @@ function boxOf() {
   return box;
 }
 
-// whose: what hides it again. The words are Python's, the place is on the window's canvas.
-/** @param {object} whose @param {string} words as HTML @param {[x: number, y: number]} hand @param {Box[]} clear */
+// whose: must be passed again to hide the box. Python sends the words.
+/** @param {object} whose @param {string} words as HTML @param {[x: number, y: number]} hand in px of the window @param {Box[]} clear what must stay visible */
 export function showReadout(whose, words, hand, clear) {
   const shown = boxOf(), { style } = shown;
   owner = whose;

@@ -1,4 +1,4 @@
-// A hand on a figure puts the clock to another time, where it stands as long as the hand is down.
+// Dragging on a figure sets the time of the clock, which is paused until the pointer is released.
 
 /** @param {number} t @param {boolean} held */
 export function seek(t, held, clock = "") {
@@ -8,14 +8,14 @@ export function seek(t, held, clock = "") {
 /** @param {Pick<Happened, "event_name">} event */
 export const isDown = ({ event_name: name }) => name === "panstart" || name === "pan";
 
-// By the place along the time of a figure. path: has the unit of that time.
+// Takes the time from the figure's time axis. path: its tags have the unit of that axis.
 /** @param {{ clock?: string, path?: Source }} given @param {Happened} event */
 export function seekAlong({ clock, path }, event) {
   seek(event.x / (path?.tags[0] ?? 1), isDown(event), clock);
 }
 
-// Each new size of a figure asks to have it follow the clock, the first as soon as there is something to move: what is
-// asked for once is done once.
+// Bokeh calls this each time a figure is resized, the first time as soon as there is something to move. Only the first
+// call may register listeners.
 const followed = new WeakSet();
 
 /** @param {object} followers */

@@ -1,17 +1,17 @@
-// One picture at a time that answers a question of the run: where the height comes from, which way it turns, where it
-// touches the table.
+// Shows one picture at a time; each answers a question about the run: where the height comes from, which way the top
+// turns, where it touches the table.
 import { ENERGY, HEIGHT, SPIN, ticks, TURNING } from "./curves.js";
 import { lineOf } from "./numbers.js";
 import { Choice, drawn, part, say } from "./parts.js";
 import { Frames } from "../motion/frames.js";
 
 const NAMES = ["energy", "spin", "path"];
-const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }; // of numbers.js
+const READ = { energy: ["height", "energy", "heat"], spin: ["spin", "turning"] }; // shown at the pointer; names of numbers.js
 const LEFT = 46, RIGHT = 10, TOP = 10, FOOT = 22; // px around a plot
-const ROOM = 30, LINE = 24; // px that words in a picture need; a line of them between two curves
+const ROOM = 30, LINE = 24; // px: the room that words need in a picture; a line of text between two curves
 const MOST_POINTS = 2400;
-const NAMED = [0.3, 0.15, 0.45, 0.6, 0.75, 0.02]; // shares of the run before at which its name may stand
-const JUMP = 0.5; // R: from one frame to the next the contact goes so far only where another part takes over
+const NAMED = [0.3, 0.15, 0.45, 0.6, 0.75, 0.02]; // fractions of the earlier run at which its name may be
+const JUMP = 0.5; // R: the contact moves this far between two frames only if another part of the top touches down
 
 export class Answer {
   /** @param {Record<string, any>} texts @param {import("./time.js").Time} time */
@@ -20,10 +20,10 @@ export class Answer {
     this.time = time;
     this.width = this.height = this.bottom = 0; // px; not known yet
     /** @type {((t: number) => void)[]} */
-    this.moves = []; // of a picture that moves otherwise than by its line
+    this.moves = []; // functions that draw the parts that move differently
     this.name = "energy";
     /** @type {((share: number) => [x: number, y: number, ground?: string]) | null} */
-    this.unnamed = null; // where the run before may have its name, by a share of it
+    this.unnamed = null; // where the name of the earlier run goes, at a fraction of that run
     /** @type {import("./curves.js").Curves | null} */
     this.before = null;
     this.title = part("h2");
@@ -46,7 +46,7 @@ export class Answer {
     this.resizing.observe(this.plot);
   }
 
-  // Over the whole window, and back with the same button or with Escape.
+  // Fills the window; the same button or Escape ends that.
   enlarge() {
     if (this.dialog.open) return this.dialog.close();
     this.element.after(this.dialog);
@@ -60,7 +60,7 @@ export class Answer {
     this.larger.focus();
   }
 
-  // The numbers where the pointer is, beside it.
+  // The numbers at the pointer.
   /** @param {PointerEvent} event */
   point({ clientX, clientY }) {
     const { readout, curves, name, texts } = this, box = this.plot.getBoundingClientRect(), x = clientX - box.left;
@@ -110,12 +110,12 @@ export class Answer {
     this.at(this.time.t);
   }
 
-  // The run before has its name beside its line, where that leaves room for it.
+  // Puts the name of the earlier run beside its line, where there is room.
   nameThen() {
     if (!this.unnamed) return;
     const name = drawn("text", {}, this.texts.then), others = [...this.drawing.querySelectorAll(".halo, .word")].map((word) => word.getBBox());
     this.drawing.append(name);
-    for (const share of [...NAMED, NAMED[0]]) { // where it is nowhere free, at the first
+    for (const share of [...NAMED, NAMED[0]]) { // if there is room nowhere, at the first
       const [x, y, ground = ""] = this.unnamed(share);
       name.setAttribute("class", `halo ${ground}`);
       name.setAttribute("x", x.toFixed(1));
@@ -125,7 +125,7 @@ export class Answer {
     }
   }
 
-  /** @param {number} least @param {number} most @param {string} unit @param {number} apart px between two marks */
+  /** @param {number} least @param {number} most @param {string} unit @param {number} apart px between two ticks */
   axes(least, most, unit, apart = 90) {
     const y = (value) => this.bottom - ((this.bottom - TOP) * (value - least)) / (most - least || 1), found = [];
     const marks = ticks(least, most, Math.max(2, this.height / apart));
@@ -140,7 +140,7 @@ export class Answer {
     return { y, found };
   }
 
-  // The run before, of one quantity.
+  // The earlier run, one quantity.
   /** @param {(value: number) => number} y @param {number} column */
   then(y, column) {
     const curves = this.before;
@@ -176,7 +176,7 @@ export class Answer {
     const [least, most] = [curves.value(0, HEIGHT), heights[1]], text = most - least < 0.5 ? said.height_same : said.height;
     const over = (column) => Math.min(...[0, 0.5, 1].map((of) => at(stands + of * long, column))) - 8;
     const isHigh = this.bottom - at(stands, HEIGHT) > ROOM && this.bottom - at(stands + long, HEIGHT) > ROOM;
-    // over its area; where the energy leaves no room there, on it; where it is too low for that, over both
+    // above the area of the height; if the energy leaves no room there, inside it; if it is too low, above both
     const [height, kind] = free ? [over(HEIGHT), "washed"] : isHigh ? [this.bottom - 10, "inside"] : [over(ENERGY), ""];
     put(stands, height, say(texts, text, { least: [least, 0], most: [most, 0] }), "", kind);
     return [
@@ -191,7 +191,7 @@ export class Answer {
     const { curves, texts } = this, said = texts.answers.spin;
     const [least, most] = this.range(SPIN, TURNING), room = 0.06 * (most - least || 1);
     const { y, found } = this.axes(Math.min(least, 0) - (least < 0 ? 2 * room : 0), Math.max(most, 0) + room, said.unit, 60);
-    let widest = 0, apart = 0; // where the two lines stand clearest of each other
+    let widest = 0, apart = 0; // where the two lines are farthest apart
     for (let share = 0.2; share < 0.7; share += 0.05) {
       const gap = Math.abs(y(curves.at(share * curves.end, SPIN)) - y(curves.at(share * curves.end, TURNING)));
       if (gap > apart) [apart, widest] = [gap, share];
@@ -210,7 +210,7 @@ export class Answer {
     ];
   }
 
-  // The track of the run before, in radii of the present top.
+  // The track of the earlier run, in radii of the present top.
   /** @param {number} R in mm */
   trackThen(R) {
     const { before } = this.scene;
@@ -232,7 +232,7 @@ export class Answer {
     const points = pathOf(kept);
     if (then.length) {
       this.unnamed = (share) => {
-        const [x, y] = at(then[Math.round((1 - share) * (then.length - 1))]); // from its end on
+        const [x, y] = at(then[Math.round((1 - share) * (then.length - 1))]); // starting at its end
         return [x + 6, y + 4];
       };
     }
@@ -264,19 +264,19 @@ export class Answer {
   }
 }
 
-// Whether two boxes of words share a place.
+// Whether two text boxes overlap.
 /** @param {DOMRect} a @param {DOMRect} b */
 const meets = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
-// Of many points some, and the last.
+// A selection of the points, always with the last.
 /** @param {number[][]} line */
 function thinned(line) {
   const step = Math.max(1, Math.ceil(line.length / MOST_POINTS));
   return line.filter((_, i) => i % step === 0 || i === line.length - 1);
 }
 
-// The point of contact over time: [s, x, y], lengths in R.
-/** @param {Bytes} bytes as of a Top3D's frames @param {number} unit s in one unit of time @returns {number[][]} */
+// The contact point over time: [s, x, y], lengths in R.
+/** @param {Bytes} bytes as the frames of a Top3D @param {number} unit s in one unit of time @returns {number[][]} */
 export function trackOf(bytes, unit) {
   const frames = new Frames(bytes);
   return Array.from({ length: frames.count }, (_, i) => [unit * frames.time(i), ...frames.contact(i)]);

@@ -1,5 +1,5 @@
-// What a hand asks for, one wish at a time under way; of those that wait only the newest for each input.
-const LATE = 2000; // ms: an answer that has not come by then is not waited for
+// Sends requests to Python, one at a time. Of those that wait, only the newest for each input is kept.
+const LATE = 2000; // ms to wait for an answer before the next request is sent anyway
 
 export class Asking {
   /** @param {(count: number, name: string, value: any) => void} send */
@@ -12,7 +12,7 @@ export class Asking {
     this.held = false;
   }
 
-  // While there is nobody who answers.
+  // Holds requests back while there is no session to answer them.
   /** @param {boolean} held */
   hold(held) {
     this.held = held;
@@ -26,7 +26,7 @@ export class Asking {
     this.next();
   }
 
-  /** @param {number} answered the last count that came back */
+  /** @param {number} answered the number of the last request that was answered */
   hear(answered) {
     this.answered = Math.max(answered, this.answered);
     this.next();
@@ -47,7 +47,7 @@ export class Asking {
     this.send(this.count, name, value);
   }
 
-  // Whether a hand is ahead of what is shown.
+  // Whether a request has not been answered yet.
   get isAhead() {
     return this.waiting.size > 0 || this.answered < this.count;
   }

@@ -1,23 +1,23 @@
-// "What did I change?": the run before stays beside the present one until it is dismissed. Three at once have none.
+// "What did I change?": the previous run is shown beside the present one until it is dismissed; not with three tables.
 import { say, written } from "./parts.js";
 
 const SIZE = "dim:"; // a dimension of the body
-const GESTURE = 1500; // ms: what the same hand asks for sooner is one change
-const TELLING = ["stands", "inverted", "upright", "leans", "topples", "over", "rolls", "lies"]; // what became of it, the first that did
+const GESTURE = 1500; // ms: changes of the same input that follow each other faster count as one
+const TELLING = ["stands", "inverted", "upright", "leans", "topples", "over", "rolls", "lies"]; // the first of these tells how a run went
 
 export class Before {
   /** @param {Record<string, any>} texts */
   constructor(texts) {
     this.texts = texts;
     this.run = this.last = /** @type {any} */ (null);
-    this.isBack = false; // what comes next is the run that was gone back to
+    this.isBack = false; // whether the next run is the one that the person went back to
     this.name = "";
     this.touched = -Infinity;
     this.press = 0;
   }
 
-  // A hand asks for something while a scene is shown. However long a hand stays down, it makes one change.
-  /** @param {string} name @param {any} shown @param {number} press which one it is, from 1; 0 where none is down @param {number} now in ms */
+  // Called when a person changes an input while `shown` is on the page. One press is one change, however long it lasts.
+  /** @param {string} name @param {any} shown @param {number} press its number, from 1; 0 if nothing is pressed @param {number} now in ms */
   touch(name, shown, press = 0, now = performance.now()) {
     const isSame = name === this.name && (press ? press === this.press : now - this.touched <= GESTURE);
     if (!isSame) this.last = shown;
@@ -32,8 +32,8 @@ export class Before {
     this.name = "";
   }
 
-  // The next scene's run before, or null.
-  /** @param {any} shown what was there until now @param {any} next */
+  // The run to show beside the next scene, or null.
+  /** @param {any} shown the scene until now @param {any} next */
   follow(shown, next) {
     if (!shown || shown.table === "three" || next.table === "three" || !next.state.of) {
       this.forget();
@@ -41,11 +41,11 @@ export class Before {
     }
     if (changes(shown, next).length) this.run = this.isBack ? null : { ...(this.last ?? shown), before: null };
     const what = this.run ? changes(this.run, next) : [];
-    if (this.run && !what.length) this.run = null; // it is as it was
+    if (this.run && !what.length) this.run = null; // all inputs are the same again
     return this.run && { ...this.run, ...this.words(what, this.run, next) };
   }
 
-  // Dismisses it to have it again, by ask().
+  // Dismisses the earlier run and requests it again, with ask().
   /** @param {(name: string, value: any) => void} ask @param {any} shown */
   goBack(ask, shown) {
     const { run } = this;
@@ -58,15 +58,15 @@ export class Before {
     const { texts } = this, said = (name) => texts.inputs[name]?.name ?? next.state.of[name][2] ?? texts.toy;
     const value = (scene, name) => scene.state.of[name][1].replace(`${said(name)} `, "");
     const headline = what.map((name) => say(texts, texts.changed, { name: said(name), from: value(run, name), to: value(next, name) })).join("; ");
-    const isTable = what.includes("table"); // of which the stage says enough
+    const isTable = what.includes("table"); // then the stage says enough
     return {
-      canGoBack: !what.includes("toy") || run.state.toy === run.state.of.toy?.[0], // a body without a name is not asked for
+      canGoBack: !what.includes("toy") || run.state.toy === run.state.of.toy?.[0], // a body without a name cannot be requested
       what: what.map((name) => run.state.of[name][1]).join(", "), headline: isTable ? "" : headline,
       why: say(texts, texts.changed_why, { now: this.end(next), before: this.end(run) }),
     };
   }
 
-  // What became of a run, in few words.
+  // How a run went, in a few words.
   end({ run, state: { runs }, table }) {
     const { events, stages, why } = run ?? runs[table] ?? { events: [], stages: [], why: "" };
     const code = TELLING.find((each) => events.some(([, name]) => name === each));
@@ -76,7 +76,7 @@ export class Before {
   }
 }
 
-// The inputs in which two scenes differ.
+// The inputs that differ between two scenes.
 function changes(one, other) {
   const [a, b] = [one.state.of, other.state.of];
   if (!a || !b) return [];

@@ -1,9 +1,9 @@
-// In a fold, controls like those of the start: of the top itself, its lengths and its ballast; of the table, how it rubs.
+// Controls in folds, like those of the start: the top's lengths and ballast, and the friction of the table.
 import { Control } from "./control.js";
 import { part } from "./parts.js";
 
 export class Body {
-  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {"body" | "rubs"} word @param {"dims" | "rubs"} of what the state has of them */
+  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {"body" | "rubs"} word @param {"dims" | "rubs"} of their key in the state */
   constructor(texts, ask, word, of) {
     this.texts = texts;
     this.ask = ask;

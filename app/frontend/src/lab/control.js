@@ -1,9 +1,10 @@
-// A quantity of the start or of the top: a slider, a number to type, and below it what is wrong, or how runs end.
+// A quantity of the start or of the top: a slider, a field for a number, and below them an error message, or how runs
+// end.
 import { part, read, say, written } from "./parts.js";
 
-const THUMB = 10; // px from the end of a slider's track to the middle of its thumb there
-const WIDTH = 340, WIDE = 5.6, APART = 16; // px: of the strip of ends at least, of a letter under it, between words
-const NEXT = 6; // px between words of which one is where a mark is
+const THUMB = 10; // px from the end of a slider's track to the centre of its thumb there
+const WIDTH = 340, WIDE = 5.6, APART = 16; // px: least width of the strip of ends, a letter below it, a gap between words
+const NEXT = 6; // px between words if one of them is at a mark
 
 export class Control {
   /**
@@ -18,8 +19,8 @@ export class Control {
     this.said = said;
     this.ask = ask;
     this.limits = { low: 0, high: 1, digits: 0 };
-    this.was = /** @type {HTMLElement[]} */ ([]); // what marks the run before
-    this.share = this.value = 0; // of the track, where the value is; what was shown last of a hold
+    this.was = /** @type {HTMLElement[]} */ ([]); // what marks the earlier run
+    this.share = this.value = 0; // fraction of the track at the present value; the value last shown while the button is held
     const id = `lab-${name}`;
     this.slider = part("input", { type: "range", id, "aria-label": said.name, oninput: () => {
       this.put(Number(this.slider.value));
@@ -53,7 +54,7 @@ export class Control {
     this.point();
   }
 
-  // Never over what a person is typing; what is selected to be typed over stays so, else that would come behind it.
+  // Never overwrites what a person is typing. Selected text stays selected, otherwise typing would append to it.
   /** @param {string} text */
   write(text) {
     const { number } = this, { value, selectionStart, selectionEnd } = number;
@@ -62,7 +63,7 @@ export class Control {
     if (value && !selectionStart && selectionEnd === value.length && number.matches(":focus")) number.select();
   }
 
-  // The mark of the present value; one typed beyond the track has no place on it.
+  // The mark of the present value; a value beyond the track has none.
   point() {
     if (!this.mark) return;
     this.mark.hidden = this.share < 0 || this.share > 1;
@@ -72,7 +73,7 @@ export class Control {
   /** @param {number} share of the track */
   along = (share) => `calc(${THUMB}px + ${share} * (100% - ${2 * THUMB}px))`;
 
-  /** @param {any} state @param {boolean} ahead whether a hand has moved it since */
+  /** @param {any} state @param {boolean} ahead whether it has been moved since */
   show(state, ahead) {
     const [low, high, step, digits] = state.sliders[this.name], message = state.messages[this.name];
     this.limits = { low, high, digits };
@@ -89,8 +90,8 @@ export class Control {
     if (message) this.wrong.replaceChildren(part("b", { class: "mark", "aria-hidden": "true" }, "!"), this.why(message, state.nearest[this.name], kept));
   }
 
-  // What can be, in bold, what else there is to say, and the ways out: one press each.
-  /** @param {string} message @param {number | undefined} nearest what can be @param {number} kept what it was */
+  // The message with its first sentence in bold, and a button for each remedy.
+  /** @param {string} message @param {number | undefined} nearest the nearest allowed value @param {number} kept the last valid one */
   why(message, nearest, kept) {
     const [first, ...more] = message.split(/(?<=[.]) /), unit = `${this.said.unit && this.said.unit !== "°" ? " " : ""}${this.said.unit}`;
     const way = (says, value, text) => part("button", { type: "button", class: "link", onclick: () => this.ask(this.name, value) },
@@ -100,18 +101,18 @@ export class Control {
       way(this.texts.back, kept, written(kept, this.limits.digits, this.texts.decimal)));
   }
 
-  // What else there is to say of it.
+  // A remark on the value.
   /** @param {string} [said] */
   note(said) {
     this.below.replaceChildren(...(said ? [part("p", { class: "small" }, said)] : []));
   }
 
-  // As it was typed.
+  // Like the text that was typed.
   typed(value) {
     return typeof value === "number" ? written(value, Number.isInteger(value) ? 0 : this.limits.digits, this.texts.decimal) : String(value);
   }
 
-  // A share of the track, in steps of its digits; returns the value there.
+  // Sets the value at a fraction of the track, rounded to its digits, and returns it.
   /** @param {number} share */
   putShare(share) {
     const { low, high, digits } = this.limits;
@@ -121,7 +122,7 @@ export class Control {
     return this.value;
   }
 
-  // On the strip below the track: where the run before was.
+  // Marks the value of the earlier run on the strip below the track.
   /** @param {number | undefined} value */
   showWas(value) {
     const { low, high } = this.limits, [bar, line] = this.below.children;
@@ -135,7 +136,7 @@ export class Control {
     this.fitWas(line, this.was[1]);
   }
 
-  // In words, where there is room for them: below the mark, or left or right of it.
+  // Its name, where there is room: below the mark, or to the left or right of it.
   /** @param {Element} line @param {HTMLElement} word */
   fitWas(line, word) {
     const others = [...line.children].filter((each) => each !== word).map((each) => each.getBoundingClientRect());
@@ -147,7 +148,7 @@ export class Control {
     word.remove();
   }
 
-  // Under the track: how it ends for each spin.
+  // Below the track: how the run ends for each spin.
   /** @param {[from: number, to: number, code: string, word: string][] | null} ends */
   showEnds(ends) {
     const key = JSON.stringify(ends);
@@ -172,7 +173,7 @@ export class Control {
 
   digits = (value) => written(value, value % 1 ? 1 : 0, this.texts.decimal);
 
-  // The words of its two largest stretches, left and right, and where the right one begins.
+  // The words of its two largest parts, left and right, and where the right one begins.
   words(ends) {
     const { low, high } = this.limits, size = ([from, to]) => to - from;
     const [large, next] = [...ends].sort((a, b) => size(b) - size(a)), line = part("div", { class: "words" });
@@ -182,7 +183,7 @@ export class Control {
       const [from, at] = [left, right].map(([start]) => (start - low) / (high - low));
       line.append(part("span", {}, left[3]));
       const letters = WIDE * (left[3].length + right[3].length), room = (at - from) * WIDTH > WIDE * left[3].length + APART;
-      if (room) Object.assign(line.children[0].style, { position: "absolute", left: this.along(from) }); // under its own stretch
+      if (room) Object.assign(line.children[0].style, { position: "absolute", left: this.along(from) }); // below its own part
       if ((room || at * WIDTH > WIDE * left[3].length + APART) && (1 - at) * WIDTH > WIDE * right[3].length + APART && letters < WIDTH) {
         line.append(part("b", { style: `left: ${this.along(at)}` }, this.digits(right[0])));
       }

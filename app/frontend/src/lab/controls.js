@@ -1,5 +1,5 @@
-// The start, as a hand gives it: spin, tilt, friction, each a slider and a number to type; and "Spin it". In folds, the
-// table and the top itself.
+// The start as a person sets it: spin, tilt and friction, each with a slider and a field, and "Spin it". The table and
+// the top itself are in folds.
 import { Body } from "./body.js";
 import { Control } from "./control.js";
 import { Launch } from "./launch.js";
@@ -20,14 +20,14 @@ export class Controls {
     });
     this.picks = part("div", { class: "picks", role: "group", "aria-label": texts.hand }, ...this.parts.map(({ said, name }) =>
       part("button", { type: "button", onclick: () => this.pick(name) }, said.name, part("b"))));
-    // on a phone the dock stands at the foot of the window
+    // on a phone these controls are at the foot of the window
     const dock = part("div", { class: "dock" }, part("div", { class: "titled" }, part("h2", {}, texts.hand), this.picks, this.launch.element),
       ...this.parts.map(({ element }) => element));
     this.element = part("section", { class: "controls", "aria-label": texts.hand }, dock, ...this.folds.map(({ element }) => element));
     this.pick("spin");
   }
 
-  // On a phone one control at a time.
+  // On a phone, shows one control at a time.
   pick(name) {
     this.parts.forEach((control, i) => {
       control.element.classList.toggle("picked", control.name === name);
@@ -42,7 +42,7 @@ export class Controls {
     for (const fold of this.folds) fold.show(state, ahead);
     this.parts[2].note(state.law);
     for (const [i, control] of this.parts.entries()) {
-      // ice has no friction to set, and on the rough table nothing slips; three tops have one slider
+      // ice has no friction to set, and nothing slips on the rough table; three tables share one slider
       const idle = table === "three" ? i > 0 : control.name === "mu" && (table === "rough" || table === "ice");
       control.element.hidden = this.picks.children[i].hidden = idle;
       control.show(state, ahead);

@@ -1,4 +1,4 @@
-// One run over time, as numbers to draw: app/tabs/lab/lab.py says what each column is.
+// One run over time, as numbers to draw: app/tabs/lab/lab.py says what each column contains.
 import { float32, niceAbove } from "../data.js";
 
 const WIDTH = 8;
@@ -32,7 +32,7 @@ export class Curves {
     return high > 0 && t >= this.value(high, TIME) ? high : low;
   }
 
-  // On the straight line between two rows; before the first and after the last as there.
+  // Interpolates between two rows; constant before the first and after the last.
   /** @param {number} t @param {number} column */
   at(t, column) {
     if (!this.count) return NaN;
@@ -53,7 +53,7 @@ export class Curves {
     return [least, most];
   }
 
-  // For the points of a line.
+  // As the points of an SVG polyline.
   /** @param {(t: number) => number} x @param {(value: number) => number} y @param {number} column */
   points(x, y, column) {
     const points = Array(this.count);
@@ -62,13 +62,13 @@ export class Curves {
   }
 }
 
-// Of lists that begin with a time, the last that has begun.
+// The last list that has begun; each starts with its time.
 /** @param {any[][]} list @param {number} t */
 export function latest(list, t) {
   return list.filter(([from]) => from <= t + 1e-9).at(-1) ?? list[0];
 }
 
-// Round numbers from least to most, at most so many.
+// Round numbers from least to most, about `count` of them.
 /** @param {number} least @param {number} most @param {number} count */
 export function ticks(least, most, count) {
   const rough = (most - least) / count, decade = 10 ** Math.floor(Math.log10(rough));
@@ -81,8 +81,8 @@ export function ticks(least, most, count) {
 const SLOW = 1 / 4, AFTER = 1 / 2, FASTEST = 8;
 const LOOK = 0.6, SOON = 0.3, FIRST = 2, QUIET = 1.2, LONG = 3; // s
 
-// How fast to play where nobody chose: slowly until it has turned over, and a moment more, or for a while; then at half
-// its speed, and faster where for long nothing new happens.
+// How fast to play unless a person chose: slowly until shortly after the top has turned over, or for a while; then at
+// half speed, and faster where nothing new happens for long.
 /** @param {any[][]} events @param {number} t in s @param {number} end */
 export function tempo(events, t, end) {
   if (!events.length) return SLOW;
@@ -95,12 +95,12 @@ export function tempo(events, t, end) {
   return Math.min(2 ** Math.max(Math.ceil(Math.log2((to - from) / LONG)), 0), FASTEST);
 }
 
-// Where the words of events stand beside their lines: right of it or left, in full where all have room, else in short, and
-// where one row has not room for all in two.
+// Where the words of events go, to the left or right of their lines: in full if there is room for all, otherwise in
+// short, and in two rows if one has no room for all.
 /**
  * @param {[x: number, word: string, short: string][]} lines
  * @param {number} left @param {number} right
- * @param {(word: string) => number} wide in px
+ * @param {(word: string) => number} wide its width in px
  * @returns {{ x: number, word: string, side: "start" | "end", row: number }[]}
  */
 export function placed(lines, left, right, wide) {
@@ -109,7 +109,7 @@ export function placed(lines, left, right, wide) {
   return ways.reduce((best, found) => (found.length > best.length ? found : best));
 }
 
-// The same, of the words that each line may have, the first of them that finds room.
+// The same for given rows: each line gets the first of its words that there is room for.
 /**
  * @param {[x: number, ...words: string[]][]} lines
  * @param {number} left @param {number} right

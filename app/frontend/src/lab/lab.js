@@ -1,5 +1,5 @@
-// The Lab: one top, one start, and the table that is chosen, or all three. Python solves and says what happened; here it
-// is drawn, played, and asked for.
+// The Lab: one top, one start, and the chosen table, or all three. Python solves and says what happened; this draws and
+// plays it, and sends requests.
 import { Answer, trackOf } from "./answer.js";
 import { Asking } from "./asking.js";
 import { Before } from "./before.js";
@@ -15,7 +15,7 @@ import { Keeps, Words } from "./words.js";
 import { coalesce, float32 } from "../data.js";
 import { Press } from "../widgets/press.js";
 
-const PATIENCE = 100; // ms: so long the old picture may stand beside the new start unsaid
+const PATIENCE = 100; // ms that the old picture may be beside the new start without a remark
 
 class Lab {
   /** @param {Rendering<LabModel>} rendering */
@@ -25,7 +25,7 @@ class Lab {
     this.patience = this.since = 0;
     this.anew = "";
     /** @type {Record<string, { bytes: Bytes, curves: Curves }>} */
-    this.bytes = {}; // what was read, and as what
+    this.bytes = {}; // the bytes that were read last, and the curves made from them
     /** @type {Record<string, any>} */
     this.state = {};
     this.time = new Time(coalesce(() => this.at()));
@@ -49,7 +49,7 @@ class Lab {
     this.show = coalesce(() => this.showNow());
   }
 
-  // Light or dark, and large, as the page.
+  // Takes the page's look: light or dark, and large.
   look = () => {
     const look = document.documentElement.dataset.look ?? "";
     this.frame.dataset.look = look.startsWith("dark") ? "dark" : "light";
@@ -60,7 +60,7 @@ class Lab {
 
   ask(name, value) {
     if (name === "table") {
-      this.anew = value; // the same start on another table, from its beginning
+      this.anew = value; // the same start on another table plays from its beginning
       this.stage.choice.show(value);
     }
     this.before.touch(name, this.scene, this.press.now);
@@ -68,7 +68,7 @@ class Lab {
     this.patience ||= setTimeout(() => this.show(), PATIENCE);
   }
 
-  // What the old picture is of, where it is old, and is to be named so.
+  // Names what an old picture shows, if it must be named.
   old() {
     const { state } = this, waits = this.asking.isAhead || state.busy;
     if (!waits) {
@@ -80,7 +80,7 @@ class Lab {
     return state.old || (this.waits ? state.was : "");
   }
 
-  // The run before: dismissed, or gone back to.
+  // Dismisses the earlier run, or goes back to it.
   forget() {
     this.before.forget();
     this.showNow();
@@ -90,7 +90,7 @@ class Lab {
     this.before.goBack((name, value) => this.ask(name, value), this.scene);
   }
 
-  // On the axis: the motion begins anew at that tilt, and is let go with the hand.
+  // Dragging the axis: the motion starts again at that tilt when the pointer is released.
   hand() {
     return {
       pull: (degrees) => {
@@ -109,7 +109,7 @@ class Lab {
     this.time.play(true);
   }
 
-  // What Python sent, as what the parts draw.
+  // Reads what Python sent.
   read() {
     const { model } = this, { table, runs } = this.state, state = Object.assign({}, this.state, { old: this.old() });
     const each = (read) => Object.fromEntries(TABLES.map((name) => [name, read(name)]));
@@ -128,13 +128,13 @@ class Lab {
 
   showNow() {
     this.state = { ...JSON.parse(this.model.told), ...JSON.parse(this.model.state) };
-    if (!this.state.runs) return; // Python has not got there
+    if (!this.state.runs) return; // Python has not sent any runs yet
     const scene = this.read(), { time, model } = this;
     scene.before = this.before.follow(this.scene, scene);
     this.scene = scene;
     this.asking.hear(this.state.answered);
     Object.assign(time, { unit: model.seconds, end: scene.end, events: scene.run?.events ?? [], tops: this.stage.tops });
-    time.span = scene.state.whole ? scene.end : Math.max(scene.end, time.span); // no axis changes under a hand
+    time.span = scene.state.whole ? scene.end : Math.max(scene.end, time.span); // an axis must not change while it is dragged
     this.element.dataset.table = scene.table;
     scene.bytes = model.profile;
     this.stage.show(scene);
@@ -164,7 +164,7 @@ class Lab {
 
 /** @param {Rendering<LabModel>} rendering */
 export function renderLab({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
+  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const lab = new Lab({ model, el, view });
   for (const name of ["state", "told", "profile", "a", "seconds", ...TABLES.flatMap((table) => [`frames_${table}`, `curves_${table}`])]) {
     model.on(name, lab.show);

@@ -1,10 +1,10 @@
-// "Spin it": pressed, with the spin that is set; held, the faster the longer. While a run is computed its place shows how
-// far that is, and what stops it.
+// "Spin it". A press uses the spin that is set; holding the button increases the spin. While a run is computed,
+// progress and a button to stop it are shown instead.
 import { part, say } from "./parts.js";
 
-const LONG = 300, FULL = 2000; // ms: from when a press is a hold, and from there to the greatest spin
+const LONG = 300, FULL = 2000; // ms: a longer press is a hold; from there to the greatest spin
 
-// Which share of the greatest spin a button has that is held so long; null while it is only pressed.
+// The fraction of the greatest spin after holding the button for so long; null while it is only a press.
 /** @param {number} held ms */
 export const strengthOf = (held) => (held < LONG ? null : Math.min((held - LONG) / FULL, 1));
 
@@ -12,7 +12,7 @@ export class Launch {
   /**
    * @param {Record<string, any>} texts
    * @param {{ spin: () => void, strength: (share: number) => string, launch: () => void, stop: () => void }} of
-   *     strength: shows a share of the greatest spin, and returns it in words; launch: asks for what was shown last
+   *     strength: shows a fraction of the greatest spin, and returns it in words; launch: requests what was shown last
    */
   constructor(texts, of) {
     this.texts = texts;
@@ -38,7 +38,7 @@ export class Launch {
       this.charged = false;
       this.end();
     });
-    this.button.addEventListener("contextmenu", (event) => event.preventDefault()); // of a finger that stays
+    this.button.addEventListener("contextmenu", (event) => event.preventDefault()); // of a long touch
   }
 
   /** @param {number} now in ms */
@@ -68,7 +68,7 @@ export class Launch {
     const { texts } = this;
     this.word = table === "three" ? texts.spin_all : texts.spin_it;
     if (!this.charged) this.button.textContent = this.word;
-    this.button.hidden = waits && !this.frame; // what is held stays under the hand
+    this.button.hidden = waits && !this.frame; // a button that is held stays under the pointer
     this.wait.hidden = !waits;
     this.progress.value = state.reached ?? 0;
     this.share.textContent = say(texts, texts.percent, { share: [100 * (state.reached ?? 0), 0] });

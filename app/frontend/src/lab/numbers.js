@@ -1,4 +1,4 @@
-// The present moment in numbers, for who opens them.
+// The numbers of the present moment, in a fold.
 import { ENERGY, HEAT, HEIGHT, SPIN, TIME, TURNING, TILT } from "./curves.js";
 import { part, say } from "./parts.js";
 
@@ -32,7 +32,7 @@ export class Numbers {
 const said = (texts, curves, name, column, digits, t) =>
   say(texts, `{value}${texts.number[name][1]}`, { value: [column === TIME ? t : curves.at(t, column), digits] });
 
-// Some of them in a line, for the place where a pointer is.
+// Some of them in one line, to be shown at the pointer.
 /** @param {Record<string, any>} texts @param {import("./curves.js").Curves} curves @param {string[]} names @param {number} t */
 export const lineOf = (texts, curves, names, t) => ROWS.filter(([name]) => name === "t" || names.includes(name))
   .map(([name, column, digits]) => `${name === "t" ? "" : `${texts.number[name][0]} `}${said(texts, curves, name, column, digits, t)}`).join(" · ");

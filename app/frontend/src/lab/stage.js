@@ -1,5 +1,5 @@
-// The large picture: one top or three on their tables, and on it the switch of the table, the top's name, what it does
-// now, and how fast it turns.
+// The large picture: one top or three on their tables, with the switch of tables, the name of the top, what it is
+// doing, and how fast it turns.
 import { thenAt } from "./before.js";
 import { latest, TILT, TURNING } from "./curves.js";
 import { Choice, drawn, part, say } from "./parts.js";
@@ -14,13 +14,13 @@ export class Stage {
    * @param {Record<string, any>} texts
    * @param {import("./time.js").Time} time
    * @param {(name: string, value: any) => void} ask
-   * @param {{ forget: () => void, hand: { pull(degrees: number): void, letGo(): void } }} of forget: dismisses the run before
+   * @param {{ forget: () => void, hand: { pull(degrees: number): void, letGo(): void } }} of forget: dismisses the earlier run
    */
   constructor(texts, time, ask, { forget, hand }) {
     this.texts = texts;
     this.time = time;
     /** @type {Record<string, HTMLElement>} */
-    this.lines = {}; // under three tops, what each does
+    this.lines = {}; // below three tops: what each of them does
     const words = { ...texts, hint: texts.turn_hint, handle: texts.axis, handle_hint: texts.axis_hint };
     this.alone = new Top({ texts: words, time, label: texts.stage, away: 1.3, hand });
     this.three = TABLES.map((table) => new Top({ texts, time, label: texts.labels[table], away: 1.75 }));
@@ -59,7 +59,7 @@ export class Stage {
     this.tops.forEach((top, i) => {
       const shown = three === i > 0;
       this.places[i].hidden = !shown;
-      if (!shown) return top.put({ frames: null }); // with nothing to move it costs nothing
+      if (!shown) return top.put({ frames: null }); // a stage without frames costs nothing
       const was = !i && before ? { frames: before.frames[before.table], profile: before.bytes, a: before.a, seconds: before.unit } : null;
       if (was?.frames !== top.model.before?.frames) top.put({ before: was });
       top.put({ profile, a, seconds, frames: scene.frames[three ? TABLES[i - 1] : table] });
@@ -78,7 +78,7 @@ export class Stage {
     return [part("b", {}, texts.tables[name]), ` ${texts.hints[name]}`, part("br"), this.lines[name]];
   }
 
-  // The run before, in words.
+  // The earlier run in words.
   /** @param {number} t */
   beforeAt(t) {
     const { scene: { before }, texts, chip, then } = this, shown = Boolean(before?.curves[before.table].count);

@@ -1,14 +1,14 @@
-// The tilt over time, which is also what moves the time: play, drag anywhere on it, how fast, and again from the start.
+// The tilt over time, which also controls the time: play, drag anywhere on it, the speed, and back to the start.
 import { latest, placed, ticks, TILT } from "./curves.js";
 import { drawn, part, say } from "./parts.js";
 import { TABLES } from "./stage.js";
 import { SPEEDS } from "./time.js";
 
 const LEFT = 38, RIGHT = 12, HEADROOM = 36, FOOT = 22; // px around the plot
-const GAP = 6; // px left of it
-const LETTER = 0.51; // how wide a letter is, in its size
-const NARROW = 400; // px of a strip
-const NEED = 100; // px of a stage in which the top is drawn as it then stands
+const GAP = 6; // px between the plot and what is left of it
+const LETTER = 0.51; // mean width of a letter, in units of the font size
+const NARROW = 400; // px: a narrower strip uses short words
+const NEED = 100; // px: a shorter stage of the run has no room for a small top
 const ICONS = {
   play: "M4.500 2.500v13l11-6.500z", pause: "M4 2h4v14H4zM11 2h4v14h-4z", again: "M4 4v4h4M4.500 8a6 6 0 1 1-.6 4",
 };
@@ -52,7 +52,7 @@ export class Strip {
     this.resizing.observe(this.plot);
   }
 
-  // The hand has the time from the moment that it goes down, also where it rests first.
+  // The pointer takes over the time as soon as it is pressed, even if it does not move at first.
   listen() {
     const { plot, time } = this;
     const put = (event, held) => time.seek(this.timeAt(event.clientX - plot.getBoundingClientRect().left), held);
@@ -73,7 +73,7 @@ export class Strip {
     return this.width - RIGHT - (this.scene.table === "three" && this.width > 700 ? 15 * this.size : 0);
   }
 
-  // px of the type
+  // font size in px
   get size() {
     return parseFloat(getComputedStyle(this.plot).fontSize);
   }
@@ -89,7 +89,7 @@ export class Strip {
   show(scene) {
     const { before } = scene, curves = before?.curves[before.table];
     this.scene = scene;
-    this.before = curves?.count ? curves : null; // of the run before
+    this.before = curves?.count ? curves : null; // of the earlier run
     this.range.max = (Math.ceil(100 * scene.end) / 100).toFixed(2); // a whole number of its steps
     this.draw();
   }
@@ -120,7 +120,7 @@ export class Strip {
     this.at(this.time.t);
   }
 
-  // The run before.
+  // The earlier run.
   then() {
     const { before: curves } = this;
     return curves ? [drawn("polyline", { class: "then", "clip-path": "url(#all)", points: curves.points(this.x, this.y, TILT) })] : [];
@@ -145,7 +145,7 @@ export class Strip {
     return found;
   }
 
-  // What it did and when, above the curve.
+  // What happened and when, above the curve.
   events() {
     const { scene, texts } = this;
     if (scene.table === "three") return [];
@@ -163,10 +163,10 @@ export class Strip {
     });
   }
 
-  // The top as it stands in the middle of each long stage, where the curve leaves room.
+  // A small top, tilted as in the middle of each long stage, where the curve leaves room.
   shapes() {
     const { scene } = this, run = scene.runs[scene.table], n = scene.profile.length >> 1, curves = scene.curves[scene.table];
-    if (!run || !n || !curves.count || this.before || this.width < 500) return []; // the run before takes their room
+    if (!run || !n || !curves.count || this.before || this.width < 500) return []; // the earlier run needs the room
     const outline = Array.from({ length: 2 * n }, (_, i) => {
       const at = i < n ? i : 2 * n - 1 - i;
       return [(i < n ? 1 : -1) * scene.profile[2 * at], -scene.profile[2 * at + 1]];
@@ -185,7 +185,7 @@ export class Strip {
     });
   }
 
-  // Where the rest of its life is to be.
+  // Marks where the rest of the run will be.
   comes() {
     const { scene, size, texts: { comes }, time } = this, from = this.x(time.end), room = this.right - from;
     if (scene.state.whole || room < NEED) return [];
@@ -194,7 +194,7 @@ export class Strip {
     return lines.map((line, i) => drawn("text", { class: "halo", x, y: this.y(90) - 5 - 1.2 * size * (lines.length - 1 - i), "text-anchor": "middle" }, line));
   }
 
-  // Of three curves, at their ends, each where there is room.
+  // The names of three curves, at their ends, where there is room.
   names() {
     const { scene, texts } = this;
     if (scene.table !== "three" || this.width <= 700) return [];

@@ -1,5 +1,5 @@
-// How the Lab looks: four sizes of type, a grid of 8 px, one blue for what is selected, one colour a quantity. It goes by
-// the width of its own place, not of the window.
+// The Lab's style: four font sizes, a grid of 8 px, one blue for what is selected, one colour for each quantity. The
+// layout depends on the width of the Lab, not of the window.
 import { onDark, onLight } from "../colours.js";
 import { endRules, endsOnDark, endsOnLight } from "../ends.js";
 
@@ -52,7 +52,7 @@ svg .axis { stroke: var(--line-2); fill: none; } svg .grid { stroke: var(--line)
 polyline, .rest, .past { fill: none; stroke-linejoin: round; }
 `;
 
-// Where each part stands: the top and what answers it side by side, the bar that moves the time right under the top.
+// The layout: the top and the answer side by side, the bar that controls the time directly below the top.
 const places = `
 .lab { display: grid; gap: 12px var(--gap); padding: 12px var(--gap) 8px; align-content: start;
   --stage: clamp(390px, 100vh - 322px, 62cqw);

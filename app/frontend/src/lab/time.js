@@ -1,21 +1,21 @@
-// The time of the Lab's pictures. The tops play by themselves, on one clock; this says when and how fast, and tells
-// what they show.
+// The time of the Lab's pictures. The tops play by themselves on one clock; this sets when and how fast, and announces
+// the time that they show.
 import { tempo } from "./curves.js";
 
 const CLOCK = "lab";
-export const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16]; // in times the real one
-const LONGEST_STEP = 0.25; // s: a top's time goes on by at most so much of the wall clock at once
+export const SPEEDS = [8, 4, 2, 1, 1 / 2, 1 / 4, 1 / 8, 1 / 16]; // in units of real time
+const LONGEST_STEP = 0.25; // s of wall-clock time by which a top's time advances at most in one step
 const NEARLY = 0.02; // s
 
 export class Time {
-  /** @param {() => void} changed t or playing is another @param {string} name of the tops' clock */
+  /** @param {() => void} changed t or playing has changed @param {string} name of the tops' clock */
   constructor(changed, name = CLOCK) {
     this.changed = changed;
     this.name = name;
     this.t = 0; // s
-    this.unit = 1; // s in one unit of the tops' own time
+    this.unit = 1; // s in one unit of the tops' time
     this.end = 0; // s
-    this.span = 0; // s: of the axes; there may be more to come
+    this.span = 0; // s: length of the axes; the run may not be complete yet
     this.playing = false;
     this.held = false;
     this.chosen = 0; // the speed that a person chose; 0: none
@@ -27,7 +27,7 @@ export class Time {
     window.addEventListener(`tippe:clock:${name}`, ({ detail }) => this.hear(detail), { signal: this.listening.signal });
   }
 
-  // The speed that is no slower than the real one, unless a person chose it or nothing moves; else 0.
+  // The speed if it is at least the real one and no person chose it; 0 otherwise, and while nothing moves.
   get fast() {
     return this.playing && !this.chosen && this.speed >= 1 ? this.speed : 0;
   }
@@ -36,7 +36,7 @@ export class Time {
     return this.chosen || tempo(this.events, this.t, this.end);
   }
 
-  // Of the tops: their longest step ends at the end at most, where they would begin anew.
+  // Shortens the tops' last step so that it ends at the end, where they would start again.
   get pace() {
     return Math.min(this.speed, Math.max(this.end - this.t, 0) / LONGEST_STEP);
   }
@@ -54,7 +54,7 @@ export class Time {
     this.seek(this.end);
   }
 
-  /** @param {number} t in s @param {boolean} held while a hand moves it */
+  /** @param {number} t in s @param {boolean} held while it is dragged */
   seek(t, held = false) {
     this.t = Math.min(Math.max(t, 0), this.end);
     this.held = held;
@@ -62,7 +62,7 @@ export class Time {
     this.changed();
   }
 
-  // From where it is; from the start where it is at its end.
+  // Plays from the present time, or from the start if that is the end.
   /** @param {boolean} playing */
   play(playing) {
     if (playing && this.t > this.end - NEARLY) this.again();
@@ -71,7 +71,7 @@ export class Time {
     this.changed();
   }
 
-  // Tops that play take a time only from a hand.
+  // While the tops play, only a person can set their time.
   again() {
     this.seek(0, true);
     this.seek(0);

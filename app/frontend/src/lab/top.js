@@ -1,8 +1,8 @@
-// A top in 3-D as the Lab has it: without a bar of its own, its model made here.
+// A top in 3-D for the Lab: it has no bar of its own, and its model is created here.
 import { renderTop3D } from "../three/top3d.js";
 import { part } from "./parts.js";
 
-// The Lab says by itself what these say.
+// The Lab has its own words for these.
 const OURS = ".tippe :is(.bar, .verdict, .scales, .time) { display: none } div.tippe { min-height: 0 } .tippe > .picture { border-radius: 0; min-height: 0 } .labels .handle { border-color: var(--accent) }";
 
 const SHOWS = {
@@ -12,8 +12,8 @@ const SHOWS = {
 export class Top {
   /**
    * @param {object} of @param {Record<string, any>} of.texts @param {string} of.label @param {import("./time.js").Time} of.time
-   * @param {number} of.away how far the eye is, in terms of where the whole top just fits
-   * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what a hand on the axis does
+   * @param {number} of.away distance of the camera, in units of the distance at which the whole top just fits
+   * @param {{ pull(degrees: number): void, letGo(): void }} [of.hand] what dragging the axis does
    */
   constructor({ texts, label, time, away, hand }) {
     const listeners = new Map();
@@ -31,7 +31,7 @@ export class Top {
     this.view = {};
   }
 
-  // Draws it, where that is not done yet.
+  // Draws it unless it is already drawn.
   begin() {
     if (this.begun) return;
     this.begun = true;

@@ -1,13 +1,13 @@
-// What happens now and why, and where to go next; and beside three tops what each keeps.
+// What happens now and why, and where to go next; for three tables, what each of them conserves.
 import { latest } from "./curves.js";
 import { drawn, part, say } from "./parts.js";
 import { TABLES } from "./stage.js";
 
-const LIFTED = ["over", "stands", "inverted"]; // events of a run that rubbing has turned over
+const LIFTED = ["over", "stands", "inverted"]; // events of a run that friction has turned over
 const NEXT = { ordinary: "rough", rough: "research", ice: "three", three: "research" };
 
 export class Words {
-  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} back to the run before */
+  /** @param {Record<string, any>} texts @param {(name: string, value: any) => void} ask @param {() => void} back goes back to the earlier run */
   constructor(texts, ask, back) {
     this.texts = texts;
     this.headline = part("p", { class: "big" });
@@ -18,7 +18,7 @@ export class Words {
       ask(to === "research" ? "research" : "table", to);
     } });
     this.lesson = part("button", { class: "link", type: "button", hidden: true, onclick: () => ask("why", "") });
-    // Spoken once a stage, not at each picture of it.
+    // A screen reader hears it once a stage, not at each frame.
     this.element = part("section", { class: "say" }, part("div", { role: "status" }, this.headline, part("p", {}, this.why, " ", this.back, this.lesson)), this.next);
   }
 
@@ -62,7 +62,7 @@ export class Keeps {
     this.texts = texts;
     this.body = part("tbody");
     this.until = part("span", { class: "small" });
-    this.element = part("section", { class: "keeps", tabindex: 0, "aria-label": texts.keeps }, // a phone scrolls it
+    this.element = part("section", { class: "keeps", tabindex: 0, "aria-label": texts.keeps }, // scrolls on a phone
       part("div", { class: "titled" }, part("h2", {}, texts.keeps), this.until),
       part("table", {}, part("thead", {}, part("tr", {}, part("td"), ...texts.kept.map((word) => part("th", { scope: "col" }, word)))), this.body));
   }

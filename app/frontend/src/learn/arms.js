@@ -1,10 +1,11 @@
-// The paper's Fig. 4 at a moment: the section through contact and axis, and the two arms of a push at the contact.
+// The paper's Fig. 4 at a moment: the section through contact and axis, and the two lever arms of a push at the
+// contact.
 import { drawn } from "../lab/parts.js";
 import { float32 } from "../data.js";
 import { sectionAt } from "../figures/sections.js";
 
 /** @typedef {[number, number]} Point */
-const ROW = 6; // numbers of a moment: the axis, G, and the foot on the axis, seen from the contact
+const ROW = 6; // numbers for each moment: the axis, G, and the foot of the perpendicular to the axis, seen from the contact
 
 export class Arms {
   /** @param {Record<string, string>} said */
@@ -13,7 +14,7 @@ export class Arms {
     this.outline = { across: /** @type {number[]} */ ([]), along: /** @type {number[]} */ ([]) };
     /** @type {(point: Point) => Point} */
     this.put = (point) => point;
-    this.scale = 1; // px
+    this.scale = 1; // px in one R
     this.hull = drawn("path", { class: "hull" });
     this.axis = drawn("path", { class: "axis thin" });
     this.upwards = drawn("path", { class: "axis thin" });
@@ -62,10 +63,10 @@ export class Arms {
     for (const [shape, at] of /** @type {[any, Point][]} */ ([[this.mass, G], [this.push, [0, 0]]])) {
       shape.setAttribute("transform", `translate(${this.put(at).map((v) => v.toFixed(1)).join(" ")})`);
     }
-    const clear = 14 / this.scale; // px above the table's line
+    const clear = 14 / this.scale; // px above the line of the table, in R
     const side = G[0] <= 0 ? 1 : -1, [near, far] = side > 0 ? ["start", "end"] : ["end", "start"];
     this.word(words.push, [0, 0], 0, 20, "middle");
-    if (foot[0] * side < 0 && foot[1] < 0.5) { // both arms lie on one side: the longer has its word there, the other not
+    if (foot[0] * side < 0 && foot[1] < 0.5) { // both arms on one side: only the longer one has its word there
       this.word(words.upright, [0, 0], 14 * side, -8, near);
       this.word(words.own, [foot[0], Math.max(foot[1], clear)], -12 * side, 4, far);
     } else {

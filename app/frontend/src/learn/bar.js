@@ -1,4 +1,4 @@
-// Time, and the tilt as far as it has been seen: play, drag anywhere on it. What comes after the guess is covered.
+// The time, and the tilt as far as it has been seen: play, and drag anywhere. What comes after the guess is hidden.
 import { ticks, TILT } from "../lab/curves.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { DASHES } from "./stage.js";
@@ -26,7 +26,7 @@ export class Bar {
     this.resizing.observe(this.plot);
   }
 
-  // The hand has the time from the moment that it goes down, also where it rests first.
+  // The pointer takes over the time as soon as it is pressed, even if it does not move at first.
   listen() {
     const { plot, time } = this;
     const put = (event, held) => time.seek(this.timeAt(event.clientX - plot.getBoundingClientRect().left), held);
@@ -54,7 +54,7 @@ export class Bar {
     this.draw();
   }
 
-  // Degrees from the least to the most that are drawn: all of them where it turns over, else what it does.
+  // The range of degrees that is drawn: all of them if the top turns over, otherwise those of the run.
   span() {
     const { step, curves } = this.scene;
     if (!step.speed) return [0, 180];
@@ -104,11 +104,11 @@ export class Bar {
     return found;
   }
 
-  // What it did and when, told as it is seen.
+  // What happened and when, as far as it has been seen.
   events() {
     const { scene: { step, tops }, texts } = this;
     if (tops.length > 1) return [];
-    let free = LEFT - 14; // beside the uppermost number of the axis there is room
+    let free = LEFT - 14; // there is room beside the highest number on the axis
     return step.events.filter(([t]) => t <= step.end).flatMap(([t, , , short]) => {
       const word = `${short} ${say(texts, "{t} s", { t: [t, 1] })}`, x = this.x(t), wide = LETTER * word.length;
       const side = x - wide - 8 > free ? "end" : "start", from = side === "end" ? x - wide - 5 : x + 5;

@@ -1,4 +1,4 @@
-// The picture of a step: lines over two axes, as far as they have been seen, or the section with the two arms of a push.
+// The picture of a step: curves as far as they have been seen, or the section with the two lever arms of a push.
 import { ENERGY, HEIGHT, SPIN, TIME, ticks, TURNING } from "../lab/curves.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { float32 } from "../data.js";
@@ -6,7 +6,7 @@ import { Arms } from "./arms.js";
 
 const LEFT = 46, RIGHT = 12, TOP = 10, FOOT = 22, APART = 15, CLOSE = 24, LETTER = 6; // px
 
-// Words beside points of a drawing, pushed apart where they would lie over each other.
+// Words beside points of a drawing, pushed apart where they would overlap.
 /** @template {{ y: number }} T @param {T[]} words @param {number} least @param {number} most */
 export function apart(words, least, most) {
   const sorted = [...words].sort((one, other) => one.y - other.y);
@@ -44,7 +44,7 @@ export class Graph {
   show(scene) {
     this.scene = scene;
     const { step, record, tops } = scene;
-    // what tells the answer is drawn once it has been asked for
+    // what gives the answer away is drawn only after the guess
     this.kind = step.picture === "arms" && record.asked ? "graph" : step.picture;
     if (["curves", "heads"].includes(step.picture)) this.kind = record.asked ? "graph" : "";
     this.element.hidden = !this.kind || !tops.length;
@@ -89,13 +89,13 @@ export class Graph {
     return { time: graph.of === "t", unit: "", lines, marks: graph.points, zero: false };
   }
 
-  // The frame, the lines, and their words at their ends.
+  // The frame, the curves, and their names at their ends.
   lines({ time, unit, lines, marks, zero }) {
     const { width, height, texts, scene: { step } } = this, bottom = height - FOOT, right = width - RIGHT;
     const all = [...lines.flatMap(({ points }) => points), ...marks.map(([, x, y]) => [x, y])].filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y));
     const span = (i) => [Math.min(...all.map((point) => point[i])), Math.max(...all.map((point) => point[i]))];
     const [x0, x1] = time ? [0, step.end] : span(0), [low, high] = span(1), pad = 0.08 * (high - low || 1);
-    const [y0, y1] = [zero ? Math.min(low - (low < 0 ? 2 * pad : 0), 0) : low - 2 * pad, high + pad]; // words below too
+    const [y0, y1] = [zero ? Math.min(low - (low < 0 ? 2 * pad : 0), 0) : low - 2 * pad, high + pad]; // room for words below, too
     const x = (value) => LEFT + ((right - LEFT) * (value - x0)) / (x1 - x0 || 1), y = (value) => bottom - ((bottom - TOP) * (value - y0)) / (y1 - y0);
     const found = [];
     const marked = ticks(y0, y1, Math.max(2, height / 60)), places = digits(marked);
@@ -121,7 +121,7 @@ export class Graph {
     return [...found, ...this.words.map(({ element }) => element)];
   }
 
-  // Where the words stand: beside what has been seen last.
+  // Places the words beside what has been seen last.
   place(seen) {
     const { x, y, bottom, right } = this.scale, middle = (LEFT + right) / 2;
     const found = this.words.map((word) => {
@@ -130,7 +130,7 @@ export class Graph {
       const falls = px >= middle && !word.above && this.heightBefore(word, px) < py - 2;
       return { word, px, py, y: py + (word.below || falls ? 16 : word.above || px >= middle ? -8 : 4) };
     });
-    // of two lines that end close together the lower has its word below
+    // of two curves that end close together, the lower one has its name below
     const ends = found.filter(({ word, px }) => px >= middle && !word.below && !word.above).sort((one, other) => one.py - other.py);
     ends.forEach((end, i) => i && end.py - ends[i - 1].py < CLOSE && ends[i - 1].y < ends[i - 1].py && (end.y = end.py + 16));
     for (const { word, px, y: py } of apart(found, TOP + 8, bottom - 6)) {
@@ -141,7 +141,7 @@ export class Graph {
     }
   }
 
-  // px: where the line is that a word before its end would lie beside.
+  // The y, in px, at which a curve passes a word that is placed before its end.
   /** @param {any} word @param {number} end */
   heightBefore({ points, word }, end) {
     const { x, y } = this.scale, before = points.filter(([t]) => x(t) <= end - LETTER * word.length);

@@ -1,5 +1,5 @@
-// The lesson: one step at a time, a question about a top that has been watched a little, and its answer once the rest has
-// been seen. Python has the steps in words, and the runs; a page that has them goes on by itself.
+// The lesson, step by step: a question about a top after a short look at it, and the answer after the rest of the run.
+// Python sends the words and the runs; once they are there, the page needs no server.
 import { Curves } from "../lab/curves.js";
 import { part } from "../lab/parts.js";
 import { Time } from "../lab/time.js";
@@ -13,7 +13,7 @@ import { Stage } from "./stage.js";
 import { style } from "./style.js";
 
 const SECTIONS = ["derivation", "teach", "history"];
-const NEARLY = 0.03, LONG = 3; // s: before the end it is over; what is left that need not be waited for
+const NEARLY = 0.03, LONG = 3; // s: this close to the end counts as the end; a longer rest can be skipped
 
 class Lesson {
   /** @param {Rendering<LessonModel>} rendering */
@@ -23,7 +23,7 @@ class Lesson {
     this.texts = texts;
     this.count = 0;
     /** @type {Record<string, { guess?: string | number, asked?: boolean, done?: boolean, seen: number }>} */
-    this.kept = {}; // of each step, as long as the page is open
+    this.kept = {}; // by step, as long as the page is open
     /** @type {Map<Bytes, Curves>} */
     this.read = new Map();
     this.time = new Time(coalesce(() => this.at()), "lesson");
@@ -60,7 +60,7 @@ class Lesson {
     window.addEventListener("tippe:look", this.look, { signal });
     window.addEventListener("tippe:lost", this.onLost, { signal });
     window.addEventListener("tippe:back", this.onLost, { signal });
-    // first of all: what has the focus, a tab of the head, would take an arrow for itself
+    // captured before a focused tab of the head can use an arrow key for itself
     window.addEventListener("keydown", this.onKey, { signal, capture: true });
     document.addEventListener("fullscreenchange", this.onScreen, { signal });
   }
@@ -70,7 +70,7 @@ class Lesson {
     this.model.asked = [this.count, name, value];
   }
 
-  // Those of the part that is looked at: the lesson, or what is for theorists.
+  // The steps of the part that is shown: the lesson, or the part for theorists.
   get steps() {
     return this.model.steps.filter(({ theory }) => theory === this.step?.theory);
   }
@@ -84,7 +84,7 @@ class Lesson {
     if (next) this.open(next.name);
   }
 
-  // A person goes to a step.
+  // A person chooses a step.
   open(name) {
     this.name = name;
     this.ask("step", name);
@@ -132,7 +132,7 @@ class Lesson {
     }
   }
 
-  // A class in a hall sees the question alone; what fills the window is the frame itself, or all of the screen.
+  // A class sees the question alone; either the frame itself fills the window, or it fills the whole screen.
   present(presenting) {
     if (this.presenting === presenting) return;
     this.presenting = presenting;
@@ -160,7 +160,7 @@ class Lesson {
     this.watch();
   }
 
-  // What is here goes on without the server; the page is loaded anew when the person at the screen wants it.
+  // The lesson goes on without the server; the person at the screen chooses when to reload the page.
   onLost = (event) => {
     if (!this.presenting) return;
     event.preventDefault();
@@ -173,7 +173,7 @@ class Lesson {
     this.time.play(true);
   }
 
-  // The whole of it, from the beginning where it was watched before.
+  // Plays the whole run, from the beginning if it has been watched before.
   watch() {
     const { record, step, time } = this;
     if (record.guess === undefined) return;
@@ -185,7 +185,7 @@ class Lesson {
     time.play(true);
   }
 
-  // What decides it has been seen; the rest need not be waited for.
+  // What decides the answer has been seen; the rest can be skipped.
   skip() {
     this.time.play(false);
     this.time.seek(this.time.end);
@@ -204,7 +204,7 @@ class Lesson {
       this.presents = model.state.presents;
       setTimeout(() => this.present(true));
     }
-    if (asked !== this.told) this.name = this.told = asked; // Python's, a link's
+    if (asked !== this.told) this.name = this.told = asked; // Python's wish, from a link
     this.step = model.steps.find(({ name }) => name === this.name) ?? model.steps[0];
     if (this.role === "phone") this.follow();
     if (this.step.name !== this.entered) this.enter();
@@ -224,7 +224,7 @@ class Lesson {
     }
   }
 
-  // A step is begun: its beginning is played by itself, unless nothing is to move.
+  // Starts a step: its beginning plays by itself, unless the system asks for reduced motion.
   enter() {
     const { step, time, record } = this, still = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.entered = step.name;
@@ -251,7 +251,7 @@ class Lesson {
     if (this.shown?.length === shown.length && shown.every((one, i) => one === this.shown[i])) return;
     this.shown = shown;
     if (tops.length) Object.assign(time, { unit: tops[0].run.seconds, tops: this.stage.tops });
-    const curves = tops.map(({ run }) => this.curvesOf(run)), { t } = time; // a top that is drawn first begins at 0
+    const curves = tops.map(({ run }) => this.curvesOf(run)), { t } = time; // a top that is drawn for the first time starts at 0
     this.stage.show(tops, step, curves, Boolean(record.asked));
     this.scene = { step, tops, curves, record, inClass: this.presenting };
     this.bar.show(this.scene);
@@ -266,8 +266,8 @@ class Lesson {
     this.at();
   }
 
-  // Beside the question; the arms in place of the top where that fills the screen or the page is narrow; before a class
-  // a graph comes with the answer, where the code was.
+  // The picture beside the question. The lever arms replace the top if that fills the screen or the page is narrow; in
+  // front of a class, a graph appears with the answer, where the code was.
   putPicture() {
     const { graph, presenting, presenter, record } = this, kind = graph.element.hidden ? "" : graph.kind;
     const place = !presenting ? this.right : kind === "arms" ? this.element : presenter.board;
@@ -302,7 +302,7 @@ class Lesson {
     return part("button", { type: "button", class: "link", onclick }, word);
   }
 
-  // A page to print, in a window of its own; it needs no server.
+  // Opens a page to print in a new window; it needs no server.
   paper() {
     window.open(URL.createObjectURL(new Blob([this.model.worksheet], { type: "text/html" })), "_blank");
   }
@@ -339,7 +339,7 @@ class Lesson {
 
 /** @param {Rendering<LessonModel>} rendering */
 export function renderLesson({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
+  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const lesson = new Lesson({ model, el, view });
   for (const name of ["steps", "runs", "others", "state"]) model.on(name, lesson.show);
   lesson.listen();

@@ -1,4 +1,5 @@
-// A phone in a class: which question it is, that its vote is sent, how many have voted, and the way to a lesson alone.
+// A phone in a class: the number of the question, that its vote was sent, how many have voted, and the way to the
+// lesson alone.
 import { part, say } from "../lab/parts.js";
 
 export class PhoneSide {
@@ -28,6 +29,6 @@ export class PhoneSide {
       room.shown ? words.shown : mine ? words.change : words.vote] : []));
     const lesson = this.head.parentElement;
     lesson?.classList.toggle("empty", !open);
-    lesson?.style.setProperty("--sent", mine ? JSON.stringify(words.sent) : "none"); // beside the answer that was chosen
+    lesson?.style.setProperty("--sent", mine ? JSON.stringify(words.sent) : "none"); // shown beside the chosen answer
   }
 }

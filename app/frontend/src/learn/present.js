@@ -1,10 +1,11 @@
-// The big screen in front of a class: the question and its top fill it, phones vote, and nobody sees how before the answer.
+// The big screen in front of a class: the question and its top fill it, phones vote, and the votes stay hidden until
+// the answer.
 import { part, say } from "../lab/parts.js";
 
 const LETTERS = "ABCDEFGH";
 const KEYS = [["←", "back"], ["→", "on"], ["Space", "play"], ["R", "reveal"], ["0", "reset"], ["Esc", "leave"]];
 
-// What a key asks for; "" for none.
+// What a key does; "" for nothing.
 /** @param {KeyboardEvent} event @param {boolean} presenting */
 export function wishOf(event, presenting) {
   const { key, ctrlKey, metaKey, altKey } = event;
@@ -14,7 +15,7 @@ export function wishOf(event, presenting) {
   return known[key] ?? "";
 }
 
-// Whether a person is writing, so that a letter is a letter.
+// Whether a person is typing, so that a letter is not a command.
 /** @param {KeyboardEvent} event */
 export const writes = (event) => /** @type {Element[]} */ (event.composedPath()).some((node) =>
   node.matches?.("input:not([type=radio]):not([type=range]), textarea, select, [contenteditable]"));

@@ -1,10 +1,10 @@
-// The question of a step: what may be guessed, and, once the answer has been watched, what it was and why.
+// The question of a step: the possible guesses and, after the answer has been watched, the right one and why.
 import { part, say } from "../lab/parts.js";
 
-// How a guess stands to the truth.
+// How a guess compares with the truth.
 /** @param {any} asks @param {any} truth @param {any} guess */
 export function verdictOf(asks, truth, guess) {
-  if (Number.isNaN(guess)) return "unsure"; // nobody guessed: it was shown to all
+  if (Number.isNaN(guess)) return "unsure"; // nobody guessed: the answer was shown to all
   if (asks.options) return guess === asks.unsure ? "unsure" : guess === truth ? "right" : "off";
   if (truth === null) return "never";
   const apart = Math.abs(guess - truth);
@@ -54,7 +54,7 @@ export class Question {
     this.plays(playing);
   }
 
-  // While it is watched there is nothing to press, until what decides it has been seen.
+  // While the run plays there is nothing to press, until what decides the answer has been seen.
   plays(playing, isDecided = false) {
     const { record, texts: { lesson } } = this, watching = record.asked && !record.done;
     this.watch.disabled = record.guess === undefined || (watching && playing);
@@ -72,7 +72,7 @@ export class Question {
     }))];
   }
 
-  // No number counts before a hand has chosen it.
+  // A number counts only after a person has chosen it.
   slider() {
     const { step: { asks }, record, hand, texts } = this, { lesson } = texts, digits = digitsOf(asks.step);
     const words = part("label", { for: "lesson-number" });
@@ -93,7 +93,7 @@ export class Question {
     return [part("div", { class: "number" }, words, input)];
   }
 
-  // After the last step: all that was learned, and where it can be tried.
+  // After the last step: what has been learned, and where to try it.
   ended(learned) {
     const { hand, texts: { lesson } } = this;
     return [part("p", { class: "big" }, lesson.done), part("ol", {}, ...learned.map((words) => Object.assign(part("li"), { innerHTML: words }))),

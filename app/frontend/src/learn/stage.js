@@ -1,11 +1,11 @@
-// The tops of a step, side by side, each with what it is below, and what the first does now.
+// The tops of a step, side by side, with their names below, and what the first one is doing.
 import { latest, TILT } from "../lab/curves.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { Top } from "../lab/top.js";
 import { Ways } from "./ways.js";
 
 const MOST = 3;
-export const DASHES = ["", "7 4", "2 4"]; // of their curves
+export const DASHES = ["", "7 4", "2 4"]; // stroke patterns of their curves
 
 export class Stage {
   /** @param {Record<string, any>} texts @param {import("../lab/time.js").Time} time */
@@ -16,7 +16,7 @@ export class Stage {
     this.curves = [];
     /** @type {string[]} */
     this.names = [];
-    // one that stands alone is near, of several each is a little further off
+    // a single top is drawn close, several a little farther away
     this.tops = Array.from({ length: 1 + MOST }, (_, i) => new Top({ texts, time, label: texts.stage, away: i ? 1.5 : 1.3 }));
     this.captions = this.tops.map(() => part("p", { class: "caption" }));
     this.covers = this.tops.map(() => part("p", { class: "cover" }, texts.lesson.later));
@@ -27,7 +27,7 @@ export class Stage {
     this.element = part("section", { class: "stage", "aria-label": texts.stage }, part("div", { class: "tops" }, ...this.places), this.pill, this.ways.element, this.wait);
   }
 
-  /** @param {any[]} tops @param {any} step @param {any[]} curves @param {boolean} isAsked whether the guess is made */
+  /** @param {any[]} tops @param {any} step @param {any[]} curves @param {boolean} isAsked whether the person has guessed */
   show(tops, step, curves, isAsked) {
     const { lesson } = this.texts;
     this.step = step;
@@ -55,7 +55,7 @@ export class Stage {
     const { step, names, texts } = this, word = names.length === 1 && latest(step.stages?.[names[0]] ?? [], t)?.[1];
     this.pill.hidden = !word;
     if (!this.ways.element.hidden) this.ways.at(this.curves[0], t);
-    if (word) this.pill.textContent = say(texts, this.isAsked ? texts.lesson.pill : texts.lesson.pill_before, { word, tilt: [this.curves[0].at(t, TILT), 0] }); // the word tells the answer
+    if (word) this.pill.textContent = say(texts, this.isAsked ? texts.lesson.pill : texts.lesson.pill_before, { word, tilt: [this.curves[0].at(t, TILT), 0] }); // the word gives the answer away
   }
 
   leave() {

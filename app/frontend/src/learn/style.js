@@ -1,4 +1,5 @@
-// How the lesson looks: the question over all, the top large, and beside it what may be guessed and the step's picture.
+// The style of the lesson: the question on top, a large picture of the top, and beside it the possible guesses and the
+// graph.
 import { shared } from "../lab/style.js";
 
 const places = `

@@ -1,11 +1,13 @@
-// Which way round a top goes, seen from above and from its stem: two circles, each with an arrow as long as it is fast.
+// Which way a top turns, seen from above and from its stem: two circles, each with an arrow whose length shows how
+// fast.
 import { SPIN, TURNING } from "../lab/curves.js";
 import { drawn, part, say } from "../lab/parts.js";
 
 const SIZE = 64, R = 24, MOST = 300, HEAD = 9; // px, px, degrees, px
 
-// An arrow on a circle about 0, from its top: counterclockwise where it is positive, as it is seen from outside.
-/** @param {number} share -1 to 1, of the longest */
+// An arrow on a circle about 0 that starts at its top and goes counterclockwise if share is positive, seen from
+// outside.
+/** @param {number} share -1 to 1, of the longest arrow */
 export function arrow(share) {
   const degrees = MOST * Math.min(Math.abs(share), 1), round = share > 0 ? -1 : 1, end = (round * degrees * Math.PI) / 180;
   if (degrees < 4) return { line: "", head: "" };

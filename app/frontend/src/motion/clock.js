@@ -1,24 +1,24 @@
-// A top's place on its clock. Tops of one clock play as one; a top that names none has the nameless one to itself, or is
-// the last on it. The rest of the page asks and tells by events, of which docs/house.md has the list.
+// Connects a top to its clock. Tops of the same clock play together; a top without a clock name has one to itself, or
+// is the last on the nameless clock. Other parts of the page use events; docs/house.md lists them.
 import { Player } from "./player.js";
 
-const TELL_MS = 80; // how often a scrub is told to Python
+const TELL_MS = 80; // ms between two times that are sent to Python while scrubbing
 /** @type {Map<string, Place[]>} */
 const clocks = new Map(); // name -> the places on it
 
-// The views of the page's one start have one time: one that comes into sight goes on where the last in sight stood.
+// The views of the page's one start share the time: a view that appears continues where the last visible one stopped.
 const OF_THE_START = ["", "lab", "planes"];
-let last = { name: "", seconds: NaN }; // the clock of that view, and s of the real top
+let last = { name: "", seconds: NaN }; // the clock of the last visible view, and its time in s of the real top
 
 const on = (name) => clocks.get(name) ?? [];
 
-// Of the tops of one clock, the one that moves the time: the first in view with something to show.
+// The top of a clock that moves the time: the first visible one that has a motion.
 const leaderOf = (name) => on(name).find(({ inView, player }) => inView() && player.frames.count > 1) ?? on(name)[0];
 
-/** The time of a clock, 0 where nothing is on it. @param {string} clock */
+/** The time of a clock, 0 if no top is on it. @param {string} clock */
 export const timeOf = (clock = "") => leaderOf(clock)?.player.t ?? 0;
 
-/** Pictures of the tops that are in sight, together so many pixels wide. @param {number} wide */
+/** Pictures of the tops that are visible, together `wide` px wide. @param {number} wide */
 export function photosOf(wide) {
   const seen = [...clocks.values()].flat().filter(({ isSeen }) => isSeen);
   return seen.map(({ photo }) => photo(wide / seen.length));
@@ -29,8 +29,8 @@ export class Place {
    * @param {object} top
    * @param {TopModel} top.model
    * @param {HTMLElement} top.picture
-   * @param {() => void} top.changed t or playing moved
-   * @param {() => boolean} top.inView whether it is seen now
+   * @param {() => void} top.changed called when t or playing has changed
+   * @param {() => boolean} top.inView whether it is visible
    * @param {(wide: number) => HTMLCanvasElement} top.photo
    * @param {object} top.report what is drawn, for tests
    */
@@ -53,12 +53,12 @@ export class Place {
     const { player } = this, listening = new AbortController(), { signal } = listening;
     this.listening = listening;
     model.on("time", () => {
-      // What comes back is what was just told: to be passed over, or a scrub would jump back.
+      // Ignore the echo of the time that we sent ourselves, or scrubbing would jump back.
       if (Math.abs(model.time - player.t) > 1e-9 * Math.max(1, Math.abs(player.t))) player.seek(model.time);
     });
     model.on("playing", () => player.setPlaying(model.playing));
     window.addEventListener(`tippe:seek${this.suffix}`, ({ detail: { t, held } }) => player.seek(t, held), { signal });
-    // The page's own keys, for the tops that are on the page as it is.
+    // Keys of the page act on the leading top if it is on the page.
     const onCommand = ({ detail: { toggle, step } }) => {
       if (!picture.clientWidth || !this.leads) return;
       if (toggle) player.setPlaying(!player.playing);
@@ -94,17 +94,17 @@ export class Place {
     return this.player.playing && this.player.frames.count > 1;
   }
 
-  // Where the others are, or where Python has it; to be called once, with the first motion there.
+  // Takes over the time of the other tops, or Python's; to be called once, with the first motion.
   begin() {
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches, { model, player } = this;
     player.playing = (this.others[0]?.player ?? model).playing && !still;
     if (model.playing !== player.playing) model.playing = player.playing;
   }
 
-  // The motion that came. Tells whether it is the first. start: to be looked at from its beginning.
+  // A new motion has arrived; tells whether it is the first. start: play it from its beginning.
   take(start = false) {
     const { model, player } = this, first = !player.frames.count;
-    this.echo = true; // a new motion is no news of the clock
+    this.echo = true; // a new motion does not change the other tops' clocks
     player.setFrames(model.frames);
     if (start) player.land(0);
     this.echo = false;
@@ -114,8 +114,8 @@ export class Place {
     return true;
   }
 
-  // The time goes on. model.seconds of the real top pass in one unit of t; speed 1 shows them at their own pace. Tells
-  // whether the motion began anew.
+  // Advances the time. One unit of t is model.seconds of the real top; speed 1 is real time. Tells whether the motion
+  // started again.
   /** @param {number} now in ms */
   advance(now) {
     const { model, player, leads } = this;
@@ -123,14 +123,14 @@ export class Place {
     return (!leads && player.follow(this.leader.player.t)) || again;
   }
 
-  // Where it stands, for the view that comes next; once it comes itself, where the last one stood.
+  // Stores the time for the view that appears next; a view that appears itself takes over the stored one.
   meet() {
     const { name, model, player, picture, player: { frames } } = this;
     if (!OF_THE_START.includes(name) || !this.leads || !picture.clientWidth || frames.count < 2) return;
     if (last.name !== name && Number.isFinite(last.seconds)) {
       const t = last.seconds / model.seconds;
       last = { ...last, name };
-      player.seek(name ? Math.min(t, frames.end) : player.wrap(t)); // what rolls goes on for ever
+      player.seek(name ? Math.min(t, frames.end) : player.wrap(t)); // a rolling motion repeats forever
       this.met = player.t;
     } else if (player.t !== this.met) {
       last = { name, seconds: player.t * model.seconds };
@@ -138,7 +138,7 @@ export class Place {
     }
   }
 
-  // Says on the window what the picture shows now, where that is new.
+  // Sends the present moment as an event, if it is new.
   /** @param {string} verdict */
   say(verdict) {
     this.meet();
@@ -148,7 +148,7 @@ export class Place {
     if (this.leads) window.dispatchEvent(new CustomEvent(`tippe:clock${this.suffix}`, { detail: this.said }));
   }
 
-  // What a person does to one top of a clock is done to all.
+  // Does to all tops of the clock what a person did to one of them.
   tellOthers() {
     if (this.echo) return;
     const { player } = this;

@@ -1,4 +1,4 @@
-// The trajectory that Python computed, and reading between its samples.
+// The trajectory that Python computed, and interpolation between its samples.
 import { Quaternion, Vector3 } from "three";
 import { float32 } from "../data.js";
 
@@ -37,7 +37,7 @@ export class Frames {
     put(this.rows[at], this.rows[at + 1], this.rows[at + 2]);
   }
 
-  // Where t lies among the rows, as a fraction: 3.25 is a quarter of the way from row 3 to row 4.
+  // The position of t among the rows, as a fraction: 3.25 is a quarter of the way from row 3 to row 4.
   /** @param {number} t */
   place(t) {
     let low = 0, high = this.count - 1;
@@ -56,7 +56,7 @@ export class Frames {
     return Math.round(this.place(t));
   }
 
-  // The largest length of a vector over all rows: sets how long its arrow is drawn.
+  // The greatest length of a vector over all rows, which sets the scale of its arrow.
   largest(column) {
     let most = 0;
     for (let i = 0, at = column; i < this.count; i++, at += WIDTH) {
@@ -69,7 +69,8 @@ export class Frames {
     return { force: this.largest(FORCE), omega: this.largest(OMEGA), momentum: this.largest(MOMENTUM) };
   }
 
-  // The pose at a place: on a row exactly that row, between two the shortest turn and the straight line.
+  // The pose at a position: on a row exactly that of the row; between two, interpolated along the shortest rotation and
+  // a straight line.
   /** @param {number} place @param {Pose} pose */
   read(place, pose) {
     const low = Math.min(Math.floor(place), this.count - 1);
@@ -92,8 +93,8 @@ export class Frames {
 
 const other = new Quaternion();
 
-// Where the sphere's centre O is: over the contact; off the table, or on its stem, where G and the axis say.
-/** @param {Pose} pose @param {number | null} a where O need not be over the contact: its distance from G @param {Vector3} out */
+// The centre O of the sphere. Usually it is above the contact; in the air or on the stem, G and the axis determine it.
+/** @param {Pose} pose @param {number | null} a distance between O and G, if O may not be above the contact @param {Vector3} out */
 export function centreOf(pose, a, out) {
   if (a === null) return out.set(pose.contact.x, pose.contact.y, 1);
   return out.set(0, 0, a).applyQuaternion(pose.quaternion).add(pose.com);

@@ -1,13 +1,13 @@
-// Where in the trajectory we are. Playing moves t by the wall clock; everything else lands on an exact frame.
+// The present place in the trajectory. Playing advances t with the wall clock; everything else goes to an exact frame.
 import { Frames } from "./frames.js";
 
-const LONGEST_STEP_MS = 250; // after a pause of the whole page go on from where it stopped
+const LONGEST_STEP_MS = 250; // after the page has been suspended, continue where it stopped
 
 export class Player {
   /**
    * @param {object} tell
-   * @param {() => void} tell.changed t or playing moved
-   * @param {() => void} tell.landed a person or Python put the cursor somewhere: to be told to Python
+   * @param {() => void} tell.changed called when t or playing has changed
+   * @param {() => void} tell.landed called when a person or Python has moved the cursor, so that Python can be told
    * @param {() => void} tell.playingChanged
    */
   constructor({ changed, landed, playingChanged }) {
@@ -27,7 +27,7 @@ export class Player {
     return Math.floor(this.place);
   }
 
-  // New motion, same moment: a playing top goes on without a jump back to the start.
+  // A new motion at the same moment: a playing top continues without jumping back to the start.
   /** @param {Bytes} bytes */
   setFrames(bytes) {
     this.frames = new Frames(bytes);
@@ -43,8 +43,8 @@ export class Player {
     return t <= end && t >= start ? t : start + ((((t - start) % (end - start)) + (end - start)) % (end - start));
   }
 
-  // Tells whether it began anew.
-  /** @param {number} now in ms @param {number} unitsPerMs how much of the trajectory passes in one of the wall clock */
+  // Tells whether the motion started again.
+  /** @param {number} now in ms @param {number} unitsPerMs units of the trajectory in one ms of the wall clock */
   advance(now, unitsPerMs) {
     if (this.held) return false;
     const step = this.before === undefined ? 0 : Math.min(now - this.before, LONGEST_STEP_MS);
@@ -54,7 +54,7 @@ export class Player {
     return this.t < t;
   }
 
-  // The time of another player. Tells whether that began anew.
+  // Takes the time of another player. Tells whether that one started again.
   /** @param {number} t */
   follow(t) {
     const before = this.t;
@@ -72,7 +72,7 @@ export class Player {
     this.changed();
   }
 
-  // A frame by its number; a playing top pauses there.
+  // Goes to a frame by its number, and pauses there.
   /** @param {number} index */
   show(index) {
     if (!this.frames.count) return;
@@ -87,7 +87,7 @@ export class Player {
     if (count) this.show((this.frames.nearest(this.t) + by + count) % count);
   }
 
-  // A time from outside; a playing top goes on from there, once no hand holds the time any more.
+  // Goes to a time; a playing top continues from there once no pointer holds the time any more.
   /** @param {number} t */
   seek(t, held = false) {
     if (!held && this.held) this.before = undefined;

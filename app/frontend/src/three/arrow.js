@@ -1,4 +1,4 @@
-// An arrow that stays in sight inside the body: where something hides it, it shows through, paler.
+// An arrow that stays visible inside the body: where something hides it, it is drawn paler.
 import * as THREE from "three";
 
 const up = new THREE.Vector3(0, 0, 1);
@@ -11,7 +11,7 @@ export class Arrow extends THREE.Group {
     this.radius = radius;
     const shaft = new THREE.CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5);
     const head = new THREE.ConeGeometry(1, 1, 20).rotateX(Math.PI / 2).translate(0, 0, 0.5);
-    // Both passes count as transparent, so that they come after the table and the body and in this order.
+    // Both passes count as transparent, so that they are drawn after the table and the body, and in this order.
     /** @type {[THREE.MeshBasicMaterial, THREE.MeshLambertMaterial]} */
     this.passes = [
       new THREE.MeshBasicMaterial({
@@ -32,11 +32,11 @@ export class Arrow extends THREE.Group {
 
   set colour(colour) {
     for (const material of this.passes) material.color.set(colour);
-    // A little light of its own keeps the colour the legend's on the shaded side.
+    // Emits a little light, so that even its shaded side has the colour of the legend.
     this.passes[1].emissive.set(colour).multiplyScalar(0.45);
   }
 
-  // From origin along (x, y, z), in the scene's units; tip receives where it ends.
+  // From origin along (x, y, z), in units of the scene; tip is set to its end.
   /** @param {THREE.Vector3} origin @param {number} x @param {number} y @param {number} z @param {THREE.Vector3} tip */
   point(origin, x, y, z, tip) {
     direction.set(x, y, z);

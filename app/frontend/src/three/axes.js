@@ -1,10 +1,10 @@
-// The box round a surface: floor and back walls with a grid, ticks and names on the edges nearest to the eye.
+// The box around a surface: floor and back walls with a grid, and ticks and names on the edges nearest to the camera.
 import * as THREE from "three";
 import { local } from "../data.js";
 /** @import { Labels } from "./labels.js" */
 /** @import { Stage } from "./stage.js" */
 
-// About `wanted` round numbers from low to high.
+// About `wanted` round numbers between low and high.
 /** @param {number} low @param {number} high @param {number} wanted */
 function roundTicks(low, high, wanted) {
   const raw = (high - low) / wanted, decade = 10 ** Math.floor(Math.log10(raw));
@@ -14,7 +14,7 @@ function roundTicks(low, high, wanted) {
   return { step, ticks };
 }
 
-// One quantity on a side of the box: from values to places and back. to > from always.
+// One quantity along an edge of the box: converts values to positions and back. Requires to > from.
 export class Scale {
   low = NaN;
   high = NaN;
@@ -38,7 +38,7 @@ export class Scale {
     return true;
   }
 
-  // From 0 to a round number just above: it jumps seldom while a slider is dragged.
+  // From 0 to a round number just above: it seldom jumps while a slider is dragged.
   setAbove(most) {
     const { step } = roundTicks(0, most || 1, this.wanted);
     return this.set(0, step * Math.ceil((most || 1) / step - 1e-6));
@@ -77,7 +77,7 @@ export class Axes {
     this.place(true);
   }
 
-  // Puts the walls behind and the numbers in front, as seen now.
+  // Puts the walls behind and the numbers in front, for the present camera.
   place(force = false) {
     const { camera, controls } = this.stage;
     const eye = camera.position.clone().sub(controls.target);
@@ -112,7 +112,7 @@ export class Axes {
     }
     line(EDGE, x.from, nearY, 0, x.to, nearY, 0);
     line(EDGE, nearX, y.from, 0, nearX, y.to, 0);
-    // Of the two upright edges at the sides of the picture the left one carries the numbers.
+    // Of the two vertical edges at the sides of the picture, the left one has the numbers.
     const right = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion);
     /** @type {[x: number, y: number]} */
     const upright = right.x * nearX + right.y * farY < right.x * farX + right.y * nearY ? [nearX, farY] : [farX, nearY];
@@ -134,7 +134,7 @@ export class Axes {
     const scale = this.scales[axis], pool = this.ticks[axis];
     while (pool.length < scale.ticks.length) pool.push(this.labels.add("", "tick"));
     pool.forEach((label, i) => {
-      label.visible = i < scale.ticks.length && !(axis === "z" && i === 0); // its 0 would stand on another's number
+      label.visible = i < scale.ticks.length && !(axis === "z" && i === 0); // its 0 would overlap another axis's number
       if (!label.visible) return;
       label.element.textContent = scale.text(scale.ticks[i]);
       label.at.set(...where(scale.at(scale.ticks[i])));

@@ -1,13 +1,14 @@
-// The top: its outline turned round axis 3, painted so that every turn shows.
+// The top: its outline rotated about axis 3, painted so that its spin is visible.
 import * as THREE from "three";
 import { colours } from "../colours.js";
 import { penOf } from "../data.js";
 
 const AROUND = 56;
-const PAINT = "#8f2313"; // of no quantity
+const PAINT = "#8f2313"; // belongs to no quantity
 const CORNER = 0.35; // rad: a sharper bend than this is an edge of the wood, not a curve
 
-// Rows of (radius, height, normal r, normal z, share of the outline's length); a corner has two, one for each side.
+// Rows of (radius, height, normal r, normal z, fraction of the outline's length); a corner has two rows, one for each
+// side.
 /** @param {Float32Array} profile */
 function outline(profile) {
   const n = profile.length >> 1;
@@ -69,7 +70,7 @@ function revolve(rows) {
   return geometry;
 }
 
-// A small generator with a fixed start: the same wood every time.
+// A small random number generator with a fixed seed: the wood always looks the same.
 function grainSource(seed) {
   return () => {
     seed = (seed * 1664525 + 1013904223) >>> 0;
@@ -77,14 +78,15 @@ function grainSource(seed) {
   };
 }
 
-// Across: once round axis 3. Up: along the outline; firstCorner is where the sphere ends and the stem's side begins.
+// Across: once around axis 3. Up: along the outline; firstCorner is where the sphere ends and the side of the stem
+// begins.
 function paint(firstCorner) {
   const canvas = document.createElement("canvas");
   const width = (canvas.width = 1024), height = (canvas.height = 512);
   const pen = penOf(canvas);
   const random = grainSource(7);
-  const edge = height * (1 - firstCorner); // y of the sphere's rim, y grows downwards
-  const level = (share) => height - share * (height - edge); // share of the sphere's outline, from its bottom
+  const edge = height * (1 - firstCorner); // y of the rim of the sphere; y grows downwards
+  const level = (share) => height - share * (height - edge); // fraction of the sphere's outline, from its bottom
 
   pen.fillStyle = colours.wood;
   pen.fillRect(0, 0, width, height);
@@ -95,7 +97,7 @@ function paint(firstCorner) {
     pen.fillRect(x, 0, 0.8 + 4 * random(), height);
   }
   pen.fillStyle = "rgba(96, 52, 20, 0.55)";
-  pen.fillRect(0, 0, width, edge); // the cut and the stem are of a darker wood
+  pen.fillRect(0, 0, width, edge); // the cut and the stem are darker wood
 
   const band = (from, to, style) => {
     pen.fillStyle = style;
@@ -111,7 +113,7 @@ function paint(firstCorner) {
   band(0.7, 0.715, "#5a3312");
   band(0.73, 0.79, PAINT);
   band(0.805, 0.82, "#5a3312");
-  // One round spot opposite, drawn wide where the parallels are short.
+  // A round spot opposite, drawn wider where the circles of latitude are short.
   pen.fillStyle = "#f7f3ea";
   pen.beginPath();
   pen.ellipse(0.625 * width, level(0.5), 0.033 * width, 0.075 * (height - edge), 0, 0, 2 * Math.PI);

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { colours } from "../colours.js";
 import { WideLine } from "./lines.js";
 
-// Of height 1 and radius 1, standing on its tip: scaled to the cone of the moment.
+// Height 1 and radius 1, standing on its tip; scaled to the cone of the moment.
 export function frictionCone() {
   const group = new THREE.Group();
   const see = { color: colours.friction, transparent: true, depthTest: false, depthWrite: false };

@@ -1,18 +1,18 @@
-// Whence a top is seen: the camera moves along with it, keeping the direction and the distance that a person chose.
+// The camera of a top: it follows the top, and keeps the direction and the distance that a person chose.
 import * as THREE from "three";
 /** @import { Stage } from "./stage.js" */
 
-const FOLLOW_MS = 160; // it follows the top's drift, not each of its small turns
+const FOLLOW_MS = 160; // it follows the top's path, but not each of its small loops
 const FIRST_VIEW = [-1.12, 0.3, 1];
-const MIDDLE = 1.25; // R above the table, what is looked at of a body that reaches USUAL
+const MIDDLE = 1.25; // R above the table: the point that the camera looks at for a body of reach USUAL
 const USUAL = 2, FARTHEST = 22; // R
 
 export class Eye {
   /**
    * @param {Stage} stage
    * @param {TopModel} model
-   * @param {THREE.Vector3} stands where the sphere's centre is
-   * @param {() => number} reach how far the body reaches from there
+   * @param {THREE.Vector3} stands the centre of the sphere
+   * @param {() => number} reach how far the body extends from there
    */
   constructor(stage, model, stands, reach) {
     const { camera, controls } = stage;
@@ -22,7 +22,7 @@ export class Eye {
     this.stands = stands;
     this.reach = reach;
     this.seen = new THREE.Vector3(); // the point that the camera looks at
-    this.jumps = true; // at once to where the top is now
+    this.jumps = true; // go to the top at once
   }
 
   /** @returns {[x: number, y: number, z: number]} */
@@ -55,7 +55,7 @@ export class Eye {
     return this.reach() / Math.sin(half);
   }
 
-  // As Python has it, else from the side.
+  // As Python asks for, otherwise from the side.
   begin() {
     const { seen, camera, controls, model, stands } = this;
     seen.set(stands.x, stands.y, 0);
@@ -71,7 +71,7 @@ export class Eye {
     controls.update();
   }
 
-  // What is looked at is higher in a larger body, and may be farther away.
+  // For a larger body, the camera looks at a higher point, and may be farther away.
   fitBody() {
     const { seen, camera, controls } = this, size = Math.max(1, this.reach() / USUAL), up = MIDDLE * size - seen.z;
     seen.z += up;
@@ -83,14 +83,14 @@ export class Eye {
     camera.lookAt(seen);
   }
 
-  // A person has turned or zoomed, or only clicked: as seen from what the camera looks at.
+  // A person has turned or zoomed, or only clicked: stores the view relative to the point that the camera looks at.
   tell() {
     const { model } = this, { x, y, z } = this.camera.position.clone().sub(this.seen), far = Math.hypot(x, y, z);
     const view = [Math.atan2(y, x), Math.asin(z / far), far / this.distance()].map((value) => Number(value.toFixed(3)));
     if (String(view) !== String(model.camera.length ? model.camera : FIRST_VIEW)) model.camera = view;
   }
 
-  // A new shape of the window. A person's own zoom is kept: only what the shape takes away is given back.
+  // The window has a new shape. A person's zoom is kept: only what the shape takes away is given back.
   /** @param {number} aspect */
   fit(aspect) {
     if (this.aspect === undefined) this.begin();

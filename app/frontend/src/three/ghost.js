@@ -1,4 +1,4 @@
-// The run before, pale, at the same moment: it has no shadow, and hides nothing.
+// The earlier run at the same moment, pale: it has no shadow, and hides nothing.
 import { float32 } from "../data.js";
 import { centreOf, emptyPose, Frames } from "../motion/frames.js";
 import { Body } from "./body.js";
@@ -33,7 +33,7 @@ export class Ghost {
     this.stage.invalidate();
   }
 
-  // At a time of the top, in its units, of which one takes so many seconds; before its start and after its end as there.
+  // Shows it at a time in units of the top; one unit is `seconds` long. Constant before its start and after its end.
   /** @param {number} t @param {number} seconds */
   follow(t, seconds) {
     if (!this.body.visible) return;

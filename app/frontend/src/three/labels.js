@@ -1,4 +1,4 @@
-// Text that stands at a point in space: HTML over the canvas, so it stays sharp at any zoom.
+// Text at a point in space: HTML over the canvas, so that it is sharp at any zoom.
 import { Vector3 } from "three";
 /** @import { Stage } from "./stage.js" */
 
@@ -21,7 +21,7 @@ export class Labels {
     element.className = className;
     element.setAttribute("aria-hidden", "true");
     element.innerHTML = html;
-    element.style.display = "none"; // until it is placed
+    element.style.display = "none"; // until it has a position
     this.layer.append(element);
     /** @type {Label} */
     const label = { element, at: new Vector3(), shift: [0, 0], visible: true };

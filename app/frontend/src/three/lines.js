@@ -1,4 +1,4 @@
-// Lines several pixels wide whose points may change: the buffers grow when they must and are kept otherwise.
+// Lines several pixels wide whose points can change: the buffers grow when they must, and are reused otherwise.
 import { InstancedInterleavedBuffer, InterleavedBufferAttribute } from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
@@ -18,7 +18,7 @@ export class WideLine extends LineSegments2 {
   reserve(segments) {
     if (this.buffer.count >= segments) return;
     const { geometry: old } = this;
-    this.geometry = new LineSegmentsGeometry(); // a buffer's size is fixed once it has been drawn
+    this.geometry = new LineSegmentsGeometry(); // a buffer cannot be resized once it has been drawn
     this.buffer = new InstancedInterleavedBuffer(new Float32Array(6 * segments), 6, 1);
     this.geometry.setAttribute("instanceStart", new InterleavedBufferAttribute(this.buffer, 3, 0));
     this.geometry.setAttribute("instanceEnd", new InterleavedBufferAttribute(this.buffer, 3, 3));
@@ -30,7 +30,7 @@ export class WideLine extends LineSegments2 {
     this.visible = count > 0;
   }
 
-  // n points joined one to the next; point(i, put) calls put(x, y, z).
+  // A polyline through n points; point(i, put) calls put(x, y, z).
   /** @param {number} n @param {Points} point */
   setPath(n, point) {
     this.setSegments(Math.max(n - 1, 0), (i, put) => {

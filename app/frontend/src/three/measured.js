@@ -1,4 +1,5 @@
-// Where a film saw the top's axis, as a dashed line through the middle of the ball: rows t, x, y, z, in the top's own time.
+// The axis of the top as seen on a film: a dashed line through the centre of the ball. Rows t, x, y, z, in units of the
+// top's time.
 import { float32 } from "../data.js";
 import { followLook } from "./scene.js";
 import { WideLine } from "./lines.js";
@@ -7,9 +8,9 @@ import { WideLine } from "./lines.js";
 /** @import { Body } from "./body.js" */
 
 const WIDTH = 4;
-const REACH = 1.7; // of the line from the middle, either way, in R
-const DASHES = 17, DASH = 0.6; // of the line, and what part of each is drawn
-const GAP = 4; // of the usual time between two rows: in a longer one nothing was measured
+const REACH = 1.7; // R: length of the line from the centre, in both directions
+const DASHES = 17, DASH = 0.6; // of the line, and which fraction of each is drawn
+const GAP = 4; // in units of the usual time between two rows: in a longer gap nothing was measured
 
 /** @param {Float32Array} rows @param {number} t @returns {Spot | null} the row before t, and what share of the way to the
  * next; null where nothing was measured */

@@ -1,4 +1,4 @@
-// A still of a stage for print: the picture drawn anew, so many pixels wide, with the labels that stand over it as HTML.
+// A still picture of a stage for print: drawn again with the given width in px, and with its HTML labels.
 import { penOf } from "../data.js";
 /** @import { Labels } from "./labels.js" */
 /** @import { Stage } from "./stage.js" */

@@ -1,4 +1,4 @@
-// A path painted on the table: a flat strip, whose points may change and whose first part can be drawn alone.
+// A path painted on the table: a flat strip whose points can change, and of which a first part can be drawn.
 import * as THREE from "three";
 
 /** @extends {THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>} */
@@ -17,13 +17,13 @@ export class Ribbon extends THREE.Mesh {
     const index = [];
     for (let i = 0; i + 1 < points; i++) index.push(2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 1, 2 * i + 3, 2 * i + 2);
     const { geometry: old } = this;
-    this.geometry = new THREE.BufferGeometry(); // a buffer's size is fixed once it has been drawn
+    this.geometry = new THREE.BufferGeometry(); // a buffer cannot be resized once it has been drawn
     this.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6 * points), 3));
     this.geometry.setIndex(index);
     old.dispose();
   }
 
-  // (x, y) pairs; all at one height.
+  // (x, y) pairs, all at one height.
   /** @param {number} n @param {(i: number) => [x: number, y: number]} xy @param {number} height */
   setPath(n, xy, height) {
     this.reserve(n);

@@ -1,5 +1,5 @@
-// The colours of the pictures in 3-D: those of things in space, on a light page and on a dark one. Their words take theirs
-// from variables of CSS, which look.js sets.
+// The colours of the 3-D pictures: those of objects, on a light page and on a dark one. Text takes its colours from CSS
+// variables, which look.js sets.
 import { onDark, onLight } from "../colours.js";
 
 export const scenes = {
@@ -21,7 +21,7 @@ export const words = {
 
 const now = () => scenes[document.documentElement.dataset.look?.startsWith("dark") ? "dark" : "light"];
 
-// dress(scene) runs now and with each new look, until what it returns is called.
+// dress(scene) runs now and whenever the look changes, until the returned function is called.
 /** @param {(look: typeof scenes.light) => void} dress */
 export function followLook(dress) {
   const again = () => dress(now());
@@ -30,7 +30,7 @@ export function followLook(dress) {
   return () => window.removeEventListener("tippe:look", again);
 }
 
-// What the graphics card holds of a scene.
+// What a scene keeps on the graphics card.
 /** @param {import("three").Scene} scene */
 export function letGo(scene) {
   scene.traverse((/** @type {any} */ object) => {

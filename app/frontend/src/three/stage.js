@@ -1,32 +1,32 @@
-// A canvas with a camera that a person can turn: builds, resizes, draws when asked, and lets go of everything.
+// A canvas with a camera that a person can turn: builds, resizes, draws on demand, and disposes of everything.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { bufferOf, likeAScreen } from "../borrowed.js";
 import { isHandOn } from "./hand.js";
 import { letGo } from "./scene.js";
 
-// Where WebGL is drawn by the processor, moving pictures get coarser until they come quickly enough; a picture at rest is
+// Where WebGL is drawn by the processor, moving pictures get coarser until they are fast enough; a picture at rest is
 // always drawn fine.
-const SLOW_MS = 24; // a picture that takes longer than this to come out
+const SLOW_MS = 24; // a picture that takes longer than this to be drawn
 export const REST = 1.2; // is followed by the next one after this many times as long
 export const pace = { rest: REST };
 const COARSER_MS = 34;
 const FINER_MS = 14;
 const STEP = 0.8;
 const COARSEST = 0.6;
-const MOST_TRIES = 4; // to go back to finer ones, then it stays as it is
+const MOST_TRIES = 4; // to return to finer pictures; then it stays as it is
 const MAX_PIXEL_RATIO = 2;
 const SAMPLES = 4;
 const POLL_MS = 8;
 const KEY_TURN = 0.1; // rad
 const KEY_ZOOM = 1.1;
 
-// There, what a person moves on the page comes first: while a hand is on a control, pictures in 3-D are drawn only of what
-// is new, and without what takes long: fine pixels, a new shadow, long wide lines.
+// There, controls have priority: while one is in use, a 3-D picture is drawn only if it has changed, and without what
+// takes long: fine pixels, a new shadow, long wide lines.
 const HAND_COARSE = 0.5;
 const LONG_LINE = 300; // segments
-let inWork = 0; // pictures that were begun and are not on the screen
-let slow = false; // whether the processor draws, as any stage measured
+let inWork = 0; // pictures that have been started and are not on the screen yet
+let slow = false; // whether the processor draws, as measured by any stage
 
 export class Stage {
   /**
@@ -38,29 +38,29 @@ export class Stage {
    */
   constructor(holder, { label, texts, fov }) {
     this.holder = holder;
-    // What a picture puts here. tick runs before each drawn frame and says whether another one is to follow; held while a
-    // hand is on a control and the picture is to stand still.
+    // Set by the picture. tick runs before each frame and tells whether another one must follow; held while a control
+    // is in use and the picture must not move.
     /** @type {(now: number, held: boolean) => boolean} */
     this.tick = () => false;
     /** @type {(aspect: number) => void} */
-    this.fit = () => {}; // after a new size
-    this.shown = () => {}; // a picture came out
-    this.turned = () => {}; // a person turned it or zoomed
+    this.fit = () => {}; // called after resizing
+    this.shown = () => {}; // called when a picture is on the screen
+    this.turned = () => {}; // called when a person has turned or zoomed
     this.beforeDraw = () => {};
     this.inView = true;
     this.width = this.height = 0; // px; not known yet
-    this.cost = 0; // ms until a drawn picture is out, a running mean
+    this.cost = 0; // ms to draw a picture, a running mean
     this.coarse = 1;
     this.tries = 0;
-    this.pictures = 0; // that came out
+    this.pictures = 0; // number of pictures that have been shown
     this.request = this.timer = 0;
     this.drawnAt = 0;
     /** @type {WebGLSync | null} */
-    this.fence = null; // of a picture that was begun
+    this.fence = null; // of a picture that has been started
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(fov, 1, 0.1, 150);
-    this.camera.up.set(0, 0, 1); // physics: z is up
-    // Smooth edges are the target's: what is drawn straight into a canvas holds up the whole page until it is done.
+    this.camera.up.set(0, 0, 1); // as in physics: z points up
+    // The render target has the antialiasing: drawing directly to a canvas blocks the whole page until it is done.
     this.renderer = new THREE.WebGLRenderer({ antialias: false, powerPreference: "low-power" });
     this.target = new THREE.WebGLRenderTarget(1, 1, {
       samples: SAMPLES, colorSpace: THREE.SRGBColorSpace, internalFormat: "RGBA8",
@@ -87,13 +87,13 @@ export class Stage {
     this.seeing.observe(holder);
   }
 
-  /** @param {HTMLCanvasElement} canvas @param {string} lost what is said where the browser takes the picture away */
+  /** @param {HTMLCanvasElement} canvas @param {string} lost message for when the browser takes the picture away */
   listen(canvas, lost) {
     const { holder } = this;
-    canvas.style.touchAction = "pan-y"; // a finger moving up or down scrolls the page, as it does everywhere else
+    canvas.style.touchAction = "pan-y"; // a finger that moves up or down scrolls the page, as everywhere else
     this.controls.addEventListener("change", () => this.invalidate());
     this.controls.addEventListener("end", () => this.turned());
-    // The wheel scrolls the page; with Ctrl, as two fingers of a touch pad send it, it is for the picture.
+    // The wheel scrolls the page; with Ctrl, which touch pads send for a pinch, it zooms the picture.
     holder.addEventListener("wheel", (event) => event.ctrlKey || event.stopPropagation(), { capture: true, passive: true });
 
     canvas.addEventListener("keydown", (event) => this.key(event));
@@ -111,7 +111,7 @@ export class Stage {
     });
   }
 
-  // Shift and an arrow turn the picture, + and - zoom: what a drag and the wheel do.
+  // Shift and an arrow turn the picture, + and - zoom: the same as dragging and the wheel.
   /** @param {KeyboardEvent} event */
   key(event) {
     const { camera, controls } = this, { x, y, z } = camera.position.clone().sub(controls.target);
@@ -124,7 +124,7 @@ export class Stage {
     const azimuth = Math.atan2(y, x) + KEY_TURN * across, from = Math.acos(z / Math.hypot(x, y, z)) + KEY_TURN * down;
     const polar = Math.min(Math.max(from, 0.05), controls.maxPolarAngle), s = far * Math.sin(polar);
     camera.position.set(s * Math.cos(azimuth), s * Math.sin(azimuth), far * Math.cos(polar)).add(controls.target);
-    controls.update(); // within its limits
+    controls.update(); // keeps within its limits
     this.invalidate();
     this.turned();
   }
@@ -150,7 +150,7 @@ export class Stage {
     this.fit(this.camera.aspect);
     this.camera.updateProjectionMatrix();
     if (!this.pictures) return this.invalidate();
-    this.draw(); // now, not at the next frame: a new size empties the canvas
+    this.draw(); // now rather than in the next frame: resizing empties the canvas
     this.present();
   }
 
@@ -163,7 +163,7 @@ export class Stage {
     if (!this.disposed) this.request ||= requestAnimationFrame(this.frame);
   }
 
-  // Waits beside the frames of the screen: asking in each of them has the page go through its painting for nothing.
+  // Waits outside the screen's frames: asking in each of them would make the page repaint for nothing.
   soon() {
     if (this.disposed) return;
     this.timer ||= setTimeout(() => {
@@ -176,7 +176,7 @@ export class Stage {
   /** @param {number} now in ms */
   isHeld = (now) => slow && isHandOn(now);
 
-  // The first picture's shaders are made beside the page: one that has to be there at once holds up everything.
+  // The shaders of the first picture are compiled in the background: compiling on demand blocks everything.
   isPrepared() {
     if (this.prepared) return true;
     const { renderer, scene, camera, target } = this;
@@ -193,7 +193,7 @@ export class Stage {
   isReady(now) {
     if (this.width && !this.isPrepared()) return false;
     if (this.fence) return this.isDrawn();
-    if (this.isHeld(now)) return this.asked; // once more, and fine, when the hand lets go
+    if (this.isHeld(now)) return this.asked; // draws once more, and fine, when the control is released
     if (inWork) return false;
     const early = this.moving && this.cost > SLOW_MS && now - this.drawnAt < pace.rest * this.cost;
     return !early && (this.asked || this.moving || (this.simple && this.inView));
@@ -207,7 +207,8 @@ export class Stage {
     if (this.fence) {
       this.learn(performance.now() - this.drawnAt);
       this.present();
-      // The next picture begins in a later frame: what goes on the screen waits for all that was begun before it.
+      // The next picture starts in a later frame: what is shown on the screen waits for everything that was started
+      // before it.
       return this.soon();
     }
     if (!this.holder.isConnected) return;
@@ -223,7 +224,7 @@ export class Stage {
     this.soon();
   };
 
-  // From what a picture took: whether this machine is slow, and how coarse moving ones are to be.
+  // From the time of a picture: whether this machine is slow, and how coarse moving pictures must be.
   /** @param {number} took ms */
   learn(took) {
     if (this.simple || this.pictures < 3) return; // the first ones wait for their shaders
@@ -236,13 +237,13 @@ export class Stage {
 
   setCoarse(share) {
     this.coarse = share;
-    this.cost = (COARSER_MS + FINER_MS) / 2; // unknown again
+    this.cost = (COARSER_MS + FINER_MS) / 2; // not known yet
   }
 
   setSamples(samples) {
     if (samples === this.target.samples) return;
     this.target.samples = samples;
-    this.target.dispose(); // three makes it anew
+    this.target.dispose(); // three.js creates it again
   }
 
   setSimple(simple) {
@@ -254,7 +255,7 @@ export class Stage {
     });
   }
 
-  // Begins a picture, which the graphics process then draws while the page goes on; present() puts it on the screen.
+  // Starts a picture, which the graphics process draws while the page goes on; present() puts it on the screen.
   draw() {
     if (this.disposed || this.lost || !this.width) return;
     const { renderer, target, gl } = this;
@@ -271,7 +272,7 @@ export class Stage {
     this.drawnAt = performance.now();
   }
 
-  // three has no other any more
+  // it is the last one that three.js has
   get gl() { return /** @type {WebGL2RenderingContext} */ (this.renderer.getContext()); }
 
   forget() {
@@ -292,16 +293,16 @@ export class Stage {
     this.forget();
     if (canvas.width !== width) canvas.width = width;
     if (canvas.height !== height) canvas.height = height;
-    // Beside three's own record of what is bound, so it is left as it was: nothing.
+    // three.js does not know of this binding, so it is reset: nothing is bound.
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, bufferOf(renderer, this.target));
     gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
     this.pictures += 1;
-    this.holder.dataset.drawn = ""; // before, no label has anything to stand on
+    this.holder.dataset.drawn = ""; // only now do labels have something to stand on
     this.shown();
   }
 
-  // The picture of this moment, fine and so many pixels wide, in a canvas that the next picture will overwrite.
+  // The present picture, fine and with the given width in px, on a canvas that the next picture overwrites.
   /** @param {number} wide */
   still(wide) {
     this.forget();
@@ -330,7 +331,7 @@ export class Stage {
   }
 }
 
-// A browser without WebGL gets a sentence instead of a picture.
+// A browser without WebGL shows a sentence instead of a picture.
 /** @param {HTMLElement} holder @param {ConstructorParameters<typeof Stage>[1]} options */
 export function tryStage(holder, options) {
   try {

@@ -1,4 +1,4 @@
-// Fig. 5: f1^2 theta_dot^2 over the (K_J, theta) plane, one row a tieline. Drawn only when something changed.
+// Fig. 5: f1^2 theta_dot^2 over the (K_J, theta) plane, one row for each tieline. Redrawn only when something changes.
 import * as THREE from "three";
 import { Axes, Scale } from "./axes.js";
 import { colours } from "../colours.js";
@@ -23,8 +23,8 @@ const LIMITS = {
     colour: colours.friction, text: "<i>F</i><sub>h</sub> = <i>μ</i><sub>s</sub><i>F</i><sub>z</sub>", why: "above_slip",
   },
 };
-const WIDEST = 1.55; // the first distance is right for this shape and all wider ones
-const CENTRE = new THREE.Vector3(0.05, 0, 0.4); // what the camera looks at
+const WIDEST = 1.55; // the initial distance suits this aspect ratio and all wider ones
+const CENTRE = new THREE.Vector3(0.05, 0, 0.4); // the point that the camera looks at
 
 function addLight(scene) {
   const lamp = new THREE.DirectionalLight(0xffffff, 1.3);
@@ -39,13 +39,13 @@ export class Surface {
     this.model = model;
     this.stage = stage;
     this.picture = picture;
-    // theta, K_J and the height on the sides of the box
+    // theta, K_J and the height along the edges of the box
     this.scales = { x: new Scale(-1.2, 1.2), y: new Scale(-1, 1), z: new Scale(0, 1.15) };
     this.background = scene.background = new THREE.Color();
     addLight(scene);
     this.labels = new Labels(stage);
     this.axes = new Axes(stage, this.labels, this.scales, NAMES);
-    // Tielines may go past theta_max, as in the paper's own figure: there they are cut off.
+    // Tielines may extend beyond theta_max, as in the paper's own figure: there they are cut off.
     renderer.localClippingEnabled = true;
     const clippingPlanes = [new THREE.Plane(new THREE.Vector3(-1, 0, 0), this.scales.x.to + 1e-4)];
     this.mesh = new SurfaceMesh(this.scales, clippingPlanes);
@@ -58,11 +58,11 @@ export class Surface {
     this.key = document.createElement("div");
     this.key.className = "key";
     picture.append(this.readout);
-    picture.after(this.key); // below it: over it it would hide what stands at an axis
+    picture.after(this.key); // below the picture: on it, it would hide the numbers of an axis
     this.grid = new Grid({ K_J: float32(), theta: float32(), height: float32(), energy: float32() });
-    this.selected = { K_J: NaN, inner: 0, outer: 0 }; // the motion on display
-    this.wrong = ""; // what of it cannot be
-    this.drawing = this.shown = NaN; // its K_J in the picture begun, and on the screen
+    this.selected = { K_J: NaN, inner: 0, outer: 0 }; // the selected motion
+    this.wrong = ""; // why the selected motion is impossible
+    this.drawing = this.shown = NaN; // its K_J in the picture being drawn, and in the one on the screen
     this.hand = new SurfaceHand(this);
     this.unfollow = followLook((look) => this.dress(look));
     stage.tick = () => {
@@ -107,7 +107,7 @@ export class Surface {
     this.stage.invalidate();
   }
 
-  // What a hand moves is one motion among the many.
+  // Dragging changes the selected motion only.
   updateSelected() {
     this.showSelected();
     this.stage.invalidate();
@@ -121,7 +121,7 @@ export class Surface {
     this.lines.showSelected(this.selected, float32(this.model.selected_curve), worst);
   }
 
-  // Reading values off. i: of a point of the mesh
+  // Shows values. i: index of a point of the mesh
   /** @param {number} i @param {PointerEvent} event */
   readValue(i, event) {
     const { grid: { theta, K_J, height, energy, columns }, marker } = this, row = Math.floor(i / columns);
@@ -185,7 +185,7 @@ export class Surface {
 
   begin() {
     const { model, stage, hand } = this;
-    const onData = coalesce(() => this.update()); // a new scene sets many parameters: one picture
+    const onData = coalesce(() => this.update()); // a new scene sets many parameters, but is drawn once
     const onSelected = coalesce(() => this.updateSelected());
     for (const name of DATA) model.on(name, onData);
     for (const name of ["selected", "selected_curve"]) model.on(name, onSelected);
@@ -202,7 +202,7 @@ export class Surface {
   }
 }
 
-// What is drawn, for tests.
+// A report of what is drawn, for tests.
 /** @param {Surface} surface */
 function reportOf(surface) {
   return {
@@ -213,7 +213,7 @@ function reportOf(surface) {
     get height() { return Array.from(surface.grid.height); },
     get pictures() { return surface.stage.pictures; },
     get selected() { return surface.shown; },
-    // where on the page the ends of the motion on display can be taken
+    // where on the page the ends of the selected motion can be grabbed
     get grips() { return [surface.selected.inner, surface.selected.outer].map((end) => surface.hand.onPage(end)); },
     get readout() { return surface.isRead ? surface.readout.textContent : ""; },
   };
@@ -221,7 +221,7 @@ function reportOf(surface) {
 
 /** @param {Rendering<SurfaceModel>} rendering */
 export function renderSurface3D({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
+  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const { picture } = frameIn(el), { texts } = model;
   picture.dataset.picture = "surface";
   const stage = tryStage(picture, { label: texts.label, texts, fov: 26 });

@@ -1,12 +1,12 @@
-// A mouse or a finger on Fig. 5: it reads values off the surface, picks motions, and pulls the tieline on display.
+// Mouse and touch on Fig. 5: reads values off the surface, selects motions, and drags the selected tieline.
 import * as THREE from "three";
 import { coalesce } from "../data.js";
 /** @import { Surface } from "./surface3d.js" */
 
-const CLICK_PX = 4; // a press that moves less than this is a click, not a turn
+const CLICK_PX = 4; // px: a press that moves less than this is a click, not a rotation
 const GRIP_PX = 14;
 
-// What of a tieline a hand takes hold of. a, b: its ends from the hand, in px.
+// Which part of a tieline the pointer grabs. a, b: its ends relative to the pointer, in px.
 /** @param {number[]} a @param {number[]} b @returns {"end" | "line" | null} */
 export function gripBetween(a, b) {
   if (Math.min(Math.hypot(...a), Math.hypot(...b)) < GRIP_PX) return "end";
@@ -37,9 +37,9 @@ export class SurfaceHand {
 
   listen() {
     const { picture, canvas } = this;
-    // Before the camera's own listener, so that what is pulled is not turned as well.
+    // Runs before the camera's own listener, so that dragging a tieline does not also turn the camera.
     picture.addEventListener("pointerdown", (event) => this.take(event), { capture: true });
-    // A finger that pulls does not scroll the page.
+    // A finger that drags the tieline does not scroll the page.
     const keep = (/** @type {TouchEvent} */ event) =>
       event.touches.length === 1 && this.gripUnder(event.touches[0]) && event.preventDefault();
     picture.addEventListener("touchstart", keep, { passive: false });
@@ -64,7 +64,7 @@ export class SurfaceHand {
   move(event) {
     this.last = event;
     if (this.gripped) return this.pull();
-    if (event.buttons) return this.leave(); // turning, not reading
+    if (event.buttons) return this.leave(); // rotating, not reading
     this.canvas.style.cursor = this.gripUnder(event) ? "move" : "";
     this.hover();
   }
@@ -84,7 +84,7 @@ export class SurfaceHand {
     if (place) model.hand = ["point", ...place];
     else if (i !== null) model.picked = [grid.K_J[Math.floor(i / grid.columns)], grid.theta[i]];
     this.last = event;
-    this.hover(); // a finger does not hover: its tap reads the value too
+    this.hover(); // a finger cannot hover, so a tap reads the value too
   }
 
   leave() {
@@ -92,7 +92,7 @@ export class SurfaceHand {
     this.surface.readNothing();
   }
 
-  // New numbers under a resting mouse
+  // New values under a mouse that rests.
   refresh() {
     if (this.surface.isRead && this.last && !this.gripped) this.hover();
   }
@@ -102,7 +102,7 @@ export class SurfaceHand {
     this.pull.cancel();
   }
 
-  // The value of the surface there; beyond the ends of the tielines the floor says why there is no surface over it.
+  // Shows the values of the surface under the pointer; beyond the ends of the tielines, why there is no surface.
   read() {
     const { surface, last } = this;
     if (!last) return;
@@ -113,7 +113,7 @@ export class SurfaceHand {
     else this.leave();
   }
 
-  // The motion that the hand wishes.
+  // Requests the motion at the pointer.
   ask() {
     const { gripped, surface: { model, scales: { y } }, last } = this, place = gripped && last && this.onFloor(last, true);
     if (!gripped || !place) return;
@@ -121,7 +121,7 @@ export class SurfaceHand {
     this.say();
   }
 
-  // While the hand pulls: the sentence of the motion it pulled at, if it cannot be.
+  // While dragging: says why the requested motion is impossible, if it is.
   say() {
     if (this.gripped && this.last) this.surface.readWrong(this.last);
   }
@@ -133,14 +133,14 @@ export class SurfaceHand {
     this.ray.setFromCamera(this.pointer, this.surface.stage.camera);
   }
 
-  // The number of the nearest point of the mesh under the pointer, or null.
+  // The index of the mesh point closest to the pointer, or null.
   /** @param {PointerEvent} event */
   under(event) {
     this.aim(event);
     return this.surface.grid.rows > 1 ? this.surface.mesh.nearest(this.ray) : null;
   }
 
-  // The floor under the pointer: [theta, K_J], or null outside the box.
+  // The place on the floor under the pointer: [theta, K_J], or null outside the box.
   /** @param {PointerEvent} event @returns {[theta: number, K_J: number] | null} */
   onFloor(event, anywhere = false) {
     const { foot, surface: { scales: { x, y } } } = this;
@@ -150,7 +150,7 @@ export class SurfaceHand {
     return anywhere || inside ? [x.value(foot.x), y.value(foot.y)] : null;
   }
 
-  // A point of the tieline on display, on the page.
+  // The place on the page of a point of the selected tieline.
   /** @param {number} theta */
   onPage(theta) {
     const { corner, surface: { scales: { x, y }, selected, stage } } = this, box = this.picture.getBoundingClientRect();
@@ -158,7 +158,7 @@ export class SurfaceHand {
     return [((corner.x + 1) / 2) * box.width + box.left, ((1 - corner.y) / 2) * box.height + box.top];
   }
 
-  // The tieline on display can be taken hold of on the floor: an end of it, or all of it.
+  // Which part of the selected tieline, on the floor, is under the pointer: an end, the line, or neither.
   /** @param {{ clientX: number, clientY: number }} event */
   gripUnder({ clientX, clientY }) {
     const { selected: { K_J, inner, outer }, scales: { x } } = this.surface;

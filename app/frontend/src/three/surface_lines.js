@@ -1,4 +1,4 @@
-// The lines of Fig. 5: of the rows some curves and, on the floor, their tielines; the limits; the motion on display.
+// The lines of Fig. 5: curves of some rows and their tielines on the floor, the limits, and the selected motion.
 import * as THREE from "three";
 import { colours } from "../colours.js";
 import { float32 } from "../data.js";
@@ -8,8 +8,8 @@ import { colourOf } from "../regimes.js";
 /** @import { Grid } from "./surface_mesh.js" */
 /** @import { Labels } from "./labels.js" */
 
-const INK = 0x1d2733; // on the surface itself, which is pale on every page
-const CURVES = 26; // about so many of the rows have their curve and their tieline drawn
+const INK = 0x1d2733; // on the surface, which is light on a dark page too
+const CURVES = 26; // about this many of the rows have their curve and tieline drawn
 
 /** @param {THREE.ColorRepresentation} colour @param {number} radius */
 export function dot(colour, radius) {
@@ -22,7 +22,7 @@ export class SurfaceLines {
   /** @param {THREE.Scene} scene @param {Labels} labels @param {Record<Axis, Scale>} scales @param {THREE.Plane[]} clippingPlanes */
   constructor(scene, labels, scales, clippingPlanes) {
     const wide = (color, linewidth) => new WideLine({ color, linewidth, clippingPlanes });
-    // What lies on the floor under the surface shows through it, paler.
+    // What lies on the floor under the surface shows through, paler.
     const through = (color, linewidth, opacity = 0.35) => new WideLine({
       color, linewidth, clippingPlanes, transparent: true, opacity, depthFunc: THREE.GreaterDepth, depthWrite: false,
     });
@@ -67,7 +67,7 @@ export class SurfaceLines {
     }
   }
 
-  // Pairs (theta, K_J). Where one of a pair's ends is missing the line has a gap.
+  // Pairs of (theta, K_J). The line has a gap where an end is missing.
   /** @param {"verge" | "steady"} name @param {Float32Array} points */
   showLimit(name, points) {
     const { x, y } = this.scales, joined = [];
@@ -79,7 +79,7 @@ export class SurfaceLines {
     }
   }
 
-  /** @param {Grid} grid @param {SurfaceModel} model @param {string} colour of the limit */
+  /** @param {Grid} grid @param {SurfaceModel} model @param {string} colour that of the limit */
   show(grid, model, colour) {
     this.showRows(grid);
     this.showLimit("verge", float32(model.verge));
@@ -92,7 +92,7 @@ export class SurfaceLines {
     poleLabel.at.copy(pole.position);
   }
 
-  // The motion on display: its tieline and its curve, (theta, height) in turn.
+  // The selected motion: its tieline, and its curve as pairs of (theta, height).
   /** @param {Tieline} tieline @param {Float32Array} curve @param {number} worst */
   showSelected({ K_J, inner, outer }, curve, worst) {
     const { x, y, z } = this.scales, inBox = Number.isFinite(K_J) && K_J >= y.low && K_J <= y.high;

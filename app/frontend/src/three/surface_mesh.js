@@ -1,18 +1,18 @@
-// The surface of Fig. 5: a mesh over theta and K_J, one row a tieline.
+// The surface of Fig. 5: a mesh over theta and K_J, one row for each tieline.
 import * as THREE from "three";
 /** @import { Scale } from "./axes.js" */
 
-// Pale to dark in even steps of OKLCH's lightness, from yellow to brown: no hue of a line is among them.
+// From light to dark in even steps of OKLCH lightness, from yellow to brown: no line has one of these hues.
 const RAMP = ["#f8f2dd", "#eed8a8", "#e5bb76", "#da9f4a", "#cc8325", "#b8690f", "#9f5414", "#81421e", "#623422"].map((hex) => new THREE.Color(hex));
 
-/** @param {number} share of the greatest height @param {THREE.Color} shade is set to it */
+/** @param {number} share of the greatest height @param {THREE.Color} shade set to the result */
 function shadeAt(share, shade) {
-  // Over the root of the height, so that the low part, most of the surface, has shades too.
+  // As the root of the height, so that the low part, most of the surface, has different shades too.
   const place = Math.min(Math.sqrt(Math.max(share, 0)) * (RAMP.length - 1), RAMP.length - 1.001), k = Math.floor(place);
   return shade.lerpColors(RAMP[k], RAMP[k + 1], place - k);
 }
 
-// What Python sent: rows of the same K_J, theta along each.
+// The data from Python: rows of equal K_J, with theta varying along each.
 export class Grid {
   /** @param {{ K_J: Float32Array, theta: Float32Array, height: Float32Array, energy: Float32Array }} data */
   constructor({ K_J, theta, height, energy }) {
@@ -24,13 +24,13 @@ export class Grid {
     this.columns = this.rows ? Math.floor(theta.length / this.rows) : 0;
   }
 
-  // Whether a row is a motion; where there is none the surface has a gap.
+  // Whether a row is a motion; otherwise the surface has a gap there.
   /** @param {number} row */
   isReal(row) {
     return Number.isFinite(this.height[row * this.columns]) && Number.isFinite(this.theta[row * this.columns]);
   }
 
-  // Pairs of triangles between the rows, in `index`; those left over have no area.
+  // Writes pairs of triangles between the rows to `index`; unused ones have no area.
   /** @param {Uint32Array} index */
   fillTriangles(index) {
     const { rows, columns } = this;
@@ -60,7 +60,7 @@ export class SurfaceMesh {
     this.corner = new THREE.Vector3();
   }
 
-  // Geometry for so many points: the one there is, if it has as many.
+  // Geometry for a number of points: the present one, if it has that many.
   /** @param {Grid} grid */
   sized({ rows, columns }) {
     const count = rows * columns;
@@ -90,10 +90,10 @@ export class SurfaceMesh {
     grid.fillTriangles(/** @type {Uint32Array} */ (triangles.array));
     for (const attribute of [triangles, position, color]) attribute.needsUpdate = true;
     geometry.computeVertexNormals();
-    geometry.computeBoundingSphere(); // the ray under the pointer asks for it
+    geometry.computeBoundingSphere(); // raycasting needs it
   }
 
-  // The number of the point of the mesh that is nearest to where a ray meets it, or null.
+  // The index of the mesh point closest to where a ray meets the mesh, or null.
   /** @param {THREE.Raycaster} ray */
   nearest(ray) {
     const hit = ray.intersectObject(this.object, false).find(({ point }) => point.x <= this.scales.x.to + 1e-6);

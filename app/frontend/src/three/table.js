@@ -1,17 +1,17 @@
-// The table that the top stands on, and what it has of the top's shadow.
+// The table that the top stands on, and part of the top's shadow.
 import * as THREE from "three";
 import { penOf } from "../data.js";
 
-export const TABLE = 26; // the table's radius, in R: by there it has faded into the sky
+export const TABLE = 26; // the table's radius, in R: there it has faded into the sky
 
-// A disc that fades into the sky, under a grid with a line each R and a stronger one each 5 R. Plain colours and lines:
-// a texture, or light worked out for each pixel of it, would cost more than all the rest of the picture.
+// A disc that fades into the sky, below a grid with a line every R and a bolder one every 5 R. Plain colours and lines:
+// a texture, or lighting computed for each pixel, would cost more than all the rest of the picture.
 export function makeTable() {
   const disc = new THREE.CircleGeometry(TABLE, 48);
   disc.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(3 * disc.attributes.position.count), 3));
   const table = new THREE.Mesh(
     disc,
-    // The ground of everything, never seen from below: painted first, and then everything over it.
+    // The background of everything, never seen from below: it is drawn first, and everything else over it.
     new THREE.MeshBasicMaterial({ vertexColors: true, fog: false, depthTest: false, depthWrite: false }),
   );
   table.renderOrder = -3;
@@ -20,7 +20,7 @@ export function makeTable() {
     for (let at = 1 - TABLE; at < TABLE; at++) {
       if ((at % 5 === 0) !== strong) continue;
       const half = Math.floor(Math.sqrt(TABLE ** 2 - at ** 2) / 2) * 2;
-      // In short pieces: some software renderers drop a line that begins behind the eye.
+      // In short pieces: some software renderers drop a line that begins behind the camera.
       for (let from = -half; from < half; from += 2) ends.push(at, from, 0, at, from + 2, 0, from, at, 0, from + 2, at, 0);
     }
     const lines = new THREE.BufferGeometry();
@@ -32,7 +32,7 @@ export function makeTable() {
   return table;
 }
 
-/** @param {any} table of makeTable @param {Record<"sky" | "table" | "grid" | "strong", number>} look */
+/** @param {any} table from makeTable @param {Record<"sky" | "table" | "grid" | "strong", number>} look */
 export function dressTable(table, look) {
   const { color } = table.geometry.attributes, colour = new THREE.Color();
   for (let i = 0; i < color.count; i++) colour.set(i ? look.sky : look.table).toArray(color.array, 3 * i);
@@ -40,7 +40,7 @@ export function dressTable(table, look) {
   table.children.forEach((grid, strong) => grid.material.color.set(strong ? look.strong : look.grid));
 }
 
-// The soft dark spot where a round thing meets a table: the shadow map alone leaves the contact floating.
+// The soft dark spot below a round object on a table: with the shadow map alone, the contact seems to float.
 export function blobMaterial() {
   const canvas = document.createElement("canvas");
   const side = (canvas.width = canvas.height = 128);

@@ -1,4 +1,4 @@
-// The top on its table. Every pose, path and arrow is a number that Python sent: there is no physics here.
+// The top on its table. Python sends every pose, path and arrow as numbers: there is no physics here.
 import { Bar } from "../widgets/bar.js";
 import { Place } from "../motion/clock.js";
 import { colours } from "../colours.js";
@@ -15,7 +15,7 @@ import { addText, frameIn } from "../style.js";
 import { TopScene } from "./top_scene.js";
 /** @import { Stage } from "./stage.js" */
 
-// What is drawn anew when it is new, and nothing more.
+// Each is redrawn only when it changes.
 const REDRAWN = ["mu_s", "seconds", "show_track", "show_com_path", "show_force", "show_cone", "show_omega", "show_momentum", "follow", "a"];
 
 class Top {
@@ -23,8 +23,8 @@ class Top {
   constructor(model, stage, { root, picture, label }) {
     this.model = model;
     this.stage = stage;
-    this.received = this.drawing = this.shown = 0; // motions that came; the last in the picture begun, and on the screen
-    this.highlight = /** @type {Pointed | null} */ (null); // of a tippe:highlight
+    this.received = this.drawing = this.shown = 0; // counts of motions: arrived, in the picture being drawn, on the screen
+    this.highlight = /** @type {Pointed | null} */ (null); // from a tippe:highlight
     this.scene = new TopScene(stage);
     this.eye = new Eye(stage, model, this.scene.stands, () => this.scene.body.reach ?? 2);
     this.verdict = addText(picture, "verdict");
@@ -52,10 +52,10 @@ class Top {
     stage.beforeDraw = () => this.scene.labels.place();
   }
 
-  // To Python, and to what the page says.
+  // Tells Python and the other parts of the page.
   listen() {
     const { model, stage } = this, suffix = model.clock ? `:${model.clock}` : "";
-    const onFrames = coalesce(() => this.newFrames()); // several in one frame of the screen: only the last is read
+    const onFrames = coalesce(() => this.newFrames()); // if several arrive in one frame of the screen, only the last is read
     model.on("frames", onFrames);
     model.on("profile", () => this.newProfile());
     for (const name of REDRAWN) model.on(name, () => stage.invalidate());
@@ -98,7 +98,7 @@ class Top {
     return this.place.moves;
   }
 
-  // The picture of the moment player.t
+  // Draws the moment player.t.
   pose() {
     const { model, scene, player: { frames, place, playing } } = this, some = frames.count > 0;
     scene.pose(frames, place, model, this.highlight);
@@ -138,7 +138,7 @@ class Top {
     this.stage.invalidate();
   }
 
-  // A person's own zoom is kept, in terms of the body's size.
+  // A person's zoom is kept, relative to the size of the body.
   newProfile() {
     const { scene, eye } = this, { body } = scene, was = body.reach ?? 2;
     body.setProfile(float32(this.model.profile));
@@ -151,7 +151,7 @@ class Top {
   }
 }
 
-// What is drawn, for tests.
+// A report of what is drawn, for tests.
 /** @param {Top} top @param {string} label */
 function reportOf(top, label) {
   const { scene, stage, eye, verdict } = top;
@@ -173,7 +173,7 @@ function reportOf(top, label) {
 
 /** @param {Rendering<TopModel>} rendering */
 export function renderTop3D({ model, el, view }) {
-  view.tippe?.dispose(); // Panel may build a view anew without saying "remove"
+  view.tippe?.dispose(); // Panel may build a view again without sending "remove"
   const { root, picture } = frameIn(el), { texts } = model, label = model.label || texts.label;
   if (!model.clock) picture.dataset.picture = "top";
   const stage = tryStage(picture, { label, texts, fov: 30 });

@@ -1,4 +1,4 @@
-// What there is to see of a top on its table, and where each of it stands at a moment.
+// The objects of a top on its table, and their positions at a moment.
 import * as THREE from "three";
 import { Arrow } from "./arrow.js";
 import { Body } from "./body.js";
@@ -14,11 +14,11 @@ import { blobMaterial, dressTable, makeTable, TABLE } from "./table.js";
 /** @import { Stage } from "./stage.js" */
 /** @import { Frames } from "../motion/frames.js" */
 
-const SHADE = 4.5; // half the side of the square that can be in shadow
-const USUAL = 2; // R: what a body of this reach has room in, a larger one needs more of
-const NEAR = 9, FAR = TABLE - 2; // R: from where to where the table fades, round a usual one
-const ABOVE_TABLE = 0.006; // lines on the table lie this high, so that the table does not swallow them
-const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // the longest arrow of a motion is at most this long, in R
+const SHADE = 4.5; // half the side of the square that can receive shadows
+const USUAL = 2; // R: the scene has room for a body of this reach, and is enlarged for a larger one
+const NEAR = 9, FAR = TABLE - 2; // R: distances between which the table fades, for a usual body
+const ABOVE_TABLE = 0.006; // lines lie this far above the table, so that the table does not hide them
+const LONGEST = { force: 1.8, omega: 2.2, momentum: 1.7 }; // R: the longest arrow of a motion has at most this length
 
 function makeShade() {
   const shade = new THREE.Mesh(
@@ -57,12 +57,12 @@ export class TopScene {
   constructor(stage) {
     const { scene, renderer } = stage;
     this.stage = stage;
-    this.moment = emptyPose(); // what Python says of the player's time
-    this.stands = new THREE.Vector3(); // the sphere's centre
+    this.moment = emptyPose(); // the pose at the player's time
+    this.stands = new THREE.Vector3(); // the centre of the sphere
     this.scales = {};
     this.size = this.squares = 1;
 
-    // The table, the light, and the shadow that stands where the top is
+    // The table, the light, and the shadow below the top.
     renderer.shadowMap.enabled = true;
     renderer.shadowMap.type = THREE.PCFShadowMap;
     this.background = scene.background = new THREE.Color();
@@ -75,7 +75,7 @@ export class TopScene {
     scene.add(this.table, this.shade, new THREE.HemisphereLight(0xffffff, 0xb9a88f, 1.7), this.sun, this.sun.target);
     scene.add(this.underneath, this.body);
 
-    // Paths: the whole one faintly, what has passed boldly
+    // Paths: the whole one faintly, the part that has passed boldly.
     this.track = {
       whole: new Ribbon(0.028, { color: colours.theta, opacity: 0.25 }),
       passed: new Ribbon(0.045, { color: colours.theta, opacity: 0.95 }),
@@ -83,13 +83,13 @@ export class TopScene {
     this.comPath = { whole: new Thread({ opacity: 0.3 }), passed: new Thread({ opacity: 0.9 }) };
     scene.add(...Object.values(this.track), ...Object.values(this.comPath));
 
-    // Arrows, the friction cone, and the marks of C and G
+    // Arrows, the friction cone, and the markers of C and G.
     this.arrows = {
       force: new Arrow(colours.normal, { radius: 0.045, through: 0.85 }),
       omega: new Arrow(colours.omega),
       momentum: new Arrow(colours.momentum, { radius: 0.055 }),
     };
-    this.pointedAt = new Arrow(0, { radius: 0.05, through: 0.85 }); // what a text beside points at, alone
+    this.pointedAt = new Arrow(0, { radius: 0.05, through: 0.85 }); // what a text points at, shown alone
     this.cone = frictionCone();
     this.centre = makeCentre();
     scene.add(...Object.values(this.arrows), this.pointedAt, this.cone, this.centre);
@@ -110,12 +110,12 @@ export class TopScene {
     this.stage.invalidate();
   }
 
-  // Table, fade, light and shadow for a body that reaches so far, in R.
+  // Adjusts table, fading, light and shadow to a body of a given reach, in R.
   /** @param {number} reach */
   fitTo(reach) {
     const { sun, fog } = this, size = (this.size = Math.max(1, reach / USUAL)), { camera } = sun.shadow;
     Object.assign(fog, { near: NEAR * size, far: FAR * size });
-    this.squares = Math.ceil(size - 1e-9); // of so many R, where one would be too small to be seen
+    this.squares = Math.ceil(size - 1e-9); // side of the grid's squares, in R: for a large body, smaller ones would be invisible
     this.table.scale.set(this.squares, this.squares, 1);
     this.shade.scale.setScalar(size);
     this.underneath.scale.setScalar(Math.min(size, 2));
@@ -123,7 +123,7 @@ export class TopScene {
     camera.updateProjectionMatrix();
   }
 
-  // A new motion: its paths, and how long its arrows are.
+  // A new motion: sets its paths, and the scale of its arrows.
   /** @param {Frames} frames */
   setFrames(frames) {
     for (const name of Object.keys(LONGEST)) this.scales[name] = 1 / niceAbove(frames.scales[name] / LONGEST[name]);
@@ -131,7 +131,7 @@ export class TopScene {
     for (const line of Object.values(this.comPath)) line.setPath(frames.count, (i, put) => frames.com(i, put));
   }
 
-  // The picture at a place among the frames.
+  // Shows the picture at a position among the frames.
   /** @param {Frames} frames @param {number} at @param {TopModel} model @param {Pointed | null} highlight */
   pose(frames, at, model, highlight) {
     const { moment, centre, tips } = this, some = frames.count > 0;
@@ -154,15 +154,15 @@ export class TopScene {
     this.showPath(this.comPath, model.show_com_path, passed, frames.count);
   }
 
-  // The body, what goes along with it, and the light.
-  /** @param {number | null} a where the sphere's centre is not over the contact: its distance from G */
+  // The body, what moves along with it, and the light.
+  /** @param {number | null} a distance between O and G, if the centre O of the sphere may not be above the contact */
   put(a) {
     const { moment, stands, body } = this;
     stands.set(moment.contact.x, moment.contact.y, 1);
     body.quaternion.copy(moment.quaternion);
     centreOf(moment, a, body.position);
     this.underneath.position.set(stands.x, stands.y, ABOVE_TABLE / 2);
-    const { size, squares } = this, lattice = 5 * squares; // the grid repeats each 5 squares
+    const { size, squares } = this, lattice = 5 * squares; // the grid repeats every 5 squares
     this.shade.position.set(stands.x + 1.2 * size, stands.y + 1.3 * size, ABOVE_TABLE / 3);
     this.centre.position.copy(moment.com);
     this.sun.target.position.copy(stands);
@@ -178,7 +178,7 @@ export class TopScene {
     tip.shift = name === "omega" ? [16, -4] : [-15, -6];
   }
 
-  // A vector along the turning axes 1', y, z, from "com" or "contact": only its direction is true where it is long.
+  // A vector along the turning axes 1', y, z, from "com" or "contact". Its length is limited, its direction is exact.
   /** @param {Pointed | null} highlight */
   showPointed(highlight) {
     const { moment, pointedAt, pointedTip } = this;
@@ -194,7 +194,7 @@ export class TopScene {
     for (const name of Object.keys(this.arrows)) this.arrows[name].visible = this.tips[name].visible = false;
   }
 
-  // As high as the arrow reaches: its tip is then inside the rim where the top can roll.
+  // As high as the arrow: then its tip is inside the rim as long as the top can roll.
   showCone(visible, mu_s) {
     const { moment, cone } = this, height = moment.force.z * this.scales.force;
     cone.visible = visible && height > 1e-3 && mu_s > 0;

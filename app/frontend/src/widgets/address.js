@@ -1,12 +1,13 @@
-// The page's own address and keys: what a person set stands in it without a step in the browser's history.
+// The page's address and keys. The address contains what a person has set, without adding steps to the browser's
+// history.
 import { onLettingGo } from "./press.js";
 
-const MUTE = ["Control", "Shift", "Alt", "Meta", "Tab"]; // keys that set nothing
+const MUTE = ["Control", "Shift", "Alt", "Meta", "Tab"]; // keys that change nothing by themselves
 
 const isWriting = (target) => target.isContentEditable || target.matches?.(
   "textarea, select, input:not([type=range]):not([type=checkbox]):not([type=radio]):not([type=button])");
 
-// Which parameter a key counts up: what the keyboard of the system takes back or makes anew with.
+// The parameter that counts a key: those with which the operating system undoes and redoes.
 /** @param {Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">} event @returns {"undone" | "redone" | null} */
 export function stepOf({ key, ctrlKey, metaKey, altKey, shiftKey }) {
   if (!(ctrlKey || metaKey) || altKey) return null;
@@ -38,7 +39,7 @@ export function renderAddress({ model }) {
   window.addEventListener("keydown", onKey, options);
   const write = () => history.replaceState(history.state, "", location.pathname + model.search + location.hash);
   model.on("search", write);
-  if (model.search) write(); // what was set before this was here
+  if (model.search) write(); // something was set before this component existed
   model.on("reloads", () => location.reload());
   model.page = location.origin + location.pathname;
   model.on("remove", () => listening.abort());

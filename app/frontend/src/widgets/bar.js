@@ -1,4 +1,5 @@
-// The playback bar: buttons, scrubber, speed, what is shown. It reads and drives a player; it draws nothing itself.
+// The playback bar: buttons, slider of the time, speed, and what is shown. It controls a player, and draws nothing
+// itself.
 import { colours } from "../colours.js";
 import { fill, local } from "../data.js";
 /** @import { Player } from "../motion/player.js" */
@@ -12,7 +13,7 @@ const icons = {
 };
 const speeds = [1, 2, 4, 8, 16, 32, 64];
 
-// What can be shown or hidden: the parameter's name, and the colour of its chip.
+// What can be shown or hidden: the name of the parameter, and the colour of its button.
 const shows = {
   show_track: colours.theta, show_com_path: "var(--scene-ink, #1d2733)", show_force: colours.normal, show_cone: colours.friction,
   show_omega: colours.omega, show_momentum: colours.momentum, follow: "#7a8694",
@@ -73,7 +74,7 @@ export class Bar {
       follow();
     }
     const speed = () => {
-      // A speed that is not in the list is nobody's choice here, but Python may set it: add it rather than lie.
+      // Python may set a speed that is not in the list: add it, so that the bar shows the true one.
       if (!speeds.some((n) => 1 / n === model.speed)) this.speed.append(new Option(fill(texts.faster, { times: model.speed }), String(model.speed)));
       this.speed.value = String(model.speed);
     };
@@ -81,7 +82,7 @@ export class Bar {
     speed();
   }
 
-  /** @param {number} secondsPerUnit what one (R/g)^1/2 of the real top takes */
+  /** @param {number} secondsPerUnit s in one (R/g)^1/2 of the real top */
   update(secondsPerUnit) {
     const { playing, frames, t } = this.player;
     if (this.shownPlaying !== playing) {

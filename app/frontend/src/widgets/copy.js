@@ -1,4 +1,4 @@
-// A text to take along, and a button that copies it, also where a page without https may not.
+// A text to copy, and a button that copies it, even on a page without https, where the browser's own way is forbidden.
 import { colours } from "../colours.js";
 
 const FRAME = `<style>
@@ -13,7 +13,7 @@ const FRAME = `<style>
   </style><div class="copy"><textarea readonly spellcheck="false"></textarea><button></button></div>`;
 const SAID_MS = 1500;
 
-/** @param {string} text @param {HTMLInputElement | HTMLTextAreaElement} field that shows it */
+/** @param {string} text @param {HTMLInputElement | HTMLTextAreaElement} field which contains it */
 export async function copyText(text, field) {
   field.select();
   try {

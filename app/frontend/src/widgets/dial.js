@@ -1,9 +1,9 @@
 import { colours } from "../colours.js";
 import { fill, local } from "../data.js";
 
-// One control: its name, a slider, a number to type, words below. What a person does goes to Python as a numbered
-// request, and what Python tells is taken only if it had heard the last of them: nothing late moves a hand back.
-// On a narrow page what the keyboard reaches comes to rest below the stage, which stays in sight, and above the tabs.
+// One control: its name, a slider, a field for a number, words below. Each change is sent to Python as a numbered
+// request. Python's answer is used only if it includes the last request, so a late answer cannot move the slider back.
+// On a narrow page, what gets the keyboard focus is scrolled to between the stage, which stays visible, and the tabs.
 const style = `
 :host { display: block; font: calc(13px * var(--type, 1))/1.35 var(--family, system-ui, sans-serif); color: var(--ink, #22303c); }
 .head { display: flex; align-items: center; gap: 8px; }
@@ -23,12 +23,12 @@ input[type=range] { display: block; width: 100%; height: 26px; accent-color: var
 .marks span:first-child::before { left: 8px; }
 .note { color: var(--faint, #5b6875); } .alert { color: var(--alert, #b3261e); font-weight: 500; }
 `;
-const PAGE = 10; // steps that Page Up and Page Down go
+const PAGE = 10; // steps of Page Up and Page Down
 const KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: PAGE, PageDown: -PAGE };
 
 const written = (number) => local(String(Number(number.toPrecision(6))));
 
-// A value in words: with its unit, or where it stands among the marks.
+// A value in words: with its unit, or its position among the marks.
 /** @param {number} value @param {Pick<DialModel, "marks" | "unit" | "texts">} model */
 export function spoken(value, { marks, unit, texts }) {
   if (!marks.length) return `${written(value)} ${unit}`;
@@ -59,9 +59,9 @@ class Dial {
     this.entry = part("input[type=text]");
     /** @type {HTMLInputElement} */
     this.slider = part("input[type=range]");
-    this.count = 0; // of what was asked
-    this.value = 0; // the slider's, to the last digit
-    this.typing = false; // whether there is something in the entry that was not asked for yet
+    this.count = 0; // number of the last request
+    this.value = 0; // the value of the slider with all its digits
+    this.typing = false; // whether the field contains something that has not been requested yet
     this.name(part(".name"));
     this.listen();
     for (const what of ["told", "start", "end"]) model.on(what, () => this.take());

@@ -1,11 +1,11 @@
-// A top that moves once, on a clock of its own: a button that plays it, the time and the tilt; and of a film that was
-// measured, what it saw of the axis.
+// A top that moves once, on its own clock: a button that plays it, the time and the tilt; for a measured film, also the
+// axis as seen on it.
 import { Top } from "../lab/top.js";
 import { drawn, part, say } from "../lab/parts.js";
 import { colours } from "../colours.js";
 import { coalesce, float32 } from "../data.js";
 
-const PACE = 1 / 8; // of the real top's own speed
+const PACE = 1 / 8; // in units of the real top's speed
 const STYLE = `<style>
   .film { position: relative; height: 100%; min-height: 260px; border-radius: 6px; overflow: hidden; background: var(--scene, #f1efea) }
   .top { position: absolute; inset: 0 }

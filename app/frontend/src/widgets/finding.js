@@ -1,5 +1,5 @@
-// Elements of the page, which lie in the shadow roots of many components.
-/** @param {string} selector @param {ParentNode} root @returns {HTMLElement | null} the first that is seen */
+// Finds elements of the page, which are in the shadow roots of many components.
+/** @param {string} selector @param {ParentNode} root @returns {HTMLElement | null} the first visible one */
 export function find(selector, root = document) {
   for (const element of /** @type {NodeListOf<HTMLElement>} */ (root.querySelectorAll("*"))) {
     if (element.matches(selector) && element.getClientRects().length) return element;

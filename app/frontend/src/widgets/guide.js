@@ -1,11 +1,12 @@
-// The page by keyboard and by ear: keys for the clock, the list of them, what the top does in words, and the tour.
+// The page by keyboard and screen reader: keys for the clock, the list of keys, what the top does in words, and the
+// tour.
 import { fill, local } from "../data.js";
 import { find } from "./finding.js";
 import { guideStyle } from "../style.js";
 import { Tour, tourFrame } from "./tour.js";
 
-const SAY_MS = 400; // words wait until they stay
-const RENAME_MS = 100; // by then the library has drawn what opened
+const SAY_MS = 400; // words are spoken once they have not changed for this long
+const RENAME_MS = 100; // by then the library has drawn what was opened
 const WRITING = "input, textarea, select, button, a[href], summary, [contenteditable=true], [role=slider], [role=tab], [role=option]";
 const TYPING = "input:not([type=range], [type=checkbox]), textarea, [contenteditable=true]";
 const KEYS = { " ": { toggle: true }, ArrowLeft: { step: -1 }, ArrowRight: { step: 1 } };
@@ -14,7 +15,7 @@ const listOf = (texts) => `<dialog class="list" aria-labelledby="title"><h2 id="
   <table>${texts.list.map(([key, does]) => `<tr><th scope="row">${key}</th><td>${does}</td></tr>`).join("")}</table>
   <button class="close">${texts.close}</button> <button class="again">${texts.again}</button></dialog>`;
 
-// The widgets' own library names its buttons in English, and names them anew when a drawer or dialog opens or closes.
+// The widget library names its buttons in English, and does so again whenever a drawer or dialog opens or closes.
 function nameButtons(library) {
   const rename = () => {
     for (const [name, ours] of Object.entries(library)) {
@@ -29,11 +30,11 @@ function nameButtons(library) {
   return () => doc.remove_on_change(onOpen);
 }
 
-// What the rolling top does now, to the ear, while that is looked at: the Lab has words of its own.
+// For screen readers: what the rolling top is doing, while it is shown. The Lab has its own words.
 /** @param {GuideModel} model @param {AbortSignal} signal */
 function speak(model, signal) {
   const { texts } = model, live = document.createElement("div");
-  // A live region is only heard where it was before its words came.
+  // A live region is spoken only if it existed before its text was set.
   live.setAttribute("role", "status");
   live.setAttribute("aria-label", texts.now);
   live.style.cssText = "position: absolute; top: 0; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap";
@@ -58,14 +59,14 @@ function speak(model, signal) {
   };
   window.addEventListener("tippe:clock", onClock, { signal });
   model.on("said", () => say(now()));
-  model.on("tour", () => say("")); // not what was said in another room
+  model.on("tour", () => say("")); // clears what was said in another room
   signal.addEventListener("abort", () => {
     clearTimeout(later);
     live.remove();
   });
 }
 
-/** @param {any} list the dialog @param {Tour} tour @param {AbortSignal} signal @returns {(event: Event) => void} what opens the list */
+/** @param {any} list the dialog @param {Tour} tour @param {AbortSignal} signal @returns {(event: Event) => void} opens the list */
 function listen(list, tour, signal) {
   const openList = (event) => {
     event.preventDefault();
@@ -88,7 +89,7 @@ function listen(list, tour, signal) {
 /** @param {Pick<Rendering<GuideModel>, "model">} rendering */
 export function renderGuide({ model }) {
   const { texts } = model, listening = new AbortController(), { signal } = listening;
-  const layer = document.createElement("div"); // over the page, and not within any part of it
+  const layer = document.createElement("div"); // over the page, outside all its parts
   const over = layer.attachShadow({ mode: "open" });
   over.innerHTML = `<style>${guideStyle}</style>${listOf(texts)}${tourFrame(texts)}`;
   speak(model, signal);

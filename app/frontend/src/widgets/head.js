@@ -1,8 +1,8 @@
-// The row at the head of the page: the top, the tabs, the level, undo, redo, Share, and the menu of all else.
+// The row at the top of the page: the top, the tabs, the level, undo, redo, Share, and a menu with everything else.
 import { Choice, part } from "./parts.js";
 import { headStyle } from "./head_style.js";
 
-// One of several that may change: the buttons are made anew where their words do.
+// A choice among options that may change: its buttons are created again when their words change.
 class Several {
   /** @param {"radio" | "tab"} role @param {string} label @param {(name: string) => void} choose */
   constructor(role, label, choose) {
@@ -75,7 +75,7 @@ class Head {
     this.more.setAttribute("aria-expanded", String(whether));
   }
 
-  // A press elsewhere, or Escape, closes the menu.
+  // A click elsewhere, or Escape, closes the menu.
   /** @param {Event | KeyboardEvent} event */
   leave = (event) => {
     if (this.menu.hidden) return;
@@ -95,7 +95,7 @@ class Head {
     return this.model.state[kind].find(([name]) => name === chosen)[2];
   }
 
-  // What is seen changes here, at once; Python hears of it, and makes what is not there yet.
+  // Switches the tab at once; Python is told, and creates what does not exist yet.
   turn(room) {
     const { places } = this.model.state, [doc] = Bokeh.documents;
     for (const [name, place] of Object.entries(places)) {
@@ -125,7 +125,7 @@ class Head {
 
   show() {
     const { state } = this.model;
-    if (!state.tabs || state.answered < this.count) return; // a hand was quicker
+    if (!state.tabs || state.answered < this.count) return; // newer requests are on their way
     this.tabs.show(state.tabs, state.tab);
     for (const levels of this.levels) levels.show(state.levels, state.level);
     this.below.hidden = !state.rooms.length;
@@ -142,11 +142,11 @@ class Head {
     this.look();
   }
 
-  // Light or dark, as the page is now.
+  // Light or dark, like the page.
   look = () => {
     const dark = document.documentElement.dataset.look?.startsWith("dark");
     for (const each of [this.row, this.below]) each.dataset.look = dark ? "dark" : "light";
-    for (const { name, box } of this.switches) if (name === "dark") box.checked = Boolean(dark); // the system's, where nobody chose
+    for (const { name, box } of this.switches) if (name === "dark") box.checked = Boolean(dark); // the system's look, unless a person chose
   };
 
   /** @param {any} state */

@@ -1,4 +1,4 @@
-// How the head of the page looks: one row of 48 px, as quiet as the ground; what is chosen is blue.
+// The style of the head: one row of 48 px in the colour of the background; what is selected is blue.
 import { onDark, onLight } from "../colours.js";
 
 export const headStyle = `

@@ -1,11 +1,12 @@
-// The derivation's lines: each equation typeset, both its sides now, and the symbols that can be pointed at.
+// The lines of the derivation: each equation, the present values of its two sides, and the symbols that can be pointed
+// at.
 import { local } from "../data.js";
 import { rowBefore } from "../figures/curves.js";
 import { style } from "./lines_style.js";
 
-const DRAWN_MS = 200; // between two pictures of the numbers
+const DRAWN_MS = 200; // ms between two updates of the numbers
 
-// Of a row of numbers: digits significant ones, and nothing of an exact zero's rounding.
+// Writes numbers with `digits` significant digits; the rounding error of an exact zero is not shown.
 /** @param {number} value @param {number} digits */
 export function figures(value, digits) {
   if (!Number.isFinite(value)) return "—";
@@ -18,7 +19,7 @@ export function figures(value, digits) {
 export const said = (part, digits) =>
   part.length === 1 ? figures(part[0], digits) : `(${Array.from(part, (x) => figures(x, 6)).join("; ")})`;
 
-// The row nearest to a time, in its nutation; t stands first in each.
+// The row closest to a time within its nutation; t is the first number of each row.
 /** @param {{ values: Float64Array, width: number, period: number }} table @param {number} now */
 export function rowAt({ values, width, period }, now) {
   const t = now - Math.floor(now / period) * period, low = rowBefore(values, t, width), high = low + 1;
@@ -26,7 +27,7 @@ export function rowAt({ values, width, period }, now) {
   return values.subarray(row * width, (row + 1) * width);
 }
 
-// What the browser makes of an equation has letters of its own, and spaces that are not seen.
+// The browser's rendering of an equation contains other characters, and invisible spaces.
 const bare = (node) => node.textContent.replace(/[\s\u2061\u200b\u2062]/g, "").replace("\u20d7", "→");
 
 function make(parent, kind, name = "", text = "") {
@@ -81,7 +82,7 @@ class Lines {
     this.tell();
   }
 
-  // To the eye beside what is pointed at, and to the pictures that have an arrow for it.
+  // Shows the meaning beside the symbol, and sends it to the pictures that have an arrow for it.
   tell() {
     const { pointed, tip, model } = this;
     /** @type {Pointed | null} */
@@ -106,7 +107,7 @@ class Lines {
     const button = make(head, "button", "", line.number), eq = make(head, "div", "eq");
     button.setAttribute("aria-expanded", "false");
     button.setAttribute("aria-label", `${line.number}: ${words.symbols}`);
-    eq.tabIndex = 0; // it may have to be scrolled
+    eq.tabIndex = 0; // so that it can be scrolled by keyboard
     eq.setAttribute("role", "group");
     eq.setAttribute("aria-label", `${words.equation} ${line.number}`);
     if (window.katex) window.katex.render(`\\displaystyle ${line.tex}`, eq, { output: "mathml", throwOnError: false });
@@ -173,7 +174,7 @@ class Lines {
     if (this.pointed) this.tell();
   }
 
-  // Soon, so that the last instant before a pause is shown too.
+  // With a delay, so that the last moment before a pause is shown too.
   tick(t) {
     this.now = t;
     this.due ??= setTimeout(() => {
@@ -187,7 +188,7 @@ class Lines {
 /** @param {Rendering<LinesModel>} rendering */
 export function renderLines({ model, el }) {
   const lines = new Lines(model, el), onClock = ({ detail: { t } }) => lines.tick(t);
-  model.on("periods", () => { // the last of what is sent together
+  model.on("periods", () => { // the last of the parameters that are sent together
     lines.read();
     lines.draw();
   });

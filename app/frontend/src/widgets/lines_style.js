@@ -1,4 +1,4 @@
-// The sheet of the derivation's lines.
+// The style sheet of the derivation's lines.
 export const style = `
 .lines { font: calc(14px * var(--type, 1))/1.45 var(--family, system-ui, sans-serif); color: var(--ink, #22303c);
   --link: color-mix(in srgb, #0b5cad 60%, var(--ink, #22303c)) }

@@ -1,12 +1,12 @@
-// How the page looks: light or dark, and large for a projector. The page's own type and the widgets follow by variables
-// of CSS; of a Bokeh figure, which is drawn on a canvas, the inks and sizes are exchanged here.
+// The look of the page: light or dark, and large for a projector. Text and widgets follow through CSS variables; a
+// Bokeh figure is drawn on a canvas, so its colours and sizes are replaced here.
 import { colours, onDark } from "../colours.js";
 import { coalesce } from "../data.js";
 import { endColours } from "../ends.js";
 import { words } from "../three/scene.js";
 
 const LARGER = 1.35;
-const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff", "#d9b98c"]; // and grid, paper of app/widgets/plots.py; wood of a section
+const INKS = [colours.ink, colours.faint, "#e7ebef", "#ffffff", "#d9b98c"]; // and grid and background of app/widgets/plots.py, wood of a section
 const looks = {
   light: INKS,
   "light large": ["#000000", "#4a5661", "#c9d0d7", "#ffffff", "#d9b98c"],
@@ -17,14 +17,14 @@ const FAINT_TYPE = { light: "#5b6875", "light large": "#26323d", dark: "#aab6c2"
 
 const isColour = (property) => property.endsWith("_color");
 
-// exchanges a value, or that of a visual which names one.
+// Replaces a value, or the value inside a visual specification.
 function exchange(value, as) {
   if (value && typeof value === "object" && typeof value.value === "string") return { ...value, value: as(value.value) };
   return typeof value === "string" ? as(value) : value;
 }
 
-// Of the document's root: what the page, the pictures and the widgets read.
-/** @param {LookModel} model @param {string} name of the look @param {boolean} dark */
+// Sets CSS variables of the document's root, which the page, the pictures and the widgets use.
+/** @param {LookModel} model @param {string} name that of the look @param {boolean} dark */
 function setVariables(model, name, dark) {
   const [ink, , line, paper] = looks[name], { style, dataset } = document.documentElement;
   const values = {
@@ -34,13 +34,13 @@ function setVariables(model, name, dark) {
   };
   for (const [property, value] of Object.entries(values)) style.setProperty(property, String(value));
   for (const [property, value] of Object.entries(model.on_dark)) {
-    // what the widgets read, and what the page itself has
+    // what the widgets use, and what the page itself has
     for (const prefix of ["--look-", "--mui-palette-"]) {
       if (dark) style.setProperty(prefix + property, value);
       else style.removeProperty(prefix + property);
     }
   }
-  style.colorScheme = dark ? "dark" : "light"; // of what the browser draws
+  style.colorScheme = dark ? "dark" : "light"; // for what the browser draws itself
   style.setProperty("--look-scheme", style.colorScheme);
   style.setProperty("--panel-on-background-color", ink);
   style.fontSize = model.large ? `${100 * LARGER}%` : "";
@@ -54,13 +54,13 @@ class Look {
   /** @param {LookModel} model */
   constructor(model) {
     this.model = model;
-    this.first = new WeakMap(); // part of a figure -> what its inks and sizes were
+    this.first = new WeakMap(); // for each part of a figure, its colours and sizes before any look
     this.name = "light";
     this.doc = Bokeh.documents.find((doc) => doc.get_model_by_id(model.id)) ?? Bokeh.documents[0];
     this.seen = 0;
   }
 
-  // What a part of a figure had before any look.
+  // The values that a part of a figure had before any look.
   own(part) {
     let own = this.first.get(part);
     if (own) return own;
@@ -74,7 +74,7 @@ class Look {
     const ink = (value) => looks[name][INKS.indexOf(value.toLowerCase())] ?? value;
     const size = (value) => (large ? value.replace(/^[\d.]+(?=px)/, (now) => String(LARGER * now)) : value);
     let wanted = Object.entries(this.own(part)).map(([property, value]) => [property, exchange(value, isColour(property) ? ink : size)]);
-    // The theme of the widgets gives these values of its own, whatever the figure was made with.
+    // The theme of the widget library overwrites these, whatever the figure was created with.
     if (part.type.endsWith("Axis")) {
       wanted = [["major_label_text_color", text], ["major_label_text_font_size", px], ["axis_line_color", faint], ["major_tick_line_color", faint],
         ["axis_label_text_color", text], ["axis_label_text_font_size", px]];
@@ -88,7 +88,7 @@ class Look {
     for (const part of all) if (!part.type?.startsWith("panel.") && part.attributes) this.dress(part);
   }
 
-  // As a person has chosen, else as the system has it.
+  // As a person chose, otherwise as the operating system has it.
   get isDark() {
     return this.model.dark ?? this.system.matches;
   }
@@ -100,8 +100,8 @@ class Look {
     this.dressAll();
   };
 
-  // Whether a change of the page brought models to dress: a tab is made when it is first looked at. And the widgets' own
-  // dark theme has inks for figures, which come later.
+  // Whether a change of the page needs a new pass: new models have come, because a tab is created when it is first
+  // opened, or the widget library's dark theme has set its own colours for figures, which it does late.
   isUndone(attr) {
     return this.name !== "light" && (this.doc.all_models.size !== this.seen || /(_color|font_size)$/.test(attr));
   }

@@ -1,5 +1,5 @@
-// A table that is chosen, dropped anywhere on the page, or pasted. It is read here, and of one that is too long rows are
-// left out; a saved film is a text of its own, and short.
+// A table that a person chooses, drops anywhere on the page, or pastes. It is read here, and rows are left out if it is
+// too long; a saved film is a short text and is kept whole.
 import { colours } from "../colours.js";
 import { fill } from "../data.js";
 
@@ -17,24 +17,24 @@ const FRAME = `<style>
   .over b { background: var(--card, #fff); padding: 12px 20px; border-radius: 8px } [hidden] { display: none !important }</style>
   <div class="row"><label><input type="file" accept=".csv,.tsv,.txt,.json,text/*"></label><textarea rows="1"></textarea>
     <div class="says" role="status"></div></div><div class="over" hidden><b></b></div>`;
-const ABOVE = 3; // lines of a whole table that hold no values
-const SPARE = 1.05; // lines are not of one length
-const CHUNK = 1 << 22; // bytes that are read at a time
-const LOOK = 4096; // bytes by which it is seen what a file is
-const LONG = /(\d[.,]\d{7})\d+/g; // digits that no film has
+const ABOVE = 3; // lines above the values that a table may have
+const SPARE = 1.05; // margin, because lines differ in length
+const CHUNK = 1 << 22; // bytes read at a time
+const LOOK = 4096; // bytes from which the kind of a file is recognised
+const LONG = /(\d[.,]\d{7})\d+/g; // more digits than a film can have
 
 /** @typedef {{ most: number, rows: number, head: number }} Limits characters, rows, and the first lines that are always kept */
 
 /** @param {number} length @param {number} most @returns {number} each how-manieth row is kept */
 const everyOf = (length, most) => (length <= most ? 1 : Math.ceil(length / most * SPARE));
 
-// The first lines are always kept: names stand there. Of the others it is those whose number in the file can be divided,
-// so that Python can tell where in the file a line stands.
+// The first lines are always kept, because they contain the names. Of the others, those are kept whose number in the
+// file is divisible by `each`, so that Python can tell where in the file a line was.
 /**
  * @param {string} text @param {Limits} limits
- * @param {number[] | null} [numbers] of its lines in the file, from 0
- * @param {number} [before] so many of its lines were one
- * @returns {[string, number]} what is kept of it, and each how-manieth row of the file that is
+ * @param {number[] | null} [numbers] the numbers of its lines in the file, from 0
+ * @param {number} [before] the file has already been thinned to one line in `before`
+ * @returns {[string, number]} what is kept, and one in how many rows of the file that is
  */
 export function thinned(text, { most, rows, head }, numbers = null, before = 1) {
   const short = text.length <= most ? text : text.replace(LONG, "$1"), lines = short.split(/\r\n|\r|\n/);
@@ -44,15 +44,15 @@ export function thinned(text, { most, rows, head }, numbers = null, before = 1) 
   return [lines.filter((_, i) => number(i) < head || number(i) % each === 0).join("\n"), each];
 }
 
-/** @param {Uint8Array} bytes the first of a file @returns {string} how its text is written */
+/** @param {Uint8Array} bytes the beginning of a file @returns {string} its encoding */
 export function encodingOf(bytes) {
   if (bytes[0] === 0xff && bytes[1] === 0xfe) return "utf-16le";
   if (bytes[0] === 0xfe && bytes[1] === 0xff) return "utf-16be";
   return new TextDecoder().decode(bytes.subarray(0, bytes.length - 4)).includes("\ufffd") ? "windows-1252" : "utf-8";
 }
 
-// A file as thinned() has it, read piece by piece, so that it may be larger than the memory. What is no text comes as its
-// first bytes, which tell that.
+// Thins a file like thinned(), but reads it piece by piece, so that it can be larger than the memory. For a file that
+// is not text, returns its first bytes, from which Python can tell.
 /**
  * @param {Blob} file @param {Limits} limits
  * @param {(share: number) => void} reached
@@ -71,7 +71,7 @@ export async function readFile(file, limits, reached) {
     const bytes = await file.slice(at, at + CHUNK).arrayBuffer(), last = at + CHUNK >= file.size;
     const lines = (rest + stream.decode(bytes, { stream: !last })).split(/\r\n|\r(?!$)|\n/);
     rest = last ? "" : lines.pop() ?? "";
-    if (rest.length > most) return [sample, 1]; // no table has such a line
+    if (rest.length > most) return [sample, 1]; // no table has such a long line
     for (const each_line of lines) {
       if (line < head || line % each === 0) {
         kept.push(each_line.replace(LONG, "$1"));
@@ -101,7 +101,7 @@ export function renderMeasuredFile({ model, el, view }) {
   /** @param {[string, number]} table */
   const send = ([text, each]) => {
     count += 1;
-    model.table = [text, each, count]; // the same file again is a wish too
+    model.table = [text, each, count]; // choosing the same file again counts as well
   };
   /** @param {File | undefined} file */
   const read = async (file) => {

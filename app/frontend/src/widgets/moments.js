@@ -1,4 +1,4 @@
-// What happened in a run, and when: a click goes there, and the last that has happened is marked.
+// What happened in a run, and when. Clicking an event goes there; the last one that has happened is marked.
 import { seek } from "../figures/seeking.js";
 import { latest } from "../lab/curves.js";
 import { part } from "./parts.js";

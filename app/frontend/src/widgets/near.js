@@ -1,5 +1,5 @@
-// Whether the card that this lies in is on the screen, or so near that it soon may be.
-const NEAR = "200px"; // beyond the window, and beyond what scrolls in it
+// Whether the card that contains this is on the screen, or so close that it may soon be.
+const NEAR = "200px"; // beyond the window, and beyond scrolling parts of the page
 
 /** @param {Pick<Rendering<NearModel>, "model" | "el">} rendering */
 export function renderNear({ model, el }) {

@@ -1,9 +1,9 @@
-// What the page says over everything: that the server could not do what was asked of it, does it later, or is gone.
+// Messages over the whole page: the server could not do what was requested, will do it later, or is gone.
 import { colours } from "../colours.js";
 
 const ABOVE = { position: "fixed", margin: "auto", maxWidth: "560px", borderRadius: "8px", color: "white",
   font: "15px/1.4 system-ui, sans-serif", boxShadow: "0 2px 8px rgb(0 0 0 / 30%)" };
-const FIRST = 500, LONGEST = 8000; // ms between two tries, each half to one and a half times as long
+const FIRST = 500, LONGEST = 8000; // ms between two attempts, each randomly changed by up to half
 
 function notice(style) {
   const words = document.createElement("div");
@@ -12,7 +12,7 @@ function notice(style) {
   return words;
 }
 
-// One sentence, until it is closed or the page is loaded anew.
+// One sentence, until a person closes it or reloads the page.
 /** @param {Pick<Rendering<FailureModel>, "model">} rendering */
 export function renderFailure({ model }) {
   const words = notice({ inset: "auto 8px 8px", zIndex: 9998, display: "flex", gap: "12px", alignItems: "center",
@@ -39,11 +39,11 @@ export function renderFailure({ model }) {
   });
 }
 
-// Who goes on without a server says so, and is then not told over, nor loaded anew.
+// A listener that works without the server cancels the event: then there is no message and no reload.
 const tellLost = () => window.dispatchEvent(new CustomEvent("tippe:lost", { cancelable: true }));
 const tellBack = () => window.dispatchEvent(new CustomEvent("tippe:back", { cancelable: true }));
 
-// Once a server answers again, the page is loaded anew: its address holds what was set.
+// When a server answers again, the page is reloaded: its address contains what was set.
 /** @param {Pick<Rendering<ConnectionModel>, "model">} rendering */
 export function renderConnection({ model }) {
   const words = notice({ inset: "8px 8px auto", zIndex: 9999, padding: "10px 16px", background: colours.ink, textAlign: "center" });
@@ -55,7 +55,7 @@ export function renderConnection({ model }) {
     if (tellLost()) document.body.append(words);
     for (let wait = FIRST; ; wait = Math.min(2 * wait, LONGEST)) {
       await new Promise((resolve) => setTimeout(resolve, wait * (0.5 + Math.random())));
-      // A login that has run out answers by leading elsewhere: then a new load leads there.
+      // An expired login redirects: then reloading leads to the login page.
       const answer = await fetch("./readyz", { cache: "no-store", redirect: "manual" }).catch(() => null);
       if (answer && answer.status < 500) return tellBack() && location.reload();
     }

@@ -1,4 +1,4 @@
-// Answers once the browser has painted what came before the question.
+// Resolves when the browser has painted everything that came before the call.
 /** @param {Pick<Rendering<PaintedModel>, "model">} rendering */
 export function renderPainted({ model }) {
   model.on("sent", () => requestAnimationFrame(() => setTimeout(() => (model.painted = model.sent))));

@@ -1,4 +1,4 @@
-// Elements of the page and of a drawing, and one of several buttons.
+// Elements of HTML and SVG, and a group of buttons of which one is chosen.
 const DRAWING = "http://www.w3.org/2000/svg";
 
 function dress(element, attributes, children) {
@@ -16,7 +16,7 @@ export const part = (name, attributes = {}, ...children) => dress(document.creat
 /** @param {string} name @param {Record<string, any>} attributes @param {any[]} children @returns {any} */
 export const drawn = (name, attributes = {}, ...children) => dress(document.createElementNS(DRAWING, name), attributes, children);
 
-// One of several buttons is chosen; the arrow keys go from one to the next, as they do between radio buttons.
+// One of several buttons is chosen; the arrow keys move between them, as between radio buttons.
 export class Choice {
   /**
    * @param {object} of

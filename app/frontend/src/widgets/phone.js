@@ -1,4 +1,4 @@
-// A number by which a phone is known again after a reload.
+// A number by which a phone is recognised after a reload.
 const KEY = "tippe:phone";
 
 const drawn = () => Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
@@ -10,7 +10,7 @@ export function markOf(kept) {
     if (!mark || !/^[0-9a-f]{32}$/.test(mark)) kept.setItem(KEY, (mark = drawn()));
     return mark;
   } catch {
-    return drawn(); // where nothing may be kept
+    return drawn(); // the browser may not store anything
   }
 }
 

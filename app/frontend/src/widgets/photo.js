@@ -1,12 +1,12 @@
-// The top as it is seen, with its caption below, as a file.
+// Saves a picture of the top as shown, with its caption below.
 import { colours } from "../colours.js";
 import { penOf } from "../data.js";
 import { photosOf } from "../motion/clock.js";
 import { addButton, save } from "./saving.js";
 
-const LINE = 1.5; // of a caption, in sizes of its type
+const LINE = 1.5; // line height of a caption, in units of the font size
 
-/** @param {HTMLCanvasElement[]} pictures side by side @param {string[]} caption */
+/** @param {HTMLCanvasElement[]} pictures to be placed side by side @param {string[]} caption */
 function withCaption(pictures, caption) {
   const canvas = document.createElement("canvas"), ink = penOf(canvas), high = Math.max(...pictures.map(({ height }) => height));
   canvas.width = pictures.reduce((sum, { width }) => sum + width, 0);

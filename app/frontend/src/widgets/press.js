@@ -1,6 +1,6 @@
-// A pointer that is down, wherever on the page that is.
+// A pointer that is pressed anywhere on the page.
 
-// Calls run when it is let go, or the window is left; not when what had the focus loses it to what is pressed.
+// Calls `run` when it is released, or the window loses the focus; not when the focus moves to the pressed element.
 /** @param {() => void} run @param {AbortSignal} signal */
 export function onLettingGo(run, signal) {
   const options = { capture: true, signal };
@@ -8,7 +8,7 @@ export function onLettingGo(run, signal) {
   window.addEventListener("blur", (event) => event.target === window && run(), options);
 }
 
-// now: which press is down; 0 for none, the first is 1.
+// now: the number of the present press, from 1; 0 if nothing is pressed.
 export class Press {
   constructor() {
     this.now = this.count = 0;

@@ -1,4 +1,4 @@
-// A sentence that changes with what is shown; its sheets are the page's own.
+// A sentence that changes with what is shown; it uses the page's style sheets.
 /** @param {Pick<Rendering<SaidModel>, "model" | "el">} rendering */
 export function renderSaid({ model, el }) {
   const show = () => (el.innerHTML = model.text);

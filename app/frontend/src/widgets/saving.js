@@ -1,4 +1,4 @@
-// A button that saves a file, and how one is saved.
+// A button that saves a file, and the function that does it.
 import { colours } from "../colours.js";
 
 const STYLE = `button { font: calc(14px * var(--type, 1)) var(--family, system-ui, sans-serif);

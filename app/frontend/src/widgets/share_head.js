@@ -1,4 +1,4 @@
-// What is first of what is shared: the link, its copy, and its QR code, which can fill the screen of a room.
+// The first part of Share: the link, a button to copy it, and its QR code, which can fill the screen of a lecture hall.
 import { copyText } from "./copy.js";
 import { part } from "./parts.js";
 
@@ -21,7 +21,7 @@ p { margin: 0; flex: 1; font-size: calc(12px * var(--type, 1)); color: var(--fai
 @media (max-width: 700px) { button { min-height: 44px; } .line .close { width: 44px; } .copy { min-width: 120px; padding: 0 12px; } .line .copy { min-height: 44px; } }
 `;
 
-// A key that is meant for what lies above the page, a list or a dialog, is not for this.
+// Ignore keys that are meant for something above the page, such as a list or a dialog.
 const elsewhere = (event) => event.composedPath().some((each) => each instanceof Element && each.matches("dialog, [role=dialog], [role=listbox], .menu"));
 
 /** @param {Rendering<ShareHeadModel>} rendering */

@@ -1,21 +1,21 @@
-// One sketch of each symbol, the same wherever it stands: a top on the table, and in ink what is meant.
+// One sketch of each symbol, the same everywhere: a top on the table, and what the symbol means in blue.
 
 const FRAME = (parts) => `<svg viewBox="0 0 132 92" width="132" height="92" aria-hidden="true" fill="none" stroke-linecap="round">${parts}</svg>`;
 const pale = (d) => `<path d="${d}" stroke="var(--faint, #8a96a3)" stroke-width="1.5"/>`;
 const ink = (d) => `<path d="${d}" stroke="var(--link, #0b5cad)" stroke-width="2.5"/>`;
 const letter = (x, y, text) => `<text x="${x}" y="${y}" font-size="13" font-style="italic" fill="var(--ink, #22303c)">${text}</text>`;
 const dot = (x, y) => `<circle cx="${x}" cy="${y}" r="2.5" fill="var(--ink, #22303c)"/>`;
-// an arrow's head at its end, along (dx, dy) of length one
+// the head of an arrow that ends at (x, y), along the unit vector (dx, dy)
 const head = (x, y, dx, dy) => `M${x - 7 * dx - 4 * dy} ${y - 7 * dy + 4 * dx}L${x} ${y}L${x - 7 * dx + 4 * dy} ${y - 7 * dy - 4 * dx}`;
 
-// O at (60, 48), 30 px to the contact C at (60, 78); the axis 3 leans to the right by 30 degrees, G is below O on it
+// O at (60, 48), 30 px above the contact C at (60, 78); axis 3 leans 30 degrees to the right, G is below O on it
 const table = pale("M10 78H122"), ball = pale("M30 48a30 30 0 1 0 60 0a30 30 0 1 0 -60 0");
 const axis = pale("M50 65.3L82 10"), top = table + ball + axis, upright = pale("M60 78V6");
 const around = (x, y, rx, tilt) => `<path d="M${x - rx} ${y}a${rx} 6 0 1 0 ${2 * rx} 0" transform="rotate(${tilt} ${x} ${y})" stroke="var(--link, #0b5cad)" stroke-width="2.5"/>`;
 const spin = around(76, 20, 13, 30) + ink(head(88, 26, 0.2, -1)), cone = ink("M60 78L44 44M60 78L76 44M44 44H76");
 const graph = pale("M20 80V12M20 80H120");
 
-/** @type {Record<string, string>} by the names of controls.toml */
+/** @type {Record<string, string>} by the names in controls.toml */
 const drawn = {
   angle: top + upright + ink("M60 18a30 30 0 0 1 15 4") + letter(64, 14, "θ"),
   theta_dot: top + ink("M82 10Q98 16 104 30") + ink(head(104, 30, 0.4, 0.9)),
@@ -37,10 +37,10 @@ const drawn = {
   patch: top + ink("M50 78a10 4 0 1 0 20 0a10 4 0 1 0 -20 0"),
   gamma: graph + ink("M20 80L110 24"),
 };
-// Those of another name that are the same quantity.
+// Other names of the same quantity.
 const SAME = { theta: "angle", tilt: "angle", spin: "omega3", seconds: "time", mu_s: "mu", mu_k: "mu" };
 
-/** @param {string} name of a symbol in controls.toml @returns {string | undefined} an SVG */
+/** @param {string} name of a symbol in controls.toml @returns {string | undefined} the sketch, an SVG */
 export function sketchOf(name) {
   const parts = drawn[name] ?? drawn[SAME[name]];
   return parts && FRAME(parts);

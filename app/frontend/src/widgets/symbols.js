@@ -1,16 +1,16 @@
-// Every symbol on the page, in a picture's words, at a control, or in a sentence, has its sketch and its meaning under the
-// hand, and every term of the glossary its words. A symbol is known by how it is set: <i>K</i><sub>J</sub>.
+// Pointing at a symbol, in a picture, at a control or in a sentence, shows its sketch and meaning; pointing at a term
+// of the glossary shows its explanation. A symbol is recognised by its HTML: <i>K</i><sub>J</sub>.
 import { hideReadout, showReadout } from "../figures/readout.js";
 import { sketchOf } from "./sketches.js";
 import { watchTerms } from "./terms.js";
 
-// {as it is set: its name in controls.toml}
+// {the symbol's HTML: its name in controls.toml}
 const NAMES = {
   K_J: "K_J", K_R: "K_R", E: "energy", "θ": "angle", "θ̇": "theta_dot", "ω_3": "omega3", "ω_2′": "omega2", a: "a", I_1: "I1", I_3: "I3",
   "μ_s": "mu_s", "μ_k": "mu_k", "μ": "mu", F_z: "normal", u: "slip", t: "time", "ε": "eps", "γ": "gamma",
 };
 
-/** The name of the symbol that an element is part of. @param {Element} part @returns {string | undefined} */
+/** The name of the symbol that an element belongs to. @param {Element} part @returns {string | undefined} */
 export function symbolOf(part) {
   const letter = part.matches("i") ? part : part.matches("sub") && part.previousSibling?.nodeName === "I" ? part.previousElementSibling : null;
   if (!letter) return undefined;
@@ -18,7 +18,7 @@ export function symbolOf(part) {
   return NAMES[`${letter.textContent}${below}`.trim()];
 }
 
-// The browser's own words beside the mouse would come over ours.
+// A title would open the browser's own tooltip over ours.
 function quiet(part, words) {
   const titled = part.closest("[title]");
   if (!titled || !words.startsWith(titled.getAttribute("title"))) return;

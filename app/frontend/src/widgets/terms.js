@@ -1,4 +1,4 @@
-// The glossary under the hand: a term on which the mouse rests, or a finger taps, in a sentence anywhere on the page.
+// The glossary on the page: explains a term that the mouse rests on, or a finger taps, in any sentence.
 import { hideReadout, showReadout } from "../figures/readout.js";
 import { sketchOf } from "./sketches.js";
 
@@ -18,10 +18,10 @@ export function finder(terms) {
     [...text.matchAll(every)].map((found) => ({ name: names.get(found[0].toLowerCase()), at: found.index, end: found.index + found[0].length }));
 }
 
-/** What is said of a term, as HTML. @param {Terms} terms @param {string} name */
+/** The explanation of a term, as HTML. @param {Terms} terms @param {string} name */
 export const saidOf = (terms, name) => `${sketchOf(name) ?? ""}<div><b>${terms[name].forms.split("|")[0]}</b>: ${terms[name].is}.</div>`;
 
-// The term of an element's own text that is at a place, and its boxes.
+// The term at a place in an element's own text, and the boxes around it.
 function termAt(element, x, y, find) {
   for (const node of element.childNodes) {
     if (node.nodeType !== Node.TEXT_NODE) continue;

@@ -1,14 +1,14 @@
-// The map of all tops: a/R across and I1/I3 upwards say which of them can turn over. Each known top stands there as its own
-// silhouette, to be clicked; the ring is the top of the page, to be dragged.
+// The map of all tops: a/R across and I1/I3 upwards determine which of them can turn over. Each known top is shown as
+// its silhouette, which can be clicked; the ring is the top of the page, which can be dragged.
 import { colours } from "../colours.js";
 import { fill, local } from "../data.js";
 import { clamp } from "../figures/curves.js";
 
-// a/R on the right of the break in the axis, and on its left, where ordinary tops are; I1/I3
+// a/R to the right of the gap in the axis; to its left, where ordinary tops are; I1/I3
 /** @type {Record<"NEAR" | "FAR" | "RATIO", [from: number, to: number]>} */
 const { NEAR, FAR, RATIO } = { NEAR: [-0.03, 0.4], FAR: [-13, -1], RATIO: [0.4, 1.4] };
-const LEFT = 44, RIGHT = 10, TOP = 12, BOTTOM = 46, BREAK = 0.22, GAP = 10; // px, but for the break: a share of the width
-const NARROW = 560, SIZE = 36, LETTER = 7.2, LINE = 15; // px: of a silhouette, and about a letter and a line of its name
+const LEFT = 44, RIGHT = 10, TOP = 12, BOTTOM = 46, BREAK = 0.22, GAP = 10; // px, except BREAK: a fraction of the width
+const NARROW = 560, SIZE = 36, LETTER = 7.2, LINE = 15; // px: below this the map is narrow; a silhouette; a letter; a line
 const TICKS = [0, 0.1, 0.2, 0.3, 0.4], FAR_TICKS = [-10, -5], RATIO_TICKS = [0.4, 0.6, 0.8, 1, 1.2, 1.4];
 
 const STYLE = `<style>
@@ -23,9 +23,9 @@ const STYLE = `<style>
   .here .grip { fill: transparent } .here .ring, .here .line { stroke: var(--link, ${colours.chosen}) } .chosen .ring.of { stroke: var(--ink, #22303c) }
   </style>`;
 
-/** type: how much larger than usual. @typedef {{ wide: number, high: number, type: number }} Size @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
+/** type: the enlargement of the text. @typedef {{ wide: number, high: number, type: number }} Size @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
 
-/** Between px and a/R, I1/I3. @param {Size} size */
+/** Converts between px and a/R, I1/I3. @param {Size} size */
 export function scalesOf({ wide, high }) {
   const first = LEFT, split = LEFT + BREAK * (wide - LEFT - RIGHT), last = wide - RIGHT, foot = high - BOTTOM;
   const share = (value, /** @type {[number, number]} */ [low, top]) => (value - low) / (top - low);
@@ -38,7 +38,7 @@ export function scalesOf({ wide, high }) {
   };
 }
 
-/** The outline, both sides of it, in a box of SIZE about (0, 0). @param {[radius: number, height: number][]} outline */
+/** The outline, both sides of it, in a square of SIZE around (0, 0). @param {[radius: number, height: number][]} outline */
 export function silhouette(outline) {
   const heights = outline.map(([, height]) => height), wide = 2 * Math.max(...outline.map(([radius]) => radius));
   const [low, high] = [Math.min(...heights), Math.max(...heights)], scale = SIZE / Math.max(wide, high - low);
@@ -46,7 +46,7 @@ export function silhouette(outline) {
   return `M${[...outline.map(at(1)), ...outline.map(at(-1)).reverse()].join("L")}Z`;
 }
 
-// Where the names stand: each beside its silhouette, in one line, and whether it is free of the others there.
+// Positions of the names, each in one line beside its silhouette, and whether each overlaps nothing else.
 /** @param {{ x: number, y: number, words: string }[]} tops @param {Size} size */
 export function placeNames(tops, size) {
   const half = SIZE / 2 + 5, letter = LETTER * size.type, line = LINE * size.type, box = (x, y, wide, high) => ({ left: x, right: x + wide, top: y, bottom: y + high });
@@ -87,7 +87,7 @@ function axes({ x, y, first, foot, last }, words, type) {
 
 function groups({ x, y, first, last }, words, { wide, type }) {
   const narrow = wide / type < NARROW;
-  // narrow, the first two would run into one another on one line
+  // on a narrow map the first two would overlap on one line
   const places = [["ordinary", narrow ? 4 + first : 10 + first, TOP + (narrow ? 48 : 24), "start"], ["part", x(0) + 20, TOP + 24, "start"],
     ["turns", last - 14, y(1.04), "end"], ["never", x(0) + 20, y(0.46), "start"]];
   return places.map(([name, across, down, anchor]) => {
@@ -146,7 +146,7 @@ export function renderTopsMap({ model, el }) {
     else return;
     event.preventDefault();
   };
-  // A ring that is taken is held at once, and wherever the hand then goes.
+  // From the press on, the ring follows the pointer everywhere.
   place.onpointerdown = (event) => {
     if (!(/** @type {Element} */ (event.target).closest(".here"))) return;
     held = true;
@@ -162,7 +162,7 @@ export function renderTopsMap({ model, el }) {
   const sizes = new ResizeObserver(draw);
   sizes.observe(place);
   model.on("state", draw);
-  window.addEventListener("tippe:look", draw); // the type may be larger
+  window.addEventListener("tippe:look", draw); // the font size may have changed
   model.on("remove", () => {
     sizes.disconnect();
     window.removeEventListener("tippe:look", draw);

@@ -1,8 +1,8 @@
-// The tour of Roll, for who asks: one place of the page after the other, with words beside it.
+// The tour of Roll, on request: one part of the page after the other, with words beside it.
 import { fill } from "../data.js";
 import { find } from "./finding.js";
 
-// The places, in the order of their words.
+// The parts, in the order of their words.
 const STOPS = [
   "[data-picture=top] canvas",
   "input[data-input=K_J]",
@@ -10,7 +10,7 @@ const STOPS = [
   "[data-picture=surface] canvas",
   "[role=tablist]",
 ];
-const PLACED_MS = 200; // the page goes on being laid out
+const PLACED_MS = 200; // ms: the layout of the page may still be changing
 const GAP = 14; // px
 
 /** @param {Record<string, string>} texts */
@@ -23,7 +23,7 @@ const isWhole = (element) => {
   return box && box.top >= 0 && box.bottom <= innerHeight && box.left >= 0 && box.right <= innerWidth;
 };
 
-// Where words are to stand: beside a box where there is room, else at the end of the window that is farther from it.
+// Where to put the words: beside a box if there is room, otherwise at the end of the window that is farther from it.
 /** @param {Pick<DOMRect, "left" | "right" | "top" | "bottom">} box @param {{ wide: number, high: number }} words @param {{ wide: number, high: number }} page */
 export function beside(box, { wide, high }, page) {
   const inside = (value, most) => Math.min(Math.max(value, GAP), Math.max(most - GAP, GAP));
@@ -38,12 +38,12 @@ export function beside(box, { wide, high }, page) {
   return { left: inside(left, page.wide - wide), top: inside(top, page.high - high) };
 }
 
-// What the ring goes around: of a slider all of its control, so that the ring cuts no label.
+// What the ring surrounds: for a slider, its whole control, so that the ring cuts through no label.
 /** @param {HTMLElement} target @returns {Element} */
 const framed = (target) => (target.matches("input") && target.getRootNode() instanceof ShadowRoot ? /** @type {ShadowRoot} */ (target.getRootNode()).host : target);
 
 export class Tour {
-  /** @param {Record<string, any>} texts @param {ShadowRoot} over the page @param {AbortSignal} signal */
+  /** @param {Record<string, any>} texts @param {ShadowRoot} over a layer above the page @param {AbortSignal} signal */
   constructor(texts, over, signal) {
     this.texts = texts;
     /** @type {(selector: string) => any} */
@@ -54,7 +54,7 @@ export class Tour {
     /** @type {HTMLElement | null} */
     this.target = null;
     /** @type {HTMLElement | null} */
-    this.from = null; // where the keyboard was
+    this.from = null; // what had the keyboard focus
     this.part(".skip").onclick = () => this.end();
     this.part(".back").onclick = () => this.go(this.at - 1);
     this.part(".next").onclick = () => this.go(this.at + 1);
