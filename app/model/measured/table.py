@@ -174,18 +174,21 @@ def _is_data(cells: list[str], between: str) -> bool:
     return numbers > 0 and numbers >= len(cells) / 2
 
 
-def _decimals(cell: str) -> int:
-    """The number of characters behind the decimal mark."""
-    return len(re.split("[.,]", cell, maxsplit=1)[-1]) if re.search("[.,]", cell) else 0
+def _shape(cell: str) -> tuple[int, bool]:
+    """(the number of characters behind the decimal mark, whether there is an exponent)."""
+    _, *behind = re.split("[.,]", cell, maxsplit=1)
+    return len("".join(behind)), "e" in cell.lower()
 
 
 def _is_cut(rows: list[tuple[int, list[str]]]) -> bool:
-    """Whether the last cell of a text that does not end with a line is only the beginning of a number: it has fewer
-    decimals than all cells above it, or is no number."""
+    """Whether the last cell of a text that does not end with a line is only the beginning of a number: all cells above
+    it have the same number of decimals, and it has fewer, or is no number."""
     above, last = [cells[-1] for _, cells in rows[:-1] if cells[-1].lower() not in _GAP], rows[-1][1][-1]
-    if not above or last.lower() in _GAP:
+    shapes = {_shape(cell) for cell in above}
+    if len(above) < FEWEST or len(shapes) > 1 or last.lower() in _GAP:
         return False
-    return not _NUMBER.fullmatch(last) or _decimals(last) < min(map(_decimals, above))
+    ((decimals, _),) = shapes
+    return not _NUMBER.fullmatch(last) or (_shape(last)[0] < decimals and not _shape(last)[1])
 
 
 def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: str, whole: bool = True) -> Table:
