@@ -28,13 +28,13 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there, sockets 
 
 
 def crowd(url, many):
-    """So many connections that ask nothing."""
+    """Opens this many connections that ask for nothing."""
     place = urlsplit(url)
     return [socket.create_connection((place.hostname, place.port), timeout=60) for _ in range(many)]
 
 
 def greedy(url):
-    """A connection that asks for large files, one after the other, and reads nothing."""
+    """A connection that requests large files, one after the other, and reads nothing."""
     place = urlsplit(url)
     connection = socket.socket()
     connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
@@ -77,7 +77,7 @@ def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
 
 @pytest.mark.slow
 def test_those_who_do_not_read_what_they_asked_for_make_room(tmp_path):
-    """And while they are sent it, it is no second open file each."""
+    """While data is being sent to them, they do not use a second open file each."""
     with served(tmp_path / "log", before=UNDER) as server:
         connections = [greedy(server.url) for _ in range(FEW)]
         assert run(Visitor.enter(server.url)).component("LabView")
@@ -90,7 +90,7 @@ def test_a_server_that_stops_takes_nobody_again(monkeypatch, caplog):
     monkeypatch.setattr(arrivals, "LOOK_AGAIN", 0)
 
     def free():
-        """The next file's number."""
+        """The number that the next opened file gets."""
         number = os.open(os.devnull, os.O_RDONLY)
         os.close(number)
         return number

@@ -40,7 +40,7 @@ def pacer(explorer):
 
 @pytest.fixture
 def one_line(caplog):
-    """Each time something is passed over there is one line, and nothing worse."""
+    """Each ignored value gives one line in the log, and no error."""
     yield
     for record in caplog.records:
         if record.name == "tippe":
@@ -49,7 +49,8 @@ def one_line(caplog):
 
 
 def lists(value, *others):
-    """Of the right length with this value in each place; the value itself where it is a list; too short, too long."""
+    """Lists of the right length with this value at each place, or the value itself if it is a list; too short and too
+    long lists."""
     for i in range(len(others)):
         yield [*others[:i], value, *others[i + 1 :]]
     yield from ([value], [*others, value])

@@ -16,7 +16,7 @@ AXE = """async (options) => {
 
 
 def violations(page, rules=RULES, but=()):
-    """What axe-core, which page has already, finds on it; but: rules left out."""
+    """The violations that axe-core, already loaded in the page, finds. but: rules to skip."""
     return page.evaluate(AXE, {"runOnly": rules, "rules": {rule: {"enabled": False} for rule in but}})
 
 
@@ -43,7 +43,7 @@ def escape(page):
 
 
 def high(page):
-    """All of a long tab at once; the cards of Roll would grow with the window."""
+    """Makes the window tall, so that a whole long tab is visible; the cards of Roll would grow with it."""
     page.set_viewport_size({"width": page.viewport_size["width"], "height": 3000})
 
 
@@ -182,7 +182,7 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
 
 
 def test_the_widgets_go_dark_at_once(visit):
-    """In the very frame in which the page does: they are not made anew one by one."""
+    """In the same frame as the page; they are not created again one by one."""
     colour = """() => {
         const all = (root) => [...root.querySelectorAll("*")]
             .flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])

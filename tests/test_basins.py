@@ -7,7 +7,7 @@ import pytest
 
 @pytest.mark.parametrize("alpha", [0.3, 1.0])
 def test_the_power_of_a_known_border_is_found(alpha):
-    """Starts at random beside borders of which the share that is nearer than e goes like e^alpha."""
+    """Random starts near boundaries, for which the fraction closer than e scales as e^alpha."""
     rng = np.random.default_rng(1)
     distance = 3 * rng.random((4000, 1)) ** (1 / alpha)
     other = distance < basins.DISTANCES
@@ -22,7 +22,7 @@ def test_the_fastest_border_is_below_each_tilt():
 
 
 def test_what_was_run_is_not_run_again(monkeypatch, tmp_path):
-    """Stopped after the second piece of three; rows of the map come in their places."""
+    """Stopped after the second of three pieces; the rows of the map are in the right places."""
     asked = []
 
     def ended(spins, tilts, rtol=1e-6):

@@ -42,8 +42,8 @@ DOCUMENTED = {"_esm", "_bundle", "_stylesheets", "_importmap"}
 
 
 def foreign(path):
-    """The private names that a file takes of what is not its own: x._name, getattr(x, "_name"), where x is not self,
-    cls or a name of the file; and its classes' that a library's class has too."""
+    """The private names of other modules that a file uses: x._name and getattr(x, "_name"), where x is not self, cls or
+    a name of the file; and private names of its own classes that a library's base class has too."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     made = {
         node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
@@ -69,7 +69,7 @@ def private(name):
 
 
 def ours():
-    """All modules of the page that have been imported here, by their files."""
+    """All imported modules of the page, by their files."""
 
     import app.__main__
     import app.app_hooks
@@ -103,7 +103,8 @@ def test_the_test_finds_what_is_borrowed():
 
 
 def test_a_session_works_in_the_servers_own_thread():
-    """1. What is given to an executor is done when it returns; Bokeh's own, where it has one, is where it was."""
+    """1. What is passed to an executor is done when the call returns; Bokeh's own executor, if it has one, is
+    unchanged."""
     where = []
 
     async def work():
@@ -137,7 +138,7 @@ def test_a_list_of_models_is_kept_no_longer_than_the_change_that_failed():
 
 
 class Socket:
-    """A page's end that takes its time."""
+    """The browser's end of a page, which is slow."""
 
     def __init__(self):
         self.write_lock, self.ws_connection, self.written = Lock(), Mock(is_closing=lambda: False), []
@@ -154,7 +155,7 @@ class Socket:
 
 
 async def show_and_fill():
-    """A figure is brought by Panel while something else is written, and filled by Bokeh under its lock."""
+    """Panel adds a figure while something else is being written, and Bokeh fills it under its lock."""
     document, row, source = Document(), Row(), ColumnDataSource({"x": [0]})
     document.add_root(row)
     session, socket = ServerSession("mine", document, io_loop=IOLoop.current()), Socket()
@@ -190,7 +191,7 @@ def test_what_fills_a_figure_comes_behind_the_figure(monkeypatch):
 
 
 def test_each_connection_of_a_session_is_brought_what_is_new():
-    """3. Bokeh's own messages, one for each, bring it to the first alone."""
+    """3. With Bokeh's own messages, one for each connection, only the first one gets them."""
 
     class Connection:
         protocol = Protocol()
@@ -228,7 +229,7 @@ def test_a_message_says_what_bokehs_own_would_and_a_new_model_once():
 
 @pytest.mark.parametrize("act", [Document.apply_json_patch, borrowed.apply])
 def test_a_message_of_a_page_does_what_bokeh_does_with_it(act):
-    """9. With a new model, one that is still to be sent, one that has gone, and one that never was."""
+    """9. With a new model, one that is still to be sent, one that has been removed, and one that never existed."""
     document, known, gone = Document(), Div(text="before"), Div()
     page, other = Row(known, gone), Row()
     for root in (page, other):
@@ -250,7 +251,7 @@ def test_a_message_of_a_page_does_what_bokeh_does_with_it(act):
 
 
 def test_what_writes_to_a_page_waits_under_these_names():
-    """3. What it does is tested in test_server.py."""
+    """3. Its effect is tested in test_server.py."""
     module = panel.io.document
     assert list(inspect.signature(inspect.unwrap(module._dispatch_msgs)).parameters) in (["doc"], ["document"])
     source = inspect.getsource(module.schedule_write_events)
@@ -259,7 +260,7 @@ def test_what_writes_to_a_page_waits_under_these_names():
 
 
 class Clients(BokehTornado):
-    """What a server of Bokeh knows of its connections."""
+    """What a Bokeh server stores about its connections."""
 
     def __init__(self):
         self._clients = set()
@@ -282,7 +283,7 @@ def test_who_left_before_he_was_connected_leaves_no_connection(here):
 
 
 def sheets():
-    """The addresses of the style sheets of a part whose document is none of a server's."""
+    """The addresses of the style sheets of a part whose document belongs to no server."""
     with set_curdoc(Document()):
         found = pmui.Button().get_root().stylesheets
     return [sheet.url for sheet in found if isinstance(sheet, ImportedStyleSheet)]
@@ -297,7 +298,7 @@ def test_style_sheets_of_a_part_without_a_document_stay_here(monkeypatch):
 
 
 def test_what_a_session_does_later_goes_through_the_method_that_is_counted(monkeypatch):
-    """5. What is counted is tested in test_budget.py."""
+    """5. What it counts is tested in test_budget.py."""
     assert list(inspect.signature(ServerSession._wrap_document_callback).parameters)[:2] in (
         ["self", "callback"], ["session", "callback"])  # fmt: skip
     seen = []
@@ -323,7 +324,7 @@ class Asked(JSComponent):
 
 
 def test_a_property_arrives_without_waiting(monkeypatch):
-    """6. As Panel takes a change of a page: at once, and nobody is told that it is busy; else 50 ms later."""
+    """6. When Panel receives a change from a page: at once, without a busy signal; otherwise 50 ms later."""
     waits, busy = [], []
     monkeypatch.setattr(pn.state, "execute", lambda act, schedule=None: waits.append(0))
     monkeypatch.setattr(type(pn.state), "_add_busy_event", lambda state, name: busy.append(name))
@@ -352,7 +353,8 @@ class Slow(JSComponent):
 
 
 def sent_of(kind, monkeypatch):
-    """What is held for the page after a component was told some things and asked others by the page, and its state."""
+    """The messages held for the page, and its state, after some properties were set by Python and others by the
+    page."""
     document = Document()
     monkeypatch.setattr(pn.state, "_unblocked", lambda document: True)
     monkeypatch.setattr(type(pn.state), "_thread_id", threading.get_ident())
@@ -373,7 +375,7 @@ def sent_of(kind, monkeypatch):
 
 
 def test_what_is_set_goes_out_as_panel_would_send_it(monkeypatch):
-    """6. But not back to the page that said it."""
+    """6. But not back to the page that set it."""
     assert borrowed.Direct in Bundled.__mro__ and Direct.own() == {"asked", "told"}
     mine, theirs = sent_of(Direct, monkeypatch), sent_of(Slow, monkeypatch)
     assert mine == theirs == ({"told": [2], "asked": 4, "visible": False}, [2], 4, False, {}, {})

@@ -26,7 +26,7 @@ COUNTING = """
 
 
 def numbers(path):
-    """The numbers of what a file borrows, in its comments."""
+    """The numbers of the borrowed parts in a file's comments."""
     return [int(number) for number in re.findall(r"(?:// |/\*\* )(\d+)\. ", path.read_text(encoding="utf-8"))]
 
 
@@ -41,7 +41,7 @@ def test_what_is_borrowed_is_numbered_and_each_has_its_test():
 
 
 def test_docs_list_all_that_is_borrowed():
-    """Of Python too, in the order of the files."""
+    """Those of Python too, in the order of the files."""
     python = [int(number) for number in re.findall(r"(?m)^    \"\"\"(\d+)\.", (APP / "borrowed.py").read_text("utf-8"))]
     python = sorted({*python, 4})  # which mend() has, with two others
     part = (APP.parent / "docs/house.md").read_text(encoding="utf-8").partition("## Borrowed keys")[2]
@@ -53,8 +53,8 @@ def test_docs_list_all_that_is_borrowed():
 
 
 def drawn():
-    """A document with a figure of 400 x 300 px about x from 0 to 10 and y from -1 to 1. One of its own: else Bokeh
-    looks into the current one, which an earlier test may have ended."""
+    """A document with a figure of 400 x 300 px, x from 0 to 10, y from -1 to 1. It is a new one: otherwise Bokeh uses
+    the current one, which an earlier test may have closed."""
     fig = figure(width=400, height=300, x_range=(0, 10), y_range=(-1, 1), tools=[HoverTool()], toolbar_location=None)
     fig.line([0, 10], [0, 0], line_width=20)
     document = Document()
@@ -63,7 +63,7 @@ def drawn():
 
 
 def beside():
-    """A document with a column of two figures, each in a column of its own, the second of which is hidden."""
+    """A document with a column of two figures, each in its own column, the second one hidden."""
     figures = [figure(width=400, height=150, y_range=(-1, 1), name=name) for name in ("seen", "hidden")]
     for fig in figures:
         fig.line([0, 10], [0, 0])
@@ -94,7 +94,7 @@ def bare(chromium):
 
 
 def painted(page):
-    """How often Bokeh asks for a variable of CSS while a figure is painted once."""
+    """How often Bokeh reads CSS variables while it paints a figure once."""
     return page.evaluate(
         """async () => {
           const { asked } = window;
@@ -106,7 +106,7 @@ def painted(page):
 
 
 def laid_out(page, figure, high):
-    """How often all of a page is laid out where one of its figures gets a range whose labels are as long as high."""
+    """How often the whole page is laid out when a figure gets a range whose labels have the same length as before."""
     return page.evaluate(
         """async ([figure, high]) => {
           const [root] = Bokeh.documents[0].roots(), view = Bokeh.index.find_one(root), { compute_layout } = view;
@@ -125,14 +125,14 @@ OURS = BEFORE.read_text(encoding="utf-8").partition("// 2.")[0]
 
 
 def test_a_figure_is_painted_without_asking_the_style_sheets(bare):
-    """1. The part of app/borrowed.js that stands before Panel's."""
+    """1. The part of app/borrowed.js that runs before Panel's scripts."""
     assert painted(bare) > 20  # else this may go
     bare.evaluate(f"() => {{ {OURS} }}")
     assert painted(bare) == 0
 
 
 def test_a_figure_makes_room_for_its_labels_in_itself(chromium):
-    """And so the page is not laid out, nor by a figure that nobody sees."""
+    """So the page is not laid out again, neither by this figure nor by a hidden one."""
     page = of_bokeh(chromium, beside())
     page.goto(f"{HERE}/")
     page.wait_for_function("() => Bokeh.documents[0]?.is_idle")
@@ -148,7 +148,7 @@ def test_a_figure_makes_room_for_its_labels_in_itself(chromium):
 
 
 def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
-    """2. The bundle runs once, for all of Panel's components and for ours; by Panel's own way it ran once more."""
+    """2. The bundle runs once for all Panel components and for our own; Panel's own way would run it twice."""
     page = chromium.new_page()
     page.goto(f"{server}?v=1&tab=roll")
     page.wait_for_selector(".bar .play", timeout=60_000)
@@ -163,7 +163,7 @@ def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
 
 
 def test_a_place_of_a_figure_is_where_its_scales_say(bare):
-    """3. Each corner of the frame, by Bokeh's own events, which are promised."""
+    """3. Each corner of the frame, compared with Bokeh's own events, which are public."""
     bare.evaluate("() => { window.scales = borrowed.scalesOf(fig); window.over = borrowed.eventsOf(fig) }")
     left, top = bare.evaluate("() => { const { left, top } = over.getBoundingClientRect(); return [left, top] }")
     bare.evaluate("() => fig.on_event('mousemove', ({ x, y }) => { window.told = [x, y] })")
@@ -177,7 +177,7 @@ def test_a_place_of_a_figure_is_where_its_scales_say(bare):
 
 
 def test_what_hears_the_mouse_has_its_cursor(bare):
-    """4. It lies over the figure and has its events; the cursor that it is given stays until the mouse moves on."""
+    """4. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
     bare.evaluate("() => borrowed.eventsOf(fig).addEventListener('pointerdown', () => { window.heard = true })")
     bare.mouse.click(200, 150)
     assert bare.evaluate("() => window.heard")
@@ -214,7 +214,8 @@ def test_a_hand_that_rests_before_it_pulls_still_pulls(bare):
 
 @pytest.fixture
 def space(chromium):
-    """A page with three.js and ours; drawn(like) is the grey of a lit pixel of a target, [red, ...], 0 to 255."""
+    """A page with three.js and our module; drawn(like) is the brightness, 0 to 255, of a lit pixel of a render target,
+    [red, ...]."""
     if not THREE.is_dir():
         pytest.skip("three.js is only where the bundle was built")
     page = chromium.new_page()

@@ -77,7 +77,7 @@ def test_after_a_slider_moved_the_data_on_display_are_tippe_cores(visit):
 
 
 def test_nothing_moves_while_a_slider_is_dragged(visit):
-    """Numbers get longer and sentences come and go; the page stands still."""
+    """Numbers get longer, and sentences appear and disappear, but nothing on the page moves."""
     page = visit.page
     before = page.evaluate(PLACES)
     thumb = page.locator("input[data-input]:visible").nth(K_J_FIELD).bounding_box()
@@ -116,7 +116,7 @@ def test_a_bad_value_is_said_beside_its_control(visit):
 
 
 def test_a_tab_that_paints_nothing_loses_no_request(visit):
-    """Of a hidden tab no frame is asked for, so nothing tells the server that its pictures arrived."""
+    """A hidden tab gets no animation frames, so nothing tells the server that its pictures have arrived."""
     visit.page.evaluate("() => { window.requestAnimationFrame = () => 0 }")
     thumb = visit.page.locator("input[data-input]:visible").nth(K_J_FIELD)
     thumb.focus()
@@ -133,7 +133,7 @@ def test_nothing_is_wider_than_a_phone(visit):
 
 
 def test_what_is_out_of_sight_is_drawn_when_it_comes_into_sight(chromium, server):
-    """And Fig. 5 is in sight from the first, with all that sets a motion."""
+    """Fig. 5 is visible from the start, with all controls of the motion."""
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     visit = Visit(page, server, near=True)
     shown = "m => m.near === false"

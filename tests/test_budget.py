@@ -26,7 +26,7 @@ def server(tmp_path_factory):
 
 
 class Clock:
-    """Stands in for the processor's: work() is the only thing that takes time."""
+    """A clock that only work() advances, in place of the processor's."""
 
     def __init__(self, monkeypatch):
         self.now = 0.0
@@ -77,7 +77,7 @@ def test_what_is_done_for_another_in_the_midst_is_counted_to_him_and_nothing_twi
 
 @pytest.mark.parametrize("how", ["add_next_tick_callback", "add_timeout_callback"])
 def test_what_a_session_does_later_is_counted_with_the_lock_and_without(how, monkeypatch):
-    """Panel's answers to a changed slider wait for no lock."""
+    """Panel's handlers of a changed slider do not wait for a lock."""
     clock = Clock(monkeypatch)
     monkeypatch.setattr(
         ServerSession, "_wrap_document_callback", counted(ServerSession._wrap_document_callback, budget)
@@ -139,7 +139,7 @@ def test_who_spends_more_than_a_share_waits_and_not_for_ever():
 
 
 def ask(server, method, path):
-    """An answer to any method, and its text."""
+    """The answer to a request of any method, with its text."""
     connection = HTTPConnection(server.root.removeprefix("http://"), timeout=60)
     connection.request(method, path)
     answer = connection.getresponse()
@@ -147,7 +147,7 @@ def ask(server, method, path):
 
 
 def test_who_asks_for_the_whole_page_again_and_again_waits(monkeypatch, caplog):
-    """On a clock that stands still: a whole page counts 0.08 s, and 5 s are saved up."""
+    """With a stopped clock: a page costs 0.08 s, and at most 5 s are saved up."""
     Clock(monkeypatch)
     waited = []
 

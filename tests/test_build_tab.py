@@ -101,7 +101,7 @@ def test_nothing_of_it_is_to_go_from_panel(builder):
 
 
 def test_many_pieces_have_their_knobs_in_portions(builder, explorer):
-    """Hundreds of them would keep the server for seconds."""
+    """Creating hundreds of them at once would block the server for seconds."""
     many = 100
     points = tuple((0.01 + 0.001 * (i % 2), -0.009 + 0.0005 * i) for i in range(many))
     asked = []
@@ -145,7 +145,8 @@ def test_a_period_or_diameter_out_of_this_world_is_refused(given):
 
 
 def test_the_verdict_is_that_of_the_run():
-    """Leine and Glocker's toy stands; the same with its mass in the middle does not; a body that cannot be so."""
+    """Leine and Glocker's toy stands; with its mass in the middle it does not; and a body for which this is
+    impossible."""
     toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
     found = verdict(toy)
     assert (found.code, found.headline) == ("over", "Yes, it turns over.")
@@ -175,7 +176,7 @@ def test_the_words_beside_the_body_are_of_that_body():
 
 
 def ending_in(monkeypatch, error):
-    """The keys asked for, of VerdictWords whose every run of all spins ends in this."""
+    """The keys of the words used by VerdictWords if all runs of all spins end like this."""
     asked = []
 
     def never(*key, look):

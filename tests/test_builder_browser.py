@@ -66,7 +66,7 @@ def bench(server, chromium):
 
 
 def choose(visit, preset):
-    """Picks a preset and waits until its numbers stand there."""
+    """Chooses a preset, and waits until its numbers are shown."""
     visit.page.get_by_role("combobox", name="Presets").click()
     visit.page.get_by_role("listbox").get_by_role("option", name=preset.name, exact=True).click()
     shape = preset.shape
@@ -77,7 +77,7 @@ def choose(visit, preset):
 
 
 def drag(visit, start, end, rest=0):
-    """rest: for how many ms the hand is down before it moves."""
+    """rest: ms between pressing and moving."""
 
     def places():
         return [visit.page.evaluate(PLACE, ["section", *place]) for place in (start, end)]

@@ -36,7 +36,7 @@ def clock():
 
 @pytest.fixture(params=["a file", "a Redis"])
 def place(request, tmp_path):
-    """Where both workers keep their votes."""
+    """The store that both workers use."""
     if request.param == "a file":
         return str(tmp_path / "new" / "votes.sqlite")
     url = request.getfixturevalue("redis")
@@ -48,7 +48,7 @@ def place(request, tmp_path):
 
 @pytest.fixture
 def workers(place, clock):
-    """Two of one server; each with a store of its own, as processes have it."""
+    """Two workers of one server, each with its own store object, as in separate processes."""
     return [Rooms(store(place, LASTS), clock=clock) for _ in range(2)]
 
 
@@ -88,7 +88,8 @@ OTHER = {"step": "way", "asks": {"options": ["same", "other"]}, "top": {"a": ".0
 
 
 def test_a_class_goes_from_question_to_question_and_back(workers, clock):
-    """The votes of each are kept; when an answer is shown, none is taken any more; another class begins anew."""
+    """The votes of each question are kept; none is accepted once the answer is shown; another class starts without
+    votes."""
     one, other = workers
     room, key = one.open(HERE, **CHOICE)
     for phone, answer in (("a", "over"), ("b", "between")):
@@ -123,7 +124,7 @@ def test_phones_that_only_look_are_bounded(place, clock):
 
 
 def test_a_phone_hears_of_a_question_at_once_and_of_votes_now_and_then(monkeypatch):
-    """A hall of phones is not told of each vote."""
+    """The phones in a lecture hall are not told of each single vote."""
     heard, now = [], [100.0]
     monkeypatch.setattr(desks.time, "monotonic", lambda: now[0])
     watch = desks.Watch("ABCDEF", heard.append, votes=False)

@@ -57,7 +57,7 @@ print(json.dumps([float(total({}, 3)), *(sum(getattr(total.dispatcher.stats, nam
 
 
 class Package:
-    """A tippe_core of two kernels, of which one calls the other in another file."""
+    """A tippe_core with two kernels, one of which calls the other in another file."""
 
     def __init__(self, folder):
         self.folder = folder / "tippe_core"
@@ -91,7 +91,8 @@ def package(tmp_path):
 
 @pytest.fixture
 def read_only(package, tmp_path):
-    """Makes it so, and the home; what a command begins with to be bound by that."""
+    """make(*writable) makes all folders read-only except these; returns the start of a command for which this holds
+    even as root."""
     if os.name != "posix":
         pytest.skip("knows how to take rights away on POSIX alone")
     root = os.getuid() == 0
@@ -162,7 +163,7 @@ def test_beside_sources_that_cannot_be_written_kernels_are_in_the_users_cache(pa
 
 @pytest.mark.slow
 def test_several_processes_at_once_lose_nothing_and_mix_nothing_up(package):
-    """Each compiles for another type of argument, into the same list."""
+    """Each of them compiles for another type of argument, into the same list."""
     given = ("2.0", "2", "np.float32(1.5)", "np.array(3.0)", "True")
     begun = [package.begin(x) for x in given]
     values = [json.loads(each.communicate()[0])[0] for each in begun]
@@ -236,7 +237,7 @@ def test_while_one_thread_compiles_the_others_run_python():
 
 
 def kernels():
-    """All of tippe_core, by name."""
+    """All kernels of tippe_core, by name."""
     found = {}
     for module in pkgutil.walk_packages(tippe_core.__path__, "tippe_core."):
         if module.name != "tippe_core.__main__":
@@ -293,7 +294,7 @@ def test_nothing_that_the_page_computes_is_compiled_when_it_is_asked_for():
 
 
 def test_no_kernel_starts_threads_or_loosens_arithmetic():
-    """numba's own threads end the process where two of Python's enter them; fastmath gives other numbers elsewhere."""
+    """If two Python threads enter numba's threads, the process ends; and fastmath gives different numbers elsewhere."""
     for path in (ROOT / "tippe_core").rglob("*.py"):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         imported = {name.name for node in ast.walk(tree) if isinstance(node, ast.Import) for name in node.names}
@@ -309,7 +310,7 @@ def test_no_kernel_starts_threads_or_loosens_arithmetic():
 @pytest.mark.skipif(bool(why_not()), reason="nothing is compiled")
 @pytest.mark.parametrize("command", ["app", "panel serve app"])
 def test_a_server_that_finds_no_kernels_answers_while_they_are_compiled(command, tmp_path):
-    """What tells that nothing is missing is missing: else it would take minutes."""
+    """The file that says that everything is stored is missing: otherwise this would take minutes."""
     log, here = tmp_path / "log", kept.folder()
     shutil.copytree(here, tmp_path / "kernels" / here.name, ignore=shutil.ignore_patterns(kept.COMPLETE))
     told = ["env", f"NUMBA_CACHE_DIR={tmp_path / 'kernels'}", sys.executable, "-m", *command.split()]

@@ -20,7 +20,7 @@ from tippe_core.motion.happening import NAMES, change
 
 
 def quoted(function, start, end):
-    """The words in quotation marks in a part of a docstring."""
+    """The quoted words in a part of a docstring."""
     text = inspect.getdoc(function)  # as one Python indents it and another does not
     part = text[text.index(start) : text.index(end)]
     return {" ".join(words.split()) for words in re.findall(r'"([^"]+)"', part)}

@@ -12,7 +12,7 @@ KINDS = pmui.Button, pmui.Select, pmui.TextInput, pn.Column, pn.pane.HTML
 
 
 def plain(given):
-    """What is given, with the addresses of style sheets: outside of a document each is made anew."""
+    """The given values, with the addresses of style sheets, which are created anew outside a document."""
     return [{name: [getattr(each, "url", each) for each in value] if name == "stylesheets" else value
              for name, value in part.items()} for part in given]  # fmt: skip
 

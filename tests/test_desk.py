@@ -16,7 +16,7 @@ HERE = "192.0.2.7"
 
 
 class Slow:
-    """A store in memory that counts how often it is read; deaf while `away`, and as slow as `gate` lets it."""
+    """A store in memory that counts reads. While `away` it fails; `gate` can delay it."""
 
     def __init__(self):
         self.texts, self.reads, self.away, self.gate = {}, 0, False, threading.Event()
@@ -53,7 +53,7 @@ def desk(slow, monkeypatch):
 
 
 def asked(desk, work):
-    """What comes of it."""
+    """The result, or the error."""
     found, done = [], threading.Event()
     desk.ask(work, lambda result: (found.append(result), done.set()))
     assert done.wait(20)

@@ -61,13 +61,15 @@ ROW = r"\| `([\w/]+\.py)` \| ([^|]*) \|$"
 
 @functools.cache
 def defined(file):
-    """Functions and classes of a file of tippe_core, their docstrings, what is imported left out."""
+    """The functions and classes that a file of tippe_core defines, with their docstrings; imported ones do not
+    count."""
     tree = ast.parse((CORE / file).read_text(encoding="utf-8"))
     return {node.name: ast.get_docstring(node) or "" for node in tree.body if hasattr(node, "name")}
 
 
 def test_each_equation_is_where_the_page_says():
-    """The page has all numbers from 1 to 39; functions are in the files named, under the equation's number there."""
+    """The page has all numbers from 1 to 39, and the named files contain the functions, with that number in their
+    docstrings."""
     page, numbers = text("equations"), set()
     for line in page.splitlines():
         first, last = (re.search(r"^\| \((\d+)\)" + part, line) for part in ("", r"(?: to|,) \((\d+)\)"))
@@ -96,7 +98,7 @@ def test_the_walks_name_functions_that_are_there():
 
 
 def test_every_row_is_on_the_page_with_evidence():
-    """docs/validation.md has each row once, with a difference and with tests that are there."""
+    """docs/validation.md has each row once, with a difference and with existing tests."""
     page = text("validation")
     sources = "".join(p.read_text(encoding="utf-8") for p in HERE.glob("test_*.py"))
     for rows in ROWS.values():
@@ -125,7 +127,7 @@ GALLERY = sorted((DOCS / "gallery").glob("*.py"))
 
 @pytest.mark.parametrize("path", GALLERY, ids=lambda path: path.stem)
 def test_a_script_of_the_gallery_draws_what_its_link_opens(path):
-    """Its numbers are those of the link, which says nothing that the explorer does not know."""
+    """The script uses the numbers of the link, and the link contains nothing that the explorer does not know."""
     code, found = path.read_text(encoding="utf-8"), {}
     title, words = ast.get_docstring(ast.parse(code)).split("\n\n")
     place = f"## {title}\n\n{words}\n\n```{{eval-rst}}\n.. plot:: gallery/{path.name}\n```\n\n"
@@ -157,7 +159,7 @@ def test_a_term_is_explained_once():
 
 
 def test_the_page_explains_a_term_as_the_glossary_does():
-    """Under the hand and in docs/glossary.md stand the same words."""
+    """The hover texts and docs/glossary.md have the same words."""
     rows = dict(re.findall(r"(?m)^\| ([^|,]+?)(?:,[^|]*)? \| (.*) \|$", text("glossary")))
     hover = {each["forms"].split("|")[0]: each["is"] for each in listed("glossary.terms", "en").values()}
     assert hover == {name: rows.get(name) for name in hover} and len(hover) > 40

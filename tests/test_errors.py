@@ -49,7 +49,7 @@ NOTATION = {"rad", "kg", "mu", "mu_s", "mu_k", "eps", "gamma", "theta", "tilt", 
 
 
 def words_of(node):
-    """What a literal or an f-string says, or either branch of a choice, «» for what an f-string puts in."""
+    """The text of a literal or an f-string, or of both branches of a conditional; «» stands for inserted values."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return [node.value]
     if isinstance(node, ast.JoinedStr):
@@ -58,7 +58,8 @@ def words_of(node):
 
 
 def raised():
-    """(place, codes, value, allowed, remedy, numbers) of every TopError that is raised, the words as lists."""
+    """(place, codes, value, allowed, remedy, numbers) of every TopError raised in the code, with lists of possible
+    texts."""
     for path in sorted([*(ROOT / "tippe_core").rglob("*.py"), *(ROOT / "app").rglob("*.py")]):
         module = ast.parse(path.read_text(encoding="utf-8"))
         for function in ast.walk(module):
@@ -99,7 +100,8 @@ def test_every_code_is_documented_and_raised():
 
 @pytest.mark.parametrize("language", OTHERS)
 def test_every_code_has_words(language):
-    """Words that have all their numbers where the error is raised, and stand for all that it says in English."""
+    """The words have all the numbers that are available where the error is raised, and replace all of its English
+    text."""
     said = listed("errors.codes", language)
     assert {*said} == {*CODES, *OF_THE_PAGE}
     wrong = []
@@ -185,7 +187,7 @@ def test_an_error_has_its_code_and_is_told_in_every_language(code, make):
 
 
 def test_words_are_chosen_by_code_alone():
-    """Not one word of what the core says in English need be as it is."""
+    """No word of the English text matters."""
     error = TopError("mu_s", 0.2, "μ_s ≥ 0.3", "!", code="below-sliding")
     assert told(error, "de") == "mu_s = 0,2 ist nicht möglich: erlaubt ist μ_s ≥ 0,3. Die Haftreibung ist die größere."
     error = NoMotionError("E", 1.0, "?", "!", code="no-motion", least=2.5, K_J=7.0, K_R=10.0)

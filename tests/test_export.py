@@ -31,7 +31,7 @@ def scene():
 
 @pytest.fixture(scope="module")
 def motion(scene):
-    """The same motion, asked of tippe_core."""
+    """The same motion, computed by tippe_core."""
     return roll(Top.paper(), Constants(6.5, 10.0, scene.constants.E), scene.trajectory.t)
 
 

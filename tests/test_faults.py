@@ -23,7 +23,7 @@ ROOT = Path(__file__).parent.parent
 
 
 class Stay(Visit):
-    """A visit with a hand on its socket."""
+    """A visit whose websocket can be cut."""
 
     def __init__(self, page, url):
         self.sockets = []
@@ -31,14 +31,14 @@ class Stay(Visit):
         super().__init__(page, url)
 
     def cut(self):
-        """The connection, both ends."""
+        """Both ends of the connection."""
         ours, theirs = self.sockets.pop()
         theirs.close()
         ours.close(code=1011)
 
 
 def set_K_J(page, text):
-    """Types K_J, waits until the address holds it, and marks the page: a new load wipes the mark out."""
+    """Types K_J, waits until the address contains it, and marks the page: reloading removes the mark."""
     field = page.locator("input[type=text]").first
     field.fill(text)
     field.press("Enter")
@@ -47,7 +47,7 @@ def set_K_J(page, text):
 
 
 def has_come_back(page, K_J):
-    """Waits for a new load with this K_J."""
+    """Waits until the page has been reloaded with this K_J."""
     page.wait_for_function("!window.mark && window.__tippe?.top3d?.pictures > 2", timeout=BACK)
     page.wait_for_function("text => location.search.includes('KJ=' + text)", arg=K_J)
     assert page.locator("input[type=text]").first.input_value() == K_J
@@ -116,7 +116,8 @@ def test_a_visitor_who_stops_reading_holds_up_nobody(steady):
 
 
 def test_visitors_who_come_together_and_leave_one_by_one(steady, capsys):
-    """They move, and open all tabs, in two languages; what is refused or fails is told, or stands in the log."""
+    """They move sliders and open all tabs, in two languages; whatever is refused or fails is reported, or is in the
+    log."""
     assert visitors.main(steady.url, 2) == 0, capsys.readouterr().out
 
 
@@ -136,7 +137,7 @@ def test_a_full_disk_stops_nobody(tmp_path):
 
 
 def test_the_page_needs_no_place_to_write():
-    """matplotlib does, for its list of fonts: it waits until a figure is printed."""
+    """matplotlib does need one, for its list of fonts, but only when a figure is printed."""
     code = """
 import sys
 import app.page.page
@@ -147,7 +148,7 @@ print("matplotlib" in sys.modules, "app.share.prints" in sys.modules)"""
 
 @contextmanager
 def replicas(folder):
-    """Two behind the proxy of compose.yaml, and its root."""
+    """Two replicas behind the proxy of compose.yaml, and its root address."""
     port = free_port()
     common = {"proxy": 1, "secret": "s", "wait": False}
     with served(folder / "a", **common) as one, served(folder / "b", **common) as two:
@@ -166,7 +167,7 @@ def replicas(folder):
 
 
 def with_sessions(*servers):
-    """Of two, the one that has a session, and the other."""
+    """Of two replicas, the one that has a session, and the other."""
     return servers if '"sessions": 1' in get(servers[0].root + "/liveness")[2] else servers[::-1]
 
 

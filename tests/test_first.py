@@ -20,7 +20,7 @@ MOST = 350_000  # bytes, compressed
 
 
 def arrays():
-    """What stands in the file, {name: rows}."""
+    """The contents of the file, {name: rows}."""
     line, _, bytes_ = gzip.decompress(first.FILE.read_bytes()).partition(b"\n")
     numbers, found = np.frombuffer(bytes_, "<f4"), {}
     for name, count, _, needed in json.loads(line):
@@ -54,7 +54,7 @@ def test_it_is_drawn_only_where_the_session_opens_the_same():
 
 @pytest.mark.served
 def test_what_must_arrive_before_the_first_frame_is_small(server):
-    """The page, the sheets in its head, the bundle with the needed part of three.js, and the run."""
+    """Counted are the page, the style sheets in its head, the bundle with the needed part of three.js, and the run."""
     url = server.rstrip("/")
     page = urllib.request.urlopen(url).read()
     early = json.loads(re.search(rb'id="early">(.*?)<', page)[1])
@@ -82,7 +82,7 @@ def test_it_moves_without_bokeh_and_a_session(server, chromium):
 
 @pytest.fixture
 def waiting(server, chromium):
-    """The page while its session has not come, and what lets it come."""
+    """A page whose session has not arrived, and a function that lets it arrive."""
     context = chromium.new_context(viewport={"width": 1400, "height": 900})
     page, held = context.new_page(), []
     page.set_default_timeout(PATIENCE)

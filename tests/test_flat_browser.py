@@ -19,8 +19,8 @@ HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
 
 @pytest.fixture(scope="module")
 def flat(chromium, server):
-    """flat(query="") -> a Visit without WebGL, in which all of the first tab is there, one a query; an error in one
-    fails the last of the tests."""
+    """flat(query="") gives a Visit without WebGL with the whole first tab, one for each query; an error in one fails
+    the last test."""
     visits = {}
 
     def go(query=""):
@@ -41,14 +41,14 @@ def flat(chromium, server):
 
 
 def seek(visit, index):
-    """To a frame, with the focus nowhere."""
+    """Goes to a frame; nothing has the focus."""
     t = float(solve(Top.paper(), 7.0, 10.0, 0.5, 0.9).trajectory.t[index])
     visit.page.evaluate("t => window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t}}))", t)
     until_scrubbed(visit, str(index))
 
 
 def stop(visit):
-    """At the start, where the axis is most upright."""
+    """Goes to the start, where the axis is most upright."""
     visit.page.locator("button:is([aria-label=Pause], [aria-label=Play]):visible").first.wait_for()
     pause = visit.page.locator("button[aria-label=Pause]:visible")
     if pause.count():
@@ -58,7 +58,7 @@ def stop(visit):
 
 
 def scrubbed(visit):
-    """The frame at which the bar of the top stands."""
+    """The frame that the bar of the top shows."""
     return int(visit.page.locator("input.scrub:visible").first.input_value())
 
 
@@ -68,7 +68,7 @@ def until_scrubbed(visit, index):
 
 
 def until_tilted(visit, motion, theta):
-    """Waits until the bar stands at a frame of this motion with this tilt, and the bead of the portrait as well."""
+    """Waits until the bar shows a frame of this motion with this tilt, and the portrait's bead as well."""
     near = np.flatnonzero(np.abs(motion.theta - theta) < 0.02).tolist()
     visit.page.wait_for_function(
         """([column, bar, near, theta]) =>
@@ -129,7 +129,7 @@ def test_the_time_of_a_link_is_shown_and_kept(flat):
 
 
 def test_png_saves_the_top_as_it_is_drawn(flat):
-    """Tilted, its dark outline leans over to the right of the middle."""
+    """When it is tilted, its dark outline leans to the right of the middle."""
     visit = flat()
     stop(visit)
     visit.page.get_by_role("button", name="Share").click()
@@ -142,7 +142,7 @@ def test_png_saves_the_top_as_it_is_drawn(flat):
 
 
 def test_tops_of_one_clock_play_as_one(flat):
-    """Each of Three planes shows its own motion of the same seconds: whoever is stepped takes the others along."""
+    """The three tops of Three planes show their own motions at the same time: stepping one moves the others along."""
     visit = flat("?v=1&tab=three-planes&plane=compare")
     times = "() => __tippe.tops('planes').filter((top) => top.count > 1).map((top) => top.t)"
     visit.page.wait_for_function(f"() => ({times})().length == 3")

@@ -27,7 +27,7 @@ T = np.linspace(0, 4, N)
 
 
 def frames(tilt=0.4, regime=0):
-    """A made-up motion: a turn about z and a circle of the contact, nothing that a top would do."""
+    """An invented motion, not that of a top: a rotation about z, and a circle of the contact."""
     turn = 1.5 * T
     half, spun = tilt / 2, turn / 2
     quaternion = np.column_stack(
@@ -50,7 +50,7 @@ OUTLINE = pack([[0, -1], [0.7, -0.7], [1, 0], [0.85, 0.5], [0.2, 0.5], [0.2, 1.7
 
 @pytest.fixture
 def serve(chromium):
-    """serve(component) -> the page that shows it; the test fails on an error in it."""
+    """serve(component) gives the page that shows it; an error in the page fails the test."""
     servers, pages, errors = [], [], []
 
     def start(component, ready="Object.values(window.__tippe ?? {}).some(view => view.pictures > 0)", **context):
@@ -174,7 +174,7 @@ def test_no_motion_is_said_and_a_later_one_shown(serve, top):
 
 
 def over_the_surface(page):
-    """Moves the mouse until the picture reads a value off, and no end of the tieline is below it."""
+    """Moves the mouse until the picture shows values, and no end of the tieline is below it."""
     canvas = page.locator("canvas")
     box = canvas.bounding_box()
     for y in np.linspace(0.75, 0.4, 8):

@@ -48,7 +48,7 @@ HANDS = ("Dial", "TextInput", "Select", "RadioButtonGroup", "FileInput", "TopFil
 
 
 def value(draw):
-    """Something that does not belong there, or does."""
+    """A value that may or may not be valid here."""
     pick = draw.random()
     if pick < 0.35:
         return draw.choice(NUMBERS)
@@ -64,7 +64,7 @@ def value(draw):
 
 
 def deep(levels):
-    """Lists in lists."""
+    """Nested lists."""
     whole = []
     for _ in range(levels):
         whole = [whole]
@@ -72,7 +72,7 @@ def deep(levels):
 
 
 def event(draw, visitor):
-    """One event, most of them at what a person can set."""
+    """One event; most events are for something that a person can set."""
     hand = [id for id, (name, _) in visitor.models.items() if name.startswith(HANDS)]
     model = draw.choice(hand if draw.random() < 0.8 else list(visitor.models))
     own = [*visitor.models[model][1], "value", "value_throttled", "value_input", "filename", "active", "painted"]
@@ -92,7 +92,7 @@ def event(draw, visitor):
 
 
 def content(draw, visitor):
-    """(kind, content) of a message; content may be no JSON."""
+    """(kind, content) of a message; the content may not be JSON."""
     pick = draw.random()
     if pick < 0.9:
         return "PATCH-DOC", {"events": [event(draw, visitor) for _ in range(draw.choice((1, 1, 1, 3)))]}
@@ -105,7 +105,7 @@ def content(draw, visitor):
 
 
 async def fuzz(url, messages, seed=1):
-    """Sends so many; returns all the sentences that came back."""
+    """Sends this many messages; returns all sentences that came back."""
     draw, said, visitor = random.Random(seed), set(), await Visitor.enter(of_roll(url))
     for _ in range(messages):
         kind, body = content(draw, visitor)
@@ -125,7 +125,7 @@ async def fuzz(url, messages, seed=1):
 
 
 async def among(url, messages):
-    """The fuzzer beside a visitor who moves one slider; returns what the fuzzer was told."""
+    """Runs the fuzzer beside a visitor who moves one slider; returns the sentences for the fuzzer."""
     innocent = await Visitor.enter(of_roll(url))
     slider = innocent.find("Dial")[0]
     said = await fuzz(url, messages)
@@ -136,7 +136,7 @@ async def among(url, messages):
 
 
 def check(said, log):
-    """Only words, and no bug."""
+    """The answers are only sentences, and no traceback is in the log."""
     for text in said:
         assert "Traceback" not in text and ".py" not in text and "site-packages" not in text, text
     at = max(log.find("a bug"), log.find("Traceback"))
@@ -202,15 +202,15 @@ GOOD_OF = {
 
 
 def attributes_of(name):
-    """Of a component of this name, ours or the library's: all that it has, those that the browser changes first."""
+    """All attributes of a component of this name, ours or a library's, those that the browser may change first."""
     modules = [module for key, module in sys.modules.items() if key.startswith(("app.", "panel_material_ui"))]
     kind = next((vars(module)[name] for module in modules if hasattr(vars(module).get(name), "param")), None)
     return [*CHANGES.get(name, {}), *(set(kind.param) - set(CHANGES.get(name, {})) if kind else ())]
 
 
 async def each_attribute(url):
-    """What is sent: eleven values to what the browser changes of each component; to the rest, which is refused by its
-    name, one of them. Then good ones, which are taken. Returns how many were sent."""
+    """Sends eleven values to each attribute that the browser may change, and one to each of the others, which are
+    refused by name; then valid ones, which are accepted. Returns how many were sent."""
     page, count = await visitors.come(url), 0
     await visitors.open_rooms(page)
     await page.until(lambda: page.visitor.find("Surface3D"))  # Roll makes it when the page has come

@@ -29,7 +29,7 @@ def selected(visit):
 
 
 def until_selected(visit, **values):
-    """Waits until Fig. 6 shows these values; in rad and (g/R)^1/2, to a pixel's width."""
+    """Waits until Fig. 6 shows these values, in rad and (g/R)^1/2, within the width of a pixel."""
     visit.page.wait_for_function(
         f"(want) => {{ const has = ({SELECTED})(); "
         "return Object.entries(want).every(([k, v]) => Math.abs(has[k] - v) < 0.01) }",
@@ -39,7 +39,7 @@ def until_selected(visit, **values):
 
 
 def field(visit, place):
-    """The number that stands in a field of the controls that is seen."""
+    """The number in a visible field of the controls."""
     text = visit.page.locator("input[type=text]:visible").nth(place).input_value()
     return float(text.replace("−", "-"))
 
@@ -68,7 +68,7 @@ def type_in(visit, place, text):
 
 
 def top_stands_on(visit, state_or_constants, **options):
-    """Whether the first frame of the top in 3-D is this motion's."""
+    """Whether the first frame of the 3-D top belongs to this motion."""
     visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
     q = roll(TOP, state_or_constants, [0.0], **options).quaternion[0]
     visit.page.wait_for_function(
@@ -77,7 +77,7 @@ def top_stands_on(visit, state_or_constants, **options):
 
 
 def stop_at_the_start(visit):
-    """There the bead is at the inner end, and in nobody's way."""
+    """Goes to the start: there the bead is at the inner end, where it does not disturb the tests."""
     visit.pause()
     visit.page.evaluate("window.dispatchEvent(new CustomEvent('tippe:seek', {detail: {t: 0}}))")
     visit.page.wait_for_function("__tippe.top3d.index == 0")
@@ -85,7 +85,7 @@ def stop_at_the_start(visit):
 
 @pytest.fixture(scope="module")
 def one(chromium, server):
-    """A page for all tests here; nothing moves by itself in it."""
+    """The page that all tests here share; nothing in it moves by itself."""
     context = chromium.new_context(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
     visit = Visit(context.new_page(), server)
     visit.first_bead = selected(visit)["theta"]
@@ -97,7 +97,7 @@ def one(chromium, server):
 
 @pytest.fixture
 def visit(one):
-    """That page with its first motion, whatever a test before has done."""
+    """That page with its first motion, whatever an earlier test has done."""
     page = one.page
     page.mouse.up()  # of a test that failed with the hand down
     if page.get_by_role("button", name="constants", exact=True).get_attribute("aria-pressed") != "true":
@@ -128,7 +128,7 @@ def test_an_end_of_the_tieline_is_the_energy(visit):
 
 
 def test_a_hand_that_rests_before_it_pulls_pulls_all_the_same(visit):
-    """Bokeh takes one that rests for 0.3 s for one that presses, and drops it."""
+    """Bokeh takes a pointer that rests for 0.3 s for a press, and does not drag."""
     stop_at_the_start(visit)
     outer = selected(visit)["outer"]
     visit.drag(visit.pixel("plane", outer, 7.0), visit.pixel("plane", 0.86, 7.0), rest=700)
@@ -157,7 +157,7 @@ def test_what_is_read_of_a_place_covers_neither_bead_nor_tieline(visit):
 
 
 def test_the_bead_stands_at_the_motions_start_before_any_clock_moves(one):
-    """With reduced motion no clock does; Fig. 6 has it where the motion begins, not at theta = 0."""
+    """With reduced motion no clock runs; the bead is at the start of the motion, not at theta = 0."""
     assert one.first_bead == pytest.approx(float(one.first["inner"]), abs=1e-4)
 
 

@@ -26,7 +26,7 @@ def explorer(request):
 
 @pytest.mark.parametrize("grip", ["end", "point"])
 def test_a_hand_beyond_a_tieline_gets_the_motion_that_turns_there(explorer, grip):
-    """By turning_points of what is asked for."""
+    """By turning_points of the requested motion."""
     inner, outer = explorer.scene.turning
     for theta in (inner - 0.05, outer + 0.1):
         wanted = pulled(explorer.scene, grip, theta, 1.1 * explorer.K_J, "slip")
@@ -38,7 +38,7 @@ def test_a_hand_beyond_a_tieline_gets_the_motion_that_turns_there(explorer, grip
 
 @pytest.mark.parametrize("limit, kind", [("slip", "slip"), ("lift-off", "lift")])
 def test_a_hand_on_another_tieline_gets_it_whole(limit, kind):
-    """As Fig. 6 has it, where it is drawn under that limit."""
+    """As drawn in Fig. 6 under that limit."""
     explorer = Explorer()
     explorer.param.update(**pulled(explorer.scene, "tieline", 0.5, 6.0, limit))
     plane = explorer.scene.plane
@@ -54,7 +54,7 @@ def test_a_hand_that_pulls_the_tieline_keeps_its_share():
 
 
 def test_a_hand_on_the_axis_tilts_the_pose_that_it_takes(explorer):
-    """What it holds is the motion's at that time: the pose at its new start, but for the tilt, is the old one's."""
+    """The start that it sets is the motion's pose at that time, except for the tilt."""
     scene = explorer.scene
     t = 0.37 * scene.rolling.period
     before = scene.rolling(np.array([0.0, t]))
@@ -117,7 +117,7 @@ def test_the_slip_and_the_spin_of_a_start_are_the_runs():
 
 
 def test_the_body_on_the_bench_is_the_scenes():
-    """Whoever asked for it: a hand on the bench, an undo, a link, a click on a map."""
+    """Whatever requested it: dragging on the bench, an undo, a link, a click on a map."""
     explorer = Explorer()
     builder = builder_of(explorer)
     shape = next(preset.shape for preset in PRESETS if preset.name == "Top S")
@@ -133,7 +133,7 @@ def test_the_body_on_the_bench_is_the_scenes():
 
 
 def test_edits_that_wait_for_their_turn_are_all_made():
-    """One after the other, before the first is in a scene."""
+    """One after the other, before a scene contains the first one."""
     explorer, wanted = Explorer(), {}
     builder = builder_of(explorer)
     builder._ask = lambda **inputs: wanted.update(inputs)
@@ -183,7 +183,7 @@ def pacer(monkeypatch):
 
 
 def test_of_many_wishes_for_another_view_model_the_newest_is_granted(pacer):
-    """As of the Explorer's: two are on their way to the browser, and the rest waits until one is painted."""
+    """Like the Explorer's scenes: two are on their way to the browser, and the others wait until one is painted."""
     playing, set_to = Playing(), []
     playing.param.watch(lambda event: set_to.append(event.new), "speed")
     ask = pacer.ask_of(playing.param.update)
@@ -195,7 +195,7 @@ def test_of_many_wishes_for_another_view_model_the_newest_is_granted(pacer):
 
 
 def test_what_shows_a_scene_shows_the_present_one_at_once(pacer):
-    """So that a view can be made at any time."""
+    """So that a view can be created at any time."""
     shown = []
     for when in ("hand", "pictures", "rest"):
         pacer.shows(shown.append, when)
@@ -203,7 +203,7 @@ def test_what_shows_a_scene_shows_the_present_one_at_once(pacer):
 
 
 def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
-    """Not between the steps of a hand that goes on."""
+    """Not between the steps of a drag that continues."""
     timers, shown = [], []
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, act: timers.append(act))
     pacer.shows(lambda scene: shown.append(scene.constants.K_J), "still")
@@ -212,7 +212,7 @@ def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
     shown.clear()
 
     def rest():
-        """A hand's: all timers that were set run."""
+        """Runs all timers that were set, as when a person stops moving."""
         pacer._requested -= 1  # it is long ago
         due, timers[:] = timers[:], []
         for act in due:

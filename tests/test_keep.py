@@ -268,7 +268,7 @@ def test_what_was_paused_plays_on_when_it_is_played():
 
 
 def test_the_words_that_a_link_may_have_are_written_as_in_the_link():
-    """Not as numbers, whose points and signs each language has of its own."""
+    """Not as numbers, because each language writes decimal points and signs in its own way."""
     for language in ("en", "de"):
         with speaking(language):
             _, sentence = explorer_of({"limit": "sideways"})

@@ -29,7 +29,7 @@ K_J_FIELD = 0  # places among the controls
 
 @pytest.fixture
 def go(chromium):
-    """Opens an address in a browser of its own, and fails the test on an error in the page."""
+    """Opens an address in a new browser context; an error in the page fails the test."""
     visits = []
 
     def open_(url):
@@ -145,7 +145,7 @@ def test_what_is_saved_is_what_is_shown(go, server, chromium, tmp_path):
     visit.page.get_by_role("button", name="The paper’s figures of this motion").click()
 
     def button(says, label):
-        """The one to the right of these words."""
+        """The field to the right of these words."""
         words = visit.page.get_by_text(says, exact=True).first.bounding_box()
         for found in visit.page.get_by_role("button", name=label, exact=True).all():
             box = found.bounding_box()

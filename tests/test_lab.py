@@ -32,7 +32,8 @@ def codes(motion):
 
 
 def test_the_arrival_turns_over_stands_and_falls_when_compliant_contacts_say(lab):
-    """An own body on two compliant contacts, to two hundredths of a second: what its contacts give way by."""
+    """Compared with the tests' own body on two elastic contacts, to two hundredths of a second, because its contacts
+    yield."""
     times = {event.code: event.t for event in lab.scene.events}
     assert times["over"] == pytest.approx(0.977, abs=0.01)
     assert times["stands"] == pytest.approx(1.471, abs=0.01)
@@ -47,7 +48,7 @@ def test_the_arrival_turns_over_stands_and_falls_when_compliant_contacts_say(lab
 
 
 def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
-    """Its numbers are float32, and no other processor takes the same last digit."""
+    """The numbers are float32, and another processor may differ in the last digit."""
     kept, (_, fresh) = arrival.read(TOYS[TOY].top), lived(start_of(*ARRIVAL[1:]), lambda reached: None)
     for name in ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "velocity", "heat"):
         assert getattr(kept, name) == pytest.approx(getattr(fresh, name), abs=2e-4), name
@@ -125,7 +126,7 @@ def test_the_curves_reach_from_start_to_end_with_a_few_hundred_rows():
 
 @pytest.mark.parametrize("spin", [22.0, 28.65, 38.2])  # 38.2: 240 rad/s
 def test_a_life_goes_on_until_it_rolls_and_ends_leaning_with_no_spin_about_the_vertical(spin):
-    """As compliant contacts say: at about 65 degrees, near 12 rad/s about its own axis."""
+    """As with elastic contacts: at about 65 degrees, near 12 rad/s about its own axis."""
     motion = whole_on("ordinary", TOY, spin, TILT, MU)
     moved, found = motion.trajectory, codes(motion)
     assert motion.whole and list(found)[-1] == "rolls"
@@ -141,7 +142,7 @@ def test_a_life_goes_on_until_it_rolls_and_ends_leaning_with_no_spin_about_the_v
 
 
 def test_its_rows_are_fewer_and_the_motion_is_that_of_all_of_them():
-    """Between two rows the top turns little, so that the straight line between them is where it was."""
+    """Between two rows the top moves so little that linear interpolation gives its true position."""
     start = start_of(*ARRIVAL[1:])
     seconds, few = lived(start, lambda reached: None)
     times = np.linspace(0, seconds / start.scales.time, 8001)

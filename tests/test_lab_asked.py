@@ -93,7 +93,7 @@ def test_the_patch_is_the_tables(lab):
 
 def test_a_life_that_is_longer_than_what_is_computed_says_so(monkeypatch):
     whole = whole_on("ordinary", *ARRIVAL[1:])
-    assert not whole.is_cut and "Only so much" not in story(whole).stages[-1].why
+    assert not whole.is_cut and "computed only up to" not in story(whole).stages[-1].why
     monkeypatch.setattr(life, "MOST_ROWS", 300)
     whole_on.cache_clear()
     cut = whole_on("ordinary", TOY, 30.0, TILT, MU)

@@ -46,7 +46,7 @@ def test_the_bar_is_moved_by_keys(page):
 
 
 def test_what_is_selected_to_be_typed_over_stays_selected_while_answers_come(page):
-    """Else what is typed next stands behind it."""
+    """Otherwise what is typed next would be appended to it."""
     put(page, "Tilt, in degrees", "half")
     page.get_by_role("alert").filter(has_text="half is not a number").wait_for()
     tilt = entry(page, "Tilt, in degrees")

@@ -126,7 +126,7 @@ def test_the_papers_top_hangs_on_no_stem_and_is_caught():
 
 @pytest.mark.slow
 def test_the_strip_of_the_toy_leans_and_then_stands():
-    """Of compliant contacts: never at 22.3 rev/s, always from 27.06 on."""
+    """With elastic contacts: never at 22.3 rev/s, always from 27.06 on."""
     found = ends_of(TOY, TILT, 0.3)
     assert [segment.code for segment in found.segments] == ["upright", "leans", "stands"]
     assert 22.3 < found.segments[-1].least < 27.06
@@ -152,7 +152,7 @@ def test_of_those_who_ask_for_the_same_ends_at_once_one_computes_them(monkeypatc
 
 
 def test_after_one_who_stops_only_one_of_the_others_computes(monkeypatch):
-    """The first stops once a second waits; that one then computes, until a third waits or computes too."""
+    """The first run stops once a second one waits; the second one then runs until a third waits or runs."""
     asked, second_waits, third_came, found = [], threading.Event(), threading.Event(), object()
 
     def slow(*key, look=None):
@@ -180,7 +180,7 @@ def test_after_one_who_stops_only_one_of_the_others_computes(monkeypatch):
 
 
 def test_what_another_thread_throws_away_is_found_whole_or_not_at_all(monkeypatch):
-    """The oldest goes while it is looked up: as a slow thread would have it."""
+    """The oldest entry is removed while it is being looked up, as with a slow thread."""
 
     class Slow(OrderedDict):
         def get(self, key):
@@ -217,7 +217,7 @@ def test_the_strip_is_what_single_runs_do(toy):
 @settings(deadline=None)
 @given(st.lists(st.sampled_from("ab"), min_size=1, max_size=30))
 def test_nothing_is_smoothed(letters):
-    """What is not mixed is as it was; what is mixed has another end within two cells."""
+    """Spins that are not marked as mixed are unchanged; mixed ones have another end within two cells."""
     for i, (was, shown) in enumerate(zip(letters, mixed(tuple(letters)), strict=True)):
         assert shown in (was, "mixed")
         assert shown != "mixed" or len(set(letters[max(i - 2, 0) : i + 3])) == 2

@@ -34,7 +34,7 @@ def shown(tab):
 
 
 def test_what_no_hand_of_the_tab_has_changed_comes_to_rest_too(monkeypatch):
-    """As by an undo; of several scenes the last."""
+    """As after an undo; of several scenes the last one counts."""
     waits, rested = [], []
     monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: waits.append(act))
     monkeypatch.setattr("app.tabs.lab.lab.RESTS", 0.0)
@@ -57,7 +57,7 @@ def test_a_wish_is_answered_with_its_count(tab):
 
 
 def test_the_stem_and_the_ballast_are_ordinary_controls(tab):
-    """A rounder, longer stem: another body, whose own runs end otherwise."""
+    """A rounder, longer stem: another body, whose runs end differently."""
     state = shown(tab)
     assert [name for name, *_ in state["dims"]] == ["dim:R", "dim:r", "dim:h", "dim:a"]
     assert state["values"]["dim:r"] == 5.0 and state["sliders"]["dim:r"][3] == 1

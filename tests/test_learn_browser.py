@@ -22,7 +22,7 @@ pytestmark = pytest.mark.served
 
 @pytest.fixture(scope="module")
 def browser(chromium):
-    """Keeps what pages have in common; nothing moves by itself, as drawing by software takes everybody's time."""
+    """A browser context that pages share, with reduced motion, because drawing by software slows everything."""
     context = chromium.new_context(reduced_motion="reduce")
     yield context
     context.close()
@@ -35,13 +35,14 @@ def opened(browser, address, width=1400, height=900):
 
 
 def closed(visit):
-    """The end of a visit: the page had no error."""
+    """Closes the page, which must have had no error."""
     visit.page.close()
     assert not visit.errors
 
 
 def told(step, language):
-    """What the page must say of a step of the paper's top: its explanation and what was learned, by its own run."""
+    """The texts that the page must show for a step of the paper's top: its explanation and what was learned, by its own
+    run."""
     scene = Explorer().scene
     answer = step.answer(lesson.planned(step, scene))
     words = [say(f"learn.{step.name}.{key}", language, **answer.numbers) for key in (answer.told, "learned")]
@@ -58,7 +59,7 @@ def plain_text(words):
 
 
 def watched(page, language="en"):
-    """Asks to see it, and moves the time to its end, as a hand does: the machine draws by software."""
+    """Asks to see the run, and drags the time to its end, because the machine draws by software."""
     page.get_by_role("button", name=say("learn.view.watch", language)).click()
     bar = page.get_by_role("slider", name=say("learn.view.time", language), exact=True)
     bar.focus()
@@ -93,8 +94,8 @@ def test_the_derivation_is_live(browser, server):
 
 @pytest.mark.parametrize(("language", "width"), [("en", 1400), ("de", 390)])
 def test_a_walk_through_the_lesson(browser, server, language, width):
-    """Each step shows its top before it asks, takes no answer by itself, and tells what its own run did once that was
-    seen; what was answered stands there when one comes back."""
+    """Each step shows its top before it asks, answers nothing by itself, and tells what its own run did once that has
+    been seen; an answer is still there when one comes back."""
     visit = opened(browser, f"{server}?tab=learn&lang={language}", width, 900)
     page = visit.page
     crumbs = page.locator(".crumbs button")
@@ -160,7 +161,7 @@ def test_what_is_for_theorists(browser, server, name):
 
 @pytest.fixture
 def phones(chromium):
-    """Two, each with what it keeps itself."""
+    """Two browser contexts, each with its own storage."""
     contexts = [chromium.new_context(reduced_motion="reduce", has_touch=True) for _ in range(2)]
     yield contexts
     for context in contexts:
@@ -168,7 +169,7 @@ def phones(chromium):
 
 
 def presented(page):
-    """From the lesson to the big screen, by its key, as a teacher who has just chosen the tab."""
+    """Goes from the lesson to the big screen by its key, like a teacher who has just chosen the tab."""
     page.locator(".crumbs button").nth(1).wait_for()
     page.get_by_role("tab", name="Learn", exact=True).focus()
     page.keyboard.press("p")
@@ -176,8 +177,8 @@ def presented(page):
 
 
 def ends(page):
-    """The run that is shown plays, and is moved to its end, as by a hand: tops that are drawn for the first time begin
-    at their beginning. On a busy machine it may have come to its end by itself, and it is told."""
+    """The run plays, and the time is dragged to its end: tops drawn for the first time start at the beginning. On a
+    busy machine it may already have ended by itself."""
     bar = page.get_by_role("slider", name=say("learn.view.time"), exact=True)
     page.wait_for_function(
         "([bar, t]) => bar.value !== t || bar.getRootNode().querySelector('.board .told > *')",
@@ -188,15 +189,15 @@ def ends(page):
 
 
 def sent(page, answer, language=None):
-    """Waits until a phone says beside its answer that it is sent, and below that it can be changed."""
+    """Waits until a phone says that the answer was sent, and that it can be changed."""
     said = re.compile(f"{re.escape(answer)}.*{re.escape(say('teach.room.sent', language))}")
     expect(page.get_by_role("radio", name=said)).to_be_checked()
     page.get_by_text(say("teach.room.change", language)).wait_for()
 
 
 def test_a_class_with_two_phones(browser, phones, server):
-    """They follow the big screen from question to question; how they voted is seen when it is revealed, and not before;
-    another class begins with no votes. Each phone speaks its own language."""
+    """They follow the big screen from question to question; the votes are seen only when they are revealed; another
+    class starts without votes. Each phone has its own language."""
     visit = opened(browser, f"{server}?tab=learn", 1920, 1080)
     page, languages = visit.page, ("en", "de")
     presented(page)
@@ -245,7 +246,7 @@ def test_a_class_with_two_phones(browser, phones, server):
 
 
 def test_a_lesson_goes_on_where_the_network_does_not(browser, tmp_path):
-    """All of it is with the page; that the votes wait is said, and the page is not loaded anew under the teacher."""
+    """Everything is in the page already; it says that the votes wait, and does not reload."""
     with ExitStack() as network, served(tmp_path / "log", votes=tmp_path / "votes"):
         own = network.enter_context(served(tmp_path / "own", votes=tmp_path / "votes"))
         page = opened(browser, f"{own.url}?tab=learn", 1400, 900).page
@@ -266,7 +267,7 @@ def test_a_lesson_goes_on_where_the_network_does_not(browser, tmp_path):
 
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_the_worksheet_is_one_page(chromium, language):
-    """Of A4, as it is printed."""
+    """Pages of A4, as printed."""
     with speaking(language):
         sheet = worksheet()
     context = chromium.new_context()

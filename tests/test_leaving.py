@@ -37,7 +37,7 @@ def here():
 
 @pytest.fixture
 def idle(monkeypatch):
-    """Pages compute nothing that takes long."""
+    """Pages that compute nothing slow."""
     monkeypatch.setattr("app.model.planes.planes.solve", lambda settings, look=None: None)
     monkeypatch.setattr("app.tabs.families.compare.share_map", lambda *asked: iter(()))
 
@@ -46,7 +46,7 @@ def idle(monkeypatch):
 
 
 def orders(stays):
-    """All in which three pages come, and two of them go: ((page, whether it comes), ...)."""
+    """All orders in which three pages are opened and two of them closed: ((page, whether it is opened), ...)."""
     comes, goes = [(page, True) for page in range(PAGES)], [(page, False) for page in range(PAGES) if page != stays]
     for order in permutations(comes + goes):
         place = {event: i for i, event in enumerate(order)}
@@ -60,7 +60,7 @@ ORDERS = {" ".join(f"{'+' if comes else '-'}{page}" for page, comes in order): (
 
 
 async def opens(page, language, part):
-    """One part that it has not shown yet comes, and in this language: Share for 0, else the tab of this number."""
+    """Shows a part that it has not shown yet, in this language: Share for 0, otherwise the tab of this number."""
     other = "en" if language == "de" else "de"
     known, key = page.visitor.models, ("share.panel.of_rolling", *TABS)[part]
     before = set(known)
@@ -98,7 +98,7 @@ def test_these_are_all_orders():
 
 @pytest.mark.parametrize(("order", "stays"), ORDERS.values(), ids=ORDERS)
 def test_who_stays_keeps_his_page_in_whichever_order_the_others_come_and_go(here, idle, order, stays):
-    """Each part of the page after three of the orders."""
+    """Shows each part of the page, after three of the orders."""
     run(come_and_go(here, order, stays, [*ORDERS.values()].index((order, stays)) % (1 + len(TABS))), PATIENCE)
 
 
@@ -110,7 +110,7 @@ def broken(*_, **__):
 
 
 async def fails(page, monkeypatch, part, act):
-    """With this part of the server broken, act() is answered by the sentence that it could not be done."""
+    """With this part of the server broken, act() gives the sentence that it could not be done."""
     [failure] = page.visitor.find("Failure")
     before = page.now(failure, "times", 0)
     with monkeypatch.context() as now:
@@ -120,7 +120,7 @@ async def fails(page, monkeypatch, part, act):
 
 
 async def saves(page, filename):
-    """The button that saves a file of this name."""
+    """The button that saves the file of this name."""
 
     def found():
         return [each for each in page.visitor.find("Download") if page.now(each, "filename") == filename]
@@ -165,7 +165,8 @@ def test_what_fails_is_told_to_whom_it_failed_and_can_be_asked_for_again(here, i
 
 
 async def flood(here, monkeypatch):
-    """One clicks 300 times on files, another once: his is the next but one to be made; and of who is gone, none is."""
+    """One visitor requests 300 files, another one file: his is the next but one; none is created for a visitor who has
+    left."""
     made, go = [], Queue()
 
     def draw(scene, name, kind):
@@ -219,8 +220,8 @@ def test_who_floods_is_one_of_those_who_wait_and_who_left_is_none(here, idle, mo
 
 
 def globals_of_ours():
-    """{where: identity} of every name of our modules and of every attribute of their classes; of lists, dicts and sets
-    their length too. What holds documents weakly is for sessions."""
+    """{where: identity} of every name of our modules and every attribute of their classes, with the length of lists,
+    dicts and sets. Weak collections of documents are for sessions, and do not count."""
     found = {}
     for name, module in tuple(sys.modules.items()):
         if name.split(".")[0] in ("app", "tippe_core") and isinstance(module, types.ModuleType):

@@ -17,7 +17,7 @@ HIGHER = "([part, before]) => part.getBoundingClientRect().top < before"
 
 @pytest.fixture
 def opened(chromium, server):
-    """Opens an address of the page in a browser like this one; an error on the page fails the test."""
+    """Opens an address in a browser context like this one; an error in the page fails the test."""
     contexts, errors = [], []
 
     def open_(search="", **like):

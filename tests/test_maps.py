@@ -27,7 +27,7 @@ def last(asked):
 
 @pytest.fixture(scope="module")
 def level():
-    """The default map, coarse."""
+    """The default map with few cells."""
     return last(Map(cells=9))
 
 
@@ -156,7 +156,7 @@ def numbers(cell):
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("name", QUANTITIES)
 def test_a_quantity_on_an_axis_is_first_what_it_is_of_the_body(name, law):
-    """So that the other axis alone says which run it is."""
+    """So that the other axis alone determines the run."""
     if name == "second" and law == "viscous":
         return
     usual = Map(law=law)

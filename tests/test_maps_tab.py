@@ -40,7 +40,7 @@ def slide_many_of(asked, places):
 
 @pytest.fixture(autouse=True)
 def nothing_below(request, monkeypatch):
-    """What stands below the map takes seconds for each place."""
+    """Replaces what is shown below the map, which takes seconds for each place."""
     if "below" not in request.node.name:
         monkeypatch.setattr(Steady, "show", lambda *given: None)
 
@@ -199,7 +199,7 @@ def test_the_map_that_ships_is_what_is_computed():
 
 
 def test_what_a_hand_on_the_map_sends_is_let_in():
-    """As frontend/src/figures/maps.js has it: a place, the middle of a cell, two corners of a box."""
+    """What frontend/src/figures/maps.js sends: a place, the middle of a cell, two corners of a box."""
     source = MapFigure(lambda data: None).hand
     for x, y, cell in (([30.5], [6.5], [0]), ([30.5], [6.5], [1]), ([5.0, 6.0], [1.0, 2.0], [0, 0])):
         entries = [["x", x], ["y", y], ["cell", cell]]

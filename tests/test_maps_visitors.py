@@ -30,8 +30,8 @@ WHOLE = 9 * 9
 
 @pytest.fixture
 def drawing(monkeypatch, tmp_path):
-    """Maps are drawn piece by piece, when go() is called, and kept in a folder of the test's own; seen: (seconds of the
-    map, how many cells are there) of each piece."""
+    """Maps are computed piece by piece, whenever go() is called, and stored in a folder of the test. seen: (seconds of
+    the map, number of finished cells) after each piece."""
     seen, gate = [], Queue()
 
     def in_pieces(asked, look):
@@ -53,13 +53,13 @@ def drawing(monkeypatch, tmp_path):
 
 
 class Others:
-    """Visitors for whom threads of MAPS work until they are told to go."""
+    """Visitors who keep the threads of MAPS busy until they are told to leave."""
 
     def __init__(self):
         self._gate, self._held, self._names = Queue(), 0, count()
 
     def hold(self):
-        """Until no thread is free."""
+        """Waits until no thread is free."""
         while MAPS._working.total() < MAPS.threads:
             self._held += 1
             busy = MAPS._working.total()
@@ -94,7 +94,7 @@ async def waits(page, language, place):
 
 
 async def stands(page, language):
-    """The whole map: what it says below of its worst run is said of nothing less."""
+    """The whole map, because the sentences about its worst run need all of it."""
     begins = say("maps.worst", language, energy="|", drift="").split("|")[0]
     await page.until(lambda: begins in page.visitor.says)
 

@@ -27,7 +27,7 @@ ROOT = Path(__file__).parent.parent
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_an_example_is_what_its_program_makes(name):
-    """To its last digit but one: another processor may round another way."""
+    """All digits but the last: another processor may round differently."""
     there, made = (read(text) for text in ((FOLDER / f"made-{name}.csv").read_bytes(), example(name)))
     for one, other in zip(there.columns, made.columns, strict=True):
         assert one.name == other.name
@@ -36,7 +36,7 @@ def test_an_example_is_what_its_program_makes(name):
 
 @pytest.fixture(scope="module")
 def tab():
-    """The tab, with the example that slips, fitted."""
+    """The tab with the fitted example that slips."""
     made = Measure(Explorer().scene)
     made.take_example("slips")
     made.compute()
@@ -63,7 +63,7 @@ FRAMES = "\n".join(["frame\ttilt (deg)", *(f"{i}\t{5 + i}" for i in range(30))])
 
 
 def test_a_table_that_needs_a_word_more_is_not_there_before():
-    """What was there stays whole: its data, and the top of which they are."""
+    """The old data, and the top they belong to, stay complete."""
     made = Measure(Explorer().scene)
     made.take_example("rolls")
     before = made._data, made._body
@@ -74,13 +74,14 @@ def test_a_table_that_needs_a_word_more_is_not_there_before():
 
 
 def long_table(step):
-    """Of 600 rows, so many s apart."""
+    """A table of 600 rows, this many s apart."""
     rows = (f"{i * step:.4f},{5 + i % 7},{20 + i % 5}" for i in range(600))
     return "\n".join(["t (s),tilt (deg),spin (rev/s)", *rows])
 
 
 def test_of_a_film_of_hours_a_part_is_fitted(monkeypatch):
-    """As long as can be; a part that is longer, or in which too little was measured, is said, and nothing is run."""
+    """A film of the greatest length. If it is longer, or contains too few measured values, a message says so and
+    nothing runs."""
     made = Measure(Explorer().scene)
     monkeypatch.setattr(shown, "shown", lambda model, data: pytest.fail("run") if np.ptp(data.t) > LONGEST else None)
     made.take(long_table(1.0))
@@ -92,7 +93,7 @@ def test_of_a_film_of_hours_a_part_is_fitted(monkeypatch):
 
 
 def test_a_guess_is_chosen_by_the_beginning_of_a_film(monkeypatch):
-    """Of whose many starts each would take seconds."""
+    """A film for which each of the many starts would take seconds."""
     runs, of_problem = [], shown.Problem.residuals
 
     def counted(own, x):
@@ -106,7 +107,7 @@ def test_a_guess_is_chosen_by_the_beginning_of_a_film(monkeypatch):
 
 @pytest.mark.parametrize(("each", "line"), [(1, 24), (5, 71), (40, 441)])
 def test_a_line_is_that_of_the_file(each, line):
-    """Of which the browser left out rows: 12 lines are kept, and of the others those at multiples of each, from 0."""
+    """A table thinned by the browser: 12 lines are kept, and of the others every n-th, counted from 0."""
     file = ["t,tilt", *(f"{i / 100:.2f},5" for i in range(1, 12 + 30 * each))]
     file[line - 1] = f"{(line - 1) / 100:.2f},five"
     kept = [row for i, row in enumerate(file) if i < 12 or i % each == 0]
@@ -168,7 +169,7 @@ def test_its_numbers_are_written_as_the_language_writes_them(tab):
 
 @pytest.mark.served
 def test_the_recipe_is_one_page(chromium):
-    """As a browser prints it on A4, in each language."""
+    """As printed by a browser on A4, in each language."""
     for language in LANGUAGES:
         with speaking(language):
             text = recipe()
@@ -180,7 +181,7 @@ def test_the_recipe_is_one_page(chromium):
 
 
 def opened(server, chromium, query="?tab=measure", width=1400):
-    """(the page, what went wrong in it)."""
+    """(the page, the errors in it)."""
     page, errors = chromium.new_page(viewport={"width": width, "height": 1000}), []
     page.set_default_timeout(180_000)
     page.on("pageerror", lambda error: errors.append(str(error)))
@@ -207,7 +208,8 @@ def test_an_example_is_fitted_in_the_page(server, chromium):
 
 @pytest.mark.served
 def test_a_table_is_dropped_and_a_hand_pulls_its_start(server, chromium):
-    """Wherever on the page; a later one that is none says so, and leaves it; then the dashed line is pulled."""
+    """Dropped anywhere on the page. A later file that is not a table gives a message and changes nothing; then the
+    dashed line is dragged."""
     page, errors = opened(server, chromium)
     page.get_by_text("Example: it slips").first.wait_for()
     page.evaluate(DROP, example("rolls").replace("# Nobody", "# Somebody"))

@@ -33,19 +33,19 @@ def server(tmp_path_factory):
 
 
 def most_megabytes(pid):
-    """The most that a process ever had."""
+    """The greatest memory that a process has used."""
     return int(re.search(r"VmHWM:\s*(\d+)", Path(f"/proc/{pid}/status").read_text())[1]) / 1000
 
 
 def chunk(**more):
-    """A file in one piece, as the browser sends it."""
+    """A file in one piece, as sent by the browser."""
     whole = {"status": "upload_event", "type": "status", "name": "top.json", "mime_type": "application/json",
              "chunk": 1, "total_chunks": 1, "data": {"type": "bytes", "data": {"id": "b0"}}}  # fmt: skip
     return whole | more
 
 
 async def opened(url):
-    """A Visitor with the builder's tab open, who reads what he asks for only."""
+    """A Visitor with the builder's tab open, who reads only when asked to."""
     visitor = await Visitor.enter(of_roll(url))
     await visitor.ready()
     await visitor.set(visitor.find("Head")[0], "asked", [1, "room", "build-a-top"])
@@ -113,7 +113,7 @@ def test_a_file_is_one_piece_of_at_most_64_KiB(server):
 
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="reads what Linux says of a process's memory")
 def test_files_that_are_sent_and_never_finished_do_not_pile_up(server):
-    """300 of 64 KiB, each under a name of its own: 20 MB."""
+    """300 files of 64 KiB, each with another name: 20 MB."""
 
     async def send():
         visitor = await opened(server.url)
@@ -132,7 +132,7 @@ def test_files_that_are_sent_and_never_finished_do_not_pile_up(server):
 
 
 class Models(dict):
-    """A document's, as look_at() asks them."""
+    """The models of a document, as look_at() needs them."""
 
     get_by_id = dict.get
     seen = dict.__contains__
@@ -214,7 +214,8 @@ def test_events_that_the_page_never_sends(said, why):
 
 
 def test_every_component_of_the_page_is_in_the_table(server):
-    """One that is not takes plain values; who adds one says here what the browser changes of it."""
+    """A component that is not listed accepts plain values only; whoever adds a component lists what the browser changes
+    of it."""
 
     async def all_models():
         page = await visitors.come(server.url)
@@ -229,7 +230,7 @@ def test_every_component_of_the_page_is_in_the_table(server):
 
 
 def test_the_table_has_what_our_scripts_change():
-    """model.x = ... in a component's JavaScript."""
+    """The assignments model.x = ... in a component's JavaScript."""
     scripts = [*(APP / "frontend/src").rglob("*.js"), *APP.rglob("*.py")]
     changed = {name for path in scripts
                for name in re.findall(r"\bmodel\.(\w+) (?:\+?=) ", path.read_text(encoding="utf-8"))}  # fmt: skip
@@ -238,7 +239,7 @@ def test_the_table_has_what_our_scripts_change():
 
 
 def test_nothing_that_the_page_itself_sends_is_refused(chromium, server):
-    """A hand on sliders, on the body that is built, on a top of the map, and a file, in a browser."""
+    """In a browser: sliders, the body in the builder, a top on the map, and a file."""
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     visit, before = Visit(page, server.url), server.log.count("refused")
     visit.pause()

@@ -52,7 +52,7 @@ def test_a_link_that_is_given_away_has_only_names_of_the_table():
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(APP)))
 def test_there_is_no_second_place(path):
-    """No row, no name looked up in an address by its letters, and no link that is put together by hand."""
+    """No other file has a row, looks up a name in an address as a literal, or puts a link together by hand."""
     text = path.read_text(encoding="utf-8")
     assert path.name == "keep.py" or not IN_A_LINK.search(text)  # whose head shows an address
     if READ.search(text):
@@ -63,7 +63,7 @@ def test_there_is_no_second_place(path):
 
 
 def second_places(tree):
-    """The lines of rows, and of names that are looked up by their letters in texts."""
+    """The lines of the rows, and of names that are looked up as literals in texts."""
     for node in ast.walk(tree):
         match node:
             case ast.Call(func=ast.Name(id="Name") | ast.Attribute(attr="Name")):
@@ -81,7 +81,7 @@ def second_places(tree):
 
 
 def asks_texts(node):
-    """Whether it is what read() returns, or the arguments of a request."""
+    """Whether a name is the result of read(), or the arguments of a request."""
     return re.search(r"\btexts\b|\bread\(|query_arguments", ast.unparse(node)) is not None
 
 

@@ -38,7 +38,7 @@ NOT_SAID = {
 
 
 def bare(words):
-    """Without elements, rules of CSS, and calls."""
+    """The text without HTML elements, CSS rules, and calls."""
     words = re.sub(r"<(style|script)\b.*?</\1>", " § ", words, flags=re.DOTALL)
     for other in (r"<[^<>]*>?", *2 * [r"[^{}]*\{[^{}]*:[^{}]*\}"], *3 * [r"[\w-]+\([^()]*\)"]):
         words = re.sub(other, " § ", words)
@@ -47,19 +47,19 @@ def bare(words):
 
 @cache
 def vocabulary():
-    """The words of the English files."""
+    """All words in the English files."""
     words = [bare(words) for words in every(DEFAULT).values() if isinstance(words, str)]
     return set(re.findall("[a-z]{2,}", " ".join(words).lower()))
 
 
 def is_english(words):
-    """Two words of the vocabulary, one after the other."""
+    """Two words of the vocabulary in succession."""
     pairs = re.findall(r"(?=\b([a-z]{2,})[,:;]? +([a-z]{2,})\b)", bare(words).lower())
     return any(one in vocabulary() and other in vocabulary() for one, other in pairs)
 
 
 def literals(script):
-    """All strings and templates of a JavaScript, § for what is put into them."""
+    """All strings and templates of a JavaScript file; § stands for inserted values."""
     found, around, at = [], [], 0  # around: the templates here, each with its pieces and the braces open in it
     while at < len(script):
         if around and around[-1][1] == 0:
@@ -84,7 +84,8 @@ def literals(script):
 
 
 def constants(module):
-    """Every string in a module, an f-string as a whole with {} for what is put in; not what only its readers see."""
+    """Every string of a module, an f-string as a whole with {} for inserted values; those that only its readers see do
+    not count."""
     passed = set()
     for node in ast.walk(module):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
@@ -104,7 +105,7 @@ def constants(module):
 
 
 def strings(path):
-    """What a file of the page could show."""
+    """The strings of a file that the page could show."""
     if path.suffix == ".js":
         return literals(path.read_text(encoding="utf-8"))
     found = []
@@ -115,7 +116,7 @@ def strings(path):
 
 @cache
 def enumerated():
-    """What the core calls things, and the keys under which there are words for them."""
+    """Names that the core uses, and the keys of their words."""
     names = {key.rpartition(".")[2] for key in every(DEFAULT)}
     return names.union(*(constants(tree(path)) for path in CORE.rglob("*.py")))
 

@@ -11,7 +11,7 @@ DOCS = Path(__file__).parent.parent / "docs"
 
 
 def executed(name):
-    """A notebook of docs, run, and what each of its cells of code said."""
+    """A notebook of docs, executed, and the output of each code cell."""
     book = nbformat.read(DOCS / name, as_version=4)
     assert not any(cell.get("outputs") for cell in book.cells), "committed without its output"
     NotebookClient(book, timeout=120, resources={"metadata": {"path": DOCS.parent}}).execute()

@@ -54,7 +54,7 @@ DOCS = Path(__file__).parent.parent / "docs"
 
 @cache
 def stored(name):
-    """The Scene of a preset, with what a throw gives it."""
+    """The Scene of a preset, with its start."""
     preset = next(preset for preset in PRESETS if preset.name == name)
     if preset.top == Top.paper():
         return solve(preset.top, 7.0, 10.0, 0.5, 0.9, shape=preset.shape)
@@ -181,7 +181,7 @@ def compare(scene):
 
 
 class Idle:
-    """Runs that nobody computes."""
+    """Runs that are never computed."""
 
     beside = False
 
@@ -214,7 +214,7 @@ VIEWS = {
 
 
 def seen(view):
-    """{path: value} of all that a view has put on the page, or keeps of what it put there."""
+    """{path: value} of everything that a view has put on the page, or stores of it."""
     found, met = {}, set()
 
     def look(thing, path):
@@ -255,7 +255,7 @@ def seen(view):
 
 
 def in_a_row(column):
-    """A column of a source, of numbers, words, or arrays of any length."""
+    """A column of a data source: numbers, words, or arrays of any length."""
     return np.concatenate([np.ravel(np.asarray(each)) for each in column]) if len(column) else np.zeros(0)
 
 
@@ -265,7 +265,7 @@ def same(one, other):
 
 
 def shown(make, *scenes):
-    """What a view has on the page that was made for the first of these scenes and shown all in turn."""
+    """What is on the page of a view that was created with the first of these scenes and has shown all others."""
     view, show = make(scenes[0])
     for scene in scenes:
         show(scene)
@@ -274,7 +274,7 @@ def shown(make, *scenes):
 
 @pytest.fixture
 def alone(monkeypatch):
-    """No Explorer and no Pacer is made."""
+    """Neither an Explorer nor a Pacer is created."""
 
     def refuse(self, *inputs, **named):
         raise AssertionError("a view made it")
@@ -312,7 +312,7 @@ def test_the_three_planes_work_alone(alone, plane):
 
 
 def test_what_a_view_asks_is_all_that_it_does(alone):
-    """A hand on Fig. 6, and on the axis of the top: the scene stays, until another one is shown."""
+    """Dragging in Fig. 6, and dragging the axis of the top: the scene stays until another one is shown."""
     pacer = Shown(stored(TOPS[0]))
     view = Roll(pacer, Playing(), Controls(pacer.scene, nothing, pacer.soon).card())
     view._plane.hand.data = {"grip": ["line"], "theta": [0.5], "K_J": [6.0]}
@@ -331,7 +331,8 @@ SHOWING = [path for room in ("tabs", "widgets", "share") for path in (APP / room
 
 @pytest.mark.parametrize("path", SHOWING, ids=lambda path: str(path.relative_to(APP)))
 def test_no_view_takes_a_function_of_the_core(path):
-    """What it shows is computed in the model: of the core it may know a record, a body, an error or a list of them."""
+    """Everything shown is computed in the model. Of the core, a view may know a record, a body, an error, or a list of
+    them."""
     taken = {}
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "tippe_core":

@@ -28,7 +28,7 @@ forks = pytest.mark.skipif(sys.platform == "win32", reason="processes share a so
 
 
 def ready(server, prefix=""):
-    """(status, why not, sessions of all workers)"""
+    """(status, reasons, sessions of all workers)"""
     status, headers, text = get(f"{server.url.removesuffix('/app').removesuffix('/tops')}{prefix}/readyz")
     said = json.loads(text)
     assert headers["Cache-Control"] == "no-store" and said["ready"] == (status == 200) == (not said["why"])
@@ -36,7 +36,7 @@ def ready(server, prefix=""):
 
 
 def compiled(server):
-    """Waits until its kernels are: until then it is not ready."""
+    """Waits until the kernels are compiled: before that the server is not ready."""
     until(lambda: "compiling" not in ready(server)[1], 600)
 
 
@@ -88,14 +88,14 @@ def test_who_says_nothing_any_more_is_not_asked(monkeypatch):
 
 
 class Labels(dict):
-    """A dict that can be a key."""
+    """A dict as a hashable key."""
 
     def __hash__(self):
         return hash(tuple(sorted(self.items())))
 
 
 def measured(server):
-    """{name: {labels: value}} of /metrics."""
+    """{name: {labels: value}} in /metrics."""
     status, headers, text = get(server.root + "/metrics")
     assert status == 200 and headers["Content-Type"].startswith("text/plain")
     found = {}
@@ -196,7 +196,7 @@ def test_pages_are_sent_elsewhere_one_after_the_other(pages, drain, signals, sle
 @forks
 @pytest.mark.slow
 def test_a_worker_that_grew_is_replaced_when_nobody_is_there(tmp_path):
-    """Any page is too much for a bound of 1 MB; before the first one came nobody is replaced."""
+    """With a bound of 1 MB every page is too much; a worker is not replaced before its first page."""
 
     async def visit():
         visitor = await Visitor.enter(f"{server.url}?tab=roll")

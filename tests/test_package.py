@@ -24,7 +24,7 @@ PYTHONS = ("3.11.0", "3.12.0", "3.13.0", "3.14.0")
 
 
 def pins(path, python=None):
-    """{name: version} of a lock, as it is on a Linux with this Python; all of them in one list without."""
+    """{name: version} of a lock file, for a Linux with this Python; without a Python, all of them in one list."""
     lines = re.findall(r"(?m)^([A-Za-z0-9][\w.-]*==.*?) *\\?$", path.read_text(encoding="utf-8"))
     requirements = map(Requirement, lines)
     system = {"sys_platform": "linux", "platform_machine": "x86_64", "os_name": "posix"}
@@ -41,7 +41,7 @@ def test_every_dependency_has_a_lower_and_an_upper_bound(name):
 
 @pytest.mark.slow
 def test_what_is_imported_at_run_time_is_declared():
-    """By the name of its package: pip may bring along today what it will not tomorrow."""
+    """Imports by package name: what pip installs along today it may not install tomorrow."""
     files = [path for part in ("app", "tippe_core") for path in (ROOT / part).rglob("*.py")]
     nodes = [node for path in files if "node_modules" not in path.parts
              for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))]  # fmt: skip
@@ -98,7 +98,7 @@ def unpacked(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def archives(tmp_path_factory):
-    """The folder of the wheel and the source archive, made from a copy of what git has and of the bundle."""
+    """The folder with the wheel and the source archive, made from a copy of what git tracks and the bundle."""
     if not (ROOT / ".git").exists() or not shutil.which("git"):
         pytest.skip("copies what git has")
     copy, made = tmp_path_factory.mktemp("copy"), tmp_path_factory.mktemp("made")
@@ -123,7 +123,7 @@ def test_the_archives_are_as_an_index_wants_them(archives):
 @pytest.mark.served
 @pytest.mark.slow
 def test_the_wheel_in_an_empty_environment_starts_from_any_directory_and_a_visitor_comes(archives, tmp_path):
-    """Without node, a compiler or the sources. Kernels run as Python: compiling them is another test's."""
+    """Without node, a compiler or the sources. Kernels run as Python here; another test compiles them."""
     [wheel] = archives.glob("*.whl")
     folder = tmp_path / "venv" / ("Scripts" if os.name == "nt" else "bin")
     subprocess.run([sys.executable, "-m", "venv", folder.parent], check=True)
@@ -153,7 +153,7 @@ def test_the_source_archive_has_all_that_git_has(unpacked):
 
 @pytest.mark.served
 def test_the_source_archive_passes_its_tests_of_files(unpacked):
-    """Those that read what is not a program: the proxy's and the cluster's settings, the docs, the readme."""
+    """Tests of files that are not programs: the settings of proxies and clusters, the docs, the README."""
     done = subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_readme.py",
                            "tests/test_settings.py", "tests/test_package.py", "-k",
                            "(files or docs or readme or lock) and not archive"],

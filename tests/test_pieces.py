@@ -14,7 +14,7 @@ from app.server.pieces import SMALL, pieces_of
 
 
 def sent_and_received(data):
-    """How many pieces there are, and the columns that come out at the other end."""
+    """The number of pieces, and the columns that the receiver gets."""
     document, source = Document(), ColumnDataSource({})
     document.add_root(source)
     message = Protocol().create("PATCH-DOC", [ModelChangedEvent(document, source, "data", data)])

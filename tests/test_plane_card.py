@@ -12,7 +12,7 @@ from tippe_core import Top
 
 @pytest.fixture
 def card():
-    """A PlaneCard that asks an Explorer, and is shown its scenes as a hand at rest has them."""
+    """A PlaneCard that sends requests to an Explorer, and shows its scenes when nothing is dragged."""
     explorer, slid = Explorer(), []
     card = PlaneCard(Motion(), lambda **inputs: explorer.param.update(**inputs), lambda: slid.append("slips"))
     card.explorer, card.slid = explorer, slid

@@ -170,7 +170,7 @@ def test_a_stem_that_throws_the_top_up_is_not_the_table_that_lets_it_go(explorer
 
 @pytest.fixture(scope="module")
 def usual():
-    """The first look's picture."""
+    """The default picture."""
     return planes_of(Explorer()).picture
 
 

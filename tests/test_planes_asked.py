@@ -35,7 +35,7 @@ def planes(explorer):
 
 @pytest.fixture(scope="module")
 def usual():
-    """The first look's picture."""
+    """The default picture."""
     return planes_of(Explorer()).picture
 
 
@@ -44,7 +44,7 @@ DISC, CONE, PAPERS = "Disc on a peg", "Wooden cone", "The paper's tippe top"
 
 @pytest.mark.slow
 def test_a_start_by_constants_that_is_refused_is_answered_beside_the_constants(explorer, planes):
-    """The slider of the tilt is not there then."""
+    """Then there is no slider of the tilt."""
     rolling = replace(planes.picture.settings, rolling=planes.picture.state)
     planes._publish(rolling, TopError("tilt", 100.0, "at most 90"))
     assert set(planes.picture.messages) == {"by"}
@@ -202,7 +202,7 @@ def test_what_the_bead_has_left_stands_above_it(explorer, planes, law):
 
 
 def test_without_its_stem_the_ball_alone_is_drawn(explorer, planes):
-    """Nothing of it would stop at the table, through which a stem would be seen to go."""
+    """It could not stop at the table, and the stem would be seen to pass through it."""
     settings = planes.picture.settings
     assert settings.drawn is settings.profile and settings.profile[:, 1].max() > 1.5
     alone = replace(settings, stem=False).drawn

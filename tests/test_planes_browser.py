@@ -25,7 +25,7 @@ COLUMN = f"""
 
 @pytest.fixture(scope="module")
 def page(server, chromium):
-    """The page with the tab open, the same for all tests here; they fail on an error in it."""
+    """The page with the tab open, which all tests here share; an error in it fails them."""
     visit = Visit(chromium.new_page(viewport={"width": 1400, "height": 900}), server)
     page = visit.page
     page.set_default_timeout(PATIENCE)
@@ -43,12 +43,12 @@ def page(server, chromium):
 
 @pytest.fixture(scope="module")
 def first():
-    """The picture of the first look."""
+    """The default picture."""
     return planes_of(Explorer()).picture
 
 
 def field(page, name):
-    """The number to type of a control that is seen."""
+    """The number field of a visible control."""
     said = {"spin": "spin, in revolutions per second", "tilt": "tilt, in degrees",
             "seconds": "time computed, in seconds", "eps": "slip scale of the friction, in root g R"}  # fmt: skip
     return page.get_by_role("textbox", name=said[name], exact=True).locator("visible=true")
@@ -108,7 +108,7 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
 
 
 def test_there_is_no_well_while_the_stem_touches(page, first):
-    """And the bead is gone with it; before that both are there."""
+    """The bead disappears with it; before that both are there."""
     put_on(page, "Ordinary")
     well = f"{MODELS}.find((m) => m.name == 'planes-well' && m.renderers)"
     hidden = f"t => {well}.center.some((m) => m.type == 'Label' && m.visible) == (t > 2.6)"

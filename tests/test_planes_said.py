@@ -107,7 +107,7 @@ def test_of_a_rolling_top_all_of_its_nutation_is_told(usual):
 def test_exactly_upright_it_stays_so_and_nobody_says_that_it_will_turn_over(usual):
     picture, said = ran(usual, tilt=0.0)
     assert np.all(picture.motions["sliding"].trajectory.theta == 0)
-    assert said.startswith("stays exactly as it is: 0.0° at 5 s") and "merely cuts" not in said
+    assert said.startswith("stays exactly as it is: 0.0° at 5 s") and "cuts it off" not in said
     assert "exactly in balance it stays as it is; nudged, it will turn over" in ball_words(picture)
     assert ran(usual, tilt=0.001, seconds=1.0)[0].outcome.verdict == "turns over"
 
@@ -159,7 +159,7 @@ SAID = [
     (CONE, {"seconds": 5.0}, ["creeps on"], ["so it stays"]),
     (PAPERS, NO_SPIN | {"tilt": 180.0, "seconds": 0.2}, ["stands flat on its stem"], ["smallest disturbance would"]),
     (PAPERS, FREE | NO_SPIN | {"tilt": 130.0, "seconds": 4.0}, ["impacts without a bounce have taken 0.265"],
-     ["for ever"]),
+     ["forever"]),
     (CONE, NO_SPIN | {"seconds": 3.0}, ["It lies at rest.", "no longer holds from"], ["precession", "by 0 %"]),
     (PAPERS, FREE | {"spin": 30.0, "seconds": 1.0}, ["leans: "], ["is upright"]),
     (DISC, {"seconds": 1.0}, [], ["is upright"]),
@@ -168,7 +168,7 @@ SAID = [
     (PAPERS, {"tilt": 90.0, "seconds": 0.2}, ["As an upright start of"], ["back past it", "below 90"]),
     (PAPERS, NO_SPIN | {"tilt": 119.0, "seconds": 1.0}, ["It is for ", "and after that to the end on its ball"],
      ["0.00 s"]),
-    (PAPERS, FREE | NO_SPIN | {"tilt": 179.0, "seconds": 1.0}, ["stands flat on its stem"], ["for ever"]),
+    (PAPERS, FREE | NO_SPIN | {"tilt": 179.0, "seconds": 1.0}, ["stands flat on its stem"], ["forever"]),
     ("Uniform ball", {}, ["so it goes on, between 1.8° and 3.9°"], ["so it stays"]),
     (PAPERS, STICKS | {"spin": 30.0, "tilt": 130.0, "seconds": 0.3}, ["goes no further: "], ["stands on its stem: "]),
 ]  # fmt: skip

@@ -43,7 +43,7 @@ MODULES = ("mpm_event authz_core authz_host ssl proxy proxy_http proxy_wstunnel 
 
 
 def program(name):
-    """Where it is: it may be none of a user's."""
+    """The path of a program, which may not be in a user's PATH."""
     found = shutil.which(name, path=f"{os.environ['PATH']}:/usr/sbin")
     if found is None:
         pytest.skip(f"{name} is not installed")
@@ -52,7 +52,8 @@ def program(name):
 
 @contextmanager
 def proxied(name, folder, behind, login=None):
-    """The proxy with the file of deploy/, before a server and a login at these ports; the page's address."""
+    """Runs the proxy with the file of deploy/, in front of a server and a login at these ports; gives the page's
+    address."""
     at, port = program(name), free_port()
     certificate = ["-newkey", "rsa:2048", "-nodes", "-subj", "/CN=localhost", "-days", "2"]
     files = ["-keyout", folder / "key.pem", "-out", folder / "cert.pem"]
@@ -113,7 +114,8 @@ def test_a_page_comes_by_https_under_a_prefix_and_its_socket_too(name, page, tmp
 
 
 class Login(BaseHTTPRequestHandler):
-    """Answers nginx and a browser as oauth2-proxy does: who has its cookie is let in, as long as that is good."""
+    """Answers nginx and a browser like oauth2-proxy: a browser with its cookie is let in as long as the cookie is
+    valid."""
 
     good: ClassVar = set()
 
@@ -141,7 +143,7 @@ class Login(BaseHTTPRequestHandler):
 
 
 def test_a_login_that_ran_out_is_asked_for_again_and_leads_back_to_what_was_set(page, tmp_path):
-    """oauth2-proxy itself is not at hand: Login stands in for it."""
+    """oauth2-proxy itself is not available: Login stands in for it."""
     login = ThreadingHTTPServer(("127.0.0.1", 0), Login)
     threading.Thread(target=login.serve_forever, daemon=True).start()
     port = free_port()

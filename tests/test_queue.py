@@ -19,13 +19,13 @@ PATIENCE = 60  # s
 
 @pytest.fixture(autouse=True)
 def often(monkeypatch):
-    """Who waits hears of it at once."""
+    """A visitor who has to wait is told at once."""
     monkeypatch.setattr(runs, "SAY", 0.01)
 
 
 @pytest.fixture
 def busy():
-    """All threads of WORK are, with pieces of others, until one after the other may go()."""
+    """Keeps all threads of WORK busy with pieces of other visitors, until they may go() one by one."""
     gate, done = Queue(), []
     for i in range(WORK.threads):
         WORK.add(f"other {i}", lambda: done.append(gate.get(timeout=PATIENCE)))
@@ -52,7 +52,7 @@ def test_who_waits_is_told_his_place_and_that_his_turn_has_come():
 
 
 def test_who_has_something_under_way_is_told_nothing():
-    """He waits for himself."""
+    """He waits for his own work only."""
     pool, gate, told = Pool(2, "queue"), Queue(), []
     for _ in range(2):
         pool.add("a", lambda: gate.get(timeout=PATIENCE), told.append)
@@ -106,7 +106,7 @@ def test_a_page_that_is_gone_waits_no_more(busy):
     ],
 )  # fmt: skip
 def test_the_cores_of_a_container_are_those_it_has_the_time_of(mine, limits, given, tmp_path):
-    """The lines are of Docker, of a machine without limits, of version 1, of systemd, and of Kubernetes."""
+    """The lines come from Docker, a machine without limits, cgroups version 1, systemd, and Kubernetes."""
     (tmp_path / "mine").write_text(mine)
     for folder, text in limits.items():
         (tmp_path / "groups" / folder).mkdir(parents=True, exist_ok=True)
@@ -122,7 +122,7 @@ def test_whole_cores_and_no_more_than_the_machine_lets_it_have(given, whole, mon
 
 
 async def ask_in_two_languages(url, go):
-    """Two visitors of the Lab move its spin while the server computes for others."""
+    """Two visitors of the Lab change its spin while the server computes for others."""
     pages = [visitors.Page(await visitors.Visitor.enter(url, headers={"Accept-Language": each})) for each in LANGUAGES]
     said = []
     for page, language in zip(pages, LANGUAGES, strict=True):

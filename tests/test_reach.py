@@ -28,7 +28,7 @@ SAID = """
 
 
 def words_of(language):
-    """The pieces of all words of a language between elements and numbers."""
+    """All words of a language, in pieces between elements and numbers."""
 
     def pieces(found):
         if isinstance(found, str):

@@ -72,7 +72,7 @@ def test_every_regime_has_its_words(language):
 
 
 def test_regimes_that_stand_beside_each_other_are_told_apart():
-    """In the ribbon of the three planes, and of one motion."""
+    """In the ribbon of the three planes, and in that of one motion."""
     for beside in ((regimes.ROLLS, regimes.SLIPS, regimes.GLIDES, regimes.FLIES, regimes.WOULD_LIFT, regimes.ENDS),
                    (regimes.ROLLS, regimes.WOULD_SLIP, regimes.WOULD_LIFT)):  # fmt: skip
         assert len({regimes.COLOUR[code] for code in beside}) == len(beside)
@@ -98,7 +98,7 @@ NAMED = re.compile(
 
 
 def colours_in(text):
-    """Each as six digits, in lower case."""
+    """Each colour as six digits in lower case."""
     for digits in HEX.findall(text):
         yield (digits if len(digits) == 6 else "".join(2 * digit for digit in digits)).lower()
     for triple in TRIPLE.findall(text):
@@ -106,7 +106,7 @@ def colours_in(text):
 
 
 def hue(digits):
-    """(degrees, how colourful 0 to 1)"""
+    """(hue in degrees, chroma 0 to 1)"""
     red, green, blue = (int(digits[i : i + 2], 16) / 255 for i in (0, 2, 4))
     return 360 * colorsys.rgb_to_hsv(red, green, blue)[0], max(red, green, blue) - min(red, green, blue)
 
@@ -116,7 +116,7 @@ OF_ITS_OWN = ("omega", "normal", "flies")  # hues that nothing else has, so that
 
 
 def second_colours(text):
-    """Those of a text that are a quantity's or a regime's."""
+    """The colours in a text that belong to a quantity or a regime."""
     for digits in colours_in(text):
         where, much = hue(digits)
         shade = much > 0.15 and any(abs(where - hue(OURS[name])[0]) < 12 for name in OF_ITS_OWN)

@@ -136,7 +136,7 @@ def test_without_a_session_a_run_is_done_at_once():
 
 
 def test_two_runs_at_a_time_are_each_as_it_is_alone():
-    """Two visitors: of scipy before 1.17 only one could have an integrator."""
+    """Two visitors at once: with scipy before 1.17 only one of them could have an integrator."""
     times = np.linspace(0, 60, 200)
 
     def moved(tilt):
@@ -158,7 +158,7 @@ def test_two_runs_at_a_time_are_each_as_it_is_alone():
 
 
 def test_sessions_work_in_the_servers_own_thread():
-    """Bokeh from 3.10 on gives their work to the loop's executor and to its own, beside what Panel does in the loop
+    """Bokeh from 3.10 on passes work to the loop's executor and to its own, besides what Panel does in the loop
     meanwhile."""
     app = build_single_handler_application(Path(__file__).parent.parent / "app")
 

@@ -24,7 +24,7 @@ page, busy = pytest.fixture(one_page), pytest.fixture(all_busy)
 
 
 class Crowd:
-    """Visitors of a pool of their own: in which order their pieces are begun, and how many of each at a time."""
+    """Visitors of a separate pool: the order in which their pieces start, and how many run at a time."""
 
     def __init__(self, threads):
         self.pool, self.begun, self.go = Pool(threads, "crowd"), [], Queue()
@@ -44,7 +44,7 @@ class Crowd:
         return work
 
     def end(self, pieces):
-        """Lets so many end."""
+        """Lets this many pieces end."""
         for _ in range(pieces):
             self.go.put(None)
 
@@ -63,7 +63,7 @@ def test_visitors_take_turns_however_much_one_of_them_asks_for():
 
 
 def test_a_thread_is_free_for_who_has_none_under_way():
-    """However much one asks for: who comes then need not wait for any of it."""
+    """However much one visitor requests, another one need not wait for it."""
     crowd = Crowd(threads=4)
     for i in range(9):
         crowd.piece("flood", f"flood {i}")
@@ -91,7 +91,7 @@ def test_of_a_kind_a_page_has_one_piece_and_the_newest_answers(page, busy):
 
 
 def test_nothing_is_begun_for_who_has_left(busy):
-    """Left is also whose connection has ended: the session that it leaves lives for half a minute more."""
+    """A visitor whose connection has ended has left too, although his session lives on for half a minute."""
     here, begun = [True], []
     gone = Page()
     gone.runs = Runs(gone.posted.put, lambda: bool(here))
@@ -109,7 +109,7 @@ def test_nothing_is_begun_for_who_has_left(busy):
 
 @pytest.mark.slow
 def test_the_lesson_begins_before_its_runs_are_there(page):
-    """Its first step ships; the others are computed beside the server, and anew for another top."""
+    """The first step is in the package; the others are computed beside the server, and again for another top."""
     scene = Explorer().scene
     learn = Learn(scene, page.runs)
     assert [step["name"] for step in learn.lesson.steps] == ["flips"] and {*learn.lesson.runs} == {"ordinary"}
@@ -155,7 +155,7 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
 
 
 def test_what_a_hand_waits_for_does_not_wait_for_the_rest_of_other_runs(page):
-    """Nor is who has asked for nothing told that he waits."""
+    """Somebody who has requested nothing is not told that he waits."""
     go, places = threading.Event(), []
     for name in range(LATER.threads + 1):
         LATER.add(name, lambda: go.wait(PATIENCE), places.append)

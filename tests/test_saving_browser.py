@@ -42,7 +42,7 @@ def share(page):
 
 
 def saved(page, label, name):
-    """The bytes of the file of this name, of the button of that label: the last, for the first PNG is the photo."""
+    """The bytes of the file of this name, saved by the last button with that label (the first PNG is the photo)."""
     with page.expect_download() as download:
         page.get_by_role("button", name=label, exact=True).locator("visible=true").last.click()
     assert download.value.suggested_filename == name
@@ -55,7 +55,7 @@ def read(csv):
 
 @pytest.fixture(scope="module")
 def runs():
-    """{table: its CSV as pandas reads it}, of those that have been saved."""
+    """{table: its CSV as read by pandas}, of the saved files."""
     return {}
 
 

@@ -46,7 +46,7 @@ def test_what_is_borrowed_of_three_is_still_there():
 
 @pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.name)
 def test_no_other_script_borrows(path):
-    """A name that begins with _ is nobody's but its owner's; ours for tests is __tippe."""
+    """A name that begins with _ is private to its library; our own for tests is __tippe."""
     private = {*re.findall(r"\.(_\w+)", path.read_text(encoding="utf-8"))} - {"__tippe"}
     assert private == set()
     assert not re.search(r"canvas_view|find_one|tool_views|ui_event_bus", path.read_text(encoding="utf-8"))
@@ -66,7 +66,7 @@ def test_no_javascript_stands_in_python(path):
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
 def test_no_javascript_stands_in_html(path):
-    """A script in a page is a file of its own, which tsc and ESLint read; or data."""
+    """Scripts in a page are files, which tsc and ESLint check, or data."""
     text = path.read_text(encoding="utf-8")
     scripts = re.findall(r"<script([^>]*)>(.*?)</script>", text, re.DOTALL)
     assert [inside for _, inside in scripts if not re.fullmatch(r"\$\w+|\{\{ \w+ \}\}", inside)] == []
@@ -92,7 +92,7 @@ HOUSE = FRONTEND.parent.parent / "docs/house.md"
 
 
 def told(pattern):
-    """{event: the files in which it is sent, or heard}"""
+    """{event: the files that send it, or listen to it}"""
     found = {}
     for path in (*FRONTEND.glob("src/**/*.js"), *FRONTEND.parent.glob("*.js"), *FRONTEND.parent.glob("*.html")):
         inside = path.is_relative_to(FRONTEND)
@@ -103,7 +103,7 @@ def told(pattern):
 
 
 def test_the_list_of_events_is_whole():
-    """In docs/house.md: every event of the window between parts in the browser, who sends it and who hears it."""
+    """docs/house.md lists every event of the window, who sends it and who listens."""
     rows = re.findall(r"^\| `(tippe:[a-z]+)` \|([^|]*)\|([^|]*)\| (.*) \|$", HOUSE.read_text(encoding="utf-8"), re.M)
     named = re.compile("`([^`]+)`")
     assert {event: {*named.findall(sent)} for event, sent, _, _ in rows} == told(SAID)
@@ -113,7 +113,8 @@ def test_the_list_of_events_is_whole():
 
 @pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.name)
 def test_no_script_asks_another_by_the_window(path):
-    """They import one another. On it are the reports for tests, and what Bokeh's callbacks call."""
+    """Modules import each other. The window holds only reports for tests, and the functions that Bokeh's callbacks
+    call."""
     text = path.read_text(encoding="utf-8")
     assert {*re.findall(r"\bwindow\.(\w*tippe\w*)", text)} <= {"__tippe", "tippeCallbacks"}
     assert not re.search(r"\bwindow\[|\bglobalThis\b", text)

@@ -95,7 +95,7 @@ def test_headers_and_no_cookie(server):
 
 
 def test_a_page_is_written_once_and_has_a_token_and_a_nonce_of_its_own(server):
-    """Writing it anew for each took 0.15 s, in which nobody else was served."""
+    """Rendering it again for each visitor took 0.15 s, in which nobody else was served."""
 
     def apart(language):
         _, headers, text = get(server.url, **{"Accept-Language": language})
@@ -110,7 +110,7 @@ def test_a_page_is_written_once_and_has_a_token_and_a_nonce_of_its_own(server):
 
 
 def fetch(server, method, path, **headers):
-    """An answer to any method, and its bytes as they are sent."""
+    """The answer to a request of any method, and its bytes as sent."""
     connection = HTTPConnection(server.root.removeprefix("http://"), timeout=60)
     connection.request(method, path, headers={name.replace("_", "-"): value for name, value in headers.items()})
     answer = connection.getresponse()
@@ -118,7 +118,7 @@ def fetch(server, method, path, **headers):
 
 
 def ask(server, method, path):
-    """An answer to any method, and its text."""
+    """The answer to a request of any method, and its text."""
     answer, body = fetch(server, method, path)
     return answer, body.decode()
 
@@ -160,7 +160,7 @@ def test_HEAD_answers_as_GET_without_a_body_and_other_methods_in_a_line(path, se
 
 
 def test_pages_are_given_out_in_turn_and_not_without_end_to_one_address(server):
-    """Here 2 may wait; 20 come at once."""
+    """Here 2 requests may wait; 20 arrive at once."""
 
     async def crowd():
         host, port = server.root.removeprefix("http://").split(":")
@@ -192,7 +192,8 @@ def test_addresses_that_mean_ill(path, status, server):
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="reads Linux's list of signals")
 def test_no_clock_interrupts_what_the_server_does(server):
-    """One raised into whatever ran, the event loop too: a thread's time was compared with another's (Bokeh 3.10)."""
+    """A signal handler interrupted whatever ran, even the event loop, because one thread's time was compared with
+    another's (Bokeh 3.10)."""
 
     async def visit():
         (await Visitor.enter(server.url)).leave()
@@ -229,7 +230,7 @@ def test_a_session_has_few_sockets(server):
 
 
 async def full(server):
-    """As many Visitors as there are places; of tests before, some may still be taken."""
+    """As many Visitors as there is room for; some from earlier tests may still count."""
     inside = []
     while len(inside) < 2:
         try:
@@ -285,7 +286,7 @@ def workers_of(pid):
 
 
 def lives(pid):
-    """One that has ended may wait for a system that collects it late."""
+    """A process that has ended may wait until the system collects it."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
     except FileNotFoundError:
@@ -312,7 +313,7 @@ def test_all_workers_end_with_the_first_process(how, tmp_path):
 
 
 async def say_two_things():
-    """What of two changes of a document reaches its page, where the second comes just as the first has been written."""
+    """What reaches a page of two changes, the second of which comes just after the first has been written."""
     written, writing, document = [], [], Document()
 
     def send(text_data):

@@ -29,7 +29,7 @@ def test_a_setting_that_cannot_be_is_named(name, value, says):
 
 
 def started(*arguments, **settings):
-    """`python -m app` that ends by itself."""
+    """Runs a `python -m app` that ends by itself."""
     environment = {**os.environ, **{f"TIPPE_{name.upper()}": value for name, value in settings.items()}}
     return subprocess.run([sys.executable, "-m", "app", *arguments], cwd=ROOT, capture_output=True, text=True,
                           timeout=120, env=environment)  # fmt: skip

@@ -25,8 +25,8 @@ from app.widgets.pacing import Pacer
 
 @pytest.fixture
 def opened(monkeypatch):
-    """opened(query): a page with Share open; its house, share, and rest(), after which no hand moves and all is
-    painted."""
+    """opened(query) gives a page with Share open: its house, share, and rest(), after which nothing moves and
+    everything is painted."""
     made, timers = {}, []
 
     for kind in (House, Share, Pacer):
@@ -57,7 +57,7 @@ def opened(monkeypatch):
 
 
 def told(share):
-    """(the spin in its link, of the motion that its figures and its letter are of, of the run that is saved)."""
+    """(the spin in its link, that of the motion in its figures and its letter, that of the saved run)."""
     in_link = re.search(r"spin=([^&]*)", share._head.link)
     [run] = share._files._shown.values()
     turns = run.setup.state.omega3 * run.setup.scales.angular_velocity / 6.283185307179586
@@ -135,7 +135,7 @@ def test_a_lab_whose_run_is_under_way_is_not_disturbed_by_how_its_start_rolls(op
 
 
 class Beside(Runs):
-    """Does what it is given when it is told to, and forgets as a Runs with threads does."""
+    """Does the work when told to, and forgets it like Runs with threads."""
 
     def __init__(self):
         super().__init__()

@@ -30,7 +30,7 @@ TOY, PAPER = "Leine and Glocker's toy", "The paper's tippe top"
 
 
 class Views:
-    """The models of the views, and the room that is looked at."""
+    """The models of the views, and the visible room."""
 
     def __init__(self, room="lab", **inputs):
         self.explorer, self.room = Explorer(**arrives() | inputs), room
@@ -43,7 +43,7 @@ class Views:
         self.go(room)
 
     def go(self, room, table=None):
-        """To a room; to a table of it, as the head does."""
+        """Goes to a room, or to a table of it, as the head does."""
         if table:
             room = self.start.table(table)
         left, self.room = self.room, room
@@ -64,7 +64,7 @@ def constants(explorer):
 
 
 def test_no_input_is_kept_twice():
-    """No view-model that shows the start has an input of its own, and no name of an address is of one."""
+    """No model that shows the start has an input of its own, and no name in an address belongs to one."""
     for model in (Lab, Planes):
         assert {*model.param} <= {"name", "busy", "picture", "scene", "ends"}
     assert {row.owner for row in ROWS}.isdisjoint({"Lab", "Planes", "Start"})
@@ -239,7 +239,7 @@ def test_a_link_of_the_first_version_opens_the_start_of_its_view(query, opens):
 
 @contextmanager
 def visitor(search):
-    """(House, Rooms) of a page with this address; what it computes comes at once."""
+    """(House, Rooms) of a page with this address; its results come at once."""
     made = {}
 
     def kept(kind):
@@ -261,7 +261,7 @@ def visitor(search):
 
 
 def shown(house, seen):
-    """All that says which motion is looked at, in numbers."""
+    """The numbers that determine which motion is shown."""
     explorer = house.explorer
     explorer.settle()
     names = [name for name in Start.param if name not in ("name", *Start.GIVEN["hand"])]

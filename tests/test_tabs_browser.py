@@ -85,7 +85,7 @@ URLS = """() => [...Bokeh.documents[0]._all_models.values()].filter((m) => m.typ
 
 @contextmanager
 def broken(code, tmp_path):
-    """A server with this wrong in it."""
+    """A server with this fault."""
     command = [sys.executable, "-c", code + SERVE]
     with serving(command, tmp_path / "log", ROOT) as server:
         yield server
@@ -99,7 +99,7 @@ def page(chromium):
 
 
 def elsewhere(visit, server):
-    """The addresses on other machines that the page asked for."""
+    """The requests of the page to other machines."""
     return [url for url in visit.requests if not url.startswith((server.root, "data:", "blob:"))]
 
 

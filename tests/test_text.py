@@ -39,7 +39,7 @@ def numbers(words):
 
 
 def shape(found):
-    """The kind of a value; of words, the numbers in them."""
+    """The type of a value; for words, the numbers in them."""
     return sorted(numbers(found), key=str) if isinstance(found, str) else f"{type(found).__name__} of {len(found)}"
 
 
@@ -48,7 +48,7 @@ def shape(found):
 
 @pytest.mark.parametrize("language", OTHERS)
 def test_a_language_is_complete(language):
-    """What the core says of errors is English in the code, so English has no file for it: test_errors.py."""
+    """The core's error texts are English in the code, so English has no file for them: test_errors.py."""
     assert files(language) == files(DEFAULT) | {"errors"}
     other = {key: shape(found) for key, found in every(language).items() if key.split(".")[0] != "errors"}
     assert other == {key: shape(found) for key, found in every(DEFAULT).items()}
@@ -68,7 +68,7 @@ def test_a_language_is_not_english(language):
 
 
 def pattern(node):
-    """A regular expression for what a literal or f-string can be; None for what is neither."""
+    """A regular expression for the possible values of a literal or f-string; None for anything else."""
     if isinstance(node, ast.Constant):
         return re.escape(node.value) if isinstance(node.value, str) else None
     if isinstance(node, ast.IfExp):
@@ -82,7 +82,7 @@ def pattern(node):
 
 
 def asked():
-    """(place, pattern of the key, names of the numbers or None) of each say() and listed()."""
+    """(place, pattern of the key, names of the numbers or None) of each call of say() and listed()."""
     for path in MODULES:
         for node in ast.walk(tree(path)):
             if isinstance(node, ast.Call) and name_of(node) in ("say", "listed") and node.args:
@@ -106,7 +106,7 @@ def test_what_is_asked_for_is_there(language):
 
 
 def modules_of(script):
-    """A script of the bundle and all that it imports of our own."""
+    """A script of the bundle and everything of ours that it imports."""
     found, new = set(), {script}
     while new:
         path = new.pop()
@@ -117,7 +117,7 @@ def modules_of(script):
 
 
 def components():
-    """(name, script) of the bundle's index."""
+    """(name, script) in the index of the bundle."""
     index = (APP / "frontend/src/index.js").read_text(encoding="utf-8")
     scripts = dict(re.findall(r'import { (\w+) } from "\./([\w/]+\.js)"', index))
     shown = re.findall(r"(\w+): { render: (\w+)", index)
@@ -138,7 +138,7 @@ def test_what_the_bundle_asks_for_is_there(name, script, language):
 
 
 def bare(words):
-    """Without elements, rules of CSS, and calls."""
+    """The text without HTML elements, CSS rules, and calls."""
     words = re.sub(r"<(style|script)\b.*?</\1>", " § ", words, flags=re.DOTALL)
     for other in (r"<[^<>]*>?", *2 * [r"[^{}]*\{[^{}]*:[^{}]*\}"], *3 * [r"[\w-]+\([^()]*\)"]):
         words = re.sub(other, " § ", words)

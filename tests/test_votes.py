@@ -23,14 +23,14 @@ KEY = re.compile(r"room=([\w.-]+)")
 
 
 def plain(value):
-    """A value of a message as Python has it."""
+    """A value in a message as a Python value."""
     if isinstance(value, dict) and value.get("type") == "map":
         return {key: plain(each) for key, each in value.get("entries", [])}
     return [plain(each) for each in value] if isinstance(value, list) else value
 
 
 def state(page):
-    """What the lesson on a page has; {} where there is none yet."""
+    """The state of the lesson on a page; {} if it has none yet."""
     found = page.visitor.find("LessonView", "state")
     return plain(page.visitor.models[found[0]][1]["state"]) if found else {}
 
@@ -46,7 +46,7 @@ async def opened(url, language="en"):
 
 
 async def wishes(page, name, value=""):
-    """As if somebody at the screen or with a phone had asked for it."""
+    """Sends a request as the screen or a phone does."""
     page.asked = getattr(page, "asked", 0) + 1
     await page.set(page.visitor.find("LessonView")[0], "asked", [page.asked, name, value])
 
@@ -60,14 +60,14 @@ async def counted(page, count):
 
 
 async def teacher(url, key=""):
-    """At the big screen; by the key of a room, if there is one."""
+    """Opens the big screen, with the key of a room if there is one."""
     page = await opened(f"{url}?tab=learn" + (f"&room={key}" if key else ""))
     await page.until(lambda: page.visitor.find("LessonView", "state"))
     return page
 
 
 def key_of(page):
-    """The key of the room in the address of a teacher's page."""
+    """The key of the room in the teacher's address."""
     found = [KEY.search(str(each.get("search", ""))) for _, each in page.visitor.models.values()]
     return next((each[1] for each in found if each), "")
 
@@ -80,7 +80,8 @@ async def opens(page):
 
 
 async def student(url, code, phone, language="en"):
-    """A phone at the student's link; phone: a digit, by which it is known. It says so before its page is all there."""
+    """A phone that opens the student's link; phone: a digit that identifies it. It sends that before its page is
+    complete."""
     page = Page(await Visitor.enter(f"{url}?vote={code}", headers={"Accept-Language": language}))
     for mark in page.visitor.find("Phone", "tags"):
         await page.set(mark, "mark", phone * 32)
@@ -93,7 +94,7 @@ async def comes(page, step="flips"):
 
 
 async def votes(page, answer, language="en"):
-    """Until it is counted; a phone votes once a second."""
+    """Votes, and waits until the vote is counted; a phone may vote once a second."""
     await page.until(lambda: room(page).get("code"))
     while room(page).get("mine") != answer:
         await wishes(page, "vote", answer)
@@ -106,7 +107,7 @@ def sessions(server):
 
 
 def test_students_at_another_worker_are_counted_and_the_room_outlives_all_workers(tmp_path, monkeypatch):
-    """Without any setting; the two workers share what one host has."""
+    """Without any setting: the two workers share the store of the host."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
 
     async def lesson(server):
@@ -136,7 +137,7 @@ def test_students_at_another_worker_are_counted_and_the_room_outlives_all_worker
 
 
 async def walks(page, first, second):
-    """On to another question, and back to the first, which has its votes still; then another class comes in."""
+    """Goes on to another question, and back to the first, which still has its votes; then another class starts."""
     await wishes(page, "step", "way")
     for phone in (first, second):
         await comes(phone, "way")
@@ -155,7 +156,7 @@ async def walks(page, first, second):
 
 
 async def closes(page, first, second):
-    """The teacher closes the class, and both phones, of which the first is German, hear of it."""
+    """The teacher closes the class, and both phones, the first of them in German, are told."""
     await wishes(page, "section", "teach")
     label = say("teach.vote.close")
     await page.until(lambda: any(each.get("label") == label for _, each in page.visitor.models.values()))
@@ -166,8 +167,8 @@ async def closes(page, first, second):
 
 @pytest.mark.parametrize("kind", ["a file", "a Redis"])
 def test_two_servers_are_one_class(kind, tmp_path, request):
-    """Phones at one, the teacher at the other: they follow from question to question, see no answer before it is shown,
-    and no vote but their own; the class goes on by the teacher's address, and is over when it is closed."""
+    """Phones at one worker, the teacher at the other: phones follow from question to question, see no answer before it
+    is shown, and no vote but their own. The class continues with the teacher's address, and ends when it is closed."""
     place = request.getfixturevalue("redis") if kind == "a Redis" else tmp_path / "votes"
 
     async def lesson(one, other, end_of_one):

@@ -53,15 +53,15 @@ FUNCTIONS = ((app.model.explorer, "solve"), (app.tabs.roll.roll, "pulled"), (app
 
 
 def station(owner, name):
-    """As docs/house.md calls it: file and name; of a function, where it is defined."""
+    """The name in docs/house.md: file and function, where the function is defined."""
     function = getattr(owner, name)
     return f"{function.__module__.removeprefix('app.').replace('.', '/')}.py {function.__qualname__}"
 
 
 @pytest.fixture
 def walk(monkeypatch):
-    """walk(query) makes the page of an address, as it is served, and returns (what it made, by class; its stations as
-    they are passed; rest()); after rest() the browser has painted all that came, and the hand rests."""
+    """walk(query) serves the page of an address, and gives (the objects created, by class; its stations in order;
+    rest()). After rest() the browser has painted everything, and nothing is dragged."""
     made, passed, timers = {}, [], []
 
     def note(function, name):
@@ -99,7 +99,7 @@ def walk(monkeypatch):
 
 
 def told(title):
-    """The stations in docs/house.md below a heading."""
+    """The stations in docs/house.md under a heading."""
     text = (DOCS / "house.md").read_text(encoding="utf-8")
     part = re.search(rf"## {title}\n(.*?)(?=\n## |\Z)", text, re.S)[1]
     return re.findall(r"^\d+\. `([^`]*)`", part, re.M)
@@ -114,7 +114,7 @@ def test_the_walk_of_a_slider(walk):
 
 
 def followers(pacer):
-    """The names of all that a Pacer shows scenes to; of what the rooms bundle, its parts."""
+    """The names of everything that a Pacer shows scenes to; the parts of what the rooms bundle."""
     for show in chain.from_iterable(pacer._shows.values()):
         bundled = show.args[0] if isinstance(show, partial) and show.func.__qualname__ == "Roll._draw" else [show]
         yield from (getattr(part, "func", part).__qualname__ for part in bundled)
@@ -157,8 +157,7 @@ HEARS = {"three-planes": {("table", "House.planes")}}
 
 
 def hearers(explorer):
-    """(parameter, the function or the maker in which it stands) of all that an Explorer tells, but for what computes or
-    keeps."""
+    """(parameter, the function that watches it) for each watcher of an Explorer, except those that compute or store."""
     for kinds in explorer.param.watchers.values():
         for watcher in kinds.get("value", ()):
             fn = getattr(watcher.fn, "func", watcher.fn)
@@ -168,7 +167,7 @@ def hearers(explorer):
 
 @pytest.fixture
 def roomy(monkeypatch):
-    """(A House whose page is there, a list of what views are made with from now on, each with the view's name)."""
+    """(a House with its page, a list of the views created from now on, with their names)."""
     houses, given = [], []
 
     def noted(make, note):
@@ -195,7 +194,7 @@ def roomy(monkeypatch):
 
 @pytest.mark.parametrize("name", FOLLOW)
 def test_a_room_is_told_of_scenes_by_the_pacer_alone(roomy, name):
-    """Whoever makes a view with the Explorer or with the House, or has it hear the Explorer, is noticed."""
+    """A view that is created with the Explorer or the House, or that watches the Explorer, is noticed."""
     house, given = roomy
     before, heard = {*followers(house.pacer)}, {*hearers(house.explorer)}
     if name != "roll":  # which is there
