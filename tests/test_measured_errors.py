@@ -9,12 +9,12 @@ import pytest
 
 from app.model.measured.data import Data, Series
 from app.model.measured.fit import Fit, Problem, verdict
-from app.model.measured.kept import kept
+from app.model.measured.kept import Kept, kept
 from app.model.measured.known import Known, _far, known
 from app.model.measured.motion import Residuals, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import shown
-from app.tabs.measure.words import numbers_table
+from app.tabs.measure.words import kept_words, numbers_table
 from tippe_core import Constants, Scales, Top
 
 TOP, SCALES = Top.paper(), Scales.paper()
@@ -167,6 +167,19 @@ def test_of_two_that_fit_the_better_is_said_where_it_is_clearly_better():
 def test_numbers_that_move_together_are_said_to_go_the_same_way_or_the_other(r, says):
     found = replace(alike(0.7), together=(("tilt", "spin", r),), unknown=("spin",))
     assert says in numbers_table(found)
+
+
+def test_the_numbers_of_a_model_that_does_not_fit_are_said_to_be_worth_nothing():
+    assert "say nothing of the top" in numbers_table(alike(3.0)) and alike(3.0).refused
+    assert "say nothing of the top" not in numbers_table(alike(0.9))
+
+
+@pytest.mark.parametrize("shares", [("K_R",), ("K_R", "K_J")])
+def test_constants_that_went_do_not_say_that_the_top_slipped(shares):
+    """A top that rolls in air loses both, too."""
+    t = np.arange(100.0)
+    went = {name: Kept(t, 5 - t / 20, np.full(100, 0.1)) for name in shares}
+    assert "air drag" in kept_words(went) and "So it slipped" not in kept_words(went)
 
 
 def test_curves_are_where_the_film_saw_them_and_the_axis_where_its_tip_was():

@@ -104,6 +104,7 @@ def lines(*changed, base=TRACKER):
         ("t\ttilt\n1\t\0\n", "no-text", {"line": 2}),
         ("x" * (LARGEST + 1), "too-large", {"most": 200}),
         (lines((7, "0,1")), "width", {"line": 7, "found": 1}),
+        ("t,tilt\n0,1,5,2\n" * 9, "width", {"line": 2, "found": 4, "expected": 2}),
         (lines((9, "0.1\t5.0\t28.0")), "decimals", {"line": 9, "text": "0.1"}),
         (lines((9, "0,1\tfive\t28,0")), "not-a-number", {"line": 9, "text": "five"}),
         (lines((9, "0,1\t1e999\t28,0")), "not-a-number", {"line": 9}),
@@ -138,7 +139,41 @@ def test_what_is_left_out_is_a_note():
     assert bare.notes[0] == ("no-header", {"line": 1})
     again = read(lines((7, TRACKER.splitlines()[5])))
     assert again.notes == (("repeated", {"count": 1, "line": 7}),)
-    assert {code for code, _ in (*gaps.notes, *bare.notes, *again.notes)} == set(listed("measure.notes"))
+    cut = read(lines()[:-2])
+    assert cut.notes == (("cut-cell", {"line": 22, "text": TRACKER.splitlines()[21].split("\t")[2][:-2]}),)
+    assert {code for code, _ in (*gaps.notes, *bare.notes, *again.notes, *cut.notes)} == set(listed("measure.notes"))
+
+
+@pytest.mark.parametrize(("end", "whole"), [("0,3333\t43,0\t2", False), ("0,3333\t43,0000\t25,6E-", False),
+                                            ("0,3333\t43,0000\t25,5000", True), ("0,3333\t43,0\t", True)])  # fmt: skip
+def test_a_number_that_is_cut_short_is_left_out(end, whole):
+    """Only at the end of a text, and not where a cell is empty; a text that ends with its line is whole."""
+    found = read(TRACKER + end)
+    assert ([code for code, _ in found.notes if code != "gaps"] == []) is whole
+    assert len(found.lines) == 20 + whole
+    assert not read(TRACKER + "0,3333\t43,0\t2\n").notes
+    # where decimals differ, as programs write them that leave out zeros, a short number is none that is cut
+    assert not read(TRACKER.replace("28,0000", "28,0") + "0,3333\t43,0\t2").notes
+
+
+@pytest.mark.parametrize(("change", "code", "numbers"), [
+    (lambda row: f"0.5,{row[1]},{row[2]}", "no-time-passes", {"time": 0.5, "line": 2}),
+    (lambda row: f"{row[0]},1e200,{row[2]}", "beyond", {"line": 2, "name": "tilt (deg)", "unit": "deg"}),
+    (lambda row: f"{row[0]},5,{row[2] if row[0] < 0.1 else 800}", "beyond", {"line": 8, "name": "spin (rev/s)"}),
+])  # fmt: skip
+def test_what_no_film_of_a_top_can_show_is_said(change, code, numbers):
+    """A tilt is at most 180 degrees; with what an error may add."""
+    with pytest.raises(MeasuredError) as caught:
+        settled(read("\n".join(["t (s),tilt (deg),spin (rev/s)", *map(change, ROWS)])))
+    assert caught.value.code == code and caught.value.numbers.items() >= numbers.items()
+    for language in LANGUAGES:
+        assert say(f"measure.wrong.{code}", language, **caught.value.numbers)
+
+
+def test_numbers_without_names_are_not_taken_for_names():
+    with pytest.raises(MeasuredError) as caught:
+        settled(read(table("", ";")))
+    assert (caught.value.code, caught.value.numbers["line"]) == ("no-names", 1)
 
 
 def test_a_column_can_be_corrected():

@@ -14,7 +14,11 @@ UNSEEN_LABEL = {
     "& legend": {"display": "none"},
     "& fieldset": {"top": 0},
 }  # fmt: skip
-FIELD = {"& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"}}
+FIELD = {
+    "& input": {"padding": "4px 8px", "fontSize": 14, "textAlign": "right"},
+    # MUI hides a placeholder until the entry has the focus
+    "& .MuiInputBase-root.MuiInputBase-root.MuiInputBase-root input::placeholder": {"opacity": "0.6 !important"},
+}
 # Two rows fill a screen; on a phone, where rows of buttons wrap, a card needs more.
 HEIGHT_OF_A_CARD = (
     "calc(var(--type, 1) * max(calc(50vh - 77px), clamp(390px, calc(390px + (700px - 100vw) / 4), 470px)))"

@@ -9,6 +9,14 @@ from app.model.measured.table import UNITS, Column, MeasuredError, Table
 from tippe_core.types import Array
 
 TOGETHER = (("x", "y"), ("tip_x", "tip_y"))
+CAN_BE = {
+    "tilt": (-0.5, np.pi + 0.5),
+    "spin": (-4000.0, 4000.0),
+    "precession": (-4000.0, 4000.0),
+    "azimuth": (-1e5, 1e5),
+}
+FAR = -5.0, 5.0  # m
+"""{quantity: what a film of a top can show of it}, in rad and rad/s; FAR for all lengths. Beyond, the unit is wrong."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +67,8 @@ def settled(table: Table, rate: float = 0.0) -> Data:
             raise MeasuredError("twice", first=alike[0], second=alike[1])
     time = next((column for column in used if column.quantity == "time"), None)
     if time is None:
-        raise MeasuredError("no-time-column", line=max(table.lines[0] - 1, 1))
+        code = "no-names" if any(code == "no-header" for code, _ in table.notes) else "no-time-column"
+        raise MeasuredError(code, line=table.lines[0] if code == "no-names" else max(table.lines[0] - 1, 1))
     if time.unit == "frames" and not rate > 0:
         raise MeasuredError("rate", rate=rate)
     known = np.isfinite(time.values)
@@ -69,7 +78,9 @@ def settled(table: Table, rate: float = 0.0) -> Data:
     if falls.size:
         before, after = time.values[known][falls[0] : falls[0] + 2]
         raise MeasuredError("falling", line=int(lines[falls[0] + 1]), before=float(before), after=float(after))
-    series = {column.quantity: _series(column, t, known) for column in used if column is not time}
+    if t[0] == t[-1]:
+        raise MeasuredError("no-time-passes", time=float(time.values[known][0]), line=int(lines[0]))
+    series = {column.quantity: _series(column, t, known, lines) for column in used if column is not time}
     for one, other in TOGETHER:
         if (one in series) != (other in series):
             raise MeasuredError(
@@ -80,13 +91,18 @@ def settled(table: Table, rate: float = 0.0) -> Data:
     return Data(MappingProxyType(series))
 
 
-def _series(column: Column, t: Array, known: Array) -> Series:
+def _series(column: Column, t: Array, known: Array, lines: Array) -> Series:
     size = UNITS[column.quantity][column.unit]
     values = column.values[known] * size
     good = np.isfinite(values)
     if good.sum() < 4:
         raise MeasuredError("few-values", name=column.name, count=int(good.sum()))
     values, t = values[good], t[good]
+    low, high = CAN_BE.get(column.quantity, FAR)
+    beyond = np.flatnonzero((values < low) | (values > high))
+    if beyond.size:
+        raise MeasuredError("beyond", line=int(lines[good][beyond[0]]), name=column.name, unit=column.unit,
+                            value=float(values[beyond[0]] / size), low=low / size, high=high / size)  # fmt: skip
     if column.quantity == "azimuth":
         values = np.unwrap(values)
     least = 1e-4 * float(np.ptp(values)) or 1e-6  # for values that were rounded to fewer digits, or computed

@@ -13,7 +13,7 @@ from tippe_core import Scales, Top, TruncatedSphere
 
 FOLDER = Path(__file__).parents[2] / "data" / "measured"
 FILMED = TruncatedSphere.paper()  # the shape; the paper gives its a, I1 and I3 rounded
-RATE = 120.0  # frames per second
+RATES = {"slips": 120.0, "rolls": 240.0, "air": 120.0}  # frames per second
 TILT, SPIN, TURN = np.radians(1.0), 2 * np.pi * 0.3, np.radians(1.5)  # standard errors of one value
 EXAMPLES = ("slips", "rolls", "air")
 
@@ -23,8 +23,8 @@ def example_model(name: str) -> tuple[Model, int]:
     shape, top = TruncatedSphere.paper(), Top.paper()
     scales = Scales(shape.R, shape.M)
     if name == "rolls":
-        start = {"tilt": 0.45, "tilt_rate": 0.1, "across": 1.4, "spin": 7.0}
-        return model_of("rolling", top, scales, shape).with_values(start), 90
+        start = {"tilt": 0.6, "tilt_rate": 0.1, "across": 1.4, "spin": 7.0}
+        return model_of("rolling", top, scales, shape).with_values(start), 180
     if name == "slips":
         start = {"tilt": 0.2, "spin": 8.0, "mu": 0.35, "radius": 0.02}
         return model_of("contensou", top, scales, shape).with_values(start), 216
@@ -35,7 +35,7 @@ def example_model(name: str) -> tuple[Model, int]:
 def example(name: str) -> str:
     """The text of an example, as Tracker, phyphox or a spreadsheet would write it."""
     model, count = example_model(name)
-    t = np.arange(count) / RATE
+    t = np.arange(count) / RATES[name]
     seen, rng = model.seen(t), np.random.default_rng(EXAMPLES.index(name))
     tilt, spin, turn = (seen[key] + error * rng.normal(size=count)
                         for key, error in (("tilt", TILT), ("spin", SPIN), ("azimuth", TURN)))  # fmt: skip

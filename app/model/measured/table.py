@@ -120,8 +120,11 @@ def read(data: bytes | str) -> Table:
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, between)), None)
     if first is None:
         raise MeasuredError("no-numbers", line=rows[0][0], text=rows[0][1][0][:40])
-    heads = [cells for _, cells in rows[:first] if len(cells) == len(rows[first][1])]
-    return _table(_names(heads), rows[first:], between)
+    width = len(rows[first][1])
+    heads = [cells for _, cells in rows[:first] if len(cells) == width]
+    if first and not heads and len(rows[first - 1][1]) > 1:
+        raise MeasuredError("width", line=rows[first][0], found=width, expected=len(rows[first - 1][1]))
+    return _table(_names(heads), rows[first:], between, whole=text[-1] in "\r\n")
 
 
 def _decoded(data: bytes) -> str:
@@ -171,7 +174,25 @@ def _is_data(cells: list[str], between: str) -> bool:
     return numbers > 0 and numbers >= len(cells) / 2
 
 
-def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: str) -> Table:
+def _shape(cell: str) -> tuple[int, bool]:
+    """(the number of characters behind the decimal mark, whether there is an exponent)."""
+    _, *behind = re.split("[.,]", cell, maxsplit=1)
+    return len("".join(behind)), "e" in cell.lower()
+
+
+def _is_cut(rows: list[tuple[int, list[str]]]) -> bool:
+    """Whether the last cell of a text that does not end with a line is only the beginning of a number: all cells above
+    it have the same number of decimals, and it has fewer, or is no number."""
+    above, last = [cells[-1] for _, cells in rows[:-1] if cells[-1].lower() not in _GAP], rows[-1][1][-1]
+    shapes = {_shape(cell) for cell in above}
+    if len(above) < FEWEST or len(shapes) > 1 or last.lower() in _GAP:
+        return False
+    ((decimals, _),) = shapes
+    return not _NUMBER.fullmatch(last) or (_shape(last)[0] < decimals and not _shape(last)[1])
+
+
+def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: str, whole: bool = True) -> Table:
+    """whole: the text ends with the end of a line."""
     notes: list[tuple[str, dict[str, object]]] = []
     width = len(names or rows[0][1])
     if names is None:
@@ -179,6 +200,9 @@ def _table(names: list[str] | None, rows: list[tuple[int, list[str]]], between: 
         names = [str(i + 1) for i in range(width)]
     if len(rows[-1][1]) < width and len(rows) > 1:
         notes.append(("cut-short", {"line": rows[-1][0], "found": len(rows[-1][1]), "expected": width}))
+        rows = rows[:-1]
+    elif not whole and _is_cut(rows):
+        notes.append(("cut-cell", {"line": rows[-1][0], "text": rows[-1][1][-1][:40]}))
         rows = rows[:-1]
     for number, cells in rows:
         # a gap at the end of a row may have lost its separator

@@ -22,7 +22,7 @@ class Columns:
     a correction is impossible."""
 
     def __init__(self, changed, wrong):
-        self._changed, self._wrong, self._table = changed, wrong, None
+        self._changed, self._wrong, self._table, self._errors = changed, wrong, None, ()
         self.rate = field("", say("measure.rate"))
         self.rate.param.watch(lambda event: self._changed(self._table), "value")
         asks = flow(words(say("measure.rate"), sizing_mode=None), self.rate)
@@ -39,13 +39,20 @@ class Columns:
 
     def show(self, table):
         """Shows a new table."""
-        self._table = table
+        self._table, self._errors = table, ()
         self.view.objects = [*(self._row(i, column) for i, column in enumerate(table.columns)), self._of_rate]
         self.show_rate()
 
     def show_rate(self):
         """Asks for the frame rate if the time is counted in frames."""
         self._of_rate.visible = any(column.unit == "frames" for column in self._table.columns)
+
+    def show_errors(self, data):
+        """Shows in grey, where no error is typed, the one that the Data have."""
+        for column, entry in zip(self._table.columns, self._errors, strict=True):
+            series = data.series.get(column.quantity)
+            size = series and series.error / UNITS[column.quantity][column.unit]
+            entry.placeholder = written(size, ".2g") if series else ""
 
     def _row(self, i, column):
         values = column.values[np.isfinite(column.values)][:FIRST]
@@ -58,6 +65,7 @@ class Columns:
                            options=[*UNITS.get(column.quantity, {"": 1})], **SELECT)  # fmt: skip
         error = field("" if column.error is None else written(column.error, "g"), say("measure.column.error"), width=56)
         guessed = words(_guessed(column), sizing_mode=None)
+        self._errors = (*self._errors, error)
 
         def corrects(event):
             now = corrected(self._table.columns[i], quantity.value, unit.value)

@@ -23,7 +23,7 @@ from app.tabs.measure.file import MeasuredFile
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.report import report
 from app.tabs.measure.stage import film_stage, show_film
-from app.tabs.measure.words import TABLE, found_words, in_file, kept_words, models_table, notes_words, numbers_table
+from app.tabs.measure.words import TABLE, in_file, kept_words, notes_words, result_words, source_words
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, PLAIN, alert, flow, note, on_click, words
 from app.widgets.download import Download
@@ -103,9 +103,9 @@ class Measure:
             self.take_example(FIRST)
         parts = {
             "over": [self.pictures.view, self.part],
-            "found": [self.stage, self.found, self.about, flow(self.law), self.loose, flow(self.start, self.cancel),
-                      self.file, self.said, flow(self.take_home, self.recipe), self.home, flow(*examples),
-                      words(note(say("measure.private")))],
+            "found": [self.stage, self.found, self.file, self.said, flow(self.take_home, self.recipe), self.home,
+                      flow(*examples), words(note(say("measure.private"))), self.about, flow(self.law), self.loose,
+                      flow(self.start, self.cancel)],
             "table": [_head("columns"), self.columns.view, _head("constants"), self.constants],
         }  # fmt: skip
         sides = [pn.Column(*part, css_classes=[place], sizing_mode="stretch_width", margin=0)
@@ -201,6 +201,7 @@ class Measure:
             if self._of_file is None:
                 self.filmed.film = ""
         self._data = data
+        self.columns.show_errors(data)
         thinned = note(say("measure.thinned", each=self._thinned)) if self._thinned > 1 else ""
         first, last = float(data.t[0]), float(data.t[-1])
         longer = note(say("measure.longer", long=last - first, most=LONGEST)) if last - first > LONGEST else ""
@@ -212,9 +213,7 @@ class Measure:
         return not self.start.disabled
 
     def _begin(self):
-        whose = say("measure.saved" if self._of_file else "measure.own")
-        source = listed("measure.examples")[self._example] if self._example else whose
-        self.pictures.begin(self._data, self.part.value[0], source)
+        self.pictures.begin(self._data, self.part.value[0], source_words(self._example, self._of_file))
         self._draw()
 
     def _pulled(self, start):
@@ -292,9 +291,7 @@ class Measure:
             return
         self._found = result
         self._taken = self._film()
-        saved = note(say("measure.fit_of_film")) if self._again else ""
-        self.found.object = (found_words(*result.fits, result.kept) + saved + numbers_table(result.better)
-                             + models_table(*result.fits))  # fmt: skip
+        self.found.object = result_words(result, self._again)
         self.pictures.show(result.motion, result.better)
         show_film(self.stage, result.motion, self._body[3])
         self.take_home.disabled = False
@@ -331,7 +328,8 @@ class Measure:
     def _home(self):
         """The data for the downloaded files."""
         found = self._found
-        return self._data.between(*self._part), found.fits, self._loose, self._part, self.found.object, found.kept
+        says = f"<p>{source_words(self._example, self._of_file)}.</p>{self.found.object}"
+        return self._data.between(*self._part), found.fits, self._loose, self._part, says, found.kept
 
     def _report(self, data, fits, loose, part, found, kept):
         return report(data, fits, found, program(data, fits, loose, *part), kept).encode()

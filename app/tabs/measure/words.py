@@ -36,6 +36,13 @@ def _error(value, below, above):
     return _number(value, least)[0], f"+{_number(value, above)[1]} −{_number(value, below)[1]}"
 
 
+def result_words(result, again):
+    """A Found in words and tables. again: it was saved with a film, and not fitted anew."""
+    saved = note(say("measure.fit_of_film")) if again else ""
+    found = found_words(*result.fits, result.kept)
+    return found + saved + numbers_table(result.better) + models_table(*result.fits)
+
+
 def found_words(rolling, sliding, kept):
     """The result in a sentence, and the reasons for it."""
     found = verdict(rolling, sliding)
@@ -43,6 +50,13 @@ def found_words(rolling, sliding, kept):
     why = "out" if other is not None and other.refused else "why"
     return (f"<h3>{say(f'measure.found.{found}.title')}</h3><p>{say(f'measure.found.{found}.{why}')}</p>"
             + kept_words(kept))  # fmt: skip
+
+
+def source_words(example, of_file):
+    """Where the data come from."""
+    if example:
+        return say("measure.made_up", example=listed("measure.examples")[example])
+    return say("measure.saved" if of_file else "measure.own")
 
 
 def kept_words(kept):
@@ -80,7 +94,8 @@ def numbers_table(fit):
                              zip(("", "± "), _number(value, error), strict=True)), "", ""))  # fmt: skip
     sentences = "".join(f"<p>{_together(*pair)}</p>" for pair in fit.together if set(pair[:2]) & set(fit.unknown))
     head = f"<tr><th colspan=5>{say(f'measure.models.{fit.model.name}')}</th></tr>"
-    return f"<table>{head}{''.join(rows)}</table>{sentences}"
+    worthless = f"<p>{say('measure.worthless')}</p>" if fit.refused else ""
+    return f"<table>{head}{''.join(rows)}</table>{worthless}{sentences}"
 
 
 def _row(*cells, best=False, marks=("", " class=n", " class='n faint'", " class=faint", " class=faint")):
