@@ -66,7 +66,7 @@ def test_the_spin_is_raised_and_then_lowered(monkeypatch):
 
     def swept(own, tilt, spins, look):
         asked.append(spins)
-        return np.arange(len(spins), dtype=float)
+        return np.arange(len(spins), dtype=float), np.full(len(spins), "leaning")
 
     monkeypatch.setattr(steady, "_sweep", swept)
     found = bifurcation(Map(seconds=0.1), (28.6, 5.7))
@@ -76,11 +76,18 @@ def test_the_spin_is_raised_and_then_lowered(monkeypatch):
     assert found.times == (0.1, 0.4) and not np.allclose(*found.theta, equal_nan=True)
     part = {"lines": (), "spin": found.spin, "times": found.times, "theta": found.theta, "life": found.life}
     swept = np.array([5.0, 10.0, 15.0, 20.0])
+    leans = np.full(4, "leaning")
     one = Bifurcation(
-        swept=swept, up=np.array([0.0, 0.0, 120.0, 180.0]), down=np.array([1.0, 90.0, 150.0, 180.0]), **part
-    )
+        swept=swept, up=np.array([0.0, 0.0, 120.0, 180.0]), down=np.array([1.0, 90.0, 150.0, 180.0]), **part,
+        up_end=leans, down_end=leans,
+    )  # fmt: skip
     assert one.hysteresis == (10.0, 15.0)
     assert replace(one, down=one.up + 1).hysteresis is None
+    # the tilt of what nods is that of a moment, and what still changes has no end yet
+    nods, moves = np.full(4, "rolling"), np.full(4, "moving")
+    assert replace(one, up_end=nods, down_end=nods).hysteresis is None
+    assert replace(one, up_end=moves).hysteresis is None and replace(one, down_end=moves).hysteresis is None
+    assert replace(one, up_end=nods).hysteresis == (5.0, 20.0)
 
 
 def test_small_motions_go_round_as_those_of_a_run_do():

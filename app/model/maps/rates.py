@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.model.maps.maps import Cell, Map
+from app.model.maps.maps import LAWS, Cell, Map
 from app.model.maps.steady import at_place, fixed, launch
 from tippe_core import State, TopError, slide, slide_many, spinning_modes, steady_states, tumbling_modes
 from tippe_core.types import Array
@@ -115,7 +115,7 @@ def _grown(name: str, here: Cell, C_J: float, look: Look | None) -> tuple[float,
 def powers(own: Map, x: dict[str, float], look: Look | None = None) -> tuple[Power, ...]:
     """The scaling of the time to reach 90 degrees with the spin, mu, and the second parameter of each friction law."""
     found = []
-    for law in ("coulomb", "viscous", "contensou"):
+    for law in LAWS:
         second = x["second"] if law == own.law else Map(law=law).start["second"]
         mine = x | {"second": second}
         for quantity in ("spin", "mu", *(("second",) if law != "viscous" else ())):

@@ -5,10 +5,10 @@ All at the tilt, friction and law of a Map's bead; rev/s across, degrees up.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.model.maps.maps import QUANTITIES, Cell, Map
 from tippe_core import States, Top, slide, slide_many, steady_states
@@ -18,8 +18,10 @@ from tippe_core.types import Array
 RUNS, SWEEP, TILTS, LONGER = 41, 17, 181, 4
 MOST_SECONDS = 60.0
 DRIFT = 600  # samples of the long run
+NO_END = "refused", "moving"
 DIFFER = 5.0  # degrees: the least difference between the sweeps up and down that counts as hysteresis
 Look = Callable[[float], object]
+Words = NDArray[np.str_]
 
 
 class Line(NamedTuple):
@@ -33,14 +35,15 @@ class Line(NamedTuple):
 
 class Life(NamedTuple):
     """A long run over t (s): the spin of a start with the C_J that is left, and the tilt; the times at which it first
-    stands on its stem alone and at which it last leaves it, s, nan if never; how long it was computed, s; and the final
-    tilt."""
+    stands on its stem alone, at which the stem last leaves the table, and from which it rolls until the end, s, nan if
+    never; how long it was computed, s; and the final tilt."""
 
     t: Array
     spin: Array
     theta: Array
     stands: float
     leaves: float
+    rolls: float
     seconds: float
     end: float
 
@@ -49,7 +52,7 @@ class Life(NamedTuple):
 class Bifurcation:
     """lines: a tuple of Line; spin (n,), and end (2, n), the tilts (degrees) of runs from there after each of times
     (s); up, down (m,): the tilts over swept (m,), where each run continues the one before with its C_J changed to that
-    of the next spin; life: of the start at the bead."""
+    of the next spin; up_end, down_end (m,): their ends; life: of the start at the bead."""
 
     lines: tuple[Line, ...]
     spin: Array
@@ -58,12 +61,18 @@ class Bifurcation:
     swept: Array
     up: Array
     down: Array
+    up_end: Words
+    down_end: Words
     life: Life
 
     @property
     def hysteresis(self) -> tuple[float, float] | None:
-        """The lowest and the highest spin at which the sweeps up and down end at different tilts."""
-        at = self.swept[np.abs(self.up - self.down) > DIFFER]
+        """The lowest and the highest spin at which the sweeps up and down end differently: in other words, or at
+        other tilts, unless they nod, when the tilt is that of a moment."""
+        one, other = self.up_end, self.down_end
+        over = ~np.isin(one, NO_END) & ~np.isin(other, NO_END)
+        apart = (one != "rolling") & (np.abs(self.up - self.down) > DIFFER)
+        at = self.swept[over & ((one != other) | apart)]
         return (float(at.min()), float(at.max())) if at.size else None
 
 
@@ -145,29 +154,29 @@ def bifurcation(asked: Map, place: tuple[float, float], look: Look | None = None
                       progress=look)  # fmt: skip
     theta = np.where(many.end == "refused", np.nan, np.degrees(many.theta_end))
     swept = np.linspace(low, high, SWEEP)
-    up = _sweep(own, x["tilt"], swept, look)
-    down = _sweep(own, x["tilt"], swept[::-1], look)[::-1]
+    up, up_end = _sweep(own, x["tilt"], swept, look)
+    down, down_end = _sweep(own, x["tilt"], swept[::-1], look)
     lines = steady_lines(here.top, launch(here), low, high) if low >= 0 else ()
-    return Bifurcation(lines=lines, spin=spin, times=times, theta=theta, swept=swept, up=up, down=down,
-                       life=_life(here, look))  # fmt: skip
+    return Bifurcation(lines=lines, spin=spin, times=times, theta=theta, swept=swept, up=up, down=down[::-1],
+                       up_end=up_end, down_end=down_end[::-1], life=_life(here, look))  # fmt: skip
 
 
-def _sweep(own: Map, tilt: float, spins: Array, look: Look | None) -> Array:
-    """The final tilt of each run; it starts where the one before ended, with all velocities scaled to give the C_J of
-    the next spin. A run that was refused is nan, and the next one starts afresh."""
-    found, state = np.full(len(spins), np.nan), None
+def _sweep(own: Map, tilt: float, spins: Array, look: Look | None) -> tuple[Array, Words]:
+    """The final tilt of each run, and its end; it starts where the one before ended, with all velocities scaled to give
+    the C_J of the next spin. A run that was refused is nan, and the next one starts afresh."""
+    found, ends, state = np.full(len(spins), np.nan), np.full(len(spins), "refused", "<U8"), None
     for i, spin in enumerate(spins):
         cell = own.at(float(spin), tilt)
         start = cell.state if state is None else _brought(state, cell)
         if start is None:
             continue
         many = slide_many(cell.top, start, cell.friction, cell.t_end, cell.edge, rtol=own.rtol)
-        state = None
+        state, ends[i] = None, many.end
         if many.end != "refused":
             found[i], state = np.degrees(many.theta_end), many.state_end
         if look:
             look(0.0)
-    return found
+    return found, ends
 
 
 def _brought(state: States, cell: Cell) -> States | None:
@@ -191,11 +200,12 @@ def _life(here: Cell, look: Look | None) -> Life:
     times = np.linspace(0, MOST_SECONDS / time, DRIFT)
     moved = slide(here.top, here.state, here.friction, times, rtol=1e-6, landing="plastic", edge=here.edge,
                   progress=look)  # fmt: skip
-    supports = [*moved.supports, (float(moved.t[-1]), "")]
-    stems = [(start * time, end * time) for (start, on), (end, _) in pairwise(supports)
-             if on == "stem"]  # fmt: skip
-    last = stems[-1][1] if stems else np.nan
-    over = stems and last >= moved.t[-1] * time
-    return Life(moved.t * time, np.abs(moved.jellett / launch(here)), np.degrees(moved.theta),
-                stems[0][0] if stems else np.nan, np.nan if over else last, float(moved.t[-1] * time),
-                float(np.degrees(moved.theta[-1])))  # fmt: skip
+    stems = [start * time for start, on in moved.supports if on == "stem"]
+    on_it = [on in ("stem", "both") for _, on in moved.supports]
+    last = max(np.flatnonzero(on_it), default=-1)
+    leaves = moved.supports[last + 1][0] * time if stems and not on_it[-1] else np.nan
+    stands = stems[0] if stems else np.nan
+    slips = 1 + np.flatnonzero(moved.regime != "roll")[-1:].sum()
+    rolls = moved.t[slips] * time if slips < len(moved.t) else np.nan
+    return Life(moved.t * time, np.abs(moved.jellett / launch(here)), np.degrees(moved.theta), stands, leaves, rolls,
+                float(moved.t[-1] * time), float(np.degrees(moved.theta[-1])))  # fmt: skip

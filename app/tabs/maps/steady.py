@@ -150,6 +150,8 @@ def of_life(found):
         said.append(say("maps.steady.stands", time=life.stands))
         said.append(say("maps.steady.leaves", time=life.leaves) if np.isfinite(life.leaves)
                     else say("maps.steady.stays", time=life.seconds))  # fmt: skip
+    if np.isfinite(life.rolls):
+        said.append(say("maps.steady.rolls", time=life.rolls))
     said.append(say("maps.steady.end", time=life.seconds, tilt=life.end))
     if differ := found.hysteresis:
         said.append(say("maps.steady.hysteresis", low=differ[0], high=differ[1]))
