@@ -176,6 +176,17 @@ def presented(page):
     page.locator(".lesson.present .board").wait_for()
 
 
+def fits(page):
+    """On a small projector, as on a large one, nothing of the big screen is below its edge."""
+    before = page.viewport_size
+    page.set_viewport_size({"width": 1280, "height": 720})
+    page.wait_for_function("() => innerHeight === 720")
+    for part in (".counted button:visible", ".bar", ".foot"):
+        box = page.locator(f".lesson.present {part}").bounding_box()
+        assert box["y"] + box["height"] <= 720
+    page.set_viewport_size(before)
+
+
 def ends(page):
     """The run plays, and the time is dragged to its end: tops drawn for the first time start at the beginning. On a
     busy machine it may already have ended by itself."""
@@ -215,9 +226,11 @@ def test_a_class_with_two_phones(browser, phones, server):
         assert visiting.page.locator(".told > *").count() == 0
     page.locator(".count b", has_text="2").wait_for()
     assert page.locator(".votes").count() == 0 and page.locator(".letters li").count() == 4
+    fits(page)
     page.keyboard.press("r")
     ends(page)
     page.locator(".letters .true").get_by_text(say("learn.flips.options.over")).wait_for()
+    fits(page)
     for place, count in enumerate("1010"):
         page.locator(".letters li").nth(place).locator("em", has_text=re.compile(f"^{count}$")).wait_for()
     for visiting, language in zip(students, languages, strict=True):
