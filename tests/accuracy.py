@@ -26,7 +26,7 @@ from tippe_core import (
 )
 
 MANY, FEW = 2**14, 2**6
-PERIODS = 8  # of so many states one has its period, phi and psi integrated: fifty digits are slow there
+PERIODS = 8  # one in this many states has its period, phi and psi integrated, because fifty digits are slow
 LEAST = [-10.0, 0.05, 0.025, 0.0, -8.0, -8.0, -16.0]
 MOST = [0.5, 2.0, 2.0, np.pi, 8.0, 8.0, 16.0]
 
@@ -36,7 +36,7 @@ def states(n):
     points = qmc.scale(qmc.Sobol(7, seed=2000).random(n), LEAST, MOST)
     for k, (a, I1, ratio, theta, *spins) in enumerate(points.tolist()):
         if k % 2:
-            a = (a + 10) / 10.5 * 2.5 - 2  # every other one within the slider's own range
+            a = (a + 10) / 10.5 * 2.5 - 2  # every second one within the range of the slider
         yield Top(a, I1, ratio * I1), State(theta, *spins)
 
 

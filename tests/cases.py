@@ -49,7 +49,7 @@ class Case:
 def _curve(case):
     curve = Curve(case.top, case.K_J, case.K_R)
     steady = curve.steady()
-    # on trajectories through a pole U is least at the pole itself, or nearest to it on the grid
+    # for trajectories through a pole, the minimum of U is at the pole itself, or at the grid point closest to it
     bottom = curve.U(steady[case.well]) if steady else min(curve.U(x) for x in curve.grid())
     return curve.at(float(curve.energy_of(bottom) + mpf(case.rise)))
 

@@ -27,8 +27,8 @@ from app.state.keep import Keep
 from app.state.names import NAMES, of
 from app.widgets import rooms
 
-ROLL = "?v=1&tab=roll"  # what an address without a query opened, and said, before there was a Lab
-TABS = ("roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")  # as they were numbered then
+ROLL = "?v=1&tab=roll"  # what an address without a query opened, and contained, before the Lab existed
+TABS = ("roll", "three-planes", "build-a-top", "families", "learn", "maps", "measure")  # by their old numbers
 FILE = Path(__file__).parent / "data" / "links.json"
 
 
@@ -42,15 +42,15 @@ def known():
     """{link: what it opened}; a step of the ten that there were opens what tells it now, by the name it has now. What a
     view had of its own that the link did not open is left out, and so is what had no effect in the one it did."""
     found = kept_links()
-    found["?v=2&KJ=6.7"]["said"] = ""  # there was no such version then
+    found["?v=2&KJ=6.7"]["said"] = ""  # this version did not exist then
     for what in found.values():
         settings = what["settings"]
         step = settings.get("step")
         if step in lesson.BEFORE:
             settings["step"] = lesson.BEFORE[step]
-        what.pop("address", None)  # as it was said then
+        what.pop("address", None)  # as it was worded then
         if "law" in settings:
-            settings.setdefault("patch", 0.5)  # mm; there was none of a real contact when the first were kept
+            settings.setdefault("patch", 0.5)  # mm; the first links were kept before there was a real contact
             what["settings"] = in_effect(settings)
             if settings["start"] == "spin":
                 left = "motion", "turns"
@@ -97,13 +97,13 @@ def opened(link):
         [explorer] = [owner for _, owner, _ in parts if isinstance(owner, Explorer)]
         [seen] = [owner for _, owner, fields in parts if "room" in fields and "level" in fields]
         keep, scene = parts[0][0], explorer.scene
-        face = NAMES["face"].codec.value(keep.waits.get("face", "constants"))  # was there on every page
+        face = NAMES["face"].codec.value(keep.waits.get("face", "constants"))  # then every page had it
         settings = {field.key: plain(field.codec, getattr(owner, name))
                     for _, owner, fields in parts if owner is not seen for name, field in fields.items()}  # fmt: skip
-        settings["dark"] = bool(settings["dark"])  # None where nobody has chosen: then as the system has it
+        settings["dark"] = bool(settings["dark"])  # None if nobody has chosen: then the system decides
         planes, hand = seen.room == "three-planes", explorer.given == "hand"
         del settings["table"]
-        if planes:  # as the three planes had them
+        if planes:  # as in the three planes
             settings |= {"start": "spin" if hand else "constants", "plane": PLANE[explorer.table],
                          "mu_stick": explorer.mu_s, "mu_smooth": explorer.mu}  # fmt: skip
             settings = in_effect(settings)
@@ -117,7 +117,7 @@ def opened(link):
             "motion": {name: float(getattr(scene.constants, name)) for name in ("K_J", "K_R", "E")},
             "turns": [float(theta) for theta in scene.turning],
             "wrong": sorted(scene.messages),
-            "said": keep.sentence.replace("lab, ", "").replace("a class, as", "a vote, as"),  # by their names then
+            "said": keep.sentence.replace("lab, ", "").replace("a class, as", "a vote, as"),  # old names
         }  # fmt: skip
         for name in ("motion", "turns") if planes and hand else ():
             del found[name]

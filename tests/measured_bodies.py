@@ -13,7 +13,7 @@ from app.model.measured.motion import BOUNDS, model_of, residuals_of
 from tippe_core import Scales, Top, TopError
 
 FRAMES, RATE = 72, 60
-OFTEN = 6  # instants a frame at which the load is looked at
+OFTEN = 6  # times per frame at which the load is checked
 ERRORS = {"tilt": np.radians(1.0), "spin": 2 * np.pi * 0.3, "azimuth": np.radians(1.5)}
 KINDS = ("smoothed", "rolling", "viscous")
 LOSSES = ("rolling_resistance", "air_drag")

@@ -94,7 +94,7 @@ def best_of(known, name):
     return [test for test, _ in noticed.most_common(8)]
 
 
-# What the tests cannot notice, and why: (file, what is written after the change) -> reason.
+# Changes that tests cannot notice, and why: (file, code after the change) -> reason.
 EXPLAINED = {
     (
         "wells",
@@ -252,7 +252,7 @@ def main():
     chosen = options.parse_args()
     folder, log = chosen.tests.resolve(), chosen.log
     sys.path[:0] = [str(folder), str(ROOT)]
-    os.environ["NUMBA_DISABLE_JIT"] = "1"  # a kernel that calls what is changed would be found, compiled from before
+    os.environ["NUMBA_DISABLE_JIT"] = "1"  # otherwise stored kernels that call the changed code would be used
     import hypothesis  # noqa: F401
     import mpmath  # noqa: F401
     import mujoco  # noqa: F401
@@ -278,7 +278,7 @@ def main():
                                           [*QUICK, *ROLLS, *SLIDES, *REST_OF_APP], chosen.seconds)):  # fmt: skip
         sys.exit(f"the tests fail without any change: {by}")
     chosen_ones = [(name, *mutant) for name in chosen.files for mutant in list(mutants(name))[:: chosen.share]]
-    # in the order of their hashes, so that what is known when time is up is a fair sample
+    # in the order of their hashes, so that the results at the time limit are a random sample
     chosen_ones.sort(key=lambda one: hashlib.sha256(repr(one[:4]).encode()).hexdigest())
     for slow in (False, True):  # the quick tests notice most
         for name, line, before, after, source in chosen_ones:

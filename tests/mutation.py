@@ -25,7 +25,7 @@ def changes(statement):
         node = nodes.pop()
         nodes += [child for child in ast.iter_child_nodes(node) if not isinstance(child, ast.stmt)]
         if isinstance(node, ast.Subscript):
-            nodes.remove(node.slice)  # an index is no factor
+            nodes.remove(node.slice)  # an index is not a factor
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("range", "TopError", "len"):
             nodes = [n for n in nodes if n not in node.args]
         if isinstance(node, ast.BinOp):

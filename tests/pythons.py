@@ -20,10 +20,10 @@ from serving import serving
 from visiting import PATIENCE, Visit, go_to, launch
 
 ROOT = Path(__file__).parent.parent
-FIRST, LAST = 11, 14  # of Python 3; of these it is said where there is none
+FIRST, LAST = 11, 14  # of Python 3; missing ones among these are reported
 SHOWN = ("panel", "bokeh", "param", "panel-material-ui", "numpy", "scipy", "tornado", "matplotlib", "segno", "numba")
 VISITORS = 4
-# Whether a room does, alone, where it was said that it is being made.
+# Whether a room has replaced the sentence that it is being created.
 STANDS = """([place, waits]) => {
     const [doc] = Bokeh.documents, {children} = doc.get_model_by_name(place)
     return children.length == 1 && children[0].id != waits && doc.is_idle
@@ -43,9 +43,9 @@ def pythons():
         try:
             asked = subprocess.run([program, "-c", "import sys, venv; print(*sys.version_info[:3])"],
                                    capture_output=True, text=True)  # fmt: skip
-        except OSError:  # nothing that can be started
+        except OSError:  # it cannot be started
             continue
-        if asked.returncode == 0:  # a shim of pyenv may stand for none
+        if asked.returncode == 0:  # a shim of pyenv may lead to no Python
             version = tuple(map(int, asked.stdout.split()))
             if version[:2] >= (3, FIRST):
                 found[version[:2]] = max(found.get(version[:2], ((), None)), (version, str(program)))
@@ -106,7 +106,7 @@ def tried(name, python, browser, constraints=None):
             with serving([inside, *command], log, folder) as server:
                 came = visitors.main(server.url, VISITORS) == 0
                 fine = came and (browser is None or look(server.url, browser))
-            # A page that closes while Bokeh 3.10 stops is a traceback of Bokeh's, so its log counts until then.
+            # A page that closes while Bokeh 3.10 stops causes a traceback, so the log counts only until then.
             said = log.read_text().partition("Received signal")[0].splitlines()
             wrong = [line for line in said if re.search("ERROR|Traceback|a bug|Error:", line)]
             if wrong or not fine:

@@ -68,7 +68,7 @@ def test_f_on_the_way_through_a_pole(name, compare):
     for near in (1e-1, 1e-3, 1e-5, 1e-8):
         theta = abs(pole - near)
         x = mpf(theta)
-        # 2E' goes with the float K_J
+        # 2E' belongs to the float K_J
         e = 2 * mpf(E) - curve.K_R**2 + curve.I1 / curve.I3 * mpf(K_J) ** 2
         expected = (e - curve.U(x)) / curve.f1_squared(x)
         compare("mpmath: f", f(theta, top, Constants(K_J, K_R, E)), expected, 1e-13, DIGITS,

@@ -66,7 +66,7 @@ def test_more_connections_than_files_wait_and_then_come_in(tmp_path):
     with served(tmp_path / "log", before=UNDER) as server:
         answered, connections = run(crowded(server))
         assert answered == "OK"
-        # those that wait outside are taken when the first have gone, and all are let go in the end
+        # waiting connections are accepted when the first ones have gone, and all are closed in the end
         until(lambda: all(map(closed, connections)), 60)
         assert get(server.url)[0] == 200
         assert run(Visitor.enter(server.url)).component("LabView")
@@ -97,7 +97,7 @@ def test_a_server_that_stops_takes_nobody_again(monkeypatch, caplog):
 
     async def stopped():
         [listening] = bind_sockets(0, "127.0.0.1")
-        room = free() + 1  # for the caller's end, and not for the server's
+        room = free() + 1  # for the client's end, but not for the server's
         files = next(files for files in count() if files - min(arrivals.OTHERS, files // 4) == room)
         arriving = arrivals.Arrivals(HTTPServer(Application()), [listening], files)
         arriving.start()
@@ -109,7 +109,7 @@ def test_a_server_that_stops_takes_nobody_again(monkeypatch, caplog):
         caller.close()
         while free() >= room:
             await asyncio.sleep(0)
-        for _ in range(10):  # now it would find that there is room again
+        for _ in range(10):  # now it would notice that there is room again
             await asyncio.sleep(0)
 
     run(stopped())

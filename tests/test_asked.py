@@ -79,7 +79,7 @@ def test_a_hand_on_a_picture_passes_over_what_it_never_sends(explorer, pacer, va
     for part, name, right in ((top, "tilted", (0.5, 1.0, 2)), (surface, "hand", ("line", 0.5, 6.0)),
                               (surface, "picked", (6.0, 0.5))):  # fmt: skip
         for sent in lists(value, *right):
-            if value != 1e308:  # a number, if an odd one: it is answered as such
+            if value != 1e308:  # unusual, but a number: it is answered like one
                 setattr(part, name, sent)
     assert math.isfinite(explorer.scene.constants.K_J)
 
@@ -91,7 +91,7 @@ def test_a_slider_of_the_builder_passes_over_what_it_never_sends(value, one_line
         workshop = Build(builder_of(explorer))
         knob = next(iter(workshop._knobs.values()))
         for sent in lists(value, 1, 20.0, False):
-            if value != 1e308:  # a number, if an odd one: it is answered as such
+            if value != 1e308:  # unusual, but a number: it is answered like one
                 knob.view.asked = sent
                 assert workshop.builder.draft.shape.R in (0.016, 0.020)
         knob.view.asked = [99, 18.0, False]
@@ -111,7 +111,7 @@ def test_what_has_no_word_in_a_link_goes_back_to_what_was(pacer, value, one_line
         for sent in (value, [value], [1.0, value, 2.0]):
             try:
                 setattr(owner, name, sent)
-            except ValueError:  # the widget's own word
+            except ValueError:  # raised by the widget itself
                 continue
             keep.at_rest()
         good = [] if name == "camera" else before

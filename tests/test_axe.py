@@ -20,7 +20,7 @@ def violations(page, rules=RULES, but=()):
     return page.evaluate(AXE, {"runOnly": rules, "rules": {rule: {"enabled": False} for rule in but}})
 
 
-# A look is the browser's alone: once it is set there, the page has it.
+# Only the browser knows the look: once it is set there, the page has it.
 LOOK = """([dark, large]) => [...Bokeh.documents[0]._all_models.values()]
     .find((m) => m.data?.attributes && "on_dark" in m.data.attributes).data.setv({dark, large})"""
 
@@ -70,8 +70,7 @@ def below(page):
     page.get_by_role("button", name="unrolled").scroll_into_view_if_needed()
 
 
-# What a person does on one visit, one after the other, and what axe-core then looks at; with a star in the large looks
-# too.
+# What a person does on one visit, step by step, and what axe-core then checks; with a star also in the large looks.
 STEPS = {
     "Roll *": [click("button", "effective potential"), click("button", "unrolled")],
     "Roll, below": [below],
@@ -157,7 +156,7 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
                                  has_touch=True, user_agent="Mozilla/5.0 (Linux; Android 14) Mobile")  # fmt: skip
     page = phone.new_page()
     page.set_default_timeout(PATIENCE)
-    page.goto(server)  # the arrival
+    page.goto(server)  # the page on arrival
     awaited("button:text-is('Spin it'):visible")(page)
     page.evaluate(AXE_SCRIPT)
     assert violations(page) == [], "the lab"
@@ -170,7 +169,7 @@ def test_axe_finds_nothing_on_a_phone(chromium, server):
         go_to(page, name)
         awaited(ready)(page)
         page.wait_for_function("Bokeh.documents[0].is_idle")
-        assert violations(page, but=["color-contrast"]) == [], name  # which does not go by the width
+        assert violations(page, but=["color-contrast"]) == [], name  # which does not depend on the width
     for place in (4, 6):  # the two arms in place of the top; the question about one's own
         page.locator(".crumbs button").nth(place).click()
         page.locator(".option:visible").first.wait_for()
@@ -191,7 +190,7 @@ def test_the_widgets_go_dark_at_once(visit):
         return widgets.map((e) => getComputedStyle(e).color.match(/[\\d.]+/g).slice(0, 3).map(Number))
             .map(([r, g, b]) => r + g + b)
     }"""
-    quiet = 0x5B + 0x68 + 0x75  # of --faint, which the head's other tabs have
+    quiet = 0x5B + 0x68 + 0x75  # the colour --faint of the other tabs in the head
     light = visit.page.evaluate(colour)
     visit.page.evaluate(LOOK, DARK)
     dark = visit.page.evaluate(colour)

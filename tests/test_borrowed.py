@@ -37,7 +37,7 @@ from app import borrowed
 from app.bundle import BUNDLE, Bundled
 
 APP = Path(borrowed.__file__).parent
-# What Panel documents under these names: a component's JavaScript and style, and how it and its browser talk.
+# Documented by Panel under these names: a component's JavaScript and style, and its messages.
 DOCUMENTED = {"_esm", "_bundle", "_stylesheets", "_importmap"}
 
 
@@ -82,7 +82,7 @@ def ours():
 def test_no_other_module_borrows(path):
     if path == Path(borrowed.__file__):
         return
-    assert foreign(path) - {"_exit", "_replace"} == set()  # of os, and of every namedtuple
+    assert foreign(path) - {"_exit", "_replace"} == set()  # these belong to os, and to every namedtuple
     module = ours().get(str(path))
     for kind in vars(module).values() if module else ():
         if isinstance(kind, type) and kind.__module__ == module.__name__:
@@ -186,7 +186,7 @@ def test_what_fills_a_figure_comes_behind_the_figure(monkeypatch):
         monkeypatch.setattr(
             ServerSession, "_send_pending_patches", borrowed.behind(ServerSession._send_pending_patches)
         )
-    (brought, _), filled = asyncio.run(show_and_fill())  # a message made late tells the later number, too
+    (brought, _), filled = asyncio.run(show_and_fill())  # a message that is made later contains the later number
     assert brought and filled == (False, True)
 
 
@@ -243,7 +243,7 @@ def test_a_message_of_a_page_does_what_bokeh_does_with_it(act):
     assert known.text == "after" and page.children == [known, document.get_model_by_id("mine")]
     assert page.children[1].text == "brought"
     new = {*document.models} - document.models.synced_references
-    assert {each.name for each in new} == ({"unsent"} if act is borrowed.apply else set())  # which the page then lacks
+    assert {each.name for each in new} == ({"unsent"} if act is borrowed.apply else set())  # not yet on the page
     act(document, {"events": [{"kind": "ModelChanged", "model": gone.ref, "attr": "text", "new": "late"}]})
     assert gone.text == ""
     with pytest.raises(UnknownReferenceError):
@@ -292,7 +292,7 @@ def sheets():
 def test_style_sheets_of_a_part_without_a_document_stay_here(monkeypatch):
     """4."""
     monkeypatch.setattr(panel.reactive, "CDN_DIST", CDN_DIST)
-    assert any(url.startswith(CDN_DIST) for url in sheets())  # else this may go
+    assert any(url.startswith(CDN_DIST) for url in sheets())  # otherwise this patch is no longer needed
     monkeypatch.setattr(panel.reactive, "CDN_DIST", LOCAL_DIST)
     assert sheets() and all(url.startswith(LOCAL_DIST) for url in sheets())
 

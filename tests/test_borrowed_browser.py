@@ -35,7 +35,7 @@ def test_what_is_borrowed_is_numbered_and_each_has_its_test():
     assert every == [*range(1, len(every) + 1)]
     tests = [int(number) for number in re.findall(r'^    """(\d+)\.', Path(__file__).read_text("utf-8"), re.M)]
     assert tests == every
-    for path in (BEFORE, BUNDLED):  # with an issue of the library's own, or that there is none
+    for path in (BEFORE, BUNDLED):  # with an issue of the library, or a remark that there is none
         parts = re.split(r"(?:// |/\*\* )\d+\. ", path.read_text(encoding="utf-8"))[1:]
         assert all(re.search(r"github\.com/[\w/.]+/\d+|No issue that we found", part) for part in parts)
 
@@ -43,7 +43,7 @@ def test_what_is_borrowed_is_numbered_and_each_has_its_test():
 def test_docs_list_all_that_is_borrowed():
     """Those of Python too, in the order of the files."""
     python = [int(number) for number in re.findall(r"(?m)^    \"\"\"(\d+)\.", (APP / "borrowed.py").read_text("utf-8"))]
-    python = sorted({*python, 4})  # which mend() has, with two others
+    python = sorted({*python, 4})  # which is in mend(), with two others
     part = (APP.parent / "docs/house.md").read_text(encoding="utf-8").partition("## Borrowed keys")[2]
     listed = [int(number) for number in re.findall(r"^\| (?:`[\w./]+` )?(\d+) \|", part, re.M)]
     assert listed == [*python, *numbers(BEFORE), *numbers(BUNDLED)]
@@ -126,7 +126,7 @@ OURS = BEFORE.read_text(encoding="utf-8").partition("// 2.")[0]
 
 def test_a_figure_is_painted_without_asking_the_style_sheets(bare):
     """1. The part of app/borrowed.js that runs before Panel's scripts."""
-    assert painted(bare) > 20  # else this may go
+    assert painted(bare) > 20  # otherwise this patch is no longer needed
     bare.evaluate(f"() => {{ {OURS} }}")
     assert painted(bare) == 0
 
@@ -136,7 +136,7 @@ def test_a_figure_makes_room_for_its_labels_in_itself(chromium):
     page = of_bokeh(chromium, beside())
     page.goto(f"{HERE}/")
     page.wait_for_function("() => Bokeh.documents[0]?.is_idle")
-    assert laid_out(page, 0, 1000) and laid_out(page, 1, 1000)  # else this may go
+    assert laid_out(page, 0, 1000) and laid_out(page, 1, 1000)  # otherwise this patch is no longer needed
     page.evaluate(f"() => {{ {OURS} }}")
     inside = "() => Bokeh.documents[0].roots()[0].children.map(({ children: [fig] }) => fig.inner_width)"
     before = page.evaluate(inside)[0]
@@ -158,7 +158,7 @@ def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
       return (await way(href)).default === (await import(href)).default;
     }"""
     assert page.evaluate(f"() => ({same})(window.importShim)")
-    assert not page.evaluate(f"() => ({same})(Object.getPrototypeOf(window.importShim))")  # else this may go
+    assert not page.evaluate(f"() => ({same})(Object.getPrototypeOf(window.importShim))")  # else not needed
     page.close()
 
 
@@ -204,7 +204,7 @@ def test_a_hand_that_rests_before_it_pulls_still_pulls(bare):
         bare.mouse.up()
         return bare.evaluate("() => window.heard")
 
-    assert rest_and_pull() == ["press"]  # else this may go
+    assert rest_and_pull() == ["press"]  # otherwise this patch is no longer needed
     bare.evaluate("() => borrowed.pressNever(fig)")
     assert rest_and_pull() == ["panstart"]
 
@@ -256,7 +256,7 @@ def space(chromium):
 def test_a_target_has_the_colours_of_a_screen(space):
     """6."""
     assert space.evaluate("() => window.pixel(true).bytes")[0] == 128
-    assert space.evaluate("() => window.pixel(false).bytes")[0] < 80  # light, not what a screen takes; else this may go
+    assert space.evaluate("() => window.pixel(false).bytes")[0] < 80  # linear; else not needed
 
 
 def test_webgl_finds_what_three_has_drawn(space):

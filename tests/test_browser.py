@@ -10,10 +10,10 @@ from tippe_core import Top
 
 pytestmark = pytest.mark.served
 
-K_J_FIELD, I3_FIELD = 0, 6  # places among the controls
+K_J_FIELD, I3_FIELD = 0, 6  # indices among the controls
 
 FIELDS = "input[type=text]:visible"
-# Where every figure, picture in 3-D and control stands.
+# The positions of all figures, 3-D pictures and controls.
 PLACES = """() => [...Bokeh.documents[0]._all_models.values()].filter((model) => "sizing_mode" in model.properties)
     .map((model) => Bokeh.index.find_one(model)?.el?.getBoundingClientRect()).filter((box) => box?.width)
     .map(({x, y, width, height}) => [x, y, width, height])"""
@@ -27,7 +27,7 @@ def test_something_moves_at_once(visit):
 
 def test_playing_sends_nothing(visit):
     visit.page.wait_for_function("__tippe.top3d.playing")
-    for _ in range(10):  # a page that has just loaded still tells the server its size
+    for _ in range(10):  # a page that has just loaded still sends its size to the server
         visit.sent.clear()
         pictures = visit.page.evaluate("__tippe.top3d.pictures")
         visit.page.wait_for_function("n => __tippe.top3d.pictures > n + 15", arg=pictures)
@@ -87,7 +87,7 @@ def test_nothing_moves_while_a_slider_is_dragged(visit):
     page.wait_for_function("field => Number(field.value) < 2.5", arg=field.element_handle())
     assert len(before) > 20 and page.evaluate(PLACES) == before
     page.mouse.up()
-    # all pictures of the drag have come, so that none comes after what is typed next
+    # all pictures of the drag have arrived, so that none arrives after what is typed next
     wait(page, lambda: abs(visit.column("constants", 0, "K_J")[0] - float(field.input_value())) < 1e-4)
     page.wait_for_function("Bokeh.documents[0].is_idle")
     assert page.evaluate(PLACES) == before
@@ -147,7 +147,7 @@ def test_what_is_out_of_sight_is_drawn_when_it_comes_into_sight(chromium, server
     field.press("Enter")
     expected = solve(Top.paper(), 6.7, 10.0, 0.5, 0.9)
     page.wait_for_function("n => __tippe.top3d.count == n", arg=len(expected.trajectory.t))
-    page.wait_for_function("/KJ=6.7/.test(location.search)")  # all is at rest
+    page.wait_for_function("/KJ=6.7/.test(location.search)")  # everything is at rest
     assert visit.column("constants", 0, "K_J")[0] == pytest.approx(7.0)
     page.locator("[data-figure=constants]").first.evaluate("e => e.scrollIntoView({block: 'center'})")
     visit.until_column("constants", 0, "K_J", expected.K_J[0])

@@ -68,7 +68,7 @@ def test_the_bench_says_what_is_printed_and_goes_back_to_a_preset(builder, explo
     bench = Build(builder)
     bench.families.value = "loaded sphere"
     assert bench.presets.value == "Loaded sphere" and "the core is not in it" in bench.derived.object
-    builder.set("core_density", 0.0)  # a cavity is
+    builder.set("core_density", 0.0)  # a cavity has this density
     assert "STL" not in bench.derived.object and bench.families.value != "loaded sphere"
     bench.families.value = "loaded sphere"
     assert builder.draft.name == "Loaded sphere"
@@ -156,7 +156,7 @@ def test_no_number_in_a_field_is_too_small_or_too_large_to_be_answered(builder, 
         builder.choose(preset.name)
         builder.set(name, value)
         if builder.draft.messages:
-            assert not builder.draft.messages[name].startswith(("high", "low"))  # no field is called so
+            assert not builder.draft.messages[name].startswith(("high", "low"))  # no field has these names
             assert builder.draft.shape == preset.shape
 
 
@@ -197,7 +197,7 @@ def test_the_words_beside_the_body_are_of_that_body():
     toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
     told.show(SimpleNamespace(shape=toy, top=toy.top))
     assert "Yes: on an ordinary table it turns over." in told.view.object and "Working out" not in told.view.object
-    told.show(SimpleNamespace(shape=None, top=toy.top))  # parted: nothing is known of it
+    told.show(SimpleNamespace(shape=None, top=toy.top))  # set independently of a body: nothing is known of it
     assert "Yes: on an ordinary table it turns over." in told.view.object
 
 

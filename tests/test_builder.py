@@ -59,7 +59,7 @@ def test_the_papers_top_is_one_wherever_it_is_chosen_and_what_its_lengths_give_h
     builder.choose("Appendix A's shape, a = 0.0698")
     assert explorer.scene.top == TruncatedSphere.paper().top and round(explorer.scene.top.a, 4) == 0.0698
     assert builder.draft.name == "Appendix A's shape, a = 0.0698"
-    explorer.param.update(a=0.070, I1=0.399, I3=0.408)  # as an undo does
+    explorer.param.update(a=0.070, I1=0.399, I3=0.408)  # as undo does
     assert builder.draft.name == "The paper's tippe top"
 
 

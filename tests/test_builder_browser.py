@@ -44,7 +44,7 @@ DRAWN = """() => {
 }"""
 
 
-# The words that are seen.
+# The visible words.
 SEEN = """() => {
   const all = (root) => [...root.querySelectorAll("*")].flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
   const seen = (e) => !e.matches("script, style") && e.checkVisibility({ visibilityProperty: true })
@@ -172,7 +172,7 @@ def test_a_file_far_too_large_stays_where_it_is(bench, tmp_path):
     sent = len(bench.sent)
     bench.page.locator("input[type=file]").set_input_files(path)
     bench.page.get_by_text("allowed is at most 65536 bytes").wait_for()
-    bench.errors[:] = [text for text in bench.errors if "exceeds maximum file size" not in text]  # the library's
+    bench.errors[:] = [text for text in bench.errors if "exceeds maximum file size" not in text]  # of the library
     assert sum(map(len, bench.sent[sent:])) < 100_000
     assert download(bench, "Save this top").decode() == save_top(TruncatedSphere.paper())
 
@@ -241,7 +241,7 @@ def test_who_explores_sees_the_top_beside_its_section_without_greek(server, chro
     page.mouse.move(300, 700)
     page.mouse.wheel(0, 30)
     page.wait_for_function("([top, y]) => top.getBoundingClientRect().top < y", arg=[section.element_handle(), before])
-    assert top.bounding_box()["y"] == pytest.approx(before, abs=1)  # it stays where it was
+    assert top.bounding_box()["y"] == pytest.approx(before, abs=1)  # it has not moved
     assert not set(re.findall("[Α-Ωα-ω]", page.evaluate(SEEN))) - {"θ"}
     page.get_by_role("radio", name="Research").click()
     expect(page.get_by_text("2π").first).to_be_visible()

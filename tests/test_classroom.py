@@ -105,7 +105,7 @@ def test_a_class_goes_from_question_to_question_and_back(workers, clock):
     other.vote(room.code, "a", HERE, "other", "way")
     back = one.ask(key, **CHOICE)
     assert sorted(back.votes) == ["between", "over"] and other.ballot(room.code, "a")[1] == "over"
-    assert one.ask(key, **CHOICE).votes == back.votes  # it is asked already
+    assert one.ask(key, **CHOICE).votes == back.votes  # this question is already open
     assert one.ask(key, **OTHER).votes == ("other",)
     fresh = one.reset(key)
     assert (fresh.votes, fresh.phones, fresh.shown, fresh.step) == ((), 0, False, "way")
@@ -158,11 +158,11 @@ def test_only_answers_count(workers):
 def test_one_address_has_so_many_votes_and_the_room_so_many(place, clock):
     rooms = Rooms(store(place, LASTS), votes_of_address=3, clock=clock)
     code = rooms.open(HERE, **CHOICE)[0].code
-    for phone in range(3):  # one house: what its provider gave it is the first half of the address
+    for phone in range(3):  # one household: its provider assigns the first half of the address
         rooms.vote(code, str(phone), f"2001:db8:1:2:{phone}::9", "over")
     assert refused(rooms.vote, code, "who forgets who he was", "2001:db8:1:2:ffff::1", "over") == "crowded"
     clock.now += BETWEEN
-    rooms.vote(code, "1", "2001:db8:1:2::7", "between")  # who has one may still change it
+    rooms.vote(code, "1", "2001:db8:1:2::7", "between")  # a phone that has voted may still change its vote
     for phone in range(3, MOST_VOTES):
         rooms.vote(code, str(phone), f"10.0.{phone // 100}.{phone % 100}", "over")
     assert refused(rooms.vote, code, "one too many", "10.9.9.9", "over") == "full"
@@ -209,10 +209,10 @@ def test_a_room_lives_six_hours_after_its_last_use(workers, clock):
         clock.now += LASTS - USED
         one.vote(voted.code, "phone", HERE, "over")
         other.use(looked_at.code)
-        one = Rooms(one._store, clock=clock)  # a worker that has begun anew knows it all the same
+        one = Rooms(one._store, clock=clock)  # a restarted worker still knows the room
     assert refused(other.owned, left_key) == "over" and other.ballot(left.code, "phone") == (None, None)
     assert one.look([left.code])
-    one.open(HERE, **CHOICE)  # then what is over goes
+    one.open(HERE, **CHOICE)  # this deletes expired rooms
     assert set(other.look([voted.code, looked_at.code, left.code])) == {voted.code, looked_at.code}
     clock.now += LASTS + 1
     assert refused(one.owned, key) == "over" and refused(one.vote, voted.code, "p", HERE, "over") == "gone"
@@ -268,7 +268,7 @@ def test_a_file_that_cannot_be_is_said_and_one_that_comes_back_is_taken(tmp_path
         rooms.open(HERE, **CHOICE)
     blocked.unlink()
     room, _ = rooms.open(HERE, **CHOICE)
-    for each in blocked.iterdir():  # taken away from under a server that runs
+    for each in blocked.iterdir():  # removed while a server uses it
         each.unlink()
     assert refused(rooms.vote, room.code, "phone", HERE, "over") == "gone"
     other = tmp_path / "of another kind"
@@ -286,7 +286,7 @@ def test_a_file_that_another_holds_is_not_waited_for_for_ever(tmp_path):
     def meanwhile(text):
         with pytest.raises(Away):
             other.change("key", lambda text: "stolen")
-        assert other.read(["key"]) == {"key": "before"}  # but who reads does not wait
+        assert other.read(["key"]) == {"key": "before"}  # but reading does not wait
         return "after"
 
     one.change("key", meanwhile)
@@ -298,7 +298,7 @@ def test_a_redis_that_is_not_there_is_said_and_one_that_comes_back_is_taken(redi
     rooms = Rooms(store(f"redis://127.0.0.1:{port}/0", LASTS))
     with pytest.raises(Away):
         rooms.open(HERE, **CHOICE)
-    for _ in range(2):  # it comes, goes, and comes
+    for _ in range(2):  # it starts, stops, and starts again
         with redis_serving(port):
             code = rooms.open(HERE, **CHOICE)[0].code
             rooms.vote(code, "phone", HERE, "over")
@@ -332,8 +332,8 @@ def test_without_the_package_a_redis_is_refused(monkeypatch):
 def test_the_usual_file_is_the_same_after_another_start_and_this_users_own(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     assert usual() == usual() == tmp_path / "state" / ballots.FOLDER / "votes.sqlite"
-    assert not (tmp_path / "state").exists()  # nothing is made where nobody votes
-    # where the home cannot be written: beside the temporary files, unless somebody else has made that folder
+    assert not (tmp_path / "state").exists()  # nothing is created if nobody votes
+    # if the home cannot be written to: among the temporary files, unless somebody else owns that folder
     monkeypatch.setattr(ballots.os, "access", lambda path, mode: False)
     monkeypatch.setattr(ballots.tempfile, "tempdir", str(tmp_path))
     ours = tmp_path / f"{ballots.FOLDER}-{os.getuid()}"

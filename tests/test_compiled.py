@@ -45,7 +45,7 @@ def total(x, n):
         s += square(x)
     return s
 """
-# Prints what came out, how often something was compiled and how often found, and why it is not kept.
+# Prints the results, how many kernels were compiled and how many found, and why they are not stored.
 RUN = """import json, os
 import numpy as np
 from tippe_core import kept
@@ -141,7 +141,7 @@ def test_where_nothing_can_be_written_what_is_kept_is_found(package, read_only):
     kept.mark(Path(folder))
     before = read_only()
     assert package.run(before=before) == [12.0, 0, 1, "", "", folder]
-    # and what is not among it is compiled, and not kept
+    # others are compiled, but not stored
     value, compiled_now, found, reason, *_ = package.run("2", before=before)
     assert (value, compiled_now, found) == (12.0, 1, 0) and "ermission" in reason
 

@@ -66,7 +66,7 @@ def test_every_body_and_start_has_a_name(language):
     assert [*bodies] == [preset.name for preset in PRESETS]
     assert [*listed("build.families", language)] == [name for name, _ in FAMILIES.values()]
     assert [*listed("planes.presets", language)] == [*STARTS]
-    # a choice is by its name: no two alike
+    # choices are identified by their names, so these differ
     for names in ([body["name"] for body in bodies.values()], listed("planes.presets", language).values()):
         assert len({*names}) == len([*names])
     if language == "en":

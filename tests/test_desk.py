@@ -68,7 +68,7 @@ def test_who_looks_is_told_what_is_new_and_250_pages_cost_one_read(desk, slow):
     until(lambda: len(teacher) == 1)
     before = slow.reads
     until(lambda: slow.reads > before + 5)
-    assert len(teacher) == 1  # nothing is new
+    assert len(teacher) == 1  # nothing has changed
     asked(desk, lambda rooms: rooms.vote(room.code, "phone", HERE, "over"))
     until(lambda: len(teacher) == 2)
     assert teacher[-1].votes == ("over",) and max(map(len, students)) <= 2
@@ -77,7 +77,7 @@ def test_who_looks_is_told_what_is_new_and_250_pages_cost_one_read(desk, slow):
     asked(desk, lambda rooms: rooms.close(key))
     until(lambda: all(student[-1] is None for student in students[1:]))
     assert teacher[-1] is None and len(students[0]) == seen
-    # so often was it read in all, not 251 times as often
+    # this is the total number of reads, not 251 times as many
     assert slow.reads < 2000
 
 
@@ -88,7 +88,7 @@ def test_a_store_that_hangs_or_goes_keeps_no_page_waiting_and_is_asked_again(des
     until(lambda: len(teacher) == 1)
     slow.gate.clear()
     answers = []
-    for phone in range(20):  # each comes back at once
+    for phone in range(20):  # each call returns at once
         desk.ask(lambda rooms, phone=phone: rooms.vote(room.code, str(phone), HERE, "over"), answers.append)
     slow.away = True
     slow.gate.set()
@@ -109,6 +109,6 @@ def test_a_teacher_who_looks_keeps_his_room(desk, slow, monkeypatch):
     desk.watch(room.code, lambda news: None, votes=False)
     before = slow.reads
     until(lambda: slow.reads > before + 3)
-    assert slow.texts[room.code] == first  # a student's phone that lies open does not
+    assert slow.texts[room.code] == first  # an open page on a student's phone does not
     desk.watch(room.code, lambda news: None)
     until(lambda: slow.texts[room.code] != first)

@@ -54,7 +54,7 @@ def test_on_what_it_stands_is_what_is_at_the_table():
             for which, height in (("ball", ball[inside]), ("stem", stem[inside])):
                 if stretch.on in (which, "both"):
                     assert np.all(np.abs(height) < 1e-6)
-                elif height.size > 1:  # it may part as slowly as it likes
+                elif height.size > 1:  # it may separate arbitrarily slowly
                     assert np.all(height > -1e-6) and height.max() > 1e-6
 
 

@@ -40,7 +40,7 @@ from tippe_core.errors import CODES
 ROOT = Path(__file__).parent.parent
 OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 PAPER = TruncatedSphere.paper()
-# What stands in a formula of what is allowed and is no English: units, quantities, the core's classes.
+# Parts of formulas in the allowed ranges that are not English: units, quantities, classes of the core.
 NOTATION = {"rad", "kg", "mu", "mu_s", "mu_k", "eps", "gamma", "theta", "tilt", "seconds", "str", "bytes", "in",
             "high", "low", "rtol", "nudge", "pi", "well", "radius", "height", "rounding", "times"}  # fmt: skip
 
@@ -71,7 +71,7 @@ def raised():
                     continue
                 given = {each.arg: each.value for each in call.keywords}
                 codes = words_of(given["code"]) if "code" in given else ["out-of-range"]
-                if not codes:  # chosen before
+                if not codes:  # a variable set before
                     codes = [x.value for x in ast.walk(function) if isinstance(x, ast.Constant) and x.value in CODES]
                 if name == "in_range":
                     allowed, remedy, numbers = words_of(given.get("why")), given.get("remedy"), {"range", "unit"}

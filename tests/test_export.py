@@ -216,7 +216,7 @@ def test_a_figure_for_print(scene, name):
     svg = prints.draw(scene, name, "svg")
     root = ET.fromstring(svg)
     assert root.tag.endswith("svg") and root.get("width") == f"{183 / 25.4 * 72:.6f}".rstrip("0") + "pt"
-    # letters are drawn as paths, each after a comment that has them
+    # text is drawn as paths, each after a comment with that text
     said = svg.decode()
     for parameter in (r"$K_J$ = 6.5", r"$\mu_s$ = 0.4", "$I_1$ = 0.399", "$a$ = 0.07", "$E$ = "):
         assert parameter in said

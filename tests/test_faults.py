@@ -106,7 +106,7 @@ def test_after_the_server_was_lost_the_page_is_as_it_was(page, tmp_path):
 def test_a_visitor_who_stops_reading_holds_up_nobody(steady):
     async def stall(url):
         deaf, other = [await Visitor.enter(f"{url}?tab=roll") for _ in range(2)]
-        for i in range(200):  # and never reads what comes back
+        for i in range(200):  # and never reads the answers
             await deaf.set(deaf.find("Dial")[0], "asked", [i, 6 + i / 1000, False])
         answered, _ = await other.answer(await other.set(other.find("Dial")[0], "asked", [1, 6.5, False]))
         deaf.leave(), other.leave()

@@ -62,7 +62,7 @@ def test_what_must_arrive_before_the_first_frame_is_small(server):
     files = [*re.findall(r'rel="stylesheet" href="([^"]+)"', head), early["numbers"]]
     files += [next(name for name in re.findall(r'rel="modulepreload" href="([^"]+)"', head) if "tippe" in name)]
     assert len(files) > 3
-    assert not re.findall(r"<script[^>]* src=", text.partition('id="first"')[0])  # none holds it up
+    assert not re.findall(r"<script[^>]* src=", text.partition('id="first"')[0])  # none blocks it
     sizes = {name: len(gzip.compress(urllib.request.urlopen(urljoin(url, name)).read(), 9)) for name in files}
     assert len(gzip.compress(page)) + sum(sizes.values()) <= MOST, sizes
 

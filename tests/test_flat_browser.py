@@ -30,7 +30,7 @@ def flat(chromium, server):
         page.add_init_script(NO_WEBGL)
         visit = visits[query] = Visit(page, server + query, whole=False)
         page.locator("p:text('no WebGL, so the top is drawn flat'):visible").first.wait_for()
-        if "tab=" not in query:  # Roll's cards are made where it is looked at
+        if "tab=" not in query:  # the cards of Roll are created when it is shown
             page.wait_for_function(WHOLE)
         return visit
 

@@ -181,7 +181,7 @@ def over_the_surface(page):
         for x in np.linspace(0.4, 0.7, 8):
             page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
             page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-            says = page.evaluate("window.__tippe.surface3d.readout?.includes('E = ')")  # the floor says why not
+            says = page.evaluate("window.__tippe.surface3d.readout?.includes('E = ')")  # no surface there
             if says and canvas.evaluate("e => e.style.cursor") != "move":
                 return
     raise AssertionError("no place of the picture reads a value off")
@@ -225,16 +225,16 @@ def test_a_control_is_told_only_what_answers_its_last_wish(serve):
     wait(page, lambda: len(asked) == 3)
     assert asked == [(6.99, False), (6.98, False), (6.97, False)]
     assert slider.get_attribute("aria-valuetext") == "6.97 root g over R"
-    control.view.told = [1, 6.99, "6.99"]  # an answer to the first, when the hand has gone on
+    control.view.told = [1, 6.99, "6.99"]  # an answer to the first request after the next one was sent
     control.view.words = "said"
     page.get_by_text("said").wait_for()
     assert slider.input_value() == "6.97" and entry.input_value() == "6.97"
 
-    control.follow(6.5, 6.5)  # another hand's doing
+    control.follow(6.5, 6.5)  # something else changed it
     page.wait_for_function("input => input.value == '6.5'", arg=slider.element_handle())
     assert entry.input_value() == "6.5"
     entry.fill("half")
-    control.follow(6.4, 6.4)  # what is being typed stays
+    control.follow(6.4, 6.4)  # typed text is not overwritten
     page.wait_for_function("input => input.value == '6.4'", arg=slider.element_handle())
     assert entry.input_value() == "half"
     entry.press("Enter")
@@ -242,4 +242,4 @@ def test_a_control_is_told_only_what_answers_its_last_wish(serve):
     entry.fill("−2,5")
     entry.press("Enter")
     wait(page, lambda: len(asked) == 4)
-    assert asked[3] == (-2.5, True)  # and nothing that Python told came back as a wish
+    assert asked[3] == (-2.5, True)  # and no value from Python came back as a request

@@ -118,7 +118,7 @@ async def fuzz(url, messages, seed=1):
         except Closed as closed:
             said.add(f"{closed.args[0]} {closed.args[1]}")
             models = visitor.models
-            visitor = await Visitor.enter(url, visitor.token, pull=False)  # to the same session, which goes on
+            visitor = await Visitor.enter(url, visitor.token, pull=False)  # to the same session, which continues
             visitor.models = models
     visitor.leave()
     return said
@@ -214,7 +214,7 @@ async def each_attribute(url):
     page, count = await visitors.come(url), 0
     await visitors.open_rooms(page)
     await page.until(lambda: page.visitor.find("Surface3D"))  # Roll makes it when the page has come
-    visitor = await Visitor.enter(url, page.visitor.token, pull=False)  # one more socket of the same session
+    visitor = await Visitor.enter(url, page.visitor.token, pull=False)  # a second socket of the same session
     components = {}
     for id, (name, _) in page.visitor.models.items():
         if re.fullmatch(r"[A-Z]\w*\d+", name) and attributes_of(re.sub(r"\d+$", "", name)):
@@ -226,7 +226,7 @@ async def each_attribute(url):
             for value in ELEVEN if known else ELEVEN[i % 11 :][:1]:
                 for id in ids if known else ids[:1]:
                     kind, reply = await visitor.answer(await visitor.set(id, attribute, value))
-                    # the lesson makes its questions anew, and what is said to one that has gone is passed over
+                    # the lesson creates its questions again, and messages to removed ones are ignored
                     assert known or kind == "ERROR" or name == "RadioBoxGroup", (name, attribute)
                     assert kind == "OK" or reply["traceback"] is None
                     count += 1

@@ -11,7 +11,7 @@ from tippe_core import Constants, Top, roll, tielines, turning_points
 pytestmark = pytest.mark.served
 
 TOP = Top.paper()
-FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # places among the controls
+FIELDS = {"K_J": 0, "K_R": 1, "energy": 2}  # indices among the controls
 STATE_FIELDS = {"theta": 0, "theta_dot": 1, "omega2": 2, "omega3": 3}
 
 # The motion on display, as Fig. 6 shows it.
@@ -99,11 +99,11 @@ def one(chromium, server):
 def visit(one):
     """That page with its first motion, whatever an earlier test has done."""
     page = one.page
-    page.mouse.up()  # of a test that failed with the hand down
+    page.mouse.up()  # in case a test failed with the button pressed
     if page.get_by_role("button", name="constants", exact=True).get_attribute("aria-pressed") != "true":
         page.get_by_role("button", name="constants", exact=True).click()
         page.locator(":text('Routh’s constant'):visible").wait_for()
-    # a hand that has just let go makes its step a moment later
+    # after releasing, the step of undo is made a moment later
     page.wait_for_function(
         f"""([undo, first]) => {{ undo.click(); const now = ({SELECTED})()
             return undo.disabled && Bokeh.documents[0].is_idle
@@ -191,7 +191,7 @@ def test_beyond_the_tielines_the_motion_turns_under_the_hand_and_the_picture_say
 def test_the_bead_moves_the_clock_and_nothing_else(visit):
     stop_at_the_start(visit)
     visit.page.wait_for_function("""[...Bokeh.documents[0]._all_models.values()].some(
-        (m) => m.type == "Label" && m.visible && m.text.startsWith("rolls again"))""")  # the last to come
+        (m) => m.type == "Label" && m.visible && m.text.startsWith("rolls again"))""")  # it appears last
     place, aim = selected(visit), 0.7
     visit.drag(visit.pixel("plane", place["theta"], 7.0), visit.pixel("plane", aim, 7.3))
     visit.sent.clear()
@@ -221,7 +221,7 @@ def test_the_axis_of_a_paused_top_is_the_initial_tilt(visit):
     visit.page.mouse.up()
     handle.press("ArrowDown")
     visit.page.wait_for_function("Bokeh.documents[0].is_idle && __tippe.top3d.t == 0")
-    # what the handle says is what the field says, and where the curve starts
+    # the handle shows the tilt of the field and of the start of the curve
     visit.page.wait_for_function(
         """([column, handle, before]) => {
             const shown = Number(handle.getAttribute("aria-valuenow"))
@@ -299,7 +299,7 @@ def test_a_finger_pulls_the_tieline_and_scrolls_the_page_from_elsewhere(chromium
     visit = Visit(phone.new_page(), server, whole=False)
     page, touch = visit.page, phone.new_cdp_session(visit.page)
     page.wait_for_function(f"() => window.Bokeh?.documents?.length && ({WHOLE})()")
-    assert not page.evaluate("__tippe.top3d.playing")  # as somebody wants it who prefers less motion
+    assert not page.evaluate("__tippe.top3d.playing")  # because of reduced motion
 
     def drag(x, y, by):
         for kind, at in (("touchStart", y), *(("touchMove", y + by * i / 8) for i in range(1, 9)), ("touchEnd", None)):
@@ -311,7 +311,7 @@ def test_a_finger_pulls_the_tieline_and_scrolls_the_page_from_elsewhere(chromium
     place = page.evaluate(top)
     x, y = visit.pixel("plane", 0.62, 7.0)
     drag(x, y, 60)
-    page.wait_for_function("/KJ=/.test(location.search)")  # once all is at rest
+    page.wait_for_function("/KJ=/.test(location.search)")  # once everything is at rest
     K_J = selected(visit)["K_J"]
     assert K_J < 6
     assert page.evaluate(top) == pytest.approx(place, abs=1)

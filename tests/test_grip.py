@@ -66,7 +66,7 @@ def test_it_rolls_then_and_is_not_gripped_twice(top, state):
     try:
         moved = roll(top, None, [0.0], gripped)
     except TopError as error:
-        assert error.code == "start-not-resolved"  # it rolls, but next to a motion that takes for ever
+        assert error.code == "start-not-resolved"  # it rolls, but close to a motion that takes infinitely long
     else:
         assert moved.velocity[0, :2] == pytest.approx([gripped.vx, gripped.vy], abs=1e-9 * (1 + np.abs(v).max()))
 

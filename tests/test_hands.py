@@ -160,9 +160,9 @@ def test_what_rolls_and_the_three_planes_run_stand_and_go_as_fast_as_each_other(
     view = ThreePlanes(inputs, planes.ask, None, None, planes, playing)
     view.show(planes.picture)
     tops = list(view._tops.values())
-    assert {top.speed for top in tops} == {1 / 4}  # 5 s are watched for 20, as long as nobody chose
+    assert {top.speed for top in tops} == {1 / 4}  # 5 s are shown in 20 s, unless somebody chose a speed
     assert playing.speed == Playing.param.speed.default
-    tops[1].speed = 1 / 8  # a hand's
+    tops[1].speed = 1 / 8  # chosen by a person
     assert {top.speed for top in tops} == {playing.speed} == {1 / 8}
     playing.param.update(speed=1 / 2, playing=False)
     assert {(top.speed, top.playing) for top in tops} == {(1 / 2, False)}
@@ -213,7 +213,7 @@ def test_what_costs_much_is_shown_once_all_is_still(pacer, monkeypatch):
 
     def rest():
         """Runs all timers that were set, as when a person stops moving."""
-        pacer._requested -= 1  # it is long ago
+        pacer._requested -= 1  # as if long ago
         due, timers[:] = timers[:], []
         for act in due:
             act()

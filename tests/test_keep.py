@@ -21,7 +21,7 @@ from app.text import say, speaking
 from app.widgets.controls import Controls
 from tippe_core import PRESETS, Lathe, LoadedSphere, TruncatedSphere, Turned, ball, cylinder
 
-# Version 2 of the links: a default or a name that is not as here makes old links mean something else.
+# Version 2 of the links: if a default or a name differs from this list, old links change their meaning.
 VERSION_2 = {
     "body": TruncatedSphere(R=0.016, c=0.0082, l=0.0192, r=0.0032, M=0.0115), "a": 0.070, "I1": 0.399, "I3": 0.408,
     "mu": 0.5, "by": "share", "KJ": 7.0, "KR": 10.0, "e": 0.9, "E": 0.0, "th": 0.0, "thd": 0.0, "w2": 0.0, "w3": 0.0,
@@ -116,7 +116,7 @@ def test_a_link_is_short():
     explorer.param.update(K_J=6.7, mu_s=0.3)
     assert kept(explorer).query == "?v=2&mu=.3&KJ=6.7"
     shape = LoadedSphere(R=0.02, b=0.008, d=0.01, density=1190.0, core_density=7850.0)
-    # every number with as many digits as there are
+    # every number with all its digits
     explorer.param.update(shape=shape, a=1 / 7, I1=1 / 3, I3=2 / 5.1, mu_s=1 / 3, K_J=7 / 3, K_R=28 / 3, energy=1 / 7)
     assert len(kept(explorer).query) < 260
 
@@ -173,7 +173,7 @@ def test_back_and_forth():
     explorer = Explorer()
     keep, first = kept(explorer), explorer.scene
     assert not keep.can_undo and not keep.can_redo
-    for K_J in (6.9, 6.8, 6.7):  # what a hand does on its way is no step
+    for K_J in (6.9, 6.8, 6.7):  # values during a drag are not steps
         explorer.K_J = K_J
     keep.at_rest()
     explorer.param.update(theta=0.5, theta_dot=0.0, omega2=-1.0, omega3=8.0, given="state")
@@ -191,7 +191,7 @@ def test_back_and_forth():
     assert not keep.can_redo
     keep.undo()
     explorer.mu_s = 0.2
-    keep.at_rest()  # another way from here
+    keep.at_rest()  # a new branch of the history
     assert not keep.can_redo
     keep.at_rest()
     keep.undo()
@@ -221,7 +221,7 @@ def test_what_cannot_be_is_neither_kept_nor_a_step():
     explorer.I3 = 0.9
     keep.at_rest()
     assert explorer.scene.messages and keep.query == query
-    keep.undo()  # out of what cannot be
+    keep.undo()  # back from an impossible input
     assert not explorer.scene.messages and (explorer.I3, explorer.K_J) == (0.408, 6.0) and keep.query == query
 
 
@@ -230,7 +230,7 @@ def test_a_view_made_later_gets_its_part_of_the_link():
     explorer, _ = explorer_of(texts)
     keep, other = kept(explorer, texts), MapChoice()
     assert opened(keep.query)[0].K_J == 6
-    assert read(keep.query)[0] == texts  # what belongs to views not made yet stays in the link
+    assert read(keep.query)[0] == texts  # the state of views that do not exist yet stays in the link
     keep.add(other)
     assert keep.sentence == "" and (other.colour, other.place) == ("heat", [3.0, 4.0])
     assert not keep.can_undo
@@ -280,7 +280,7 @@ def test_a_rounded_stem_is_said_in_a_link_and_a_sharp_one_goes_without_saying():
     rounded = replace(sharp, rounding=0.002)
     assert Body.text(sharp) == "TruncatedSphere_.016_.0082_.0192_.0032_.0115"
     assert Body.text(rounded) == Body.text(sharp) + "_.002" and Body.value(Body.text(rounded)) == rounded
-    bored = replace(sharp, hole=0.009, depth=0.008)  # of which the rounding goes without saying no more
+    bored = replace(sharp, hole=0.009, depth=0.008)  # whose rounding is no longer the default
     assert Body.text(bored) == Body.text(sharp) + "_0_.009_.008" and Body.value(Body.text(bored)) == bored
     filled = replace(rounded, disc=0.004, thickness=0.003, height=0.002)
     assert Body.text(filled) == Body.text(rounded) + "_0_0_.004_.003_.002" and Body.value(Body.text(filled)) == filled

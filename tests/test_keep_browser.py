@@ -24,7 +24,7 @@ FRAMES = """() => {
 }"""
 COLUMNS = [("theta", 0, "theta"), ("normal", 0, "normal"), ("ratio", 0, "ratio"), ("constants", 0, "E"),
            ("plane", 0, "K_J"), ("plane", 0, "slip_in"), ("plane", 0, "verge")]  # fmt: skip
-K_J_FIELD = 0  # places among the controls
+K_J_FIELD = 0  # indices among the controls
 
 
 @pytest.fixture
@@ -61,12 +61,12 @@ def test_a_link_opens_the_same_picture_elsewhere(go, server):
     until_address(visit, "slow=4")
     visit.page.get_by_role("button", name="Pause").click()
     until_address(visit, "[?&]t=")
-    assert visit.page.evaluate("history.length") == steps  # replaced, not added to
+    assert visit.page.evaluate("history.length") == steps  # the entry was replaced, none was added
     visit.page.get_by_role("button", name="More", exact=True).click()
     visit.page.get_by_label("dark", exact=True).click()
     for key in ("Shift+ArrowRight", "Shift+ArrowUp", "-"):
         visit.page.locator("canvas[aria-label^='The top']").press(key)
-    until_address(visit, "view=[^&]*_1\\.1&dark=yes")  # after the last of them
+    until_address(visit, "view=[^&]*_1\\.1&dark=yes")  # after the last change
     visit.page.get_by_role("button", name="Share").click()
     box = visit.page.get_by_label("Link to what is shown")
     visit.page.wait_for_function("box => box.value", arg=box.element_handle())
@@ -100,7 +100,7 @@ def test_undo_is_one_step_a_gesture(go, server):
     for i in range(1, 6):
         visit.page.mouse.move(x - 12 * i, y)
         address = visit.page.url
-        # however long the hand takes, the address waits for it
+        # the address waits until the drag ends, however long it takes
         visit.page.wait_for_function("n => __tippe.top3d.motions.received > n", arg=i)
         assert visit.page.url == address == roll
     visit.page.mouse.up()
@@ -118,7 +118,7 @@ def test_undo_is_one_step_a_gesture(go, server):
     visit.until_column("theta", 0, "theta", before[0])
     visit.page.keyboard.press("Control+Shift+z")
     visit.until_column("theta", 0, "theta", dragged[0])
-    # in a field of text these keys are the field's own
+    # in a text field these keys belong to the field
     text = visit.page.locator("input[type=text]").nth(0)
     text.fill("5")
     text.press("Control+z")

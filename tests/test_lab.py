@@ -52,7 +52,7 @@ def test_the_arrival_ships_and_is_a_fresh_run(monkeypatch):
     kept, (_, fresh) = arrival.read(TOYS[TOY].top), lived(start_of(*ARRIVAL[1:]), lambda reached: None)
     for name in ("t", "theta", "phi", "psi", "quaternion", "contact", "com", "omega", "velocity", "heat"):
         assert getattr(kept, name) == pytest.approx(getattr(fresh, name), abs=2e-4), name
-    until = 4.75 / SHAPE.scales.time  # then ever smaller bounces, of which rtol lets fewer or more be told
+    until = 4.75 / SHAPE.scales.time  # then ever smaller bounces, whose number depends on rtol
     for name in ("events", "supports"):
         ours, theirs = ([each for each in getattr(moved, name) if each[0] < until] for moved in (kept, fresh))
         assert [each[1] for each in ours] == [each[1] for each in theirs]
@@ -103,7 +103,7 @@ def test_the_energy_is_that_of_a_body_in_joules(table, toy, spin, tilt):
     rows, curves = np.searchsorted(t, motion.curves[:, 0] - 1e-6), motion.curves
     rows = np.minimum(rows, len(t) - 1)
     smooth = np.abs(joules[rows] / (scales.M * scales.g) * 1e3 - curves[:, 3]) < 2e-3 * curves[0, 3]
-    assert smooth.mean() > 0.98  # an impact is no derivative
+    assert smooth.mean() > 0.98  # an impact has no derivative
     assert curves[:, 3] + curves[:, 4] == pytest.approx(curves[0, 3] + curves[0, 4], rel=1e-5)
     assert curves[:, 2] == pytest.approx(1e3 * place[rows, 2], rel=1e-5)
     assert curves[:, 1] == pytest.approx(np.degrees(moved.theta[rows]), abs=1e-3)

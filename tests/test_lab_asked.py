@@ -79,7 +79,7 @@ def test_what_research_has_set_is_kept_and_shown_also_past_what_a_hand_can_set_h
     motion, spins = lab.scene.motions["ordinary"], TOYS[TOY].shape.scales.angular_velocity / (2 * np.pi)
     assert motion.trajectory.omega[0, 2] * spins == pytest.approx(lab.start.spin)
     assert motion.curves[-1, 0] > 0.05 and not lab.scene.refused
-    lab.ask(tilt=8.0)  # and what it is not asked for stays as it is
+    lab.ask(tilt=8.0)  # and everything else is unchanged
     assert getattr(lab.scene, name) == value
 
 
@@ -132,7 +132,7 @@ def test_changing_the_table_keeps_the_start_and_the_start_the_table(lab):
 def test_beside_the_server_the_newest_is_computed_and_one_event_tells_it():
     posted, scenes = Queue(), []
     lab = Lab(Runs(posted.put))
-    lab.show()  # what ships is there at once
+    lab.show()  # the stored run is there at once
     assert lab.scene.toy == TOY and posted.empty()
     lab.param.watch(lambda event: scenes.append(event.new.spin), "scene")
     for spin in (20.0, 21.0, 22.0):
@@ -147,7 +147,7 @@ def test_an_older_run_never_takes_the_place_of_the_arrival_that_was_asked_for_si
     posted = Queue()
     lab = Lab(Runs(posted.put))
     lab.show()
-    for spin in (5.0, SPIN):  # of which the second ships, and is there at once
+    for spin in (5.0, SPIN):  # the second of them is stored, and there at once
         lab.ask(spin=spin)
     while lab.busy:
         posted.get(timeout=60)()

@@ -16,14 +16,14 @@ from tippe_core import Constants, grip
 
 pytestmark = pytest.mark.served
 
-# The tilt of the top that is looked at, in degrees, of its pose alone.
+# The tilt of the visible top in degrees, from its pose alone.
 TILT = f"""(() => {{
     const [x, y] = {TOPS}[0].quaternion
     return 180 / Math.PI * Math.acos(1 - 2 * (x * x + y * y))
 }})()"""
 
 
-# What of the Lab a finger may touch that is less than 44 px high.
+# Touch targets of the Lab that are less than 44 px high.
 SMALL = """() => {
     const all = (root) => [...root.querySelectorAll("*")].flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
     const lab = all(document).find((e) => e.matches(".lab"))
@@ -80,10 +80,10 @@ def test_another_table_keeps_the_start_and_begins_anew(page):
     page.locator(".lab[data-table=rough]").wait_for()
     page.wait_for_function(f"{TIME} * {UNIT} < 5")
     assert [entry(page, name).input_value() for name in ("Spin, in turns a second", "Tilt, in degrees")] == before
-    assert not entry(page, "Friction, its coefficient").is_visible()  # where nothing slips it does nothing
+    assert not entry(page, "Friction, its coefficient").is_visible()  # if nothing slips it has no effect
     heights = np.array([float(point.split(",")[1]) for point in line(page).split()])
     right_angle = page.locator(".strip .grid").first.get_attribute("y1")
-    assert heights.min() > float(right_angle) + 30  # it never comes near
+    assert heights.min() > float(right_angle) + 30  # it never comes close
     page.get_by_text("Rolling, it never turns over.").wait_for()
 
 
@@ -190,7 +190,7 @@ def test_axe_finds_nothing(chromium, server, size):
     context = chromium.new_context(viewport={"width": size[0], "height": size[1]}, reduced_motion="reduce")
     page = context.new_page()
     come(page, f"{server}?")
-    assert not page.evaluate(f"{TOPS}[0].playing")  # it does not begin by itself
+    assert not page.evaluate(f"{TOPS}[0].playing")  # it does not start by itself
     page.evaluate(AXE_SCRIPT)
     for table in ("Ordinary", "All three"):
         page.get_by_role("radio", name=table).click()
@@ -214,7 +214,7 @@ def test_all_that_a_finger_touches_is_44_px_high(chromium, server):
     phone.close()
 
 
-# Whether two parts of the Lab lie on each other, as long as the words of the first can be.
+# Whether two parts of the Lab can overlap, given the longest words of the first.
 COVERS = """([one, other, words]) => {
     const all = (root) => [...root.querySelectorAll("*")].flatMap((e) => [e, ...e.shadowRoot ? all(e.shadowRoot) : []])
     const find = (name) => all(document).find((e) => e.matches(".lab " + name))

@@ -39,7 +39,7 @@ def codes(motion):
 def test_what_is_marked_is_where_the_tilt_says(toy, spin, tilt, mu):
     try:
         motion = motion_on("ordinary", toy, spin, tilt, mu)
-    except (TopError, run.TooLong):  # of the second the page says that nobody waits for it
+    except (TopError, run.TooLong):  # TooLong: the page says that this run would take too long
         return
     t, theta, found = motion.seconds, motion.tilt, codes(motion)
     step = np.abs(np.diff(theta)).max(initial=0.0) + 1e-6
@@ -90,7 +90,7 @@ def check(told, motion):
 def test_an_ordinary_top_is_set_upright_and_a_slow_one_falls():
     up = story(motion_on("ordinary", CONE, 20.0, 15.0, 0.3))
     assert [event.code for event in up.events] == ["upright"] and up.stages[0].headline == "Rubbing sets it upright."
-    for tilt in (11.0, 15.0):  # it stands when it is about as upright as it comes, not at once
+    for tilt in (11.0, 15.0):  # it counts as standing when it is nearly as upright as it gets, not at once
         motion = motion_on("ordinary", CONE, 20.0, tilt, 0.3)
         ((since, code, _, _),) = story(motion).events
         assert code == "upright" and np.interp(since, motion.seconds, motion.tilt) < motion.tilt[-1] + 5 < tilt
@@ -211,7 +211,7 @@ def test_the_strip_is_what_single_runs_do(toy):
             expected = "leans" if motion.tilt[-1] > 20 else "upright"
         assert found.codes[i] == expected, SPINS[i]
     if toy != "Top S":
-        assert [segment.code for segment in found.segments].count("leans") > 1  # interleaved, and shown as it is
+        assert [segment.code for segment in found.segments].count("leans") > 1  # interleaved, and shown like that
 
 
 @settings(deadline=None)

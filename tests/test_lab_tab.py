@@ -17,7 +17,7 @@ def tab(monkeypatch):
     monkeypatch.setattr("app.tabs.lab.lab.after", lambda seconds, act: act())
     monkeypatch.setattr("app.tabs.lab.lab.RESTS", 0.0)
     lab, done = Lab(), []
-    lab.rest = lambda: None  # where all spins end is no part of it
+    lab.rest = lambda: None  # the ends for all spins are not needed here
     made = LabTab(lab, lambda: done.append("research"), lambda: done.append("rests"))
     made.lab, made.done = lab, done
     lab.show()

@@ -203,7 +203,7 @@ def test_a_class_with_two_phones(browser, phones, server):
     presented(page)
     page.locator(".link-said").get_by_text("?vote=").wait_for()
     page.locator(".count").get_by_text(say("teach.room.nobody")).wait_for()
-    assert page.locator(".qr svg").bounding_box()["height"] > 300  # it is read across a room
+    assert page.locator(".qr svg").bounding_box()["height"] > 300  # it must be readable across a room
     assert page.locator(".warning").inner_text() == say("teach.room.local")
     address = f"http://{page.locator('.link-said').inner_text()}"
     students = [opened(phone, f"{address}&lang={each}", 390, 844)
@@ -223,7 +223,7 @@ def test_a_class_with_two_phones(browser, phones, server):
     for visiting, language in zip(students, languages, strict=True):
         visiting.page.get_by_text(say("teach.room.shown", language)).wait_for()
 
-    # on, and the phones with it; one that is loaded anew is still the same
+    # the next question, also on the phones; a phone that reloads keeps its identity
     page.keyboard.press("ArrowRight")
     for visiting, language in zip(students, languages, strict=True):
         visiting.page.get_by_role("heading", name=say("learn.way.question", language)).wait_for()

@@ -22,14 +22,14 @@ from app.widgets.download import Download
 pytestmark = pytest.mark.served
 
 PAGES = 3
-# What stands on each tab but the first.
+# Something on each tab except the first.
 TABS = ("planes.cards.stage", "build.bench.save", "family.map.start", "learn.view.watch")
 PATIENCE = 300  # s
 
 
 @pytest.fixture(scope="module")
 def here():
-    gc.freeze()  # what other tests left, which collecting would look through again and again
+    gc.freeze()  # objects of other tests, which each collection would traverse again
     with inside() as here:
         yield here
     gc.unfreeze()
@@ -132,13 +132,13 @@ async def saves(page, filename):
 async def ask_of_a_broken_server(here, monkeypatch):
     page = await visitors.come(here.url, "de")
     await fails(page, monkeypatch, "app.share.share.segno.make", lambda: page.head("share"))
-    await page.head("share")  # and can be asked for again
+    await page.head("share")  # and can be requested again
     table = await saves(page, "tippe-top-motion.csv")
     await fails(page, monkeypatch, "app.share.export.columns", lambda: page.set(table, "clicks", 1))
     await page.set(table, "clicks", 2)
     await page.until(lambda: page.now(table, "file", [0])[0] == 1)
     before = page.now(table, "file")[1]
-    await page.set(table, "clicks", 3)  # the same file once more
+    await page.set(table, "clicks", 3)  # the same file again
     await page.until(lambda: page.now(table, "file")[:2] == [2, before])
 
     dial, known = page.visitor.find("Dial")[0], len(page.visitor.models)
@@ -194,7 +194,7 @@ async def flood(here, monkeypatch):
     wanted = await saves(other, "tippe-top-plane.png")
     await other.set(wanted, "clicks", 1)
     await other.set(wanted, "clicks", 2)
-    await asyncio.to_thread(until, lambda: (6.5, 2) in heard)  # clicks are gathered for a moment before they are heard
+    await asyncio.to_thread(until, lambda: (6.5, 2) in heard)  # clicks are collected for a moment
     await other.until(lambda: other.now(wanted, "making"))
     go.put(None)
     go.put(None)
@@ -207,7 +207,7 @@ async def flood(here, monkeypatch):
     await other.set(wanted, "clicks", 3)
     go.put(None)
     await other.until(lambda: other.now(wanted, "file", [0])[0] == 2)
-    assert [K_J for K_J, _ in made] == [5.5, 6.5, 5.5, 6.5]  # the third of the flood is not begun
+    assert [K_J for K_J, _ in made] == [5.5, 6.5, 5.5, 6.5]  # the third request of the flood is not started
     await other.vanish()
     await asyncio.to_thread(here.wait_for_sessions, 0)
 
@@ -243,7 +243,7 @@ async def live(here):
 
 
 def test_no_session_writes_a_global(here, idle):
-    run(live(here), PATIENCE)  # what is made at first use is there
+    run(live(here), PATIENCE)  # what is created at first use exists now
     before, handler = globals_of_ours(), pn.config.exception_handler
     run(live(here), PATIENCE)
     after = globals_of_ours()

@@ -115,7 +115,7 @@ def smooth_turning(top, theta, spin):
 
     def rest(x):
         gained = (L_z - top.I3 * w3 * c(x)) ** 2 / (2 * top.I1 * np.sin(x) ** 2)
-        return gained - top.a * (c(x) - c(theta))  # what the fall gives, less what the turning takes
+        return gained - top.a * (c(x) - c(theta))  # energy gained by falling, minus that used by turning
 
     return brentq(rest, 0.3 * theta, theta - 1e-6)
 

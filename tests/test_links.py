@@ -34,4 +34,4 @@ def test_every_setting_is_in_a_link():
     usual |= in_effect({"law": "coulomb", "start": "constants", "mu_k": 0.3, "mu_stick": 0.4})
     changed = {name for settings in found for name, value in settings.items() if value != usual[name]}
     assert {*usual} - {"mu_stick", "mu_smooth", "start", "plane"} == {*NAMES} - NEWER
-    assert {*usual} - changed == {SECRET}  # only a teacher who is there has one
+    assert {*usual} - changed == {SECRET}  # only a teacher's open page has one

@@ -9,7 +9,7 @@ pytestmark = pytest.mark.served
 
 LOOKS = "name => document.documentElement.dataset.look === name"
 TOP = "canvas[aria-label^='The top'], canvas[aria-label^='Der Kreisel']"
-# The views that were chosen, of all the tops of the page.
+# The chosen camera views of all tops on the page.
 VIEWS = """() => [...Bokeh.documents[0]._all_models.values()].map((m) => m.data?.attributes?.camera)
     .filter((view) => view?.length)"""
 HIGHER = "([part, before]) => part.getBoundingClientRect().top < before"
@@ -74,9 +74,9 @@ def test_a_german_page_writes_decimal_commas_on_axes_in_fields_and_in_3d(opened)
 
 def test_the_wheel_over_the_top_scrolls_the_page_and_with_ctrl_zooms(opened):
     page = opened("?v=1&tab=roll")
-    page.wait_for_function(WHOLE)  # else there is nothing to scroll
+    page.wait_for_function(WHOLE)  # otherwise there is nothing to scroll
     top, slider = page.locator(TOP).first, page.get_by_role("slider", name="Jellett’s constant").element_handle()
-    top.click()  # also once it was clicked, which turns nothing
+    top.click()  # also after a click, which does not turn it
     assert page.evaluate(VIEWS) == []
     box, before = top.bounding_box(), slider.bounding_box()["y"]
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)

@@ -138,7 +138,7 @@ def test_a_term_is_explained_where_the_mouse_rests_and_hidden_when_it_goes(page)
     page.set_viewport_size({"width": 1400, "height": 1000})
     box = page.locator(".tippe-readout:visible", has_text=listed("glossary.terms.nudge.is", "en"))
 
-    page.wait_for_function(WORD, arg="nudge")  # brings it into the window
+    page.wait_for_function(WORD, arg="nudge")  # scrolls it into the window
     page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
     page.mouse.move(*page.wait_for_function(WORD, arg="nudge").json_value())
     box.wait_for()

@@ -17,7 +17,7 @@ BODIES = [preset.name for preset in PRESETS if preset.shape.edge is not None and
 SPANS = {"spin": (4, 40), "tilt": (2, 60), "mu": (0.05, 0.5), "second": (0.1, 1.0), "slip": (0.0, 1.5),
          "a": (0.05, 0.35), "ratio": (0.85, 1.3), "R": (8, 30), "stem": (14, 25), "rounding": (1, 6)}  # fmt: skip
 FIXED = "spin", "tilt", "mu", "second", "slip"
-NEAR = 100.0  # a nudge that grows more is a border's
+NEAR = 100.0  # where a nudge grows more than this, a border is near
 FEW, ALL, ALL_YIELDING = 30, 200, 60
 
 
@@ -85,7 +85,7 @@ def test_random_cells_of_random_maps_are_single_runs(request):
         assert column["time_90"] / time == pytest.approx(passes(cell, moved), abs=1e-6, nan_ok=True), asked
         if np.isnan(column["time_stem"]):
             assert not on_stem
-        else:  # a knock that throws it up is an event that only says that it lifts off
+        else:  # a knock that throws it up is only reported as lifting off
             assert min(abs(column["time_stem"] / time - when) for when, _ in moved.events) < 1e-6
             assert not on_stem or column["time_stem"] / time < on_stem[0] + 1e-6
         assert abs(column["energy_error"]) < 1e-6 and np.all(np.diff(moved.energy) < 1e-6)
@@ -161,7 +161,7 @@ def test_random_cells_are_those_of_a_body_on_contacts_that_yield(request):
     while done < count:
         place, column, end, asked = random_cell(rng, ("coulomb", "viscous", "smoothed"))
         if end == "refused" or asked.at(*place).friction.law.mu_s > asked.at(*place).friction.law.mu:
-            continue  # the body knows one number of dry friction
+            continue  # the body has only one coefficient of dry friction
         done += 1
         if column["growth"] < NEAR:
             words.append(told(column, end, asked.at(*place)))

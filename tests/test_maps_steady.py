@@ -26,7 +26,7 @@ def test_a_steady_motion_is_where_V_J_has_its_minimum():
     tumbling = [line for line in steady_lines(cell.top, launch(cell), 2.0, 16.0) if 0 < line.theta.min() < 180]
     (stable,) = (line for line in tumbling if line.stable)
     order = np.argsort(stable.spin)
-    spin = HANGS[0] * cell.scales.angular_velocity / UNIT.angular_velocity  # theirs has another g
+    spin = HANGS[0] * cell.scales.angular_velocity / UNIT.angular_velocity  # the authors use another g
     assert np.interp(spin, stable.spin[order], stable.theta[order]) == pytest.approx(AT, abs=0.01)
 
 

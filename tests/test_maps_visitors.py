@@ -109,7 +109,7 @@ async def draw_at_once(here, drawing, others):
     await asyncio.to_thread(until, lambda: seen)
     await waits(english, "en", 0)
     await waits(german, "de", 1)
-    await english.leave()  # in the middle of its map; the other thread still works for others
+    await english.leave()  # while its map is drawn; the other thread still works for others
     await asyncio.to_thread(here.wait_for_sessions, 1)
     for _ in range(2 * WHOLE):
         go()
@@ -125,7 +125,7 @@ async def draw_at_once(here, drawing, others):
 async def ask_for_it_again(here, drawing):
     seen, _ = drawing
     pieces = len(seen)
-    kept._memory.clear()  # so that the file alone has it
+    kept._memory.clear()  # so that only the file has it
     later = await come(here, DRAWN, "en")
     await stands(later, "en")
     assert len(seen) == pieces and MAPS._working.total() == MAPS.threads

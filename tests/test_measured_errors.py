@@ -98,7 +98,7 @@ def test_the_errors_of_the_constants_from_the_data_are_their_scatter(noisy):
     for name in draws[0]:
         values, errors = (np.array([getattr(found[name], what) for found in draws]) for what in ("values", "errors"))
         scatter, said = values.std(axis=0).mean(), errors.mean()
-        if name == "K_J" and turn == "azimuth":  # what nutates between two frames is an error too
+        if name == "K_J" and turn == "azimuth":  # nutation between two frames is an error too
             assert scatter < 1.2 * said, (name, scatter / said)
         elif noisy in ("tilt", "spin") or name == "K_J":
             assert scatter == pytest.approx(said, rel=0.15), name
@@ -156,9 +156,9 @@ def test_of_two_that_fit_the_better_is_said_where_it_is_clearly_better():
     assert not good.refused and not worse.refused and worse.chi2 - good.chi2 > 6
     assert (verdict(good, worse), verdict(worse, good)) == ("rolled", "slipped")
     assert verdict(good, good) == "either"
-    # a number more has to earn 2 of chi-square (Akaike)
+    # one more fitted number must reduce chi-square by 2 (Akaike)
     assert alike(0.7, ("mu",)).aic - good.aic == pytest.approx(2) and alike(0.7, ("mu",)).freedom == good.freedom - 1
-    # and so has a number of where the film looks from
+    # and so must a number of the camera's position
     assert replace(good, hidden=1).aic - good.aic == pytest.approx(2)
     assert replace(good, hidden=1).freedom == good.freedom - 1
 

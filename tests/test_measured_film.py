@@ -114,5 +114,5 @@ def test_the_tab_opens_what_its_link_says():
     other.filmed.film = packed(one._film())
     assert other.view is not None
     assert other._body[:3] == one._body[:3] and other.part.value == one.part.value
-    other.take((FOLDER / "made-slips.csv").read_bytes())  # another table: of the page's top again
+    other.take((FOLDER / "made-slips.csv").read_bytes())  # another table belongs to the page's top again
     assert other._body[0] == Explorer().scene.top

@@ -170,7 +170,7 @@ def test_what_the_browser_may_change(kind, attribute, takes, refuses):
     has = {"objects": [1, 2, 3], "options": ["a", "b"], "max_length": 20, "start": 0, "end": 1,
            "data": {"x": [], "z": []}}  # fmt: skip
     known = type(f"Probe{kind}", (DataModel,) if kind.endswith("1") else (), {"__init__": lambda self: None})
-    known.__name__ = kind  # now: as it is made Bokeh learns the name, and would make no other of it in this process
+    known.__name__ = kind  # only now: Bokeh registers the name at creation, and allows it only once in a process
     own = known()
     for name, value in has.items():
         object.__setattr__(own, name, value)

@@ -89,4 +89,4 @@ def test_what_nobody_sees_is_drawn_when_somebody_does():
     sight.near = False
     sight.near = True
     later.pop()()
-    assert drawn == [1, 3]  # nothing is new
+    assert drawn == [1, 3]  # nothing has changed

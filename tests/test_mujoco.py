@@ -30,7 +30,7 @@ def moved(top, state, friction, duration, step):
     contact[0] = 1
     for _ in range(round(duration / step)):
         mujoco.mj_step1(model, data)
-        if not coulomb:  # the law is ours to give, the normal force it takes is the last step's
+        if not coulomb:  # we supply the law; its normal force is that of the previous step
             body = data.xmat[1].reshape(3, 3)
             u = data.qvel[:3] + np.cross(body @ data.qvel[3:], down)
             push = -friction.gamma * contact[0] * u * [1, 1, 0]

@@ -19,7 +19,7 @@ SOURCES = [path for kind in ("*.py", "*.js", "*.html", "*.toml") for path in APP
            if path not in (TABLE, OLDER) and not {"node_modules", "static"} & {*path.parts}]  # fmt: skip
 IN_A_LINK = re.compile(rf"[?&]({'|'.join(EVERY)})=")
 READ = re.compile(r"URLSearchParams|searchParams")
-BEFORE = ("early.js", "first.js")  # what the browser shows before Python is asked, in the language of the address
+BEFORE = ("early.js", "first.js")  # what the browser shows before it reaches Python, in the language of the address
 
 
 def test_a_name_is_given_once():
@@ -54,7 +54,7 @@ def test_a_link_that_is_given_away_has_only_names_of_the_table():
 def test_there_is_no_second_place(path):
     """No other file has a row, looks up a name in an address as a literal, or puts a link together by hand."""
     text = path.read_text(encoding="utf-8")
-    assert path.name == "keep.py" or not IN_A_LINK.search(text)  # whose head shows an address
+    assert path.name == "keep.py" or not IN_A_LINK.search(text)  # its docstring contains an address
     if READ.search(text):
         assert path.name in BEFORE
         assert {*re.findall(r"""["'](\w+)["']""", text)} & {*EVERY} <= {names.LANGUAGE}

@@ -18,7 +18,7 @@ SCRIPTS = sorted((APP / "frontend/src").rglob("*.js"))
 TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|("(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*')|[`{}]""", re.DOTALL)
 TEMPLATE = re.compile(r"(?:\\.|\$(?!\{)|[^`$\\])*", re.DOTALL)
 
-# What looks like English in the code and is none that a visitor reads: {the end of a path: {its beginning: why}}.
+# Strings that look like English but that no visitor reads: {end of a path: {beginning of the string: why}}.
 NOT_SAID = {
     "answers.py": {"GET, HEAD": "a header"},
     "asked.py": {"": "said to the log"},

@@ -71,8 +71,8 @@ def by_all_four(module, name):
     array = function(*(np.array([x, x]) for x in given), PAPER)
     with localcontext(EXACT):
         exact = function(*map(Decimal, given), exact_top(PAPER))
-    _ = compiled(flat).dispatcher  # before the first, numba has not been told which functions kernels share
-    kernel = numba.njit(error_model="numpy")(function)(*given, PAPER.numbers)  # and not compiled(), which keeps it
+    _ = compiled(flat).dispatcher  # only the first kernel makes numba register the shared functions
+    kernel = numba.njit(error_model="numpy")(function)(*given, PAPER.numbers)  # not compiled(), which would store it
     first = tuple(x[0] for x in array) if isinstance(array, tuple) else array[0]
     return [flat(x) for x in (function(*given, PAPER), first, exact, kernel)]
 

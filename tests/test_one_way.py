@@ -114,7 +114,7 @@ def controls(scene):
 
     def show(scene):
         view.follow(scene)
-        for face in reversed(FACES):  # what is not looked at is shown when it is
+        for face in reversed(FACES):  # hidden parts are shown when they become visible
             view.face = face
             view.show(scene)
 
@@ -133,7 +133,7 @@ def learn(section):
         view = Learn(scene)
 
         def show(scene):
-            for view.section in ("lesson", section):  # what is not looked at is shown when it is
+            for view.section in ("lesson", section):  # hidden parts are shown when they become visible
                 view.show(scene)
 
         return view, show
@@ -238,7 +238,7 @@ def seen(view):
                     look(part, f"{path}/{name}")
                 elif name in thing.param and not isinstance(
                     part, Figure
-                ):  # whose data are met where the view keeps them
+                ):  # their data are found where the view stores them
                     found[f"{path}/{name}"] = np.asarray(str(part))
             if isinstance(thing, JSComponent):
                 for name in {*thing.param} - {*Bundled.param}:

@@ -20,7 +20,7 @@ from app.tabs.lab.room import level, opened, shortest
 def test_an_address_opens(query, tab):
     texts, _ = read(query)
     assert opened(texts, query) == tab
-    assert level(texts, query) == ("explore" if tab == "lab" else "research")  # as it was before there were levels
+    assert level(texts, query) == ("explore" if tab == "lab" else "research")  # as before there were levels
     assert level(texts | {"level": "explore"}, query) == "explore"
 
 

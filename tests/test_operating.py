@@ -51,7 +51,7 @@ def test_a_full_server_lives_but_is_not_ready_with_the_prefix_and_without(tmp_pa
         compiled(server)
         assert ready(server) == ready(server, "/tops") == (200, [], 0)
         run(visit())
-        until(lambda: ready(server)[0] == 200)  # its session is kept, but makes room
+        until(lambda: ready(server)[0] == 200)  # its session is kept, but its place is free
         for prefix in ("", "/tops"):
             assert get(f"{server.root.removesuffix('/tops')}{prefix}/liveness")[0] == 200
         assert get(f"{server.root}/metrics")[0] == 404 == get(f"{server.root.removesuffix('/tops')}/metrics")[0]
@@ -239,7 +239,7 @@ def test_a_line_of_the_log_is_one_object_with_its_trace():
 def test_a_server_writes_json_and_no_addresses_where_that_is_asked_for(tmp_path):
     with served(tmp_path / "log", log_format="json", log_addresses=0) as server:
         assert get(server.url + "/nowhere")[0] == 404
-        until(lambda: "404" in server.log and server.log.endswith("\n"))  # once the answer is out
+        until(lambda: "404" in server.log and server.log.endswith("\n"))  # after the answer has been sent
         lines = [json.loads(line) for line in server.log.splitlines()]
         assert {"time", "level", "process", "message"} <= lines[0].keys()
         assert "404 GET /app/nowhere (-)" in [line["message"] for line in lines] and "127.0.0.1" not in server.log

@@ -53,7 +53,7 @@ def test_a_picture_that_fails_keeps_no_other_back(pacer):
 def test_a_hand_comes_to_rest_also_where_a_picture_fails(pacer):
     for K_J in (6.5, 6.6, 6.7):
         pacer.ask(K_J=K_J)
-    pacer._requested -= 1  # it is long ago
+    pacer._requested -= 1  # as if long ago
     pacer._hands.clear()
     with pytest.raises(ZeroDivisionError):
         while pacer.timers:

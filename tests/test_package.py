@@ -79,7 +79,7 @@ def test_the_image_and_the_tests_are_installed_from_the_lock():
     for name in ("Dockerfile", "Makefile"):
         text = (ROOT / name).read_text(encoding="utf-8")
         assert "--require-hashes -r locks/build.txt" in text and "-r locks/run.txt" in text
-        # whatever else is installed brings nothing along, but for the program that makes the locks
+        # other installs bring no dependencies, except for the program that makes the locks
         for line in re.findall(r"pip install (.*)", text):
             assert "--require-hashes" in line or "--no-deps" in line or "'uv" in line, line
 

@@ -76,7 +76,7 @@ def test_point_P(compare):
     """Fig. 5: K_J = 8.37, f1^2 theta_dot^2 = 18.6, E' = 9.29, E = 25.1 at P."""
     E, print_ = limit_energy(TOP, P, 10.0), "the paper, half its last digit"
     constants = Constants(P, 10.0, E)
-    theta = 1e-8  # P as a float lies some 1e-16 beside the true one: at 0 itself f would be that of another trajectory
+    theta = 1e-8  # the float P is off by about 1e-16: at 0 itself f would belong to another trajectory
     height = f1_squared(theta, TOP) * theta_dot_squared(theta, TOP, constants)
     compare("8.37", P, 8.37, 0.005, print_)
     compare("18.6", height, 18.6, 0.05, print_)

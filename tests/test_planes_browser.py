@@ -99,7 +99,7 @@ def test_three_tops_side_by_side_go_by_one_clock(page, first):
     )
     bead = page.evaluate(COLUMN, ["planes-well", "E"])[0]
     assert bead == pytest.approx([first.motions["sliding"].trajectory.energy[index]], abs=1e-4)
-    page.wait_for_function("!__tippe.top3d.playing")  # what rolls stands too
+    page.wait_for_function("!__tippe.top3d.playing")  # the rolling top is paused too
     table = page.locator("table").first.inner_text()
     assert len(re.findall(r"stays to \d·10", table)) == 8 and "to 2.57 s, where it stands on its stem" in table
     put_on(page, "Ice")
@@ -144,7 +144,7 @@ def test_a_bad_value_is_said_and_nothing_is_lost(page):
 
 
 def test_a_long_run_shows_how_far_it_is_and_can_be_stopped(page):
-    put(page, "eps", 1e-8)  # so stiff that it takes seconds
+    put(page, "eps", 1e-8)  # so stiff that it takes several seconds
     stop = page.get_by_role("button", name="Stop", exact=True)
     stop.wait_for()
     assert page.locator(".bk-Row").filter(has=stop).locator("progress").last.is_visible()

@@ -48,7 +48,7 @@ def test_who_waits_is_told_his_place_and_that_his_turn_has_come():
         gate.put(None)
     until(lambda: [places[-1] for places in told.values()] == [0, 0, 0])
     until(lambda: not (pool._working or pool._telling))
-    assert not pool._places and not pool._told  # nobody who has left is kept
+    assert not pool._places and not pool._told  # nothing of visitors who have left is stored
 
 
 def test_who_has_something_under_way_is_told_nothing():

@@ -10,7 +10,7 @@ from app.text import listed
 
 pytestmark = pytest.mark.served
 
-# All that the page says now, to the eye and to the ear, piece by piece.
+# All visible and spoken text of the page, piece by piece.
 SAID = """
 () => {
   const said = [], spoken = ["aria-label", "aria-valuetext", "title", "placeholder", "alt"]
@@ -56,7 +56,7 @@ def test_keys_of_the_page(visit):
     page.keyboard.press("Escape")
     page.get_by_role("dialog", name="Keys").wait_for(state="hidden")
     slider = page.get_by_role("slider", name="Jellett’s constant")
-    slider.press("ArrowRight")  # the control's own there
+    slider.press("ArrowRight")  # there it belongs to the control
     assert slider.get_attribute("aria-valuetext") == "7.01 root g over R"
     assert page.evaluate("__tippe.top3d.index") == 1
     page.locator("body").press("Space")

@@ -68,7 +68,7 @@ def test_impossible_bodies_are_named(kind, good, name, value):
     kind(**good)
     with pytest.raises(TopError) as raised:
         kind(**good | {name: value})
-    # a stem is too thick for its face, or the face too small for its stem
+    # the stem is too thick for its face, or the face too small for the stem
     assert raised.value.name == ("r" if (name, value) == ("r2", 0.001) else name)
     assert raised.value.allowed and str(raised.value).endswith(".")
 

@@ -34,7 +34,7 @@ def test_python_has_the_one_list_of_colours():
     listed_ones = read("colours.json")
     light, dark = (listed_ones.pop(ground) for ground in ("on_light", "on_dark"))
     assert listed_ones == COLOURS and COLOURS | light == ON_LIGHT
-    assert {*dark} - {*light} <= {*COLOURS}  # what a ground changes there is on the other
+    assert {*dark} - {*light} <= {*COLOURS}  # what one background changes exists for the other
     assert (COLOURS["ink"], COLOURS["faint"], COLOURS["grey"]) == (INK, FAINT, GREY)
 
 
@@ -112,7 +112,7 @@ def hue(digits):
 
 
 OURS = {name: colour[1:].lower() for name, colour in COLOURS.items() if name not in ("ink", "faint", "grey")}
-OF_ITS_OWN = ("omega", "normal", "flies")  # hues that nothing else has, so that a shade of them is known for one
+OF_ITS_OWN = ("omega", "normal", "flies")  # hues that nothing else uses, so that their shades are recognised
 
 
 def second_colours(text):

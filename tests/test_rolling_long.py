@@ -177,7 +177,7 @@ def test_a_start_that_cannot_be_resolved_is_told_of_the_start(move, top):
         move(top, State(1e-9, 0, 0, 2.0))
     assert (caught.value.name, caught.value.value) == ("theta", 1e-9)
     assert "change the start a little" in caught.value.remedy and "E" not in str(caught.value).split()
-    # by its constants it is the energy that is at fault
+    # given by constants, the error concerns the energy
     constants = Constants.from_state(top, 1e-9, 0, 0, 2.0)
     with pytest.raises(TopError) as caught:
         roll(top, constants, [0, 1.0])

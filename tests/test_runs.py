@@ -42,7 +42,7 @@ def test_a_run_ends_at_its_next_look(page):
     def work(run):
         begun.set()
         while True:
-            look(1.5)  # of the run that this thread does
+            look(1.5)  # of the run in this thread
 
     run = Run(work, told(results))
     page.runs.begin(run, "a")
@@ -91,7 +91,7 @@ def test_no_thread_keeps_what_a_run_was_about(page):
     page.runs.begin(Run(lambda run, picture=picture: None, lambda result: None), "a")
     del picture
     page.next()
-    # a thread lets go of its work soon after it has told of it
+    # a thread releases its work shortly after announcing the result
     until(lambda: gc.collect() >= 0 and gone() is None)
 
 
@@ -102,7 +102,7 @@ def test_a_run_may_end_while_its_document_is_taken_apart():
     with pytest.raises(AttributeError):
         document.add_next_tick_callback(print)
     to_session(document)(print)
-    with pytest.raises(AttributeError):  # but what is wrong with one that lives is said
+    with pytest.raises(AttributeError):  # but an error in a live one is reported
         to_session(SimpleNamespace(session_context="open"))(print)
 
 

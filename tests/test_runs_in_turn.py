@@ -71,7 +71,7 @@ def test_a_thread_is_free_for_who_has_none_under_way():
     crowd.piece("other", "other")
     until(lambda: "other" in crowd.begun)
     assert sorted(crowd.begun) == ["flood 0", "flood 1", "flood 2", "other"]
-    assert crowd.pool.rest("flood") > 2 * crowd.pool.rest("other") + 2 * TURN * 0.9  # his three share one share
+    assert crowd.pool.rest("flood") > 2 * crowd.pool.rest("other") + 2 * TURN * 0.9  # one share for all three
     crowd.end(10)
     until(lambda: len(crowd.begun) == 10)
     assert crowd.most["flood"] == 3
@@ -128,7 +128,7 @@ def test_what_was_asked_for_last_is_shown_where_all_wait_for_a_thread(page, busy
     explorer = Explorer()
     planes = planes_of(explorer, page.runs)
     planes.ask(spin=21.0)
-    planes.ask(spin=22.0)  # before the session hears that the first is not run
+    planes.ask(spin=22.0)  # before the session is told that the first one is not run
     busy.end()
     while planes.busy:
         page.next()
@@ -145,7 +145,7 @@ def test_a_map_asked_for_again_ends_the_one_before(page, monkeypatch):
     compare = Compare(Explorer().scene, page.runs)
     compare.compute()
     first = compare._run
-    compare.compute()  # two clicks, before the button is seen to be taken away
+    compare.compute()  # two clicks, before the button disappears
     assert first.stopped
     compare.cancel.clicks += 1
     while not compare.said.object:
@@ -165,7 +165,7 @@ def test_what_a_hand_waits_for_does_not_wait_for_the_rest_of_other_runs(page):
     lab.rest()
     page.next()
     assert lab.scene.spin == 33.0 and not (lab.scene.whole or lab.busy)
-    assert LATER.waiting() == 3  # with the rest of this run, and where all spins end
+    assert LATER.waiting() == 3  # including the rest of this run, and the ends for all spins
     go.set()
     while not (lab.scene.whole and lab.ends):
         page.next()

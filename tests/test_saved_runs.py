@@ -49,7 +49,7 @@ def test_the_python_computes_it_again(shown, monkeypatch, tmp_path):
     found: dict = {}
     exec(code, found)
     moved, motion = shown.trajectory, found["motion"]
-    rows = np.searchsorted(motion.t, moved.t)  # of which those are kept that show it
+    rows = np.searchsorted(motion.t, moved.t)  # only those needed to show it are kept
     assert np.array_equal(motion.t[rows], moved.t) and np.allclose(motion.theta[rows], moved.theta, atol=1e-9)
     assert (tmp_path / "run.png").stat().st_size > 1000
 

@@ -74,7 +74,7 @@ def test_each_file_of_a_tables_run_is_that_run(page, runs, label, table, tmp_pat
     tilt, energy = np.degrees(run["theta"]), run["energy"]
     if table == "ordinary":
         assert tilt.max() > 170 and energy.iloc[-1] < energy.iloc[0] / 4
-        assert np.allclose(energy + run["heat"], energy[0], rtol=1e-3)  # what is lost is heat
+        assert np.allclose(energy + run["heat"], energy[0], rtol=1e-3)  # lost energy is heat
     else:
         assert tilt.max() < 6 and np.ptp(energy) < 1e-6 * energy[0]
 
@@ -105,7 +105,7 @@ def test_each_file_of_a_tables_run_is_that_run(page, runs, label, table, tmp_pat
     assert done.returncode == 0, done.stderr
     assert Image.open(tmp_path / "run.png").width > 400
     t, theta = np.load(tmp_path / "tilt.npy").T
-    rows = np.rint((len(t) - 1) * run["t"] / run["t"].iloc[-1]).astype(int)  # of which those are saved that show it
+    rows = np.rint((len(t) - 1) * run["t"] / run["t"].iloc[-1]).astype(int)  # only those needed to show it are saved
     assert np.allclose(theta[rows[:200]], run["theta"][:200], atol=1e-6)
 
 

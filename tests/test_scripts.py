@@ -19,7 +19,7 @@ INLINED = [path for path in FRONTEND.parent.rglob("*.js") if not {"frontend", "s
            and path.name not in ("call.js", "ticks.js")]  # fmt: skip
 OTHERS = [path for path in FRONTEND.glob("src/**/*.js") if path != BORROWED]
 
-# {name of ours: what it uses of Bokeh, as it stands in Bokeh's own script}
+# {our name: the part of Bokeh that it uses, as in Bokeh's own script}
 USED = {
     "viewOf": ["find_one("],
     "scalesOf": ["get frame()", "x_scale", "y_scale"],
@@ -118,5 +118,5 @@ def test_no_script_asks_another_by_the_window(path):
     text = path.read_text(encoding="utf-8")
     assert {*re.findall(r"\bwindow\.(\w*tippe\w*)", text)} <= {"__tippe", "tippeCallbacks"}
     assert not re.search(r"\bwindow\[|\bglobalThis\b", text)
-    if "__tippe" in text:  # which is put there, and never asked
+    if "__tippe" in text:  # which is set there, and never read
         assert not re.search(r"__tippe\.\w+\(", text)

@@ -49,7 +49,7 @@ def test_options_are_served_under_a_prefix_and_every_way_leads_to_the_page(tmp_p
                 assert answer.status == 200 and answer.url == f"http://127.0.0.1:{port}/tops/app?KJ=6.5"
 
 
-# What Windows, or its Python, has not; 14 is what SIGALRM is elsewhere.
+# Missing on Windows, or in its Python; elsewhere SIGALRM is 14.
 LACKS = """
 import os, runpy, signal, sys
 import bokeh.server.server, numpy, panel, scipy  # which do not ask for it there
@@ -134,7 +134,7 @@ def test_scripts_are_sent_compressed_to_who_takes_that(path, server):
     assert answer.headers["Content-Encoding"] == head.headers["Content-Encoding"] == "gzip"
     assert int(head.headers["Content-Length"]) == len(packed)
     assert "Content-Encoding" not in plain.headers
-    for name in ("Content-Type", "Last-Modified", "Vary"):  # a cache keeps the two apart
+    for name in ("Content-Type", "Last-Modified", "Vary"):  # so that caches distinguish the two
         assert plain.headers[name] == answer.headers[name]
     assert plain.headers["Vary"] == "Accept-Encoding" and plain.headers["Etag"] != answer.headers["Etag"]
     part, body = fetch(server, "GET", path, Accept_Encoding="gzip", Range="bytes=5-14")
@@ -301,7 +301,7 @@ def test_all_workers_end_with_the_first_process(how, tmp_path):
         workers = workers_of(server.process.pid)
         assert len(workers) == 2
         until(lambda: server.log.count("serving") == 2, 60)
-        os.kill(int(workers[0]), signal.SIGKILL)  # one that is lost is replaced
+        os.kill(int(workers[0]), signal.SIGKILL)  # a lost worker is replaced
         until(lambda: len(workers_of(server.process.pid)) == 2 and workers[0] not in workers_of(server.process.pid))
         until(lambda: server.log.count("serving") == 3, 60)
         workers = workers_of(server.process.pid)

@@ -87,7 +87,7 @@ def test_the_files_for_many_replicas_set_what_there_is():
     assert (ROOT / proxy["volumes"][0].split(":")[0]).is_file()
 
     proxy = (ROOT / "deploy/haproxy.cfg").read_text(encoding="utf-8")
-    for believed in ("X-Real-IP", "X-Scheme"):  # by tornado, before the other two
+    for believed in ("X-Real-IP", "X-Scheme"):  # by tornado, which prefers them to the other two
         assert f"http-request del-header {believed}" in proxy
 
     first, *others = yaml.safe_load_all((ROOT / "deploy/kubernetes.yaml").read_text(encoding="utf-8"))

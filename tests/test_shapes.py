@@ -229,7 +229,7 @@ def test_scaling(name, factor):
         kept = {"density", "core_density", "a", "I1", "I3"}
         sizes = {f.name: grow(getattr(shape, f.name)) for f in fields(shape) if f.name not in kept}
         larger = replace(shape, **sizes | ({"M": factor**3 * shape.M} if "M" in sizes else {}))
-    filled = getattr(shape, "disc", 0)  # steel, which has the one density
+    filled = getattr(shape, "disc", 0)  # steel, whose density is fixed
     for other in (larger,) if filled else (larger, shape.with_mass(factor * shape.mass)):
         assert (other.top.a, other.top.I1, other.top.I3) == pytest.approx(
             (shape.top.a, shape.top.I1, shape.top.I3), rel=1e-9, abs=1e-12)  # fmt: skip
@@ -371,11 +371,11 @@ def test_a_rounded_stem(share):
     assert shape.mass == pytest.approx(PAPER.M, rel=1e-12)
     angle, points = shape.touch_angle, shape.profile(1000)
     assert lowest(points, angle - 1e-3) == pytest.approx(shape.R, rel=1e-5)
-    if share < 1:  # else the cut's rim is the first
+    if share < 1:  # otherwise the rim of the cut touches first
         assert lowest(points, angle + 1e-2) > shape.R * (1 + 1e-4)
         assert shape.edge == pytest.approx((q / shape.R, (shape.c + shape.l - b) / shape.R, b / shape.R))
     assert load_top(save_top(shape)) == shape
-    assert "rounding" not in save_top(PAPER)  # as before there was one
+    assert "rounding" not in save_top(PAPER)  # as in files from before it existed
     for bad in (-1e-4, 1.01 * PAPER.r, float("nan")):
         with pytest.raises(TopError, match="rounding"):
             replace(PAPER, rounding=bad)

@@ -33,11 +33,11 @@ def opened(monkeypatch):
         monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
     for where in ("app.widgets.pacing", "app.share.share"):
         monkeypatch.setattr(f"{where}.after", lambda seconds, then: timers.append(then))
-    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
+    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: results come at once
 
     def rest():
         for _ in range(40):
-            made[Pacer]._requested -= 9  # it is long ago
+            made[Pacer]._requested -= 9  # as if long ago
             made[Share]._changed_at -= 9
             made[Pacer].painted.painted = made[Pacer].painted.sent
             if timers:
@@ -112,7 +112,7 @@ def test_a_run_is_saved_with_its_own_link_until_the_next_has_come(opened, monkey
     what, link, _ = seen.share._files._saves["csv"]._state()
     assert seen.house.lab_of.busy and "spin=12" in seen.share._head.link
     assert "spin=15" in link and f"{what.setup.state.omega3:.6g}" == f"{15 * _turn(what):.6g}"
-    assert len(held) == 1  # that it is solved how this rolls has not had it begun again
+    assert len(held) == 1  # solving how this rolls has not started it again
     held[0].done(held[0].result())
     what, link, _ = seen.share._files._saves["csv"]._state()
     assert "spin=12" in link and f"{what.setup.state.omega3:.6g}" == f"{12 * _turn(what):.6g}"

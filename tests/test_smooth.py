@@ -87,7 +87,7 @@ def test_ten_thousand_nutations_keep_everything():
     assert np.abs(moved.jellett / moved.jellett[0] - 1).max() < 1e-12
     turns = gliding(np.array([0, 1e4]) * gliding.period).phi
     assert turns[1] - turns[0] == pytest.approx(1e4 * gliding.phi_advance, rel=1e-12)
-    np.testing.assert_allclose(np.diff(moved.com[:, :2], 2, axis=0), 0, atol=1e-8)  # a straight line, evenly
+    np.testing.assert_allclose(np.diff(moved.com[:, :2], 2, axis=0), 0, atol=1e-8)  # a straight line at constant speed
 
 
 def test_no_friction_never_flips():

@@ -35,7 +35,7 @@ class Views:
     def __init__(self, room="lab", **inputs):
         self.explorer, self.room = Explorer(**arrives() | inputs), room
         self.lab, self.planes = Lab(start=self.explorer), Planes(self.explorer)
-        self.lab.rest = lambda: None  # where all spins end is no part of it
+        self.lab.rest = lambda: None  # the ends for all spins are not needed here
         self.start = OneStart(self.explorer, self.lab)
         self.start.have(self.planes)
         self.lab.show()
@@ -169,7 +169,7 @@ def test_the_hand_and_what_rolls_are_two_faces_of_one_start(views):
     views.lab.ask(spin=20.0, tilt=30.0)
     views.go("roll")
     before = constants(views.explorer)
-    views.explorer.given = "state"  # by what rolls: the same motion
+    views.explorer.given = "state"  # given by the rolling motion: the same motion
     assert constants(views.explorer) == pytest.approx(before, rel=1e-14) and views.explorer.scene.lost == 0
     assert views.explorer.tilt == pytest.approx(30.0) and abs(views.explorer.spin) < 20.0
     views.lab.ask(spin=21.0)
@@ -305,7 +305,7 @@ def test_a_link_of_each_step_opens_the_same_and_undo_goes_back_through_the_table
         assert house.explorer.mu == 0.2
         house.keep.undo()  # the law
         assert (house.explorer.law, house.explorer.K_J) == (steps[4]["law"], 4.0)
-        house.keep.undo()  # what rolls
+        house.keep.undo()  # the rolling motion
         assert (house.explorer.given, house.explorer.spin, house.explorer.tilt) == ("hand", 21.0, 12.0)
         for _ in range(3):
             house.keep.redo()

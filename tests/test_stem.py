@@ -77,7 +77,7 @@ TIMES = np.linspace(0.0, 20.0, 101)
 
 def starts(name):
     """Starts between upright and the stem's first touch, at the spins of a hand; both laws in turn."""
-    fastest = 4.0 if name == "cone" else 9.0  # a peg far below G: faster, it does little but hop
+    fastest = 4.0 if name == "cone" else 9.0  # a peg far below G: a faster one mostly hops
     rng = np.random.default_rng([23, *name.encode()])
     for i in range(EACH):
         tilt, (theta_dot, omega2) = rng.uniform(0.02, 0.98 * BODIES[name][2]), 0.3 * rng.normal(size=2)

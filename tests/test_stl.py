@@ -43,7 +43,7 @@ def assert_closed_and_outward(normals, corners):
         a, b, c = (corner.tobytes() for corner in triangle)
         assert len({a, b, c}) == 3
         edges.update([(a, b), (b, c), (c, a)])
-    # every directed edge once, and its reverse once: two triangles an edge, turned alike
+    # every directed edge once, and its reverse once: two triangles per edge, with the same orientation
     assert set(edges.values()) == {1}
     assert all((b, a) in edges for a, b in edges)
     wound = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).astype(float)
@@ -71,7 +71,7 @@ def test_stl_of_any_lathe_profile_is_closed(steps, height):
 def test_stl_has_the_bodys_volume_centre_and_inertia(name):
     """In mm and unit density. Flat faces cost 1/sides^2; two meshes take that away and leave single precision."""
     shape = SOLID[name]
-    if name in ("Loaded sphere", "vase"):  # a mesh knows one density
+    if name in ("Loaded sphere", "vase"):  # a mesh has only one density
         pieces = shape.solid.slices[:1] if name == "Loaded sphere" else shape.solid.slices
         solid = type(shape.solid)(tuple(replace(piece, density=1.0) for piece in pieces))
     elif getattr(shape, "disc", 0):

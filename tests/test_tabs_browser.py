@@ -14,7 +14,7 @@ pytestmark = pytest.mark.served
 ROOT = Path(__file__).parent.parent
 SERVE = "\nfrom app.__main__ import run\nrun()"
 
-# What Panel makes of the map's figure, or the view of the tab itself, fails once; the figures of the tops come late.
+# Panel's part for the figure of the map, or the view of the tab, fails once; the figures of the tops come late.
 IN_PANEL = """
 from panel.pane.plot import Bokeh
 failed_in_panel, real_in_panel = [], Bokeh._get_model
@@ -46,7 +46,7 @@ def fails_in_hooks(self, root, changed=None, old_models=None):
     return real_in_hooks(self, root, changed, old_models)
 Viewable._preprocess = fails_in_hooks
 """
-# The view waits for a file, and so does the whole server; the first map is never done.
+# The view waits for a file, and the whole server with it; the first map never finishes.
 SLOW = """
 import os, sys, time
 import app.tabs.families.compare as compare, app.page.house as page
@@ -72,7 +72,7 @@ def work(self, *arguments):
         print("ENDED", flush=True)
 page.House.families, compare.share_map, compare.Compare._work = late, endless, work
 """
-# How many rows of the map are there
+# The number of finished rows of the map.
 ROWS = """() => {
   const map = [...Bokeh.documents[0]._all_models.values()].find((m) => m.name == "map" && m.renderers)
   const share = map?.renderers[0].data_source.data.share[0] ?? []
@@ -111,7 +111,7 @@ def test_a_tab_that_cannot_be_made_says_so_costs_nothing_and_can_be_opened_again
         for _ in FAILURES:
             go_to(page, "Families")
             alert.wait_for()
-            go_to(page, "Build a top")  # another one, after it
+            go_to(page, "Build a top")  # another tab, after that
             page.get_by_role("button", name="Save this top").wait_for()
             assert not alert.is_visible()
         go_to(page, "Families")
@@ -129,7 +129,7 @@ def test_a_click_is_answered_at_once_and_leaving_ends_what_was_under_way(chromiu
     with broken(SLOW.replace("GO", repr(str(go))), tmp_path) as server:
         Visit(page, server.url)
         go_to(page, "Families")
-        page.get_by_text("This tab is loading").locator("visible=true").wait_for()  # with the server at a standstill
+        page.get_by_text("This tab is loading").locator("visible=true").wait_for()  # while the server is blocked
         assert not page.locator("[data-figure=plane]").first.is_visible()
         assert page.get_by_role("tab", name="Maps").get_attribute("aria-selected") == "true"
         go.touch()

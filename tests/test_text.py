@@ -16,7 +16,7 @@ from app.text import DEFAULT, LANGUAGES, preferred, say, written
 
 OTHERS = [language for language in LANGUAGES if language != DEFAULT]
 
-# Values that are one in every language, by file.table.key: names, and keys of other tables.
+# Values that are equal in every language, by file.table.key: names, and keys of other tables.
 SAME = (
     "sources.*.short",
     "history.part.*.sources.*",
@@ -179,7 +179,7 @@ def bare(words):
         "en;q=0.5,\tde": "de",
         "en;Q=0.5, de;Q=0.6": "de",
         ", ,de,": "de",
-        # what is no weight, or no tag, is passed over
+        # invalid weights and tags are ignored
         "de;q=2, en;q=0.1": "en",
         "de;q=nan, en": "en",
         "de;q=-1, en": "en",
@@ -188,7 +188,7 @@ def bare(words):
         "de_DE, en": "en",
         "<script>, de": "de",
         "x" * 10_000: "en",
-        "fr," * 10_000 + "de": "en",  # nobody speaks so many
+        "fr," * 10_000 + "de": "en",  # too many languages
     }.items(),
 )
 def test_what_a_browser_asks_for(header, language):

@@ -42,7 +42,7 @@ def test_the_toy_rises_stands_and_falls(radius, rad_s, right_angle, up, down):
     seconds = 1.2 * down
     t, moved = spun(rad_s, Contensou(0.3, radius), seconds)
     step = t[1]
-    # it nods across 90 degrees, and how finely a program looked says which of the nods it called the first
+    # it nods across 90 degrees, and the time step of a program decides which nod counts as the first
     above = moved.theta > np.pi / 2
     crossings = t[1:][above[1:] & ~above[:-1]]
     assert np.abs(crossings - right_angle).min() < 0.006 + step and crossings[0] < right_angle + 0.006 + step

@@ -27,7 +27,7 @@ def functions():
                     part = part.fget
                 elif isinstance(part, cached_property):
                     part = part.func
-                part = getattr(part, "__func__", part)  # of a class method
+                part = getattr(part, "__func__", part)  # of a classmethod
                 written = getattr(part, "__module__", "") == module.__name__
                 if inspect.isfunction(part) and written and (inner in SPECIAL or not inner.startswith("_")):
                     yield f"{module.__name__}.{name}.{inner}", part

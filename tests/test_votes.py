@@ -149,7 +149,7 @@ async def walks(page, first, second):
     await counted(page, 2)
     assert room(first)["mine"] == "over"
 
-    # another class comes in
+    # another class starts
     await wishes(page, "reset")
     await counted(page, 0)
     await first.until(lambda: room(first).get("mine") is None)
@@ -180,7 +180,7 @@ def test_two_servers_are_one_class(kind, tmp_path, request):
         await counted(page, 1)
         assert room(page)["counts"] == [] and "counts" not in room(first)
 
-        # the teacher's connection is cut, and his server gone: his link opens the room at another
+        # the teacher loses the connection and the server: his link opens the room at another one
         page.visitor.leave()
         end_of_one()
         page = await teacher(other.url, key)
@@ -198,7 +198,7 @@ def test_two_servers_are_one_class(kind, tmp_path, request):
 
         await walks(page, first, second)
 
-        # whoever has another key has another room
+        # another key belongs to another room
         stranger = await teacher(other.url, f"{code}.{'x' * 22}")
         await hears(stranger, say("teach.vote.over"))
 
@@ -258,7 +258,7 @@ def test_a_redis_that_goes_is_a_sentence_for_all_and_after_it_has_come_back_all_
         first = await student(server.url, "ABCDEF", "1", "de")
         await hears(first, say("teach.student.away", "de"))
         with redis_serving(port):
-            while not room(page).get("code"):  # one that was away is asked no oftener than every few seconds
+            while not room(page).get("code"):  # a store that was away is asked only every few seconds
                 await wishes(page, "present")
                 await asyncio.sleep(0.3)
             code = room(page)["code"]

@@ -77,12 +77,12 @@ def walk(monkeypatch):
     for kind in (House, Roll, Controls, ThreePlanes):
         monkeypatch.setattr(kind, "__init__", keeping(made, kind.__init__))
     monkeypatch.setattr("app.widgets.pacing.after", lambda seconds, then: timers.append(then))
-    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: what is computed comes at once
+    monkeypatch.setattr("app.page.house.Runs", lambda *session: Runs())  # no session: results come at once
     with set_curdoc(Document()):
 
         def rest():
             pacer = made[House].pacer
-            pacer._requested -= 1  # it is long ago
+            pacer._requested -= 1  # as if long ago
             for _ in range(30):
                 pacer.painted.painted = pacer.painted.sent
                 if timers:
@@ -123,7 +123,7 @@ def followers(pacer):
 def test_every_one_that_scenes_are_shown_to_is_a_station(walk):
     made, _, _ = walk("?v=1&tab=roll")
     stations = {getattr(owner, name).__qualname__ for owner, name in (*STATIONS, *FUNCTIONS)}
-    turned = {"Roll._show_hand", "WhenNear.show"}  # the first calls PlaneFigure's, the other what can be seen
+    turned = {"Roll._show_hand", "WhenNear.show"}  # the first calls that of PlaneFigure, the other visible parts
     assert {*followers(made[House].pacer)} - stations == turned
 
 
@@ -146,13 +146,13 @@ def test_the_walk_of_a_run_with_friction(walk):
 
 # ---- nobody else follows what is solved ----
 
-# {room: what is shown scenes there, besides what is shown them on every page}
+# {room: what shows scenes there, besides what shows them on every page}
 FOLLOW = {
     "lab": set(), "roll": None, "three-planes": {"Planes.follow"}, "families": {"Tops.show", "Compare.show"},
     "build-a-top": {"Build.show", "VerdictWords.show"}, "learn": {"Learn.show"}, "maps": {"Maps.show"},
     "measure": {"Measure.show"},
 }  # fmt: skip
-# And who hears besides that an input of the Explorer is another one: which of the planes is looked at.
+# And what else listens to an input of the Explorer: which of the planes is visible.
 HEARS = {"three-planes": {("table", "House.planes")}}
 
 
@@ -197,14 +197,14 @@ def test_a_room_is_told_of_scenes_by_the_pacer_alone(roomy, name):
     """A view that is created with the Explorer or the House, or that watches the Explorer, is noticed."""
     house, given = roomy
     before, heard = {*followers(house.pacer)}, {*hearers(house.explorer)}
-    if name != "roll":  # which is there
+    if name != "roll":  # which already exists
         house.makers[name]()
         assert {*followers(house.pacer)} - before == FOLLOW[name]
     assert {*hearers(house.explorer)} - heard == HEARS.get(name, set())
     assert {fn for parameter, fn in heard if parameter == "scene"} == {"Pacer._on_scene"}
-    assert {fn for _, fn in heard} == {"Pacer._on_scene", "tells"}  # the head says which top and which table
+    assert {fn for _, fn in heard} == {"Pacer._on_scene", "tells"}  # the head shows the top and the table
     known = [(kind.__name__, type(each).__name__) for kind, each in given if isinstance(each, (Explorer, House))]
-    assert known == [("Pacer", "Explorer")]  # between the hands and it
+    assert known == [("Pacer", "Explorer")]  # between requests and the Explorer
 
 
 # ---- the first tab ----
