@@ -86,6 +86,32 @@ def test_the_inside_is_chosen_where_a_body_has_one(builder, explorer):
     assert not bench.inside.view.visible and builder.draft.name == "Uniform ball"
 
 
+def test_a_material_sets_the_density_and_the_density_says_which_material_it_is(builder, explorer):
+    bench = Build(builder)
+    assert bench.material.view.value == "" and "other, 755.9 kg/m³" in bench.material.view.options
+    bench.material.view.value = "beech"
+    shape = explorer.scene.shape
+    assert shape.density == pytest.approx(710) and bench.material.view.value == "beech"
+    assert bench._knobs["density"].view.told[1] == pytest.approx(710)
+    assert (shape.top.a, shape.top.I1, shape.top.I3) == pytest.approx(
+        (lambda top: (top.a, top.I1, top.I3))(TruncatedSphere.paper().top))  # fmt: skip
+    builder.set("density", 675.2)
+    assert bench.material.view.value == "oak" and explorer.scene.shape.density == pytest.approx(675.2)
+    builder.set("M", 0.0115)
+    assert bench.material.view.value == ""
+    builder.choose("Loaded sphere")  # its core stays of steel
+    assert bench.material.view.value == "acrylic"
+    bench.material.view.value = "steel"
+    assert explorer.scene.shape.density == explorer.scene.shape.core_density == 7850
+    builder.choose("Free profile")
+    bench.material.view.value = "lime"
+    assert explorer.scene.shape.density == 535
+    builder.part_densities()
+    assert not bench.material.view.visible
+    builder.choose("Top S")
+    assert not bench.material.view.visible
+
+
 def test_every_dimension_of_an_inside_is_within_its_slider():
     for preset in PRESETS:
         if inside(preset.shape):
@@ -149,7 +175,7 @@ def test_the_verdict_is_that_of_the_run():
     impossible."""
     toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
     found = verdict(toy)
-    assert (found.code, found.headline) == ("over", "Yes, it turns over.")
+    assert (found.code, found.headline) == ("over", "Yes: on an ordinary table it turns over.")
     assert "past 90° after 1.0 s. It stands on its stem after 1.5 s. It starts to fall at 4.5 s." in found.why
     round_ = verdict(changed(toy, "a", 0.0))
     assert round_.code == "not" and "its tilt is between" in round_.why
@@ -170,9 +196,9 @@ def test_the_words_beside_the_body_are_of_that_body():
     assert "Working out" in told.view.object
     toy = next(preset.shape for preset in PRESETS if preset.name.startswith("Leine"))
     told.show(SimpleNamespace(shape=toy, top=toy.top))
-    assert "Yes, it turns over." in told.view.object and "Working out" not in told.view.object
+    assert "Yes: on an ordinary table it turns over." in told.view.object and "Working out" not in told.view.object
     told.show(SimpleNamespace(shape=None, top=toy.top))  # set independently of a body: nothing is known of it
-    assert "Yes, it turns over." in told.view.object
+    assert "Yes: on an ordinary table it turns over." in told.view.object
 
 
 def ending_in(monkeypatch, error):

@@ -200,7 +200,7 @@ def test_stl(builder):
 @pytest.mark.parametrize(
     "shape",
     [*(preset.shape for preset in PRESETS), replace(TruncatedSphere.paper(), l=0.0, r=0.0),
-     *(filled(TruncatedSphere.paper(), kind) for kind in KINDS)],
+     replace(TruncatedSphere.paper(), rounding=0.0015), *(filled(TruncatedSphere.paper(), kind) for kind in KINDS)],
     ids=lambda s: type(s).__name__,
 )  # fmt: skip
 def test_a_handle_pulled_to_where_it_is_changes_nothing(shape):
@@ -220,6 +220,19 @@ def test_a_handle_goes_where_the_hand_is(preset):
             there = handles(other)[name]
             assert pulled(preset.shape, name, *there) == pytest.approx(
                 value, abs=5e-4 if name == "a" else 5.1e-6), name  # fmt: skip
+
+
+def test_the_rounding_is_pulled_from_a_sharp_edge_to_half_a_ball_and_no_further():
+    shape = TruncatedSphere.paper()
+    r, top = shape.r, shape.c + shape.l
+    for b in (0.001, 0.002, r):
+        there = handles(replace(shape, rounding=b))["rounding"]
+        # on the edge, whose centre is b from the side and from the end
+        assert np.hypot(there[0] + r - b, there[1] - top + b) == pytest.approx(b)
+        assert pulled(shape, "rounding", *there) == pytest.approx(b)
+    assert pulled(shape, "rounding", -2 * r, top + 0.01) == 0
+    assert pulled(shape, "rounding", 0.0, top - 0.01) == r
+    assert pulled(replace(shape, l=0.001), "rounding", 0.0, top - 0.02) == 0.001
 
 
 def test_a_density_sets_the_mass_and_a_mass_the_densities(builder):

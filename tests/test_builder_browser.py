@@ -109,6 +109,18 @@ def test_every_preset_shows_its_numbers_and_its_source(bench):
         assert bench.page.locator("[role=alert]").locator("visible=true").count() == 0
 
 
+def test_the_end_of_the_stem_is_rounded_by_hand_and_the_material_chosen(bench):
+    choose(bench, PRESETS[1])
+    choose(bench, PRESETS[0])
+    drag(bench, (-3.2, 27.4), (-2.4, 26.6))
+    bench.page.get_by_role("combobox", name="Material").click()
+    bench.page.get_by_role("listbox").get_by_role("option", name="beech, 710 kg/m³", exact=True).click()
+    bench.page.get_by_text("density 710 kg/m³").locator("visible=true").wait_for()
+    top = load_top(download(bench, "Save this top"))
+    assert top.rounding == pytest.approx(0.8e-3 / (1 - np.sqrt(0.5)), abs=5e-4)
+    assert top.density == pytest.approx(710)
+
+
 def test_a_dragged_handle_changes_number_section_and_the_top_in_3d(bench):
     choose(bench, PRESETS[1])
     choose(bench, PRESETS[0])
@@ -218,7 +230,8 @@ def test_who_explores_sees_the_top_beside_its_section_without_greek(server, chro
     page = chromium.new_page(viewport={"width": 1400, "height": 900})
     page.goto(server + "?v=2&tab=build-a-top&level=explore", timeout=PATIENCE)
     section, top = (
-        page.get_by_role("heading", name=name) for name in ("The body, cut along its axis", "The top, as it will spin")
+        page.get_by_role("heading", name=name)
+        for name in ("The body, cut along its axis", "The top on a rough table, where it only rolls")
     )
     top.wait_for()
     page.get_by_role("button", name="Save this top").wait_for()

@@ -1,6 +1,6 @@
 """What a truncated sphere can have inside: a hole turned into its cut, around the stem, and a disc of steel in it."""
 
-from math import inf, sqrt
+from math import inf, pi, sqrt
 
 from ..errors import TopError
 from .ranges import SMALLEST, in_range
@@ -15,27 +15,34 @@ def check_hole(R: float, c: float, r: float, hole: float, depth: float) -> None:
     in_range("depth", depth, SMALLEST, c + R, "m", below=True, code="hole-too-deep",
              why="or it goes through the bottom")  # fmt: skip
     # the sphere is wider between its floor and the cut
-    wide = min(_across(R, c), _across(R, c - depth))
+    wide = min(across(R, c), across(R, c - depth))
     in_range("hole", hole, r, wide, "m", above=True, below=True, code="hole-too-wide",
              why="wider than the stem, and a wall is left around it")  # fmt: skip
 
 
-def check_disc(R: float, below: float, M: float, disc: float, thickness: float, height: float, mass: float) -> None:
-    """Raises TopError unless a disc of this mass is in the wood: its lower face at a height above the sphere's lowest
-    point, its upper one not above `below`."""
+def check_disc(R: float, below: float, M: float, disc: float, thickness: float, height: float) -> None:
+    """Raises TopError unless the steel disc is lighter than the whole and in the wood: its lower face at a height above
+    the sphere's lowest point, its upper one not above `below`."""
     if not _given(disc=disc, thickness=thickness, height=height):
         return
     room, why = below + R, "or the disc sticks out"
     in_range("height", height, 0, room, "m", above=True, below=True, code="disc-sticks-out", why=why)
     in_range("thickness", thickness, 0, room - height, "m", above=True, code="disc-sticks-out", why=why)
-    wide = min(_across(R, height - R), _across(R, height + thickness - R))
+    wide = min(across(R, height - R), across(R, height + thickness - R))
     in_range("disc", disc, 0, wide, "m", above=True, below=True, code="disc-sticks-out", why=why)
+    mass = STEEL * volume_of_disc(disc, thickness)
     in_range("M", M, mass, inf, "kg", above=True, code="lighter-than-its-disc", why="more than the disc alone")
 
 
-def _across(R: float, z: float) -> float:
-    """The radius of the sphere at the height z above O."""
+def across(R: float, z: float) -> float:
+    """The radius of the circle in which a plane at the height z above O cuts the sphere of radius R about O; 0 beyond
+    the sphere."""
     return sqrt(max((R - z) * (R + z), 0.0))
+
+
+def volume_of_disc(disc: float, thickness: float) -> float:
+    """pi r^2 h of a disc, also of one that cannot be."""
+    return pi * disc**2 * thickness
 
 
 def _given(**sizes: float) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import TopError, finite
 from ..paper.top import Top
 from ..types import Number, Rim
-from .inside import STEEL, check_disc, check_hole
+from .inside import STEEL, across, check_disc, check_hole, volume_of_disc
 from .ranges import LONG, MOST_POINTS, SMALLEST, THINNEST, check_stem, in_range, rows_of, weight
 from .shape import OneMaterial, Shape, Turned, check_one_piece
 from .slices import DENSEST, LARGEST
@@ -56,21 +56,18 @@ class TruncatedSphere(OneMaterial):
         if not any(let_in.values()):
             return whole
         disc, thickness = (finite(name, let_in[name]) for name in ("disc", "thickness"))
-        return replace(whole, M=whole.M + (STEEL - whole.density) * np.pi * disc**2 * thickness, **let_in)
+        return replace(whole, M=whole.M + (STEEL - whole.density) * volume_of_disc(disc, thickness), **let_in)
 
     def _check(self) -> None:
         in_range("c", self.c, -self.R, self.R, "m", above=True, code="cut-misses",
                  why="the cut goes through the sphere")  # fmt: skip
-        cut = sqrt((self.R - self.c) * (self.R + self.c))
-        in_range("r", self.r, 0, cut, "m", code="stem-too-wide", why="the radius of the face it stands on",
-                 remedy="Make it thinner, or the face wider.")  # fmt: skip
+        in_range("r", self.r, 0, across(self.R, self.c), "m", code="stem-too-wide",
+                 why="the radius of the face it stands on", remedy="Make it thinner, or the face wider.")  # fmt: skip
         in_range("l", self.l, 0, LONG, "m")
         check_stem(self.r, self.l)
         in_range("rounding", self.rounding, SMALLEST if self.rounding > 0 else 0, min(self.r, self.l), "m")
         check_hole(self.R, self.c, self.r, self.hole, self.depth)
-        # checked before it is a solid: that of what cannot be is none
-        weighs = STEEL * np.pi * self.disc**2 * self.thickness
-        check_disc(self.R, self.floor, self.M, self.disc, self.thickness, self.height, weighs)
+        check_disc(self.R, self.floor, self.M, self.disc, self.thickness, self.height)
 
     @property
     def floor(self) -> float:

@@ -21,8 +21,11 @@ from tippe_core import (
     TruncatedSphere,
     Turned,
 )
+from tippe_core.bodies.inside import across
 from tippe_core.bodies.shape import OneMaterial
 from tippe_core.bodies.slices import LARGEST
+
+CORNER = 1 - math.sqrt(0.5)  # of the radius of a rounded edge: how far its middle is from both faces
 
 Value: TypeAlias = Any  # the type of a field: a number, a tuple of numbers or of points, a Solid
 
@@ -182,9 +185,9 @@ def handles(shape: Shape) -> dict[str, tuple[float, float]]:
     R = shape.R
     side = (R * np.sqrt(0.5), -R * np.sqrt(0.5))
     if isinstance(shape, TruncatedSphere):
-        cut = np.sqrt((R - shape.c) * (R + shape.c))
-        at = {"R": side, "c": (-cut, shape.c)} | inside_handles(shape)
-        return at | {"r": (shape.r, shape.c + shape.l / 2), "l": (0.0, shape.c + shape.l)} if shape.l else at
+        at = {"R": side, "c": (-across(R, shape.c), shape.c)} | inside_handles(shape)
+        stem = {"r": (shape.r, shape.c + shape.l / 2), "l": (0.0, shape.c + shape.l), "rounding": on_rounding(shape)}
+        return at | stem if shape.l else at
     if isinstance(shape, LoadedSphere):
         return {"R": side, "b": (shape.b, -shape.d), "d": (0.0, -shape.d)}
     if isinstance(shape, OrdinaryTop):
@@ -202,6 +205,12 @@ def handles(shape: Shape) -> dict[str, tuple[float, float]]:
     return {"R": side} if isinstance(shape, Ball) else {}
 
 
+def on_rounding(shape: TruncatedSphere) -> tuple[float, float]:
+    """The middle of the rounded edge of the stem's end, on its left, (x, z) in m."""
+    inwards = CORNER * shape.rounding
+    return inwards - shape.r, shape.c + shape.l - inwards
+
+
 def pulled(shape: Shape, name: str, x: float, z: float) -> float | tuple[float, float]:
     """The value of the dimension (SI, to 0.01 mm) for which its handle is nearest to (x, z)."""
     if name.startswith("point ") and isinstance(shape, Lathe):
@@ -212,6 +221,9 @@ def pulled(shape: Shape, name: str, x: float, z: float) -> float | tuple[float, 
         return (max(0.0, round(float(x), 5)), min(max(round(float(z), 5), low), high))
     if name in INSIDE and isinstance(shape, TruncatedSphere):
         value = inside_pulled(shape, name, x, z)
+    elif name == "rounding" and isinstance(shape, TruncatedSphere):
+        cut_off = (shape.r - abs(x)) + (shape.c + shape.l - z)
+        value = min(max(cut_off / (2 * CORNER), 0.0), shape.r, shape.l)
     elif name == "R" and isinstance(shape, Lathe):
         value = np.hypot(x, z)
     elif name == "R":

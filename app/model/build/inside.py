@@ -1,9 +1,9 @@
 """What a truncated sphere has inside: nothing, a hole around its stem, a disc of steel, or both."""
 
-import math
 from dataclasses import fields
 
 from tippe_core import Shape, TruncatedSphere
+from tippe_core.bodies.inside import across
 
 HOLE, DISC = ("hole", "depth"), ("disc", "thickness", "height")
 INSIDE = (*HOLE, *DISC)
@@ -37,13 +37,13 @@ def filled(shape: TruncatedSphere, kind: str) -> TruncatedSphere:
     if "hole" in names and not shape.hole:
         below = sizes["height"] + sizes["thickness"]  # the room that a disc leaves in the sphere
         depth = sizes["depth"] = _mm(min(TOY["depth"] * R, HALF * (c + R - below)))
-        room = min(_across(R, c), _across(R, c - depth)) - shape.r
+        room = min(across(R, c), across(R, c - depth)) - shape.r
         sizes["hole"] = _mm(min(max(TOY["hole"] * R, shape.r + QUARTER * room), shape.r + MOST * room))
     if "disc" in names and not shape.disc:
         room = c + R - sizes["depth"]
         height = sizes["height"] = _mm(min(TOY["height"] * R, QUARTER * room))
         thickness = sizes["thickness"] = _mm(min(TOY["thickness"] * R, HALF * (room - height)))
-        wide = min(_across(R, height - R), _across(R, height + thickness - R))
+        wide = min(across(R, height - R), across(R, height + thickness - R))
         sizes["disc"] = _mm(min(TOY["disc"] * R, MOST * wide))
     return with_inside(shape, **sizes)
 
@@ -65,11 +65,6 @@ def inside_pulled(shape: TruncatedSphere, name: str, x: float, z: float) -> floa
     if name == "depth":
         return shape.c - z
     return {"height": z + shape.R, "thickness": z + shape.R - shape.height}.get(name, abs(x))
-
-
-def _across(R: float, z: float) -> float:
-    """The radius of the sphere at the height z above O."""
-    return math.sqrt(max((R - z) * (R + z), 0.0))
 
 
 def _mm(length: float) -> float:

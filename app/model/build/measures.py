@@ -3,7 +3,9 @@
 import math
 from typing import NamedTuple, TypeAlias
 
+from app.model.build.dimensions import on_rounding
 from tippe_core import BareSphere, Lathe, LoadedSphere, OrdinaryTop, Shape, StemmedSphere, TruncatedSphere, Turned
+from tippe_core.bodies.inside import across
 
 Point: TypeAlias = tuple[float, float]
 LOWER_LEFT = (-math.sqrt(0.5), -math.sqrt(0.5))
@@ -28,6 +30,11 @@ class Measure(NamedTuple):
         return self.name in LEFT
 
     @property
+    def is_outside(self) -> bool:
+        """Whether its number is beyond its end, outside the body."""
+        return self.name in OUTSIDE or self.start[1] == self.end[1]
+
+    @property
     def is_shown(self) -> bool:
         """Whether it is also drawn when it is not being dragged."""
         return self.name not in WHILE_HELD
@@ -35,6 +42,7 @@ class Measure(NamedTuple):
 
 HEIGHTS = ("a", "c", "d", "h", "l", "t", "depth", "thickness", "height")
 LEFT = ("depth",)
+OUTSIDE = ("rounding",)
 WHILE_HELD = ("hole", "thickness", "height")  # otherwise there is no room for them
 
 
@@ -43,10 +51,13 @@ def measures(shape: Shape) -> list[Measure]:
     R = shape.R
     found = [] if isinstance(shape, Lathe | Turned) else [Measure("R", (0.0, 0.0), _along(R, LOWER_LEFT))]
     if isinstance(shape, TruncatedSphere):
-        rim = math.sqrt((R - shape.c) * (R + shape.c))
+        rim = across(R, shape.c)
         found.append(Measure("c", (0.0, 0.0), (rim, shape.c)))
         if shape.l:
             found += _stem(shape.r, shape.c, shape.l, rim)
+        if shape.rounding:
+            b = shape.rounding
+            found.append(Measure("rounding", (b - shape.r, shape.c + shape.l - b), on_rounding(shape)))
         found += _inside(shape)
     elif isinstance(shape, LoadedSphere):
         core = (0.0, -shape.d)

@@ -14,6 +14,7 @@ from app.model.build.dimensions import FAMILIES, named, value_of
 from app.model.build.inside import inside
 from app.state import asked
 from app.tabs.build.fields import grid, symbol
+from app.tabs.build.material import Material
 from app.tabs.build.section import Section
 from app.text import listed, say, written
 from app.widgets.cards import BUTTON, PLAIN, alert, beside, field, flow, note, on_click, words
@@ -153,6 +154,7 @@ class Build:
         self.source = words(styles={"min-height": SAYS})  # so that nothing below it moves when a hand changes the body
         self.presets = self._choice("presets", builder.choose)
         self.families = self._choice("family", builder.choose_family)
+        self.material = Material(lambda density: builder.set("density", density))
         self.inside = Inside(builder.fill)
         self.dimensions = pn.Column(sizing_mode="stretch_width", margin=0)
         self.section.figure.on_event("doubletap", self._tapped_twice)
@@ -219,7 +221,7 @@ class Build:
     def bench_view(self):
         """The inputs."""
         files = flow(self.saved, self.file, self.stl)
-        choices = grid(self.presets, self.families)
+        choices = grid(self.presets, self.families, self.material.view)
         return [
             choices,
             self.source,
@@ -259,6 +261,7 @@ class Build:
             self.parting.label = say(f"build.bench.{'one' if isinstance(draft.shape.density, tuple) else 'parts'}")
         self.pieces.show(draft.shape)
         self.inside.show(draft.shape)
+        self.material.show(draft.shape)
         for name, knob in self._knobs.items():
             if name in draft.messages:
                 knob.say(draft.messages[name])

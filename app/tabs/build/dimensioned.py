@@ -61,9 +61,9 @@ class Dimensioned:
                 said.append((at, (z + z1) / 2, text.replace(" ", "\n", 1), 6, 0, "left"))
             else:
                 lines.append((x, z, x1, z1, colour, thick))
-                slanted, left = z != z1, x1 < x
-                said.append((x1, z1, text, -12 if left else 12, 0, "right" if left else "left")
-                            if not slanted
+                left, up = x1 < x, z1 > z
+                said.append((x1, z1, text, -12 if left else 12, -8 if up else 0, "right" if left else "left")
+                            if measure.is_outside
                             else (x + ALONG * (x1 - x), z + ALONG * (z1 - z), text, 0, 0, "center"))  # fmt: skip
         drawn = (self.lines, lines), (self.tips, tips), (self.said, words[False]), (self.held, words[True])
         for source, rows in drawn:

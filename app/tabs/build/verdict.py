@@ -102,7 +102,8 @@ class VerdictWords:
 
     def _written(self, kind="", why=""):
         waits = f'<div role="status">{why or say("build.verdict.waits")}</div>' if kind or not self._said else ""
-        return f'<div class="verdict">{waits}<div class="{kind}">{self._said}</div></div>'
+        before = f"<div>{say('build.verdict.old')}</div>" if kind and self._said else ""
+        return f'<div class="verdict">{waits}{before}<div class="{kind}">{self._said}</div></div>'
 
 
 def strip_of(ends, why=""):

@@ -1,0 +1,33 @@
+"""The choice of what a body is made of, which sets its density."""
+
+import panel_material_ui as pmui
+
+from app.model.build.materials import MATERIALS, density_of, material
+from app.text import listed, say
+
+OTHER = ""  # because a select cannot show that nothing is chosen
+
+
+class Material:
+    """view: a select. choose: called with a density in kg/m^3."""
+
+    def __init__(self, choose):
+        self._silent, self._choose = False, choose
+        self._known = {say("build.bench.of_density", name=says, density=MATERIALS[name]): name
+                       for name, says in listed("build.materials").items()}  # fmt: skip
+        self.view = pmui.Select(label=say("build.bench.material"), options=self._known, value="lime", size="small",
+                                margin=(10, 6, 4, 0), sizing_mode="stretch_width")  # fmt: skip
+        self.view.param.watch(self._chosen, "value")
+
+    def _chosen(self, event):
+        if not self._silent and event.new:
+            self._choose(MATERIALS[event.new])
+
+    def show(self, shape):
+        density, name = density_of(shape), material(shape)
+        other = {} if name or density is None else {say("build.bench.other", density=density): OTHER}
+        self._silent = True
+        self.view.visible = density is not None
+        if density is not None:
+            self.view.param.update(options=other | self._known, value=name)
+        self._silent = False
