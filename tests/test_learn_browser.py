@@ -181,7 +181,7 @@ def fits(page):
     before = page.viewport_size
     page.set_viewport_size({"width": 1280, "height": 720})
     page.wait_for_function("() => innerHeight === 720")
-    for part in (".counted button:visible", ".bar", ".foot"):
+    for part in (".counted button:visible", "section.bar", ".foot"):
         box = page.locator(f".lesson.present {part}").bounding_box()
         assert box["y"] + box["height"] <= 720
     page.set_viewport_size(before)
