@@ -266,8 +266,8 @@ export class Stage {
     renderer.render(this.scene, this.camera);
     renderer.setRenderTarget(null);
     this.forget();
-    inWork += 1;
-    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0); // null if the browser has taken the context away
+    if (this.fence) inWork += 1;
     gl.flush();
     this.drawnAt = performance.now();
   }
