@@ -26,8 +26,7 @@ class Material:
     def show(self, shape):
         density, name = density_of(shape), material(shape)
         other = {} if name or density is None else {say("build.bench.other", density=density): OTHER}
+        options = other | self._known
         self._silent = True
-        self.view.visible = density is not None
-        if density is not None:
-            self.view.param.update(options=other | self._known, value=name)
+        self.view.param.update(visible=density is not None, options=options, value=name or next(iter(options.values())))
         self._silent = False
