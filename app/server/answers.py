@@ -5,7 +5,7 @@ import logging
 import os
 import re
 import sys
-from functools import lru_cache
+from functools import cache
 from http.client import responses
 from pathlib import Path
 
@@ -58,7 +58,7 @@ class Answer:
         self.finish(f"{status} {responses.get(status, 'Unknown')}\n")
 
 
-@lru_cache(128)
+@cache  # of all, so that nobody can have the same file compressed again and again: some 20 MB at most
 def compressed(path, modified):
     """A file compressed by gzip, in bytes; modified: when it was last modified, so that a newer file is read again."""
     return gzip.compress(Path(path).read_bytes(), mtime=0)

@@ -205,7 +205,7 @@ def _life(here: Cell, look: Look | None) -> Life:
     last = max(np.flatnonzero(on_it), default=-1)
     leaves = moved.supports[last + 1][0] * time if stems and not on_it[-1] else np.nan
     stands = stems[0] if stems else np.nan
-    slips = 1 + np.flatnonzero(moved.regime != "roll")[-1:].sum()
-    rolls = moved.t[slips] * time if slips < len(moved.t) else np.nan
+    slips = max(np.flatnonzero(moved.regime != "roll"), default=0)
+    rolls = moved.t[slips + 1] * time if slips + 1 < len(moved.t) else np.nan
     return Life(moved.t * time, np.abs(moved.jellett / launch(here)), np.degrees(moved.theta), stands, leaves, rolls,
                 float(moved.t[-1] * time), float(np.degrees(moved.theta[-1])))  # fmt: skip

@@ -67,8 +67,9 @@ def settled(table: Table, rate: float = 0.0) -> Data:
             raise MeasuredError("twice", first=alike[0], second=alike[1])
     time = next((column for column in used if column.quantity == "time"), None)
     if time is None:
-        code = "no-names" if any(code == "no-header" for code, _ in table.notes) else "no-time-column"
-        raise MeasuredError(code, line=table.lines[0] if code == "no-names" else max(table.lines[0] - 1, 1))
+        if any(code == "no-header" for code, _ in table.notes):
+            raise MeasuredError("no-names", line=table.lines[0])
+        raise MeasuredError("no-time-column", line=max(table.lines[0] - 1, 1))
     if time.unit == "frames" and not rate > 0:
         raise MeasuredError("rate", rate=rate)
     known = np.isfinite(time.values)
