@@ -5,7 +5,6 @@ names; phyphox puts names and units in quotes; spreadsheets use semicolons and d
 raises a MeasuredError with its line; what was read but left out is a note of the Table.
 """
 
-import itertools
 import math
 import re
 from collections.abc import Iterator
@@ -159,8 +158,11 @@ def _names(heads: list[list[str]]) -> list[str] | None:
     if len(heads) > 1 and all(not cell or _bare(cell) in _UNIT for cell in heads[-1]) and any(heads[-1]):
         return [f"{name} ({_bare(unit)})" if unit else name for name, unit in zip(*heads[-2:], strict=True)]
     if len(heads) > 1 and len(set(heads[-1])) < len(heads[-1]) and not heads[-2][0]:
-        points = itertools.accumulate(heads[-2], lambda before, point: point or before)
-        return [f"{point} {name}".strip() for point, name in zip(points, heads[-1], strict=True)]
+        names, point = [], ""
+        for above, name in zip(*heads[-2:], strict=True):
+            point = above or point
+            names.append(f"{point} {name}".strip())
+        return names
     return heads[-1] if heads else None
 
 
