@@ -15,6 +15,7 @@ from app.model.measured import shown
 from app.model.measured.data import settled
 from app.model.measured.examples import EXAMPLES, FOLDER, example
 from app.model.measured.kept import kept
+from app.model.measured.made import LAW, found_of_example, made_anew
 from app.model.measured.table import read
 from app.model.measured.work import LONGEST
 from app.tabs.measure.measure import Measure
@@ -32,6 +33,20 @@ def test_an_example_is_what_its_program_makes(name):
     for one, other in zip(there.columns, made.columns, strict=True):
         assert one.name == other.name
         assert abs(one.values - other.values).max() < 0.011
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_stored_fit_of_an_example_is_what_its_program_finds(name):
+    stored, anew = found_of_example(name, LAW, ()), made_anew(name)
+    for one, other in zip(stored.fits, anew.fits, strict=True):
+        assert one.unknown == other.unknown and one.sure == other.sure
+        assert one.chi2 == pytest.approx(other.chi2, rel=1e-3)
+        for number, error in other.errors.items():
+            assert abs(one.model.values[number] - other.model.values[number]) < 0.1 * error
+            assert one.errors[number] == pytest.approx(error, rel=0.02)
+        if not one.refused:
+            np.testing.assert_allclose(one.correlation, other.correlation, atol=0.01)
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from app.model.measured.known import Known, _far, known
 from app.model.measured.motion import Residuals, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import shown
-from app.tabs.measure.words import kept_words, numbers_table
+from app.tabs.measure.words import kept_words, models_table, numbers_table
 from tippe_core import Constants, Scales, Top
 
 TOP, SCALES = Top.paper(), Scales.paper()
@@ -177,6 +177,13 @@ def test_numbers_that_move_together_are_said_to_go_the_same_way_or_the_other(r, 
 def test_the_numbers_of_a_model_that_does_not_fit_are_said_to_be_worth_nothing():
     assert "say nothing of the top" in numbers_table(alike(3.0)) and alike(3.0).refused
     assert "say nothing of the top" not in numbers_table(alike(0.9))
+
+
+def test_a_search_that_ended_at_different_places_is_said_of_a_fit_that_fits():
+    found = replace(alike(0.95), sure=False)
+    assert "there may be a better fit" in numbers_table(found)
+    assert "perhaps not the best fit" in models_table(found, alike(0.7))
+    assert "there may be a better fit" not in numbers_table(alike(0.95))
 
 
 @pytest.mark.parametrize("shares", [("K_R",), ("K_R", "K_J")])

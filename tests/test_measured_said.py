@@ -80,8 +80,8 @@ def test_residuals_that_keep_their_sign_for_too_long_refuse_a_model():
 
 
 def test_where_a_film_looks_from_costs_numbers():
-    """An azimuth one, where it is counted from; a track three: its place and its direction."""
-    for names, count in (("tilt", 0), ("azimuth", 1), ("x y", 3), ("azimuth tip_x tip_y", 4)):
+    """An azimuth one, where it is counted from; a track three: its place and its direction; from the side two."""
+    for names, count in (("tilt", 0), ("azimuth", 1), ("x y", 3), ("azimuth tip_x tip_y", 4), ("tip tip_side", 2)):
         data = Data(MappingProxyType({name: Series(T, T, 0.1) for name in names.split()}))
         assert shifted(data) == count
 

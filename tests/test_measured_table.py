@@ -25,6 +25,7 @@ SHEET = table("Zeit/s;Neigung [Grad];Drehzahl (U/min)", ";", ",")
 NAMED = table("t_ms tilt_deg spin", " ")
 UNITS_BELOW = table("a wooden top\nt,tilt,spin\n(s),deg,rev/s", ",")
 IN_WORDS = table("Zeit in s;Neigung in Grad;Drehzahl in U/s", ";", ",")
+SIDE = table("t;stem tip from the side (mm);height of tip (mm)", ";", ",")
 PHONE_ONE = table('"Time (s)"\t"Angular velocity (rad/s)"\t"Acceleration (m/s^2)"', "\t")
 GERMAN_PHONE = table('"Zeit (s)"\t"Winkelgeschwindigkeit x (rad/s)"\t"Winkelgeschwindigkeit z (rad/s)"', "\t", ",")
 
@@ -39,6 +40,10 @@ GERMAN_PHONE = table('"Zeit (s)"\t"Winkelgeschwindigkeit x (rad/s)"\t"Winkelgesc
         (UNITS_BELOW, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
         (IN_WORDS, [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
         (GERMAN_PHONE, [("time", "s"), ("", ""), ("spin", "rad/s")]),
+        (
+            table("t,stem tip from the side (mm),height of tip (mm)", ","),
+            [("time", "s"), ("tip_side", "mm"), ("tip", "mm")],
+        ),
         (PHONE_ONE, [("time", "s"), ("spin", "rad/s"), ("", "")]),
         (table("t tilt spin", " ", ","), [("time", "s"), ("tilt", "deg"), ("spin", "rev/s")]),
     ],

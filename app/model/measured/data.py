@@ -9,6 +9,8 @@ from app.model.measured.table import UNITS, Column, MeasuredError, Table
 from tippe_core.types import Array
 
 TOGETHER = (("x", "y"), ("tip_x", "tip_y"))
+HANDED = {"spin", "precession", "azimuth", "x", "tip_x"}
+"""Quantities that tell a motion from its mirror image. A film from the side does not: it may be from either side."""
 CAN_BE = {
     "tilt": (-0.5, np.pi + 0.5),
     "spin": (-4000.0, 4000.0),
@@ -39,6 +41,11 @@ class Data:
     def t(self) -> Array:
         """All times, each once, in ascending order."""
         return np.unique(np.concatenate([series.t for series in self.series.values()]))
+
+    @property
+    def handed(self) -> bool:
+        """Whether these data tell a motion from its mirror image."""
+        return not HANDED.isdisjoint(self.series)
 
     def between(self, start: float, end: float) -> "Data":
         """The Data from start to end (s). Raises MeasuredError if they are fewer than eight values."""

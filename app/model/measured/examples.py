@@ -1,7 +1,7 @@
-"""The examples of the tab Measure, computed by tippe_core with noise; `python -m app.model.measured.examples` writes
-them.
+"""The examples of the tab Measure, computed by tippe_core with noise.
 
-All are for the paper's top. None of them was filmed, and their names say so.
+All are for the paper's top. None of them was filmed, and their names say so. `python -m app.model.measured.made` writes
+them with their fits.
 """
 
 from pathlib import Path
@@ -48,14 +48,3 @@ def example(name: str) -> str:
     rows = [between.join(f"{x:.{2 if i else 4}f}" for i, x in enumerate(row)) for row in zip(*columns, strict=True)]
     made = "# Nobody filmed this: made by tippe_core with noise, of the paper's top."
     return "\n".join([made, between.join(heads), *(row.replace(".", ",") if comma else row for row in rows)]) + "\n"
-
-
-def main() -> None:
-    """Writes the example files."""
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    for name in EXAMPLES:
-        (FOLDER / f"made-{name}.csv").write_text(example(name), encoding="utf-8", newline="\n")
-
-
-if __name__ == "__main__":
-    main()

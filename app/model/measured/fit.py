@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2 as chi_square
 from scipy.stats import norm
 
-from app.model.measured.data import Data
+from app.model.measured.data import HANDED, Data
 from app.model.measured.known import RISE, known
 from app.model.measured.motion import BODY, BOUNDS, NO_MOTION, Model, Residuals, residuals_of, shifted
 from app.model.measured.starts import around, scattered, starts
@@ -79,6 +79,11 @@ class Fit:
         """Whether the data reject the model, by chi-square or by residuals that change sign too rarely."""
         seldom = norm.ppf(REFUSED / (2 * len(self.runs)))
         return bool(chi_square.sf(self.chi2, self.freedom) < REFUSED or min(self.runs.values()) < seldom)
+
+    @property
+    def handed(self) -> bool:
+        """Whether the data tell the motion from its mirror image; otherwise spin is positive."""
+        return not HANDED.isdisjoint(self.residuals.of)
 
     @property
     def correlation(self) -> Array:
@@ -208,7 +213,14 @@ class Problem:
         narrow = {"xtol": 1e-10, "ftol": 1e-10} if exactly else {}
         found = least_squares(lambda x: self.residuals(x)[row], x, lambda x: self.slopes(x)[row], self.bounds,
                               x_scale=self.sizes, max_nfev=steps, **narrow)  # fmt: skip
-        return 2 * float(found.cost), found.x
+        return 2 * float(found.cost), self._righted(found.x)
+
+    def _righted(self, x: Array) -> Array:
+        """Where the data cannot tell a motion from its mirror image, the one of the two with a positive spin."""
+        at = self.model.free.index("spin") if "spin" in self.model.free else None
+        if at is None or x[at] >= 0 or self.data.handed:
+            return x
+        return x * np.array([-1.0 if name in ("spin", "across") else 1.0 for name in self.model.free])
 
     def good(self, chi2: float) -> bool:
         """Whether a chi-square is no larger than chance allows."""

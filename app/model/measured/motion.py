@@ -35,9 +35,12 @@ BOUNDS = {
 """{parameter: its bounds}, in units of R, M and g; across is omega_2'."""
 RTOL = 1e-9
 NO_MOTION = 1e4  # the residual for parameters that give no motion
-MOST_SHIFTED = {"azimuth": 1, "x": 3, "tip_x": 3}
-"""{quantity: how many parameters of the camera are fitted to it}: the zero of the azimuth, or the origin and direction
-of a track."""
+MOST_SHIFTED = {"azimuth": 1, "x": 3, "tip_x": 3, "side": 2, "tip_side": 2}
+"""{quantity: how many parameters of the camera are fitted to it}: the zero of the azimuth, the origin and direction of
+a track, or, from the side, where it is in the picture and the direction from which it is seen."""
+SIDEWAYS = {"side": ("x", "y"), "tip_side": ("tip_x", "tip_y")}
+"""{place across a picture from the side: the track of which it is a projection}."""
+DIRECTIONS = np.linspace(0, 2 * np.pi, 72, endpoint=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,12 +124,15 @@ def residuals_of(model: Model, data: Data) -> Residuals:
     times = data.t
     seen, residuals = model.seen(times), Residuals()
     at = {name: np.searchsorted(times, series.t) for name, series in data.series.items()}
-    shown = {name: seen[name][at[name]] for name in data.series}
+    shown = {name: seen[name][at[name]] for name in data.series if name not in SIDEWAYS}
     if "azimuth" in shown:
         shown["azimuth"] = shown["azimuth"] + np.mean(data.series["azimuth"].values - shown["azimuth"])
     for x, y in TOGETHER:
         if x in shown and len(at[x]) == len(at[y]):
             shown[x], shown[y] = _turned(shown[x], shown[y], data.series[x].values, data.series[y].values)
+    for name in SIDEWAYS.keys() & data.series.keys():
+        x, y = (seen[each][at[name]] for each in SIDEWAYS[name])
+        shown[name] = _from_the_side(x, y, data.series[name].values)
     for name, series in data.series.items():
         residuals.values[name] = shown[name]
         residuals.of[name] = (series.values - shown[name]) / series.error
@@ -140,6 +146,27 @@ def _turned(x: Array, y: Array, x_seen: Array, y_seen: Array) -> tuple[Array, Ar
     turn = np.angle(np.vdot(own, seen - seen.mean()))
     track = own * np.exp(1j * turn) + seen.mean()
     return track.real, track.imag
+
+
+def _from_the_side(x: Array, y: Array, seen: Array) -> Array:
+    """The projection of a track that fits the one that was seen: least squares over the direction and a displacement.
+
+    The sum of squares over all directions has up to two minima, so the search begins at the best of many."""
+    own = x + 1j * y
+    own = own - own.mean()
+    square, with_seen = np.sum(own**2), own @ (seen - seen.mean())
+    sums = np.real(square * np.exp(-2j * DIRECTIONS)) / 2 - 2 * np.real(with_seen * np.exp(-1j * DIRECTIONS))
+    turn = DIRECTIONS[np.argmin(sums)]
+    for _ in range(6):  # Newton
+        twice, once = square * np.exp(-2j * turn), with_seen * np.exp(-1j * turn)
+        bend = 2 * (once.real - twice.real)
+        turn -= (twice.imag - 2 * once.imag) / bend if bend > 0 else 0.0
+    return np.real(own * np.exp(-1j * turn)) + seen.mean()
+
+
+def tilt_by_tip(model: Model, heights: Array) -> Array:
+    """The tilt at which the stem's tip is at a height (m), on the ball: R + tip cos(theta)."""
+    return np.arccos(np.clip((heights / model.scales.R - 1) / model.tip, -1, 1))
 
 
 def shifted(data: Data) -> int:

@@ -4,7 +4,10 @@ from app.model.measured.data import Data
 from app.model.measured.film import MICRO, said_time, table_of
 from app.model.measured.fit import Fit
 
-PROGRAM = '''"""Repeats a fit of the tippe top explorer; run it in the explorer's folder."""
+PROGRAM = '''"""Repeats a fit of the tippe top explorer; run it in the explorer's folder.
+
+It prints angles in rad, and all other numbers in units of R, M and g.
+"""
 
 from app.model.measured.data import settled
 from app.model.measured.fit import fit

@@ -7,7 +7,7 @@ import numpy as np
 from app.model.frames import MOST_FRAMES, MOST_TURN, axes
 from app.model.measured.data import TOGETHER, Data
 from app.model.measured.fit import Problem
-from app.model.measured.motion import Model, Residuals, residuals_of
+from app.model.measured.motion import SIDEWAYS, Model, Residuals, residuals_of, tilt_by_tip
 from app.model.measured.starts import starts
 from app.model.measured.table import MeasuredError
 from tippe_core import TopError, Trajectory
@@ -54,7 +54,7 @@ def shown(model: Model, data: Data) -> Shown:
 def _curves(model: Model, data: Data, residuals: Residuals) -> dict[str, tuple[Array, Array]]:
     times = data.t
     fine = np.union1d(times, np.linspace(times[0], times[-1], POINTS))
-    seen, tracks = model.seen(fine), {name for pair in TOGETHER for name in pair}
+    seen, tracks = model.seen(fine), {*SIDEWAYS, *(name for pair in TOGETHER for name in pair)}
     curves = {}
     for name, series in data.series.items():
         if name in tracks:
@@ -69,9 +69,8 @@ def _axis(model: Model, data: Data, residuals: Residuals, t: Array, motion: Traj
     series = data.series
     if "tilt" in series:
         times, theta = series["tilt"].t, series["tilt"].values
-    elif "tip" in series:  # on the ball, the tip is R + tip cos(theta) above the table
-        times = series["tip"].t
-        theta = np.arccos(np.clip((series["tip"].values / model.scales.R - 1) / model.tip, -1, 1))
+    elif "tip" in series:
+        times, theta = series["tip"].t, tilt_by_tip(model, series["tip"].values)
     else:
         return np.zeros((0, 4)), False
     phi, seen = np.interp(times, t, motion.phi), "azimuth" in series

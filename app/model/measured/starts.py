@@ -6,7 +6,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from app.model.measured.data import Data
-from app.model.measured.motion import Model
+from app.model.measured.motion import Model, tilt_by_tip
 from tippe_core.types import Array
 
 SCATTERED = 256  # starting points that are tried if those from the first values do not lead to a good fit
@@ -18,6 +18,7 @@ RANGES = {
     "air_drag": (1e-4, 0.02),
 }  # fmt: skip
 """{parameter: the range of its starting values}, evenly in the logarithm if it is positive."""
+ONE_WAY = 1.0, 12.0  # of a spin whose sign the data cannot tell
 
 
 def starts(model: Model, data: Data) -> list[Array]:
@@ -25,7 +26,10 @@ def starts(model: Model, data: Data) -> list[Array]:
     first = {name: float(np.median(series.values[:5])) for name, series in data.series.items()}
     unit = model.scales.angular_velocity
     tilts = [first["tilt"]] if "tilt" in first else [0.1, 0.4, 0.9]
-    spins = [first["spin"] / unit] if "spin" in first else [way * size for size in (3, 5, 8, 12) for way in (1, -1)]
+    if "tip" in first and "tilt" not in first:
+        tilts = [float(tilt_by_tip(model, np.array(first["tip"])))]
+    ways = (1, -1) if data.handed else (1,)
+    spins = [first["spin"] / unit] if "spin" in first else [way * size for size in (3, 5, 8, 12) for way in ways]
     grid = {"tilt": tilts, "spin": spins, "mu": [0.1, 0.2, 0.3, 0.5], "eps": [0.03, 0.1, 0.4],
             "radius": [0.01, 0.03, 0.1], "gamma": [0.05, 0.15, 0.4, 1.0],
             "rolling_resistance": [1e-3], "air_drag": [1e-3]}  # fmt: skip
@@ -51,7 +55,7 @@ def scattered(model: Model, data: Data) -> list[Array]:
             value, error = float(np.median(series.values[:5])) / unit[name], series.error / unit[name]
             columns.append(value + FIRST * error * (2 * share - 1))
         elif name in RANGES:
-            low, high = RANGES[name]
+            low, high = RANGES[name] if name != "spin" or data.handed else ONE_WAY
             columns.append(low * (high / low) ** share if low > 0 else low + (high - low) * share)
         else:
             columns.append(model.values[name] * (0.8 + 0.4 * share))

@@ -39,6 +39,8 @@ UNITS = {
     "y": LENGTHS,
     "tip_x": LENGTHS,
     "tip_y": LENGTHS,
+    "side": LENGTHS,
+    "tip_side": LENGTHS,
 }
 """{quantity: {unit: its size in s, rad, rad/s or m}}; for frames the frame rate is needed as well."""
 
@@ -56,6 +58,8 @@ NAMES = {
     "y": "y contacty tracky",
     "tip_x": "tipx xtip stemtipx spitzex",
     "tip_y": "tipy ytip stemtipy spitzey",
+    "side": "side fromtheside contactfromtheside vonderseite auflagevonderseite",
+    "tip_side": "tipside tipfromtheside stemtipfromtheside spitzevonderseite",
 }
 _QUANTITY = {name: quantity for quantity, names in NAMES.items() for name in names.split()}
 _UNIT = {

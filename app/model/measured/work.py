@@ -1,19 +1,17 @@
 """Everything that is computed from a film's data: both fits, the constants of the motion, and the better motion."""
 
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from app.model.measured.data import Data, settled
-from app.model.measured.examples import FILMED, FOLDER
+from app.model.measured.data import Data
 from app.model.measured.fit import Fit, fit
 from app.model.measured.kept import Kept, kept
 from app.model.measured.motion import Model, model_of
 from app.model.measured.remembered import remembered
 from app.model.measured.shown import Shown, shown
-from app.model.measured.table import MeasuredError, read
+from app.model.measured.table import MeasuredError
 from tippe_core import Scales, Shape, Top
 
 LOOSE = {"body": ("a", "I1", "I3"), "push": ("tilt_rate", "across"), "losses": ("rolling_resistance", "air_drag")}
@@ -74,10 +72,3 @@ def found_again(data: Data, both: tuple[Model, Model], fits: tuple[dict[str, Any
 def _of_both(data: Data, rolling: Fit, sliding: Fit) -> Found:
     better = min((rolling, sliding), key=lambda each: each.aic)
     return Found(rolling, sliding, kept(data, better.model.top, better.model.scales), shown(better.model, data))
-
-
-@lru_cache(maxsize=32)
-def found_of_example(name: str, law: str, loose: tuple[str, ...]) -> Found:
-    """The Found of a whole example; cached, because every visitor may ask for it."""
-    data = settled(read((FOLDER / f"made-{name}.csv").read_bytes()))
-    return found(data, models(Top.paper(), FILMED.scales, FILMED, law, loose))

@@ -63,9 +63,14 @@ class Columns:
                                **SELECT)  # fmt: skip
         unit = pmui.Select(label=say("measure.column.unit"), value=column.unit, width=104,
                            options=[*UNITS.get(column.quantity, {"": 1})], **SELECT)  # fmt: skip
-        error = field("" if column.error is None else written(column.error, "g"), say("measure.column.error"), width=56)
-        guessed = words(_guessed(column), sizing_mode=None)
+        error = field("" if column.error is None else written(column.error, "g"), say("measure.column.error"), width=72)
+        guessed, of_error = words(_guessed(column), sizing_mode=None), beside("±", error)
         self._errors = (*self._errors, error)
+
+        def asks(column):
+            unit.visible, of_error.visible = bool(column.quantity), column.quantity not in ("", "time")
+
+        asks(column)
 
         def corrects(event):
             now = corrected(self._table.columns[i], quantity.value, unit.value)
@@ -76,6 +81,7 @@ class Columns:
                 return
             unit.param.update(options=[*UNITS.get(now.quantity, {"": 1})], value=now.unit)
             guessed.object = _guessed(now)
+            asks(now)
             columns = (*self._table.columns[:i], now, *self._table.columns[i + 1 :])
             self._table = replace(self._table, columns=columns)
             self.show_rate()
@@ -83,7 +89,7 @@ class Columns:
 
         for entry in (quantity, unit, error):
             entry.param.watch(corrects, "value")
-        return flow(name, quantity, unit, beside("±", error), guessed, margin=(4, 0))
+        return flow(name, quantity, unit, of_error, guessed, margin=(4, 0))
 
 
 def _guessed(column):

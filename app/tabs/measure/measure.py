@@ -10,11 +10,12 @@ from app.model.measured.data import settled
 from app.model.measured.examples import EXAMPLES, FILMED, FOLDER
 from app.model.measured.film import Film, opened, packed, unpacked, written
 from app.model.measured.kept import kept
+from app.model.measured.made import LAW, found_of_example
 from app.model.measured.remembered import said_of
 from app.model.measured.report import program, residuals_table
 from app.model.measured.shown import placed
 from app.model.measured.table import MeasuredError, read
-from app.model.measured.work import LONGEST, LOOSE, found, found_again, found_of_example, models, part_of
+from app.model.measured.work import LONGEST, LOOSE, found, found_again, models, part_of
 from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.measure.columns import Columns
@@ -38,7 +39,6 @@ PLACES = """
   grid-template: "over" max-content "found" max-content "table" max-content / minmax(0, 1fr) } }
 """
 FIRST = EXAMPLES[0]
-LAWS = ("contensou", "smoothed", "viscous")
 
 
 class Filmed(param.Parameterized):
@@ -75,7 +75,7 @@ class Measure:
         self.part = part_of_time()
         self.part.param.watch(lambda event: self._draw(), "value_throttled")
         self.law = pmui.RadioButtonGroup(label="", options={says: law for law, says in listed("measure.laws").items()},
-                                         value="contensou", size="small", margin=0, sx=PLAIN)  # fmt: skip
+                                         value=LAW, size="small", margin=0, sx=PLAIN)  # fmt: skip
         self.law.param.watch(lambda event: self._draw(), "value")
         self.loose = pmui.CheckBoxGroup(label=say("measure.loose_label"), value=[], inline=True, margin=(4, 0),
                                         options={says: name for name, says in listed("measure.loose").items()},
@@ -162,7 +162,7 @@ class Measure:
 
     def take_example(self, name):
         """Loads one of EXAMPLES, with default settings."""
-        self._choose(LAWS[0], ())
+        self._choose(LAW, ())
         self.take((FOLDER / f"made-{name}.csv").read_bytes(), example=name)
 
     def take(self, text, each=1, example=""):

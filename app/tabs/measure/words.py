@@ -63,7 +63,7 @@ def kept_words(kept):
     """Whether the constants of the motion were conserved, from the data alone, and what that means."""
     parts = []
     for name, constant in kept.items():
-        (before, one), (after, other) = constant.before, constant.after
+        (before, one), (after, other) = (_number(*part) for part in (constant.before, constant.after))
         key = "stayed" if constant.stayed else "went"
         says = say(f"measure.kept.{name}")
         parts.append(say(f"measure.kept.{key}", name=says, before=before, one=one, after=after, other=other))
@@ -85,6 +85,8 @@ def numbers_table(fit):
         marks = [say("measure.with", name=other, correlation=r) for other, r in _partners(fit, name)]
         if name in fit.unknown:
             marks.insert(0, say("measure.unknown"))
+        if name in ("spin", "across") and not fit.handed:
+            marks.insert(0, say("measure.mirrored"))
         error = f"± {error}" if error[0] not in "+∞" else error
         unit_of = say(f"measure.number_units.{name}")
         rows.append(_row(say(f"measure.numbers.{name}"), value, error, unit_of, ", ".join(marks)))
@@ -94,7 +96,8 @@ def numbers_table(fit):
                              zip(("", "± "), _number(value, error), strict=True)), "", ""))  # fmt: skip
     sentences = "".join(f"<p>{_together(*pair)}</p>" for pair in fit.together if set(pair[:2]) & set(fit.unknown))
     head = f"<tr><th colspan=5>{say(f'measure.models.{fit.model.name}')}</th></tr>"
-    worthless = f"<p>{say('measure.worthless')}</p>" if fit.refused else ""
+    doubt = "worthless" if fit.refused else "others" if not fit.sure else ""
+    worthless = f"<p>{say(f'measure.{doubt}')}</p>" if doubt else ""
     return f"<table>{head}{''.join(rows)}</table>{worthless}{sentences}"
 
 
@@ -128,9 +131,9 @@ def models_table(rolling, sliding):
 
 
 def _state(fit):
-    if fit.refused:
-        return "refused" if fit.sure else "unsure"
-    return "stands"
+    if not fit.sure:
+        return "unsure"
+    return "refused" if fit.refused else "stands"
 
 
 def notes_words(notes, each=1):

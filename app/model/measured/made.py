@@ -1,0 +1,52 @@
+"""The fits of the examples; each with the default settings is stored, so that a first visitor need not wait for it.
+
+`python -m app.model.measured.made` makes the examples and these fits again.
+"""
+
+import json
+from functools import lru_cache
+
+from app.model.measured.data import Data, settled
+from app.model.measured.examples import EXAMPLES, FILMED, FOLDER, example
+from app.model.measured.motion import Model
+from app.model.measured.remembered import checked, said_of
+from app.model.measured.table import read
+from app.model.measured.work import Found, found, found_again, models
+from tippe_core import Top
+
+LAW = "contensou"
+"""The friction law of the stored fits; in them only the start and the law are free."""
+STORED = FOLDER / "fits.json"
+
+
+def _asked(name: str, law: str, loose: tuple[str, ...]) -> tuple[Data, tuple[Model, Model]]:
+    data = settled(read((FOLDER / f"made-{name}.csv").read_bytes()))
+    return data, models(Top.paper(), FILMED.scales, FILMED, law, loose)
+
+
+@lru_cache(maxsize=32)
+def found_of_example(name: str, law: str, loose: tuple[str, ...]) -> Found:
+    """The Found of a whole example; cached, because every visitor may ask for it."""
+    data, both = _asked(name, law, loose)
+    if law != LAW or loose:
+        return found(data, both)
+    stored = json.loads(STORED.read_text(encoding="utf-8"))[name]
+    return found_again(data, both, tuple(checked(said, model) for said, model in zip(stored, both, strict=True)))
+
+
+def made_anew(name: str) -> Found:
+    """What is stored of an example, fitted anew."""
+    return found(*_asked(name, LAW, ()))
+
+
+def main() -> None:
+    """Writes the examples and their fits."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    for name in EXAMPLES:
+        (FOLDER / f"made-{name}.csv").write_text(example(name), encoding="utf-8", newline="\n")
+    fits = {name: [said_of(fit) for fit in made_anew(name).fits] for name in EXAMPLES}
+    STORED.write_text(json.dumps(fits, indent=1) + "\n", encoding="utf-8", newline="\n")
+
+
+if __name__ == "__main__":
+    main()
