@@ -41,3 +41,15 @@ window.importShim = Object.setPrototypeOf(load, theirs);
 // run while the server makes the session
 const runAll = () => ours.forEach((href) => import(href).catch(console.error));
 addEventListener("DOMContentLoaded", () => setTimeout(runAll));
+
+// 3. A React component reads its values when it is drawn and listens for their changes only after that; what came in between,
+// it never showed. Here it reads them once more as it begins to listen. No issue that we found.
+try {
+  const component = Bokeh.Models.get("panel.models.esm.ReactComponent").prototype, { watch } = component;
+  component.watch = function (view, name, read, isState = false) {
+    watch.call(this, view, name, read, isState);
+    if (isState) read();
+  };
+} catch (error) {
+  console.warn(error); // a change may be lost, and nothing else
+}

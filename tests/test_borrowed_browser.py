@@ -162,8 +162,30 @@ def test_panel_takes_our_bundle_as_the_browser_has_it(chromium, server):
     page.close()
 
 
+def test_what_changes_before_a_react_component_listens_is_shown(chromium, server):
+    """3. Panel's own way would not read the value again."""
+    page = chromium.new_page()
+    page.goto(f"{server}?tab=measure")
+    found = "Bokeh.documents.flatMap((each) => each.roots().flatMap((root) => [...root.references()]))"
+    found += ".find((one) => one.usesMui)"
+    page.wait_for_function(f"() => {found}")
+    reads = f"""(way) => {{
+      const one = {found};
+      let count = 0;
+      const read = () => {{ count += 1 }};
+      way.call(one, null, "label", read, true);
+      const first = count;
+      one.unwatch(null, "label", read);
+      return first;
+    }}"""
+    kind = 'Bokeh.Models.get("panel.models.esm.ReactComponent").prototype'
+    assert page.evaluate(f"() => ({reads})({kind}.watch)") == 1
+    assert page.evaluate(f"() => ({reads})(Object.getPrototypeOf({kind}).watch)") == 0  # else not needed
+    page.close()
+
+
 def test_a_place_of_a_figure_is_where_its_scales_say(bare):
-    """3. Each corner of the frame, compared with Bokeh's own events, which are public."""
+    """4. Each corner of the frame, compared with Bokeh's own events, which are public."""
     bare.evaluate("() => { window.scales = borrowed.scalesOf(fig); window.over = borrowed.eventsOf(fig) }")
     left, top = bare.evaluate("() => { const { left, top } = over.getBoundingClientRect(); return [left, top] }")
     bare.evaluate("() => fig.on_event('mousemove', ({ x, y }) => { window.told = [x, y] })")
@@ -177,7 +199,7 @@ def test_a_place_of_a_figure_is_where_its_scales_say(bare):
 
 
 def test_what_hears_the_mouse_has_its_cursor(bare):
-    """4. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
+    """5. The element covers the figure and gets its events; a cursor that is set stays until the mouse moves."""
     bare.evaluate("() => borrowed.eventsOf(fig).addEventListener('pointerdown', () => { window.heard = true })")
     bare.mouse.click(200, 150)
     assert bare.evaluate("() => window.heard")
@@ -188,7 +210,7 @@ def test_what_hears_the_mouse_has_its_cursor(bare):
 
 
 def test_a_hand_that_rests_before_it_pulls_still_pulls(bare):
-    """5."""
+    """6."""
     bare.evaluate(
         "() => { window.heard = []; for (const name of ['press', 'panstart'])"
         " fig.on_event(name, () => window.heard.push(name)) }"
@@ -254,12 +276,12 @@ def space(chromium):
 
 
 def test_a_target_has_the_colours_of_a_screen(space):
-    """6."""
+    """7."""
     assert space.evaluate("() => window.pixel(true).bytes")[0] == 128
     assert space.evaluate("() => window.pixel(false).bytes")[0] < 80  # linear; else not needed
 
 
 def test_webgl_finds_what_three_has_drawn(space):
-    """7."""
+    """8."""
     found = space.evaluate("() => window.pixel(true)")
     assert found["buffer"] and found["same"] == found["bytes"] and found["same"][0] == 128

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from app.model.explorer import Explorer
 from app.model.measured import shown
@@ -203,6 +204,48 @@ def opened(server, chromium, query="?tab=measure", width=1400):
     page.add_init_script("localStorage.setItem('tippe:tour', '1')")
     page.goto(f"{server}{query}")
     return page, errors
+
+
+@pytest.mark.served
+def test_what_was_found_at_once_can_be_taken_home(server, chromium):
+    """The example's fit is stored, so it is there while the page is still being drawn."""
+    page, errors = opened(server, chromium)
+    page.get_by_text("This top slipped.").wait_for()
+    expect(page.get_by_role("button", name="Take home")).to_be_enabled()
+    page.get_by_role("button", name="Take home").click()
+    with page.expect_download() as brought:
+        page.get_by_text("Residuals (CSV)").click()
+    assert len(Path(brought.value.path()).read_text("utf-8").splitlines()) == 1 + 2 * 216
+    page.close()
+    assert not errors
+
+
+@pytest.mark.served
+def test_a_saved_film_and_a_link_open_in_another_browser(server, chromium):
+    """With the fit that was saved with it, which is not made again."""
+    page, errors = opened(server, chromium)
+    page.get_by_text("This top slipped.").wait_for()
+    numbers = page.locator("table").first.inner_text()
+    page.get_by_role("button", name="Take home").click()
+    with page.expect_download() as brought:
+        page.get_by_text("The film, to be opened again").click()
+    film = Path(brought.value.path()).read_text("utf-8")
+    page.get_by_label("The data in the page’s link").check()
+    page.wait_for_function("() => location.href.includes('film=')")
+    link = page.url
+    page.close()
+    for query, text in ((link.removeprefix(server), ""), ("?tab=measure", film)):
+        other = chromium.new_context()
+        page = other.new_page()
+        page.set_default_timeout(180_000)
+        page.goto(f"{server}{query}")
+        page.get_by_role("heading", name="This top slipped.").wait_for()
+        if text:
+            page.evaluate(DROP, text)
+        page.get_by_text("was saved with the film").wait_for()
+        assert page.locator("table").first.inner_text() == numbers
+        other.close()
+    assert not errors
 
 
 DROP = """text => { const brought = new DataTransfer();

@@ -9,7 +9,7 @@ const FRAME = `<style>
     background: var(--ink, #1b2430); color: var(--card, #fff); white-space: nowrap }
   label:focus-within { outline: 3px solid var(--focus, ${colours.chosen}); outline-offset: 2px }
   input { position: absolute; opacity: 0; width: 1px; height: 1px }
-  textarea { flex: 1 1 150px; min-width: 0; height: calc(40px * var(--type, 1)); font: inherit; color: inherit; background: transparent; resize: none;
+  textarea { flex: 1 1 calc(168px * var(--type, 1)); min-width: 0; height: calc(40px * var(--type, 1)); font: inherit; color: inherit; background: transparent; resize: none;
     border: 1px solid #8b949e; border-radius: 6px; padding: 9px 10px; box-sizing: border-box }
   .says { flex: 1 0 100%; color: var(--faint, #55606c); font-size: calc(12px * var(--type, 1)) } .says:empty { display: none }
   .over { position: fixed; inset: 0; z-index: 9990; display: grid; place-items: center; background: ${colours.chosen}26; pointer-events: none;
