@@ -99,13 +99,17 @@ class Settings:
                            matching(r"[^;,\r\n]*", "sources of a CSP, by spaces"))  # fmt: skip
     workers: int = _setting(1, "processes on this port", forked)
     sessions: int = _setting(250, "pages open at once, in each worker", whole(1, 100_000))
-    sessions_per_address: int = _setting(250, "the same, from one address; a whole class may share one", whole(1, 100_000))
+    sessions_per_address: int = _setting(
+        250, "the same, from one address; a whole class may share one", whole(1, 100_000)
+    )
     linger: int = _setting(30, "s for which a session is kept after its page has closed", whole(1, 3600))
     proxy: int = _setting(0, "1: believe a proxy's X-Forwarded-For and -Proto", whole(0, 1))
     show: int = _setting(0, "1: open the page in this machine's browser", whole(0, 1))
     votes: str = _setting("", "file or redis://host:6379/0 where votes are kept; without it, a file of this user's",
                           votes)  # fmt: skip
-    votes_per_address: int = _setting(250, "votes in one room from one address; a whole class may share one", whole(1, 100_000))
+    votes_per_address: int = _setting(
+        250, "votes in one room from one address; a whole class may share one", whole(1, 100_000)
+    )
     secret: str = _setting("", "signs sessions; without it, a new one at each start")
     log: str = _setting("info", "how much is logged: debug, info, warning or error",
                         matching("debug|info|warning|error", "debug, info, warning or error"))  # fmt: skip
