@@ -265,7 +265,7 @@ interface Source<Names extends string = string> extends BokehModel {
 // What a person did on a figure: where, in data coordinates and in px.
 type Happened = { event_name: string; x: number; y: number; sx: number; sy: number };
 
-declare const Bokeh: { documents: any[]; index: any; require(path: string): any };
+declare const Bokeh: { documents: any[]; index: any; require(path: string): any; Models: any };
 
 // What Bokeh passes to app/call.js and app/ticks.js, which it runs.
 declare const run: string, given: any, cb_obj: any, basic: any, ticks: number[], index: number, point: string;
