@@ -216,6 +216,10 @@ def test_what_was_found_at_once_can_be_taken_home(server, chromium):
     with page.expect_download() as brought:
         page.get_by_text("Residuals (CSV)").click()
     assert len(Path(brought.value.path()).read_text("utf-8").splitlines()) == 1 + 2 * 216
+    page.get_by_role("button", name="Example: it rolls").click()
+    page.get_by_role("heading", name="This top rolled.").wait_for()
+    for name, is_enabled in (("Take home", True), ("Fit", True), ("Stop", False)):
+        expect(page.get_by_role("button", name=name, exact=True)).to_be_enabled(enabled=is_enabled)
     page.close()
     assert not errors
 

@@ -24,11 +24,16 @@ def _asked(name: str, law: str, loose: tuple[str, ...]) -> tuple[Data, tuple[Mod
     return data, models(Top.paper(), FILMED.scales, FILMED, law, loose)
 
 
+def is_stored(law: str, loose: tuple[str, ...]) -> bool:
+    """Whether the fits of the examples are stored with this law and these free parameters."""
+    return law == LAW and not loose
+
+
 @lru_cache(maxsize=32)
 def found_of_example(name: str, law: str, loose: tuple[str, ...]) -> Found:
     """The Found of a whole example; cached, because every visitor may ask for it."""
     data, both = _asked(name, law, loose)
-    if law != LAW or loose:
+    if not is_stored(law, loose):
         return found(data, both)
     stored = json.loads(STORED.read_text(encoding="utf-8"))[name]
     return found_again(data, both, tuple(checked(said, model) for said, model in zip(stored, both, strict=True)))

@@ -10,7 +10,7 @@ from app.model.measured.data import settled
 from app.model.measured.examples import EXAMPLES, FILMED, FOLDER
 from app.model.measured.film import Film, opened, packed, unpacked, written
 from app.model.measured.kept import kept
-from app.model.measured.made import LAW, found_of_example
+from app.model.measured.made import LAW, found_of_example, is_stored
 from app.model.measured.remembered import said_of
 from app.model.measured.report import program, residuals_table
 from app.model.measured.shown import placed
@@ -56,6 +56,7 @@ class Measure:
         self._table, self._data, self._part, self._example = None, None, (0.0, 0.0), ""
         self._read, self._of_file, self._silent, self.filmed = None, None, False, Filmed()
         self._found, self._kept, self._taken, self._thinned, self._coming = None, {}, "", 1, None
+        self._saved = ()  # the fits of a film that is being opened
         self.file = MeasuredFile(sizing_mode="stretch_width", margin=(6, 0))
         at_once(self.file, "table")
         self.file.param.watch(asked.heard(self._brought), "table")
@@ -178,8 +179,10 @@ class Measure:
             self._corrected(table)
             return
         self._choose(film.law, film.loose)
+        self._saved = film.fits
         if self._corrected(table, film.part) and (film.fits or self._runs.beside):
-            self.compute(fits=film.fits)
+            self.compute()
+        self._saved = ()
 
     def _refused(self, error, each=1):
         """each: the table contains every each-th row of the file."""
@@ -229,12 +232,12 @@ class Measure:
         if self._data is None or self._silent:
             return
         self._found, self._part = None, tuple(map(float, self.part.value))
-        self.home.visible, self.take_home.disabled = False, True
+        self.home.visible, self.take_home.disabled = False, not (self._is_at_hand and self._runs.beside)
         try:
             data = part_of(self._data, *self._part)
         except MeasuredError as error:
             self._refused(error)
-            self.start.disabled = True
+            self.start.disabled = self.take_home.disabled = True
             return
         self.start.disabled, self.found.object = False, note(say("measure.ready"))
         top, scales, *_ = self._body
@@ -249,6 +252,12 @@ class Measure:
     @property
     def _is_whole_example(self):
         return bool(self._example) and self._table is self._read and self._part == (self.part.start, self.part.end)
+
+    @property
+    def _is_at_hand(self):
+        """Whether the fit is stored. Then no button changes until it is there: a button that changes twice at once may
+        stay in the browser as it was in between."""
+        return bool(self._saved) or (self._is_whole_example and is_stored(self.law.value, self._loose))
 
     def _drawn(self, result):
         if isinstance(result, Exception):
@@ -267,16 +276,17 @@ class Measure:
 
     # ---- the fit ----
 
-    def compute(self, event=None, fits=()):
-        """Computes both fits in a thread; fits: those of a saved film."""
-        data, both = self._data.between(*self._part), self._models()
+    def compute(self, event=None):
+        """Computes both fits in a thread, or takes those of a saved film."""
+        data, both, fits = self._data.between(*self._part), self._models(), self._saved
         if self._is_whole_example:
             asked_for = self._example, self.law.value, self._loose
             work = lambda run: found_of_example(*asked_for)  # noqa: E731
         else:
             work = lambda run: found_again(data, both, fits) if fits else found(data, both)  # noqa: E731
         self._again = bool(fits)
-        self.start.disabled, self.cancel.disabled = True, False
+        if not self._is_at_hand:
+            self.start.disabled, self.cancel.disabled = True, False
         self.found.object = f'<div role="status">{note(say("measure.waits"))}</div>' + kept_words(self._kept)
         self._run = Run(work, self._done)
         self._runs.begin(self._run, "fit")
@@ -284,6 +294,7 @@ class Measure:
     def _done(self, result):
         self.start.disabled, self.cancel.disabled = False, True
         if isinstance(result, Exception):
+            self.take_home.disabled = True
             said = told(result) if isinstance(result, TopError) else say("measure.failed")
             self.found.object = note(say("measure.cancelled")) if isinstance(result, Stopped) else alert(said)
             if not isinstance(result, (Stopped, TopError)):
