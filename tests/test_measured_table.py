@@ -123,6 +123,20 @@ def test_times_without_a_unit_are_those_of_a_film(step, unit):
     assert (time.unit, time.guessed) == (unit, True)
 
 
+def test_a_pause_of_a_film_leaves_its_times_in_seconds():
+    time = read("\n".join(["t,tilt", *(f"{i / 30 + 5 * (i > 8):.4f},{5 + i}" for i in range(12))])).columns[0]
+    assert (time.unit, time.guessed) == ("s", True)
+
+
+@pytest.mark.parametrize(("largest", "unit"), [(0.043, "m"), (1.9, "m"), (5, "mm"), (43, "mm")])
+def test_a_length_without_a_unit_is_one_that_a_film_of_a_top_shows(largest, unit):
+    """A track may be more than a metre long, and a small top less than a centimetre high."""
+    height = read("\n".join(["t,height", *(f"{i / 60:.4f},{largest * (1 - i / 60):.5f}" for i in range(12))])).columns[
+        1
+    ]
+    assert (height.unit, height.guessed) == (unit, True)
+
+
 def lines(*changed, base=TRACKER):
     """A table with some of its lines, counted from 1, changed."""
     parts = base.splitlines()
