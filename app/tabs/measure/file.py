@@ -1,10 +1,16 @@
-"""Input of a table: a file that is chosen or dropped on the page, or pasted text. The browser reads it, and thins it
+"""What a link stores of a film, and the input of a table: a file that is chosen or dropped on the page, or pasted text. The browser reads it, and thins it
 out if it is long."""
 
 import param
 
 from app.bundle import Bundled
 from app.model.measured.table import HEAD, MOST
+
+
+class Filmed(param.Parameterized):
+    """What a link stores of the tab, if wanted."""
+
+    film = param.String(default="", doc="the data and their settings, compressed; empty: not in the link")
 
 
 class MeasuredFile(Bundled):

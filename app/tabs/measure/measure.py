@@ -2,7 +2,6 @@
 
 import panel as pn
 import panel_material_ui as pmui
-import param
 
 from app.borrowed import at_once
 from app.model.bodies import body, outline
@@ -20,7 +19,7 @@ from app.model.runs import Run, Runs, Stopped
 from app.state import asked
 from app.tabs.measure.columns import Columns
 from app.tabs.measure.figures import Pictures, constants, part_of_time
-from app.tabs.measure.file import MeasuredFile
+from app.tabs.measure.file import Filmed, MeasuredFile
 from app.tabs.measure.recipe import recipe
 from app.tabs.measure.report import report
 from app.tabs.measure.stage import film_stage, show_film
@@ -39,12 +38,6 @@ PLACES = """
   grid-template: "over" max-content "found" max-content "table" max-content / minmax(0, 1fr) } }
 """
 FIRST = EXAMPLES[0]
-
-
-class Filmed(param.Parameterized):
-    """What a link stores of the tab, if wanted."""
-
-    film = param.String(default="", doc="the data and their settings, compressed; empty: not in the link")
 
 
 class Measure:
