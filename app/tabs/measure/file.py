@@ -1,5 +1,5 @@
-"""What a link stores of a film, and the input of a table: a file that is chosen or dropped on the page, or pasted text. The browser reads it, and thins it
-out if it is long."""
+"""What a link stores of a film, and the input of a table: a file that is chosen or dropped on the page, or pasted text.
+The browser reads it, and thins it out if it is long."""
 
 import param
 
