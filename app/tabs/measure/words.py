@@ -19,6 +19,7 @@ td.n, th + th:not(:last-child) { text-align: right } td.n { white-space: nowrap 
 tr.best td { font-weight: 600 }
 td.faint { color: var(--faint, #5b6875) } tr + tr { border-top: 1px solid var(--rule, #d8dce0) }
 h3 { font-size: 18px; margin: 8px 0 2px; font-weight: 600; letter-spacing: -0.01em }
+@media (max-width: 500px) { td, th { padding-right: 4px } }
 """
 
 
