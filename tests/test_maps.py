@@ -195,6 +195,7 @@ def test_the_run_of_a_place_is_that_of_its_cell(level):
     found = run(level.asked, level.x[j], level.y[i])
     assert (found.end, found.hops) == (level.end[i, j], level.columns["hops"][i, j])
     assert found.time_90 == pytest.approx(level.columns["time_90"][i, j], rel=1e-9)
+    assert found.time_90 < level.columns["time_stem"][i, j] <= found.time_stem  # touched, and alone
     assert found.theta[-1] == pytest.approx(level.columns["theta_end"][i, j], abs=1e-3) and found.hops > 10
     toy = run(Map(), 28.6, 5.7)
     above = toy.film.com[:, 2] + toy.film.top.a * np.cos(toy.film.theta) - 1  # of O, over its place on the ball
