@@ -8,13 +8,15 @@ import pytest
 
 from app.model.maps import steady
 from app.model.maps.body import outline_of
+from app.model.maps.kept import recall
 from app.model.maps.lines import disagreements
 from app.model.maps.maps import UNITS, Map
-from app.model.maps.rates import Power, by_law, rates
-from app.model.maps.solving import Level
+from app.model.maps.rates import OfLaw, Power, by_law, rates
+from app.model.maps.solving import CURVE, Level, run
 from app.model.maps.steady import Bifurcation, at_place, bifurcation, fixed
 from app.model.maps.throw import throw_of
-from app.tabs.maps.steady import of_powers
+from app.tabs.maps.picture import MapFigure
+from app.tabs.maps.steady import of_laws, of_powers
 from app.tabs.maps.words import of_reason
 from tippe_core import PRESETS, State, slide, thresholds
 
@@ -65,6 +67,9 @@ def test_each_reason_is_told_with_the_number_of_its_runs_the_most_frequent_first
     assert found.reasons == (("pivoting", 3, (x[1], y[0])), ("time", 1, (x[1], y[1])))
     first, second = (of_reason(found, k, asked) for k in (0, 1))
     assert first.startswith("In this map, 4 of the 9 runs") and "3 of them: pivoting on the patch" in first
+    assert "from 37.5 to 47.5 rev/s." in first and "at 42.5 rev/s." in of_reason(
+        replace(found, low=x[1], high=x[1]), 0, asked
+    )
     assert second == "1 of them: the time is too short."
     alone = replace(found, count=3, reasons=found.reasons[:1])
     assert "The reason: pivoting on the patch" in of_reason(alone, 0, asked)
@@ -160,6 +165,36 @@ def test_small_motions_grow_by_each_law_as_those_of_a_run_do():
         told = {(each.law, each.branch): each for each in by_law(asked, at_place(asked, (left, 5.7)))}
         grown = np.polyfit(moved.t[late], np.log(moved.theta[late]), 1)[0] / cell.scales.time
         assert grown == pytest.approx(told[law, "upright"].growth, rel=0.03), law
+
+
+def test_growth_is_of_spins_from_zero_on_and_none_of_a_map_without_any():
+    body = {"body": "Top S", "law": "viscous", "seconds": 0.1}
+    upright, *_ = rates(Map(across_range=(-10.0, 16.0), **body), (14.0, 5.7)).branches
+    assert upright.spin[0] == 0.0 and upright.spin[-1] == 16.0
+    assert rates(Map(across_range=(-20.0, -10.0), **body), (-14.0, 5.7)).branches == ()
+
+
+def test_what_goes_round_is_told_in_turns():
+    said = of_laws((OfLaw("viscous", "upright", 1.5, 2 * np.pi * 3), OfLaw("viscous", "tumbling", np.nan, np.nan)),
+                   {"spin": 28.6})  # fmt: skip
+    assert said.count("1.5; 3<") == 1 and "nan" not in said and "28.6 rev/s" in said
+
+
+def test_a_top_that_spins_the_other_way_has_as_many_pictures():
+    asked = Map(across_range=(-60.0, 60.0), law="viscous")
+    one, other = run(asked, 60.0, 5.7), run(asked, -60.0, 5.7)
+    assert CURVE < len(one.t) == len(other.t)
+    np.testing.assert_allclose(one.theta, other.theta, atol=1e-6)  # its mirror image
+
+
+def test_only_an_area_with_room_for_its_name_is_named():
+    level, figure = recall(Map()), MapFigure(lambda data: None)
+    for side, named in ((10, False), (16, True)):  # of 48 cells: 4 and 11 % of the map
+        ends = np.full(level.end.shape, "stem", level.end.dtype)
+        ends[10 : 10 + side, 10 : 10 + side] = "leaning"
+        figure.show(replace(level, end=ends), "end")
+        shown = [word.text for word in figure.words if word.visible]
+        assert ("leans, without nodding" in shown) is named
 
 
 def test_too_few_runs_for_a_power_are_not_called_none():
