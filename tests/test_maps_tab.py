@@ -56,6 +56,9 @@ def test_what_stands_below_the_map():
     good = np.isfinite(runs.data["y"])
     np.testing.assert_allclose(runs.data["y"][good], growth[good], rtol=0.05)
     assert "<table>" in below.powers.object
+    row = re.search(r"a real contact</th><td>([\d.]+); ([\d.]+)<", below.laws.object)
+    for name, told in zip(("growth", "turning"), row.groups(), strict=True):  # the figures say what the table says
+        assert np.interp(28.6, upright.data["x"], upright.data[name]) == pytest.approx(float(told), rel=0.02)
 
 
 @pytest.mark.parametrize("error, says", [(Full(17), "17 computations wait"), (Stopped(), "was stopped before")])
