@@ -168,6 +168,21 @@ def test_small_motions_grow_by_each_law_as_those_of_a_run_do():
         assert grown == pytest.approx(told[law, "upright"].growth, rel=0.03), law
 
 
+def test_inverted_spin_that_is_too_slow_falls_as_a_run_does():
+    asked = Map(body="Top S", law="viscous", values=(("mu", 0.5),), across_range=(2.0, 16.0))
+    (told,) = (each for each in by_law(asked, at_place(asked, (6.0, 5.7)))
+               if (each.law, each.branch) == ("viscous", "inverted"))  # fmt: skip
+    cell = asked.at(6.0, 5.7)
+    C_J = slide(cell.top, cell.state, cell.friction, [0.0]).jellett[0]
+    unit = slide(cell.top, State(np.pi, 0, 0, 1.0, vx=0.0, vy=0.0), cell.friction, [0.0]).jellett[0]
+    start = State(np.pi - 1e-8, 0, 0, C_J / unit, vx=0.0, vy=0.0)
+    growth = told.growth * cell.scales.time
+    moved = slide(cell.top, start, cell.friction, np.linspace(0, 9 / growth, 2000), rtol=1e-11)
+    late = moved.t > 6 / growth
+    grown = np.polyfit(moved.t[late], np.log(np.pi - moved.theta[late]), 1)[0]
+    assert growth > 0 and grown == pytest.approx(growth, rel=0.03)
+
+
 def test_leaning_dies_out_and_goes_round_as_a_run_does_that_was_pushed():
     """The nodding of top S about the tilt at which it hangs: how its peaks shrink, and how often they come."""
     asked = Map(body="Top S", law="viscous", values=(("mu", 0.5),), across_range=(2.0, 16.0))

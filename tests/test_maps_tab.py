@@ -168,6 +168,15 @@ def test_as_many_reasons_as_there_are_can_be_gone_to():
         assert (tab.level.x[j], tab.level.y[i]) == one
 
 
+def test_pieces_are_shown_while_it_is_drawn(tab, monkeypatch):
+    seen = []
+    monkeypatch.setattr("app.tabs.maps.maps.PICTURE_EVERY", -1.0)  # every piece
+    monkeypatch.setattr(Maps, "_show_part", lambda tab, run, level, share: seen.append(int((level.end != "").sum())))
+    tab.settings.entries["seconds"].value = "0.3"
+    tab.settings.entries["cells"].value = "24"
+    assert len([cells for cells in seen if cells not in (8 * 8, 9 * 9, 24 * 24)]) > 3
+
+
 def test_the_map_is_in_the_address_and_undone():
     tab = Maps()
     keep = Keep()
