@@ -19,6 +19,7 @@ from app.tabs.maps.picture import MapFigure
 from app.tabs.maps.steady import of_laws, of_powers
 from app.tabs.maps.words import of_reason
 from tippe_core import PRESETS, State, slide, thresholds
+from tippe_core.linear import tumbling
 
 LEFT, RIGHT = (0, 0), (0, 2)  # a cell that cannot stand turned over by the formula, and one that can
 
@@ -165,6 +166,39 @@ def test_small_motions_grow_by_each_law_as_those_of_a_run_do():
         told = {(each.law, each.branch): each for each in by_law(asked, at_place(asked, (left, 5.7)))}
         grown = np.polyfit(moved.t[late], np.log(moved.theta[late]), 1)[0] / cell.scales.time
         assert grown == pytest.approx(told[law, "upright"].growth, rel=0.03), law
+
+
+def test_inverted_spin_that_is_too_slow_falls_as_a_run_does():
+    asked = Map(body="Top S", law="viscous", values=(("mu", 0.5),), across_range=(2.0, 16.0))
+    (told,) = (each for each in by_law(asked, at_place(asked, (6.0, 5.7)))
+               if (each.law, each.branch) == ("viscous", "inverted"))  # fmt: skip
+    cell = asked.at(6.0, 5.7)
+    C_J = slide(cell.top, cell.state, cell.friction, [0.0]).jellett[0]
+    unit = slide(cell.top, State(np.pi, 0, 0, 1.0, vx=0.0, vy=0.0), cell.friction, [0.0]).jellett[0]
+    start = State(np.pi - 1e-8, 0, 0, C_J / unit, vx=0.0, vy=0.0)
+    growth = told.growth * cell.scales.time
+    moved = slide(cell.top, start, cell.friction, np.linspace(0, 9 / growth, 2000), rtol=1e-11)
+    late = moved.t > 6 / growth
+    grown = np.polyfit(moved.t[late], np.log(np.pi - moved.theta[late]), 1)[0]
+    assert growth > 0 and grown == pytest.approx(growth, rel=0.03)
+
+
+def test_leaning_dies_out_and_goes_round_as_a_run_does_that_was_pushed():
+    """The nodding of top S about the tilt at which it hangs: how its peaks shrink, and how often they come."""
+    asked = Map(body="Top S", law="viscous", values=(("mu", 0.5),), across_range=(2.0, 16.0))
+    cell = asked.at(9.55, 5.7)
+    _, _, omega2, omega3, *_ = tumbling(cell.top, 1.95)
+    pushed = State(1.95, 0.0, 1.02 * omega2, omega3, vx=0.0, vy=0.0)
+    moved = slide(cell.top, pushed, cell.friction, np.linspace(0, 900, 6000), rtol=1e-11)
+    spin = moved.jellett[-1] / steady.launch(cell)
+    (told,) = (each for each in by_law(asked, at_place(asked, (spin, 5.7)))
+               if (each.law, each.branch) == ("viscous", "tumbling"))  # fmt: skip
+    away = np.abs(moved.theta - moved.theta[-1])
+    peaks = np.flatnonzero((away[1:-1] > away[:-2]) & (away[1:-1] > away[2:])) + 1
+    peaks = peaks[(moved.t[peaks] > 100) & (moved.t[peaks] < 500)]
+    t = moved.t[peaks] * cell.scales.time
+    assert np.polyfit(t, np.log(away[peaks]), 1)[0] == pytest.approx(told.growth, rel=0.05)
+    assert np.pi / np.diff(t).mean() == pytest.approx(told.turning, rel=0.01)
 
 
 def test_growth_is_of_spins_from_zero_on_and_none_of_a_map_without_any():

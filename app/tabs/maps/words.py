@@ -67,7 +67,7 @@ def of_worst(level):
 def of_reason(found, k, asked):
     """The reason number k why runs differ from a closed form; before the first one, where they do."""
     low, high = written(found.low, ".3g"), _measured(found.high, asked.across)
-    where = say("maps.range", low=low, high=high) if found.low < found.high else say("maps.at", place=high)
+    where = say("maps.range", low=low, high=high) if found.low < found.high else say("maps.at", value=high)
     says, (why, count, _) = "", found.reasons[k]
     if k == 0:
         says = say(f"maps.in_words.{found.kind}", count=found.count, all=found.allowed, where=where) + " "
