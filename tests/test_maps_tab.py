@@ -202,6 +202,12 @@ def test_the_map_is_in_the_address_and_undone():
             MapText.value(odd)
 
 
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_a_link_has_the_map_of_its_own_body(preset):
+    asked = Map(body=preset.name)
+    assert MapText.value(MapText.text(asked)) == asked
+
+
 def test_the_pages_top_slides():
     assert Maps(scene=solve_scene(Top.paper(), 7.0, 10.0, 0.5, 0.9)).asked.body == "The paper's tippe top"
     own = Top(0.1, 0.42, 0.41)
