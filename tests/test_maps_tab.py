@@ -56,6 +56,9 @@ def test_what_stands_below_the_map():
     good = np.isfinite(runs.data["y"])
     np.testing.assert_allclose(runs.data["y"][good], growth[good], rtol=0.05)
     assert "<table>" in below.powers.object
+    row = re.search(r"a real contact</th><td>([\d.]+); ([\d.]+)<", below.laws.object)
+    for name, told in zip(("growth", "turning"), row.groups(), strict=True):  # the figures say what the table says
+        assert np.interp(28.6, upright.data["x"], upright.data[name]) == pytest.approx(float(told), rel=0.02)
 
 
 @pytest.mark.parametrize("error, says", [(Full(17), "17 computations wait"), (Stopped(), "was stopped before")])
@@ -165,6 +168,15 @@ def test_as_many_reasons_as_there_are_can_be_gone_to():
         assert (tab.level.x[j], tab.level.y[i]) == one
 
 
+def test_pieces_are_shown_while_it_is_drawn(tab, monkeypatch):
+    seen = []
+    monkeypatch.setattr("app.tabs.maps.maps.PICTURE_EVERY", -1.0)  # every piece
+    monkeypatch.setattr(Maps, "_show_part", lambda tab, run, level, share: seen.append(int((level.end != "").sum())))
+    tab.settings.entries["seconds"].value = "0.3"
+    tab.settings.entries["cells"].value = "24"
+    assert len([cells for cells in seen if cells not in (8 * 8, 9 * 9, 24 * 24)]) > 3
+
+
 def test_the_map_is_in_the_address_and_undone():
     tab = Maps()
     keep = Keep()
@@ -188,6 +200,12 @@ def test_the_map_is_in_the_address_and_undone():
     for odd in ("", "spin", "_".join(["spin"] * 10), MapText.text(asked) + "_mu", MapText.text(asked) + "_own_3"):
         with pytest.raises(ValueError):
             MapText.value(odd)
+
+
+@pytest.mark.parametrize("preset", PRESETS, ids=lambda preset: preset.name)
+def test_a_link_has_the_map_of_its_own_body(preset):
+    asked = Map(body=preset.name)
+    assert MapText.value(MapText.text(asked)) == asked
 
 
 def test_the_pages_top_slides():

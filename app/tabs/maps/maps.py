@@ -22,7 +22,7 @@ from app.tabs.maps.export import KINDS, made, python
 from app.tabs.maps.picture import MapFigure, RunFigure
 from app.tabs.maps.stage import map_stage, show_run
 from app.tabs.maps.steady import Steady
-from app.tabs.maps.words import colours_say, of_reason, of_run, of_worst, title, with_unit
+from app.tabs.maps.words import body_of, colours_say, of_reason, of_run, of_worst, title, with_unit
 from app.text import listed, say, told
 from app.widgets.cards import BUTTON, alert, flow, note, on_click, progress, words
 from app.widgets.copy import Copy
@@ -167,9 +167,8 @@ class Maps:
             asked = replace(asked, body=(self._seen or (asked.body, None))[0], own=(self._seen or (None, None))[1])
         self.settings.show(self.choice.asked, colour, self.choice.place)
         self.said.object = ""
-        self.head.object = f"<h2>{title(asked, colour)}</h2>" + note(
-            say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)
-        )
+        count = say("maps.count", across=asked.cells, up=asked.cells, count=asked.cells**2)
+        self.head.object = f"<h2>{title(asked, colour)}</h2>" + note(": ".join(filter(None, (body_of(asked), count))))
         if asked == self.asked and self.level is not None:
             self._show(self.level)
             return
