@@ -39,5 +39,4 @@ const load = (path, ...more) => {
 };
 window.importShim = Object.setPrototypeOf(load, theirs);
 // run while the server makes the session
-const runAll = () => ours.forEach((href) => import(href).catch(console.error));
-addEventListener("DOMContentLoaded", () => setTimeout(runAll));
+setTimeout(() => ours.forEach((href) => import(href).catch(console.error)));
